@@ -1,0 +1,61 @@
+!> Errors as values: what went wrong, of which kind, where in the deck.
+!>
+!> Layer: base. A procedure that can fail has `type(error_t), allocatable, intent(out) :: error` as its last argument;
+!> not allocated means that all went well. The caller tests `allocated(error)` right after the call and returns, adding
+!> what it knows with `add_context`. The kind is at the same time the exit code of the program.
+module camroller_error
+   implicit none
+   private
+
+   public :: error_t, raise, add_context
+   public :: kind_usage, kind_deck, kind_domain, kind_convergence, kind_file, kind_internal
+
+   !> Wrong words on the command line
+   integer, parameter :: kind_usage = 2
+   !> A mistake in a deck or in a table that a deck names
+   integer, parameter :: kind_deck = 3
+   !> Valid numbers that describe something impossible, or a law used outside its range where that is forbidden
+   integer, parameter :: kind_domain = 4
+   !> An iteration or an integration that did not reach its tolerance
+   integer, parameter :: kind_convergence = 5
+   !> A file that cannot be read or written
+   integer, parameter :: kind_file = 6
+   !> A broken promise inside the program
+   integer, parameter :: kind_internal = 70
+
+   !> One error: allocated only where something went wrong
+   type :: error_t
+      !> One of the kinds above
+      integer :: kind = kind_internal
+      !> What went wrong, in one sentence or one line per mistake
+      character(len=:), allocatable :: message
+   end type error_t
+
+contains
+
+   !> Make an error.
+   subroutine raise(error, kind, message)
+      !> The error to allocate
+      type(error_t), allocatable, intent(out) :: error
+      !> One of the kinds of this module
+      integer, intent(in) :: kind
+      !> What went wrong
+      character(len=*), intent(in) :: message
+
+      allocate (error)
+      error%kind = kind
+      error%message = message
+   end subroutine raise
+
+   !> Put what the caller knows in front of the message, e.g. `while integrating case 12: ...`.
+   subroutine add_context(error, context)
+      !> An error on its way up; left alone where not allocated
+      type(error_t), allocatable, intent(inout) :: error
+      !> What the caller was doing
+      character(len=*), intent(in) :: context
+
+      if (.not. allocated(error)) return
+      error%message = context//": "//error%message
+   end subroutine add_context
+
+end module camroller_error

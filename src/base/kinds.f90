@@ -1,0 +1,20 @@
+!> Real kind and mathematical constants used everywhere.
+!>
+!> Layer: base. In: nothing. Out: the working precision `wp` and `pi`.
+module camroller_kinds
+   use, intrinsic :: iso_fortran_env, only : real64
+   implicit none
+   private
+
+   public :: wp, pi, two_pi, degree
+
+   !> Working precision of every real in the library
+   integer, parameter :: wp = real64
+   !> Circle constant [-]
+   real(wp), parameter :: pi = acos(-1.0_wp)
+   !> One turn [rad]
+   real(wp), parameter :: two_pi = 2.0_wp*pi
+   !> One degree of arc [rad]
+   real(wp), parameter :: degree = pi/180.0_wp
+
+end module camroller_kinds
