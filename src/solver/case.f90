@@ -1,0 +1,81 @@
+!> A case: everything that defines one run, as plain validated numbers in SI units.
+!>
+!> Layer: solver. In: component types of the sub-models. Out: `case_t`. An optional effect is an allocatable component:
+!> allocated means that it is part of the case. Whoever fills a case by hand gets it checked by `new_model`.
+module camroller_case
+   use camroller_kinds, only : wp, degree
+   use camroller_names, only : name_length
+   use camroller_lift, only : lift_t
+   use camroller_kinematics, only : mechanism_t
+   use camroller_dynamics, only : masses_t, spring_t, gas_force_t
+   use camroller_materials, only : materials_t, surface_t
+   use camroller_lubricant, only : lubricant_t
+   use camroller_film, only : film_t
+   use camroller_asperity, only : asperity_t
+   use camroller_traction, only : traction_t
+   use camroller_needle, only : needle_bearing_t
+   use camroller_guide, only : valve_guide_t
+   use camroller_roller, only : roller_t
+   use camroller_journal, only : cam_bearings_t
+   implicit none
+   private
+
+   public :: case_t, operating_point_t, numerics_t, energy_names, method_names
+
+   !> Bookkeeping of forces and losses: closed energy balance, or as in the source thesis
+   character(len=*), parameter :: energy_names(*) = [character(len=name_length) :: "consistent", "source"]
+   !> Ways to integrate the roller's spin
+   character(len=*), parameter :: method_names(*) = [character(len=name_length) :: "adaptive", "euler"]
+
+   !> Speed and temperature
+   type :: operating_point_t
+      !> Speed of the camshaft [rad/s]
+      real(wp) :: speed = 0.0_wp
+      !> Temperature of the oil [K]
+      real(wp) :: oil_temperature = 0.0_wp
+   end type operating_point_t
+
+   !> How the case is integrated and reported
+   type :: numerics_t
+      !> One of `method_names`
+      character(len=name_length) :: method = "adaptive"
+      !> Relative tolerance of the sliding speed over a step [-]; method `adaptive`
+      real(wp) :: tolerance = 1.0e-6_wp
+      !> Cam angle of a step [rad]; method `euler`
+      real(wp) :: step = degree
+      !> Largest difference between start and end of the reported cycle, relative to the largest sliding speed [-]
+      real(wp) :: periodicity = 1.0e-6_wp
+      !> Cycles after which a case that is not periodic is given up
+      integer :: max_cycles = 20
+      !> Cam angle between reported points [rad]
+      real(wp) :: output_step = 0.5_wp*degree
+   end type numerics_t
+
+   !> One case
+   type :: case_t
+      !> One line that says what the case is
+      character(len=:), allocatable :: title
+      !> One of `energy_names`
+      character(len=name_length) :: energy = "consistent"
+      type(operating_point_t) :: operating_point
+      type(mechanism_t) :: mechanism
+      type(lift_t) :: lift
+      !> Lift of the camshaft's second lobe shape
+      type(lift_t), allocatable :: second_lift
+      type(masses_t) :: masses
+      type(spring_t) :: spring
+      type(gas_force_t), allocatable :: gas_force
+      type(materials_t) :: materials
+      type(surface_t) :: surface
+      type(lubricant_t) :: lubricant
+      type(roller_t) :: roller
+      type(film_t) :: film
+      type(traction_t) :: traction
+      type(asperity_t), allocatable :: asperity
+      type(needle_bearing_t), allocatable :: needle_bearing
+      type(valve_guide_t), allocatable :: valve_guide
+      type(cam_bearings_t), allocatable :: cam_bearings
+      type(numerics_t) :: numerics
+   end type case_t
+
+end module camroller_case
