@@ -1,0 +1,30 @@
+!> Which camroller this is and how it was built.
+!>
+!> Layer: base. In: nothing. Out: the version as text and as one number, and the facts of the build for the metadata of a
+!> result file.
+module camroller_version
+   use, intrinsic :: iso_fortran_env, only : compiler_version, compiler_options
+   implicit none
+   private
+
+   public :: version_text, version_number, compiler_facts
+
+   !> Version as `major.minor.patch`
+   character(len=*), parameter :: version_text = "0.1.0"
+   !> Version as 10000*major + 100*minor + patch
+   integer, parameter :: version_number = 100
+
+contains
+
+   !> Compiler and options that this library was built with.
+   subroutine compiler_facts(compiler, options)
+      !> Name and version of the compiler
+      character(len=:), allocatable, intent(out) :: compiler
+      !> Options it was given
+      character(len=:), allocatable, intent(out) :: options
+
+      compiler = compiler_version()
+      options = compiler_options()
+   end subroutine compiler_facts
+
+end module camroller_version

@@ -1,0 +1,129 @@
+!> Test runner: `check [SUITE [TEST]]`.
+!>
+!> One line per test on the error unit, one closing line `N passed, N failed` on the output unit, exit code 1 where a
+!> test failed, where no test ran or where the names are unknown. A skipped test counts neither way and is named.
+!>
+!> A new suite is one `use` line and one entry in `suites`.
+program main
+   use, intrinsic :: iso_fortran_env, only : error_unit, output_unit
+   use testdrive, only : testsuite_type, new_testsuite, unittest_type, error_type, get_argument, select_suite, select_test
+   use test_error, only : collect_error
+   use test_names, only : collect_names
+   use test_version, only : collect_version
+   implicit none
+
+   call run_command_line()
+
+contains
+
+   !> Run what the command line asks for and end the program.
+   subroutine run_command_line()
+      type(testsuite_type), allocatable :: suites(:)
+      character(len=:), allocatable :: suite_name, test_name
+      integer :: passed, failed, skipped, i
+
+      suites = [ &
+         new_testsuite("error", collect_error), &
+         new_testsuite("names", collect_names), &
+         new_testsuite("version", collect_version) &
+         ]
+
+      call get_argument(1, suite_name)
+      call get_argument(2, test_name)
+      passed = 0
+      failed = 0
+      skipped = 0
+      if (allocated(suite_name)) then
+         i = select_suite(suites, suite_name)
+         if (i == 0) call refuse(suite_name, suites)
+         call run_suite(suites(i), test_name, passed, failed, skipped)
+      else
+         do i = 1, size(suites)
+            call run_suite(suites(i), test_name, passed, failed, skipped)
+         end do
+      end if
+      if (skipped > 0) write (output_unit, '(i0, a)') skipped, " skipped"
+      write (output_unit, '(i0, a, i0, a)') passed, " passed, ", failed, " failed"
+      if (failed > 0 .or. passed + skipped == 0) stop 1, quiet=.true.
+   end subroutine run_command_line
+
+   !> Run one suite, or one test of it, and add to the counts.
+   subroutine run_suite(suite, test_name, passed, failed, skipped)
+      !> The suite
+      type(testsuite_type), intent(in) :: suite
+      !> The only test wanted; all where not allocated
+      character(len=:), allocatable, intent(in) :: test_name
+      !> Counts of tests
+      integer, intent(inout) :: passed, failed, skipped
+
+      type(unittest_type), allocatable :: tests(:)
+      integer :: i, first, last
+
+      call suite%collect(tests)
+      first = 1
+      last = size(tests)
+      if (allocated(test_name)) then
+         first = select_test(tests, test_name)
+         last = first
+         if (first == 0) then
+            write (error_unit, '(a)') "no test '"//test_name//"' in suite '"//suite%name//"'; known are"
+            write (error_unit, '(3x, a)') (tests(i)%name, i=1, size(tests))
+            stop 1, quiet=.true.
+         end if
+      end if
+      write (error_unit, '(a)') suite%name
+      do i = first, last
+         call run_test(tests(i), passed, failed, skipped)
+      end do
+   end subroutine run_suite
+
+   !> Run one test, say how it went and add to the counts.
+   subroutine run_test(test, passed, failed, skipped)
+      !> The test
+      type(unittest_type), intent(in) :: test
+      !> Counts of tests
+      integer, intent(inout) :: passed, failed, skipped
+
+      !> Status of a test that asked to be skipped, as test-drive sets it
+      integer, parameter :: skip_status = 77
+      type(error_type), allocatable :: error
+
+      call test%test(error)
+      if (.not. allocated(error)) then
+         if (test%should_fail) then
+            failed = failed + 1
+            write (error_unit, '(3x, a)') "FAILED   "//test%name//": passed, but should fail"
+         else
+            passed = passed + 1
+            write (error_unit, '(3x, a)') "passed   "//test%name
+         end if
+         return
+      end if
+      if (error%stat == skip_status) then
+         skipped = skipped + 1
+         write (error_unit, '(3x, a)') "skipped  "//test%name//": "//error%message
+      else if (test%should_fail) then
+         passed = passed + 1
+         write (error_unit, '(3x, a)') "passed   "//test%name//" (fails, as it should)"
+      else
+         failed = failed + 1
+         write (error_unit, '(3x, a)') "FAILED   "//test%name//": "//error%message
+      end if
+      error%stat = 0
+   end subroutine run_test
+
+   !> Say that a suite is unknown, list the known ones and end the program.
+   subroutine refuse(name, suites)
+      !> The unknown name
+      character(len=*), intent(in) :: name
+      !> The known suites
+      type(testsuite_type), intent(in) :: suites(:)
+
+      integer :: i
+
+      write (error_unit, '(a)') "no suite '"//name//"'; known are"
+      write (error_unit, '(3x, a)') (suites(i)%name, i=1, size(suites))
+      stop 1, quiet=.true.
+   end subroutine refuse
+
+end program main

@@ -1,0 +1,67 @@
+!> Tests of the version and build facts.
+module test_version
+   use testdrive, only : unittest_type, new_unittest, error_type, check, test_failed
+   use camroller_version, only : version_text, version_number, compiler_facts
+   implicit none
+   private
+
+   public :: collect_version
+
+contains
+
+   !> All tests of this suite.
+   subroutine collect_version(testsuite)
+      !> The tests
+      type(unittest_type), allocatable, intent(out) :: testsuite(:)
+
+      testsuite = [ &
+         new_unittest("the manifest carries the version of the library", manifest_agrees), &
+         new_unittest("the version number is the version text", number_agrees), &
+         new_unittest("compiler and options are known", facts_are_given) &
+         ]
+   end subroutine collect_version
+
+   !> The first `version = "..."` of fpm.toml; the tests run in the folder of the manifest.
+   subroutine manifest_agrees(error)
+      type(error_type), allocatable, intent(out) :: error
+
+      character(len=256) :: line
+      integer :: unit, status
+
+      open (newunit=unit, file="fpm.toml", status="old", action="read", iostat=status)
+      if (status /= 0) then
+         call test_failed(error, "cannot open fpm.toml: run the tests from the top folder")
+         return
+      end if
+      do
+         read (unit, '(a)', iostat=status) line
+         if (status /= 0) exit
+         if (index(line, "version = ") == 1) exit
+      end do
+      close (unit)
+      call check(error, status, 0, "fpm.toml has no version")
+      if (allocated(error)) return
+      call check(error, trim(line), 'version = "'//version_text//'"')
+   end subroutine manifest_agrees
+
+   subroutine number_agrees(error)
+      type(error_type), allocatable, intent(out) :: error
+
+      character(len=32) :: text
+
+      write (text, '(i0, ".", i0, ".", i0)') version_number/10000, mod(version_number/100, 100), mod(version_number, 100)
+      call check(error, trim(text), version_text)
+   end subroutine number_agrees
+
+   subroutine facts_are_given(error)
+      type(error_type), allocatable, intent(out) :: error
+
+      character(len=:), allocatable :: compiler, options
+
+      call compiler_facts(compiler, options)
+      call check(error, len_trim(compiler) > 0, "the compiler has no name")
+      if (allocated(error)) return
+      call check(error, len_trim(options) > 0, "the compiler knows no options")
+   end subroutine facts_are_given
+
+end module test_version
