@@ -1,10 +1,16 @@
+!> Moments about the finger's pivot that press the roller on the cam.
+!>
+!> Layer: physics. In: position, masses, spring, seat, gas force, cam speed. Out: moments, each apart, and the stored energy.
+!> Sources: Ball (1988); Islam (2019) eqs. (16)-(22). The seat's share and the gas force are ours: `doc/theory.md`.
 module camroller_dynamics
    use camroller_kinds, only : wp
    use camroller_names, only : name_length
+   use camroller_kinematics, only : position_t
    implicit none
    private
 
-   public :: masses_t, spring_t, gas_force_t, seating_names, load_arm_names
+   public :: masses_t, spring_t, gas_force_t, train_t, moments_t, seating_names, load_arm_names
+   public :: seat_force, unseated_share, evaluate_moments, stored_energy, stored_power
 
    !> How the contact load passes from the base circle to the event
    character(len=*), parameter :: seating_names(*) = [character(len=name_length) :: "continuous", "maximum"]
@@ -46,5 +52,129 @@ module camroller_dynamics
       !> Area of the valve head [m^2]
       real(wp) :: valve_area = 0.0_wp
    end type gas_force_t
+
+   !> Masses and stiffnesses made ready for evaluation
+   type :: train_t
+      !> Mass at the valve [kg]
+      real(wp) :: valve_mass = 0.0_wp
+      !> Inertia of the finger about its pivot [kg m^2]
+      real(wp) :: finger_inertia = 0.0_wp
+      !> Spring stiffness [N/m]
+      real(wp) :: stiffness = 0.0_wp
+      !> Spring compression with the valve closed [m]
+      real(wp) :: precompression = 0.0_wp
+      !> Force between closed valve and seat, S0 [N]; zero where the seat plays no part
+      real(wp) :: closed_seat_force = 0.0_wp
+      !> Lift at which the valve has left its seat, l_s = 2 S0/K_s [m]; zero where the seat plays no part
+      real(wp) :: seat_lift = 0.0_wp
+   end type train_t
+
+   !> Moments about the pivot, positive where they press the roller on the cam
+   type :: moments_t
+      !> Spring [N m]
+      real(wp) :: spring
+      !> Seat, to be subtracted [N m]
+      real(wp) :: seat
+      !> Valve inertia [N m]
+      real(wp) :: valve
+      !> Finger inertia [N m]
+      real(wp) :: finger
+      !> Gas force [N m]
+      real(wp) :: gas
+      !> Sum of all with their signs [N m]
+      real(wp) :: total
+   end type moments_t
+
+contains
+
+   !> Force of the seat on the valve, `S0 (1 - l/l_s)^2` for l < l_s, else zero.
+   elemental function seat_force(train, lift) result(force)
+      !> Masses and stiffnesses
+      type(train_t), intent(in) :: train
+      !> Valve lift [m]
+      real(wp), intent(in) :: lift
+      !> Seat force [N]
+      real(wp) :: force
+
+      force = train%closed_seat_force*(1.0_wp - unseated_share(train, lift))
+   end function seat_force
+
+   !> Part of the closed-valve forces that has passed from the seat to the train, `1 - (1 - l/l_s)^2`.
+   elemental function unseated_share(train, lift) result(share)
+      !> Masses and stiffnesses
+      type(train_t), intent(in) :: train
+      !> Valve lift [m]
+      real(wp), intent(in) :: lift
+      !> Part between zero and one [-]
+      real(wp) :: share
+
+      share = 1.0_wp
+      if (lift < train%seat_lift) share = lift/train%seat_lift*(2.0_wp - lift/train%seat_lift)
+   end function unseated_share
+
+   !> Moments about the pivot at one position.
+   pure subroutine evaluate_moments(train, position, speed, gas_force, moments)
+      !> Masses and stiffnesses
+      type(train_t), intent(in) :: train
+      !> Geometry at this angle
+      type(position_t), intent(in) :: position
+      !> Cam speed, omega [rad/s]
+      real(wp), intent(in) :: speed
+      !> Cylinder pressure times valve area; zero without gas force [N]
+      real(wp), intent(in) :: gas_force
+      !> Moments, each apart
+      type(moments_t), intent(out) :: moments
+
+      moments%spring = train%stiffness*(position%lift + train%precompression)*position%valve_arm
+      moments%seat = seat_force(train, position%lift)*position%valve_arm
+      moments%valve = train%valve_mass*speed**2*position%lift_curvature*position%valve_arm
+      moments%finger = train%finger_inertia*speed**2*position%finger_curvature
+      moments%gas = gas_force*unseated_share(train, position%lift)*position%valve_arm
+      moments%total = moments%spring - moments%seat + moments%valve + moments%finger + moments%gas
+   end subroutine evaluate_moments
+
+   !> Energy stored in spring, seat and moving masses without the roller's spin, zero for the closed valve at rest.
+   !>
+   !> `k l (l/2 + delta) - int_0^l F_seat dl + m omega^2 l'^2/2 + I_f omega^2 gamma'^2/2`.
+   elemental function stored_energy(train, position, speed) result(energy)
+      !> Masses and stiffnesses
+      type(train_t), intent(in) :: train
+      !> Geometry at this angle
+      type(position_t), intent(in) :: position
+      !> Cam speed, omega [rad/s]
+      real(wp), intent(in) :: speed
+      !> Energy [J]
+      real(wp) :: energy
+
+      ! Part of the seat's travel that is left, 1 - l/l_s [-]
+      real(wp) :: left
+
+      left = 0.0_wp
+      if (position%lift < train%seat_lift) left = 1.0_wp - position%lift/train%seat_lift
+      energy = train%stiffness*position%lift*(0.5_wp*position%lift + train%precompression) &
+         & - train%closed_seat_force*train%seat_lift/3.0_wp*(1.0_wp - left**3) &
+         & + 0.5_wp*speed**2*(train%valve_mass*position%lift_slope**2 + train%finger_inertia*position%finger_slope**2)
+   end function stored_energy
+
+   !> Rate of change of `stored_energy`, plus the work done on the gas.
+   !>
+   !> `omega l' (k (l + delta) - F_seat + F_gas + m omega^2 l'') + I_f omega^3 gamma' gamma''`.
+   elemental function stored_power(train, position, speed, gas_force) result(power)
+      !> Masses and stiffnesses
+      type(train_t), intent(in) :: train
+      !> Geometry at this angle
+      type(position_t), intent(in) :: position
+      !> Cam speed, omega [rad/s]
+      real(wp), intent(in) :: speed
+      !> Cylinder pressure times valve area [N]
+      real(wp), intent(in) :: gas_force
+      !> Power that goes into store and gas [W]
+      real(wp) :: power
+
+      power = speed*position%lift_slope*(train%stiffness*(position%lift + train%precompression) &
+         & - seat_force(train, position%lift) + gas_force*unseated_share(train, position%lift) &
+         & + train%valve_mass*speed**2*position%lift_curvature) &
+         & + train%finger_inertia*speed**3*position%finger_slope*position%finger_curvature
+   end function stored_power
 
 end module camroller_dynamics

@@ -1,10 +1,19 @@
+!> Friction between cam and roller: shear of the film, boundary friction, rolling resistance.
+!>
+!> Layer: physics. In: film, viscosity, load share, sliding speed. Out: forces, with their slope over the sliding speed where
+!> the roller's stiffness needs it. Sources: Islam (2019) eqs. (33), (37)-(41); Eyring (1936) as in Johnson and Tevaarwerk
+!> (1977); Goksem and Hargreaves (1978); Biboulet and Houpert (2010).
 module camroller_traction
-   use camroller_kinds, only : wp
+   use camroller_kinds, only : wp, pi
    use camroller_names, only : name_length
+   use camroller_contact_rule, only : rule_heights, rule_weights
+   use camroller_lubricant, only : oil_t, relative_viscosity
    implicit none
    private
 
    public :: traction_t, shear_law_names, cap_names, rolling_law_names
+   public :: film_pressure, newtonian_shear, eyring_shear, limit_shear, mobilised_share, rolling_resistance
+   public :: law_newtonian, law_eyring, cap_smooth, cap_sharp, rolling_biboulet_houpert, rolling_goksem_hargreaves, rolling_none
 
    !> Shear of the film
    character(len=*), parameter :: shear_law_names(*) = [character(len=name_length) :: "newtonian", "eyring"]
@@ -13,6 +22,9 @@ module camroller_traction
    !> Rolling resistance
    character(len=*), parameter :: rolling_law_names(*) = [character(len=name_length) :: &
       "biboulet_houpert", "goksem_hargreaves", "none"]
+   !> Positions in the lists of names
+   integer, parameter :: law_newtonian = 1, law_eyring = 2, cap_smooth = 1, cap_sharp = 2, &
+      & rolling_biboulet_houpert = 1, rolling_goksem_hargreaves = 2, rolling_none = 3
 
    !> Friction of the film
    type :: traction_t
@@ -29,5 +41,156 @@ module camroller_traction
       !> Does rolling resistance act on the roller's spin?
       logical :: in_roller_balance = .true.
    end type traction_t
+
+contains
+
+   !> Pressure in the middle of the film, `(4/pi) (W - W_a)/(A_a - A_r)`: a half ellipse over the part of the contact that the
+   !> asperities leave. Source: Islam (2019) eq. (37), shaped as (25).
+   elemental function film_pressure(film_load, apparent_area, real_area) result(pressure)
+      !> Load carried by the film, W - W_a [N]
+      real(wp), intent(in) :: film_load
+      !> Apparent contact area [m^2]
+      real(wp), intent(in) :: apparent_area
+      !> Real contact area of the asperities [m^2]
+      real(wp), intent(in) :: real_area
+      !> Pressure in the middle [Pa]
+      real(wp) :: pressure
+
+      pressure = 4.0_wp/pi*film_load/(apparent_area - real_area)
+   end function film_pressure
+
+   !> Shear force of a Newtonian film, `V_s eta A/h_c`, before any limit. Source: Islam (2019) eq. (33).
+   elemental function newtonian_shear(sliding_speed, viscosity, area, film) result(force)
+      !> Sliding speed, V_s [m/s]
+      real(wp), intent(in) :: sliding_speed
+      !> Viscosity, mean over the contact [Pa s]
+      real(wp), intent(in) :: viscosity
+      !> Apparent contact area, 2 b L [m^2]
+      real(wp), intent(in) :: area
+      !> Central film thickness [m], positive
+      real(wp), intent(in) :: film
+      !> Shear force [N]
+      real(wp) :: force
+
+      force = sliding_speed*viscosity*area/film
+   end function newtonian_shear
+
+   !> Shear force of an Eyring film, `int tau_E asinh(eta V_s/(h_c tau_E)) dA`, and its slope over the sliding speed.
+   !>
+   !> Quadrature as for the mean viscosity; as the stress tends to infinity the force tends to the Newtonian one.
+   pure subroutine eyring_shear(sliding_speed, oil, peak, area, film, eyring_stress, force, slope)
+      !> Sliding speed, V_s [m/s]
+      real(wp), intent(in) :: sliding_speed
+      !> Oil at its temperature
+      type(oil_t), intent(in) :: oil
+      !> Pressure in the middle of the film [Pa]
+      real(wp), intent(in) :: peak
+      !> Apparent contact area, 2 b L [m^2]
+      real(wp), intent(in) :: area
+      !> Central film thickness [m], positive
+      real(wp), intent(in) :: film
+      !> Eyring stress, tau_E [Pa]
+      real(wp), intent(in) :: eyring_stress
+      !> Shear force [N]
+      real(wp), intent(out) :: force
+      !> d force/d sliding speed at constant film and pressure [N s/m]
+      real(wp), intent(out) :: slope
+
+      ! eta/(h_c tau_E) at a point [s/m]
+      real(wp) :: rate
+      integer :: i
+
+      force = 0.0_wp
+      slope = 0.0_wp
+      do i = 1, size(rule_heights)
+         rate = oil%viscosity*relative_viscosity(oil, peak*rule_heights(i))/(film*eyring_stress)
+         force = force + rule_weights(i)*asinh(rate*sliding_speed)
+         slope = slope + rule_weights(i)*rate/hypot(1.0_wp, rate*sliding_speed)
+      end do
+      force = force*area*eyring_stress
+      slope = slope*area*eyring_stress
+   end subroutine eyring_shear
+
+   !> Limit a shear force to a limiting traction: sharply, or smoothly as `limit tanh(force/limit)`.
+   elemental subroutine limit_shear(cap, limit, force, slope)
+      !> Position in `cap_names`
+      integer, intent(in) :: cap
+      !> Limiting force, mu_lim W [N], positive
+      real(wp), intent(in) :: limit
+      !> Shear force, in and out [N]
+      real(wp), intent(inout) :: force
+      !> Its slope over the sliding speed, in and out [N s/m]
+      real(wp), intent(inout) :: slope
+
+      ! tanh(force/limit) [-]
+      real(wp) :: part
+
+      if (cap == cap_smooth) then
+         part = tanh(force/limit)
+         force = limit*part
+         slope = slope*(1.0_wp - part)*(1.0_wp + part)
+      else if (abs(force) > limit) then
+         force = sign(limit, force)
+         slope = 0.0_wp
+      end if
+   end subroutine limit_shear
+
+   !> Part of the boundary friction that the slip mobilises, `tanh(V_s/v_b)`, with its sign.
+   elemental function mobilised_share(sliding_speed, mobilising_speed) result(share)
+      !> Sliding speed, V_s [m/s]
+      real(wp), intent(in) :: sliding_speed
+      !> Mobilising speed, v_b [m/s], positive
+      real(wp), intent(in) :: mobilising_speed
+      !> Part between -1 and 1 [-]
+      real(wp) :: share
+
+      share = tanh(sliding_speed/mobilising_speed)
+   end function mobilised_share
+
+   !> Rolling resistance of each surface, its size; zero at standstill or without load.
+   !>
+   !> Goksem and Hargreaves (1978), elastic regime: `F_r = 4.318 (G U)^0.658 W*^0.0126 L R/alpha`; Islam (2019) eq. (39).
+   !> Biboulet and Houpert (2010), doi 10.1243/13506501JET790, rigid to elastic: with U2 = 2 U and M2 = W*/sqrt(U2),
+   !> `F_r/(E' R L) = W*^1.5 T`, `T = 1.4/M2 / (1 + ((1.4/1.45) sqrt(M2))^10)^0.1`.
+   elemental function rolling_resistance(law, speed_group, load_group, modulus, radius, length, pressure_viscosity) result(force)
+      !> Position in `rolling_law_names`
+      integer, intent(in) :: law
+      !> U [-]
+      real(wp), intent(in) :: speed_group
+      !> W/(E' R L) with the whole load [-]
+      real(wp), intent(in) :: load_group
+      !> E' [Pa]
+      real(wp), intent(in) :: modulus
+      !> Equivalent radius, R [m]
+      real(wp), intent(in) :: radius
+      !> Length of the contact, L [m]
+      real(wp), intent(in) :: length
+      !> Pressure-viscosity coefficient, alpha [1/Pa]
+      real(wp), intent(in) :: pressure_viscosity
+      !> Rolling resistance [N]
+      real(wp) :: force
+
+      ! sqrt(2 U) [-]
+      real(wp) :: root
+      ! M2 (1.4/1.45)^2 [-]
+      real(wp) :: regime
+
+      force = 0.0_wp
+      if (speed_group <= 0.0_wp .or. load_group <= 0.0_wp) return
+      select case (law)
+      case (rolling_goksem_hargreaves)
+         force = 4.318_wp*(pressure_viscosity*modulus*speed_group)**0.658_wp*load_group**0.0126_wp &
+            & *length*radius/pressure_viscosity
+      case (rolling_biboulet_houpert)
+         root = sqrt(2.0_wp*speed_group)
+         regime = load_group/root*(1.4_wp/1.45_wp)**2
+         if (regime < 1.0_wp) then
+            force = 1.4_wp*sqrt(load_group)*root/(1.0_wp + regime**5)**0.1_wp
+         else
+            force = 1.45_wp*root*sqrt(root)/(1.0_wp + regime**(-5))**0.1_wp
+         end if
+         force = force*modulus*radius*length
+      end select
+   end function rolling_resistance
 
 end module camroller_traction
