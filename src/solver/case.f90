@@ -25,7 +25,7 @@ module camroller_case
    !> Bookkeeping of forces and losses: closed energy balance, or as in the source thesis
    character(len=*), parameter :: energy_names(*) = [character(len=name_length) :: "consistent", "source"]
    !> Ways to integrate the roller's spin
-   character(len=*), parameter :: method_names(*) = [character(len=name_length) :: "adaptive", "euler"]
+   character(len=*), parameter :: method_names(*) = [character(len=name_length) :: "bogacki_shampine", "dormand_prince", "euler"]
 
    !> Speed and temperature
    type :: operating_point_t
@@ -38,8 +38,8 @@ module camroller_case
    !> How the case is integrated and reported
    type :: numerics_t
       !> One of `method_names`
-      character(len=name_length) :: method = "adaptive"
-      !> Relative tolerance of the sliding speed over a step [-]; method `adaptive`
+      character(len=name_length) :: method = "bogacki_shampine"
+      !> Relative tolerance of the sliding speed over a step [-]; adaptive methods
       real(wp) :: tolerance = 1.0e-6_wp
       !> Cam angle of a step [rad]; method `euler`
       real(wp) :: step = degree
