@@ -1,0 +1,157 @@
+"""The figures by name, each drawn from a layout into a matplotlib figure.
+
+`draw(name, layout)` makes one of `FIGURES`; it raises `Missing` where no file has what it needs.
+"""
+
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+import numpy as np
+
+from bars import shown_in_bars, slip_bars, torque_bars
+from layout import line_style, thin_out
+from parts import (MOST_PANELS, angle_axis, closed, draw_curve, event_window, file_handles, head, legend_handles,
+                   ranges_of, seen_range, set_values_axis)
+from quantities import CURVES, OVERVIEW, SOURCES, TORQUES, Missing, has_series, need_series, unit_text, values_of
+
+MOST_COLUMNS = 4  # of the overview
+
+
+def draw(name, layout, whole_cycle=None):
+    """Figure by its name; `whole_cycle` overrides what the figure would show of the cam angle."""
+    return FIGURES[name](layout, whole_cycle)
+
+
+def shown(layout, panels):
+    """How many values of the first key and how many panels a figure of curves shows."""
+    return len(layout.shown_colours()), len(panels)
+
+
+def curve_figure(curve, layout, whole_cycle):
+    """One quantity over the cam angle, a panel for each value of the second swept key."""
+    need_series(layout, curve.series)
+    panels = thin_out(layout.panels, MOST_PANELS)
+    columns = min(len(panels), 3)
+    rows = -(-len(panels) // columns)
+    figure = Figure(figsize=(7.0 if columns == 1 else 2.0 + 3.2 * columns, 1.6 + 2.9 * rows), layout="constrained")
+    grid = figure.subplots(rows, columns, squeeze=False)
+    whole = curve.whole_cycle if whole_cycle is None else whole_cycle
+    window = (0.0, 360.0) if whole else event_window(layout)
+    for axes in list(grid.flat)[len(panels):]:
+        axes.remove()
+    limits = [draw_curve(axes, layout, curve, panel, window) for axes, panel in zip(grid.flat, panels)]
+    for place, (axes, panel, pair) in enumerate(zip(grid.flat, panels, ranges_of(curve, limits))):
+        set_values_axis(axes, curve, pair)
+        angle_axis(axes, window, labelled=place + columns >= len(panels))
+        if len(panels) > 1:
+            axes.set_title(layout.panel_name(panel), fontsize="medium")
+        if place % columns == 0:
+            axes.set_ylabel(f"{curve.title} [{unit_text(curve.unit)}]")
+    head(figure, layout, curve.title, legend_handles(layout), shown(layout, panels))
+    return figure
+
+
+def torque_figure(layout, whole_cycle):
+    """Drive torque with its geometric and friction parts, a panel for each case."""
+    need_series(layout, *(name for name, *_ in TORQUES))
+    colours, panels = thin_out(layout.colours, 3), thin_out(layout.panels, 3)
+    figure = Figure(figsize=(7.0 if len(panels) == 1 else 2.0 + 3.2 * len(panels), 1.6 + 2.4 * len(colours)),
+                    layout="constrained")
+    grid = figure.subplots(len(colours), len(panels), sharex=True, sharey=True, squeeze=False)
+    window = (0.0, 360.0) if whole_cycle else event_window(layout)
+    limits = []
+    for number, colour in enumerate(colours):
+        for axes, panel in zip(grid[number], panels):
+            for part in TORQUES:
+                limits += [_torque_curve(axes, layout, entry, part, window)
+                           for entry in layout.entries_of(panel, [colour])]
+            angle_axis(axes, window, labelled=number == len(colours) - 1)
+            names = [layout.name(layout.colour_key, colour) if len(layout.colours) > 1 else "",
+                     layout.panel_name(panel) if len(layout.panels) > 1 else ""]
+            axes.set_title(", ".join(filter(None, names)), fontsize="medium")
+        grid[number, 0].set_ylabel("torque [N m]")
+    known = [pair for pair in limits if pair]
+    for axes in grid.flat:
+        set_values_axis(axes, CURVES["total_torque"],
+                        (min(pair[0] for pair in known), max(pair[1] for pair in known)) if known else None)
+    handles = [Line2D([], [], color=tone, linestyle=dash if len(layout.files) == 1 else "-", linewidth=width,
+                      label=label) for _, label, tone, dash, width in TORQUES]
+    head(figure, layout, "drive torque and its parts", handles + file_handles(layout), (len(colours), len(panels)))
+    return figure
+
+
+def _torque_curve(axes, layout, entry, part, window):
+    series, _, tone, dash, width = part
+    values = values_of(layout, entry, series, "N m")
+    if values is None:
+        return None
+    angle, values = closed(layout.results[entry.file].cam_angle, values)
+    if len(layout.files) > 1:
+        dash = line_style(layout.files.index(entry.file))
+    axes.plot(angle, values, color=tone, linestyle=dash, linewidth=width)
+    return seen_range(angle, values, window)
+
+
+def overview_figure(layout, _whole_cycle):
+    """Everything on one page: a row for each quantity and a column for each value of the second swept key."""
+    names = [name for name in OVERVIEW if has_series(layout, CURVES[name].series)]
+    bars = [part for part in (slip_bars, torque_bars) if _has_summary(layout, part)]
+    if not names:
+        raise Missing("none of its series in the file" + ("s" if len(layout.files) > 1 else ""))
+    panels = thin_out(layout.panels, MOST_COLUMNS)
+    columns = len(panels) if len(panels) > 1 else 2
+    rows = len(names) if len(panels) > 1 else -(-len(names) // columns)
+    heights = [1.5 + 1.5 * rows, 2.6 + 0.8 * len(layout.files)]
+    figure = Figure(figsize=(2.0 + 3.2 * columns, sum(heights[:1 + bool(bars)])), layout="constrained")
+    upper, lower = figure.subfigures(2, 1, height_ratios=heights) if bars else (figure, None)
+    _overview_curves(upper, layout, names, panels, (rows, columns))
+    head(upper, layout, "", legend_handles(layout), shown(layout, panels))
+    for part, place in zip(bars, np.atleast_1d(lower.subfigures(1, len(bars))) if bars else []):
+        part(place, layout)
+    return figure
+
+
+def _overview_curves(figure, layout, names, panels, shape):
+    grid = figure.subplots(*shape, squeeze=False)
+    window = event_window(layout)
+    places = list(grid.flat)
+    for axes in places[len(names) * len(panels):]:
+        axes.remove()
+    for number, name in enumerate(names):
+        curve, row = CURVES[name], places[number * len(panels):(number + 1) * len(panels)]
+        limits = [draw_curve(axes, layout, curve, panel, window) for axes, panel in zip(row, panels)]
+        for axes, panel, pair in zip(row, panels, ranges_of(curve, limits)):
+            set_values_axis(axes, curve, pair)
+            angle_axis(axes, window, labelled=places.index(axes) + shape[1] >= len(names) * len(panels))
+            if number == 0 and len(panels) > 1:
+                axes.set_title(layout.panel_name(panel), fontsize="medium")
+        row[0].set_ylabel(f"{curve.title}\n[{unit_text(curve.unit)}]")
+    figure.align_ylabels()
+
+
+def _has_summary(layout, part):
+    names = {slip_bars: ["mean_slip_ratio"], torque_bars: [name for name, *_ in SOURCES]}[part]
+    return any(name in layout.results[number].summary for number in layout.files for name in names)
+
+
+def bars_figure(part, title, layout):
+    """A bar chart as a figure of its own."""
+    if not _has_summary(layout, part):
+        raise Missing("no means of it in the file" + ("s" if len(layout.files) > 1 else ""))
+    rows = len(layout.files) if part is torque_bars else 1
+    figure = Figure(figsize=(7.5, 2.6 + 1.9 * rows), layout="constrained")
+    part(figure, layout)
+    head(figure, layout, title, [], [len(values) for values in shown_in_bars(layout)])
+    return figure
+
+
+def _curve_drawer(curve):
+    return lambda layout, whole_cycle: curve_figure(curve, layout, whole_cycle)
+
+
+FIGURES = {
+    "overview": overview_figure,
+    **{name: _curve_drawer(curve) for name, curve in CURVES.items() if name != "total_torque"},
+    "drive_torque": torque_figure,
+    "mean_slip": lambda layout, _: bars_figure(slip_bars, "mean slip ratio", layout),
+    "mean_torque": lambda layout, _: bars_figure(torque_bars, "mean friction torque by source", layout),
+}

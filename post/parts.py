@@ -1,0 +1,147 @@
+"""Parts that the figures share: the cam angle axis, the values axis, curves, legend and heading."""
+
+import textwrap
+
+from matplotlib.lines import Line2D
+from matplotlib.ticker import FuncFormatter, LogLocator, MultipleLocator
+import numpy as np
+
+from layout import line_style
+from quantities import values_of
+
+NOSE = 180.0  # cam angle of full lift [deg]
+MARGIN = 30.0  # shown on each side of the event [deg]
+MOST_PANELS = 9
+ALIKE = 3.0  # panels whose largest values differ by more than this have axes of their own
+
+
+def event_window(layout):
+    """Cam angles from a little before to a little after the valve is off its seat, over all cases."""
+    first, last = 360.0, 0.0
+    for result in layout.results:
+        lift = result.series.get("valve_lift")
+        if lift is None:
+            return 0.0, 360.0
+        peak = np.nanmax(np.abs(lift.values), initial=0.0)
+        open_angles = result.cam_angle[np.any(np.abs(lift.values) > 1e-4 * peak, axis=0)]
+        if open_angles.size:
+            first, last = min(first, open_angles[0]), max(last, open_angles[-1])
+    if first > last:
+        return 0.0, 360.0
+    return max(0.0, 10.0 * np.floor((first - MARGIN) / 10.0)), min(360.0, 10.0 * np.ceil((last + MARGIN) / 10.0))
+
+
+def closed(angle, values):
+    """The cycle with its first point repeated at the end."""
+    return np.append(angle, angle[0] + 360.0), np.append(values, values[0])
+
+
+def angle_axis(axes, window, labelled=True):
+    """Cam angle axis with the nose marked."""
+    axes.set_xlim(window)
+    axes.xaxis.set_major_locator(MultipleLocator(60.0 if window[1] - window[0] > 250.0 else 30.0))
+    axes.xaxis.set_major_formatter(FuncFormatter(lambda angle, _: "180\nnose" if angle == NOSE else f"{angle:g}"))
+    axes.axvline(NOSE, color="0.6", linewidth=0.7, linestyle=":", zorder=0)
+    axes.grid(True, color="0.9", linewidth=0.6)
+    axes.set_axisbelow(True)
+    axes.tick_params(labelbottom=labelled)
+    if labelled:
+        axes.set_xlabel("cam angle [deg]")
+
+
+def draw_curve(axes, layout, curve, panel, window):
+    """All curves of one panel; returns lowest and highest value within the window, None if there is none."""
+    low, high = np.inf, -np.inf
+    for entry in layout.entries_of(panel, layout.shown_colours()):
+        values = values_of(layout, entry, curve.series, curve.unit)
+        if values is None:
+            continue
+        angle, values = closed(layout.results[entry.file].cam_angle, values)
+        axes.plot(angle, values, **layout.style(entry))
+        seen = seen_range(angle, values, window)
+        if seen:
+            low, high = min(low, seen[0]), max(high, seen[1])
+    return (low, high) if low <= high else None
+
+
+def seen_range(angle, values, window):
+    """Lowest and highest of the values within the window; None where there is none."""
+    seen = values[(angle >= window[0]) & (angle <= window[1]) & np.isfinite(values)]
+    return (seen.min(), seen.max()) if seen.size else None
+
+
+def ranges_of(curve, limits):
+    """Range of the values for each panel: one for all where their sizes are alike, so that panels compare."""
+    known = [pair for pair in limits if pair]
+    if not known:
+        return limits
+    sizes = [max(abs(low), abs(high)) for low, high in known]
+    if curve.scale == "log" or max(sizes) <= ALIKE * min(sizes):
+        return [(min(pair[0] for pair in known), max(pair[1] for pair in known))] * len(limits)
+    return limits
+
+
+def set_values_axis(axes, curve, limits):
+    """Range of the upright axis with a little room; logarithmic only for positive values that differ much."""
+    if limits is None:
+        return
+    low, high = limits
+    if curve.scale == "log" and low > 0.0 and high > 3.0 * low:
+        axes.set_yscale("log")
+        axes.set_ylim(low / 1.2, high * 1.2)
+        axes.yaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+        axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+        axes.yaxis.set_minor_formatter(FuncFormatter(lambda value, _: ""))
+        return
+    room = 0.05 * (high - low) or 0.05 * abs(high) or 1.0
+    axes.set_ylim(0.0 if low >= 0.0 else low - room, high + room)
+    if low < 0.0:
+        axes.axhline(0.0, color="0.6", linewidth=0.7, zorder=0)
+
+
+def legend_handles(layout):
+    """Legend entries of a page: colours by swept value, line styles by file."""
+    if layout.colour_key is None:
+        first = {number: next(entry for entry in layout.entries if entry.file == number) for number in layout.files}
+        return [Line2D([], [], label=layout.titles[number], **layout.style(entry)) for number, entry in first.items()]
+    return (colour_handles(layout) if len(layout.colours) > 1 else []) + file_handles(layout)
+
+
+def file_handles(layout):
+    """Legend entries for several files."""
+    if len(layout.files) == 1:
+        return []
+    return [Line2D([], [], color="0.3", linestyle=line_style(place), linewidth=1.4, label=layout.titles[number])
+            for place, number in enumerate(layout.files)]
+
+
+def colour_handles(layout):
+    """Legend entries for the values of the colour key."""
+    handles = []
+    for value in layout.shown_colours():
+        style = layout.style(next(entry for entry in layout.entries if entry.colour == value))
+        if len(layout.files) > 1:
+            style["linestyle"] = "-"
+        handles.append(Line2D([], [], label=layout.name(layout.colour_key, value), **style))
+    return handles
+
+
+def head(figure, layout, title, handles, shown):
+    """Top of a page: what it shows, of which file, how many values and panels of a big sweep, and the legend."""
+    words = [layout.titles[layout.files[0]]] if len(layout.files) == 1 else []
+    if layout.colour_key and len(layout.colours) == 1:
+        words.append(layout.name(layout.colour_key, layout.colours[0]))
+    if len(layout.panels) == 1 and layout.panel_name(layout.panels[0]):
+        words.append(layout.panel_name(layout.panels[0]))
+    panel_names = " and ".join(layout.short_names[key] for key in layout.panel_keys)
+    for count, all_of_them, name in ((shown[0], layout.colours, layout.short_names.get(layout.colour_key)),
+                                     (shown[1], layout.panels, panel_names)):
+        if count < len(all_of_them):
+            words.append(f"{count} of {len(all_of_them)} values of {name} shown")
+    width = figure.bbox.width / figure.dpi
+    text = "\n".join([title[:1].upper() + title[1:], *textwrap.wrap(", ".join(words), int(11.0 * width))]).strip()
+    longest = max([len(handle.get_label()) for handle in handles] + [1])
+    columns = int(max(1, min(len(handles), width * 11.0 / (longest + 8.0))))
+    legend = figure.legend(handles=handles if len(handles) > 1 else [], title=text, title_fontsize="large",
+                           loc="outside upper center", ncols=columns, frameon=False)
+    legend.get_title().set_multialignment("center")

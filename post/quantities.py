@@ -1,0 +1,85 @@
+"""What can be drawn: which series or scalar, under which name and in which unit for people."""
+
+from dataclasses import dataclass
+
+from read import ResultError
+
+SCALES = {("m", "mm"): 1e3, ("m", "um"): 1e6, ("m/s", "m/s"): 1.0, ("N", "N"): 1.0, ("Pa", "GPa"): 1e-9,
+          ("N m", "N m"): 1.0, ("N m", "N mm"): 1e3, ("1", "%"): 100.0, ("1", "1"): 1.0}
+SAME_UNIT = {"m s-1": "m/s", "-": "1", "": "1", "N*m": "N m", "N.m": "N m"}
+
+
+class Missing(Exception):
+    """No file holds the series that a figure needs."""
+
+
+@dataclass(frozen=True)
+class Curve:
+    """A series over the cam angle."""
+
+    title: str
+    series: str
+    unit: str
+    whole_cycle: bool = False  # in a single figure; else the event
+    scale: str = "linear"
+
+
+CURVES = {
+    "lift": Curve("valve lift", "valve_lift", "mm"),
+    "load": Curve("contact load", "contact_load", "N"),
+    "pressure": Curve("Hertz pressure", "hertz_pressure", "GPa"),
+    "entrainment": Curve("entrainment speed", "entrainment_speed", "m/s"),
+    "film": Curve("minimum film", "film_thickness_min", "um", scale="log"),
+    "friction": Curve("contact friction", "friction_contact", "N"),
+    "asperity_share": Curve("asperity share", "asperity_friction_share", "%"),
+    "rolling": Curve("rolling friction", "friction_rolling", "N", whole_cycle=True),
+    "slip": Curve("slip ratio", "slip_ratio", "%", whole_cycle=True),
+    "friction_torque": Curve("friction torque", "torque_friction", "N m"),
+    "total_torque": Curve("drive torque", "torque_drive", "N m"),
+}
+OVERVIEW = ["load", "entrainment", "film", "friction", "asperity_share", "rolling", "slip", "total_torque"]
+# Summary name, words, colour, hatch
+SOURCES = [("mean_torque_contact", "cam/roller contact", "#08306b", ""),
+           ("mean_torque_bearings", "cam bearings", "#d55e00", "///"),
+           ("mean_torque_needle", "needle bearing", "#7cc0ea", ""),
+           ("mean_torque_guide", "valve guide", "#f0e442", "xxx")]
+# Series, words, colour, line style, line width: the thin line of the whole lies on the broad one of the geometric part
+TORQUES = [("torque_geometric", "geometric", "#7cc0ea", "-", 3.0),
+           ("torque_friction", "friction", "#d55e00", "--", 1.4),
+           ("torque_drive", "drive: all together", "#08306b", "-", 1.1)]
+
+
+def values_of(layout, entry, name, unit):
+    """Values of a series in one case in a unit for people; None where the file does not have it."""
+    quantity = layout.results[entry.file].series.get(name)
+    return None if quantity is None else quantity.values[entry.case] * _factor(quantity, name, unit)
+
+
+def mean_of(layout, entry, name, unit):
+    """A scalar of one case in a unit for people; None where the file does not have it."""
+    quantity = layout.results[entry.file].summary.get(name)
+    return None if quantity is None else float(quantity.values[entry.case]) * _factor(quantity, name, unit)
+
+
+def _factor(quantity, name, unit):
+    given = SAME_UNIT.get(quantity.units, quantity.units)
+    if (given, unit) not in SCALES:
+        raise ResultError(f"{name} has the unit '{quantity.units}', which cannot be shown in {unit}")
+    return SCALES[given, unit]
+
+
+def unit_text(unit):
+    """Unit as printed."""
+    return unit.replace("um", "\N{MICRO SIGN}m")
+
+
+def has_series(layout, name):
+    """Whether at least one file has the series."""
+    return any(name in layout.results[number].series for number in layout.files)
+
+
+def need_series(layout, *names):
+    """Missing with the names, unless at least one file has each of them."""
+    absent = [name for name in names if not has_series(layout, name)]
+    if absent:
+        raise Missing(f"no {' or '.join(absent)} in the file" + ("s" if len(layout.files) > 1 else ""))

@@ -1,0 +1,283 @@
+"""Tests of reading and drawing, on small made-up files in the layout that the solver writes."""
+
+from pathlib import Path
+import subprocess
+import sys
+
+import h5py
+import numpy as np
+import pytest
+
+import plot
+from figures import FIGURES
+from layout import Layout, chosen_cases, thin_out
+from parts import closed, event_window
+from plot import main
+from quantities import CURVES, values_of
+from read import ResultError, read_result
+
+SPEED, OIL = "operating_point.speed_rpm", "operating_point.oil_temperature_degC"
+UNITS = {SPEED: "rpm", OIL: "degC"}
+HERE = Path(__file__).resolve().parent
+
+
+def made_up_series(angle, speed, oil):
+    """Curves with roughly the shapes and sizes of a roller valve train; no physics is claimed."""
+    x = (angle - 180.0) / 70.0
+    lift = np.where(np.abs(x) < 1, 9.5e-3 * np.clip(1 - x**2, 0, None) ** 4, 0.0)
+    slope = np.gradient(lift, np.radians(angle))
+    curvature = np.gradient(slope, np.radians(angle))
+    omega, viscosity = speed * np.pi / 30, 0.15 * np.exp(-0.0395 * (oil - 25))
+    load = 64 + np.where(lift > 0, 750 * lift / 9.5e-3 + 400 * np.clip(lift / 1e-4, 0, 1), 0) \
+        + 0.1 * omega**2 * curvature
+    load = np.clip(load, 5, None)
+    entrainment = speed / 300 * (0.565 + 20 * np.abs(slope) - 0.35 * lift / 9.5e-3)
+    film = 2.1e-7 * (viscosity / 0.01 * entrainment) ** 0.7 * (load / 64) ** -0.13
+    share = np.exp(-film / 2e-7)
+    slip = 1e-3 * speed / 300 * (viscosity / 0.01) ** 0.5 * (1 + 60 * slope) * 64 / load * 20
+    rolling = 0.3 * (viscosity * entrainment / 0.0057) ** 0.65
+    friction = 0.08 * load * np.tanh(np.abs(slip) * 30) + rolling
+    geometric = load * slope * 1.2
+    losses = {"contact": friction * 0.03 * np.abs(slip), "needle": 2e-5 * load,
+              "guide": 1e-1 * viscosity * slope**2 * speed, "bearings": 2e-4 * viscosity * speed + 0 * angle}
+    total = sum(losses.values())
+    series = {"valve_lift": lift, "contact_load": load, "hertz_pressure": 2.1e7 * np.sqrt(load), "slip_ratio": slip,
+              "entrainment_speed": entrainment, "film_thickness_min": film, "friction_rolling": rolling,
+              "asperity_friction_share": share, "friction_contact": friction, "torque_geometric": geometric,
+              "torque_friction": total, "torque_drive": geometric + total}
+    return series | {f"torque_{name}": value for name, value in losses.items()}
+
+
+SERIES_UNITS = {"valve_lift": "m", "contact_load": "N", "hertz_pressure": "Pa", "slip_ratio": "1",
+                "entrainment_speed": "m/s", "film_thickness_min": "m", "friction_rolling": "N",
+                "asperity_friction_share": "1", "friction_contact": "N"}
+
+
+def write_result(path, speeds=(300.0, 600.0, 900.0), oils=(25.0, 60.0, 95.0), step=5.0, title="made up", factor=1.0,
+                 swept=(SPEED, OIL), without=(), complete=1):
+    """A result file; keys that are not swept have one value and stand with the other deck values."""
+    angle = np.arange(0.0, 360.0, step)
+    points = [(speed, oil) for speed in speeds for oil in oils]
+    rows = [made_up_series(angle, *point) for point in points]
+    with h5py.File(path, "w") as file:
+        file["case"] = np.arange(len(points))
+        file["case"].make_scale("case")
+        file["series/cam_angle"] = angle
+        file["series/cam_angle"].attrs["units"] = "degree"
+        file["series/cam_angle"].make_scale("cam_angle")
+        for name in set(rows[0]) - set(without):
+            values = np.array([row[name] for row in rows]) * factor
+            unit = SERIES_UNITS.get(name, "N m")
+            data = file.create_dataset(f"series/{name}", data=values)
+            data.attrs.update({"units": np.bytes_(unit), "long_name": name.replace("_", " "), "source": "test"})
+            data.dims[0].attach_scale(file["case"])
+            data.dims[1].attach_scale(file["series/cam_angle"])
+            file[f"summary/mean_{name}"] = values.mean(axis=1)
+            file[f"summary/mean_{name}"].attrs["units"] = unit
+        names = ", ".join(f"'{key}'" for key in swept)
+        file["deck/text"] = np.bytes_(f"&case\n  title = '{title}' ! of a test\n/\n&sweep keys = {names} /\n")
+        for key, values in zip((SPEED, OIL), np.array(points).T):
+            given = file.create_dataset(("sweep/" if key in swept else "deck/values/") + key,
+                                        data=values if key in swept else values[0])
+            given.attrs["units"] = UNITS[key]
+        file.create_group("run").attrs["program"] = np.bytes_("camroller ")
+        if complete is not None:
+            file.attrs["complete"] = complete
+    return path
+
+
+@pytest.fixture(name="nine")
+def fixture_nine(tmp_path):
+    return write_result(tmp_path / "nine.h5")
+
+
+def drawn_files(folder):
+    return sorted(path.name for path in folder.glob("*.*") if path.suffix != ".h5")
+
+
+def test_everything_in_a_file_is_read(nine):
+    result = read_result(nine)
+    assert result.cases == 9 and result.cam_angle.size == 72
+    assert result.series["contact_load"].units == "N"
+    assert result.series["contact_load"].values.shape == (9, 72)
+    assert result.summary["mean_slip_ratio"].values.shape == (9,)
+    assert result.title == "made up"
+    assert result.run["program"] == "camroller"
+
+
+def test_swept_keys_come_in_the_order_of_the_deck_not_of_the_alphabet(nine):
+    assert list(read_result(nine).sweep) == [SPEED, OIL]
+
+
+def test_a_value_is_found_whether_swept_or_fixed(tmp_path):
+    result = read_result(write_result(tmp_path / "one.h5", oils=(60.0,), swept=(SPEED,)))
+    assert [result.value_of(SPEED, case) for case in range(3)] == [300.0, 600.0, 900.0]
+    assert result.value_of(OIL, 2) == 60.0
+    assert result.value_of("spring.rate", 0) is None
+
+
+def test_quotes_in_a_title_are_kept(tmp_path):
+    assert read_result(write_result(tmp_path / "one.h5", title="the source''s way")).title == "the source's way"
+
+
+def test_a_resolved_title_goes_before_the_deck_text(nine):
+    with h5py.File(nine, "a") as file:
+        file["deck/values/case.title"] = np.bytes_("resolved   ")
+    assert read_result(nine).title == "resolved"
+
+
+@pytest.mark.parametrize("spoil, expected", [
+    (lambda path: path.unlink(), "no such file"),
+    (lambda path: path.write_text("cam_angle,load\n"), "not an HDF5 file"),
+    (lambda path: h5py.File(path, "w").close(), "not a result file of camroller"),
+    (lambda path: write_result(path, complete=None), "not complete"),
+    (lambda path: write_result(path, complete=0), "not complete"),
+])
+def test_a_file_that_cannot_be_used_gives_one_line_and_code_2(nine, capsys, spoil, expected):
+    spoil(nine)
+    assert main([str(nine)]) == 2
+    message = capsys.readouterr().err
+    assert expected in message and str(nine) in message and message.count("\n") == 1
+
+
+def test_a_series_of_another_shape_is_refused(nine):
+    with h5py.File(nine, "a") as file:
+        file["series/odd"] = np.zeros((9, 3))
+    with pytest.raises(ResultError, match="odd"):
+        read_result(nine)
+
+
+@pytest.mark.parametrize("selection, expected", [
+    (["0,2-4"], [0, 2, 3, 4]), (["speed_rpm=300"], [0, 1, 2]), (["speed=600,900", "oil_temperature=95"], [5, 8]),
+    ([f"{OIL}=25"], [0, 3, 6]), (["1-5", "speed=300"], [1, 2]),
+])
+def test_cases_are_chosen_by_number_and_by_value(nine, selection, expected):
+    assert chosen_cases(read_result(nine), selection) == expected
+
+
+@pytest.mark.parametrize("selection", ["9", "3-2", "x", "colour=3", "speed=5"])
+def test_a_selection_that_fits_nothing_is_an_error(nine, capsys, selection):
+    assert main([str(nine), "--cases", selection]) == 2
+    assert "--cases" in capsys.readouterr().err
+
+
+def test_values_are_drawn_in_units_for_people(nine):
+    layout = Layout([read_result(nine)])
+    entry = layout.entries[4]
+    lift = values_of(layout, entry, "valve_lift", "mm")
+    assert lift.max() == pytest.approx(9.5)
+    assert values_of(layout, entry, "not_there", "mm") is None
+    with pytest.raises(ResultError, match="'m'"):
+        values_of(layout, entry, "valve_lift", "N")
+
+
+def test_every_curve_finds_its_unit(nine):
+    layout = Layout([read_result(nine)])
+    for curve in CURVES.values():
+        assert values_of(layout, layout.entries[0], curve.series, curve.unit).shape == (72,)
+
+
+def test_first_key_goes_to_colours_and_second_to_panels(nine):
+    layout = Layout([read_result(nine)])
+    assert layout.colours == [300.0, 600.0, 900.0]
+    assert [layout.panel_name(panel) for panel in layout.panels] == ["25 °C", "60 °C", "95 °C"]
+    assert layout.name(SPEED, 300.0) == "300 rev/min"
+    styles = [layout.style(entry) for entry in layout.entries_of((25.0,))]
+    assert len({str(style["color"]) for style in styles}) == 3
+    assert len({str(style["linestyle"]) for style in styles}) == 3
+
+
+def test_files_with_and_without_a_sweep_meet_in_the_right_panel(tmp_path):
+    nine = read_result(write_result(tmp_path / "nine.h5"))
+    one = read_result(write_result(tmp_path / "one.h5", speeds=(600.0,), oils=(60.0,), swept=()))
+    layout = Layout([nine, one])
+    assert [(entry.colour, entry.panel) for entry in layout.entries if entry.file == 1] == [(600.0, (60.0,))]
+    assert layout.titles == ["made up (nine.h5)", "made up (one.h5)"]
+
+
+def test_thinning_keeps_both_ends():
+    assert thin_out(list(range(50)), 7)[0] == 0 and thin_out(list(range(50)), 7)[-1] == 49
+    assert thin_out([1, 2], 7) == [1, 2]
+
+
+def test_the_cycle_is_closed_and_the_event_is_in_the_window(nine):
+    angle, values = closed(np.array([0.0, 120.0, 240.0]), np.array([1.0, 2.0, 3.0]))
+    assert list(angle) == [0.0, 120.0, 240.0, 360.0] and values[-1] == 1.0
+    first, last = event_window(Layout([read_result(nine)]))
+    assert 60.0 <= first <= 110.0 and 250.0 <= last <= 300.0
+
+
+def test_all_figures_are_drawn_beside_the_file(nine, tmp_path):
+    assert main([str(nine)]) == 0
+    assert drawn_files(tmp_path) == sorted(f"nine_{name}.png" for name in FIGURES)
+
+
+@pytest.mark.parametrize("kind, start", [("png", b"\x89PNG"), ("pdf", b"%PDF"), ("svg", b"<?xml")])
+def test_each_format_is_written_and_the_same_twice(nine, tmp_path, kind, start):
+    folders = [tmp_path / "new" / "first", tmp_path / "second"]
+    for folder in folders:
+        assert main([str(nine), "--figure", "slip", "--format", kind, "--output", str(folder)]) == 0
+    first, second = ((folder / f"nine_slip.{kind}").read_bytes() for folder in folders)
+    assert first.startswith(start) and first == second
+
+
+def test_figures_without_their_series_are_skipped_and_named(tmp_path, capsys, monkeypatch):
+    path = write_result(tmp_path / "smooth.h5", without=("asperity_friction_share", "torque_guide"))
+    monkeypatch.setattr(plot, "FIGURES", ["overview", "asperity_share", "mean_torque"])
+    assert main([str(path)]) == 0
+    assert "asperity_share: skipped, no asperity_friction_share in the file" in capsys.readouterr().out
+    assert drawn_files(tmp_path) == ["smooth_mean_torque.png", "smooth_overview.png"]
+
+
+def test_nothing_to_draw_is_an_error(tmp_path, capsys):
+    path = write_result(tmp_path / "smooth.h5", without=("slip_ratio",))
+    assert main([str(path), "--figure", "slip"]) == 2
+    assert "nothing to draw" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("options", [
+    {"speeds": (600.0,), "oils": (60.0,), "swept": ()},
+    {"oils": (60.0,), "swept": (SPEED,)},
+    {"speeds": tuple(np.linspace(200.0, 1200.0, 12)), "oils": (60.0,), "swept": (SPEED,)},
+    {"speeds": (300.0, 900.0), "oils": tuple(np.linspace(20.0, 120.0, 11))},
+    {"speeds": (300.0,), "oils": (25.0, 95.0)},
+], ids=["no sweep", "one key", "many of the first", "many of the second", "one of the first"])
+def test_other_sweeps_draw_too(tmp_path, options):
+    path = write_result(tmp_path / "other.h5", step=15.0, **options)
+    names = ["overview", "slip", "drive_torque", "mean_slip", "mean_torque"]
+    for name in names:
+        assert main([str(path), "--figure", name]) == 0
+    assert len(drawn_files(tmp_path)) == len(names)
+
+
+def test_cases_without_a_solution_leave_gaps(nine):
+    with h5py.File(nine, "a") as file:
+        for data in [*file["series"].values(), *file["summary"].values()]:
+            if data.name != "/series/cam_angle":
+                data[0] = np.nan
+    assert main([str(nine), "--figure", "overview"]) == 0
+
+
+def test_two_files_are_drawn_over_each_other(tmp_path, monkeypatch):
+    paths = [str(write_result(tmp_path / f"{name}.h5", title=name, factor=factor, step=15.0))
+             for name, factor in (("a", 1.0), ("b", 1.1))]
+    names = ["overview", "load", "drive_torque", "mean_slip"]
+    monkeypatch.setattr(plot, "FIGURES", names)
+    assert main(paths) == 0
+    assert drawn_files(tmp_path) == sorted(f"a_vs_b_{name}.png" for name in names)
+
+
+def test_a_folder_that_cannot_be_written_is_an_error(nine, tmp_path, capsys):
+    (tmp_path / "taken").write_text("")
+    assert main([str(nine), "--figure", "load", "--output", str(tmp_path / "taken")]) == 2
+    assert "cannot be written" in capsys.readouterr().err
+
+
+def test_it_runs_from_anywhere_without_a_display(nine, tmp_path):
+    codes = []
+    for figure in ("load", "colours"):
+        done = subprocess.run([sys.executable, str(HERE / "plot.py"), nine.name, "--figure", figure], cwd=tmp_path,
+                              env={"PATH": "", "MPLCONFIGDIR": str(tmp_path / "config")}, check=False)
+        codes.append(done.returncode)
+    assert codes == [0, 2]
+    assert drawn_files(tmp_path) == ["nine_load.png"]
