@@ -6,13 +6,11 @@
 !> A new suite is one `use` line and one entry in `suites`.
 program main
    use, intrinsic :: iso_fortran_env, only : error_unit, output_unit
-   use testdrive, only : testsuite_type, new_testsuite, unittest_type, error_type, get_argument, select_suite, select_test
+   use testdrive, only : testsuite_type, new_testsuite, unittest_type, error_type, get_argument, select_suite, &
+      select_test
    use test_error, only : collect_error
    use test_names, only : collect_names
    use test_version, only : collect_version
-   use test_roots, only : collect_roots
-   use test_spline, only : collect_spline
-   use test_lift, only : collect_lift
    implicit none
 
    call run_command_line()
@@ -28,10 +26,7 @@ contains
       suites = [ &
          new_testsuite("error", collect_error), &
          new_testsuite("names", collect_names), &
-         new_testsuite("version", collect_version), &
-         new_testsuite("roots", collect_roots), &
-         new_testsuite("spline", collect_spline), &
-         new_testsuite("lift", collect_lift) &
+         new_testsuite("version", collect_version) &
          ]
 
       call get_argument(1, suite_name)
@@ -50,7 +45,7 @@ contains
       end if
       if (skipped > 0) write (output_unit, '(i0, a)') skipped, " skipped"
       write (output_unit, '(i0, a, i0, a)') passed, " passed, ", failed, " failed"
-      if (failed > 0 .or. passed + skipped == 0) stop 1, quiet=.true.
+      if (failed > 0 .or. passed + skipped == 0) stop 1, quiet = .true.
    end subroutine run_command_line
 
    !> Run one suite, or one test of it, and add to the counts.
@@ -74,7 +69,7 @@ contains
          if (first == 0) then
             write (error_unit, '(a)') "no test '"//test_name//"' in suite '"//suite%name//"'; known are"
             write (error_unit, '(3x, a)') (tests(i)%name, i=1, size(tests))
-            stop 1, quiet=.true.
+            stop 1, quiet = .true.
          end if
       end if
       write (error_unit, '(a)') suite%name
@@ -129,7 +124,7 @@ contains
 
       write (error_unit, '(a)') "no suite '"//name//"'; known are"
       write (error_unit, '(3x, a)') (suites(i)%name, i=1, size(suites))
-      stop 1, quiet=.true.
+      stop 1, quiet = .true.
    end subroutine refuse
 
 end program main

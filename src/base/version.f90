@@ -1,18 +1,20 @@
 !> Which camroller this is and how it was built.
 !>
-!> Layer: base. In: nothing. Out: the version as text and as one number, and the facts of the build for the metadata of a
-!> result file.
+!> Layer: base. In: nothing. Out: the version as text and as one number, the commit, compiler and options for the metadata
+!> of a result file.
 module camroller_version
    use, intrinsic :: iso_fortran_env, only : compiler_version, compiler_options
    implicit none
    private
 
-   public :: version_text, version_number, compiler_facts
+   public :: version_text, version_number, build_commit, compiler_facts
 
    !> Version as `major.minor.patch`
    character(len=*), parameter :: version_text = "0.1.0"
    !> Version as 10000*major + 100*minor + patch
    integer, parameter :: version_number = 100
+   ! Commit of the sources, `build_commit`: known when built by make, "unknown" otherwise
+   include "build_commit.inc"
 
 contains
 

@@ -1,7 +1,7 @@
 !> Tests of the version and build facts.
 module test_version
    use testdrive, only : unittest_type, new_unittest, error_type, check, test_failed
-   use camroller_version, only : version_text, version_number, compiler_facts
+   use camroller_version, only : version_text, version_number, build_commit, compiler_facts
    implicit none
    private
 
@@ -17,6 +17,7 @@ contains
       testsuite = [ &
          new_unittest("the manifest carries the version of the library", manifest_agrees), &
          new_unittest("the version number is the version text", number_agrees), &
+         new_unittest("the commit is a hash or said to be unknown", commit_is_a_hash), &
          new_unittest("compiler and options are known", facts_are_given) &
          ]
    end subroutine collect_version
@@ -47,11 +48,27 @@ contains
    subroutine number_agrees(error)
       type(error_type), allocatable, intent(out) :: error
 
-      character(len=32) :: text
+      character(len=len(version_text)) :: text
+      integer :: part(3), i
 
-      write (text, '(i0, ".", i0, ".", i0)') version_number/10000, mod(version_number/100, 100), mod(version_number, 100)
-      call check(error, trim(text), version_text)
+      text = version_text
+      do i = 1, len(text)
+         if (text(i:i) == ".") text(i:i) = " "
+      end do
+      read (text, *) part
+      call check(error, version_number, 10000*part(1) + 100*part(2) + part(3))
    end subroutine number_agrees
+
+   subroutine commit_is_a_hash(error)
+      type(error_type), allocatable, intent(out) :: error
+
+      character(len=*), parameter :: digits = "0123456789abcdef"
+
+      if (build_commit == "unknown") return
+      call check(error, len(build_commit) >= 12, "too short for a hash: "//build_commit)
+      if (allocated(error)) return
+      call check(error, verify(build_commit(1:12), digits), 0, "no hash: "//build_commit)
+   end subroutine commit_is_a_hash
 
    subroutine facts_are_given(error)
       type(error_type), allocatable, intent(out) :: error

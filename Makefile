@@ -1,0 +1,71 @@
+# camroller: `make help` lists what can be made. Everything can be repeated; what is done is not done again.
+
+SHELL := /bin/bash
+.DEFAULT_GOAL := help
+.PHONY: help setup commit build debug run test quick check check-layers check-style check-format check-lint check-warnings format \
+  clean distclean
+
+FPM := .venv/bin/fpm
+PYTHON := .venv/bin/python
+
+# Both builds keep to the standard and never let the compiler change values: no -ffast-math, and no fused
+# multiply-add, so that results do not depend on whether a machine has it. The plain x86-64 target of gfortran has none
+# anyway. fpm keeps a folder for each set of flags. build/commit holds the commit, see tools/write_commit.sh.
+COMMON_FLAGS := -std=f2018 -g -ffp-contract=off -fbacktrace -Ibuild/commit
+export DEBUG_FLAGS := $(COMMON_FLAGS) -O0 -Wall -Wextra -Wimplicit-interface -fcheck=all \
+  -ffpe-trap=invalid,zero,overflow -finit-real=snan
+export RELEASE_FLAGS := $(COMMON_FLAGS) -O3
+
+help: ## list what can be made
+	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/make \1|\2/p' $(MAKEFILE_LIST) | column -t -s '|' 2> /dev/null || \
+	  sed -n 's/^\([a-z-]*\):.*## \(.*\)/make \1: \2/p' $(MAKEFILE_LIST)
+
+setup: ## system packages, Python tools in .venv, test-drive
+	@tools/setup.sh
+
+commit: setup
+	@tools/write_commit.sh
+
+build: commit ## the program: build/release/bin/camroller
+	@$(FPM) install --flag "$(RELEASE_FLAGS)" --prefix build/release > build/release.log 2>&1 || \
+	  { cat build/release.log; exit 1; }
+
+debug: commit ## the program with all run-time checks: build/debug/bin/camroller
+	@$(FPM) install --flag "$(DEBUG_FLAGS)" --prefix build/debug > build/debug.log 2>&1 || { cat build/debug.log; exit 1; }
+
+run: build ## run decks/thesis.nml and plot it: results/thesis.h5 and figures beside it
+	@mkdir -p results
+	build/release/bin/camroller run decks/thesis.nml -o results/thesis.h5
+	$(PYTHON) post/plot.py results/thesis.h5 --output results
+
+test: build debug ## all tests, with run-time checks and optimised
+	@$(PYTHON) tools/run_tests.py
+
+quick: commit ## Fortran tests with run-time checks; choose with SUITE=film TEST="..."
+	@$(FPM) test --flag "$(DEBUG_FLAGS)" -- $(SUITE) $(if $(TEST),"$(TEST)")
+
+check: check-layers check-style check-format check-lint check-warnings ## layers, style, format, linter, compiler warnings
+
+check-layers: setup
+	@$(PYTHON) tools/check_layers.py
+
+check-style: setup
+	@$(PYTHON) tools/check_style.py
+
+check-format: setup
+	@$(PYTHON) tools/check_format.py
+
+check-lint: setup
+	@.venv/bin/fortitude check --quiet --output-format concise $(wildcard src app test example)
+
+check-warnings: commit
+	@$(PYTHON) tools/check_warnings.py
+
+format: setup ## set the blanks inside statements right
+	@$(PYTHON) tools/check_format.py --fix
+
+clean: ## remove what was built; keep tools and results
+	rm -rf build/gfortran* build/debug build/release build/commit build/tests build/*.log build/compile_commands.json
+
+distclean: ## remove everything that is not in git, results too
+	rm -rf build .venv results

@@ -1,0 +1,55 @@
+#!/usr/bin/env python3
+"""Check the blanks inside statements with fprettify, or set them right.
+
+Usage: tools/check_format.py [--fix]
+
+Indentation and continued lines are left as written, and so is the blank before the colon of `only :`.
+"""
+
+from __future__ import annotations
+
+import argparse
+import difflib
+import io
+import logging
+import re
+import sys
+
+import fprettify
+
+from fortran_source import ROOT, sources
+
+
+def formatted(text: str) -> str:
+    """What fprettify makes of a source text."""
+    result = io.StringIO()
+    fprettify.reformat_ffile(io.StringIO(text), result, impose_indent=False, whitespace=2, llength=200, orig_filename="text")
+    return re.sub(r"(\bonly)\s*:(?!:)", r"\1 :", result.getvalue())
+
+
+def main(arguments=None) -> int:
+    """Command line; returns the exit code."""
+    parser = argparse.ArgumentParser(description="check the blanks inside statements with fprettify")
+    parser.add_argument("--fix", action="store_true", help="write the changes instead of listing them")
+    fix = parser.parse_args(arguments).fix
+    logging.disable(logging.WARNING)  # on lines that it thinks too long to touch
+    files = sources("src", "app", "test", "example")
+    changed = 0
+    for path in files:
+        text = path.read_text(encoding="utf-8")
+        better = formatted(text)
+        if better == text:
+            continue
+        changed += 1
+        if fix:
+            path.write_text(better, encoding="utf-8")
+            continue
+        name = str(path.relative_to(ROOT))
+        diff = difflib.unified_diff(text.splitlines(), better.splitlines(), name, name, lineterm="", n=0)
+        print("\n".join(diff), file=sys.stderr)
+    print(f"format: {len(files)} files, {changed} {'changed' if fix else 'faults'}")
+    return 1 if changed and not fix else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

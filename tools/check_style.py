@@ -1,0 +1,163 @@
+#!/usr/bin/env python3
+"""Check the written rules of CONTRIBUTING.md that a script can check.
+
+Usage: tools/check_style.py [--root DIR]
+
+Everywhere: no tabs, no trailing blanks, lines within 130 characters, `only` in every use, `implicit none`, files within 500
+lines, procedures within 60 lines of code. In src and app: one module a file, named after it with our prefix, `private` at
+its top, a unit in brackets on every real declaration. In src: no stop, no print.
+
+A rule is broken on purpose with a comment `style: <rule> because <reason>` on the line or the line above.
+"""
+
+from __future__ import annotations
+
+import argparse
+import pathlib
+import re
+import sys
+
+from fortran_source import ROOT, Statement, sources, statements
+
+PREFIX = "camroller"
+LINE_LIMIT = 130
+FILE_LIMIT = 500
+PROCEDURE_LIMIT = 60
+
+PROCEDURE = re.compile(
+    r"^(?:(?:pure|impure|elemental|recursive|module|(?:real|integer|logical|character|complex|type)\s*\([^)]*\)|"
+    r"real|integer|logical)\s+)*(subroutine|function)\s+(\w+)")
+END_PROCEDURE = re.compile(r"^end\s*(subroutine|function)\b")
+PROGRAM_UNIT = re.compile(r"^(module|program)\s+(?!procedure\b|subroutine\b|function\b)(\w+)$")
+REAL = re.compile(r"^(?:real|complex)\s*(?:\([^)]*\))?\s*(?:,.*)?::")
+UNIT = re.compile(r"\[[^\[\]]+\]|\bunits? (?:as|of|in) ")
+EXCUSE = re.compile(r"style:\s*(\w+)\s+because\s+\S")
+
+
+class Report:
+    """Faults of one file, less those that are excused beside the line."""
+
+    def __init__(self, name: str, lines: list[str]):
+        self.name = name
+        self.lines = lines
+        self.faults: list[str] = []
+
+    def add(self, line: int, rule: str, text: str) -> None:
+        """Note a fault, unless the line or the one above says why the rule is broken."""
+        for number in (line, line - 1):
+            if 1 <= number <= len(self.lines):
+                match = EXCUSE.search(self.lines[number - 1])
+                if match and match[1] == rule:
+                    return
+        self.faults.append(f"{self.name}:{line}: {text} [{rule}]")
+
+
+def check_lines(report: Report) -> None:
+    """Rules on lines as they are."""
+    for number, line in enumerate(report.lines, 1):
+        if "\t" in line:
+            report.add(number, "tab", "a tab")
+        if line != line.rstrip():
+            report.add(number, "blank", "blanks at the end of the line")
+        if len(line) > LINE_LIMIT:
+            report.add(number, "width", f"{len(line)} characters; the limit is {LINE_LIMIT}")
+    if len(report.lines) > FILE_LIMIT:
+        report.add(1, "length", f"{len(report.lines)} lines in one file; the limit is {FILE_LIMIT}")
+
+
+def check_procedures(report: Report, code: list[Statement]) -> None:
+    """Lines of code of each procedure, without comments, blank lines and the procedures it contains."""
+    filled = {n for n, line in enumerate(report.lines, 1) if line.strip() and not line.lstrip().startswith("!")}
+    stack: list[list] = []
+    interface = False
+    for statement in code:
+        text = statement.text
+        if re.match(r"^(abstract\s+)?interface\b", text):
+            interface = True
+        elif re.match(r"^end\s*interface\b", text):
+            interface = False
+        elif interface:
+            continue
+        elif END_PROCEDURE.match(text) and stack:
+            start, name, inner = stack.pop()
+            length = len([n for n in filled if start <= n <= statement.last_line]) - inner
+            if length > PROCEDURE_LIMIT:
+                report.add(start, "procedure", f"{name} has {length} lines of code; the limit is {PROCEDURE_LIMIT}")
+            if stack:
+                stack[-1][2] += length + inner
+        elif not text.startswith("end") and (match := PROCEDURE.match(text)):
+            stack.append([statement.line, match[2], 0])
+
+
+def check_units(report: Report, code: list[Statement]) -> None:
+    """A unit in brackets, or where to find it, in the comment on a real declaration or directly above it."""
+    for statement in code:
+        if not REAL.match(statement.text) or "procedure" in statement.text:
+            continue
+        comment = statement.comment
+        number = statement.line - 1
+        while number >= 1 and report.lines[number - 1].lstrip().startswith("!"):
+            comment += report.lines[number - 1]
+            number -= 1
+        if not UNIT.search(comment):
+            report.add(statement.line, "unit", "a real without its unit in brackets")
+
+
+def check_statements(report: Report, code: list[Statement], folder: str) -> None:
+    """Rules on single statements."""
+    for statement in code:
+        text = statement.text
+        if re.match(r"^use\b(?!.*\bonly\b)", text) and not re.match(r"^use\s*=", text):
+            report.add(statement.line, "only", "use without only")
+        if folder == "src" and re.match(r"^(?:if\s*\(.*\)\s*)?(?:error\s+)?stop\b(?!\s*=)", text):
+            report.add(statement.line, "stop", "stop in the library")
+        if folder == "src" and re.match(r"^(?:if\s*\(.*\)\s*)?(?:print\b(?!\s*=)|write\s*\(\s*\*\s*,)", text):
+            report.add(statement.line, "print", "the library prints")
+
+
+def check_units_of_program(report: Report, code: list[Statement], path: pathlib.Path, folder: str) -> None:
+    """One program unit a file with the right name; `implicit none` and, in modules, `private`."""
+    found = [(s.line, match[1], match[2]) for s in code if (match := PROGRAM_UNIT.match(s.text))]
+    if len(found) != 1:
+        report.add(1, "module", f"{len(found)} modules or programs in one file; one is right")
+        return
+    line, kind, name = found[0]
+    if folder in ("src", "app") and kind == "module" and path.stem != PREFIX and name != f"{PREFIX}_{path.stem}":
+        report.add(line, "name", f"module {name} in {path.name}; {PREFIX}_{path.stem} is right")
+    if not any(s.text == "implicit none" or s.text.startswith("implicit none (") for s in code):
+        report.add(line, "implicit", "no implicit none")
+    if kind == "module" and not any(s.text == "private" for s in code):
+        report.add(line, "private", "no private at the top of the module")
+
+
+def check_file(path: pathlib.Path, root: pathlib.Path) -> list[str]:
+    """All faults of one file."""
+    text = path.read_text(encoding="utf-8")
+    short = path.relative_to(root)
+    folder = short.parts[0]
+    report = Report(str(short), text.splitlines())
+    code = statements(text)
+    check_lines(report)
+    check_procedures(report, code)
+    check_statements(report, code, folder)
+    check_units_of_program(report, code, path, folder)
+    if folder in ("src", "app"):
+        check_units(report, code)
+    return report.faults
+
+
+def main(arguments=None) -> int:
+    """Command line; returns the exit code."""
+    parser = argparse.ArgumentParser(description="check the rules of style that a script can check")
+    parser.add_argument("--root", type=pathlib.Path, default=ROOT, help="top folder of the project")
+    root = parser.parse_args(arguments).root.resolve()
+    files = sources("src", "app", "test", "example", root=root)
+    faults = [fault for path in files for fault in check_file(path, root)]
+    for fault in faults:
+        print(fault, file=sys.stderr)
+    print(f"style: {len(files)} files, {len(faults)} faults")
+    return 1 if faults else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,69 @@
+#!/usr/bin/env python3
+"""Compile every file of ours again, with and without optimisation, and fail on any warning.
+
+Usage: make check-warnings, which sets DEBUG_FLAGS and RELEASE_FLAGS
+
+fpm shows warnings only of what it happens to compile, and -Werror would hit the test library as well.
+"""
+
+from __future__ import annotations
+
+import concurrent.futures
+import json
+import os
+import subprocess
+import sys
+import tempfile
+
+from fortran_source import ROOT
+
+WARNINGS = "-Wall -Wextra -Wimplicit-interface"
+# False alarms of gfortran 12 on assignment to allocatable arrays; reals that are truly not set are found by
+# -finit-real=snan in the tests.
+SILENCED = "-Wno-maybe-uninitialized -Wno-uninitialized"
+
+
+def build_commands(flags: str) -> list[dict]:
+    """Build everything, then ask for the commands of our own files."""
+    fpm = [str(ROOT / ".venv/bin/fpm"), "build", "--tests", "--no-prune", "--flag", flags]
+    result = subprocess.run(fpm, cwd=ROOT, capture_output=True, text=True, check=False, stdin=subprocess.DEVNULL)
+    if result.returncode:
+        sys.exit(result.stdout + result.stderr)
+    subprocess.run(fpm + ["--list"], cwd=ROOT, capture_output=True, check=True, stdin=subprocess.DEVNULL)
+    commands = json.loads((ROOT / "build/compile_commands.json").read_text(encoding="utf-8"))
+    return [c for c in commands if not os.path.normpath(c["file"]).startswith("build/")]
+
+
+def warnings_of(command: dict, folder: str) -> str:
+    """What the compiler says about one file; object and module files go nowhere."""
+    arguments = list(command["arguments"])
+    arguments[arguments.index("-o") + 1] = os.devnull
+    if "-J" in arguments:
+        own = os.path.join(folder, os.path.normpath(command["file"]).replace(os.sep, "_"))
+        os.makedirs(own)
+        modules = arguments.index("-J") + 1
+        arguments += ["-I" + arguments[modules]]
+        arguments[modules] = own
+    arguments += f"{WARNINGS} {SILENCED}".split()
+    result = subprocess.run(arguments, cwd=command["directory"], capture_output=True, text=True, check=False)
+    return result.stderr
+
+
+def main() -> int:
+    """Both builds; returns the exit code."""
+    noisy = 0
+    total = 0
+    for flags in (os.environ["DEBUG_FLAGS"], os.environ["RELEASE_FLAGS"]):
+        commands = build_commands(flags)
+        total += len(commands)
+        with tempfile.TemporaryDirectory() as folder, concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+            for text in pool.map(lambda c: warnings_of(c, folder), commands):
+                if text:
+                    noisy += 1
+                    print(text, file=sys.stderr)
+    print(f"warnings: {total} compilations, {noisy} with warnings")
+    return 1 if noisy else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

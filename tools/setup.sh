@@ -1,0 +1,103 @@
+#!/usr/bin/env bash
+# Set up what building and testing need: system packages, .venv with the tools of requirements.txt, test-drive for fpm.
+#
+# Usage: tools/setup.sh          quick where there is nothing left to do
+# Called by the Makefile. Only installs system packages as root on a machine with apt-get; otherwise says which are
+# missing and ends with exit code 1.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+say() { printf 'setup: %s\n' "$*"; }
+fail() { printf 'setup: %s\n' "$*" >&2; exit 1; }
+
+# ---- system packages ---------------------------------------------------------------------------------------------
+# Looked for by what they bring, so that other systems and other ways to install them do as well.
+missing_packages() {
+    command -v make > /dev/null || echo make
+    command -v git > /dev/null || echo git
+    command -v gcc > /dev/null || echo gcc
+    command -v gfortran > /dev/null || echo gfortran
+    command -v pkg-config > /dev/null || echo pkg-config
+    has_hdf5 || echo libhdf5-dev
+    pkg-config --exists openblas 2> /dev/null || echo libopenblas-dev
+    command -v python3 > /dev/null || echo python3
+    python3 -c 'import ensurepip, venv' 2> /dev/null || echo python3-venv
+}
+
+has_hdf5() {
+    local directory
+    pkg-config --exists hdf5 2> /dev/null || return 1
+    directory=$(pkg-config --cflags-only-I hdf5 | tr -s ' ' '\n' | sed -n 's/^-I//p' | head -n 1)
+    [ -f "${directory:-/usr/include}/hdf5.mod" ]
+}
+
+system_packages() {
+    local missing
+    missing=$(missing_packages | tr '\n' ' ')
+    [ -n "$missing" ] || return 0
+    local install="apt-get install -y --no-install-recommends $missing"
+    command -v apt-get > /dev/null || fail "missing on this system: $missing(names as in Debian 12); install them and repeat"
+    [ "$(id -u)" = 0 ] || fail "missing on this system: $missing; type: sudo $install"
+    say "installing $missing"
+    # shellcheck disable=SC2086  # the names are words
+    { apt-get update -qq && DEBIAN_FRONTEND=noninteractive $install < /dev/null; } > build/apt.log 2>&1 ||
+        { tail -n 20 build/apt.log >&2; fail "cannot install packages; type: apt-get update && $install"; }
+    missing=$(missing_packages | tr '\n' ' ')
+    [ -z "$missing" ] || fail "still missing after the installation: $missing"
+}
+
+# ---- tools in Python ---------------------------------------------------------------------------------------------
+python_tools() {
+    local stamp=.venv/requirements.done
+    if [ -x .venv/bin/python ] && cmp -s requirements.txt "$stamp"; then return 0; fi
+    python3 -c 'import sys; sys.exit(sys.version_info < (3, 11))' ||
+        fail "Python 3.11 or later is needed; python3 is $(python3 --version 2>&1)"
+    say "installing the tools of requirements.txt in .venv"
+    [ -x .venv/bin/python ] || python3 -m venv --clear .venv
+    .venv/bin/python -m pip install --quiet --disable-pip-version-check -r requirements.txt < /dev/null ||
+        fail "pip cannot install requirements.txt"
+    cp requirements.txt "$stamp"
+}
+
+# ---- test-drive --------------------------------------------------------------------------------------------------
+# fpm takes a dependency that it finds in build/dependencies as it is.
+test_drive() {
+    local target=build/dependencies/test-drive
+    [ -f "$target/src/testdrive.F90" ] && return 0
+    rm -rf "$target" build/test-drive.part
+    mkdir -p build/dependencies build/test-drive.part
+    local url tag
+    url=$(sed -n 's/^test-drive\.git = "\(.*\)"/\1/p' fpm.toml)
+    tag=$(sed -n 's/^test-drive\.tag = "\(.*\)"/\1/p' fpm.toml)
+    say "fetching test-drive $tag"
+    if ! clone_test_drive "$url" "$tag" build/test-drive.part/source; then
+        unpack_test_drive build/test-drive.part
+    fi
+    grep -q "^version = \"${tag#v}\"" build/test-drive.part/source/fpm.toml || fail "test-drive is not version ${tag#v}"
+    mv build/test-drive.part/source "$target"
+    rm -rf build/test-drive.part
+}
+
+clone_test_drive() { # url, tag, folder
+    GIT_TERMINAL_PROMPT=0 timeout 10 git ls-remote "$1" HEAD > /dev/null 2>&1 < /dev/null &&
+        GIT_TERMINAL_PROMPT=0 timeout 120 git -c advice.detachedHead=false clone -q --depth 1 --branch "$2" "$1" "$3" < /dev/null
+}
+
+unpack_test_drive() { # folder
+    local options=(--quiet --disable-pip-version-check --no-deps --no-binary tblite --dest "$1" --require-hashes
+        -r tools/test-drive-source.txt)
+    # pip insists on metadata; the archive's own build backend takes minutes for them, the stand-in none.
+    PYTHONPATH="$PWD/tools/stand_in" .venv/bin/python -m pip download --no-build-isolation "${options[@]}" < /dev/null ||
+        .venv/bin/python -m pip download "${options[@]}" < /dev/null ||
+        fail "cannot fetch test-drive, neither by git nor by pip; put its sources into build/dependencies/test-drive"
+    tar -xzf "$1"/tblite-*.tar.gz -C "$1"
+    mv "$1"/tblite-*/subprojects/test-drive "$1/source"
+    git -C "$1/source" init -q
+    git -C "$1/source" add -A
+    git -C "$1/source" -c user.name=setup -c user.email=setup@localhost commit -q -m "test-drive"
+}
+
+mkdir -p build
+system_packages
+python_tools
+test_drive
