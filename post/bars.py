@@ -62,7 +62,8 @@ def torque_bars(figure, layout):
     figure.legend(handles=[Patch(facecolor=tone, hatch=hatch, linewidth=0.0, label=label)
                            for name, label, tone, hatch in SOURCES
                            if any(name in result.summary for result in layout.results)],
-                  loc="outside lower center", ncols=4, frameon=False, columnspacing=1.0, handlelength=1.5)
+                  loc="outside lower center", ncols=4 if figure.bbox.width > 5.0 * figure.dpi else 2, frameon=False,
+                  columnspacing=1.0, handlelength=1.5)
 
 
 def _places(layout, colours, panels):
@@ -90,11 +91,12 @@ def _stack(axes, position, parts, numbered):
 def _case_axis(axes, layout, colours, panels, labelled=True):
     """Axis of the cases: values of the first key below the bars, those of the others below the groups."""
     names = [f"{value:.4g}" if isinstance(value, float) else str(value or "") for value in colours]
-    room = 110 // (len(panels) * (max(map(len, names)) + 2)) or 1
-    step = -(-len(colours) // room)
+    width = axes.figure.bbox.width / axes.figure.dpi
+    room = int(14.0 * width / len(panels) / (max(map(len, names)) + 2))
+    named = thin_out(range(len(names)), room) if room > 1 or len(names) == 1 else []
     starts = [group * (len(colours) + GAP) for group in range(len(panels))]
-    ticks = [(start + place, name) for start in starts for place, name in enumerate(names) if place % step == 0]
-    axes.set_xticks(*zip(*ticks), fontsize="small")
+    ticks = [(start + place, names[place]) for start in starts for place in named]
+    axes.set_xticks([tick for tick, _ in ticks], [name for _, name in ticks], fontsize="small")
     axes.tick_params(axis="x", length=0.0, labelbottom=labelled)
     last = starts[-1] + len(colours) - 1
     room = max(0.8, 0.5 * (4.0 - last))
@@ -110,4 +112,5 @@ def _case_axis(axes, layout, colours, panels, labelled=True):
                          ["\n" + layout.panel_name(panel) for panel in panels], fontsize="small")
         lower.tick_params(length=0.0)
     if layout.colour_key:
-        lower.set_xlabel(layout.axis_name(layout.colour_key))
+        span = "" if named else f", from {names[0]} to {names[-1]} in each group"
+        lower.set_xlabel(layout.axis_name(layout.colour_key) + span)

@@ -29,7 +29,8 @@ def shown(layout, panels):
 def curve_figure(curve, layout, whole_cycle):
     """One quantity over the cam angle, a panel for each value of the second swept key."""
     need_series(layout, curve.series)
-    panels = thin_out(layout.panels, MOST_PANELS)
+    same = same_in_all_panels(layout, curve)
+    panels = layout.panels[:1] if same else thin_out(layout.panels, MOST_PANELS)
     columns = min(len(panels), 3)
     rows = -(-len(panels) // columns)
     figure = Figure(figsize=(7.0 if columns == 1 else 2.0 + 3.2 * columns, 1.6 + 2.9 * rows), layout="constrained")
@@ -46,8 +47,20 @@ def curve_figure(curve, layout, whole_cycle):
             axes.set_title(layout.panel_name(panel), fontsize="medium")
         if place % columns == 0:
             axes.set_ylabel(f"{curve.title} [{unit_text(curve.unit)}]")
-    head(figure, layout, curve.title, legend_handles(layout), shown(layout, panels))
+    values, _ = shown(layout, panels)
+    head(figure, layout, curve.title + (f", the same at each {layout.panel_words()}" if same else ""), legend_handles(layout),
+         (values, len(layout.panels) if same else len(panels)))
     return figure
+
+
+def same_in_all_panels(layout, curve):
+    """Whether a quantity (the lift, say) does not depend on the keys that make the panels."""
+    drawn = {}
+    for entry in layout.entries:
+        values = values_of(layout, entry, curve.series, curve.unit)
+        if values is not None and not np.array_equal(drawn.setdefault((entry.file, entry.colour), values), values):
+            return False
+    return len(layout.panels) > 1 and len(drawn) == len({(entry.file, entry.colour) for entry in layout.entries})
 
 
 def torque_figure(layout, whole_cycle):

@@ -83,6 +83,10 @@ class Layout:
         """Title of a panel; empty without a second swept key."""
         return ", ".join(self.name(key, value) for key, value in zip(self.panel_keys, panel))
 
+    def panel_words(self):
+        """Names of the keys that make the panels."""
+        return " and ".join(self.short_names[key] for key in self.panel_keys)
+
     def axis_name(self, key):
         """Label of an axis along a swept key."""
         unit = self.units[key]

@@ -133,9 +133,8 @@ def head(figure, layout, title, handles, shown):
         words.append(layout.name(layout.colour_key, layout.colours[0]))
     if len(layout.panels) == 1 and layout.panel_name(layout.panels[0]):
         words.append(layout.panel_name(layout.panels[0]))
-    panel_names = " and ".join(layout.short_names[key] for key in layout.panel_keys)
     for count, all_of_them, name in ((shown[0], layout.colours, layout.short_names.get(layout.colour_key)),
-                                     (shown[1], layout.panels, panel_names)):
+                                     (shown[1], layout.panels, layout.panel_words())):
         if count < len(all_of_them):
             words.append(f"{count} of {len(all_of_them)} values of {name} shown")
     width = figure.bbox.width / figure.dpi

@@ -36,6 +36,9 @@ def main(arguments=None):
     try:
         results = [read_result(path) for path in options.files]
         layout = Layout(results, options.cases)
+        for result in results:
+            for case, reason in result.failed_cases():
+                print(f"{result.path}: case {case} has no result: {reason}".rstrip(": "))
         folder = Path(options.output) if options.output else results[0].path.parent
         names = list(FIGURES) if options.figure == "all" else [options.figure]
         drawn = [draw_to_file(name, layout, folder, options) for name in names]

@@ -44,6 +44,7 @@ class Result:
     deck: dict = field(default_factory=dict)
     deck_text: str = ""
     run: dict = field(default_factory=dict)
+    messages: list = field(default_factory=list)
 
     @property
     def cases(self):
@@ -54,20 +55,29 @@ class Result:
     def title(self):
         """Title that the deck gives, else the name of the file."""
         given = self.deck.get("case.title")
-        if given is not None and str(given.values).strip():
-            return str(given.values).strip()
+        if given is not None and str(given.values).strip(" '\""):
+            return str(given.values).strip(" '\"")
         found = re.search(r"&case\b[^/&]*?\btitle\s*=\s*('(?:[^']|'')*'|\"[^\"]*\")", self.deck_text, re.I)
         title = found.group(1)[1:-1].replace("''", "'").strip() if found else ""
         return title or self.path.stem
 
     def value_of(self, key, case):
-        """Value of a deck key (`group.key`) in one case, in the deck's unit; None if not there."""
-        quantity = self.sweep.get(key) or self.deck.get(key)
-        if quantity is None:
+        """Value of a deck key (`group.key`) in one case, in the deck's unit; None if not there or a list."""
+        if key in self.sweep:
+            value = self.sweep[key].values[case]
+        elif key in self.deck and np.ndim(self.deck[key].values) == 0:
+            value = self.deck[key].values
+        else:
             return None
-        values = quantity.values
-        value = values if np.ndim(values) == 0 else values[case] if len(values) == self.cases else None
         return value.item() if isinstance(value, (np.generic, np.ndarray)) else value
+
+    def failed_cases(self):
+        """Cases without a result, each with the reason that the file gives."""
+        status = self.summary.get("status")
+        if status is None:
+            return []
+        return [(int(case), self.messages[case] if case < len(self.messages) else "")
+                for case in np.flatnonzero(status.values)]
 
 
 def read_result(path):
@@ -103,8 +113,9 @@ def _read(path, file):
         if np.shape(quantity.values) != (cases,):
             raise ResultError(f"{path}: swept key {key} does not have one value for each case")
     run = {name: _text(value) for name, value in file["run"].attrs.items()} if "run" in file else {}
+    messages = [_text(message) for message in file["run/messages"][()]] if "run/messages" in file else []
     return Result(path, angle, series, _datasets(file, "summary"),
-                  _in_deck_order(sweep, deck_text, deck), deck, deck_text, run)
+                  _in_deck_order(sweep, deck_text, deck), deck, deck_text, run, messages)
 
 
 def _datasets(file, group):

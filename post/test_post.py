@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import plot
-from figures import FIGURES
+from figures import FIGURES, draw
 from layout import Layout, chosen_cases, thin_out
 from parts import closed, event_window
 from plot import main
@@ -114,6 +114,18 @@ def test_a_value_is_found_whether_swept_or_fixed(tmp_path):
     assert [result.value_of(SPEED, case) for case in range(3)] == [300.0, 600.0, 900.0]
     assert result.value_of(OIL, 2) == 60.0
     assert result.value_of("spring.rate", 0) is None
+
+
+def test_a_list_in_the_deck_is_not_taken_for_values_of_cases(nine):
+    with h5py.File(nine, "a") as file:
+        file["deck/values/camshaft.phases_deg"] = np.arange(9.0)
+    assert read_result(nine).value_of("camshaft.phases_deg", 0) is None
+
+
+def test_a_quantity_that_does_not_change_between_panels_is_drawn_once(nine):
+    layout = Layout([read_result(nine)])
+    assert len(draw("lift", layout).axes) == 1
+    assert len(draw("film", layout).axes) == 3
 
 
 def test_quotes_in_a_title_are_kept(tmp_path):
@@ -250,12 +262,15 @@ def test_other_sweeps_draw_too(tmp_path, options):
     assert len(drawn_files(tmp_path)) == len(names)
 
 
-def test_cases_without_a_solution_leave_gaps(nine):
+def test_cases_without_a_solution_leave_gaps_and_are_named(nine, capsys):
     with h5py.File(nine, "a") as file:
         for data in [*file["series"].values(), *file["summary"].values()]:
             if data.name != "/series/cam_angle":
                 data[0] = np.nan
+        file["summary/status"] = np.array([3] + 8 * [0])
+        file["run/messages"] = np.array(["no periodic state"] + 8 * [""], dtype="S20")
     assert main([str(nine), "--figure", "overview"]) == 0
+    assert f"{nine}: case 0 has no result: no periodic state" in capsys.readouterr().out
 
 
 def test_two_files_are_drawn_over_each_other(tmp_path, monkeypatch):
