@@ -31,17 +31,19 @@ MAY_USE = {
 PHYSICS_FLOORS = [
     {"contact_rule", "materials"},
     {"lubricant"},
+    {"lift_table"},
     {"lift"},
     {"kinematics"},
     {"dynamics"},
     {"hertz"},
     {"film", "ehl", "asperity"},
+    {"load_share"},
     {"traction"},
     {"roller"},
     {"torque"},
 ]
 # Beside the chain: these use nothing of the chain but the bottom, only the top may use them.
-PHYSICS_BESIDE = {"needle", "journal", "guide", "gas_force"}
+PHYSICS_BESIDE = {"needle", "journal", "guide", "gas"}
 
 USE = re.compile(r"^use\s*(?:,\s*(?:non_)?intrinsic\s*)?(?:::)?\s*(\w+)")
 MODULE = re.compile(r"^module\s+(?!procedure\b|subroutine\b|function\b)(\w+)$")

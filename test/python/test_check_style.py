@@ -1,0 +1,96 @@
+"""The style check finds what it is there to find, and nothing in good code."""
+
+import pytest
+from check_style import main
+
+GOOD = """\
+!> A sentence.
+module camroller_sample
+   use camroller_kinds, only : wp
+   implicit none
+   private
+
+   public :: half
+
+   !> Not a real number: print, stop
+   character(len=*), parameter :: words = "print *, stop [m] use camroller_deck"
+
+contains
+
+   !> Half of a length.
+   pure function half(length) result(answer)
+      !> A length [m]
+      real(wp), intent(in) :: length
+      !> Half of it [m]
+      real(wp) :: answer
+
+      real(wp) :: stop_length ! [m]
+
+      stop_length = length
+      answer = 0.5_wp*stop_length
+   end function half
+
+end module camroller_sample
+"""
+
+
+def faults(root, capsys, text, path="src/base/sample.f90"):
+    """Names of the broken rules in one file."""
+    target = root / path
+    target.parent.mkdir(parents=True)
+    target.write_text(text, encoding="utf-8")
+    code = main(["--root", str(root)])
+    lines = capsys.readouterr().err.splitlines()
+    assert code == (1 if lines else 0)
+    return [line[line.rindex("[") + 1:-1] for line in lines]
+
+
+def test_good_code_passes(tmp_path, capsys):
+    assert faults(tmp_path, capsys, GOOD) == []
+
+
+@pytest.mark.parametrize(("old", "new", "rule"), [
+    ("only : wp", "only : wp ", "blank"),
+    ("   private", "\tprivate", "tab"),
+    ("A sentence.", "A sentence." + 120*"x", "width"),
+    (", only : wp", "", "only"),
+    ("   implicit none\n", "", "implicit"),
+    ("   private\n", "", "private"),
+    ("! [m]", "! m", "unit"),
+    ("Half of it [m]", "Half of it", "unit"),
+    ("      answer =", "      print *, length\n      answer =", "print"),
+    ("      answer =", "      if (length < 0) write (*, *) length\n      answer =", "print"),
+    ("      answer =", "      error stop 1\n      answer =", "stop"),
+    ("      answer =", "      if (length < 0) stop\n      answer =", "stop"),
+    ("camroller_sample", "camroller_simple", "name"),
+    ("      answer =", "      stop_length = length\n"*60 + "      answer =", "procedure"),
+    ("!> A sentence.\n", "!> A sentence.\n"*500, "length"),
+    ("!> A sentence.\n", "module camroller_second\nend module\n", "module"),
+])
+def test_each_rule_can_fail(tmp_path, capsys, old, new, rule):
+    assert old in GOOD
+    assert rule in faults(tmp_path, capsys, GOOD.replace(old, new))
+
+
+def test_a_rule_is_excused_with_a_reason(tmp_path, capsys):
+    long = "   !> " + 130*"x" + "\n   public :: half"
+    excused = "   ! style: width because it is an address\n" + long
+    assert faults(tmp_path, capsys, GOOD.replace("   public :: half", excused)) == []
+
+
+def test_an_excuse_without_a_reason_does_not_count(tmp_path, capsys):
+    long = "   ! style: width because\n   !> " + 130*"x" + "\n   public :: half"
+    assert faults(tmp_path, capsys, GOOD.replace("   public :: half", long)) == ["width"]
+
+
+def test_programs_may_print_and_stop(tmp_path, capsys):
+    text = "program main\n   implicit none\n   print *, 1\n   stop\nend program\n"
+    assert faults(tmp_path, capsys, text, "app/main.f90") == []
+
+
+def test_inner_procedures_count_for_themselves(tmp_path, capsys):
+    body = "         x = 1\n"*40
+    inner = "".join(f"      subroutine s{i}()\n{body}      end subroutine s{i}\n" for i in range(3))
+    text = f"module camroller_sample\n   implicit none\n   private\ncontains\n   subroutine s()\n   contains\n{inner}" \
+           "   end subroutine s\nend module\n"
+    assert faults(tmp_path, capsys, text) == []
