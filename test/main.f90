@@ -11,6 +11,9 @@ program main
    use test_error, only : collect_error
    use test_names, only : collect_names
    use test_version, only : collect_version
+   use test_roots, only : collect_roots
+   use test_spline, only : collect_spline
+   use test_lift, only : collect_lift
    implicit none
 
    call run_command_line()
@@ -26,7 +29,10 @@ contains
       suites = [ &
          new_testsuite("error", collect_error), &
          new_testsuite("names", collect_names), &
-         new_testsuite("version", collect_version) &
+         new_testsuite("version", collect_version), &
+         new_testsuite("roots", collect_roots), &
+         new_testsuite("spline", collect_spline), &
+         new_testsuite("lift", collect_lift) &
          ]
 
       call get_argument(1, suite_name)

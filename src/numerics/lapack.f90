@@ -1,0 +1,45 @@
+!> Interfaces of the LAPACK routines in use, so that the compiler checks every call.
+!>
+!> Layer: numerics. The routines have no state, so they are declared pure; a positive `info` is the only way they fail.
+module camroller_lapack
+   use camroller_kinds, only : wp
+   implicit none
+   private
+
+   public :: dgbsv, dpbsv
+
+   interface
+
+      !> Solve a general banded system; `ab` holds the band from row kl + 1 on and is overwritten by its factors.
+      pure subroutine dgbsv(n, kl, ku, nrhs, ab, ldab, ipiv, b, ldb, info)
+         import :: wp
+         !> Unknowns, subdiagonals, superdiagonals, right-hand sides, leading dimension of `ab`, of `b`
+         integer, intent(in) :: n, kl, ku, nrhs, ldab, ldb
+         !> Entry (i, j) of the matrix at (kl + ku + 1 + i - j, j) [any]
+         real(wp), intent(inout) :: ab(ldab, *)
+         !> Pivots
+         integer, intent(out) :: ipiv(*)
+         !> Right-hand sides, then solutions [any]
+         real(wp), intent(inout) :: b(ldb, *)
+         !> 0, or the column of a zero pivot
+         integer, intent(out) :: info
+      end subroutine dgbsv
+
+      !> Solve a symmetric positive definite banded system; `ab` is overwritten by its factor.
+      pure subroutine dpbsv(uplo, n, kd, nrhs, ab, ldab, b, ldb, info)
+         import :: wp
+         !> `U`: the upper triangle is given
+         character(len=1), intent(in) :: uplo
+         !> Unknowns, superdiagonals, right-hand sides, leading dimension of `ab`, of `b`
+         integer, intent(in) :: n, kd, nrhs, ldab, ldb
+         !> Entry (i, j), i <= j, of the matrix at (kd + 1 + i - j, j) [any]
+         real(wp), intent(inout) :: ab(ldab, *)
+         !> Right-hand sides, then solutions [any]
+         real(wp), intent(inout) :: b(ldb, *)
+         !> 0, or the order of the minor that is not positive definite
+         integer, intent(out) :: info
+      end subroutine dpbsv
+
+   end interface
+
+end module camroller_lapack
