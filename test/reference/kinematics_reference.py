@@ -1,12 +1,12 @@
 """Direct geometric construction of the finger follower's kinematics in high precision.
 
-Nothing here uses the closed formulas: positions of the roller centre are placed in a frame fixed to the cam, the contact
-point is put one roller radius along the normal of the path they trace, and every speed and curvature follows from those
-positions by numerical differentiation with mpmath.  The cam's own curvature is that of the constructed profile, the rolling
-speed comes from equal velocities of the two bodies at the contact.
+Nothing here uses the closed formulas: positions of the roller centre are placed in a frame fixed to the cam, the
+contact point is put one roller radius along the normal of the path they trace, and every speed and curvature follows
+from those positions by numerical differentiation with mpmath. The cam's own curvature is that of the constructed
+profile, the rolling speed comes from equal velocities of the two bodies at the contact.
 
-Sources of what is constructed: Dyson (1980), ASLE Trans. 23, 121-132; Islam (2019), thesis, equations (1)-(11).
-Coordinates and the meaning of ``sense`` are those of ``mechanism.py``.
+Sources of what is constructed: Dyson (1980), Tribology International 13, 121-132; Islam (2019),
+thesis, equations (1)-(11). Coordinates and the meaning of ``sense`` are those of ``mechanism.py``.
 """
 from types import SimpleNamespace
 
@@ -129,7 +129,7 @@ class Construction:
         k.h_W, k.h_t = dot(opening, n), sense * dot(opening, t)
         k.h_F = dot(self.cam_velocity(theta), t)
         k.penetration = dot(difference(self.cam_velocity(theta), rate(self.roller, theta)), n)
-        k.turning = sense * cross(n, rate(self.normal_in_space, theta))   # of the normal in space, in the roller's sense
+        k.turning = sense * cross(n, rate(self.normal_in_space, theta))      # of the normal, in the roller's sense
         return k
 
 
@@ -154,11 +154,12 @@ def rows():
 
 HEADER = """\
 # Kinematics of an end-pivoted roller finger follower by direct construction with 50 digits (test/reference).
-# Compare: Dyson (1980) ASLE Trans. 23, 121-132; Islam (2019) thesis, equations (1)-(11).
+# Compare: Dyson (1980) Tribology International 13, 121-132; Islam (2019) thesis, equations (1)-(11).
 # Lift in m, its derivatives per rad of cam angle; angles gamma in rad; radii and arms in m, curvatures in 1/m;
 # speeds divided by the cam speed, in m/rad; _1 and _2 are derivatives with respect to the cam angle (0 deg: nose).
-# thesis: A 20.8, B 35.5, D 31.5 mm, lambda -3.5, chi 37.5 deg, r_B 18, r_R 8.5 mm; lift 9.5 mm (1-x^2)^4, half angle 70 deg
-# skewed: A 24, B 42, D 37 mm, lambda 5, chi 30 deg, r_B 17, r_R 9 mm; lift 9 mm (1-x^2)^3 (1+0.1 x), half angle 55 deg
+# thesis: A 20.8, B 35.5, D 31.5 mm, lambda -3.5, chi 37.5 deg, r_B 18, r_R 8.5 mm;
+#         lift 9.5 mm (1-x^2)^4, x = angle/70 deg
+# skewed: A 24, B 42, D 37 mm, lambda 5, chi 30 deg, r_B 17, r_R 9 mm; lift 9 mm (1-x^2)^3 (1+0.1 x), x = angle/55 deg
 # sense +1: the cam's surface moves away from the pivot at the contact, g = 1 + gamma_1; sense -1: g = 1 - gamma_1.
 # Flanks are nearly straight in places: judge curvatures on the scale 1/r_R, and pitch_radius, cam_radius through them.
 """

@@ -1,17 +1,18 @@
 """Closed-form kinematics of an end-pivoted roller finger follower.
 
-The formulas are those of Dyson (1980, ASLE Trans. 23, 121-132) as used in Islam's thesis (2019, *Tribological study of
-friction in roller follower valve train considering effects of asperity interaction and roller sliding*), equations
-(1)-(11), derived again here, with the exact arms and the exact pure-rolling speed added.
+The formulas are those of Dyson (1980, Tribology International 13, 121-132) as used in Islam's thesis (2019,
+*Tribological study of friction in roller follower valve train considering effects of asperity interaction and roller
+sliding*), equations (1)-(11), derived again here, with the exact arms and the exact pure-rolling speed added.
 
-Names: O cam centre, C finger pivot, R roller centre, V centre of the valve pad.  A = CR, B = CV, D = CO.  ``gamma`` is the
-angle from CO to CV, ``s = gamma + lam`` the angle from CO to CR.  Coordinates: C is the origin, O lies at (D, 0), the
-finger opens the valve counter-clockwise.  ``sense = +1``: the cam turns clockwise, so that its surface moves away from the
-pivot at the contact; ``sense = -1``: the opposite.  A dash is d/dtheta, theta the angle the cam has turned (time angle).
+Names: O cam centre, C finger pivot, R roller centre, V centre of the valve pad. A = CR, B = CV, D = CO. ``gamma``
+is the angle from CO to CV, ``s = gamma + lam`` the angle from CO to CR. Coordinates: C is the origin, O lies at
+(D, 0), the finger opens the valve counter-clockwise. ``sense = +1``: the cam turns clockwise, so that its surface moves
+away from the pivot at the contact; ``sense = -1``: the opposite. A dash is d/dtheta, theta the angle the cam has
+turned (time angle).
 
 Tangential speeds and the roller's spin are positive in the direction of normal rolling; speeds are per unit cam speed
-(metres per radian).  SI units, radians.  Every function takes the module that supplies sin, cos, acos and sqrt (``math``
-or ``mpmath``), so the same lines run in double and in high precision.
+(metres per radian). SI units, radians. Every function takes the module that supplies sin, cos, acos and sqrt
+(``math`` or ``mpmath``), so the same lines run in double and in high precision.
 """
 import math
 from dataclasses import dataclass, replace
@@ -62,7 +63,7 @@ class Geometry:
 
 
 def thesis_geometry(number=float, sense=1, degree=math.pi / 180):
-    """Geometry of Islam's Appendix B; the maximum lift of 9.5 mm is assumed (the thesis shows the curve as a picture)."""
+    """Geometry of Islam's Appendix B; the lift is assumed, since the thesis shows it as a picture only."""
     mm = number(1) / 1000
     return Geometry(A=number('20.8') * mm, B=number('35.5') * mm, D=number('31.5') * mm, lam=number('-3.5') * degree,
                     chi=number('37.5') * degree, r_B=18 * mm, r_R=number('8.5') * mm,
