@@ -14,6 +14,7 @@ program main
    use test_roots, only : collect_roots
    use test_spline, only : collect_spline
    use test_lift, only : collect_lift
+   use test_quadrature, only : collect_quadrature
    implicit none
 
    call run_command_line()
@@ -32,7 +33,8 @@ contains
          new_testsuite("version", collect_version), &
          new_testsuite("roots", collect_roots), &
          new_testsuite("spline", collect_spline), &
-         new_testsuite("lift", collect_lift) &
+         new_testsuite("lift", collect_lift), &
+         new_testsuite("quadrature", collect_quadrature) &
          ]
 
       call get_argument(1, suite_name)
