@@ -15,6 +15,7 @@ program main
    use test_spline, only : collect_spline
    use test_lift, only : collect_lift
    use test_quadrature, only : collect_quadrature
+   use test_asperity, only : collect_asperity
    implicit none
 
    call run_command_line()
@@ -34,7 +35,8 @@ contains
          new_testsuite("roots", collect_roots), &
          new_testsuite("spline", collect_spline), &
          new_testsuite("lift", collect_lift), &
-         new_testsuite("quadrature", collect_quadrature) &
+         new_testsuite("quadrature", collect_quadrature), &
+         new_testsuite("asperity", collect_asperity) &
          ]
 
       call get_argument(1, suite_name)

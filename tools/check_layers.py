@@ -31,7 +31,7 @@ MAY_USE = {
 PHYSICS_FLOORS = [
     {"contact_rule", "materials"},
     {"lubricant"},
-    {"lift_table"},
+    {"lift_table", "greenwood_tripp"},
     {"lift"},
     {"kinematics"},
     {"dynamics"},
@@ -43,7 +43,7 @@ PHYSICS_FLOORS = [
     {"torque"},
 ]
 # Beside the chain: these use nothing of the chain but the bottom, only the top may use them.
-PHYSICS_BESIDE = {"needle", "journal", "guide", "gas"}
+PHYSICS_BESIDE = {"needle", "journal", "camshaft", "guide", "gas"}
 
 USE = re.compile(r"^use\s*(?:,\s*(?:non_)?intrinsic\s*)?(?:::)?\s*(\w+)")
 MODULE = re.compile(r"^module\s+(?!procedure\b|subroutine\b|function\b)(\w+)$")

@@ -65,9 +65,12 @@ def fit(order, top, bottom, passes):
     return best
 
 
-def declaration(name, coefficients):
-    body = ", &\n".join(f"      {mp.nstr(c, 20, min_fixed=1, max_fixed=0)}_wp" for c in coefficients)
-    return f"   real(wp), parameter :: {name}({len(coefficients)}) = [ &\n{body}]"
+def declaration(name, meaning, coefficients):
+    """Fortran text as it stands in the source, four numbers a line."""
+    numbers = [mp.nstr(c, 20, min_fixed=1, max_fixed=0) + "_wp" for c in coefficients]
+    rows = [", ".join(numbers[i : i + 4]) for i in range(0, len(numbers), 4)]
+    head = f"   !> {meaning} exp(H^2/2), powers of H increasing [-]\n"
+    return head + f"   real(wp), parameter :: {name}(0:{len(numbers) - 1}) = [ &\n      " + ", &\n      ".join(rows) + "]"
 
 
 def write_table(path):
@@ -92,8 +95,9 @@ def main():
     for name, order in ORDERS.items():
         p, q, worst = fit(order, arguments.top, arguments.bottom, arguments.passes)
         print(f"   ! {name}: largest relative error {mp.nstr(worst, 2)}")
-        print(declaration(f"{name}_top", p))
-        print(declaration(f"{name}_bottom", q))
+        title = f"F_{int(order)}" if order == int(order) else f"F_{int(2 * order)}/2"
+        print(declaration(f"{name}_top", f"Numerator of {title}", p))
+        print(declaration(f"{name}_bottom", f"Denominator of {title}", q))
     if arguments.table:
         write_table(arguments.table)
 

@@ -1,8 +1,8 @@
 !> Initial value problems: what a problem and a method are, and the loop that drives them.
 !>
 !> Layer: numerics. In: a problem, a method, a tolerance or step, angles at which a step must end. Out: a trajectory and
-!> counters. Methods supply single steps (`ode_explicit`); step-size control, stop times and the loop are here, so that a method
-!> is added by adding a file.
+!> counters. Methods supply single steps (`ode_explicit`); step-size control, stop times and the loop are here, so that
+!> a method is added by adding a file.
 !>
 !> Status of a rate: 0 fine, positive "this trial state is impossible, try a smaller step", negative "give up".
 module camroller_ode
@@ -85,7 +85,8 @@ module camroller_ode
       end subroutine decay_interface
 
       !> One step from an accepted point, which it leaves untouched
-      subroutine step_interface(self, problem, time, state, rate, step, new_state, new_rate, error_estimate, counters, status)
+      subroutine step_interface(self, problem, time, state, rate, step, new_state, new_rate, error_estimate, &
+         counters, status)
          import :: method_t, problem_t, counters_t, wp
          !> The method with its work space
          class(method_t), intent(inout) :: self
@@ -113,8 +114,8 @@ module camroller_ode
    end interface
 
    !> Step-size control: part of the optimal step that is taken, and the exponents of a proportional-integral controller
-   !> divided by the order of the error estimate. Source: Gustafsson, ACM Trans. Math. Softw. 17 (1991) 533; values as usual for
-   !> explicit methods at their stability limit [-]
+   !> divided by the order of the error estimate. Source: Gustafsson, ACM Trans. Math. Softw. 17 (1991) 533; values as
+   !> usual for explicit methods at their stability limit [-]
    real(wp), parameter :: safety = 0.9_wp, proportional = 0.7_wp, integral = 0.4_wp
    !> Largest growth and shrinkage of a step [-]
    real(wp), parameter :: max_growth = 5.0_wp, max_shrinkage = 0.2_wp
@@ -125,8 +126,8 @@ contains
 
    !> Integrate from the first to the last of the stop times; each of them ends a step, none is stepped over.
    !>
-   !> The rate may jump or kink at a stop. Each segment therefore begins and ends a few roundings inside its stops, so that every
-   !> evaluation sees the segment's own side; the state is continuous and does not notice.
+   !> The rate may jump or kink at a stop. Each segment therefore begins and ends a few roundings inside its stops, so
+   !> that every evaluation sees the segment's own side; the state is continuous and does not notice.
    subroutine integrate(problem, method, options, stops, state, trajectory, counters, error)
       !> The problem
       class(problem_t), intent(in) :: problem
@@ -168,14 +169,16 @@ contains
             return
          end if
          call append_point(trajectory, start, state, rate)
-         call integrate_segment(problem, method, options, start, stops(segment + 1) - margin, state, rate, step, last_error, &
+         call integrate_segment(problem, method, options, start, stops(segment + 1) - margin, state, rate, step, &
+            last_error, &
             & trajectory, counters, error)
          if (allocated(error)) return
       end do
    end subroutine integrate
 
    !> Integrate from one stop to the next.
-   subroutine integrate_segment(problem, method, options, start, finish, state, rate, step, last_error, trajectory, counters, &
+   subroutine integrate_segment(problem, method, options, start, finish, state, rate, step, last_error, &
+      trajectory, counters, &
       & error)
       !> The problem
       class(problem_t), intent(in) :: problem
@@ -222,7 +225,8 @@ contains
          if (status > 0) scaled_error = 1.0e3_wp
          if (status == 0 .and. method%error_order > 0) scaled_error = maxval(abs(estimate)/options%tolerance)
          if (status < 0 .or. .not. scaled_error < huge(1.0_wp)) then
-            call raise(error, kind_convergence, "the integration met a state that cannot be evaluated at "//number_text(time))
+            call raise(error, kind_convergence, &
+               "the integration met a state that cannot be evaluated at "//number_text(time))
             return
          end if
 
@@ -234,7 +238,8 @@ contains
             rate = new_rate
             call append_point(trajectory, time, state, rate)
             if (method%error_order > 0) then
-               if (.not. is_last .or. this_step >= step) step = this_step*growth(scaled_error, last_error, method%error_order)
+               if (.not. is_last .or. this_step >= step) step = this_step*growth(scaled_error, last_error, &
+                  method%error_order)
                last_error = max(scaled_error, 1.0e-4_wp)
             end if
             if (is_last) return

@@ -1,7 +1,7 @@
 !> Explicit Runge-Kutta methods: the tables, and the one procedure that steps them.
 !>
-!> Layer: numerics. In: the name of a method. Out: a `method_t`. Each table is data with its paper; order, stability limit
-!> and error estimate are tested.
+!> Layer: numerics. In: the name of a method. Out: a `method_t`. Each table is data with its paper; order, stability
+!> limit and error estimate are tested.
 !>
 !> | method | order | stages | source |
 !> |---|---|---|---|
@@ -114,7 +114,8 @@ contains
    end function method_difference
 
    !> One step of an explicit method.
-   subroutine try_explicit_step(self, problem, time, state, rate, step, new_state, new_rate, error_estimate, counters, status)
+   subroutine try_explicit_step(self, problem, time, state, rate, step, new_state, new_rate, error_estimate, &
+      counters, status)
       !> The method with its work space
       class(explicit_method_t), intent(inout) :: self
       !> The problem

@@ -1,7 +1,7 @@
 !> Integrals: a fixed rule of any order and an adaptive rule with an error estimate.
 !>
-!> Layer: numerics. In: an order, or a function and its interval. Out: places and weights, or the integral. A function to be
-!> integrated is a type that extends `integrand_t` and carries what it needs.
+!> Layer: numerics. In: an order, or a function and its interval. Out: places and weights, or the integral. A function
+!> to be integrated is a type that extends `integrand_t` and carries what it needs.
 !> Sources: Davis and Rabinowitz (1984), Methods of Numerical Integration; Piessens and others (1983), QUADPACK.
 module camroller_quadrature
    use camroller_kinds, only : wp, pi
@@ -19,7 +19,8 @@ module camroller_quadrature
    !> Intervals allowed
    integer, parameter :: max_intervals = 500
 
-   !> Places of the Kronrod rule of 15 points on (-1, 1), positive half; every second one belongs to Gauss' rule of 7 [-]
+   !> Places of the Kronrod rule of 15 points on (-1, 1), positive half; every second one belongs to Gauss' rule of 7
+   !> [-]
    real(wp), parameter :: kronrod_places(8) = [ &
       0.991455371120812639206854697526329_wp, 0.949107912342758524526189684047851_wp, &
       0.864864423359769072789712788640926_wp, 0.741531185599394439863864773280788_wp, &
@@ -113,7 +114,8 @@ contains
       slope = real(n, wp)*(below - x*p)/((1.0_wp - x)*(1.0_wp + x))
    end subroutine legendre
 
-   !> Integral over an interval to an absolute tolerance; the interval of the largest error is halved until the sum is good.
+   !> Integral over an interval to an absolute tolerance; the interval of the largest error is halved until the sum is
+   !> good.
    !>
    !> Errors below round-off of the integral of the magnitude count as reached, whatever the tolerance.
    subroutine integrate(integrand, lower, upper, tolerance, integral, error_estimate, status)
@@ -132,8 +134,9 @@ contains
       !> `integral_reached` or `integral_not_reached`
       integer, intent(out) :: status
 
-      !> Ends of the intervals [x]; integrals, errors and integrals of the magnitude over them [f x]
+      !> Ends of the intervals [x]
       real(wp) :: left(max_intervals), right(max_intervals)
+      !> Integrals, errors and integrals of the magnitude over them [f x]
       real(wp) :: part(max_intervals), doubt(max_intervals), magnitude(max_intervals)
       integer :: n, worst
 

@@ -159,8 +159,9 @@ contains
       !> 0, or that of LAPACK
       integer, intent(out) :: info
 
-      !> Matrix in LAPACK's band storage [-], right-hand side [y], functions and their derivatives [1/x^k]
+      !> Matrix in LAPACK's band storage [-], right-hand side [y]
       real(wp) :: band(3*fit%half_band + 1, size(fit%equation_point)), rhs(size(fit%equation_point), 1)
+      !> Functions and their derivatives [1/x^k]
       real(wp) :: basis(0:spline_degree, spline_degree + 1)
       integer :: pivots(size(fit%equation_point)), a, e, column, i, row
 
@@ -250,8 +251,9 @@ contains
       !> Functions and their derivatives [1/x^k], width of a piece, mean spacing [x], weight of a Gauss point [x^6]
       real(wp) :: basis(0:spline_degree, spline_degree + 1), width, spacing, gauss_weight
       integer :: e, i, n_pieces, q
-      !> Gauss-Legendre rule of three points on (0, 1), exact for the square of a parabola: places and weights [-]
+      !> Gauss-Legendre rule of three points on (0, 1), exact for the square of a parabola: places [-]
       real(wp), parameter :: places(3) = 0.5_wp + [-1.0_wp, 0.0_wp, 1.0_wp]*sqrt(0.15_wp)
+      !> Its weights [-]
       real(wp), parameter :: weights(3) = [5.0_wp, 8.0_wp, 5.0_wp]/18.0_wp
 
       band = 0.0_wp

@@ -1,7 +1,7 @@
 !> Points that an integration has accepted, and the curve through them.
 !>
-!> Layer: numerics. In: time, state and rate at each accepted point. Out: the state at any time between, by cubic Hermite
-!> interpolation on the rates, or linear where the method itself is no better.
+!> Layer: numerics. In: time, state and rate at each accepted point. Out: the state at any time between, by cubic
+!> Hermite interpolation on the rates, or linear where the method itself is no better.
 module camroller_trajectory
    use camroller_kinds, only : wp
    implicit none
@@ -40,7 +40,8 @@ contains
          if (size(trajectory%state, 1) == components) return
          deallocate (trajectory%time, trajectory%state, trajectory%rate)
       end if
-      allocate (trajectory%time(first_room), trajectory%state(components, first_room), trajectory%rate(components, first_room))
+      allocate (trajectory%time(first_room), trajectory%state(components, first_room), trajectory%rate(components, &
+         first_room))
    end subroutine start_trajectory
 
    !> Append a point.

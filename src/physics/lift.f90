@@ -383,6 +383,7 @@ contains
 
       !> The smallest angle left [rad]
       real(wp) :: next
+      !> Angles in order [rad]
       real(wp), allocatable :: sorted(:)
 
       where (angles < -pi .or. angles >= pi) angles = angles - two_pi*floor((angles + pi)/two_pi)

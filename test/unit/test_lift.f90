@@ -267,7 +267,7 @@ contains
       lift%table_angle = [(real(i, wp)*degree, i=-70, 70)]
       call tabulate(lift%table_angle, lift%table_lift)
       call new_lift_law(law, lift, failure)
-      call check(error, .not. allocated(failure), "refused")
+      call check(error, allocated(failure), .false., "refused")
       if (allocated(error)) return
       call new_lift_law(power, lift_t("power", height, opening, opening, [6]), failure)
       do i = -1000, 1000
@@ -295,7 +295,7 @@ contains
       call tabulate(lift%table_angle, lift%table_lift)
       lift%table_lift([111, 251]) = 0.0_wp
       call new_lift_law(long, lift, failure)
-      call check(error, .not. allocated(failure), "refused")
+      call check(error, allocated(failure), .false., "refused")
       if (allocated(error)) return
       lift%table_angle = lift%table_angle(111:251)
       lift%table_lift = lift%table_lift(111:251)
@@ -320,7 +320,7 @@ contains
       lift%table_angle = [(real(i, wp)*degree, i=-180, 180, 2)]
       lift%table_lift = 0.5_wp*height*(1.0_wp + cos(lift%table_angle))
       call new_lift_law(law, lift, failure)
-      call check(error, .not. allocated(failure), "refused")
+      call check(error, allocated(failure), .false., "refused")
       if (allocated(error)) return
       call check(error, size(stop_angles(law)) == 0, "a periodic table has no stops")
       if (allocated(error)) return

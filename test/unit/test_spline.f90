@@ -63,7 +63,7 @@ contains
       ends(:, 1) = quintic(points(1))
       ends(:, 2) = quintic(points(9))
       call new_clamped_spline(spline, points, values, ends(1:2, 1), ends(1:2, 2), 0.0_wp, failure)
-      call check(error, .not. allocated(failure), "refused")
+      call check(error, allocated(failure), .false., "refused")
       if (allocated(error)) return
       do i = 0, 200
          x = -1.0_wp + 0.01_wp*real(i, wp)
@@ -200,7 +200,7 @@ contains
          points = [0.0_wp, 0.5_wp, 1.5_wp, 2.0_wp, 2.5_wp, 3.5_wp, 4.0_wp, 5.0_wp]
          call new_periodic_spline(spline, points(:n), [wave(two_pi*points(:n - 1)/points(n)), wave(0.0_wp)], &
             0.0_wp, failure)
-         call check(error, .not. allocated(failure), "refused")
+         call check(error, allocated(failure), .false., "refused")
          if (allocated(error)) return
          call evaluate_spline(spline, points(1), first, status)
          call evaluate_spline(spline, points(n), last, status)
@@ -271,7 +271,7 @@ contains
          else
             call new_periodic_spline(spline, points, bump, wanted, failure)
          end if
-         call check(error, .not. allocated(failure), "refused")
+         call check(error, allocated(failure), .false., "refused")
          if (allocated(error)) return
          total = 0.0_wp
          do i = 1, n - 1

@@ -1,0 +1,188 @@
+!> Asperities: the integrals against exact values, the kernels against their formulas.
+module test_asperity
+   use testdrive, only : unittest_type, new_unittest, error_type, check
+   use camroller_kinds, only : wp, pi
+   use camroller_quadrature, only : integrand_t, integrate
+   use camroller_greenwood_tripp, only : integral_2, integral_5_2, largest_film_ratio
+   use camroller_asperity, only : asperity_t, asperity_constants_t, new_asperity_constants, asperity_load_function, &
+      asperity_area_function, asperity_load, asperity_area
+   use table_file, only : read_table
+   implicit none
+   private
+
+   public :: collect_asperity
+
+   !> Relative error that the fits claim, with the round-off of exp at exponents up to 32 [-]
+   real(wp), parameter :: fit_error = 1.0e-12_wp
+
+   !> (s - H)^(5/2) exp(-s^2/2)/sqrt(2 pi) over t = sqrt(s - H), which is smooth
+   type, extends(integrand_t) :: summits_t
+      !> H [-]
+      real(wp) :: film_ratio
+   contains
+      procedure :: value => summits_value
+   end type summits_t
+
+contains
+
+   subroutine collect_asperity(testsuite)
+      type(unittest_type), allocatable, intent(out) :: testsuite(:)
+
+      testsuite = [ &
+         new_unittest("integrals and derivatives agree with exact values at 60 points", test_exact), &
+         new_unittest("integrals agree with tabulated quadratures to the digits given", test_table), &
+         new_unittest("F 5/2 agrees with adaptive quadrature", test_quadrature), &
+         new_unittest("derivatives agree with central differences", test_derivatives), &
+         new_unittest("integrals fall and stay positive up to the largest film ratio", test_monotonic), &
+         new_unittest("asperities out of reach carry nothing", test_out_of_reach), &
+         new_unittest("asperity pressure of closed surfaces is 47 MPa", test_closed), &
+         new_unittest("kernels and constants agree", test_constants) &
+         ]
+   end subroutine collect_asperity
+
+   function summits_value(self, x) result(f)
+      class(summits_t), intent(in) :: self
+      real(wp), intent(in) :: x
+      real(wp) :: f
+
+      f = 2.0_wp*x**6*exp(-0.5_wp*(x**2 + self%film_ratio)**2)/sqrt(2.0_wp*pi)
+   end function summits_value
+
+   subroutine test_exact(error)
+      type(error_type), allocatable, intent(out) :: error
+      real(wp), allocatable :: rows(:, :)
+      real(wp) :: value, slope
+      integer :: i
+
+      call read_table("greenwood_tripp_integrals.csv", 5, rows, error)
+      if (allocated(error)) return
+      call check(error, size(rows, 2), 60)
+      if (allocated(error)) return
+      do i = 1, size(rows, 2)
+         call integral_2(rows(1, i), value, slope)
+         call check(error, abs(value/rows(4, i) - 1.0_wp) < fit_error .and. &
+            abs(slope/(-2.0_wp*rows(2, i)) - 1.0_wp) < fit_error, "F_2 or its derivative")
+         if (allocated(error)) return
+         call integral_5_2(rows(1, i), value, slope)
+         call check(error, abs(value/rows(5, i) - 1.0_wp) < fit_error .and. &
+            abs(slope/(-2.5_wp*rows(3, i)) - 1.0_wp) < fit_error, "F_5/2 or its derivative")
+         if (allocated(error)) return
+      end do
+   end subroutine test_exact
+
+   subroutine test_table(error)
+      type(error_type), allocatable, intent(out) :: error
+      real(wp), allocatable :: rows(:, :)
+      real(wp) :: value, slope
+      integer :: i
+
+      call read_table("greenwood_tripp_quadrature.csv", 3, rows, error)
+      if (allocated(error)) return
+      do i = 1, size(rows, 2)
+         ! six digits are given: half a unit of the last one is at most 5e-6 of the value
+         call check(error, abs(asperity_area_function(rows(1, i))/rows(2, i) - 1.0_wp) < 5.0e-6_wp, "F_2")
+         if (allocated(error)) return
+         call asperity_load_function(rows(1, i), value, slope)
+         call check(error, abs(value/rows(3, i) - 1.0_wp) < 5.0e-6_wp, "F_5/2")
+         if (allocated(error)) return
+      end do
+      call asperity_load_function(0.0_wp, value, slope)
+      call check(error, abs(value - 0.6166342190_wp) < 0.5e-10_wp, "F_5/2(0)")
+   end subroutine test_table
+
+   subroutine test_quadrature(error)
+      type(error_type), allocatable, intent(out) :: error
+      real(wp) :: film_ratio, integral, doubt, value, slope
+      integer :: i, status
+
+      do i = 0, 8
+         film_ratio = 0.9_wp*real(i, wp)
+         call integral_5_2(film_ratio, value, slope)
+         ! beyond t = 4 the integrand is below exp(-128)
+         call integrate(summits_t(film_ratio), 0.0_wp, 4.0_wp, 1.0e-14_wp*value, integral, doubt, status)
+         call check(error, abs(value/integral - 1.0_wp) < fit_error)
+         if (allocated(error)) return
+      end do
+   end subroutine test_quadrature
+
+   subroutine test_derivatives(error)
+      type(error_type), allocatable, intent(out) :: error
+      real(wp) :: film_ratio, low(2), high(2), slope(2), unused(2)
+      real(wp), parameter :: h = 1.0e-5_wp
+      integer :: i
+
+      do i = 1, 79
+         film_ratio = 0.1_wp*real(i, wp)
+         call integral_2(film_ratio - h, low(1), unused(1))
+         call integral_5_2(film_ratio - h, low(2), unused(2))
+         call integral_2(film_ratio + h, high(1), unused(1))
+         call integral_5_2(film_ratio + h, high(2), unused(2))
+         call integral_2(film_ratio, unused(1), slope(1))
+         call integral_5_2(film_ratio, unused(2), slope(2))
+         ! truncation h^2/6 times about H^2 of the slope, round-off epsilon/h of it
+         call check(error, all(abs((high - low)/(2.0_wp*h)/slope - 1.0_wp) < sqrt(epsilon(h))))
+         if (allocated(error)) return
+      end do
+   end subroutine test_derivatives
+
+   subroutine test_monotonic(error)
+      type(error_type), allocatable, intent(out) :: error
+      real(wp) :: value(2), before(2), slope(2)
+      integer :: i
+
+      before = 1.0_wp
+      do i = 0, 8000
+         call integral_2(real(i, wp)/1000.0_wp, value(1), slope(1))
+         call integral_5_2(real(i, wp)/1000.0_wp, value(2), slope(2))
+         call check(error, all(value < before) .and. all(value > 0.0_wp) .and. all(slope < 0.0_wp))
+         if (allocated(error)) return
+         before = value
+      end do
+   end subroutine test_monotonic
+
+   subroutine test_out_of_reach(error)
+      type(error_type), allocatable, intent(out) :: error
+      real(wp) :: value(2), slope(2), zero(2)
+
+      call integral_2(nearest(largest_film_ratio, 1.0_wp), value(1), slope(1))
+      call integral_5_2(huge(1.0_wp), value(2), slope(2))
+      call check(error, all(abs(value) <= 0.0_wp) .and. all(abs(slope) <= 0.0_wp), "something is left")
+      if (allocated(error)) return
+      call integral_2(largest_film_ratio, value(1), slope(1))
+      call integral_5_2(largest_film_ratio, value(2), slope(2))
+      call integral_2(0.0_wp, zero(1), slope(1))
+      call integral_5_2(0.0_wp, zero(2), slope(2))
+      call check(error, all(value < 1.0e-16_wp*zero), "the cut is larger than stated")
+   end subroutine test_out_of_reach
+
+   subroutine test_closed(error)
+      type(error_type), allocatable, intent(out) :: error
+      real(wp) :: load, slope
+
+      ! with eta beta sigma 0.04, sigma/beta 0.01 and E' of steel on steel, 201.8 GPa: two digits
+      call asperity_load(0.0_wp, 0.04_wp, 0.01_wp, 201.8e9_wp, 1.0_wp, load, slope)
+      call check(error, abs(load - 47.0e6_wp) < 0.5e6_wp)
+   end subroutine test_closed
+
+   subroutine test_constants(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(asperity_constants_t) :: constants
+      real(wp) :: load, load_slope, area, area_slope, value, slope
+      real(wp), parameter :: film_ratio = 1.3_wp, modulus = 2.0e11_wp, apparent = 1.5e-6_wp
+
+      call new_asperity_constants(constants, asperity_t(0.05_wp, 0.02_wp), modulus)
+      call asperity_load(film_ratio, 0.05_wp, 0.02_wp, modulus, apparent, load, load_slope)
+      call asperity_area(film_ratio, 0.05_wp, apparent, area, area_slope)
+      call asperity_load_function(film_ratio, value, slope)
+      call check(error, load, constants%load_factor*apparent*value, thr=100.0_wp*epsilon(1.0_wp), rel=.true.)
+      if (allocated(error)) return
+      call check(error, load_slope, constants%load_factor*apparent*slope, thr=100.0_wp*epsilon(1.0_wp), rel=.true.)
+      if (allocated(error)) return
+      call check(error, area, constants%area_factor*apparent*asperity_area_function(film_ratio), &
+         thr=100.0_wp*epsilon(1.0_wp), rel=.true.)
+      if (allocated(error)) return
+      call integral_2(film_ratio, value, slope)
+      call check(error, area_slope, pi**2*0.05_wp**2*apparent*slope, thr=100.0_wp*epsilon(1.0_wp), rel=.true.)
+   end subroutine test_constants
+
+end module test_asperity
