@@ -3,7 +3,7 @@
 
 Usage: tools/check_format.py [--fix]
 
-Indentation and continued lines are left as written, and so is the blank before the colon of `only :`.
+Indentation and continued lines are left as written, and so are the blanks in `only :` and `, .not.`.
 """
 
 from __future__ import annotations
@@ -24,7 +24,8 @@ def formatted(text: str) -> str:
     """What fprettify makes of a source text."""
     result = io.StringIO()
     fprettify.reformat_ffile(io.StringIO(text), result, impose_indent=False, whitespace=2, llength=200, orig_filename="text")
-    return re.sub(r"(\bonly)\s*:(?!:)", r"\1 :", result.getvalue())
+    better = re.sub(r"(\bonly)\s*:(?!:)", r"\1 :", result.getvalue())
+    return re.sub(r",\s*\.not\.", ", .not.", better)
 
 
 def main(arguments=None) -> int:

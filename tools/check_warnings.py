@@ -29,7 +29,9 @@ def build_commands(flags: str) -> list[dict]:
     result = subprocess.run(fpm, cwd=ROOT, capture_output=True, text=True, check=False, stdin=subprocess.DEVNULL)
     if result.returncode:
         sys.exit(result.stdout + result.stderr)
-    subprocess.run(fpm + ["--list"], cwd=ROOT, capture_output=True, check=True, stdin=subprocess.DEVNULL)
+    # One thread: fpm writes the list from all its threads at once and damages it.
+    subprocess.run(fpm + ["--list"], cwd=ROOT, capture_output=True, check=True, stdin=subprocess.DEVNULL,
+                   env=os.environ | {"OMP_NUM_THREADS": "1"})
     commands = json.loads((ROOT / "build/compile_commands.json").read_text(encoding="utf-8"))
     return [c for c in commands if not os.path.normpath(c["file"]).startswith("build/")]
 

@@ -68,7 +68,7 @@ contains
       type(error_t), allocatable :: raised
 
       call add_context(raised, "case 12")
-      call check(error,.not. allocated(raised), "context alone made an error")
+      call check(error, .not. allocated(raised), "context alone made an error")
    end subroutine context_on_nothing
 
    !> Shells read 0 as success, 1 is left to the run-time library, 126 and up belong to the shell.

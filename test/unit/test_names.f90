@@ -34,7 +34,7 @@ contains
       call check(error, index_of_name("barus", known), 1)
       if (allocated(error)) return
       call find_name("law", "roelands", known, position, raised)
-      call check(error,.not. allocated(raised), "a known name was refused")
+      call check(error, .not. allocated(raised), "a known name was refused")
       if (allocated(error)) return
       call check(error, position, 3)
    end subroutine known_name_is_found
