@@ -8,7 +8,7 @@ from matplotlib.patches import Patch
 import numpy as np
 
 from layout import MOST_COLOURS, spread_colours, thin_out
-from parts import MOST_PANELS
+from parts import MOST_PANELS, columns_for
 from quantities import SOURCES, mean_of
 
 MOST_BARS = 40
@@ -35,13 +35,14 @@ def slip_bars(figure, layout):
             place = layout.files.index(entry.file)
             axes.bar(position - 0.42 + (place + 0.5) * width, value, width, color=tones[entry.colour], linewidth=0.0,
                      hatch=FILE_HATCHES[place % len(FILE_HATCHES)])
+            if len(colours) * len(panels) * len(layout.files) <= MOST_NUMBERS and np.isfinite(value):
+                number_above(axes, position - 0.42 + (place + 0.5) * width, value, f"{value:.2g}")
     axes.axhline(0.0, color="0.3", linewidth=0.8)
     axes.set_ylabel("mean slip ratio [%]")
     _case_axis(axes, layout, colours, panels)
     if len(layout.files) > 1:
-        figure.legend(handles=[Patch(facecolor="0.4", hatch=FILE_HATCHES[place % len(FILE_HATCHES)], linewidth=0.0,
-                                     label=layout.titles[number]) for place, number in enumerate(layout.files)],
-                      loc="outside lower center", ncols=2, frameon=False)
+        legend_below(figure, [Patch(facecolor="0.4", hatch=FILE_HATCHES[place % len(FILE_HATCHES)], linewidth=0.0,
+                                    label=layout.titles[number]) for place, number in enumerate(layout.files)])
 
 
 def torque_bars(figure, layout):
@@ -54,15 +55,19 @@ def torque_bars(figure, layout):
         for entry, position in places:
             if entry.file == number:
                 _stack(axes, position, _parts(layout, entry), len(colours) * len(panels) <= MOST_NUMBERS)
-        axes.set_ylim(0.0, 1.12 * top or 1.0)
+        axes.set_ylim(0.0, 1.18 * top or 1.0)
         axes.set_ylabel("mean friction\ntorque [N mm]")
         _case_axis(axes, layout, colours, panels, labelled=axes is grid[-1])
         if len(layout.files) > 1:
             axes.set_title(layout.titles[number], fontsize="medium")
-    figure.legend(handles=[Patch(facecolor=tone, hatch=hatch, linewidth=0.0, label=label)
-                           for name, label, tone, hatch in SOURCES
-                           if any(name in result.summary for result in layout.results)],
-                  loc="outside lower center", ncols=4 if figure.bbox.width > 5.0 * figure.dpi else 2, frameon=False,
+    legend_below(figure, [Patch(facecolor=tone, hatch=hatch, linewidth=0.0, label=label)
+                          for name, label, tone, hatch in SOURCES
+                          if any(name in result.summary for result in layout.results)])
+
+
+def legend_below(figure, handles):
+    """Legend below the bars."""
+    figure.legend(handles=handles, loc="outside lower center", ncols=columns_for(figure, handles), frameon=False,
                   columnspacing=1.0, handlelength=1.5)
 
 
@@ -84,8 +89,13 @@ def _stack(axes, position, parts, numbered):
         axes.bar(position, value, 0.84, bottom=bottom, color=tone, hatch=hatch, linewidth=0.0)
         bottom += value
     if numbered:
-        axes.annotate(f"{bottom:.3g}", (position, bottom), (0, 2), textcoords="offset points", ha="center",
-                      fontsize="small")
+        number_above(axes, position, bottom, f"{bottom:.3g}")
+
+
+def number_above(axes, position, top, text):
+    """Value in figures above a bar, or below one that points down."""
+    axes.annotate(text, (position, top), (0, 2 if top >= 0.0 else -2), textcoords="offset points", ha="center",
+                  va="bottom" if top >= 0.0 else "top", fontsize="small")
 
 
 def _case_axis(axes, layout, colours, panels, labelled=True):

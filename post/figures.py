@@ -48,8 +48,8 @@ def curve_figure(curve, layout, whole_cycle):
         if place % columns == 0:
             axes.set_ylabel(f"{curve.title} [{unit_text(curve.unit)}]")
     values, _ = shown(layout, panels)
-    head(figure, layout, curve.title + (f", the same at each {layout.panel_words()}" if same else ""), legend_handles(layout),
-         (values, len(layout.panels) if same else len(panels)))
+    title = curve.title + (f", the same at each {layout.panel_words()}" if same else "")
+    head(figure, layout, title, legend_handles(layout), (values, len(layout.panels) if same else len(panels)))
     return figure
 
 

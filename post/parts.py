@@ -3,7 +3,7 @@
 import textwrap
 
 from matplotlib.lines import Line2D
-from matplotlib.ticker import FuncFormatter, LogLocator, MultipleLocator
+from matplotlib.ticker import FuncFormatter, LogLocator, MultipleLocator, NullFormatter, SymmetricalLogLocator
 import numpy as np
 
 from layout import line_style
@@ -82,17 +82,34 @@ def ranges_of(curve, limits):
 
 
 def set_values_axis(axes, curve, limits):
-    """Range of the upright axis with a little room; logarithmic only for positive values that differ much."""
+    """Range of the upright axis with a little room; logarithmic only where the values differ much."""
     if limits is None:
         return
     low, high = limits
-    if curve.scale == "log" and low > 0.0 and high > 3.0 * low:
+    if curve.scale == "log" and max(abs(low), abs(high)) > 3.0 * low:
+        log_axis(axes, low, high)
+    else:
+        linear_axis(axes, low, high)
+
+
+def log_axis(axes, low, high):
+    """Logarithmic axis; where values are not positive, linear from the third decade below the largest value down."""
+    if low > 0.0:
         axes.set_yscale("log")
         axes.set_ylim(low / 1.2, high * 1.2)
-        axes.yaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
-        axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
-        axes.yaxis.set_minor_formatter(FuncFormatter(lambda value, _: ""))
-        return
+        axes.yaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0) if high < 300.0 * low else (1.0,)))
+    else:
+        threshold = 10.0 ** (np.floor(np.log10(max(abs(low), abs(high)))) - 2.0)
+        axes.set_yscale("symlog", linthresh=threshold, linscale=0.5)
+        axes.set_ylim(1.2 * low - 0.2 * threshold, 1.2 * high + 0.2 * threshold)
+        axes.yaxis.set_major_locator(SymmetricalLogLocator(base=10.0, linthresh=threshold))
+        axes.axhline(0.0, color="0.6", linewidth=0.7, zorder=0)
+    axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    axes.yaxis.set_minor_formatter(NullFormatter())
+
+
+def linear_axis(axes, low, high):
+    """Linear axis, from zero for values that are not negative."""
     room = 0.05 * (high - low) or 0.05 * abs(high) or 1.0
     axes.set_ylim(0.0 if low >= 0.0 else low - room, high + room)
     if low < 0.0:
@@ -137,10 +154,14 @@ def head(figure, layout, title, handles, shown):
                                      (shown[1], layout.panels, layout.panel_words())):
         if count < len(all_of_them):
             words.append(f"{count} of {len(all_of_them)} values of {name} shown")
-    width = figure.bbox.width / figure.dpi
-    text = "\n".join([title[:1].upper() + title[1:], *textwrap.wrap(", ".join(words), int(11.0 * width))]).strip()
-    longest = max([len(handle.get_label()) for handle in handles] + [1])
-    columns = int(max(1, min(len(handles), width * 11.0 / (longest + 8.0))))
+    width = int(11.0 * figure.bbox.width / figure.dpi)
+    text = "\n".join([title[:1].upper() + title[1:], *textwrap.wrap(", ".join(words), width)]).strip()
     legend = figure.legend(handles=handles if len(handles) > 1 else [], title=text, title_fontsize="large",
-                           loc="outside upper center", ncols=columns, frameon=False)
+                           loc="outside upper center", ncols=columns_for(figure, handles), frameon=False)
     legend.get_title().set_multialignment("center")
+
+
+def columns_for(figure, handles):
+    """Columns of a legend so that it is not wider than the figure."""
+    longest = max([len(handle.get_label()) for handle in handles] + [1])
+    return int(max(1, min(len(handles), 11.0 * figure.bbox.width / figure.dpi / (longest + 7.0))))

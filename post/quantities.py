@@ -33,7 +33,7 @@ CURVES = {
     "friction": Curve("contact friction", "friction_contact", "N"),
     "asperity_share": Curve("asperity share", "asperity_friction_share", "%"),
     "rolling": Curve("rolling friction", "friction_rolling", "N", whole_cycle=True),
-    "slip": Curve("slip ratio", "slip_ratio", "%", whole_cycle=True),
+    "slip": Curve("slip ratio", "slip_ratio", "%", whole_cycle=True, scale="log"),
     "friction_torque": Curve("friction torque", "torque_friction", "N m"),
     "total_torque": Curve("drive torque", "torque_drive", "N m"),
 }

@@ -5,13 +5,14 @@ import subprocess
 import sys
 
 import h5py
+from matplotlib.figure import Figure
 import numpy as np
 import pytest
 
 import plot
 from figures import FIGURES, draw
 from layout import Layout, chosen_cases, thin_out
-from parts import closed, event_window
+from parts import closed, event_window, set_values_axis
 from plot import main
 from quantities import CURVES, values_of
 from read import ResultError, read_result
@@ -217,6 +218,15 @@ def test_the_cycle_is_closed_and_the_event_is_in_the_window(nine):
     assert list(angle) == [0.0, 120.0, 240.0, 360.0] and values[-1] == 1.0
     first, last = event_window(Layout([read_result(nine)]))
     assert 60.0 <= first <= 110.0 and 250.0 <= last <= 300.0
+
+
+@pytest.mark.parametrize("limits, scale", [((0.05, 1.3), "log"), ((1.0, 1.3), "linear"), ((-2.0, 60.0), "symlog"),
+                                           ((0.0, 60.0), "symlog"), ((0.0, 0.0), "linear")])
+def test_slip_and_film_have_logarithmic_axes_where_values_differ_much(limits, scale):
+    axes = Figure().subplots()
+    set_values_axis(axes, CURVES["slip"], limits)
+    assert axes.get_yscale() == scale
+    assert axes.get_ylim()[0] <= limits[0] and axes.get_ylim()[1] >= limits[1]
 
 
 def test_all_figures_are_drawn_beside_the_file(nine, tmp_path):
