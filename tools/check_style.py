@@ -90,16 +90,24 @@ def check_procedures(report: Report, code: list[Statement]) -> None:
 
 
 def check_units(report: Report, code: list[Statement]) -> None:
-    """A unit in brackets, or where to find it, in the comment on a real declaration or directly above it."""
+    """A unit in brackets, or where to find it, in the comment on a real declaration or above it.
+
+    One comment may speak for several declarations that follow each other.
+    """
+    shared = ""
+    last_line = 0
     for statement in code:
         if not REAL.match(statement.text) or "procedure" in statement.text:
             continue
-        comment = statement.comment
+        above = ""
         number = statement.line - 1
         while number >= 1 and report.lines[number - 1].lstrip().startswith("!"):
-            comment += report.lines[number - 1]
+            above += report.lines[number - 1]
             number -= 1
-        if not UNIT.search(comment):
+        if above or last_line != statement.line - 1:
+            shared = above
+        last_line = statement.last_line
+        if not UNIT.search(statement.comment + shared):
             report.add(statement.line, "unit", "a real without its unit in brackets")
 
 

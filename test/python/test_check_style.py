@@ -83,6 +83,16 @@ def test_an_excuse_without_a_reason_does_not_count(tmp_path, capsys):
     assert faults(tmp_path, capsys, GOOD.replace("   public :: half", long)) == ["width"]
 
 
+def test_one_comment_speaks_for_declarations_that_follow_each_other(tmp_path, capsys):
+    line = "      real(wp) :: stop_length ! [m]"
+    assert line in GOOD
+    pair = "      !> Both [m]\n      real(wp) :: a\n      real(wp) :: b\n"
+    assert faults(tmp_path, capsys, GOOD.replace(line, pair)) == []
+    apart = pair.replace("a\n", "a\n      integer :: i\n")
+    (tmp_path / "other").mkdir()
+    assert faults(tmp_path / "other", capsys, GOOD.replace(line, apart)) == ["unit"]
+
+
 def test_programs_may_print_and_stop(tmp_path, capsys):
     text = "program main\n   implicit none\n   print *, 1\n   stop\nend program\n"
     assert faults(tmp_path, capsys, text, "app/main.f90") == []

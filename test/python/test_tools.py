@@ -40,15 +40,39 @@ def test_set_up_repeats_without_work():
     assert (result.returncode, result.stdout, result.stderr) == (0, "", "")
 
 
-def test_set_up_names_what_is_missing(tmp_path):
-    """Without a compiler and without apt-get: a message with the names of the packages, and no traceback."""
-    for name in ("bash", "dirname", "env", "tr", "sed", "head", "mkdir", "python3", "git", "make", "gcc", "pkg-config"):
+def run_set_up(folder, apt_get=None):
+    """Run the set-up on a machine without gfortran, with the given text as apt-get."""
+    for name in ("bash", "dirname", "env", "tr", "sed", "head", "tail", "mkdir", "python3", "git", "make", "gcc", "pkg-config"):
         found = subprocess.run(["bash", "-c", f"command -v {name}"], capture_output=True, text=True, check=False).stdout
         if found.strip():
-            (tmp_path / name).symlink_to(pathlib.Path(found.strip()))
-    environment = {"PATH": str(tmp_path), "HOME": str(tmp_path)}
-    result = subprocess.run([ROOT / "tools/setup.sh"], env=environment, capture_output=True, text=True, check=False,
-                            stdin=subprocess.DEVNULL)
+            (folder / name).symlink_to(pathlib.Path(found.strip()))
+    scripts = {"id": "echo 0", "apt-get": apt_get}
+    for name, text in scripts.items():
+        if text is not None:
+            (folder / name).write_text(f"#!{folder}/bash\n{text}\n", encoding="utf-8")
+            (folder / name).chmod(0o755)
+    environment = {"PATH": str(folder), "HOME": str(folder)}
+    return subprocess.run([ROOT / "tools/setup.sh"], env=environment, capture_output=True, text=True, check=False,
+                          stdin=subprocess.DEVNULL)
+
+
+def test_set_up_names_what_is_missing(tmp_path):
+    result = run_set_up(tmp_path)
     assert result.returncode == 1
     assert "gfortran" in result.stderr
     assert "install them and repeat" in result.stderr
+
+
+def test_set_up_installs_only_what_is_missing(tmp_path):
+    result = run_set_up(tmp_path, f'echo "$@" >> {tmp_path}/calls')
+    calls = (tmp_path / "calls").read_text(encoding="utf-8").splitlines()
+    assert calls == ["update -qq", "install -y --no-install-recommends gfortran"]
+    assert result.returncode == 1
+    assert "still missing after the installation: gfortran" in result.stderr
+
+
+def test_set_up_shows_why_an_installation_failed(tmp_path):
+    result = run_set_up(tmp_path, "echo no space left >&2; exit 100")
+    assert result.returncode == 1
+    assert "no space left" in result.stderr
+    assert "type: apt-get update && apt-get install" in result.stderr
