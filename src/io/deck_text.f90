@@ -408,16 +408,16 @@ contains
    end function next_column
 
    !> Character at a column; a blank after the end.
-   pure function character_at(line, column) result(character)
+   pure function character_at(line, column) result(found)
       !> The line
       character(len=*), intent(in) :: line
       !> The column
       integer, intent(in) :: column
       !> What stands there
-      character(len=1) :: character
+      character(len=1) :: found
 
-      character = " "
-      if (column <= len(line)) character = line(column:column)
+      found = " "
+      if (column <= len(line)) found = line(column:column)
    end function character_at
 
    !> A text with small letters.

@@ -2,6 +2,7 @@
 
 import pathlib
 import subprocess
+import sys
 
 import pytest
 from fortran_source import ROOT, statements
@@ -42,10 +43,11 @@ def test_set_up_repeats_without_work():
 
 def run_set_up(folder, apt_get=None):
     """Run the set-up on a machine without gfortran, with the given text as apt-get."""
-    for name in ("bash", "dirname", "env", "tr", "sed", "head", "tail", "mkdir", "python3", "git", "make", "gcc", "pkg-config"):
+    for name in ("bash", "dirname", "env", "tr", "sed", "head", "tail", "mkdir", "git", "make", "gcc", "pkg-config"):
         found = subprocess.run(["bash", "-c", f"command -v {name}"], capture_output=True, text=True, check=False).stdout
         if found.strip():
             (folder / name).symlink_to(pathlib.Path(found.strip()))
+    (folder / "python3").symlink_to(pathlib.Path(sys.executable).resolve())
     scripts = {"id": "echo 0", "apt-get": apt_get}
     for name, text in scripts.items():
         if text is not None:
