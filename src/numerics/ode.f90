@@ -19,6 +19,7 @@ module camroller_ode
    contains
       procedure(rate_interface), deferred :: get_rate
       procedure(decay_interface), deferred :: get_decay_rate
+      procedure(words_interface), deferred :: name_time
    end type problem_t
 
    !> Work done, comparable between machines
@@ -83,6 +84,17 @@ module camroller_ode
          !> Decay rate, zero where the problem does not know it [1/time]
          real(wp), intent(out) :: decay_rate
       end subroutine decay_interface
+
+      !> A time in the words of messages, e.g. `cam angle 214.5 deg`
+      function words_interface(self, time) result(text)
+         import :: problem_t, wp
+         !> The problem; read only
+         class(problem_t), intent(in) :: self
+         !> Time [time]
+         real(wp), intent(in) :: time
+         !> It in words
+         character(len=:), allocatable :: text
+      end function words_interface
 
       !> One step from an accepted point, which it leaves untouched
       subroutine step_interface(self, problem, time, state, rate, step, new_state, new_rate, error_estimate, &
@@ -165,7 +177,7 @@ contains
          call problem%get_rate(start, state, rate, status)
          counters%evaluations = counters%evaluations + 1
          if (status /= 0) then
-            call raise(error, kind_convergence, "the right-hand side has no value at "//number_text(start))
+            call raise(error, kind_convergence, "the right-hand side has no value at "//problem%name_time(start))
             return
          end if
          call append_point(trajectory, start, state, rate)
@@ -226,7 +238,7 @@ contains
          if (status == 0 .and. method%error_order > 0) scaled_error = maxval(abs(estimate)/options%tolerance)
          if (status < 0 .or. .not. scaled_error < huge(1.0_wp)) then
             call raise(error, kind_convergence, &
-               "the integration met a state that cannot be evaluated at "//number_text(time))
+               "the integration met a state that cannot be evaluated at "//problem%name_time(time))
             return
          end if
 
@@ -247,16 +259,16 @@ contains
             counters%rejected = counters%rejected + 1
             step = this_step*max(max_shrinkage, safety*scaled_error**(-1.0_wp/max(method%error_order, 1)))
             if (method%error_order == 0) then
-               call raise(error, kind_convergence, "a fixed step failed at "//number_text(time))
+               call raise(error, kind_convergence, "a fixed step failed at "//problem%name_time(time))
                return
             end if
          end if
          if (counters%accepted + counters%rejected > options%max_steps) then
-            call raise(error, kind_convergence, "the number of steps is used up at "//number_text(time))
+            call raise(error, kind_convergence, "the number of steps is used up at "//problem%name_time(time))
             return
          end if
          if (step <= 16.0_wp*spacing(max(abs(start), abs(finish)))) then
-            call raise(error, kind_convergence, "the step has become too small at "//number_text(time))
+            call raise(error, kind_convergence, "the step has become too small at "//problem%name_time(time))
             return
          end if
       end do
@@ -304,18 +316,5 @@ contains
       factor = safety*max(scaled_error, 1.0e-4_wp)**(-proportional/error_order)*last_error**(integral/error_order)
       factor = min(max_growth, max(max_shrinkage, factor))
    end function growth
-
-   !> A time for a message.
-   pure function number_text(value) result(text)
-      !> A number [time]
-      real(wp), intent(in) :: value
-      !> It in words
-      character(len=:), allocatable :: text
-
-      character(len=24) :: buffer
-
-      write (buffer, "(g0.8)") value
-      text = trim(buffer)
-   end function number_text
 
 end module camroller_ode

@@ -156,7 +156,8 @@ contains
    !> Geometry for one value of the lift and its derivatives.
    !>
    !> Sources: Islam (2019) eqs. (1)-(6), (10), (11) with the last term of (2) as `A D g (1 + g) cos s` and `r_R^2` in (10);
-   !> exact arm of the contact normal and speed of pure rolling with the turning of the contact normal: `doc/theory.md`.
+   !> exact arm of the contact normal and speed of pure rolling with the turning of the contact normal, which comes out as
+   !> `V_roll = omega (M - r_R)`: `doc/theory.md`.
    !> Note: written in curvatures, so that straight and hollow flanks are regular.
    !> The caller has checked that the lift keeps `|cos(gamma + chi)| < 1`; status is not 0 where it does not.
    pure subroutine evaluate_position(linkage, lift, position, status)
@@ -179,10 +180,6 @@ contains
       real(wp) :: m, m_1, l2, l2_1
       ! A D cos s and A D sin s [m^2]
       real(wp) :: ad_cos, ad_sin
-      ! h_F M + r_R M and its derivative [m^2]
-      real(wp) :: arm_m, arm_m_1
-      ! Derivatives of cam arm and tangent arm [m/rad]
-      real(wp) :: cam_arm_1, tangent_arm_1
 
       status = -1
       cos_pad = linkage%base_cosine - lift(0)/linkage%b
@@ -221,15 +218,12 @@ contains
 
       position%normal_arm = ad_sin/m
       position%parallel_arm = linkage%a*sin(position%arm_angle + linkage%valve_axis_angle)
-      arm_m = linkage%d**2 + linkage%a**2*g - ad_cos*(1.0_wp + g)
-      position%cam_arm = arm_m/m - linkage%roller_radius
+      position%cam_arm = (linkage%d**2 + linkage%a**2*g - ad_cos*(1.0_wp + g))/m - linkage%roller_radius
       position%tangent_arm = (ad_cos - linkage%a**2*g)/m
-      position%rolling_travel = position%cam_arm - linkage%sense*gamma_1*position%tangent_arm
 
-      arm_m_1 = linkage%a**2*g_1 - ad_cos*g_1 + ad_sin*gamma_1*(1.0_wp + g)
-      cam_arm_1 = (arm_m_1 - arm_m*m_1/m)/m
-      tangent_arm_1 = -(ad_sin*gamma_1 + linkage%a**2*g_1 + position%tangent_arm*m_1)/m
-      position%rolling_travel_slope = cam_arm_1 - linkage%sense*(gamma_2*position%tangent_arm + gamma_1*tangent_arm_1)
+      ! omega h_F - sense gamma' omega h_t, with the arms written out, is omega (M - r_R)
+      position%rolling_travel = m - linkage%roller_radius
+      position%rolling_travel_slope = m_1
    end subroutine evaluate_position
 
 end module camroller_kinematics

@@ -157,7 +157,7 @@ contains
       integer, intent(in) :: law
       !> U [-]
       real(wp), intent(in) :: speed_group
-      !> W/(E' R L) with the whole load [-]
+      !> W/(E' R L): with the whole load for Goksem and Hargreaves, with the film's load for Biboulet and Houpert [-]
       real(wp), intent(in) :: load_group
       !> E' [Pa]
       real(wp), intent(in) :: modulus

@@ -1,0 +1,136 @@
+!> How film and asperities share a load: the film ratio at which both carry all of it.
+!>
+!> Layer: physics. In: groups of the contact, film law, asperity constants. Out: film, asperity load, real area; dimensionless.
+!> With `h(w)` the film that a film load w leaves and `w_a(h)` the asperity load at a film h, the equation is
+!> `h = h(W* - w_a(h))`. Its left side rises and its right side falls with h, so there is one root. As the speed tends to
+!> zero the root tends to the dry gap, `w_a(h_dry) = W*`, or to zero where the asperities alone cannot carry the load.
+module camroller_load_share
+   use camroller_kinds, only : wp
+   use camroller_film, only : groups_t, film_shape_t, film_shape, takes_whole_load
+   use camroller_asperity, only : asperity_constants_t, asperity_load_function, asperity_area_function, largest_film_ratio
+   implicit none
+   private
+
+   public :: share_t, share_load
+
+   !> Film and load share
+   type :: share_t
+      !> Minimum and central film over equivalent radius [-]
+      real(wp) :: film_min, film_central
+      !> Asperity load over E' R L [-]
+      real(wp) :: asperity_load
+      !> Real over apparent contact area [-]
+      real(wp) :: real_area_ratio
+   end type share_t
+
+   !> Smallest central film over equivalent radius [-]: far below a molecule, it keeps the traction slope finite at standstill
+   real(wp), parameter :: smallest_film = 1.0e-10_wp
+   !> Change of the film ratio, relative, at which the iteration ends [-]: the step after it would be below round-off
+   real(wp), parameter :: tolerance = 1.0e-9_wp
+   !> Iterations: bisection from the widest bracket would need about 60
+   integer, parameter :: max_iterations = 100
+
+contains
+
+   !> Share a load between film and asperities.
+   pure subroutine share_load(law, groups, share, asperity, area)
+      !> Position in `film_law_names`
+      integer, intent(in) :: law
+      !> Groups of the contact with the whole load, which is positive
+      type(groups_t), intent(in) :: groups
+      !> Film and load share
+      type(share_t), intent(out) :: share
+      !> Asperities; absent: the film carries everything
+      type(asperity_constants_t), intent(in), optional :: asperity
+      !> Apparent area over E' R L, to go with `asperity` [1/Pa]
+      real(wp), intent(in), optional :: area
+
+      type(film_shape_t) :: shape
+      ! Asperity load over E' R L for F_5/2 = 1 [-]
+      real(wp) :: capacity
+      ! Film ratio [-]
+      real(wp) :: film_ratio
+
+      shape%minimum = 0.0_wp
+      shape%central = 0.0_wp
+      if (groups%speed > 0.0_wp) call film_shape(law, groups, shape)
+      share%asperity_load = 0.0_wp
+      share%real_area_ratio = 0.0_wp
+      if (present(asperity)) then
+         capacity = asperity%load_factor*area
+         film_ratio = shape%minimum/groups%roughness
+         if (film_ratio < largest_film_ratio) then
+            call share_with_asperities(law, groups, capacity, film_ratio, share%asperity_load, shape)
+            share%real_area_ratio = asperity%area_factor*asperity_area_function(film_ratio)
+            shape%minimum = film_ratio*groups%roughness
+         end if
+      end if
+      share%film_min = shape%minimum
+      share%film_central = max(shape%central, shape%minimum, smallest_film)
+   end subroutine share_load
+
+   !> Film ratio at which the asperities carry what the film does not, by Newton's method on logarithms inside a bracket.
+   pure subroutine share_with_asperities(law, groups, capacity, film_ratio, asperity_load, shape)
+      !> Position in `film_law_names`
+      integer, intent(in) :: law
+      !> Groups of the contact with the whole load
+      type(groups_t), intent(in) :: groups
+      !> Asperity load over E' R L for F_5/2 = 1 [-]
+      real(wp), intent(in) :: capacity
+      !> In: film ratio with the film carrying everything; out: film ratio [-]
+      real(wp), intent(inout) :: film_ratio
+      !> Asperity load over E' R L [-]
+      real(wp), intent(out) :: asperity_load
+      !> In: film that carries everything; out: film
+      type(film_shape_t), intent(inout) :: shape
+
+      type(groups_t) :: film_groups
+      ! Bracket of the film ratio, its change relative [-]
+      real(wp) :: low, high, change
+      ! F_5/2, d F_5/2/d H, load of the film over E' R L and its derivative over ln H [-]
+      real(wp) :: value, slope, film_load, film_load_slope
+      integer :: iteration
+      logical :: has_film
+
+      call asperity_load_function(film_ratio, value, slope)
+      asperity_load = min(capacity*value, groups%load)
+      if (takes_whole_load(law)) return
+      if (groups%speed <= 0.0_wp .and. asperity_load < groups%load) return
+
+      film_groups = groups
+      low = film_ratio
+      high = largest_film_ratio
+      do iteration = 1, max_iterations
+         film_load = groups%load - capacity*value
+         change = 0.0_wp
+         has_film = film_load > 0.0_wp .and. groups%speed > 0.0_wp
+         if (has_film) then
+            film_groups%load = film_load
+            call film_shape(law, film_groups, shape)
+            film_load_slope = -capacity*slope*film_ratio
+            change = log(shape%minimum/(film_ratio*groups%roughness)) &
+               & /(1.0_wp - shape%minimum_load_slope*film_load_slope/film_load)
+            if (abs(change) <= tolerance) then
+               film_ratio = film_ratio*(1.0_wp + change)
+               asperity_load = groups%load - film_load - film_load_slope*change
+               shape%central = shape%central*(1.0_wp + shape%central_load_slope*film_load_slope/film_load*change)
+               return
+            end if
+         end if
+         ! Without a positive film load the film ratio is below the root; at standstill it is above it otherwise
+         if (film_load <= 0.0_wp .or. change > 0.0_wp) then
+            low = max(low, film_ratio)
+         else
+            high = min(high, film_ratio)
+         end if
+         if (high - low <= 4.0_wp*spacing(high)) exit
+         if (has_film) film_ratio = film_ratio*exp(change)
+         if (.not. has_film .or. film_ratio <= low .or. film_ratio >= high) film_ratio = low + 0.5_wp*(high - low)
+         call asperity_load_function(film_ratio, value, slope)
+      end do
+      film_ratio = high
+      call asperity_load_function(film_ratio, value, slope)
+      asperity_load = min(capacity*value, groups%load)
+   end subroutine share_with_asperities
+
+end module camroller_load_share

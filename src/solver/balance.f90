@@ -1,0 +1,88 @@
+!> The algebraic balance of the roller: the sliding speed at which its spin follows the kinematics at once.
+!>
+!> Layer: solver. In: model, cam angle. Out: sliding speed at which `dV_s/dtheta` vanishes, decay rate there. Used as a starting
+!> point and as a scale; exact where the decay is fast against the change of the kinematics.
+module camroller_balance
+   use camroller_kinds, only : wp
+   use camroller_model, only : model_t
+   use camroller_kinematics, only : position_t
+   use camroller_dynamics, only : moments_t
+   use camroller_contact, only : contact_t
+   use camroller_state, only : evaluate_loading, evaluate_spin
+   use camroller_spin, only : rolling_speed_at, rolling_speed_slope
+   use camroller_roots, only : bracket_t, start_bracket, narrow_bracket, root_wanted, root_found
+   implicit none
+   private
+
+   public :: find_balance
+
+   !> Accuracy of the sliding speed over the speed of pure rolling [-]: far below any slip of interest
+   real(wp), parameter :: slip_tolerance = 1.0e-14_wp
+
+contains
+
+   !> Sliding speed of the algebraic balance at an angle.
+   subroutine find_balance(model, angle, position, sliding_speed, decay_rate, is_found)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> Cam angle from full lift [rad]
+      real(wp), intent(in) :: angle
+      !> Geometry there
+      type(position_t), intent(out) :: position
+      !> Sliding speed [m/s]; zero where there is none
+      real(wp), intent(out) :: sliding_speed
+      !> Decay rate of a disturbance there [1/rad]
+      real(wp), intent(out) :: decay_rate
+      !> Is there a balance with a sliding speed below that of a roller at rest?
+      logical, intent(out) :: is_found
+
+      type(moments_t) :: moments
+      type(contact_t) :: contact
+      type(bracket_t) :: bracket
+      ! Gas force [N]; largest sliding speed looked at [m/s]; dV_s/dtheta and at both ends of the bracket [m/s/rad]
+      real(wp) :: force, limit, rate, rate_low, rate_high
+      integer :: status
+
+      sliding_speed = 0.0_wp
+      decay_rate = 0.0_wp
+      is_found = .false.
+      call evaluate_loading(model, angle, position, force, moments, status)
+      if (status /= 0) return
+      limit = abs(rolling_speed_at(model, position))
+      call sliding_rate(model, position, moments, -limit, contact, rate_low)
+      call sliding_rate(model, position, moments, limit, contact, rate_high)
+      call start_bracket(bracket, -limit, limit, rate_low, rate_high, slip_tolerance*limit)
+      do while (bracket%status == root_wanted)
+         call sliding_rate(model, position, moments, bracket%trial, contact, rate)
+         call narrow_bracket(bracket, rate)
+      end do
+      is_found = bracket%status == root_found .and. contact%is_touching
+      if (.not. is_found) return
+      sliding_speed = bracket%trial
+      decay_rate = model%roller_radius**2*contact%traction_slope/(model%roller_inertia*model%speed)
+   end subroutine find_balance
+
+   !> dV_s/dtheta at a sliding speed.
+   subroutine sliding_rate(model, position, moments, sliding_speed, contact, rate)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> Geometry at this angle
+      type(position_t), intent(in) :: position
+      !> Moments about the pivot
+      type(moments_t), intent(in) :: moments
+      !> Sliding speed [m/s]
+      real(wp), intent(in) :: sliding_speed
+      !> State of the contact
+      type(contact_t), intent(out) :: contact
+      !> dV_s/dtheta [m/s/rad]
+      real(wp), intent(out) :: rate
+
+      ! Angular acceleration [rad/s^2]
+      real(wp) :: acceleration
+      integer :: status
+
+      call evaluate_spin(model, position, moments, sliding_speed, contact, acceleration, status)
+      rate = rolling_speed_slope(model, position) - model%roller_radius*acceleration/model%speed
+   end subroutine sliding_rate
+
+end module camroller_balance

@@ -1,0 +1,195 @@
+!> The periodic cycle of one follower: where to start, the integration, and the state at any angle afterwards.
+!>
+!> Layer: solver. In: model, numerics. Out: `cycle_t`, from which states, series and means are taken. The contraction over a
+!> cycle is so strong that a start from the algebraic balance at the angle of fastest decay is periodic after one cycle as a
+!> rule; it is checked, and further cycles are integrated where it is not.
+module camroller_cycle
+   use camroller_kinds, only : wp, pi, two_pi, degree
+   use camroller_error, only : error_t, raise, add_context, kind_convergence
+   use camroller_names, only : find_name
+   use camroller_case, only : numerics_t, method_names
+   use camroller_model, only : model_t
+   use camroller_kinematics, only : position_t
+   use camroller_dynamics, only : moments_t
+   use camroller_state, only : state_t, evaluate_state, evaluate_loading
+   use camroller_events, only : find_stops, cycle_stops
+   use camroller_spin, only : spin_problem_t, rolling_speed_at
+   use camroller_balance, only : find_balance
+   use camroller_ode, only : options_t, counters_t, integrate
+   use camroller_ode_explicit, only : explicit_method_t, new_explicit_method
+   use camroller_trajectory, only : trajectory_t, interpolate_state
+   implicit none
+   private
+
+   public :: cycle_t, integrate_cycle, state_at
+
+   !> One periodic cycle
+   type :: cycle_t
+      type(trajectory_t) :: trajectory
+      type(counters_t) :: counters
+      !> Is the trajectory that of the roller's surface speed instead of the sliding speed?
+      logical :: has_surface_speed = .false.
+      !> Is the solution no better than linear between its points?
+      logical :: is_linear = .false.
+      !> Cam angle from full lift where the cycle starts [rad]
+      real(wp) :: start = 0.0_wp
+      !> Stops of the cycle, with start and end [rad]
+      real(wp), allocatable :: stops(:)
+      !> Cycles integrated until start and end agreed
+      integer :: cycles = 0
+      !> Difference of the sliding speed between end and start, relative to its largest value [-]
+      real(wp) :: closure = 0.0_wp
+   end type cycle_t
+
+   !> Angles at which the algebraic balance is tried
+   integer, parameter :: balance_points = 72
+   !> Cam angle over which the difference between algebraic balance and periodic state decays before the cycle [rad]
+   real(wp), parameter :: run_up_angle = 5.0_wp*degree
+   !> Largest step [rad]
+   real(wp), parameter :: largest_step = 10.0_wp*degree
+   !> Sliding speed that counts as a scale where the balance gives less, over the speed of pure rolling [-]
+   real(wp), parameter :: least_slip = 1.0e-5_wp
+
+contains
+
+   !> Integrate until the cycle is periodic.
+   subroutine integrate_cycle(cycle, model, numerics, error)
+      !> The cycle
+      type(cycle_t), intent(out) :: cycle
+      !> The model
+      type(model_t), intent(in), target :: model
+      !> Method, tolerance, criterion
+      type(numerics_t), intent(in) :: numerics
+      !> Deck error for an unknown method, convergence error where the cycle does not become periodic
+      type(error_t), allocatable, intent(out) :: error
+
+      type(spin_problem_t) :: problem
+      type(explicit_method_t) :: method
+      type(options_t) :: options
+      ! Stops within one turn [rad]
+      real(wp), allocatable :: stops(:)
+      ! Sliding speed or surface speed; at the start of the cycle; scale of the sliding speed [m/s]
+      real(wp) :: state(1), first(1), scale
+      integer :: choice, turn
+
+      call find_name("integration method", numerics%method, method_names, choice, error)
+      if (allocated(error)) return
+      problem%model => model
+      problem%has_surface_speed = method_names(choice) == "euler"
+      cycle%has_surface_speed = problem%has_surface_speed
+      cycle%is_linear = problem%has_surface_speed
+      call new_explicit_method(method, method_names(choice), 1)
+      call find_stops(model, stops)
+      call choose_start(problem, cycle%start, state(1), scale)
+      cycle%stops = cycle_stops(stops, cycle%start)
+      options%tolerance = [numerics%tolerance*scale]
+      options%step = numerics%step
+      if (.not. cycle%is_linear) options%step = min(numerics%step, 0.01_wp*degree)
+      options%max_step = largest_step
+      cycle%trajectory%is_linear = cycle%is_linear
+
+      ! The balance is not quite the periodic state: a short run up to the start lets the difference decay
+      call integrate(problem, method, options, run_up_stops(cycle%stops), state, cycle%trajectory, cycle%counters, error)
+      call add_context(error, "integrating the roller's spin")
+      if (allocated(error)) return
+      do turn = 1, numerics%max_cycles
+         cycle%cycles = turn
+         first = state
+         call integrate(problem, method, options, cycle%stops, state, cycle%trajectory, cycle%counters, error)
+         call add_context(error, "integrating the roller's spin")
+         if (allocated(error)) return
+         if (.not. cycle%has_surface_speed) scale = max(scale, maxval(abs(cycle%trajectory%state(1, :cycle%trajectory%count))))
+         cycle%closure = abs(state(1) - first(1))/scale
+         if (cycle%closure <= numerics%periodicity) return
+      end do
+      call raise(error, kind_convergence, "the cycle did not become periodic: after the cycles that max_cycles allows, start "// &
+         & "and end still differ by more than periodicity; explicit steps beyond the stability limit do this")
+   end subroutine integrate_cycle
+
+   !> Stops of the run-up to a cycle: the last degrees before its start.
+   pure function run_up_stops(stops) result(run_up)
+      !> Stops of the cycle, with start and end [rad]
+      real(wp), intent(in) :: stops(:)
+      !> Stops of the run-up, with start and end [rad]
+      real(wp), allocatable :: run_up(:)
+
+      ! Stops one turn earlier [rad]
+      real(wp) :: earlier(size(stops))
+
+      earlier = stops - two_pi
+      run_up = [stops(1) - run_up_angle, pack(earlier, earlier > stops(1) - run_up_angle)]
+   end function run_up_stops
+
+   !> Angle of fastest decay with the algebraic balance there, and the scale of the sliding speed.
+   subroutine choose_start(problem, start, state, scale)
+      !> The roller's spin
+      type(spin_problem_t), intent(in) :: problem
+      !> Cam angle from full lift [rad]
+      real(wp), intent(out) :: start
+      !> State there [m/s]
+      real(wp), intent(out) :: state
+      !> Largest sliding speed of the algebraic balance [m/s]
+      real(wp), intent(out) :: scale
+
+      type(position_t) :: position
+      ! Angle [rad], sliding speed [m/s], decay rate [1/rad], fastest of them
+      real(wp) :: angle, sliding_speed, decay_rate, fastest
+      ! Speed of pure rolling, largest of them [m/s]
+      real(wp) :: rolling_speed, largest_rolling
+      integer :: i
+      logical :: is_found
+
+      start = 0.0_wp
+      state = 0.0_wp
+      scale = 0.0_wp
+      fastest = -1.0_wp
+      largest_rolling = 0.0_wp
+      do i = 0, balance_points - 1
+         angle = -pi + (i + 0.5_wp)*two_pi/balance_points
+         call find_balance(problem%model, angle, position, sliding_speed, decay_rate, is_found)
+         rolling_speed = rolling_speed_at(problem%model, position)
+         largest_rolling = max(largest_rolling, abs(rolling_speed))
+         if (.not. is_found) cycle
+         scale = max(scale, abs(sliding_speed))
+         if (decay_rate > fastest) then
+            fastest = decay_rate
+            start = angle
+            state = sliding_speed
+            if (problem%has_surface_speed) state = rolling_speed - sliding_speed
+         end if
+      end do
+      scale = max(scale, least_slip*largest_rolling)
+   end subroutine choose_start
+
+   !> State of the follower at any cam angle.
+   subroutine state_at(cycle, model, angle, hint, state, error)
+      !> The cycle
+      type(cycle_t), intent(in) :: cycle
+      !> The model it was integrated with
+      type(model_t), intent(in) :: model
+      !> Cam angle from full lift, any turn [rad]
+      real(wp), intent(in) :: angle
+      !> Interval of the trajectory where the search starts
+      integer, intent(inout) :: hint
+      !> State
+      type(state_t), intent(out) :: state
+      !> Convergence error where the contact has no balance
+      type(error_t), allocatable, intent(out) :: error
+
+      type(position_t) :: position
+      type(moments_t) :: moments
+      ! Angle within the cycle [rad], sliding speed or surface speed [m/s], gas force [N]
+      real(wp) :: inside, value(1), force
+      integer :: status
+
+      inside = cycle%start + modulo(angle - cycle%start, two_pi)
+      call interpolate_state(cycle%trajectory, inside, hint, value)
+      if (cycle%has_surface_speed) then
+         call evaluate_loading(model, inside, position, force, moments, status)
+         value = rolling_speed_at(model, position) - value
+      end if
+      call evaluate_state(model, inside, value(1), state, status)
+      if (status /= 0) call raise(error, kind_convergence, "load and friction of the contact have no common solution")
+   end subroutine state_at
+
+end module camroller_cycle

@@ -1,0 +1,277 @@
+!> Cam angles at which the right-hand side of the roller equation has a kink or a jump, and the margin against loss of contact.
+!>
+!> Layer: solver. In: model. Out: stop angles for the integration, contact losses, spring margin. All of them depend on the cam
+!> angle alone, so they are known before a cycle is integrated and none can be stepped over.
+module camroller_events
+   use, intrinsic :: ieee_arithmetic, only : ieee_value, ieee_positive_inf
+   use camroller_kinds, only : wp, pi, two_pi, degree
+   use camroller_error, only : error_t, raise, kind_domain
+   use camroller_model, only : model_t
+   use camroller_kinematics, only : position_t
+   use camroller_dynamics, only : moments_t
+   use camroller_state, only : evaluate_loading
+   use camroller_roots, only : bracket_t, start_bracket, narrow_bracket, root_wanted
+   implicit none
+   private
+
+   public :: margin_t, find_stops, cycle_stops, check_geometry, find_margin
+
+   !> Margin against loss of contact, frictionless
+   type :: margin_t
+      !> Smallest contact load over the event [N]; negative: the load that keeps contact is missing
+      real(wp) :: smallest_load
+      !> Cam angle from full lift where it occurs [rad]
+      real(wp) :: angle
+      !> Cam speed at which contact is first lost, infinite if never [rad/s]
+      real(wp) :: contact_loss_speed
+   end type margin_t
+
+   !> Points of the scan over one cycle: a quarter of a degree
+   integer, parameter :: scan_points = 1440
+   !> Accuracy of an angle [rad]: a few roundings of a turn
+   real(wp), parameter :: angle_tolerance = 4.0e-15_wp
+
+contains
+
+   !> Stops within one turn, from -pi to pi: kinks of the lift, the valve leaving its seat, loss and return of contact.
+   subroutine find_stops(model, stops)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> Cam angles from full lift, increasing [rad]
+      real(wp), allocatable, intent(out) :: stops(:)
+
+      ! Values at the ends of a scan interval: lift above the seat [m] and moment that keeps contact [N m]
+      real(wp) :: before(2), after(2)
+      ! Angle, step of the scan [rad]
+      real(wp) :: angle, step
+      integer :: i, kind
+
+      stops = model%lift_stops
+      step = two_pi/scan_points
+      before = switches(model, -pi)
+      do i = 1, scan_points
+         angle = -pi + i*step
+         after = switches(model, angle)
+         do kind = 1, 2
+            if ((before(kind) > 0.0_wp) .eqv. (after(kind) > 0.0_wp)) cycle
+            stops = [stops, switch_angle(model, kind, angle - step, angle, before(kind), after(kind))]
+         end do
+         before = after
+      end do
+      call sort(stops)
+   end subroutine find_stops
+
+   !> Quantities whose sign matters: lift above that where the valve leaves its seat, and the moment that keeps contact.
+   pure function switches(model, angle) result(values)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> Cam angle from full lift [rad]
+      real(wp), intent(in) :: angle
+      !> Lift above the seat [m], moment [N m]
+      real(wp) :: values(2)
+
+      type(position_t) :: position
+      type(moments_t) :: moments
+      ! Gas force [N]
+      real(wp) :: force
+      integer :: status
+
+      call evaluate_loading(model, angle, position, force, moments, status)
+      values = 1.0_wp
+      if (status /= 0) return
+      values(1) = position%lift - model%train%seat_lift
+      values(2) = moments%total
+      if (model%is_consistent .and. allocated(model%guide_drag)) then
+         values(2) = values(2) + model%guide_drag*model%speed*position%lift_slope*position%valve_arm
+      end if
+   end function switches
+
+   !> Angle at which one of the switches changes its sign.
+   function switch_angle(model, kind, left, right, value_left, value_right) result(angle)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> Which of the switches
+      integer, intent(in) :: kind
+      !> Ends of the interval [rad]
+      real(wp), intent(in) :: left, right
+      !> Values there [m] or [N m]
+      real(wp), intent(in) :: value_left, value_right
+      !> Angle of the change [rad]
+      real(wp) :: angle
+
+      type(bracket_t) :: bracket
+      ! Both switches [m, N m]
+      real(wp) :: values(2)
+
+      call start_bracket(bracket, left, right, value_left, value_right, angle_tolerance)
+      do while (bracket%status == root_wanted)
+         values = switches(model, bracket%trial)
+         call narrow_bracket(bracket, values(kind))
+      end do
+      angle = bracket%trial
+   end function switch_angle
+
+   !> Stops of the cycle that starts at an angle: start, all stops ahead of it, end; increasing.
+   pure function cycle_stops(stops, start) result(ahead)
+      !> Stops within one turn, increasing [rad]
+      real(wp), intent(in) :: stops(:)
+      !> Start of the cycle [rad]
+      real(wp), intent(in) :: start
+      !> Stops of the cycle [rad]
+      real(wp), allocatable :: ahead(:)
+
+      ! Stops moved into the turn that starts at `start` [rad]
+      real(wp) :: moved(size(stops))
+
+      moved = start + modulo(stops - start, two_pi)
+      call sort(moved)
+      ahead = [start, pack(moved, moved > start .and. moved < start + two_pi), start + two_pi]
+   end function cycle_stops
+
+   !> Refuse a cam that cannot be: lift out of reach, undercut, a hollow flank that the grinding wheel does not fit.
+   subroutine check_geometry(model, grinding_wheel_radius, error)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> Radius of the grinding wheel, zero where not given [m]
+      real(wp), intent(in) :: grinding_wheel_radius
+      !> Domain error that names the cam angle
+      type(error_t), allocatable, intent(out) :: error
+
+      type(position_t) :: position
+      type(moments_t) :: moments
+      ! Angle [rad], gas force [N]
+      real(wp) :: angle, force
+      integer :: i, status
+
+      do i = 0, scan_points - 1
+         angle = -pi + i*two_pi/scan_points
+         call evaluate_loading(model, angle, position, force, moments, status)
+         if (status /= 0) then
+            call raise(error, kind_domain, "mechanism: the finger cannot reach the lift"//at_angle(angle))
+         else if (position%normal_arm <= 0.0_wp) then
+            call raise(error, kind_domain, "mechanism: the roller passes the line from pivot to cam centre"//at_angle(angle))
+         else if (position%equivalent_radius <= 0.0_wp) then
+            call raise(error, kind_domain, "cam undercut: the pitch curve's radius of curvature is smaller than the roller"// &
+               & at_angle(angle))
+         else if (grinding_wheel_radius > 0.0_wp) then
+            ! Hollow where the pitch curvature is negative: |R_c| = -1/kappa + r_R
+            if (-position%pitch_curvature*(grinding_wheel_radius - model%roller_radius) > 1.0_wp) then
+               call raise(error, kind_domain, "hollow flank: the grinding wheel is larger than the cam's radius of curvature"// &
+                  & at_angle(angle))
+            end if
+         end if
+         if (allocated(error)) return
+      end do
+   end subroutine check_geometry
+
+   !> Words that name a cam angle as files do: the nose at 180 deg.
+   function at_angle(angle) result(text)
+      !> Cam angle from full lift [rad]
+      real(wp), intent(in) :: angle
+      !> Text
+      character(len=:), allocatable :: text
+
+      character(len=12) :: buffer
+
+      write (buffer, "(f0.2)") 180.0_wp + angle/degree
+      text = " at cam angle "//trim(buffer)//" deg"
+   end function at_angle
+
+   !> Smallest load of the event and the speed at which contact would first be lost, without friction.
+   !>
+   !> The moment is `M_static + omega^2 M_inertia`; contact is first lost at the smallest `sqrt(-M_static/M_inertia)` over the
+   !> angles with a negative inertia moment, found on the scan and refined by a parabola through three points.
+   subroutine find_margin(model, margin)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> Margin
+      type(margin_t), intent(out) :: margin
+
+      ! Loads [N] and squares of the loss speed [rad^2/s^2] at three neighbouring points
+      real(wp) :: loads(3), squares(3)
+      ! Smallest square so far [rad^2/s^2]
+      real(wp) :: smallest_square
+      integer :: i
+
+      margin%smallest_load = huge(1.0_wp)
+      margin%angle = 0.0_wp
+      smallest_square = huge(1.0_wp)
+      call frictionless(model, -pi - two_pi/scan_points, loads(2), squares(2))
+      call frictionless(model, -pi, loads(3), squares(3))
+      do i = 1, scan_points
+         loads(:2) = loads(2:)
+         squares(:2) = squares(2:)
+         call frictionless(model, -pi + i*two_pi/scan_points, loads(3), squares(3))
+         if (loads(2) < margin%smallest_load) then
+            margin%smallest_load = min(loads(2), valley(loads))
+            margin%angle = -pi + (i - 1)*two_pi/scan_points
+         end if
+         if (squares(2) < smallest_square) smallest_square = min(squares(2), valley(squares))
+      end do
+      margin%contact_loss_speed = ieee_value(1.0_wp, ieee_positive_inf)
+      if (smallest_square < huge(1.0_wp)) margin%contact_loss_speed = sqrt(max(smallest_square, 0.0_wp))
+   end subroutine find_margin
+
+   !> Load without friction, and the square of the speed at which it would vanish.
+   subroutine frictionless(model, angle, load, square)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> Cam angle from full lift [rad]
+      real(wp), intent(in) :: angle
+      !> Load [N]
+      real(wp), intent(out) :: load
+      !> Square of the speed, huge where the inertia presses [rad^2/s^2]
+      real(wp), intent(out) :: square
+
+      type(position_t) :: position
+      type(moments_t) :: moments
+      ! Gas force [N]; moment of the masses [N m]
+      real(wp) :: force, inertia
+      integer :: status
+
+      call evaluate_loading(model, angle, position, force, moments, status)
+      load = moments%total/merge(position%normal_arm, position%parallel_arm, model%has_exact_arm)
+      inertia = moments%valve + moments%finger
+      square = huge(1.0_wp)
+      if (inertia < -epsilon(1.0_wp)*abs(moments%spring)) square = -(moments%total - inertia)/inertia*model%speed**2
+   end subroutine frictionless
+
+   !> Lowest value of the parabola through three equally spaced points with the middle one lowest; else the middle one.
+   pure function valley(values) result(lowest)
+      !> Three values
+      real(wp), intent(in) :: values(3)
+      !> Lowest value
+      real(wp) :: lowest
+
+      ! Second difference
+      real(wp) :: bend
+
+      lowest = values(2)
+      if (maxval(values) >= 0.5_wp*huge(1.0_wp)) return
+      if (values(2) > min(values(1), values(3))) return
+      bend = values(1) - 2.0_wp*values(2) + values(3)
+      if (bend > 0.0_wp) lowest = values(2) - (values(3) - values(1))**2/(8.0_wp*bend)
+   end function valley
+
+   !> Sort a short list by insertion.
+   pure subroutine sort(values)
+      !> Numbers, in and out
+      real(wp), intent(inout) :: values(:)
+
+      ! The one being placed
+      real(wp) :: value
+      integer :: i, j
+
+      do i = 2, size(values)
+         value = values(i)
+         j = i - 1
+         do while (j >= 1)
+            if (values(j) <= value) exit
+            values(j + 1) = values(j)
+            j = j - 1
+         end do
+         values(j + 1) = value
+      end do
+   end subroutine sort
+
+end module camroller_events

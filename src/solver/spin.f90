@@ -1,0 +1,141 @@
+!> The roller's spin as an initial value problem over the cam angle.
+!>
+!> Layer: solver. In: model, cam angle, state. Out: rate and decay rate, as `ode` asks for them. The state is the sliding speed V_s,
+!> `dV_s/dtheta = omega dV_roll' - r_R (domega_R/dt)/omega`: friction depends on slip, which is a small difference of large
+!> speeds. The source integrates the roller's surface speed `r_R omega_R` instead; its fixed step does so here too.
+module camroller_spin
+   use camroller_kinds, only : wp, degree
+   use camroller_ode, only : problem_t
+   use camroller_model, only : model_t
+   use camroller_kinematics, only : position_t
+   use camroller_dynamics, only : moments_t
+   use camroller_contact, only : contact_t
+   use camroller_state, only : evaluate_loading, evaluate_spin
+   implicit none
+   private
+
+   public :: spin_problem_t, sliding_speed_of, rolling_speed_slope, rolling_speed_at
+
+   !> The roller's spin over the cam angle
+   type, extends(problem_t) :: spin_problem_t
+      !> The model; read only
+      type(model_t), pointer :: model => null()
+      !> Is the state the roller's surface speed instead of the sliding speed?
+      logical :: has_surface_speed = .false.
+   contains
+      procedure :: get_rate
+      procedure :: get_decay_rate
+      procedure :: name_time
+   end type spin_problem_t
+
+contains
+
+   !> Rate of change of the state with the cam angle.
+   subroutine get_rate(self, time, state, rate, status)
+      !> The problem
+      class(spin_problem_t), intent(in) :: self
+      !> Cam angle from full lift [rad]
+      real(wp), intent(in) :: time
+      !> Sliding speed or surface speed [m/s]
+      real(wp), intent(in) :: state(:)
+      !> Its derivative with respect to the cam angle [m/s/rad]
+      real(wp), intent(out) :: rate(:)
+      !> 0 fine, positive: try a smaller step, negative: give up
+      integer, intent(out) :: status
+
+      type(position_t) :: position
+      type(moments_t) :: moments
+      type(contact_t) :: contact
+      ! Gas force [N]; angular acceleration of the roller [rad/s^2]
+      real(wp) :: force, acceleration
+
+      rate = 0.0_wp
+      call evaluate_loading(self%model, time, position, force, moments, status)
+      if (status /= 0) return
+      call evaluate_spin(self%model, position, moments, sliding_speed_of(self, position, state(1)), contact, acceleration, status)
+      if (status /= 0) return
+      rate(1) = self%model%roller_radius*acceleration/self%model%speed
+      if (.not. self%has_surface_speed) rate(1) = rolling_speed_slope(self%model, position) - rate(1)
+   end subroutine get_rate
+
+   !> Decay rate of a disturbance of the spin, `r_R^2 (dF_t/dV_s)/(I_R omega)` per radian.
+   subroutine get_decay_rate(self, time, state, decay_rate)
+      !> The problem
+      class(spin_problem_t), intent(in) :: self
+      !> Cam angle from full lift [rad]
+      real(wp), intent(in) :: time
+      !> Sliding speed or surface speed [m/s]
+      real(wp), intent(in) :: state(:)
+      !> Decay rate [1/rad]
+      real(wp), intent(out) :: decay_rate
+
+      type(position_t) :: position
+      type(moments_t) :: moments
+      type(contact_t) :: contact
+      ! Gas force [N]; angular acceleration of the roller [rad/s^2]
+      real(wp) :: force, acceleration
+      integer :: status
+
+      decay_rate = 0.0_wp
+      call evaluate_loading(self%model, time, position, force, moments, status)
+      if (status /= 0) return
+      call evaluate_spin(self%model, position, moments, sliding_speed_of(self, position, state(1)), contact, acceleration, status)
+      decay_rate = self%model%roller_radius**2*contact%traction_slope/(self%model%roller_inertia*self%model%speed)
+   end subroutine get_decay_rate
+
+   !> A cam angle in the words of messages, as files count it.
+   function name_time(self, time) result(text)
+      !> The problem
+      class(spin_problem_t), intent(in) :: self
+      !> Cam angle from full lift [rad]
+      real(wp), intent(in) :: time
+      !> It in words
+      character(len=:), allocatable :: text
+
+      character(len=16) :: buffer
+
+      write (buffer, "(f0.3)") modulo(180.0_wp + time/degree, 360.0_wp)
+      text = "cam angle "//trim(buffer)//" deg"
+      if (self%has_surface_speed) text = text//" (fixed step)"
+   end function name_time
+
+   !> Sliding speed that belongs to a state.
+   pure function sliding_speed_of(problem, position, state) result(sliding_speed)
+      !> The problem
+      class(spin_problem_t), intent(in) :: problem
+      !> Geometry at this angle
+      type(position_t), intent(in) :: position
+      !> Sliding speed or surface speed [m/s]
+      real(wp), intent(in) :: state
+      !> Sliding speed [m/s]
+      real(wp) :: sliding_speed
+
+      sliding_speed = state
+      if (problem%has_surface_speed) sliding_speed = rolling_speed_at(problem%model, position) - state
+   end function sliding_speed_of
+
+   !> Speed of the roller's surface in pure rolling, by the chosen notion of it.
+   pure function rolling_speed_at(model, position) result(speed)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> Geometry at this angle
+      type(position_t), intent(in) :: position
+      !> V_roll [m/s]
+      real(wp) :: speed
+
+      speed = model%speed*merge(position%rolling_travel, position%surface_travel, model%has_exact_spin)
+   end function rolling_speed_at
+
+   !> Derivative of the speed in pure rolling with respect to the cam angle.
+   pure function rolling_speed_slope(model, position) result(slope)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> Geometry at this angle
+      type(position_t), intent(in) :: position
+      !> dV_roll/d(cam angle) [m/s/rad]
+      real(wp) :: slope
+
+      slope = model%speed*merge(position%rolling_travel_slope, position%surface_travel_slope, model%has_exact_spin)
+   end function rolling_speed_slope
+
+end module camroller_spin
