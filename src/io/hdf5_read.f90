@@ -1,0 +1,379 @@
+!> Thin layer over HDF5 for reading back what we wrote.
+!>
+!> Layer: io. In: a path, names inside the file. Out: numbers, texts, names of members; errors as values that tell a
+!> missing file, a file of another format and a damaged file apart. Shapes are Fortran's, as in `camroller_hdf5_file`.
+module camroller_hdf5_read
+   use, intrinsic :: iso_c_binding, only : c_associated, c_char, c_f_pointer, c_loc, c_null_ptr, c_ptr, c_size_t
+   use hdf5, only : hid_t, hsize_t, h5aclose_f, h5aexists_f, h5aopen_f, h5aread_f, h5dclose_f, h5dget_space_f, &
+      & h5dget_type_f, h5dopen_f, h5dread_f, h5dvlen_reclaim_f, h5fis_hdf5_f, h5fopen_f, h5gclose_f, h5gget_info_f, &
+      & h5gopen_f, h5lexists_f, h5lget_name_by_idx_f, h5oclose_f, h5oopen_f, h5sclose_f, h5sget_simple_extent_dims_f, &
+      & h5sget_simple_extent_ndims_f, h5sselect_hyperslab_f, h5tclose_f, h5tget_class_f, h5f_acc_rdonly_f, &
+      & h5p_default_f, h5s_select_set_f, h5t_native_double, h5t_native_integer, h5t_string_f, h5_index_crt_order_f, &
+      & h5_iter_inc_f
+   use camroller_kinds, only : wp
+   use camroller_error, only : error_t, raise, kind_file
+   use camroller_hdf5_status, only : raise_hdf5, start_hdf5
+   use camroller_hdf5_object, only : hdf5_object_t, open_space, open_text_type
+   implicit none
+   private
+
+   public :: member_length, open_file, has_member, list_members, read_extents, is_text_dataset
+   public :: read_numbers, read_text, read_text_attribute, read_integer_attribute
+
+   !> Longest name of a member that can be listed
+   integer, parameter :: member_length = 128
+
+   interface
+      function c_strlen(text) bind(C, name="strlen") result(length)
+         import :: c_ptr, c_size_t
+         type(c_ptr), value :: text
+         integer(c_size_t) :: length
+      end function c_strlen
+   end interface
+
+contains
+
+   !> Open a file for reading.
+   subroutine open_file(file, path, error)
+      !> The open file
+      type(hdf5_object_t), intent(out) :: file
+      !> Its path
+      character(len=*), intent(in) :: path
+      !> File error: missing, not HDF5, damaged
+      type(error_t), allocatable, intent(out) :: error
+
+      logical :: exists, is_hdf5
+      integer :: status
+
+      file%name = "/"
+      file%file = path
+      inquire (file=path, exist=exists)
+      if (.not. exists) then
+         call raise(error, kind_file, "cannot read '"//path//"': no such file")
+         return
+      end if
+      call start_hdf5(error)
+      if (allocated(error)) return
+      call h5fis_hdf5_f(path, is_hdf5, status)
+      if (status /= 0 .or. .not. is_hdf5) then
+         call raise(error, kind_file, "cannot read '"//path//"': it is not an HDF5 file")
+         return
+      end if
+      call h5fopen_f(path, h5f_acc_rdonly_f, file%id, status)
+      if (status /= 0) then
+         call raise_hdf5(error, "cannot read '"//path//"', it seems damaged")
+         file%id = -1_hid_t
+      end if
+   end subroutine open_file
+
+   !> Whether a name inside the file leads to an object.
+   function has_member(file, name) result(answer)
+      !> An open file
+      type(hdf5_object_t), intent(in) :: file
+      !> Name from the root, e.g. `/series/traction`
+      character(len=*), intent(in) :: name
+      !> True where every part of the name exists
+      logical :: answer
+
+      integer :: status
+
+      call h5lexists_f(file%id, name, answer, status)
+      if (status /= 0) answer = .false.
+   end function has_member
+
+   !> Names in a group in the order in which they were created.
+   subroutine list_members(file, group, names, error)
+      !> An open file
+      type(hdf5_object_t), intent(in) :: file
+      !> Name of the group from the root
+      character(len=*), intent(in) :: group
+      !> Names of its members
+      character(len=member_length), allocatable, intent(out) :: names(:)
+      !> File error
+      type(error_t), allocatable, intent(out) :: error
+
+      integer(hid_t) :: id
+      integer :: status, ignored, storage, count, highest, i
+
+      count = 0
+      call h5gopen_f(file%id, group, id, status)
+      if (status == 0) then
+         call h5gget_info_f(id, storage, count, highest, status)
+         call h5gclose_f(id, ignored)
+      end if
+      allocate (names(count))
+      do i = 1, count
+         if (status /= 0) exit
+         names(i) = ""
+         call h5lget_name_by_idx_f(file%id, group, h5_index_crt_order_f, h5_iter_inc_f, &
+            & int(i - 1, hsize_t), names(i), status)
+      end do
+      if (status /= 0) call raise_hdf5(error, "cannot list '"//group//"' of '"//file%file//"'")
+   end subroutine list_members
+
+   !> Extents of a dataset.
+   subroutine read_extents(file, name, extents, error)
+      !> An open file
+      type(hdf5_object_t), intent(in) :: file
+      !> Name of the dataset from the root
+      character(len=*), intent(in) :: name
+      !> Extents of its axes, none for a scalar
+      integer, allocatable, intent(out) :: extents(:)
+      !> File error
+      type(error_t), allocatable, intent(out) :: error
+
+      integer(hid_t) :: dataset, space
+      integer(hsize_t), allocatable :: present(:), largest(:)
+      integer :: status, ignored, rank
+
+      rank = 0
+      call h5dopen_f(file%id, name, dataset, status)
+      if (status == 0) then
+         call h5dget_space_f(dataset, space, status)
+         if (status == 0) call h5sget_simple_extent_ndims_f(space, rank, status)
+         allocate (present(rank), largest(rank), source=0_hsize_t)
+         if (rank > 0) call h5sget_simple_extent_dims_f(space, present, largest, status)
+         call h5sclose_f(space, ignored)
+         call h5dclose_f(dataset, ignored)
+         extents = int(present)
+      end if
+      if (status < 0) call raise_read(error, file, name)
+   end subroutine read_extents
+
+   !> Whether a dataset holds texts.
+   function is_text_dataset(file, name) result(answer)
+      !> An open file
+      type(hdf5_object_t), intent(in) :: file
+      !> Name of the dataset from the root
+      character(len=*), intent(in) :: name
+      !> False for numbers, and where there is no such dataset
+      logical :: answer
+
+      integer(hid_t) :: dataset, value_type
+      integer :: status, ignored, class
+
+      answer = .false.
+      call h5dopen_f(file%id, name, dataset, status)
+      if (status /= 0) return
+      call h5dget_type_f(dataset, value_type, status)
+      call h5tget_class_f(value_type, class, status)
+      answer = status == 0 .and. class == h5t_string_f
+      call h5tclose_f(value_type, ignored)
+      call h5dclose_f(dataset, ignored)
+   end function is_text_dataset
+
+   !> Read a block of numbers; integers are converted.
+   subroutine read_numbers(file, name, first, extents, numbers, error)
+      !> An open file
+      type(hdf5_object_t), intent(in) :: file
+      !> Name of the dataset from the root
+      character(len=*), intent(in) :: name
+      !> Position of the block on each axis, from 0; none for a scalar
+      integer, intent(in) :: first(:)
+      !> Extents of the block
+      integer, intent(in) :: extents(:)
+      !> The numbers, first axis fastest [unit of the dataset]
+      real(wp), allocatable, target, intent(out) :: numbers(:)
+      !> File error
+      type(error_t), allocatable, intent(out) :: error
+
+      allocate (numbers(product(extents)))
+      if (size(numbers) == 0) return
+      call read_block(file, name, h5t_native_double, first, extents, c_loc(numbers), error)
+   end subroutine read_numbers
+
+   !> Read one text.
+   subroutine read_text(file, name, position, text, error)
+      !> An open file
+      type(hdf5_object_t), intent(in) :: file
+      !> Name of the dataset from the root
+      character(len=*), intent(in) :: name
+      !> Position on each axis, from 0; none for a single text
+      integer, intent(in) :: position(:)
+      !> The text
+      character(len=:), allocatable, intent(out) :: text
+      !> File error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(c_ptr), target :: address(1)
+      integer(hid_t) :: text_type
+      integer :: status, ignored
+
+      text = ""
+      address(1) = c_null_ptr
+      call open_text_type(text_type, status)
+      if (status /= 0) then
+         call raise_read(error, file, name)
+         return
+      end if
+      call read_block(file, name, text_type, position, spread(1, 1, size(position)), c_loc(address), error)
+      if (.not. allocated(error)) call take_text(address, text_type, text)
+      call h5tclose_f(text_type, ignored)
+   end subroutine read_text
+
+   !> Read an attribute that is a text.
+   subroutine read_text_attribute(file, object, name, text, error)
+      !> An open file
+      type(hdf5_object_t), intent(in) :: file
+      !> Name of the object from the root
+      character(len=*), intent(in) :: object
+      !> Name of the attribute
+      character(len=*), intent(in) :: name
+      !> The text
+      character(len=:), allocatable, intent(out) :: text
+      !> File error, also where there is no such attribute
+      type(error_t), allocatable, intent(out) :: error
+
+      type(c_ptr), target :: address(1)
+      integer(hid_t) :: text_type
+      integer :: status, ignored
+
+      text = ""
+      address(1) = c_null_ptr
+      call open_text_type(text_type, status)
+      if (status /= 0) then
+         call raise_read(error, file, object)
+         return
+      end if
+      call read_attribute(file, object, name, text_type, c_loc(address), error)
+      if (.not. allocated(error)) call take_text(address, text_type, text)
+      call h5tclose_f(text_type, ignored)
+   end subroutine read_text_attribute
+
+   !> Read an attribute that is an integer.
+   subroutine read_integer_attribute(file, object, name, number, error)
+      !> An open file
+      type(hdf5_object_t), intent(in) :: file
+      !> Name of the object from the root
+      character(len=*), intent(in) :: object
+      !> Name of the attribute
+      character(len=*), intent(in) :: name
+      !> The number
+      integer, intent(out) :: number
+      !> File error, also where there is no such attribute
+      type(error_t), allocatable, intent(out) :: error
+
+      integer, target :: value
+
+      value = 0
+      call read_attribute(file, object, name, h5t_native_integer, c_loc(value), error)
+      number = value
+   end subroutine read_integer_attribute
+
+   !> Read a block of a dataset.
+   subroutine read_block(file, name, memory_type, first, extents, address, error)
+      !> An open file
+      type(hdf5_object_t), intent(in) :: file
+      !> Name of the dataset from the root
+      character(len=*), intent(in) :: name
+      !> Type of the values in memory
+      integer(hid_t), intent(in) :: memory_type
+      !> Position of the block on each axis, from 0; none for a scalar
+      integer, intent(in) :: first(:)
+      !> Extents of the block
+      integer, intent(in) :: extents(:)
+      !> Where the values go
+      type(c_ptr), intent(in) :: address
+      !> File error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(c_ptr) :: target_address
+      integer(hid_t) :: dataset, file_space, memory_space
+      integer :: status, ignored
+
+      target_address = address
+      call h5dopen_f(file%id, name, dataset, status)
+      if (status /= 0) then
+         call raise_read(error, file, name)
+         return
+      end if
+      call open_space(extents, memory_space, ignored)
+      call h5dget_space_f(dataset, file_space, status)
+      if (status == 0 .and. size(first) > 0) then
+         call h5sselect_hyperslab_f(file_space, h5s_select_set_f, int(first, hsize_t), int(extents, hsize_t), status)
+      end if
+      if (status == 0) call h5dread_f(dataset, memory_type, target_address, status, memory_space, file_space)
+      if (status /= 0) call raise_read(error, file, name)
+      call h5sclose_f(memory_space, ignored)
+      call h5sclose_f(file_space, ignored)
+      call h5dclose_f(dataset, ignored)
+   end subroutine read_block
+
+   !> Read an attribute with one value.
+   subroutine read_attribute(file, object, name, memory_type, address, error)
+      !> An open file
+      type(hdf5_object_t), intent(in) :: file
+      !> Name of the object from the root
+      character(len=*), intent(in) :: object
+      !> Name of the attribute
+      character(len=*), intent(in) :: name
+      !> Type of the value in memory
+      integer(hid_t), intent(in) :: memory_type
+      !> Where the value goes
+      type(c_ptr), intent(in) :: address
+      !> File error, also where there is no such attribute
+      type(error_t), allocatable, intent(out) :: error
+
+      type(c_ptr) :: target_address
+      integer(hid_t) :: id, attribute
+      integer :: status, ignored
+      logical :: exists
+
+      target_address = address
+      call h5oopen_f(file%id, object, id, status)
+      if (status /= 0) then
+         call raise_read(error, file, object)
+         return
+      end if
+      call h5aexists_f(id, name, exists, status)
+      if (status == 0 .and. exists) then
+         call h5aopen_f(id, name, attribute, status)
+         if (status == 0) call h5aread_f(attribute, memory_type, target_address, status)
+         if (status /= 0) call raise_read(error, file, object)
+         call h5aclose_f(attribute, ignored)
+      else
+         call raise(error, kind_file, "'"//object//"' of '"//file%file//"' has no attribute '"//name//"'")
+      end if
+      call h5oclose_f(id, ignored)
+   end subroutine read_attribute
+
+   !> Copy a text that the library allocated, and give its memory back.
+   subroutine take_text(address, text_type, text)
+      !> Where the library put the address of the text
+      type(c_ptr), target, intent(inout) :: address(1)
+      !> Type of the text
+      integer(hid_t), intent(in) :: text_type
+      !> The copy
+      character(len=:), allocatable, intent(out) :: text
+
+      character(kind=c_char), pointer :: letters(:)
+      type(c_ptr) :: buffer
+      integer(hid_t) :: space
+      integer :: i, ignored
+
+      text = ""
+      if (.not. c_associated(address(1))) return
+      call c_f_pointer(address(1), letters, [c_strlen(address(1))])
+      text = repeat(" ", size(letters))
+      do i = 1, size(letters)
+         text(i:i) = letters(i)
+      end do
+      call open_space([1], space, ignored)
+      buffer = c_loc(address)
+      call h5dvlen_reclaim_f(text_type, space, h5p_default_f, buffer, ignored)
+      call h5sclose_f(space, ignored)
+   end subroutine take_text
+
+   !> Error of reading an object.
+   subroutine raise_read(error, file, name)
+      !> The error to allocate
+      type(error_t), allocatable, intent(out) :: error
+      !> The file
+      type(hdf5_object_t), intent(in) :: file
+      !> Name of the object from the root
+      character(len=*), intent(in) :: name
+
+      call raise_hdf5(error, "cannot read '"//name//"' of '"//file%file//"'")
+   end subroutine raise_read
+
+end module camroller_hdf5_read

@@ -1,0 +1,112 @@
+!> Result file: cases written one by one into a file that appears under its name only when it is complete.
+!>
+!> Layer: io. In: results, the deck, facts of the run. Out: one HDF5 file.
+!>
+!> Format, axes as C and Python see them:
+!> `/case` (case) and `/series/cam_angle` (cam_angle) are dimensions;
+!> `/series/<name>` (case, cam_angle) and `/summary/<name>` (case) carry `units`, `long_name` and `source`;
+!> `/summary/status` (case) is 0 or the kind of the error, whose message is in `/run/messages` (case);
+!> `/deck/text` is the deck as given, `/deck/values/<group.key>` what came of it; `/sweep/<group.key>` (case) are the
+!> keys that vary;
+!> `/run` has attributes, and `/run/warnings` (case) where there are warnings.
+!> The root has `format`, `format_version`, `axes` and `complete`, which is set last.
+!>
+!> Cases are gathered in memory and written in blocks, so that the memory needed does not depend on their number.
+!> Whatever fails, the unfinished file is removed, and an earlier file of the same name stays as it was.
+module camroller_output
+   use camroller_error, only : error_t, raise, kind_internal
+   use camroller_result, only : result_t
+   use camroller_output_file, only : abandon_output, check_open, compression_names, finish_file, format_version, &
+      & not_written, output_options_t, output_t, result_format, start_file
+   use camroller_output_cases, only : check_position, check_result, create_layout, gather, write_remark, &
+      & write_rows, write_status
+   use camroller_output_facts, only : write_deck, write_run, write_sweep
+   implicit none
+   private
+
+   public :: output_t, output_options_t, compression_names, result_format, format_version
+   public :: open_output, write_case, write_failure, close_output, abandon_output
+   public :: write_deck, write_sweep, write_run
+
+contains
+
+   !> Start a result file; the folder is tried now, not after the computation.
+   subroutine open_output(writer, path, cases, options, error)
+      !> The writer
+      type(output_t), intent(out) :: writer
+      !> Path of the finished file
+      character(len=*), intent(in) :: path
+      !> Number of cases
+      integer, intent(in) :: cases
+      !> What is written, and how
+      type(output_options_t), intent(in) :: options
+      !> File error where nothing can be written there; usage error
+      type(error_t), allocatable, intent(out) :: error
+
+      call start_file(writer, path, cases, options, error)
+   end subroutine open_output
+
+   !> Write the result of a case; the first one decides which series and scalars the file has.
+   subroutine write_case(writer, position, result, error)
+      !> The writer
+      type(output_t), intent(inout) :: writer
+      !> Position of the case, from 1; the file counts from 0
+      integer, intent(in) :: position
+      !> Its result
+      type(result_t), intent(in) :: result
+      !> File error; internal error where the result does not fit the others
+      type(error_t), allocatable, intent(out) :: error
+
+      call check_position(writer, position, error)
+      if (.not. allocated(error) .and. .not. allocated(writer%summary)) call create_layout(writer, result, error)
+      if (.not. allocated(error)) call check_result(writer, result, error)
+      if (.not. allocated(error)) call gather(writer, position, result, error)
+      if (.not. allocated(error) .and. allocated(result%warnings)) then
+         if (len_trim(result%warnings) > 0) call write_remark(writer, writer%warnings, "warnings", position, &
+            & result%warnings, error)
+      end if
+      if (allocated(error)) call abandon_output(writer)
+   end subroutine write_case
+
+   !> Record that a case failed; its numbers read as not-a-number.
+   subroutine write_failure(writer, position, failure, error)
+      !> The writer
+      type(output_t), intent(inout) :: writer
+      !> Position of the case, from 1; the file counts from 0
+      integer, intent(in) :: position
+      !> What went wrong with it
+      type(error_t), intent(in) :: failure
+      !> File error
+      type(error_t), allocatable, intent(out) :: error
+
+      call check_position(writer, position, error)
+      if (.not. allocated(error)) then
+         call write_remark(writer, writer%messages, "messages", position, failure%message, error)
+      end if
+      if (allocated(error)) then
+         call abandon_output(writer)
+      else
+         writer%status(position) = failure%kind
+      end if
+   end subroutine write_failure
+
+   !> Finish the file: the rest is written, `complete` set, the file closed and given its name.
+   subroutine close_output(writer, error)
+      !> The writer
+      type(output_t), intent(inout) :: writer
+      !> File error; internal error where cases are missing
+      type(error_t), allocatable, intent(out) :: error
+
+      call check_open(writer, error)
+      if (allocated(error)) return
+      if (any(writer%status == not_written)) then
+         call raise(error, kind_internal, "cannot finish '"//writer%path//"': cases are missing")
+      else
+         call write_rows(writer, error)
+      end if
+      if (.not. allocated(error)) call write_status(writer, error)
+      if (.not. allocated(error)) call finish_file(writer, error)
+      if (allocated(error)) call abandon_output(writer)
+   end subroutine close_output
+
+end module camroller_output

@@ -1,0 +1,238 @@
+!> The result file as a whole: created under a temporary name, given its own name when it is complete.
+!>
+!> Layer: io. In: path, number of cases, options. Out: `output_t` with the frame of the file (format, groups, axis of
+!> cases) written; the finished file under its name, or no trace of it. Its format is described in `camroller_output`.
+module camroller_output_file
+   use camroller_kinds, only : wp
+   use camroller_error, only : error_t, raise, kind_file, kind_internal, kind_usage
+   use camroller_names, only : find_name, name_length
+   use camroller_result, only : quantity_t
+   use camroller_hdf5_object, only : hdf5_object_t
+   use camroller_hdf5_file, only : close_file, create_file, create_group, create_integers, discard_file, &
+      & flush_file, reserve_file, write_integers
+   use camroller_hdf5_attribute, only : make_scale, put_attribute
+   use camroller_system_file, only : folder_of, is_folder, process_number, remove_file, rename_file
+   implicit none
+   private
+
+   public :: output_t, output_options_t, compression_names, result_format, format_version, not_written
+   public :: number_size, text_size, object_size, start_file, finish_file, abandon_output, check_open
+
+   !> When series are compressed: where they are large, always, never
+   character(len=*), parameter :: compression_names(*) = [character(len=name_length) :: "auto", "on", "off"]
+   !> Attribute by which a result file is known
+   character(len=*), parameter :: result_format = "camroller result"
+   !> Space that a group or a dataset takes besides its values, generously [byte]
+   real(wp), parameter :: object_size = 8192.0_wp
+   !> Space that a number takes [byte]
+   real(wp), parameter :: number_size = 8.0_wp
+   !> Space that a text takes besides its letters, generously [byte]
+   real(wp), parameter :: text_size = 64.0_wp
+   !> Blocks of 4 KiB that a new file must be able to take
+   integer, parameter :: tried_blocks = 128
+   !> Goes up when readers have to change
+   integer, parameter :: format_version = 1
+   !> Order of the axes, for readers in any language
+   character(len=*), parameter :: axes_remark = "(case, cam_angle) as C and Python count them, the last axis "// &
+      & "contiguous in memory; Fortran sees (cam_angle, case)"
+   !> Status of a case that has not come yet
+   integer, parameter :: not_written = -1
+
+   !> What goes into the file, and how
+   type :: output_options_t
+      !> Whether the series are written, or the summary alone
+      logical :: series = .true.
+      !> One of `compression_names`
+      character(len=name_length) :: compression = "auto"
+   end type output_options_t
+
+   !> A result file being written
+   type :: output_t
+      type(output_options_t) :: options
+      !> Path of the finished file
+      character(len=:), allocatable :: path
+      !> Path while it is not finished, in the same folder
+      character(len=:), allocatable :: temporary
+      type(hdf5_object_t) :: file, case_axis, deck, run, series_group, summary_group, sweep, warnings, messages
+      !> Status of each case: 0, the kind of its error, or `not_written`
+      integer, allocatable :: status(:)
+      !> Series and scalars of the file, known from the first result on
+      type(quantity_t), allocatable :: series(:), summary(:)
+      type(hdf5_object_t), allocatable :: series_data(:), summary_data(:)
+      !> Gathered rows, shape (angle, row, series) [unit of the series]
+      real(wp), allocatable :: rows(:, :, :)
+      !> Gathered scalars, shape (row, scalar) [unit of the scalar]
+      real(wp), allocatable :: scalars(:, :)
+      !> Most rows gathered
+      integer :: block = 0
+      !> Position of the first gathered case, from 1
+      integer :: first = 1
+      !> Rows gathered
+      integer :: gathered = 0
+   end type output_t
+
+contains
+
+   !> Create the unfinished file with its frame; the folder is tried now, not after the computation.
+   subroutine start_file(writer, path, cases, options, error)
+      !> The writer
+      type(output_t), intent(out) :: writer
+      !> Path of the finished file
+      character(len=*), intent(in) :: path
+      !> Number of cases
+      integer, intent(in) :: cases
+      !> What is written, and how
+      type(output_options_t), intent(in) :: options
+      !> File error where nothing can be written there; usage error
+      type(error_t), allocatable, intent(out) :: error
+
+      integer :: choice
+
+      writer%path = trim(path)
+      writer%options = options
+      call find_name("compression", options%compression, compression_names, choice, error)
+      if (allocated(error)) return
+      if (cases < 1) then
+         call raise(error, kind_usage, "a result file needs one case at least")
+         return
+      end if
+      allocate (writer%status(cases), source=not_written)
+      call create_temporary(writer, error)
+      if (allocated(error)) return
+      call write_frame(writer, error)
+      if (allocated(error)) call abandon_output(writer)
+   end subroutine start_file
+
+   !> Mark the file complete, close it and give it its name.
+   subroutine finish_file(writer, error)
+      !> The writer
+      type(output_t), intent(inout) :: writer
+      !> File error
+      type(error_t), allocatable, intent(out) :: error
+
+      logical :: done
+
+      call flush_file(writer%file, error)
+      if (.not. allocated(error)) call reserve_file(writer%file, 0.0_wp, error)
+      if (.not. allocated(error)) call put_attribute(writer%file, "complete", 1, error)
+      if (.not. allocated(error)) call flush_file(writer%file, error)
+      if (.not. allocated(error)) call close_file(writer%file, error)
+      if (allocated(error)) return
+      call rename_file(writer%temporary, writer%path, done)
+      if (.not. done) then
+         call raise(error, kind_file, "cannot write '"//writer%path//"': '"//writer%temporary// &
+            & "' could not be given that name")
+         return
+      end if
+      deallocate (writer%temporary)
+   end subroutine finish_file
+
+   !> An error where the writer has no open file.
+   subroutine check_open(writer, error)
+      !> The writer
+      type(output_t), intent(in) :: writer
+      !> Internal error
+      type(error_t), allocatable, intent(out) :: error
+
+      if (.not. allocated(writer%temporary)) call raise(error, kind_internal, "no result file is open")
+   end subroutine check_open
+
+   !> Give up: the unfinished file is removed. Does no harm where nothing is open.
+   subroutine abandon_output(writer)
+      !> The writer
+      type(output_t), intent(inout) :: writer
+
+      call discard_file(writer%file)
+      if (allocated(writer%temporary)) then
+         call remove_file(writer%temporary)
+         deallocate (writer%temporary)
+      end if
+   end subroutine abandon_output
+
+   !> Create the unfinished file beside the finished one's place.
+   subroutine create_temporary(writer, error)
+      !> The writer
+      type(output_t), intent(inout) :: writer
+      !> File error
+      type(error_t), allocatable, intent(out) :: error
+
+      character(len=32) :: number
+      character(len=:), allocatable :: path
+      integer :: attempt
+      logical :: taken
+
+      if (is_folder(writer%path)) then
+         call raise(error, kind_file, "cannot write '"//writer%path//"': it is a folder")
+         return
+      else if (.not. is_folder(folder_of(writer%path))) then
+         call raise(error, kind_file, "cannot write '"//writer%path//"': there is no folder '"// &
+            & folder_of(writer%path)//"'")
+         return
+      end if
+      do attempt = 0, 99
+         write (number, "(i0,'-',i0)") process_number(), attempt
+         path = writer%path//".unfinished-"//trim(number)
+         inquire (file=path, exist=taken)
+         if (.not. taken) exit
+      end do
+      writer%temporary = path
+      call try_path(writer, error)
+      if (.not. allocated(error)) call create_file(writer%file, path, writer%path, error)
+      if (allocated(error)) call abandon_output(writer)
+   end subroutine create_temporary
+
+   !> Write and remove a small file: the library does not survive a device that is full from the start.
+   subroutine try_path(writer, error)
+      !> The writer
+      type(output_t), intent(in) :: writer
+      !> File error in the system's words
+      type(error_t), allocatable, intent(out) :: error
+
+      character(len=4096) :: block
+      character(len=200) :: message
+      integer :: unit, status, ignored, i
+
+      block = ""
+      open (newunit=unit, file=writer%temporary, access="stream", form="unformatted", status="new", action="write", &
+         & iostat=status, iomsg=message)
+      if (status == 0) then
+         do i = 1, tried_blocks
+            if (status == 0) write (unit, iostat=status, iomsg=message) block
+         end do
+         if (status == 0) then
+            close (unit, iostat=status, iomsg=message)
+         else
+            close (unit, iostat=ignored)
+         end if
+         call remove_file(writer%temporary)
+      end if
+      if (status /= 0) call raise(error, kind_file, "cannot write '"//writer%path//"': "//trim(message))
+   end subroutine try_path
+
+   !> Write what every result file has: format, groups, the axis of cases.
+   subroutine write_frame(writer, error)
+      !> The writer
+      type(output_t), intent(inout) :: writer
+      !> File error
+      type(error_t), allocatable, intent(out) :: error
+
+      integer :: i
+
+      call reserve_file(writer%file, 4.0_wp*size(writer%status) + 7*object_size, error)
+      if (.not. allocated(error)) call put_attribute(writer%file, "format", result_format, error)
+      if (.not. allocated(error)) call put_attribute(writer%file, "format_version", format_version, error)
+      if (.not. allocated(error)) call put_attribute(writer%file, "axes", axes_remark, error)
+      if (.not. allocated(error)) then
+         call create_integers(writer%file, "case", shape(writer%status), writer%case_axis, error)
+      end if
+      if (.not. allocated(error)) call put_attribute(writer%case_axis, "long_name", "case of the sweep", error)
+      if (.not. allocated(error)) call make_scale(writer%case_axis, error)
+      if (.not. allocated(error)) call write_integers(writer%case_axis, 0, [(i, i=0, size(writer%status) - 1)], error)
+      if (.not. allocated(error)) call create_group(writer%file, "series", writer%series_group, error)
+      if (.not. allocated(error)) call create_group(writer%file, "summary", writer%summary_group, error)
+      if (.not. allocated(error)) call create_group(writer%file, "sweep", writer%sweep, error)
+      if (.not. allocated(error)) call create_group(writer%file, "deck", writer%deck, error)
+      if (.not. allocated(error)) call create_group(writer%file, "run", writer%run, error)
+   end subroutine write_frame
+
+end module camroller_output_file
