@@ -11,7 +11,8 @@ module camroller_output_file
    use camroller_hdf5_file, only : close_file, create_file, create_group, create_integers, discard_file, &
       & flush_file, reserve_file, write_integers
    use camroller_hdf5_attribute, only : make_scale, put_attribute
-   use camroller_system_file, only : folder_of, is_folder, process_number, remove_file, rename_file
+   use camroller_system_file, only : is_folder, process_number, remove_file, rename_file
+   use camroller_text_file, only : folder_of
    implicit none
    private
 
@@ -164,7 +165,7 @@ contains
       if (is_folder(writer%path)) then
          call raise(error, kind_file, "cannot write '"//writer%path//"': it is a folder")
          return
-      else if (.not. is_folder(folder_of(writer%path))) then
+      else if (.not. is_folder(folder_of(writer%path)//".")) then
          call raise(error, kind_file, "cannot write '"//writer%path//"': there is no folder '"// &
             & folder_of(writer%path)//"'")
          return
@@ -189,8 +190,8 @@ contains
       type(error_t), allocatable, intent(out) :: error
 
       character(len=4096) :: block
-      character(len=200) :: message
-      integer :: unit, status, ignored, i
+      character(len=200) :: message, closing_message
+      integer :: unit, status, closing, i
 
       block = ""
       open (newunit=unit, file=writer%temporary, access="stream", form="unformatted", status="new", action="write", &
@@ -199,10 +200,10 @@ contains
          do i = 1, tried_blocks
             if (status == 0) write (unit, iostat=status, iomsg=message) block
          end do
-         if (status == 0) then
-            close (unit, iostat=status, iomsg=message)
-         else
-            close (unit, iostat=ignored)
+         close (unit, iostat=closing, iomsg=closing_message)
+         if (status == 0 .and. closing /= 0) then
+            status = closing
+            message = closing_message
          end if
          call remove_file(writer%temporary)
       end if

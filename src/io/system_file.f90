@@ -9,7 +9,7 @@ module camroller_system_file
    implicit none
    private
 
-   public :: process_number, is_folder, folder_of, rename_file, remove_file
+   public :: process_number, is_folder, rename_file, remove_file
    public :: reserve_space, set_file_size, sync_descriptor, utc_date
 
    !> Signal that a file outgrew its limit; what `signal` takes for ignoring and gives for an error
@@ -134,23 +134,6 @@ contains
       answer = c_associated(folder)
       if (answer) status = c_closedir(folder)
    end function is_folder
-
-   !> Folder part of a path, `.` where it has none.
-   pure function folder_of(path) result(folder)
-      !> The path
-      character(len=*), intent(in) :: path
-      !> The folder, without the closing slash unless it is the root
-      character(len=:), allocatable :: folder
-
-      integer :: slash
-
-      slash = index(path, "/", back=.true.)
-      if (slash == 0) then
-         folder = "."
-      else
-         folder = path(1:max(slash - 1, 1))
-      end if
-   end function folder_of
 
    !> Give a file another name; a file of that name is replaced in one step.
    subroutine rename_file(old, new, done)
