@@ -35,7 +35,7 @@ PHYSICS_FLOORS = [
     {"lift"},
     {"kinematics"},
     {"dynamics"},
-    {"hertz"},
+    {"hertz", "gas"},
     {"film", "ehl", "asperity"},
     {"load_share"},
     {"traction"},
@@ -43,7 +43,7 @@ PHYSICS_FLOORS = [
     {"torque"},
 ]
 # Beside the chain: these use nothing of the chain but the bottom, only the top may use them.
-PHYSICS_BESIDE = {"needle", "journal", "camshaft", "guide", "gas"}
+PHYSICS_BESIDE = {"needle", "journal", "camshaft", "guide"}
 
 USE = re.compile(r"^use\s*(?:,\s*(?:non_)?intrinsic\s*)?(?:::)?\s*(\w+)")
 MODULE = re.compile(r"^module\s+(?!procedure\b|subroutine\b|function\b)(\w+)$")
