@@ -17,8 +17,8 @@ module camroller_film
    implicit none
    private
 
-   public :: film_t, groups_t, film_shape_t, film_law_names, range_policy_names
-   public :: film_shape, is_in_range, takes_whole_load
+   public :: film_t, groups_t, film_shape_t, film_line_t, film_law_names, range_policy_names
+   public :: film_shape, new_film_line, film_at_load, is_in_range, takes_whole_load
    public :: law_dowson_higginson, law_pan_hamrock, law_masjedi_khonsari, law_masjedi_khonsari_rough, law_moes
 
    !> Film-thickness laws
@@ -62,12 +62,26 @@ module camroller_film
       real(wp) :: central_speed_slope, minimum_speed_slope
    end type film_shape_t
 
+   !> Film over the load at one speed: what does not change with the load is worked out once
+   type :: film_line_t
+      !> Position in `film_law_names`
+      integer :: law
+      !> Is it a power law?
+      logical :: is_power
+      !> Groups; the load is that of the contact
+      type(groups_t) :: groups
+      !> Power laws: logarithm of the minimum and the central film at unit load [-]
+      real(wp) :: unit_logs(2)
+   end type film_line_t
+
    !> Power laws `H = factor U^speed G^material W*^load`, columns: factor, speed, material, load [-]
    !> rows: minimum and central film of Dowson, Pan, Masjedi
    real(wp), parameter :: power_laws(4, 2, 3) = reshape([ &
       2.65_wp, 0.70_wp, 0.54_wp, -0.13_wp, 3.06_wp, 0.69_wp, 0.56_wp, -0.10_wp, &
       1.714_wp, 0.694_wp, 0.568_wp, -0.128_wp, 2.922_wp, 0.692_wp, 0.470_wp, -0.166_wp, &
       1.652_wp, 0.716_wp, 0.695_wp, -0.077_wp, 2.691_wp, 0.705_wp, 0.556_wp, -0.135_wp], [4, 2, 3])
+   !> Logarithms of the factors [-]
+   real(wp), parameter :: log_factors(2, 3) = log(power_laws(1, :, :))
    !> Roughness factors of Masjedi and Khonsari, `1 + factor s^a v^b W*^c U^d G^e`: factor, a, b, c, d, e [-];
    !> first minimum, second central film
    real(wp), parameter :: rough_factors(6, 2) = reshape([ &
@@ -100,16 +114,57 @@ contains
       !> Film thickness and its slopes
       type(film_shape_t), intent(out) :: shape
 
-      select case (law)
-      case (law_dowson_higginson, law_pan_hamrock, law_masjedi_khonsari)
-         call power_shape(power_laws(:, :, law), groups, shape)
-      case (law_masjedi_khonsari_rough)
-         call power_shape(power_laws(:, :, law_masjedi_khonsari), groups, shape)
-         call roughen(groups, shape)
-      case default
+      type(film_line_t) :: line
+
+      if (law == law_moes) then
          call moes_shape(groups, shape)
-      end select
+         return
+      end if
+      call new_film_line(line, min(law, law_masjedi_khonsari), groups)
+      call power_at_load(line, groups%load, shape)
+      if (law == law_masjedi_khonsari_rough) call roughen(groups, shape)
    end subroutine film_shape
+
+   !> Film over the load at the speed of the groups; at standstill there is no film to evaluate.
+   pure subroutine new_film_line(line, law, groups)
+      !> Film over the load
+      type(film_line_t), intent(out) :: line
+      !> Position in `film_law_names`
+      integer, intent(in) :: law
+      !> Dimensionless groups
+      type(groups_t), intent(in) :: groups
+
+      ! Logarithms of U and G [-]
+      real(wp) :: logs(2)
+
+      line%law = law
+      line%groups = groups
+      line%is_power = law <= law_masjedi_khonsari
+      line%unit_logs = 0.0_wp
+      if (.not. line%is_power .or. groups%speed <= 0.0_wp) return
+      logs = [log(groups%speed), log(groups%material)]
+      line%unit_logs = log_factors(:, law) + power_laws(2, :, law)*logs(1) + power_laws(3, :, law)*logs(2)
+   end subroutine new_film_line
+
+   !> Film at a load that the film carries.
+   pure subroutine film_at_load(line, load, shape)
+      !> Film over the load
+      type(film_line_t), intent(in) :: line
+      !> Load group W*, positive [-]
+      real(wp), intent(in) :: load
+      !> Film thickness and its slopes
+      type(film_shape_t), intent(out) :: shape
+
+      type(groups_t) :: groups
+
+      if (line%is_power) then
+         call power_at_load(line, load, shape)
+      else
+         groups = line%groups
+         groups%load = load
+         call film_shape(line%law, groups, shape)
+      end if
+   end subroutine film_at_load
 
    !> Does the law take the whole load instead of the part that the film carries?
    elemental function takes_whole_load(law) result(whole)
@@ -138,25 +193,25 @@ contains
    end function is_in_range
 
    !> Both films of a pair of power laws.
-   pure subroutine power_shape(constants, groups, shape)
-      !> Minimum and central film: factor and exponents of U, G, W* [-]
-      real(wp), intent(in) :: constants(4, 2)
-      !> Dimensionless groups
-      type(groups_t), intent(in) :: groups
+   pure subroutine power_at_load(line, load, shape)
+      !> Film over the load
+      type(film_line_t), intent(in) :: line
+      !> Load group W*, positive [-]
+      real(wp), intent(in) :: load
       !> Film thickness and its slopes
       type(film_shape_t), intent(out) :: shape
 
-      ! Logarithms of U, G, W* [-]
-      real(wp) :: logs(3)
+      ! ln W* [-]
+      real(wp) :: log_load
 
-      logs = log([groups%speed, groups%material, groups%load])
-      shape%minimum = constants(1, 1)*exp(dot_product(constants(2:4, 1), logs))
-      shape%central = constants(1, 2)*exp(dot_product(constants(2:4, 2), logs))
-      shape%minimum_speed_slope = constants(2, 1)
-      shape%central_speed_slope = constants(2, 2)
-      shape%minimum_load_slope = constants(4, 1)
-      shape%central_load_slope = constants(4, 2)
-   end subroutine power_shape
+      log_load = log(load)
+      shape%minimum_load_slope = power_laws(4, 1, line%law)
+      shape%central_load_slope = power_laws(4, 2, line%law)
+      shape%minimum_speed_slope = power_laws(2, 1, line%law)
+      shape%central_speed_slope = power_laws(2, 2, line%law)
+      shape%minimum = exp(line%unit_logs(1) + shape%minimum_load_slope*log_load)
+      shape%central = exp(line%unit_logs(2) + shape%central_load_slope*log_load)
+   end subroutine power_at_load
 
    !> Multiply both films by the roughness factors of Masjedi and Khonsari.
    pure subroutine roughen(groups, shape)

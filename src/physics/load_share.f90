@@ -6,7 +6,7 @@
 !> zero the root tends to the dry gap, `w_a(h_dry) = W*`, or to zero where the asperities alone cannot carry the load.
 module camroller_load_share
    use camroller_kinds, only : wp
-   use camroller_film, only : groups_t, film_shape_t, film_shape, takes_whole_load
+   use camroller_film, only : film_line_t, film_shape_t, film_at_load, takes_whole_load
    use camroller_asperity, only : asperity_constants_t, asperity_load_function, asperity_area_function, largest_film_ratio
    implicit none
    private
@@ -33,36 +33,39 @@ module camroller_load_share
 contains
 
    !> Share a load between film and asperities.
-   pure subroutine share_load(law, groups, share, asperity, area)
-      !> Position in `film_law_names`
-      integer, intent(in) :: law
-      !> Groups of the contact with the whole load, which is positive
-      type(groups_t), intent(in) :: groups
+   pure subroutine share_load(line, load, share, asperity, area, start)
+      !> Film over the load at the speed of the contact
+      type(film_line_t), intent(in) :: line
+      !> Whole load over E' R L, positive [-]
+      real(wp), intent(in) :: load
       !> Film and load share
       type(share_t), intent(out) :: share
       !> Asperities; absent: the film carries everything
       type(asperity_constants_t), intent(in), optional :: asperity
       !> Apparent area over E' R L, to go with `asperity` [1/Pa]
       real(wp), intent(in), optional :: area
+      !> Film ratio at which the iteration starts, from a contact nearby; zero or absent: from the film that carries everything [-]
+      real(wp), intent(in), optional :: start
 
       type(film_shape_t) :: shape
-      ! Asperity load over E' R L for F_5/2 = 1 [-]
-      real(wp) :: capacity
       ! Film ratio [-]
       real(wp) :: film_ratio
 
-      shape%minimum = 0.0_wp
-      shape%central = 0.0_wp
-      if (groups%speed > 0.0_wp) call film_shape(law, groups, shape)
       share%asperity_load = 0.0_wp
       share%real_area_ratio = 0.0_wp
+      film_ratio = 0.0_wp
+      if (present(start)) film_ratio = start
+      shape%minimum = 0.0_wp
+      shape%central = 0.0_wp
+      if (film_ratio <= 0.0_wp .or. film_ratio >= largest_film_ratio .or. takes_whole_load(line%law)) then
+         if (line%groups%speed > 0.0_wp) call film_at_load(line, load, shape)
+         film_ratio = shape%minimum/line%groups%roughness
+      end if
       if (present(asperity)) then
-         capacity = asperity%load_factor*area
-         film_ratio = shape%minimum/groups%roughness
          if (film_ratio < largest_film_ratio) then
-            call share_with_asperities(law, groups, capacity, film_ratio, share%asperity_load, shape)
+            call share_with_asperities(line, load, asperity%load_factor*area, film_ratio, share%asperity_load, shape)
             share%real_area_ratio = asperity%area_factor*asperity_area_function(film_ratio)
-            shape%minimum = film_ratio*groups%roughness
+            shape%minimum = film_ratio*line%groups%roughness
          end if
       end if
       share%film_min = shape%minimum
@@ -70,21 +73,21 @@ contains
    end subroutine share_load
 
    !> Film ratio at which the asperities carry what the film does not, by Newton's method on logarithms inside a bracket.
-   pure subroutine share_with_asperities(law, groups, capacity, film_ratio, asperity_load, shape)
-      !> Position in `film_law_names`
-      integer, intent(in) :: law
-      !> Groups of the contact with the whole load
-      type(groups_t), intent(in) :: groups
+   pure subroutine share_with_asperities(line, load, capacity, film_ratio, asperity_load, shape)
+      !> Film over the load at the speed of the contact
+      type(film_line_t), intent(in) :: line
+      !> Whole load over E' R L [-]
+      real(wp), intent(in) :: load
       !> Asperity load over E' R L for F_5/2 = 1 [-]
       real(wp), intent(in) :: capacity
-      !> In: film ratio with the film carrying everything; out: film ratio [-]
+      !> In: film ratio to start from, that with the film carrying everything for laws that take the whole load; out: film
+      !> ratio [-]
       real(wp), intent(inout) :: film_ratio
       !> Asperity load over E' R L [-]
       real(wp), intent(out) :: asperity_load
       !> In: film that carries everything; out: film
       type(film_shape_t), intent(inout) :: shape
 
-      type(groups_t) :: film_groups
       ! Bracket of the film ratio, its change relative [-]
       real(wp) :: low, high, change
       ! F_5/2, d F_5/2/d H, load of the film over E' R L and its derivative over ln H [-]
@@ -93,26 +96,24 @@ contains
       logical :: has_film
 
       call asperity_load_function(film_ratio, value, slope)
-      asperity_load = min(capacity*value, groups%load)
-      if (takes_whole_load(law)) return
-      if (groups%speed <= 0.0_wp .and. asperity_load < groups%load) return
+      asperity_load = min(capacity*value, load)
+      if (takes_whole_load(line%law)) return
+      if (line%groups%speed <= 0.0_wp .and. asperity_load < load) return
 
-      film_groups = groups
-      low = film_ratio
+      low = 0.0_wp
       high = largest_film_ratio
       do iteration = 1, max_iterations
-         film_load = groups%load - capacity*value
+         film_load = load - capacity*value
          change = 0.0_wp
-         has_film = film_load > 0.0_wp .and. groups%speed > 0.0_wp
+         has_film = film_load > 0.0_wp .and. line%groups%speed > 0.0_wp
          if (has_film) then
-            film_groups%load = film_load
-            call film_shape(law, film_groups, shape)
+            call film_at_load(line, film_load, shape)
             film_load_slope = -capacity*slope*film_ratio
-            change = log(shape%minimum/(film_ratio*groups%roughness)) &
+            change = log(shape%minimum/(film_ratio*line%groups%roughness)) &
                & /(1.0_wp - shape%minimum_load_slope*film_load_slope/film_load)
             if (abs(change) <= tolerance) then
                film_ratio = film_ratio*(1.0_wp + change)
-               asperity_load = groups%load - film_load - film_load_slope*change
+               asperity_load = load - film_load - film_load_slope*change
                shape%central = shape%central*(1.0_wp + shape%central_load_slope*film_load_slope/film_load*change)
                return
             end if
@@ -130,7 +131,7 @@ contains
       end do
       film_ratio = high
       call asperity_load_function(film_ratio, value, slope)
-      asperity_load = min(capacity*value, groups%load)
+      asperity_load = min(capacity*value, load)
    end subroutine share_with_asperities
 
 end module camroller_load_share

@@ -11,7 +11,7 @@ module camroller_contact
    use camroller_dynamics, only : moments_t
    use camroller_hertz, only : half_width
    use camroller_lubricant, only : mean_relative_viscosity
-   use camroller_film, only : groups_t, is_in_range
+   use camroller_film, only : groups_t, film_line_t, new_film_line, is_in_range
    use camroller_load_share, only : share_t, share_load
    use camroller_traction, only : film_pressure, newtonian_shear, eyring_shear, limit_shear, mobilised_share, &
       & rolling_resistance, law_newtonian, rolling_biboulet_houpert
@@ -59,6 +59,18 @@ module camroller_contact
       real(wp) :: bearing_torque
    end type contact_t
 
+   !> What does not change with the load while the balance is sought
+   type :: setting_t
+      !> Film over the load at the entrainment speed
+      type(film_line_t) :: line
+      !> E' R L [N]
+      real(wp) :: scale
+      !> Mobilised part of the boundary friction [-]
+      real(wp) :: mobilised
+      !> Torque of the roller's bearing over the load [m]
+      real(wp) :: bearing_arm
+   end type setting_t
+
    !> Balance of the finger: loss of figures allowed against the largest moment [-]; a few roundings
    real(wp), parameter :: balance_tolerance = 8.0_wp*epsilon(1.0_wp)
    !> Iterations that a bracketed secant may take: bisection alone would need about 60
@@ -83,22 +95,29 @@ contains
       !> 0 fine, positive where the balance was not reached
       integer, intent(out) :: status
 
-      ! Moment that the contact load balances [N m]; arm of the load [m]; load [N]
+      type(setting_t) :: setting
+      ! Moment that the contact load balances [N m]; arm of the load [m]; load without friction [N]
       real(wp) :: moment, arm, load
 
       status = 0
       call set_speeds(model, position, sliding_speed, contact)
       arm = merge(position%normal_arm, position%parallel_arm, model%has_exact_arm)
       moment = moments%total
+      if (model%is_consistent .and. allocated(model%guide_drag)) then
+         moment = moment + model%guide_drag*model%speed*position%lift_slope*position%valve_arm
+      end if
+      load = moment/arm
+      if (model%takes_maximum_load) load = max(model%base_circle_load, load)
+      contact%film_ratio = 0.0_wp
+      if (.not. load > 0.0_wp) then
+         call release(contact)
+         return
+      end if
+      call prepare(model, position, contact, setting)
       if (model%is_consistent) then
-         if (allocated(model%guide_drag)) then
-            moment = moment + model%guide_drag*model%speed*position%lift_slope*position%valve_arm
-         end if
-         call balance_finger(model, position, moment, contact, status)
+         call balance_finger(model, position, setting, moment, contact, status)
       else
-         load = moment/arm
-         if (model%takes_maximum_load) load = max(model%base_circle_load, load)
-         call evaluate_contact(model, position, max(load, 0.0_wp), contact)
+         call evaluate_contact(model, position, setting, load, contact)
       end if
    end subroutine solve_contact
 
@@ -123,15 +142,49 @@ contains
       contact%relative_spin = contact%roller_spin - model%linkage%sense*position%finger_slope*model%speed
    end subroutine set_speeds
 
-   !> Load at which `W h_W + sense (T' h_t + T_B) = moment`, by a bracketed secant.
-   !>
-   !> Friction changes the load by a few per cent at most, so two or three secant steps reach round-off.
-   pure subroutine balance_finger(model, position, moment, contact, status)
+   !> What the speeds alone decide.
+   pure subroutine prepare(model, position, contact, setting)
       !> The model
       type(model_t), intent(in) :: model
       !> Geometry at this angle
       type(position_t), intent(in) :: position
-      !> Moment to be balanced [N m]
+      !> State of the contact; the speeds are set
+      type(contact_t), intent(in) :: contact
+      !> What does not change with the load
+      type(setting_t), intent(out) :: setting
+
+      type(groups_t) :: groups
+
+      setting%scale = model%modulus*position%equivalent_radius*model%contact_width
+      groups%speed = model%oil%viscosity*abs(contact%entrainment_speed)/(model%modulus*position%equivalent_radius)
+      groups%material = model%oil%pressure_viscosity*model%modulus
+      groups%load = 0.0_wp
+      groups%roughness = model%roughness/position%equivalent_radius
+      groups%hardness = model%hardness/model%modulus
+      call new_film_line(setting%line, model%film_law, groups)
+      setting%mobilised = 0.0_wp
+      if (allocated(model%boundary)) then
+         setting%mobilised = mobilised_share(contact%sliding_speed, model%boundary%mobilising_speed)
+      end if
+      setting%bearing_arm = 0.0_wp
+      if (allocated(model%bearing)) then
+         setting%bearing_arm = bearing_torque(model%bearing%friction_coefficient, 1.0_wp, model%bearing%radius, &
+            & contact%relative_spin, model%bearing%reversal_spin)
+      end if
+   end subroutine prepare
+
+   !> Load at which `W h_W + sense (T' h_t + T_B) = moment`, by a bracketed secant.
+   !>
+   !> Friction changes the load by a few per cent at most, so two or three secant steps reach round-off. Without a load at
+   !> which friction lets the balance be, contact is lost.
+   pure subroutine balance_finger(model, position, setting, moment, contact, status)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> Geometry at this angle
+      type(position_t), intent(in) :: position
+      !> What does not change with the load
+      type(setting_t), intent(in) :: setting
+      !> Moment to be balanced, positive [N m]
       real(wp), intent(in) :: moment
       !> State of the contact
       type(contact_t), intent(inout) :: contact
@@ -153,12 +206,8 @@ contains
       slope = position%normal_arm
       last_load = 0.0_wp
       last_excess = 0.0_wp
-      if (load <= 0.0_wp) then
-         call evaluate_contact(model, position, 0.0_wp, contact)
-         return
-      end if
       do iteration = 1, max_iterations
-         call evaluate_contact(model, position, load, contact)
+         call evaluate_contact(model, position, setting, load, contact)
          excess = load*position%normal_arm - moment &
             & + model%linkage%sense*(contact%tangential_force*position%tangent_arm + contact%bearing_torque)
          if (abs(excess) <= balance_tolerance*moment) return
@@ -166,7 +215,7 @@ contains
          if (excess < 0.0_wp) low = load
          if (high - low <= 2.0_wp*spacing(load)) return
          if (high < lost_load*moment/position%normal_arm) then
-            call evaluate_contact(model, position, 0.0_wp, contact)
+            call release(contact)
             return
          end if
          if (iteration > 1 .and. abs(load - last_load) > 0.0_wp) slope = (excess - last_excess)/(load - last_load)
@@ -183,80 +232,68 @@ contains
    end subroutine balance_finger
 
    !> Everything in the contact at a given load.
-   pure subroutine evaluate_contact(model, position, load, contact)
+   pure subroutine evaluate_contact(model, position, setting, load, contact)
       !> The model
       type(model_t), intent(in) :: model
       !> Geometry at this angle
       type(position_t), intent(in) :: position
-      !> Normal load, W [N]
+      !> What does not change with the load
+      type(setting_t), intent(in) :: setting
+      !> Normal load, W, positive [N]
       real(wp), intent(in) :: load
-      !> State of the contact; the speeds are set
+      !> State of the contact; the speeds are set, and the film ratio is that of a contact nearby or zero
       type(contact_t), intent(inout) :: contact
 
-      type(groups_t) :: groups
       type(share_t) :: share
-      ! E' R L [N]
-      real(wp) :: scale
-      ! Pressure in the middle of the film [Pa]
-      real(wp) :: peak
+      type(groups_t) :: groups
+      ! Pressure in the middle of the film [Pa]; load over E' R L that the rolling law takes [-]
+      real(wp) :: peak, rolling_load
 
       contact%load = load
-      contact%is_touching = load > 0.0_wp
-      contact%is_in_range = .true.
-      if (.not. contact%is_touching) then
-         call release(contact)
-         return
-      end if
+      contact%is_touching = .true.
       contact%half_width = half_width(load, position%equivalent_radius, model%contact_width, model%modulus)
       contact%apparent_area = 2.0_wp*contact%half_width*model%contact_width
-      scale = model%modulus*position%equivalent_radius*model%contact_width
-      groups%speed = model%oil%viscosity*abs(contact%entrainment_speed)/(model%modulus*position%equivalent_radius)
-      groups%material = model%oil%pressure_viscosity*model%modulus
-      groups%load = load/scale
-      groups%roughness = model%roughness/position%equivalent_radius
-      groups%hardness = model%hardness/model%modulus
+      groups = setting%line%groups
+      groups%load = load/setting%scale
       contact%is_in_range = is_in_range(model%film_law, groups)
-
       if (allocated(model%boundary)) then
-         call share_load(model%film_law, groups, share, model%boundary%constants, contact%apparent_area/scale)
+         call share_load(setting%line, groups%load, share, model%boundary%constants, contact%apparent_area/setting%scale, &
+            & contact%film_ratio)
       else
-         call share_load(model%film_law, groups, share)
+         call share_load(setting%line, groups%load, share)
       end if
       contact%film_min = share%film_min*position%equivalent_radius
       contact%film_central = share%film_central*position%equivalent_radius
       contact%film_ratio = contact%film_min/model%roughness
-      contact%asperity_load = share%asperity_load*scale
+      contact%asperity_load = share%asperity_load*setting%scale
       contact%real_area = share%real_area_ratio*contact%apparent_area
 
       peak = film_pressure(load - contact%asperity_load, contact%apparent_area, contact%real_area)
-      call set_traction(model, peak, share%real_area_ratio, contact)
-      if (model%rolling_law == rolling_biboulet_houpert) groups%load = groups%load - share%asperity_load
-      contact%rolling_resistance = sign(rolling_resistance(model%rolling_law, groups%speed, groups%load, model%modulus, &
+      call set_traction(model, peak, share%real_area_ratio, setting%mobilised, contact)
+      rolling_load = groups%load
+      if (model%rolling_law == rolling_biboulet_houpert) rolling_load = groups%load - share%asperity_load
+      contact%rolling_resistance = sign(rolling_resistance(model%rolling_law, groups%speed, rolling_load, model%modulus, &
          & position%equivalent_radius, model%contact_width, model%oil%pressure_viscosity), contact%entrainment_speed)
       contact%tangential_force = contact%traction &
          & + contact%rolling_resistance*(2.0_wp*position%equivalent_radius/model%roller_radius - 1.0_wp)
-      contact%bearing_torque = 0.0_wp
-      if (allocated(model%bearing)) then
-         contact%bearing_torque = bearing_torque(model%bearing%friction_coefficient, load, model%bearing%radius, &
-            & contact%relative_spin, model%bearing%reversal_spin)
-      end if
+      contact%bearing_torque = setting%bearing_arm*load
    end subroutine evaluate_contact
 
    !> Shear of the film, boundary friction and their sum.
-   pure subroutine set_traction(model, peak, real_area_ratio, contact)
+   pure subroutine set_traction(model, peak, real_area_ratio, mobilised, contact)
       !> The model
       type(model_t), intent(in) :: model
       !> Pressure in the middle of the film [Pa]
       real(wp), intent(in) :: peak
       !> Real over apparent contact area [-]
       real(wp), intent(in) :: real_area_ratio
+      !> Mobilised part of the boundary friction [-]
+      real(wp), intent(in) :: mobilised
       !> State of the contact; film and load share are set
       type(contact_t), intent(inout) :: contact
 
       ! Slope of the shear over the sliding speed [N s/m]
       real(wp) :: slope
-      ! Mobilised part of the boundary friction [-]
-      real(wp) :: mobilised
 
       if (model%shear_law == law_newtonian) then
          slope = newtonian_shear(1.0_wp, model%oil%viscosity*mean_relative_viscosity(model%oil, peak), &
@@ -276,7 +313,6 @@ contains
 
       contact%boundary_capacity = model%boundary%film_shear_strength*contact%real_area &
          & + model%boundary%coefficient*contact%asperity_load
-      mobilised = mobilised_share(contact%sliding_speed, model%boundary%mobilising_speed)
       contact%boundary_mobilised = contact%boundary_capacity*mobilised
       contact%traction = contact%traction + contact%boundary_mobilised
       contact%traction_slope = contact%traction_slope &
@@ -288,6 +324,9 @@ contains
       !> State of the contact; the speeds are kept
       type(contact_t), intent(inout) :: contact
 
+      contact%is_touching = .false.
+      contact%is_in_range = .true.
+      contact%load = 0.0_wp
       contact%half_width = 0.0_wp
       contact%apparent_area = 0.0_wp
       contact%film_min = 0.0_wp
