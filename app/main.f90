@@ -1,8 +1,10 @@
-!> The program.
+!> The program: do what the command line says, end with an exit code by kind of error.
 program main
-   use, intrinsic :: iso_fortran_env, only : output_unit
-   use camroller_version, only : version_text
+   use camroller_commands, only : run_command_line
    implicit none
 
-   write (output_unit, '(a)') "camroller "//version_text
+   integer :: code
+
+   call run_command_line(code)
+   if (code /= 0) stop code, quiet=.true.
 end program main

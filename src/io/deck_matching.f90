@@ -70,6 +70,7 @@ contains
             if (positions(i) == 0) then
                call add_mistake(mistakes, "unknown group &"//group%name//advice(group%name, group_names(schema), &
                   & "known are "), group%line, group%column, len(group%name) + 1)
+               call excuse_group(schema, nearest_name(group%name, group_names(schema)), settings)
             else
                settings%groups(positions(i))%is_present = .true.
                settings%groups(positions(i))%line = group%line
@@ -85,6 +86,21 @@ contains
          end associate
       end do
    end subroutine match_deck
+
+   !> Do not ask for a group that is there under a misspelt name.
+   pure subroutine excuse_group(schema, name, settings)
+      !> The schema
+      type(schema_t), intent(in) :: schema
+      !> Name of the group; blank for none
+      character(len=*), intent(in) :: name
+      !> The settings
+      type(settings_t), intent(inout) :: settings
+
+      integer :: group
+
+      group = find_group(schema, name)
+      if (group > 0) settings%groups(group)%is_misspelt = .true.
+   end subroutine excuse_group
 
    !> Take one key.
    subroutine match_key(schema, assignment, group, settings, mistakes)
@@ -106,6 +122,8 @@ contains
       if (key == 0) then
          call add_mistake(mistakes, unknown_key(schema, group, assignment%key), assignment%line, assignment%column, &
             & len(assignment%key))
+         key = find_key_without_case(schema, group, nearest_name(assignment%key, key_names(schema, group)))
+         if (key > 0) settings%values(key)%is_wrong = .true.
          return
       end if
       associate (value => settings%values(key))
@@ -114,8 +132,13 @@ contains
                & trim(settings%groups(group)%name), assignment%line, assignment%column, len(assignment%key))
             return
          end if
-         call read_value(schema%keys(key), assignment%value, value, reason)
          value%is_given = .true.
+         if (assignment%is_broken) then
+            value%is_known = .false.
+            value%is_wrong = .true.
+            return
+         end if
+         call read_value(schema%keys(key), assignment%value, value, reason)
          value%line = assignment%value_line
          value%column = assignment%value_column
          value%width = assignment%value_width
@@ -271,12 +294,13 @@ contains
       do i = 1, schema%group_count
          associate (group => schema%groups(i))
             if (.not. settings%groups(i)%is_present) then
-               if (group%kind /= group_required) cycle
+               if (group%kind /= group_required .or. settings%groups(i)%is_misspelt) cycle
                call add_mistake(mistakes, "the group &"//trim(group%name)//" is missing ("//group%meaning//")", 0, 0, 0)
                cycle
             end if
             do j = group%first, group%last
-               if (.not. schema%keys(j)%is_required .or. settings%values(j)%is_given) cycle
+               if (.not. schema%keys(j)%is_required) cycle
+               if (settings%values(j)%is_given .or. settings%values(j)%is_wrong) cycle
                call complain_about_group(mistakes, settings, trim(group%name), "&"//trim(group%name)//" needs '"// &
                   & trim(schema%keys(j)%name)//"' ("//schema%keys(j)%meaning//")")
             end do

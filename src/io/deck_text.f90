@@ -33,6 +33,8 @@ module camroller_deck_text
       character(len=:), allocatable :: value
       !> Place of the value; of the key where the value is empty
       integer :: value_line = 0, value_column = 0, value_width = 0
+      !> Is there a mistake in its shape already?
+      logical :: is_broken = .false.
    end type assignment_t
 
    !> A deck without its comments
@@ -233,7 +235,7 @@ contains
          last = len(line)
          call add_mistake(mistakes, "quoted text without a closing quote on its line", reader%line, position, &
             & len_trim(line) - position + 1)
-         call append(reader, deck, line(position:)//line(position:position), position, mistakes)
+         if (reader%assignment > 0) deck%assignments(reader%assignment)%is_broken = .true.
          return
       end if
       call append(reader, deck, line(position:last), position, mistakes)
@@ -268,7 +270,8 @@ contains
                & reader%line, &
                & position, closing - position + 1)
             last = next_column(line, closing + 1)
-            call begin_assignment(reader, deck, "", position, 0)
+            call begin_assignment(reader, deck, word, position, last)
+            deck%assignments(reader%assignment)%is_broken = .true.
             return
          end if
       end if

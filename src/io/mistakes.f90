@@ -227,6 +227,7 @@ contains
       smallest = max(2, len_trim(word)/3) + 1
       do i = 1, size(known)
          distance = edit_distance(trim(word), trim(known(i)))
+         if (index(known(i), trim(word)//"_") == 1) distance = 1
          if (distance >= min(smallest, len_trim(known(i)))) cycle
          smallest = distance
          nearest = trim(known(i))

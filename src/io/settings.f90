@@ -18,6 +18,8 @@ module camroller_settings
       integer :: first = 1, last = 0
       !> Is the group in the deck?
       logical :: is_present = .false.
+      !> Is it there under a name that is nearly its own?
+      logical :: is_misspelt = .false.
       !> Place of the group in the deck
       integer :: line = 0, column = 0
    end type section_t

@@ -1,0 +1,245 @@
+!> The command line: words in, configuration out.
+!>
+!> Layer: app. In: the arguments of the program. Out: what to do, or a usage error.
+module camroller_cli
+   use camroller_error, only : error_t, raise, kind_usage
+   use camroller_deck, only : override_t
+   use camroller_mistakes, only : line_t, nearest_name
+   use camroller_names, only : list_names, index_of_name
+   implicit none
+   private
+
+   public :: config_t, command_names, get_arguments, read_arguments
+
+   !> Commands
+   character(len=*), parameter :: command_names(*) = [character(len=8) :: &
+      & "run", "check", "defaults", "export", "version", "help"]
+   !> Options of each command, in the same order
+   character(len=*), parameter :: option_names(*) = [character(len=48) :: &
+      & "--output --set --quiet --help", "--set --help", "--markdown --help", &
+      & "--series --summary --case --output --help", &
+      & "--help", "--help"]
+   !> Most words beside options that each command takes
+   integer, parameter :: most_words(*) = [1, 1, 1, 1, 0, 1]
+   !> Does each command need a word?
+   logical, parameter :: needs_word(*) = [.true., .true., .false., .true., .false., .false.]
+
+   !> What to do
+   type :: config_t
+      !> One of `command_names`
+      character(len=:), allocatable :: command
+      !> Deck, result file, group or command that the command is about; blank where not given
+      character(len=:), allocatable :: subject
+      !> File to write; blank where not given
+      character(len=:), allocatable :: output
+      !> Values given beside the deck
+      type(override_t), allocatable :: overrides(:)
+      !> Say nothing but errors?
+      logical :: is_quiet = .false.
+      !> A page instead of a deck?
+      logical :: is_markdown = .false.
+      !> Summary of all cases instead of the series of one?
+      logical :: is_summary = .false.
+      !> Is help wanted?
+      logical :: is_help = .false.
+      !> Case to export, from 1
+      integer :: case_number = 1
+   end type config_t
+
+contains
+
+   !> Words after the name of the program.
+   subroutine get_arguments(arguments)
+      !> The words
+      type(line_t), allocatable, intent(inout) :: arguments(:)
+
+      integer :: i, length
+
+      if (allocated(arguments)) deallocate (arguments)
+      allocate (arguments(command_argument_count()))
+      do i = 1, size(arguments)
+         call get_command_argument(i, length=length)
+         allocate (character(len=length) :: arguments(i)%text)
+         if (length > 0) call get_command_argument(i, arguments(i)%text)
+      end do
+   end subroutine get_arguments
+
+   !> What the words ask for.
+   subroutine read_arguments(arguments, config, error)
+      !> Words after the name of the program
+      type(line_t), intent(in) :: arguments(:)
+      !> What to do
+      type(config_t), intent(out) :: config
+      !> Usage error
+      type(error_t), allocatable, intent(out) :: error
+
+      integer :: i, command, words
+
+      config%subject = ""
+      config%output = ""
+      allocate (config%overrides(0))
+      call read_command(arguments, config, error)
+      if (allocated(error)) return
+      command = index_of_name(config%command, command_names)
+      words = 0
+      i = 2
+      do while (i <= size(arguments))
+         if (index(arguments(i)%text, "-") == 1 .and. len(arguments(i)%text) > 1) then
+            call read_option(arguments, command, i, config, error)
+            if (allocated(error)) return
+         else
+            words = words + 1
+            if (words > most_words(command)) then
+               call raise(error, kind_usage, "'"//config%command//"' does not take '"//arguments(i)%text//"'"// &
+                  & see(config))
+               return
+            end if
+            config%subject = arguments(i)%text
+         end if
+         i = i + 1
+      end do
+      if (config%is_help .or. .not. needs_word(command) .or. config%subject /= "") return
+      call raise(error, kind_usage, "'"//config%command//"' needs the name of a file"//see(config))
+   end subroutine read_arguments
+
+   !> The first word.
+   subroutine read_command(arguments, config, error)
+      !> Words after the name of the program
+      type(line_t), intent(in) :: arguments(:)
+      !> Gets the command
+      type(config_t), intent(inout) :: config
+      !> Usage error
+      type(error_t), allocatable, intent(out) :: error
+
+      character(len=:), allocatable :: nearest
+
+      config%command = "help"
+      if (size(arguments) == 0) then
+         call raise(error, kind_usage, "no command; see 'camroller help'")
+         return
+      end if
+      select case (arguments(1)%text)
+      case ("--help", "-h")
+         return
+      case ("--version", "-V")
+         config%command = "version"
+         return
+      end select
+      config%command = arguments(1)%text
+      if (index_of_name(config%command, command_names) > 0) return
+      nearest = nearest_name(config%command, command_names)
+      if (nearest /= "") then
+         call raise(error, kind_usage, "unknown command '"//config%command//"'; did you mean '"//nearest//"'?")
+      else
+         call raise(error, kind_usage, "unknown command '"//config%command//"'; known are "//list_names(command_names))
+      end if
+   end subroutine read_command
+
+   !> One option, with its value where it has one.
+   subroutine read_option(arguments, command, position, config, error)
+      !> Words after the name of the program
+      type(line_t), intent(in) :: arguments(:)
+      !> Position of the command
+      integer, intent(in) :: command
+      !> Position of the option; moved to its value
+      integer, intent(inout) :: position
+      !> What to do
+      type(config_t), intent(inout) :: config
+      !> Usage error
+      type(error_t), allocatable, intent(out) :: error
+
+      character(len=:), allocatable :: option, value
+      integer :: equals
+
+      option = arguments(position)%text
+      equals = index(option, "=")
+      if (equals > 0 .and. index(option, "--") == 1) option = option(:equals - 1)
+      option = long_form(option)
+      if (index(" "//option_names(command), " "//option//" ") == 0) then
+         call raise(error, kind_usage, "'"//config%command//"' has no option '"//arguments(position)%text//"'"// &
+            & see(config))
+         return
+      end if
+      if (option == "--output" .or. option == "--set" .or. option == "--case") then
+         if (equals > 0 .and. index(arguments(position)%text, "--") == 1) then
+            value = arguments(position)%text(equals + 1:)
+         else if (position < size(arguments)) then
+            position = position + 1
+            value = arguments(position)%text
+         else
+            call raise(error, kind_usage, "option '"//option//"' needs a value"//see(config))
+            return
+         end if
+      else if (equals > 0) then
+         call raise(error, kind_usage, "option '"//option//"' takes no value"//see(config))
+         return
+      end if
+      select case (option)
+      case ("--output")
+         config%output = value
+         if (value == "") call raise(error, kind_usage, "option '--output' needs the name of a file"//see(config))
+      case ("--set")
+         config%overrides = [config%overrides, override_t(value)]
+      case ("--case")
+         call read_case_number(value, config, error)
+      case ("--quiet")
+         config%is_quiet = .true.
+      case ("--markdown")
+         config%is_markdown = .true.
+      case ("--summary")
+         config%is_summary = .true.
+      case ("--help")
+         config%is_help = .true.
+      end select
+   end subroutine read_option
+
+   !> Number of a case.
+   subroutine read_case_number(value, config, error)
+      !> The word
+      character(len=*), intent(in) :: value
+      !> Gets the number
+      type(config_t), intent(inout) :: config
+      !> Usage error
+      type(error_t), allocatable, intent(out) :: error
+
+      integer :: status
+
+      status = 1
+      if (verify(value, "0123456789") == 0 .and. len(value) > 0) read (value, *, iostat=status) config%case_number
+      if (status == 0 .and. config%case_number > 0) return
+      call raise(error, kind_usage, "option '--case' takes the number of a case, from 1, not '"//value//"'"// &
+         & see(config))
+   end subroutine read_case_number
+
+   !> Long name of an option.
+   pure function long_form(option) result(long)
+      !> The option as given
+      character(len=*), intent(in) :: option
+      !> Its long name
+      character(len=:), allocatable :: long
+
+      select case (option)
+      case ("-o")
+         long = "--output"
+      case ("-s")
+         long = "--set"
+      case ("-q")
+         long = "--quiet"
+      case ("-h")
+         long = "--help"
+      case default
+         long = option
+      end select
+   end function long_form
+
+   !> Where to read more.
+   pure function see(config) result(words)
+      !> What to do
+      type(config_t), intent(in) :: config
+      !> The words
+      character(len=:), allocatable :: words
+
+      words = "; see 'camroller help "//config%command//"'"
+   end function see
+
+end module camroller_cli

@@ -1,0 +1,173 @@
+!> The commands: each does one thing and prints on the output unit; errors go to the error unit.
+!>
+!> Layer: app. In: the command line. Out: files, text, an exit code.
+module camroller_commands
+   use, intrinsic :: iso_fortran_env, only : error_unit, output_unit
+   use camroller_error, only : error_t, raise, kind_usage
+   use camroller_case, only : case_t
+   use camroller_cli, only : config_t, command_names, get_arguments, read_arguments
+   use camroller_deck, only : deck_t, read_deck, make_sweep_case
+   use camroller_deck_document, only : write_defaults, write_page, write_resolved
+   use camroller_deck_schema, only : group_effect
+   use camroller_deck_sweep, only : sweep_size
+   use camroller_help_text, only : help_for
+   use camroller_mistakes, only : line_t
+   use camroller_names, only : index_of_name
+   use camroller_number_text, only : integer_text
+   use camroller_version, only : version_text, build_commit, compiler_facts
+   implicit none
+   private
+
+   public :: run_command_line
+
+contains
+
+   !> Do what the command line says.
+   subroutine run_command_line(code)
+      !> Exit code: 0, or the kind of the error
+      integer, intent(out) :: code
+
+      type(line_t), allocatable :: arguments(:)
+      type(config_t) :: config
+      type(error_t), allocatable :: error
+
+      allocate (arguments(0))
+      call get_arguments(arguments)
+      call read_arguments(arguments, config, error)
+      if (.not. allocated(error)) call run_command(config, error)
+      code = 0
+      if (.not. allocated(error)) return
+      write (error_unit, '(a)') "camroller: "//error%message
+      code = error%kind
+   end subroutine run_command_line
+
+   !> Do one command.
+   subroutine run_command(config, error)
+      !> What to do
+      type(config_t), intent(in) :: config
+      !> What went wrong
+      type(error_t), allocatable, intent(out) :: error
+
+      if (config%is_help) then
+         write (output_unit, '(a)') help_for(config%command)
+         return
+      end if
+      select case (config%command)
+      case ("check")
+         call check_deck(config, error)
+      case ("defaults")
+         call show_defaults(config, error)
+      case ("version")
+         call show_version()
+      case ("help")
+         call show_help(config, error)
+      case default
+         call raise(error, kind_usage, "'"//config%command//"' is not there yet")
+      end select
+   end subroutine run_command
+
+   !> Help, or help for a command.
+   subroutine show_help(config, error)
+      !> What to do
+      type(config_t), intent(in) :: config
+      !> Usage error where there is no such command
+      type(error_t), allocatable, intent(out) :: error
+
+      if (config%subject /= "" .and. index_of_name(config%subject, command_names) == 0) then
+         call raise(error, kind_usage, "unknown command '"//config%subject//"'; see 'camroller help'")
+         return
+      end if
+      write (output_unit, '(a)') help_for(config%subject)
+   end subroutine show_help
+
+   !> Version and build.
+   subroutine show_version()
+      character(len=:), allocatable :: compiler, options
+
+      call compiler_facts(compiler, options)
+      write (output_unit, '(a)') "camroller "//version_text, "commit "//build_commit, compiler, options
+   end subroutine show_version
+
+   !> A complete deck.
+   subroutine show_defaults(config, error)
+      !> What to do
+      type(config_t), intent(in) :: config
+      !> Usage error where there is no such group
+      type(error_t), allocatable, intent(out) :: error
+
+      character(len=:), allocatable :: text
+
+      if (config%is_markdown) then
+         call write_page(config%subject, text, error)
+      else
+         call write_defaults(config%subject, text, error)
+      end if
+      if (allocated(error)) return
+      write (output_unit, '(a)', advance="no") text
+   end subroutine show_defaults
+
+   !> Check a deck and print what it comes to.
+   subroutine check_deck(config, error)
+      !> What to do
+      type(config_t), intent(in) :: config
+      !> File or deck error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(deck_t) :: deck
+      type(case_t) :: case
+      character(len=:), allocatable :: text
+      integer :: i
+
+      call read_deck(deck, config%subject, config%overrides, error)
+      if (allocated(error)) return
+      do i = 1, sweep_size(deck%sweep)
+         call make_sweep_case(deck, i, case, error)
+         if (allocated(error)) return
+      end do
+      call write_resolved(deck, text)
+      write (output_unit, '(a)') "! "//config%subject//" is valid: "//cases_in_words(deck)
+      write (output_unit, '(a)') "! effects in the case: "//effects_in_words(deck, .true.)
+      write (output_unit, '(a)') "! effects not in the case: "//effects_in_words(deck, .false.)
+      write (output_unit, '(a)', advance="no") text
+   end subroutine check_deck
+
+   !> Number of cases, and the grid they make up.
+   function cases_in_words(deck) result(words)
+      !> The deck
+      type(deck_t), intent(in) :: deck
+      !> The words
+      character(len=:), allocatable :: words
+
+      integer :: i
+
+      words = "one case"
+      if (size(deck%sweep%axes) == 0) return
+      words = integer_text(sweep_size(deck%sweep))//" cases over"
+      do i = 1, size(deck%sweep%axes)
+         if (i > 1) words = words//" and"
+         words = words//" "//integer_text(size(deck%sweep%axes(i)%values))//" of "//deck%sweep%axes(i)%key
+      end do
+   end function cases_in_words
+
+   !> Effects that are in a deck, or those that are not.
+   function effects_in_words(deck, are_present) result(words)
+      !> The deck
+      type(deck_t), intent(in) :: deck
+      !> Those that are there?
+      logical, intent(in) :: are_present
+      !> The words
+      character(len=:), allocatable :: words
+
+      integer :: i
+
+      words = ""
+      do i = 1, deck%schema%group_count
+         if (deck%schema%groups(i)%kind /= group_effect .or. deck%schema%groups(i)%name == "sweep") cycle
+         if (deck%settings%groups(i)%is_present .neqv. are_present) cycle
+         if (words /= "") words = words//", "
+         words = words//trim(deck%schema%groups(i)%name)
+      end do
+      if (words == "") words = "none"
+   end function effects_in_words
+
+end module camroller_commands

@@ -1,0 +1,60 @@
+!> What `help` says.
+!>
+!> Layer: app. In: the name of a command. Out: text.
+module camroller_help_text
+   implicit none
+   private
+
+   public :: help_for
+
+   character(len=*), parameter :: n = new_line("a")
+
+contains
+
+   !> Help for a command, or for the program where the name is none of a command.
+   pure function help_for(command) result(text)
+      !> Name of the command
+      character(len=*), intent(in) :: command
+      !> A few lines
+      character(len=:), allocatable :: text
+
+      select case (command)
+      case ("run")
+         text = "camroller run DECK [-o FILE] [--set group.key=value]... [--quiet]"//n//n// &
+            & "Compute every case of a deck and write one HDF5 file: the deck's name with .h5 in the present folder,"// &
+            & n// &
+            & "or FILE. An earlier file of that name is replaced only when the new one is complete."//n//n// &
+            & "  -o, --output FILE          file to write"//n// &
+            & "  -s, --set group.key=value  other value than the deck's; may be repeated"//n// &
+            & "  -q, --quiet                say nothing but errors"
+      case ("check")
+         text = "camroller check DECK [--set group.key=value]..."//n//n// &
+            & "Read a deck, check every case of it without running it, and print the values it comes to."//n//n// &
+            & "  -s, --set group.key=value  other value than the deck's; may be repeated"
+      case ("defaults")
+         text = "camroller defaults [GROUP] [--markdown]"//n//n// &
+            & "Print a complete deck with every key explained, or one group of it."//n//n// &
+            & "  --markdown                 the same as a page"
+      case ("export")
+         text = "camroller export FILE.h5 [--series [--case N] | --summary] [-o FILE.csv]"//n//n// &
+            & "Print the series of one case, or the summary of all cases, as comma-separated values."//n//n// &
+            & "  --series                   series over the cam angle (the default)"//n// &
+            & "  --case N                   case, from 1; 1 where not given"//n// &
+            & "  --summary                  one row for each case"//n// &
+            & "  -o, --output FILE          file to write; the output unit where not given"
+      case ("version")
+         text = "camroller version"//n//n//"Print version, commit, compiler and compiler options."
+      case default
+         text = "camroller: friction, slip and drive torque of roller-finger-follower valve trains"//n//n// &
+            & "  camroller run DECK         compute and write an HDF5 file"//n// &
+            & "  camroller check DECK       read and check a deck, print what it comes to"//n// &
+            & "  camroller defaults [GROUP] print a complete deck with every key explained"//n// &
+            & "  camroller export FILE.h5   print results as comma-separated values"//n// &
+            & "  camroller version          version and build"//n// &
+            & "  camroller help [COMMAND]   this, or more about a command"//n//n// &
+            & "Exit codes: 0 fine, 2 command line, 3 deck or table, 4 impossible values or a law out of range,"//n// &
+            & "5 no convergence, 6 file, 70 mistake in the program."
+      end select
+   end function help_for
+
+end module camroller_help_text
