@@ -153,19 +153,19 @@ contains
       !> Mistakes so far
       type(mistakes_t), intent(inout) :: mistakes
 
+      !> Below it the acceleration jumps
+      integer, parameter :: smallest = 3
       integer, allocatable :: exponents(:)
-      integer :: smallest
 
       call demand(settings, group, "exponents", "lift law '"//law//"'", mistakes)
       if (.not. is_known(settings, group, "exponents")) return
       call take(settings, group, "exponents", exponents)
-      smallest = merge(3, 2, number == 1)
       if (size(exponents) /= number) then
-         call complain(mistakes, settings, group, "exponents", "lift law '"//law//"' takes "//integer_text(number)// &
-            & " exponents, not "//integer_text(size(exponents)))
+         call complain(mistakes, settings, group, "exponents", "lift law '"//law//"' takes "// &
+            & trim(merge("one exponent  ", "four exponents", number == 1))//", not "//integer_text(size(exponents)))
       else if (exponents(1) < smallest) then
          call complain(mistakes, settings, group, "exponents", "the smallest exponent of lift law '"//law//"' is "// &
-            & integer_text(smallest)//": the lift must be twice continuously differentiable")
+            & integer_text(smallest)//", or the acceleration would jump")
       else if (any(exponents(2:) <= exponents(:number - 1))) then
          call complain(mistakes, settings, group, "exponents", "the exponents must increase")
       end if

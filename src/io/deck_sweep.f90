@@ -67,7 +67,7 @@ contains
          end if
          before = mistakes%count
          call read_axis(schema, settings, digit, axis, mistakes)
-         if (mistakes%count > before) cycle
+         if (mistakes%count > before .or. .not. allocated(axis%values)) cycle
          if (has_axis(sweep, axis%key)) then
             call complain(mistakes, settings, "sweep", "key_"//digit, "'"//axis%key//"' is swept twice")
             cycle

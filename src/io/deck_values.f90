@@ -204,6 +204,10 @@ contains
 
       item = ""
       status = 1
+      if (len(value%text) > longest_text) then
+         reason = "'"//trim(key%name)//"' is longer than "//integer_text(longest_text - 2)//" characters"
+         return
+      end if
       if (index("'""", value%text(1:1)) > 0) then
          buffer = "&value_group item="//value%text//" /"
          read (buffer, nml=value_group, iostat=status)
@@ -211,8 +215,6 @@ contains
       if (status /= 0) then
          reason = "'"//trim(key%name)//"' takes one text in quotes, not "//quoted(value%text)
          if (allocated(key%choices)) reason = reason//"; it is "//allowed_values(key)
-      else if (item(longest_text:) /= " ") then
-         reason = "'"//trim(key%name)//"' is longer than "//integer_text(longest_text - 1)//" characters"
       else if (allocated(key%choices)) then
          call check_choice(key, trim(item), reason)
       else if (item == "") then

@@ -221,18 +221,34 @@ contains
       !> The nearest of them, or nothing
       character(len=:), allocatable :: nearest
 
-      integer :: i, distance, smallest
+      integer :: i, distance, smallest, shared, most_shared
 
       nearest = ""
-      smallest = max(2, len_trim(word)/3) + 1
+      smallest = max(2, len_trim(word)/3)
+      most_shared = -1
       do i = 1, size(known)
          distance = edit_distance(trim(word), trim(known(i)))
          if (index(known(i), trim(word)//"_") == 1) distance = 1
-         if (distance >= min(smallest, len_trim(known(i)))) cycle
+         shared = shared_letters(word, known(i))
+         if (distance >= len_trim(known(i)) .or. distance > smallest) cycle
+         if (distance == smallest .and. shared <= most_shared) cycle
          smallest = distance
+         most_shared = shared
          nearest = trim(known(i))
       end do
    end function nearest_name
+
+   !> Number of letters that two words begin with together.
+   pure function shared_letters(one, other) result(number)
+      !> The two words
+      character(len=*), intent(in) :: one, other
+      !> How many
+      integer :: number
+
+      do number = 0, min(len_trim(one), len_trim(other)) - 1
+         if (one(number + 1:number + 1) /= other(number + 1:number + 1)) return
+      end do
+   end function shared_letters
 
    !> Number of letters to insert, delete, replace or swap to make one word the other.
    !>
