@@ -6,5 +6,5 @@ program main
    integer :: code
 
    call run_command_line(code)
-   if (code /= 0) stop code, quiet=.true.
+   if (code /= 0) stop code, quiet = .true.
 end program main

@@ -16,6 +16,8 @@ program main
    use test_lift, only : collect_lift
    use test_quadrature, only : collect_quadrature
    use test_asperity, only : collect_asperity
+   use test_deck, only : collect_deck
+   use test_deck_sweep, only : collect_deck_sweep
    implicit none
 
    call run_command_line()
@@ -36,7 +38,9 @@ contains
          new_testsuite("spline", collect_spline), &
          new_testsuite("lift", collect_lift), &
          new_testsuite("quadrature", collect_quadrature), &
-         new_testsuite("asperity", collect_asperity) &
+         new_testsuite("asperity", collect_asperity), &
+         new_testsuite("deck", collect_deck), &
+         new_testsuite("deck_sweep", collect_deck_sweep) &
          ]
 
       call get_argument(1, suite_name)

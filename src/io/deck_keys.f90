@@ -17,16 +17,15 @@ module camroller_deck_keys
    use camroller_needle, only : needle_bearing_t, roller_bearing_names
    use camroller_journal, only : cam_bearings_t, journal_law_names
    use camroller_roller, only : spin_names
+   use camroller_output_file, only : output_options_t, compression_names
    use camroller_deck_schema, only : schema_t, add_group, add_number, add_integer, add_logical, add_name, add_text, &
       & add_numbers, add_integers, add_words, group_required, group_standard, group_effect, anything, positive, &
       & not_negative, proper_fraction, up_to, from_to, one_or_more, range_t
    implicit none
    private
 
-   public :: new_schema, compression_names, sweep_key_count
+   public :: new_schema, sweep_key_count
 
-   !> When the series of a result file are compressed
-   character(len=*), parameter :: compression_names(*) = [character(len=9) :: "automatic", "always", "never"]
    !> Keys that one sweep can vary
    integer, parameter :: sweep_key_count = 4
    !> More groups and keys than there are
@@ -376,13 +375,15 @@ contains
       !> Case with all its defaults
       type(case_t), intent(in) :: standard
 
+      type(output_options_t) :: options
+
       call add_group(schema, "output", group_standard, "what is written")
       call add_number(schema, "angle_step_deg", up_to(90.0_wp), &
          & "cam angle between reported points; a whole part of 360", &
          & default=standard%numerics%output_step)
-      call add_logical(schema, "series", .true., "are the series over the cam angle written, or the summary alone?")
-      call add_name(schema, "compression", compression_names, compression_names(1), &
-         & "when series are compressed; 'automatic' does it where the file would be large")
+      call add_logical(schema, "series", options%series, "are the series over the cam angle written, or the summary alone?")
+      call add_name(schema, "compression", compression_names, options%compression, &
+         & "when series are compressed; 'auto' does it where the file would be large")
    end subroutine add_output_keys
 
    !> Grid of cases.
