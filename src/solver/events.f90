@@ -14,7 +14,7 @@ module camroller_events
    implicit none
    private
 
-   public :: margin_t, find_stops, cycle_stops, check_geometry, find_margin
+   public :: margin_t, find_stops, find_stops_between, cycle_stops, check_geometry, find_margin
 
    !> Margin against loss of contact, frictionless
    type :: margin_t
@@ -40,26 +40,61 @@ contains
       !> Cam angles from full lift, increasing [rad]
       real(wp), allocatable, intent(out) :: stops(:)
 
+      stops = [model%lift_stops, switch_angles(model, -pi, pi)]
+      call sort(stops)
+   end subroutine find_stops
+
+   !> The same between any two angles, with both of them: start, stops, end.
+   subroutine find_stops_between(model, start, finish, stops)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> First and last angle, of any turn [rad]
+      real(wp), intent(in) :: start, finish
+      !> Cam angles, increasing [rad]
+      real(wp), allocatable, intent(out) :: stops(:)
+
+      ! Kinks of the lift in the turn that begins at `start`, and in those after it [rad]
+      real(wp) :: kinks(size(model%lift_stops))
+
+      stops = switch_angles(model, start, finish)
+      kinks = start + modulo(model%lift_stops - start, two_pi)
+      do while (any(kinks < finish))
+         stops = [stops, pack(kinks, kinks < finish)]
+         kinks = kinks + two_pi
+      end do
+      call sort(stops)
+      stops = [start, pack(stops, stops > start), finish]
+   end subroutine find_stops_between
+
+   !> Angles between two others at which one of the switches changes its sign, found by a scan.
+   function switch_angles(model, start, finish) result(angles)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> First and last angle [rad]
+      real(wp), intent(in) :: start, finish
+      !> Angles, increasing but for the accuracy of a scan step [rad]
+      real(wp), allocatable :: angles(:)
+
       ! Values at the ends of a scan interval: lift above the seat [m] and moment that keeps contact [N m]
       real(wp) :: before(2), after(2)
       ! Angle, step of the scan [rad]
       real(wp) :: angle, step
-      integer :: i, kind
+      integer :: i, kind, points
 
-      stops = model%lift_stops
-      step = two_pi/scan_points
-      before = switches(model, -pi)
-      do i = 1, scan_points
-         angle = -pi + i*step
+      allocate (angles(0))
+      points = max(1, ceiling((finish - start)/two_pi*scan_points))
+      step = (finish - start)/points
+      before = switches(model, start)
+      do i = 1, points
+         angle = start + i*step
          after = switches(model, angle)
-         do kind = 1, 2
+         do kind = 1, size(before)
             if ((before(kind) > 0.0_wp) .eqv. (after(kind) > 0.0_wp)) cycle
-            stops = [stops, switch_angle(model, kind, angle - step, angle, before(kind), after(kind))]
+            angles = [angles, switch_angle(model, kind, angle - step, angle, before(kind), after(kind))]
          end do
          before = after
       end do
-      call sort(stops)
-   end subroutine find_stops
+   end function switch_angles
 
    !> Quantities whose sign matters: lift above that where the valve leaves its seat, and the moment that keeps contact.
    pure function switches(model, angle) result(values)

@@ -1,0 +1,171 @@
+!> Means over the cycle, integrated with the solution itself.
+!>
+!> Layer: solver. In: cycles. Out: mean and extremes of the series of the first follower, mean torques of every lobe shape, mean
+!> torque of the camshaft bearings. Each interval between accepted points, and so each segment between stops, gets its own
+!> Gauss-Legendre rule of order six; a solution that is only linear between its points gets the trapezoidal rule.
+module camroller_means
+   use camroller_kinds, only : wp, two_pi, degree
+   use camroller_error, only : error_t
+   use camroller_case, only : case_t
+   use camroller_model, only : model_t
+   use camroller_state, only : state_t
+   use camroller_cycle, only : cycle_t, state_at
+   use camroller_catalogue, only : series_values, follower_torques, torque_count
+   use camroller_shaft, only : shaft_t, shaft_torques
+   use camroller_events, only : cycle_stops
+   implicit none
+   private
+
+   public :: statistics_t, integrate_lobe, mean_bearing_torque
+
+   !> Means over the cycle of one lobe shape
+   type :: statistics_t
+      !> Mean of each series of the follower, as if it were alone [unit of the series]
+      real(wp), allocatable :: mean(:)
+      !> Smallest and largest values met [unit of the series]
+      real(wp), allocatable :: lowest(:), highest(:)
+      !> Mean torques of the follower [N m], last the energy residual [W]
+      real(wp) :: torques(torque_count) = 0.0_wp
+      !> Part of the cycle without contact, and outside the film law's range [-]
+      real(wp) :: lost_share = 0.0_wp, outside_share = 0.0_wp
+      !> Cam angle from full lift where the film law's range is first left [rad]
+      real(wp) :: first_outside = 0.0_wp
+   end type statistics_t
+
+   !> Three-point Gauss-Legendre quadrature on [0, 1]: nodes and weights [-]
+   real(wp), parameter :: gauss_nodes(3) = 0.5_wp*[1.0_wp - sqrt(0.6_wp), 1.0_wp, 1.0_wp + sqrt(0.6_wp)]
+   real(wp), parameter :: gauss_weights(3) = [5.0_wp, 8.0_wp, 5.0_wp]/18.0_wp
+   !> Trapezoidal rule on [0, 1], points drawn inside so that kinks at the ends do not matter [-]
+   real(wp), parameter :: trapezoid_nodes(2) = [0.0_wp, 1.0_wp]
+   real(wp), parameter :: trapezoid_weights(2) = [0.5_wp, 0.5_wp]
+   !> Longest panel for the camshaft bearings [rad]
+   real(wp), parameter :: longest_panel = 2.0_wp*degree
+
+contains
+
+   !> Means and extremes over the cycle of one lobe shape.
+   subroutine integrate_lobe(case, model, cycle, series_count, statistics, error)
+      !> The case
+      type(case_t), intent(in) :: case
+      !> Model of the lobe
+      type(model_t), intent(in) :: model
+      !> Cycle of the lobe
+      type(cycle_t), intent(in) :: cycle
+      !> Number of series of the case
+      integer, intent(in) :: series_count
+      !> Means and extremes
+      type(statistics_t), intent(out) :: statistics
+      !> Convergence error
+      type(error_t), allocatable, intent(out) :: error
+
+      ! Rule on [0, 1]: nodes, weights [-]
+      real(wp), allocatable :: nodes(:), weights(:)
+      ! Length of the interval, angle [rad]; weight of the point over the cycle [-]
+      real(wp) :: length, angle, weight
+      integer :: interval, node, hint
+
+      allocate (statistics%mean(series_count), statistics%lowest(series_count), statistics%highest(series_count))
+      statistics%mean = 0.0_wp
+      statistics%lowest = huge(1.0_wp)
+      statistics%highest = -huge(1.0_wp)
+      nodes = gauss_nodes
+      weights = gauss_weights
+      if (cycle%is_linear) then
+         nodes = trapezoid_nodes
+         weights = trapezoid_weights
+      end if
+      hint = 1
+      do interval = 1, cycle%trajectory%count - 1
+         length = cycle%trajectory%time(interval + 1) - cycle%trajectory%time(interval)
+         do node = 1, size(nodes)
+            angle = cycle%trajectory%time(interval) + nodes(node)*length
+            weight = weights(node)*length/two_pi
+            call add_point(case, model, cycle, angle, weight, hint, statistics, error)
+            if (allocated(error)) return
+         end do
+      end do
+   end subroutine integrate_lobe
+
+   !> Add one point of the rule.
+   subroutine add_point(case, model, cycle, angle, weight, hint, statistics, error)
+      !> The case
+      type(case_t), intent(in) :: case
+      !> Model of the lobe
+      type(model_t), intent(in) :: model
+      !> Cycle of the lobe
+      type(cycle_t), intent(in) :: cycle
+      !> Cam angle from full lift [rad]
+      real(wp), intent(in) :: angle
+      !> Weight of the point over the cycle [-]
+      real(wp), intent(in) :: weight
+      !> Interval where the search starts
+      integer, intent(inout) :: hint
+      !> Means and extremes so far
+      type(statistics_t), intent(inout) :: statistics
+      !> Convergence error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(state_t) :: state
+      ! Values of the series [unit of the series]; torques [N m]
+      real(wp) :: values(size(statistics%mean)), torques(torque_count)
+
+      call state_at(cycle, model, angle, hint, state, error)
+      if (allocated(error)) return
+      torques = follower_torques(state)
+      call series_values(case, model, state, torques, 0.0_wp, values)
+      statistics%mean = statistics%mean + weight*values
+      statistics%lowest = min(statistics%lowest, values)
+      statistics%highest = max(statistics%highest, values)
+      statistics%torques = statistics%torques + weight*torques
+      if (.not. state%contact%is_touching) statistics%lost_share = statistics%lost_share + weight
+      if (.not. state%contact%is_in_range) then
+         if (statistics%outside_share <= 0.0_wp) statistics%first_outside = angle
+         statistics%outside_share = statistics%outside_share + weight
+      end if
+   end subroutine add_point
+
+   !> Mean torque of all camshaft bearings, over panels that end at the stops of every cam.
+   subroutine mean_bearing_torque(shaft, models, cycles, mean, error)
+      !> The shaft
+      type(shaft_t), intent(inout) :: shaft
+      !> Model of each lobe shape
+      type(model_t), intent(in) :: models(:)
+      !> Cycle of each lobe shape
+      type(cycle_t), intent(in) :: cycles(:)
+      !> Mean torque [N m]
+      real(wp), intent(out) :: mean
+      !> Convergence or domain error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(state_t) :: state
+      ! Stops of all cams [rad]
+      real(wp), allocatable :: stops(:)
+      ! Torques of the followers and of the bearings [N m]
+      real(wp) :: torques(torque_count), bearing_torque
+      ! Length of a panel, angle [rad]
+      real(wp) :: length, angle
+      integer :: cam, segment, panels, panel, node
+
+      mean = 0.0_wp
+      if (.not. allocated(shaft%journal)) return
+      allocate (stops(0))
+      do cam = 1, size(shaft%lobes)
+         stops = [stops, cycles(shaft%lobes(cam))%stops + shaft%phases(cam)]
+      end do
+      stops = cycle_stops(stops, cycles(shaft%lobes(1))%start)
+      do segment = 1, size(stops) - 1
+         panels = ceiling((stops(segment + 1) - stops(segment))/longest_panel)
+         if (panels == 0) cycle
+         length = (stops(segment + 1) - stops(segment))/panels
+         do panel = 0, panels - 1
+            do node = 1, size(gauss_nodes)
+               angle = stops(segment) + (panel + gauss_nodes(node))*length
+               call shaft_torques(shaft, models, cycles, angle, state, torques, bearing_torque, error)
+               if (allocated(error)) return
+               mean = mean + gauss_weights(node)*length/two_pi*bearing_torque
+            end do
+         end do
+      end do
+   end subroutine mean_bearing_torque
+
+end module camroller_means
