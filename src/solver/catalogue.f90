@@ -180,11 +180,11 @@ contains
 
    !> Quotient, zero where the denominator is zero.
    elemental function ratio(numerator, denominator) result(quotient)
-      !> Numerator
+      !> Numerator [any]
       real(wp), intent(in) :: numerator
-      !> Denominator
+      !> Denominator [any]
       real(wp), intent(in) :: denominator
-      !> Quotient
+      !> Quotient [any]
       real(wp) :: quotient
 
       quotient = 0.0_wp
@@ -204,11 +204,11 @@ contains
 
    !> Append a value to a list.
    pure subroutine put(values, count, value)
-      !> Values
+      !> Values [unit of the series]
       real(wp), intent(inout) :: values(:)
       !> Number of values so far
       integer, intent(inout) :: count
-      !> Value to append
+      !> Value to append [unit of the series]
       real(wp), intent(in) :: value
 
       count = count + 1

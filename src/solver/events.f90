@@ -273,12 +273,12 @@ contains
 
    !> Lowest value of the parabola through three equally spaced points with the middle one lowest; else the middle one.
    pure function valley(values) result(lowest)
-      !> Three values
+      !> Three values [any]
       real(wp), intent(in) :: values(3)
-      !> Lowest value
+      !> Lowest value [any]
       real(wp) :: lowest
 
-      ! Second difference
+      ! Second difference [any]
       real(wp) :: bend
 
       lowest = values(2)
@@ -290,10 +290,10 @@ contains
 
    !> Sort a short list by insertion.
    pure subroutine sort(values)
-      !> Numbers, in and out
+      !> Numbers, in and out [any]
       real(wp), intent(inout) :: values(:)
 
-      ! The one being placed
+      ! The one being placed [any]
       real(wp) :: value
       integer :: i, j
 

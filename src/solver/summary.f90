@@ -126,7 +126,7 @@ contains
       real(wp), intent(in) :: means(:)
       !> List of scalars
       type(quantity_t), intent(inout) :: quantities(:)
-      !> Their values
+      !> Their values [unit of the scalar]
       real(wp), intent(inout) :: values(:)
       !> Scalars so far
       integer, intent(inout) :: count
@@ -164,7 +164,7 @@ contains
       real(wp), intent(in) :: means(:)
       !> List of scalars
       type(quantity_t), intent(inout) :: quantities(:)
-      !> Their values
+      !> Their values [unit of the scalar]
       real(wp), intent(inout) :: values(:)
       !> Scalars so far
       integer, intent(inout) :: count
@@ -197,7 +197,7 @@ contains
       type(result_t), intent(in) :: result
       !> List of scalars
       type(quantity_t), intent(inout) :: quantities(:)
-      !> Their values
+      !> Their values [unit of the scalar]
       real(wp), intent(inout) :: values(:)
       !> Scalars so far
       integer, intent(inout) :: count
@@ -221,7 +221,7 @@ contains
       type(result_t), intent(in) :: result
       !> List of scalars
       type(quantity_t), intent(inout) :: quantities(:)
-      !> Their values
+      !> Their values [unit of the scalar]
       real(wp), intent(inout) :: values(:)
       !> Scalars so far
       integer, intent(inout) :: count
@@ -246,7 +246,7 @@ contains
       type(cycle_t), intent(in) :: cycles(:)
       !> List of scalars
       type(quantity_t), intent(inout) :: quantities(:)
-      !> Their values
+      !> Their values [unit of the scalar]
       real(wp), intent(inout) :: values(:)
       !> Scalars so far
       integer, intent(inout) :: count
@@ -269,13 +269,13 @@ contains
    subroutine add(quantities, values, count, name, unit, description, source, value)
       !> List of scalars
       type(quantity_t), intent(inout) :: quantities(:)
-      !> Their values
+      !> Their values [unit of the scalar]
       real(wp), intent(inout) :: values(:)
       !> Scalars so far
       integer, intent(inout) :: count
       !> Name, unit, meaning, part of the model
       character(len=*), intent(in) :: name, unit, description, source
-      !> Value
+      !> Value [unit of the scalar]
       real(wp), intent(in) :: value
 
       count = count + 1
