@@ -9,6 +9,7 @@ module camroller_output_facts
       & write_numbers, write_text
    use camroller_hdf5_attribute, only : attach_scale, put_attribute
    use camroller_output_file, only : abandon_output, check_open, number_size, object_size, output_t, text_size
+   use camroller_number_text, only : is_number
    implicit none
    private
 
@@ -174,9 +175,7 @@ contains
 
       last = len(value)
       status = 1
-      if (last > 0 .and. verify(value, "+-.0123456789eEdD") == 0 .and. scan(value, "0123456789") > 0) then
-         read (value, *, iostat=status) number
-      end if
+      if (is_number(value)) read (value, *, iostat=status) number
       if (status == 0) then
          call create_numbers(group, key, [integer ::], [integer ::], 0, dataset, error)
          if (.not. allocated(error)) call write_numbers(dataset, number, error)

@@ -162,7 +162,10 @@ contains
       integer :: attempt
       logical :: taken
 
-      if (is_folder(writer%path)) then
+      if (writer%path == "") then
+         call raise(error, kind_usage, "a result file needs a name")
+         return
+      else if (is_folder(writer%path)) then
          call raise(error, kind_file, "cannot write '"//writer%path//"': it is a folder")
          return
       else if (.not. is_folder(folder_of(writer%path)//".")) then
