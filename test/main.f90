@@ -18,6 +18,9 @@ program main
    use test_asperity, only : collect_asperity
    use test_deck, only : collect_deck
    use test_deck_sweep, only : collect_deck_sweep
+   use test_hdf5_file, only : collect_hdf5_file
+   use test_output, only : collect_output
+   use test_export, only : collect_export
    implicit none
 
    call run_command_line()
@@ -40,7 +43,10 @@ contains
          new_testsuite("quadrature", collect_quadrature), &
          new_testsuite("asperity", collect_asperity), &
          new_testsuite("deck", collect_deck), &
-         new_testsuite("deck_sweep", collect_deck_sweep) &
+         new_testsuite("deck_sweep", collect_deck_sweep), &
+         new_testsuite("hdf5_file", collect_hdf5_file), &
+         new_testsuite("output", collect_output), &
+         new_testsuite("export", collect_export) &
          ]
 
       call get_argument(1, suite_name)
