@@ -21,6 +21,10 @@ program main
    use test_hdf5_file, only : collect_hdf5_file
    use test_output, only : collect_output
    use test_export, only : collect_export
+   use test_deck_document, only : collect_deck_document
+   use test_deck_tables, only : collect_deck_tables
+   use test_number_text, only : collect_number_text
+   use test_units, only : collect_units
    implicit none
 
    call run_command_line()
@@ -46,7 +50,11 @@ contains
          new_testsuite("deck_sweep", collect_deck_sweep), &
          new_testsuite("hdf5_file", collect_hdf5_file), &
          new_testsuite("output", collect_output), &
-         new_testsuite("export", collect_export) &
+         new_testsuite("export", collect_export), &
+         new_testsuite("deck_document", collect_deck_document), &
+         new_testsuite("deck_tables", collect_deck_tables), &
+         new_testsuite("number_text", collect_number_text), &
+         new_testsuite("units", collect_units) &
          ]
 
       call get_argument(1, suite_name)

@@ -311,12 +311,23 @@ contains
             & "| key | unit | takes | default | meaning |"//new_line("a")//"|---|---|---|---|---|"//new_line("a")
          do i = group%first, group%last
             associate (key => schema%keys(i))
-               text = text//"| `"//trim(key%name)//"` | "//trim(key%unit%symbol)//" | "//takes(key)//" | "// &
+               text = text//"| `"//trim(key%name)//"` | "//unit_in_words(key)//" | "//takes(key)//" | "// &
                   & default_in_words(key)//" | "//key%meaning//" |"//new_line("a")
             end associate
          end do
       end associate
    end subroutine write_table
+
+   !> Unit of a key; a dash where it has none.
+   pure function unit_in_words(key) result(words)
+      !> The key
+      type(key_t), intent(in) :: key
+      !> The unit
+      character(len=:), allocatable :: words
+
+      words = trim(key%unit%symbol)
+      if (words == "1") words = "-"
+   end function unit_in_words
 
    !> A sentence with a capital at its beginning.
    pure function capital(words) result(sentence)

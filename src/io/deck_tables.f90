@@ -85,7 +85,7 @@ contains
          call complain(mistakes, settings, group, "table", error%message)
       else if (mistakes%count == before .and. size(table%x) < fewest_rows) then
          call complain(mistakes, settings, group, "table", "the table has "//integer_text(size(table%x))// &
-            & " rows; at least "//integer_text(fewest_rows)//" are needed")
+            & " of at least "//integer_text(fewest_rows)//" rows")
       else if (mistakes%count == before) then
          call check_spacing(table, mistakes)
       end if

@@ -48,7 +48,11 @@ contains
       allocate (character(len=bytes) :: text)
       if (bytes > 0) read (unit, iostat=status, iomsg=message) text
       close (unit)
-      if (status /= 0) call raise(error, kind_file, "cannot read '"//path//"': "//trim(message))
+      if (status /= 0) then
+         call raise(error, kind_file, "cannot read '"//path//"': "//trim(message))
+      else if (index(text, achar(0)) > 0) then
+         call raise(error, kind_file, "'"//path//"' is no text file")
+      end if
    end subroutine read_text_file
 
    !> Path of a file named in another file: relative to that file's folder unless it begins at the root.

@@ -136,7 +136,7 @@ contains
       call expect_valid(error, "speed_rpm = 600", "SPEED_RPM=6.0d2,")
       call expect_valid(error, "speed_rpm = 600", "speed_rpm"//char(9)//"="//n//"! a comment with / & and 'quote"//n// &
          & "600"//n)
-      call expect_valid(error, "", "&case title = 'it''s a / & ! = title' / ! the end")
+      call expect_valid(error, "", "&case title = 'it''s a / &"//" ! = title' / ! the end")
       call expect_valid(error, "", '&case title = "double" energy="source"/')
    end subroutine notation_is_fortran
 

@@ -1,0 +1,122 @@
+"""The program from outside: commands, options, exit codes, where text goes."""
+
+import pathlib
+import subprocess
+
+import pytest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+DECKS = sorted((ROOT / "decks").glob("*.nml"))
+USAGE, DECK, FILE = 2, 3, 6
+
+
+def run(camroller, *arguments, folder=ROOT):
+    """Run the program without a terminal."""
+    return subprocess.run([camroller, *map(str, arguments)], cwd=folder, capture_output=True, text=True,
+                          stdin=subprocess.DEVNULL, timeout=60)
+
+
+def refused(result, code):
+    """The message of a refusal; nothing stands on the output unit."""
+    assert result.returncode == code, result.stderr
+    assert result.stdout == ""
+    assert result.stderr.startswith("camroller: ")
+    return result.stderr
+
+
+@pytest.mark.parametrize("command", ["run", "check", "defaults", "export", "version"])
+def test_each_command_has_help(camroller, command):
+    asked = run(camroller, "help", command)
+    assert asked.returncode == 0
+    assert asked.stdout.startswith(f"camroller {command}")
+    assert run(camroller, command, "--help").stdout == asked.stdout
+
+
+def test_help_names_every_command(camroller):
+    text = run(camroller, "--help").stdout
+    assert text == run(camroller, "help").stdout
+    for command in ("run", "check", "defaults", "export", "version", "help"):
+        assert f"camroller {command} " in text
+
+
+def test_version_is_told(camroller):
+    text = run(camroller, "version").stdout
+    assert text.startswith("camroller 0.")
+    assert run(camroller, "--version").stdout == text
+
+
+@pytest.mark.parametrize("arguments, words", [
+    ([], "no command; see 'camroller help'"),
+    (["chck"], "unknown command 'chck'; did you mean 'check'?"),
+    (["simulate"], "unknown command 'simulate'; known are 'run', "),
+    (["run"], "'run' needs the name of a file"),
+    (["check", "--foo", "x"], "'check' has no option '--foo'"),
+    (["check", "--quiet", "x"], "'check' has no option '--quiet'"),
+    (["run", "x", "-o"], "option '--output' needs a value"),
+    (["run", "x", "--set"], "option '--set' needs a value"),
+    (["run", "x", "--quiet=yes"], "option '--quiet' takes no value"),
+    (["check", "x", "y"], "'check' does not take 'y'"),
+    (["export", "x", "--case", "none"], "option '--case' takes the number of a case, from 1, not 'none'"),
+    (["export", "x", "--case", "0"], "option '--case' takes the number of a case, from 1, not '0'"),
+    (["help", "me"], "unknown command 'me'"),
+    (["defaults", "asperty"], "no group 'asperty'; did you mean 'asperity'?"),
+])
+def test_wrong_words_are_usage_errors(camroller, arguments, words):
+    assert words in refused(run(camroller, *arguments), USAGE)
+
+
+@pytest.mark.parametrize("deck", DECKS, ids=lambda path: path.name)
+def test_each_deck_passes_the_check(camroller, deck):
+    result = run(camroller, "check", deck)
+    assert result.returncode == 0, result.stderr
+    assert " is valid: " in result.stdout.splitlines()[0]
+
+
+def test_check_prints_a_deck(camroller, tmp_path):
+    first = run(camroller, "check", "decks/thesis.nml", "--set", "film.law=moes")
+    again = tmp_path / "again.nml"
+    again.write_text(first.stdout)
+    second = run(camroller, "check", again)
+    values = [line.split("!")[0].rstrip() for line in first.stdout.splitlines()]
+    assert values == [line.split("!")[0].rstrip() for line in second.stdout.splitlines()]
+    assert "   law = 'moes'" in values
+
+
+def test_defaults_are_a_deck(camroller, tmp_path):
+    deck = tmp_path / "complete.nml"
+    deck.write_text(run(camroller, "defaults").stdout)
+    assert run(camroller, "check", deck).returncode == 0
+
+
+def test_page_of_the_deck_is_up_to_date(camroller):
+    assert (ROOT / "doc/deck.md").read_text() == run(camroller, "defaults", "--markdown").stdout, \
+        "run: build/release/bin/camroller defaults --markdown > doc/deck.md"
+
+
+def test_missing_deck_is_a_file_error(camroller):
+    assert "there is no file 'no_such.nml'" in refused(run(camroller, "check", "no_such.nml"), FILE)
+
+
+def test_folder_is_no_deck(camroller):
+    assert "cannot read 'decks'" in refused(run(camroller, "check", "decks"), FILE)
+
+
+def test_mistakes_are_deck_errors(camroller, tmp_path):
+    deck = tmp_path / "bad.nml"
+    deck.write_text((ROOT / "decks/thesis.nml").read_text().replace("speed_rpm = 300", "speed_rmp = 300")
+                    .replace("mass_kg = 0.0088", "mass_kg = heavy"))
+    message = refused(run(camroller, "check", deck), DECK)
+    assert message.startswith(f"camroller: 2 mistakes in {deck}\n{deck}:")
+    assert "unknown key 'speed_rmp' in &operating_point; did you mean 'speed_rpm'?" in message
+    assert "    mass_kg = heavy\n" in message.replace(" | ", " ")
+
+
+def test_table_is_found_beside_the_deck(camroller, tmp_path):
+    result = run(camroller, "check", ROOT / "decks/tabulated_lift.nml", folder=tmp_path)
+    assert result.returncode == 0, result.stderr
+
+
+def test_binary_file_is_refused(camroller, tmp_path):
+    deck = tmp_path / "binary.nml"
+    deck.write_bytes(bytes(range(256)) * 8)
+    assert "is no text file" in refused(run(camroller, "check", deck), FILE)

@@ -1,0 +1,53 @@
+"""The decks that come with the program: readable by others, made as they say."""
+
+import pathlib
+
+import f90nml
+import numpy
+import pytest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+DECKS = sorted((ROOT / "decks").glob("*.nml"))
+
+
+@pytest.mark.parametrize("path", DECKS, ids=lambda path: path.name)
+def test_f90nml_reads_each_deck(path):
+    deck = f90nml.read(path)
+    text = path.read_text()
+    groups = [line[1:].split()[0] for line in text.splitlines() if line.startswith("&")]
+    assert list(deck) == groups
+    assert deck["case"]["title"]
+    assert deck["roller"]["radius_mm"] > 5
+
+
+def test_there_are_decks():
+    assert {"thesis.nml", "thesis_source.nml", "thesis_as_printed.nml", "tabulated_lift.nml",
+            "three_cam_head.nml"} <= {path.name for path in DECKS}
+
+
+def differences(one, other):
+    """Keys in which two decks differ."""
+    first, second = (f90nml.read(ROOT / "decks" / name) for name in (one, other))
+    keys = {(group, key) for deck in (first, second) for group in deck for key in deck[group]}
+    return {f"{group}.{key}" for group, key in keys if first.get(group, {}).get(key) != second.get(group, {}).get(key)}
+
+
+def test_the_thesis_decks_differ_in_what_they_say():
+    bookkeeping = {"case.title", "case.energy", "spring.load_arm", "roller.spin", "asperity.boundary",
+                   "traction.rolling_law", "traction.in_roller_balance"}
+    assert differences("thesis.nml", "thesis_source.nml") == bookkeeping
+    assert differences("thesis_source.nml", "thesis_as_printed.nml") == {
+        "case.title", "spring.stiffness_n_m", "spring.seating", "cam_bearings.radial_clearance_um",
+        "valve_guide.radial_clearance_um"}
+
+
+def test_lift_table_follows_its_formula():
+    angle, lift = numpy.loadtxt(ROOT / "decks/tables/polynomial_lift.txt").T
+    u = numpy.where(angle <= 180, (angle - 106) / 74, (262 - angle) / 82)
+    assert numpy.abs(lift - 9.2 * (35 * u**4 - 84 * u**5 + 70 * u**6 - 20 * u**7)).max() <= 0.51e-6
+
+
+def test_pressure_table_follows_its_formula():
+    angle, pressure = numpy.loadtxt(ROOT / "decks/tables/cylinder_pressure.txt").T
+    distance = numpy.minimum(abs(angle - 60), 360 - abs(angle - 60))
+    assert numpy.abs(pressure - 0.15 - 50 / (1 + (distance / 12) ** 2)).max() <= 0.51e-4

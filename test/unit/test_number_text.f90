@@ -1,0 +1,107 @@
+!> Tests of numbers as text.
+module test_number_text
+   use testdrive, only : unittest_type, new_unittest, error_type, check
+   use camroller_kinds, only : wp, pi
+   use camroller_number_text, only : number_text, integer_text, is_number, is_beyond_range
+   implicit none
+   private
+
+   public :: collect_number_text
+
+contains
+
+   !> All tests of this suite.
+   subroutine collect_number_text(testsuite)
+      !> The tests
+      type(unittest_type), allocatable, intent(out) :: testsuite(:)
+
+      testsuite = [ &
+         new_unittest("a number is written with as few digits as give it back", short_numbers), &
+         new_unittest("any number comes back as it was", numbers_come_back), &
+         new_unittest("a number is rounded where that is asked for", rounded_numbers), &
+         new_unittest("words are told from numbers", words_and_numbers), &
+         new_unittest("numbers too large to be held are found without reading them", too_large) &
+         ]
+   end subroutine collect_number_text
+
+   subroutine short_numbers(error)
+      type(error_type), allocatable, intent(out) :: error
+
+      !> The numbers [-]
+      real(wp), parameter :: numbers(*) = [0.0_wp, 1.0_wp, -3.5_wp, 600.0_wp, 0.14_wp, 1.0e7_wp, 2.2e-8_wp, 1234567.0_wp, &
+         & 0.00065_wp, -1.0e-5_wp, 12345678.9_wp]
+      character(len=*), parameter :: texts(*) = [character(len=12) :: "0", "1", "-3.5", "600", "0.14", "1e7", "2.2e-8", &
+         & "1234567", "0.00065", "-1e-5", "1.23456789e7"]
+      integer :: i
+
+      do i = 1, size(numbers)
+         call check(error, number_text(numbers(i)), trim(texts(i)))
+         if (allocated(error)) return
+      end do
+      call check(error, integer_text(-42), "-42")
+   end subroutine short_numbers
+
+   subroutine numbers_come_back(error)
+      type(error_type), allocatable, intent(out) :: error
+
+      !> Numbers with all their digits, and one as read back [-]
+      real(wp) :: number, again
+      character(len=:), allocatable :: text
+      integer :: i
+
+      do i = -300, 300, 7
+         number = pi*10.0_wp**i
+         text = number_text(number)
+         read (text, *) again
+         call check(error, again, number, thr=0.0_wp, message=text)
+         if (allocated(error)) return
+      end do
+   end subroutine numbers_come_back
+
+   subroutine rounded_numbers(error)
+      type(error_type), allocatable, intent(out) :: error
+
+      call check(error, number_text(pi, 3), "3.14")
+      if (allocated(error)) return
+      call check(error, number_text(1.0_wp/3.0_wp, 12), "0.333333333333")
+      if (allocated(error)) return
+      call check(error, number_text(0.99999_wp, 2), "1")
+   end subroutine rounded_numbers
+
+   subroutine words_and_numbers(error)
+      type(error_type), allocatable, intent(out) :: error
+
+      character(len=*), parameter :: numbers(*) = [character(len=8) :: "1", "-1.5", "+.5", "5.", "1e3", "1.5d-03", "1E+10"]
+      character(len=*), parameter :: words(*) = [character(len=8) :: "", "nan", "inf", "-", ".", "e5", "1e", "1.2.3", "1,5", &
+         & "0x10", "1e+", "12 3"]
+      integer :: i
+
+      do i = 1, size(numbers)
+         call check(error, is_number(trim(numbers(i))), numbers(i))
+         if (allocated(error)) return
+      end do
+      do i = 1, size(words)
+         call check(error, .not. is_number(trim(words(i))), words(i))
+         if (allocated(error)) return
+      end do
+   end subroutine words_and_numbers
+
+   subroutine too_large(error)
+      type(error_type), allocatable, intent(out) :: error
+
+      character(len=*), parameter :: large(*) = [character(len=16) :: "1e400", "-1d308", "1000e306", "1, 2*1e999", &
+         & "0.001e311", "1e99999999999"]
+      character(len=*), parameter :: held(*) = [character(len=16) :: "1e307", "1e-400", "0e999", "0.001e310", "fast", "1 2 3"]
+      integer :: i
+
+      do i = 1, size(large)
+         call check(error, is_beyond_range(trim(large(i))), large(i))
+         if (allocated(error)) return
+      end do
+      do i = 1, size(held)
+         call check(error, .not. is_beyond_range(trim(held(i))), held(i))
+         if (allocated(error)) return
+      end do
+   end subroutine too_large
+
+end module test_number_text

@@ -1,0 +1,119 @@
+!> Tests of units: what the last words of a key mean, and the way to SI and back.
+module test_units
+   use testdrive, only : unittest_type, new_unittest, error_type, check
+   use camroller_kinds, only : wp, pi
+   use camroller_units, only : unit_t, unit_of_key, find_unit, to_si, from_si, length_unit_names, pressure_unit_names
+   implicit none
+   private
+
+   public :: collect_units
+
+   !> One multiplication, one division and one addition [-]
+   real(wp), parameter :: round_off = 4.0_wp*epsilon(1.0_wp)
+
+contains
+
+   !> All tests of this suite.
+   subroutine collect_units(testsuite)
+      !> The tests
+      type(unittest_type), allocatable, intent(out) :: testsuite(:)
+
+      testsuite = [ &
+         new_unittest("the longest unit at the end of a key counts", longest_unit_counts), &
+         new_unittest("a key without a unit is taken as it is", no_unit), &
+         new_unittest("values become SI", values_become_si), &
+         new_unittest("millimetres become the number that metres are written as", exact_lengths), &
+         new_unittest("there and back is no change", there_and_back), &
+         new_unittest("units of tables are known", units_of_tables) &
+         ]
+   end subroutine collect_units
+
+   subroutine longest_unit_counts(error)
+      type(error_type), allocatable, intent(out) :: error
+
+      character(len=*), parameter :: keys(*) = [character(len=24) :: "base_radius_mm", "stiffness_N_m", "viscosity_Pa_s", &
+         & "inertia_kg_m2", "oil_temperature_degC", "arm_angle_deg", "coefficient_per_GPa", "speed_m_s", "length_m"]
+      character(len=*), parameter :: symbols(*) = [character(len=8) :: "mm", "N/m", "Pa s", "kg m2", "degC", "degree", &
+         & "1/GPa", "m/s", "m"]
+      type(unit_t) :: unit
+      integer :: i
+
+      do i = 1, size(keys)
+         unit = unit_of_key(keys(i))
+         call check(error, trim(unit%symbol), trim(symbols(i)))
+         if (allocated(error)) return
+      end do
+   end subroutine longest_unit_counts
+
+   subroutine no_unit(error)
+      type(error_type), allocatable, intent(out) :: error
+
+      type(unit_t) :: unit
+
+      unit = unit_of_key("cam_poisson_ratio")
+      call check(error, trim(unit%symbol), "1")
+      if (allocated(error)) return
+      unit = unit_of_key("mm")
+      call check(error, trim(unit%symbol), "1", "a unit alone is the name of a key")
+      if (allocated(error)) return
+      call check(error, to_si(unit, 0.3_wp), 0.3_wp, thr=0.0_wp)
+   end subroutine no_unit
+
+   subroutine values_become_si(error)
+      type(error_type), allocatable, intent(out) :: error
+
+      call check(error, to_si(unit_of_key("x_rpm"), 600.0_wp), 20.0_wp*pi, rel=.true., thr=round_off)
+      if (allocated(error)) return
+      call check(error, to_si(unit_of_key("x_degC"), 26.85_wp), 300.0_wp, rel=.true., thr=round_off)
+      if (allocated(error)) return
+      call check(error, to_si(unit_of_key("x_deg"), 180.0_wp), pi, rel=.true., thr=round_off)
+      if (allocated(error)) return
+      call check(error, to_si(unit_of_key("x_per_GPa"), 22.0_wp), 2.2e-8_wp, rel=.true., thr=round_off)
+      if (allocated(error)) return
+      call check(error, to_si(unit_of_key("x_bar"), 1.5_wp), 1.5e5_wp, rel=.true., thr=round_off)
+   end subroutine values_become_si
+
+   subroutine exact_lengths(error)
+      type(error_type), allocatable, intent(out) :: error
+
+      call check(error, to_si(unit_of_key("x_mm"), 20.8_wp), 0.0208_wp, thr=0.0_wp)
+      if (allocated(error)) return
+      call check(error, to_si(unit_of_key("x_um"), 0.14_wp), 0.14e-6_wp, thr=0.0_wp)
+   end subroutine exact_lengths
+
+   subroutine there_and_back(error)
+      type(error_type), allocatable, intent(out) :: error
+
+      character(len=*), parameter :: keys(*) = [character(len=8) :: "x_mm", "x_rpm", "x_degC", "x_GPa", "x_deg", "x"]
+      integer :: i
+
+      do i = 1, size(keys)
+         ! the offset of a temperature costs digits: 273 of 7
+         call check(error, from_si(unit_of_key(keys(i)), to_si(unit_of_key(keys(i)), 7.3_wp)), 7.3_wp, rel=.true., &
+            & thr=100.0_wp*epsilon(1.0_wp))
+         if (allocated(error)) return
+      end do
+   end subroutine there_and_back
+
+   subroutine units_of_tables(error)
+      type(error_type), allocatable, intent(out) :: error
+
+      type(unit_t) :: unit
+      logical :: is_known
+      integer :: i
+
+      do i = 1, size(length_unit_names)
+         call find_unit(length_unit_names(i), unit, is_known)
+         call check(error, is_known, length_unit_names(i))
+         if (allocated(error)) return
+      end do
+      do i = 1, size(pressure_unit_names)
+         call find_unit(pressure_unit_names(i), unit, is_known)
+         call check(error, is_known, pressure_unit_names(i))
+         if (allocated(error)) return
+      end do
+      call find_unit("furlong", unit, is_known)
+      call check(error, .not. is_known)
+   end subroutine units_of_tables
+
+end module test_units
