@@ -11,7 +11,7 @@ module camroller_load_share
    implicit none
    private
 
-   public :: share_t, share_load
+   public :: share_t, share_load, improve_share
 
    !> Film and load share
    type :: share_t
@@ -27,6 +27,8 @@ module camroller_load_share
    real(wp), parameter :: smallest_film = 1.0e-10_wp
    !> Change of the film ratio, relative, at which the iteration ends [-]: the step after it would be below round-off
    real(wp), parameter :: tolerance = 1.0e-9_wp
+   !> A single step is trusted where the film carries at least this part of the load and its change is not larger [-]
+   real(wp), parameter :: smallest_film_part = 0.05_wp, largest_change = 0.1_wp
    !> Iterations: bisection from the widest bracket would need about 60
    integer, parameter :: max_iterations = 100
 
@@ -71,6 +73,56 @@ contains
       share%film_min = shape%minimum
       share%film_central = max(shape%central, shape%minimum, smallest_film)
    end subroutine share_load
+
+   !> One step of Newton's method from a film ratio nearby: as good as `share_load` to the square of the change it makes.
+   !>
+   !> For callers that iterate on the load as well and would throw a fully converged share away. Where the film ratio
+   !> lies beyond the reach of asperities or a step cannot be made, the share is found by `share_load`.
+   pure subroutine improve_share(line, load, share, asperity, area, start, change)
+      !> Film over the load at the speed of the contact
+      type(film_line_t), intent(in) :: line
+      !> Whole load over E' R L, positive [-]
+      real(wp), intent(in) :: load
+      !> Film and load share
+      type(share_t), intent(out) :: share
+      !> Asperities
+      type(asperity_constants_t), intent(in) :: asperity
+      !> Apparent area over E' R L [1/Pa]
+      real(wp), intent(in) :: area
+      !> Film ratio to start from; zero where none is known [-]
+      real(wp), intent(in) :: start
+      !> Relative change of the film ratio that was made; its square is about the error left [-]
+      real(wp), intent(out) :: change
+
+      type(film_shape_t) :: shape
+      ! F_5/2, its derivative, film load over E' R L and its derivative over ln H, film ratio [-]
+      real(wp) :: value, slope, film_load, film_load_slope, film_ratio
+
+      change = 0.0_wp
+      film_load = 0.0_wp
+      if (start > 0.0_wp .and. start < largest_film_ratio .and. line%groups%speed > 0.0_wp &
+         & .and. .not. takes_whole_load(line%law)) then
+         call asperity_load_function(start, value, slope)
+         film_load = load - asperity%load_factor*area*value
+      end if
+      if (film_load > smallest_film_part*load) then
+         call film_at_load(line, film_load, shape)
+         film_load_slope = -asperity%load_factor*area*slope*start
+         change = log(shape%minimum/(start*line%groups%roughness)) &
+            & /(1.0_wp - shape%minimum_load_slope*film_load_slope/film_load)
+      end if
+      if (film_load <= smallest_film_part*load .or. abs(change) > largest_change) then
+         change = 0.0_wp
+         call share_load(line, load, share, asperity, area)
+         return
+      end if
+      film_ratio = start*(1.0_wp + change)
+      share%asperity_load = load - film_load - film_load_slope*change
+      share%real_area_ratio = asperity%area_factor*asperity_area_function(film_ratio)
+      share%film_min = film_ratio*line%groups%roughness
+      share%film_central = shape%central*(1.0_wp + shape%central_load_slope*film_load_slope/film_load*change)
+      share%film_central = max(share%film_central, share%film_min, smallest_film)
+   end subroutine improve_share
 
    !> Film ratio at which the asperities carry what the film does not, by Newton's method on logarithms inside a bracket.
    pure subroutine share_with_asperities(line, load, capacity, film_ratio, asperity_load, shape)
@@ -124,7 +176,7 @@ contains
          else
             high = min(high, film_ratio)
          end if
-         if (high - low <= 4.0_wp*spacing(high)) exit
+         if (high - low <= 4.0_wp*epsilon(1.0_wp)*high) exit
          if (has_film) film_ratio = film_ratio*exp(change)
          if (.not. has_film .or. film_ratio <= low .or. film_ratio >= high) film_ratio = low + 0.5_wp*(high - low)
          call asperity_load_function(film_ratio, value, slope)

@@ -12,7 +12,7 @@ module camroller_contact
    use camroller_hertz, only : half_width
    use camroller_lubricant, only : mean_relative_viscosity
    use camroller_film, only : groups_t, film_line_t, new_film_line, is_in_range
-   use camroller_load_share, only : share_t, share_load
+   use camroller_load_share, only : share_t, share_load, improve_share
    use camroller_traction, only : film_pressure, newtonian_shear, eyring_shear, limit_shear, mobilised_share, &
       & rolling_resistance, law_newtonian, rolling_biboulet_houpert
    use camroller_needle, only : bearing_torque
@@ -73,6 +73,8 @@ module camroller_contact
 
    !> Balance of the finger: loss of figures allowed against the largest moment [-]; a few roundings
    real(wp), parameter :: balance_tolerance = 8.0_wp*epsilon(1.0_wp)
+   !> Change of the film ratio below which its square is round-off [-]
+   real(wp), parameter :: share_tolerance = 1.0e-8_wp
    !> Iterations that a bracketed secant may take: bisection alone would need about 60
    integer, parameter :: max_iterations = 100
    !> Loads below this part of the frictionless load count as lost contact [-]
@@ -98,6 +100,8 @@ contains
       type(setting_t) :: setting
       ! Moment that the contact load balances [N m]; arm of the load [m]; load without friction [N]
       real(wp) :: moment, arm, load
+      ! Relative change of the film ratio in the last step [-]
+      real(wp) :: change
 
       status = 0
       call set_speeds(model, position, sliding_speed, contact)
@@ -108,7 +112,6 @@ contains
       end if
       load = moment/arm
       if (model%takes_maximum_load) load = max(model%base_circle_load, load)
-      contact%film_ratio = 0.0_wp
       if (.not. load > 0.0_wp) then
          call release(contact)
          return
@@ -117,7 +120,8 @@ contains
       if (model%is_consistent) then
          call balance_finger(model, position, setting, moment, contact, status)
       else
-         call evaluate_contact(model, position, setting, load, contact)
+         contact%film_ratio = 0.0_wp
+         call evaluate_contact(model, position, setting, load, contact, change)
       end if
    end subroutine solve_contact
 
@@ -197,6 +201,8 @@ contains
       real(wp) :: excess, last_excess
       ! Slope of the excess [m]
       real(wp) :: slope
+      ! Relative change of the film ratio in the last step [-]
+      real(wp) :: change
       integer :: iteration
 
       status = 0
@@ -206,14 +212,18 @@ contains
       slope = position%normal_arm
       last_load = 0.0_wp
       last_excess = 0.0_wp
+      contact%film_ratio = 0.0_wp
       do iteration = 1, max_iterations
-         call evaluate_contact(model, position, setting, load, contact)
+         call evaluate_contact(model, position, setting, load, contact, change)
          excess = load*position%normal_arm - moment &
             & + model%linkage%sense*(contact%tangential_force*position%tangent_arm + contact%bearing_torque)
-         if (abs(excess) <= balance_tolerance*moment) return
-         if (excess > 0.0_wp) high = load
-         if (excess < 0.0_wp) low = load
-         if (high - low <= 2.0_wp*spacing(load)) return
+         ! Only a converged share tells on which side of the root the load lies
+         if (abs(change) <= share_tolerance) then
+            if (abs(excess) <= balance_tolerance*moment) return
+            if (excess > 0.0_wp) high = load
+            if (excess < 0.0_wp) low = load
+         end if
+         if (high - low <= 2.0_wp*epsilon(1.0_wp)*load) return
          if (high < lost_load*moment/position%normal_arm) then
             call release(contact)
             return
@@ -232,7 +242,7 @@ contains
    end subroutine balance_finger
 
    !> Everything in the contact at a given load.
-   pure subroutine evaluate_contact(model, position, setting, load, contact)
+   pure subroutine evaluate_contact(model, position, setting, load, contact, change)
       !> The model
       type(model_t), intent(in) :: model
       !> Geometry at this angle
@@ -243,6 +253,8 @@ contains
       real(wp), intent(in) :: load
       !> State of the contact; the speeds are set, and the film ratio is that of a contact nearby or zero
       type(contact_t), intent(inout) :: contact
+      !> Relative change of the film ratio that was made; its square is about the error left [-]
+      real(wp), intent(out) :: change
 
       type(share_t) :: share
       type(groups_t) :: groups
@@ -257,9 +269,10 @@ contains
       groups%load = load/setting%scale
       contact%is_in_range = is_in_range(model%film_law, groups)
       if (allocated(model%boundary)) then
-         call share_load(setting%line, groups%load, share, model%boundary%constants, contact%apparent_area/setting%scale, &
-            & contact%film_ratio)
+         call improve_share(setting%line, groups%load, share, model%boundary%constants, &
+            & contact%apparent_area/setting%scale, contact%film_ratio, change)
       else
+         change = 0.0_wp
          call share_load(setting%line, groups%load, share)
       end if
       contact%film_min = share%film_min*position%equivalent_radius
