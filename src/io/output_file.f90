@@ -3,6 +3,7 @@
 !> Layer: io. In: path, number of cases, options. Out: `output_t` with the frame of the file (format, groups, axis of
 !> cases) written; the finished file under its name, or no trace of it. Its format is described in `camroller_output`.
 module camroller_output_file
+   use, intrinsic :: iso_c_binding, only : c_intptr_t
    use camroller_kinds, only : wp
    use camroller_error, only : error_t, raise, kind_file, kind_internal, kind_usage
    use camroller_names, only : find_name, name_length
@@ -11,7 +12,8 @@ module camroller_output_file
    use camroller_hdf5_file, only : close_file, create_file, create_group, create_integers, discard_file, &
       & flush_file, reserve_file, write_integers
    use camroller_hdf5_attribute, only : make_scale, put_attribute
-   use camroller_system_file, only : is_folder, process_number, remove_file, rename_file
+   use camroller_system_file, only : ignore_size_signal, is_folder, process_number, remove_file, rename_file, &
+      & restore_size_signal
    use camroller_text_file, only : folder_of
    implicit none
    private
@@ -24,7 +26,7 @@ module camroller_output_file
    !> Attribute by which a result file is known
    character(len=*), parameter :: result_format = "camroller result"
    !> Space that a group or a dataset takes besides its values, generously [byte]
-   real(wp), parameter :: object_size = 8192.0_wp
+   real(wp), parameter :: object_size = 4096.0_wp
    !> Space that a number takes [byte]
    real(wp), parameter :: number_size = 8.0_wp
    !> Space that a text takes besides its letters, generously [byte]
@@ -194,9 +196,11 @@ contains
 
       character(len=4096) :: block
       character(len=200) :: message, closing_message
+      integer(c_intptr_t) :: former
       integer :: unit, status, closing, i
 
       block = ""
+      call ignore_size_signal(former)
       open (newunit=unit, file=writer%temporary, access="stream", form="unformatted", status="new", action="write", &
          & iostat=status, iomsg=message)
       if (status == 0) then
@@ -210,6 +214,7 @@ contains
          end if
          call remove_file(writer%temporary)
       end if
+      call restore_size_signal(former)
       if (status /= 0) call raise(error, kind_file, "cannot write '"//writer%path//"': "//trim(message))
    end subroutine try_path
 

@@ -11,6 +11,7 @@ module camroller_system_file
 
    public :: process_number, is_folder, rename_file, remove_file
    public :: reserve_space, set_file_size, sync_descriptor, utc_date
+   public :: ignore_size_signal, restore_size_signal
 
    !> Signal that a file outgrew its limit; what `signal` takes for ignoring and gives for an error
    integer(c_int), parameter :: signal_file_size = 25_c_int
@@ -168,16 +169,33 @@ contains
       !> Why there is no space, in the system's words; empty where all went well or the file system cannot tell
       character(len=:), allocatable, intent(out) :: reason
 
-      integer(c_intptr_t) :: former, ignored
+      integer(c_intptr_t) :: former
       integer(c_int) :: status
 
       reason = ""
-      ! A limit on the size of files is an answer here, not a reason to end the program
-      former = c_signal(signal_file_size, ignore_signal)
+      call ignore_size_signal(former)
       status = c_fallocate(descriptor, first, length)
-      if (former /= signal_error) ignored = c_signal(signal_file_size, former)
+      call restore_size_signal(former)
       if (status /= 0 .and. all(status /= cannot_tell)) reason = system_words(status)
    end subroutine reserve_space
+
+   !> Let a file that outgrows the limit on the size of files be an error like others, not the end of the program.
+   subroutine ignore_size_signal(former)
+      !> What was done about it so far
+      integer(c_intptr_t), intent(out) :: former
+
+      former = c_signal(signal_file_size, ignore_signal)
+   end subroutine ignore_size_signal
+
+   !> Let the signal do what it did before.
+   subroutine restore_size_signal(former)
+      !> What was done about it before
+      integer(c_intptr_t), intent(in) :: former
+
+      integer(c_intptr_t) :: ignored
+
+      if (former /= signal_error) ignored = c_signal(signal_file_size, former)
+   end subroutine restore_size_signal
 
    !> Cut a file to a size, or let it grow to it.
    subroutine set_file_size(descriptor, length, done)
