@@ -25,6 +25,8 @@ program main
    use test_deck_tables, only : collect_deck_tables
    use test_number_text, only : collect_number_text
    use test_units, only : collect_units
+   use test_journal, only : collect_journal
+   use test_camshaft, only : collect_camshaft
    implicit none
 
    call run_command_line()
@@ -54,7 +56,9 @@ contains
          new_testsuite("deck_document", collect_deck_document), &
          new_testsuite("deck_tables", collect_deck_tables), &
          new_testsuite("number_text", collect_number_text), &
-         new_testsuite("units", collect_units) &
+         new_testsuite("units", collect_units), &
+         new_testsuite("journal", collect_journal), &
+         new_testsuite("camshaft", collect_camshaft) &
          ]
 
       call get_argument(1, suite_name)

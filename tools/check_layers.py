@@ -40,10 +40,10 @@ PHYSICS_FLOORS = [
     {"load_share"},
     {"traction"},
     {"roller"},
-    {"torque"},
+    {"torque", "camshaft"},
 ]
 # Beside the chain: these use nothing of the chain but the bottom, only the top may use them.
-PHYSICS_BESIDE = {"needle", "journal", "camshaft", "guide"}
+PHYSICS_BESIDE = {"needle", "journal", "guide"}
 
 USE = re.compile(r"^use\s*(?:,\s*(?:non_)?intrinsic\s*)?(?:::)?\s*(\w+)")
 MODULE = re.compile(r"^module\s+(?!procedure\b|subroutine\b|function\b)(\w+)$")

@@ -112,7 +112,7 @@ contains
 
       best = bracket%x(1)
       if (abs(bracket%f(2)) < abs(value)) best = bracket%x(2)
-      part = (2.0_wp*epsilon(best)*abs(best) + 0.5_wp*bracket%tolerance)/abs(bracket%x(2) - bracket%x(1))
+      part = (2.0_wp*spacing(best) + 0.5_wp*bracket%tolerance)/abs(bracket%x(2) - bracket%x(1))
       if (abs(value) <= 0.0_wp .or. part > 0.5_wp) then
          bracket%status = root_found
          bracket%trial = best

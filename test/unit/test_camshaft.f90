@@ -1,0 +1,104 @@
+!> Camshaft: balance of forces and moments over every span.
+module test_camshaft
+   use testdrive, only : unittest_type, new_unittest, error_type, check
+   use camroller_kinds, only : wp
+   use camroller_journal, only : cam_bearings_t
+   use camroller_camshaft, only : bearing_loads, share_loads
+   implicit none
+   private
+
+   public :: collect_camshaft
+
+   !> Round-off allowed in values of order one hundred [-]
+   real(wp), parameter :: round_off = 1.0e4_wp*epsilon(1.0_wp)
+
+contains
+
+   subroutine collect_camshaft(testsuite)
+      type(unittest_type), allocatable, intent(out) :: testsuite(:)
+
+      testsuite = [ &
+         new_unittest("a cam in the middle loads both neighbours alike and no other", test_middle), &
+         new_unittest("forces and moments balance", test_balance), &
+         new_unittest("a cam over a bearing loads this one only", test_over_bearing), &
+         new_unittest("forces of opposite cams cancel as vectors", test_vectors), &
+         new_unittest("the order of the cams does not matter", test_order) &
+         ]
+   end subroutine collect_camshaft
+
+   subroutine test_middle(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(cam_bearings_t) :: bearings
+      real(wp) :: loads(2, 4), expected(2, 4)
+
+      bearings%bearing_positions = [0.0_wp, 0.1_wp, 0.2_wp, 0.3_wp]
+      bearings%cam_positions = [0.15_wp]
+      call bearing_loads(bearings, reshape([30.0_wp, -40.0_wp], [2, 1]), loads)
+      expected = 0.0_wp
+      expected(1, 2:3) = 15.0_wp
+      expected(2, 2:3) = -20.0_wp
+      call check(error, all(abs(loads - expected) < round_off))
+   end subroutine test_middle
+
+   subroutine test_balance(error)
+      type(error_type), allocatable, intent(out) :: error
+      real(wp), parameter :: places(4) = [0.01_wp, 0.09_wp, 0.2_wp, 0.23_wp]
+      real(wp), parameter :: cams(6) = [0.01_wp, 0.03_wp, 0.08_wp, 0.12_wp, 0.21_wp, 0.23_wp]
+      real(wp) :: forces(2, 6), loads(2, 4), span_loads(2, 4)
+      integer :: i, span
+
+      forces = reshape([(100.0_wp*sin(real(i*i, wp)), i=1, 12)], [2, 6])
+      call share_loads(places, cams, forces, loads)
+      call check(error, all(abs(sum(loads, dim=2) - sum(forces, dim=2)) < round_off), "forces")
+      if (allocated(error)) return
+      call check(error, all(abs(matmul(loads, places) - matmul(forces, cams)) < round_off), "moments")
+      if (allocated(error)) return
+      ! each span by itself is a beam on two supports
+      do span = 1, 3
+         do i = 1, 6
+            if (cams(i) < places(span) .or. cams(i) >= places(span + 1)) cycle
+            call share_loads(places, cams(i:i), forces(:, i:i), span_loads)
+            call check(error, all(abs(span_loads(:, span) + span_loads(:, span + 1) - forces(:, i)) < round_off), &
+               "force of a span")
+            if (allocated(error)) return
+            call check(error, all(abs(span_loads(:, span + 1)*(places(span + 1) - places(span)) &
+               - forces(:, i)*(cams(i) - places(span))) < round_off), "moment of a span")
+            if (allocated(error)) return
+         end do
+      end do
+   end subroutine test_balance
+
+   subroutine test_over_bearing(error)
+      type(error_type), allocatable, intent(out) :: error
+      real(wp), parameter :: places(3) = [0.0_wp, 0.1_wp, 0.25_wp]
+      real(wp) :: loads(2, 3), expected(2, 3)
+      integer :: i
+
+      do i = 1, 3
+         call share_loads(places, places(i:i), reshape([1.0_wp, 2.0_wp], [2, 1]), loads)
+         expected = 0.0_wp
+         expected(:, i) = [1.0_wp, 2.0_wp]
+         call check(error, all(abs(loads - expected) < epsilon(1.0_wp)))
+         if (allocated(error)) return
+      end do
+   end subroutine test_over_bearing
+
+   subroutine test_vectors(error)
+      type(error_type), allocatable, intent(out) :: error
+      real(wp) :: loads(2, 2)
+
+      call share_loads([0.0_wp, 1.0_wp], [0.25_wp, 0.25_wp], reshape([3.0_wp, 4.0_wp, -3.0_wp, -4.0_wp], [2, 2]), loads)
+      call check(error, all(abs(loads) <= 0.0_wp))
+   end subroutine test_vectors
+
+   subroutine test_order(error)
+      type(error_type), allocatable, intent(out) :: error
+      real(wp) :: loads(2, 3), again(2, 3), forces(2, 2)
+
+      forces = reshape([1.0_wp, 2.0_wp, 3.0_wp, 4.0_wp], [2, 2])
+      call share_loads([0.0_wp, 0.1_wp, 0.2_wp], [0.05_wp, 0.15_wp], forces, loads)
+      call share_loads([0.0_wp, 0.1_wp, 0.2_wp], [0.15_wp, 0.05_wp], forces(:, [2, 1]), again)
+      call check(error, all(abs(loads - again) <= epsilon(1.0_wp)))
+   end subroutine test_order
+
+end module test_camshaft

@@ -1,0 +1,281 @@
+!> Journal bearings: closed forms, published tables, limits, refusals.
+module test_journal
+   use testdrive, only : unittest_type, new_unittest, error_type, check
+   use camroller_kinds, only : wp, pi
+   use camroller_error, only : error_t, kind_deck, kind_domain
+   use camroller_journal, only : cam_bearings_t, journal_t, journal_law_names, new_journal, journal_torque, &
+      journal_friction, journal_solved, journal_without_film
+   use table_file, only : read_table
+   implicit none
+   private
+
+   public :: collect_journal
+
+   !> A camshaft bearing [m], [m], [m], [Pa s], [rad/s]
+   real(wp), parameter :: diameter = 26.0e-3_wp, width = 18.0e-3_wp, clearance = 0.05e-3_wp, viscosity = 0.05_wp, &
+      speed = 50.0_wp
+   !> Places in the list of laws
+   integer, parameter :: long = 1, short = 2, finite = 3
+
+contains
+
+   subroutine collect_journal(testsuite)
+      type(unittest_type), allocatable, intent(out) :: testsuite(:)
+
+      testsuite = [ &
+         new_unittest("long bearing: closed forms of Sommerfeld number and friction", test_long), &
+         new_unittest("short bearing: Ocvirk's table", test_short), &
+         new_unittest("finite bearing: Raimondi and Boyd's table", test_finite), &
+         new_unittest("narrow bearings: finite and short law agree", test_narrow), &
+         new_unittest("without load the friction is Petroff's", test_unloaded), &
+         new_unittest("light loads displace in proportion", test_light), &
+         new_unittest("heavy loads have a limit", test_heavy), &
+         new_unittest("friction rises with load, whatever its sign", test_monotonic), &
+         new_unittest("torque is friction times radius", test_torque), &
+         new_unittest("no film, no friction, and a status", test_no_film), &
+         new_unittest("impossible bearings are refused in words", test_refusals) &
+         ]
+   end subroutine collect_journal
+
+   !> Friction and eccentricity of the bearing above with another width
+   subroutine solve(law, length, load, friction, e)
+      !> Place in the list of laws
+      integer, intent(in) :: law
+      !> Width [m]
+      real(wp), intent(in) :: length
+      !> Load [N]
+      real(wp), intent(in) :: load
+      !> Friction [N]
+      real(wp), intent(out) :: friction
+      !> Eccentricity over clearance [-]
+      real(wp), intent(out) :: e
+      integer :: status
+
+      call journal_friction(law, diameter, length, clearance, viscosity, speed, load, friction, e, status)
+      if (status /= journal_solved) e = -huge(e)
+   end subroutine solve
+
+   !> Load for a Sommerfeld number eta N D L/W (r/c)^2, N in rev/s
+   pure function load_of(sommerfeld, length) result(load)
+      !> Sommerfeld number [-]
+      real(wp), intent(in) :: sommerfeld
+      !> Width [m]
+      real(wp), intent(in) :: length
+      !> Load [N]
+      real(wp) :: load
+
+      load = viscosity*speed/(2.0_wp*pi)*length*diameter/sommerfeld*(0.5_wp*diameter/clearance)**2
+   end function load_of
+
+   !> Petroff's friction
+   pure function petroff(length) result(friction)
+      !> Width [m]
+      real(wp), intent(in) :: length
+      !> Friction [N]
+      real(wp) :: friction
+
+      friction = 2.0_wp*pi*viscosity*speed*(0.5_wp*diameter)**2*length/clearance
+   end function petroff
+
+   subroutine test_long(error)
+      type(error_type), allocatable, intent(out) :: error
+      real(wp) :: e, friction, found, expected, sommerfeld
+      integer :: i
+
+      do i = 1, 99
+         e = 0.01_wp*real(i, wp)
+         sommerfeld = (2.0_wp + e**2)*sqrt(1.0_wp - e**2)/(12.0_wp*pi**2*e)
+         expected = 2.0_wp*(0.5_wp*diameter)**2*viscosity*speed/(2.0_wp*pi)*width/clearance &
+            *4.0_wp*pi**2*(1.0_wp + 2.0_wp*e**2)/((2.0_wp + e**2)*sqrt(1.0_wp - e**2))
+         call solve(long, width, load_of(sommerfeld, width), friction, found)
+         call check(error, abs(found - e) < 1.0e-13_wp, "eccentricity")
+         if (allocated(error)) return
+         ! e near one loses a factor 1/(1 - e^2), 50, of its digits in the formula of the test
+         call check(error, abs(friction/expected - 1.0_wp) < 1.0e-12_wp, "friction")
+         if (allocated(error)) return
+      end do
+   end subroutine test_long
+
+   subroutine test_short(error)
+      type(error_type), allocatable, intent(out) :: error
+      real(wp), allocatable :: rows(:, :)
+      real(wp) :: friction, found, length
+      integer :: i
+
+      call read_table("ocvirk.csv", 5, rows, error)
+      if (allocated(error)) return
+      length = 0.3_wp*diameter
+      do i = 1, size(rows, 2)
+         associate (e => rows(1, i), load_number => rows(2, i), ratio => rows(5, i))
+            call solve(short, length, load_number*viscosity*speed*0.5_wp*diameter*length**3/clearance**2, &
+               friction, found)
+            ! digits of the table: five in the load number, six in the friction
+            call check(error, abs(found - e) < 1.0e-5_wp .and. abs(friction/petroff(length)/ratio - 1.0_wp) < 2.0e-5_wp)
+            if (allocated(error)) return
+            call solve(short, length, load_of(rows(3, i)/0.3_wp**2, length), friction, found)
+            ! four digits in the smallest Sommerfeld number
+            call check(error, abs(found - e) < 1.0e-4_wp, "Sommerfeld number")
+            if (allocated(error)) return
+         end associate
+      end do
+   end subroutine test_short
+
+   subroutine test_finite(error)
+      type(error_type), allocatable, intent(out) :: error
+      real(wp), allocatable :: rows(:, :)
+      real(wp) :: friction, found, length, load
+      integer :: i
+
+      call read_table("raimondi_boyd.csv", 5, rows, error)
+      if (allocated(error)) return
+      do i = 1, size(rows, 2)
+         length = rows(1, i)*diameter
+         load = load_of(rows(3, i), length)
+         call solve(finite, length, load, friction, found)
+         ! what the fit reaches against the numerical solutions, see its description
+         call check(error, abs(found - rows(2, i)) < 0.01_wp, "eccentricity")
+         if (allocated(error)) return
+         call check(error, abs(friction/load*0.5_wp*diameter/clearance/rows(5, i) - 1.0_wp) < 0.02_wp, &
+            "friction variable")
+         if (allocated(error)) return
+      end do
+   end subroutine test_finite
+
+   subroutine test_narrow(error)
+      type(error_type), allocatable, intent(out) :: error
+      real(wp) :: friction, e(2), length, load
+      integer :: i
+
+      length = 0.1_wp*diameter
+      do i = 1, 9
+         load = load_of(1.0_wp/(0.1_wp*real(i, wp)), length)
+         call solve(short, length, load, friction, e(1))
+         call solve(finite, length, load, friction, e(2))
+         ! two different ends of the film (half film, and Reynolds' condition in the fit): a few per cent
+         call check(error, abs(e(2) - e(1)) < 0.03_wp)
+         if (allocated(error)) return
+      end do
+   end subroutine test_narrow
+
+   subroutine test_unloaded(error)
+      type(error_type), allocatable, intent(out) :: error
+      real(wp) :: friction, e
+      integer :: law
+
+      do law = 1, size(journal_law_names)
+         call solve(law, width, 0.0_wp, friction, e)
+         call check(error, abs(e) <= 0.0_wp .and. abs(friction/petroff(width) - 1.0_wp) < 100.0_wp*epsilon(1.0_wp), &
+            journal_law_names(law))
+         if (allocated(error)) return
+         call solve(law, width, tiny(1.0_wp), friction, e)
+         call check(error, abs(e) < 1.0e-300_wp &
+            .and. abs(friction/petroff(width) - 1.0_wp) < 100.0_wp*epsilon(1.0_wp), &
+            "smallest load, "//journal_law_names(law))
+         if (allocated(error)) return
+      end do
+   end subroutine test_unloaded
+
+   subroutine test_light(error)
+      type(error_type), allocatable, intent(out) :: error
+      real(wp) :: friction, small, large
+      integer :: law
+
+      do law = 1, size(journal_law_names)
+         call solve(law, width, 1.0e-9_wp, friction, small)
+         call solve(law, width, 2.0e-9_wp, friction, large)
+         ! eccentricities near 1e-13: the next term is of relative size e
+         call check(error, abs(large/small - 2.0_wp) < 1.0e-11_wp, journal_law_names(law))
+         if (allocated(error)) return
+      end do
+   end subroutine test_light
+
+   subroutine test_heavy(error)
+      type(error_type), allocatable, intent(out) :: error
+      real(wp) :: friction, e
+      integer :: law
+
+      do law = 1, size(journal_law_names)
+         call solve(law, width, 1.0e20_wp, friction, e)
+         call check(error, e <= 1.0_wp .and. e > 1.0_wp - 1.0e-4_wp, journal_law_names(law))
+         if (allocated(error)) return
+         if (law == long) call check(error, &
+            abs(friction/(1.0e20_wp*clearance/(0.5_wp*diameter)) - 1.0_wp) < 1.0e-12_wp, &
+            "friction of the fully displaced long bearing")
+         if (allocated(error)) return
+      end do
+   end subroutine test_heavy
+
+   subroutine test_monotonic(error)
+      type(error_type), allocatable, intent(out) :: error
+      real(wp) :: friction, before, e, e_before, mirrored, length, load
+      integer :: i, k, law, status
+
+      do law = 1, size(journal_law_names)
+         do k = 1, 10
+            length = 0.1_wp*real(k, wp)*diameter
+            before = 0.0_wp
+            e_before = -1.0_wp
+            do i = 0, 60
+               load = 10.0_wp**(0.1_wp*real(i, wp) - 1.0_wp)
+               call solve(law, length, load, friction, e)
+               call journal_friction(law, diameter, length, clearance, viscosity, -speed, -load, mirrored, e, status)
+               call check(error, friction > before .and. e > e_before .and. abs(friction - mirrored) <= 0.0_wp, &
+                  journal_law_names(law))
+               if (allocated(error)) return
+               before = friction
+               e_before = e
+            end do
+         end do
+      end do
+   end subroutine test_monotonic
+
+   subroutine test_torque(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(error_t), allocatable :: failure
+      type(journal_t) :: journal
+      real(wp) :: friction, torque, e
+      integer :: law, status
+
+      do law = 1, size(journal_law_names)
+         call new_journal(journal, cam_bearings_t(journal_law_names(law), diameter, width, clearance), viscosity, &
+            speed, failure)
+         call journal_torque(journal, 700.0_wp, torque, status)
+         call solve(law, width, 700.0_wp, friction, e)
+         call check(error, abs(torque/(friction*0.5_wp*diameter) - 1.0_wp) <= epsilon(1.0_wp), journal_law_names(law))
+         if (allocated(error)) return
+      end do
+   end subroutine test_torque
+
+   subroutine test_no_film(error)
+      type(error_type), allocatable, intent(out) :: error
+      real(wp) :: friction, e
+      integer :: status
+
+      call journal_friction(long, diameter, width, clearance, viscosity, 0.0_wp, 100.0_wp, friction, e, status)
+      call check(error, status == journal_without_film .and. abs(friction) <= 0.0_wp)
+   end subroutine test_no_film
+
+   subroutine test_refusals(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(error_t), allocatable :: failure
+      type(journal_t) :: journal
+
+      call new_journal(journal, cam_bearings_t("ball", diameter, width, clearance), viscosity, speed, failure)
+      call check(error, allocated(failure), "unknown law accepted")
+      if (allocated(error)) return
+      call check(error, failure%kind == kind_deck .and. index(failure%message, "known are 'long_full_sommerfeld'") > 0)
+      if (allocated(error)) return
+      call new_journal(journal, cam_bearings_t("finite", diameter, 2.0_wp*diameter, clearance), viscosity, speed, &
+         failure)
+      call check(error, allocated(failure), "width out of range accepted")
+      if (allocated(error)) return
+      call check(error, failure%kind == kind_deck .and. index(failure%message, &
+         "covers widths from 0.1 to 1 diameter") > 0)
+      if (allocated(error)) return
+      call new_journal(journal, cam_bearings_t("finite", diameter, width, clearance), viscosity, 0.0_wp, failure)
+      call check(error, allocated(failure), "no speed accepted")
+      if (allocated(error)) return
+      call check(error, failure%kind == kind_domain .and. index(failure%message, "speed") > 0)
+   end subroutine test_refusals
+
+end module test_journal
