@@ -27,6 +27,8 @@ program main
    use test_units, only : collect_units
    use test_journal, only : collect_journal
    use test_camshaft, only : collect_camshaft
+   use test_kinematics_reference, only : collect_kinematics_reference
+   use test_cycle_reference, only : collect_cycle_reference
    implicit none
 
    call run_command_line()
@@ -58,7 +60,9 @@ contains
          new_testsuite("number_text", collect_number_text), &
          new_testsuite("units", collect_units), &
          new_testsuite("journal", collect_journal), &
-         new_testsuite("camshaft", collect_camshaft) &
+         new_testsuite("camshaft", collect_camshaft), &
+         new_testsuite("kinematics_reference", collect_kinematics_reference), &
+         new_testsuite("cycle_reference", collect_cycle_reference) &
          ]
 
       call get_argument(1, suite_name)

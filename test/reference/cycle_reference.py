@@ -4,7 +4,7 @@ Equation numbers are those of Islam (2019), *Tribological study of friction in r
 effects of asperity interaction and roller sliding*; kinematics in ``mechanism.py``, laws in ``contact_laws.py``.
 
 Consistent mode (energy closes): pure rolling V_roll = omega (M - r_R), exact arm of the load, boundary friction as
-far as slip mobilises it, rolling resistance after Biboulet and Houpert. With the tangential force T' = F_t + F_r
+far as slip mobilises it, rolling resistance after Biboulet and Houpert from the film's load W - W_a. With the tangential force T' = F_t + F_r
 (2 R/r_R - 1) on the roller (the pressure that balances the rolling shear -F_r of each surface acts through both centres
 of curvature):
 
@@ -14,13 +14,12 @@ of curvature):
 
 Source mode (the thesis's bookkeeping): pure rolling V_roll = V_c (13), arm with the normal parallel to the valve
 (16), load without friction, all of the boundary friction in the contact's torque F h_F (40), rolling resistance after
-Goksem and Hargreaves (39), needle torque T_B omega_R/omega on top. In both modes the roller's own balance holds the
+Goksem and Hargreaves (39) from the whole load, needle torque T_B omega_R/omega on top. In both modes the roller's own balance holds the
 mobilised boundary friction and the rolling resistance.
 
 Cap of the film's traction: lim tanh(F/lim), lim = 0.08 W. Needle: T_B = mu_p W r_p tanh(spin/(0.01 omega)), spin
 relative to the finger. Mobilised boundary friction: F_b tanh(V_s/v_b). Seat: S0 (1 - l/l_s)^2 for l < l_s,
-l_s = 2 S0/K_s, S0 what is left of the spring's preload beside the adjuster's force at the valve. ``rolling_load``:
-rolling resistance after Biboulet and Houpert from the whole load ('total') or from the film's, W - W_a ('film').
+l_s = 2 S0/K_s, S0 what is left of the spring's preload beside the adjuster's force at the valve.
 """
 import math
 from dataclasses import dataclass
@@ -68,8 +67,8 @@ class Train:
 class Point:
     """A train at one speed and viscosity; ``state(theta, V_s)`` gives every force and torque."""
 
-    def __init__(self, rpm, eta0, train=Train(), mode='consistent', rolling_load='total'):
-        self.rpm, self.eta0, self.train, self.mode, self.rolling_load = rpm, eta0, train, mode, rolling_load
+    def __init__(self, rpm, eta0, train=Train(), mode='consistent'):
+        self.rpm, self.eta0, self.train, self.mode = rpm, eta0, train, mode
         self.omega = rpm * math.pi / 30
         t, geometry = train, train.geometry
         self.r_R = geometry.r_R
@@ -132,8 +131,7 @@ class Point:
         x.F_b = t.film_shear_strength * x.A_r + t.boundary_friction * x.W_a
         x.F_t = (1 - x.A_r / x.A_a) * x.F_h + x.F_b * math.tanh(V_s / t.mobilising_speed)
         if self.consistent:
-            load = W - x.W_a if self.rolling_load == 'film' else W
-            x.F_r = laws.rolling_biboulet(self.eta0, abs(x.V_e), t.E, k.R, load, t.width)
+            x.F_r = laws.rolling_biboulet(self.eta0, abs(x.V_e), t.E, k.R, W - x.W_a, t.width)
         else:
             x.F_r = laws.rolling_goksem(self.eta0, abs(x.V_e), t.alpha, t.E, k.R, W, t.width)
         x.omega_rel = x.omega_R - self.train.geometry.sense * k.gamma1 * self.omega

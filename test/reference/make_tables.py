@@ -27,7 +27,8 @@ HEADER = """\
 # thesis's bookkeeping; skewed_reversed as warm with mechanism and lift "skewed" of kinematics_reference.csv, sense -1.
 # Input: Islam (2019) Appendix B, with spring 25 000 N/m, guide clearance 0.02e-3 m, lift 9.5 mm (1-x^2)^4, seat
 # stiffness 1e7 N/m; no camshaft bearings; surface film strength 0. The script's docstrings list models and options.
-# Biboulet and Houpert's rolling resistance is taken with the whole load W. Angle 0 deg is the nose.
+# Rolling resistance after Biboulet and Houpert from the film's load W - W_a, in source_hot_slow after Goksem and
+# Hargreaves from the whole load W. Angle 0 deg is the nose.
 # film_traction is capped at 0.08 W and lacks the factor 1 - A_r/A_a; boundary_friction is all of it, traction holds
 # (1 - A_r/A_a) film_traction and what slip mobilises of boundary_friction.
 """
