@@ -20,14 +20,14 @@ module camroller_output_cases
    !> Datasets up to this size are one contiguous block, larger ones are cut into chunks [byte]
    real(wp), parameter :: contiguous_size = 65536.0_wp
    !> Series that together are larger than this are compressed under `auto` [byte]
-   real(wp), parameter :: compressed_size = 268435456.0_wp
+   real(wp), parameter :: compressed_size = 67108864.0_wp
    !> Rows gathered in memory take about this much [byte]
    real(wp), parameter :: buffer_size = 4194304.0_wp
    !> Most cases in a block
    integer, parameter :: largest_block = 1024
    !> Cases in a chunk of a scalar
    integer, parameter :: scalar_chunk = 8192
-   !> Deflate level: higher ones cost several times as much and save a few per cent on computed numbers
+   !> Deflate level: it saves near half of computed series; higher ones cost several times as much for a few per cent more
    integer, parameter :: deflate_level = 1
 
 contains
