@@ -42,8 +42,8 @@ module camroller_cli
       logical :: is_summary = .false.
       !> Is help wanted?
       logical :: is_help = .false.
-      !> Case to export, from 1
-      integer :: case_number = 1
+      !> Case to export, from 0 as in the file
+      integer :: case_number = 0
    end type config_t
 
 contains
@@ -206,8 +206,8 @@ contains
 
       status = 1
       if (verify(value, "0123456789") == 0 .and. len(value) > 0) read (value, *, iostat=status) config%case_number
-      if (status == 0 .and. config%case_number > 0) return
-      call raise(error, kind_usage, "option '--case' takes the number of a case, from 1, not '"//value//"'"// &
+      if (status == 0) return
+      call raise(error, kind_usage, "option '--case' takes the number of a case, from 0, not '"//value//"'"// &
          & see(config))
    end subroutine read_case_number
 

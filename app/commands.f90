@@ -3,17 +3,21 @@
 !> Layer: app. In: the command line. Out: files, text, an exit code.
 module camroller_commands
    use, intrinsic :: iso_fortran_env, only : error_unit, output_unit
-   use camroller_error, only : error_t, raise, kind_usage
+   use camroller_error, only : error_t, raise, add_context, kind_usage
    use camroller_case, only : case_t
    use camroller_cli, only : config_t, command_names, get_arguments, read_arguments
    use camroller_deck, only : deck_t, read_deck, make_sweep_case
    use camroller_deck_document, only : write_defaults, write_page, write_resolved
    use camroller_deck_schema, only : group_effect
-   use camroller_deck_sweep, only : sweep_size
+   use camroller_deck_sweep, only : sweep_size, case_in_words
+   use camroller_export, only : export_csv, export_series, export_summary
    use camroller_help_text, only : help_for
    use camroller_mistakes, only : line_t
+   use camroller_model, only : model_t
    use camroller_names, only : index_of_name
    use camroller_number_text, only : integer_text
+   use camroller_run, only : build_models
+   use camroller_run_command, only : run_deck
    use camroller_version, only : version_text, build_commit, compiler_facts
    implicit none
    private
@@ -61,10 +65,26 @@ contains
          call show_version()
       case ("help")
          call show_help(config, error)
-      case default
-         call raise(error, kind_usage, "'"//config%command//"' is not there yet")
+      case ("run")
+         call run_deck(config, error)
+      case ("export")
+         call export_table(config, error)
       end select
    end subroutine run_command
+
+   !> A table from a result file.
+   subroutine export_table(config, error)
+      !> What to do
+      type(config_t), intent(in) :: config
+      !> File error
+      type(error_t), allocatable, intent(out) :: error
+
+      character(len=:), allocatable :: path
+
+      path = config%output
+      if (path == "") path = "-"
+      call export_csv(config%subject, merge(export_summary, export_series, config%is_summary), config%case_number, path, error)
+   end subroutine export_table
 
    !> Help, or help for a command.
    subroutine show_help(config, error)
@@ -115,6 +135,7 @@ contains
 
       type(deck_t) :: deck
       type(case_t) :: case
+      type(model_t), allocatable :: models(:)
       character(len=:), allocatable :: text
       integer :: i
 
@@ -122,6 +143,9 @@ contains
       if (allocated(error)) return
       do i = 1, sweep_size(deck%sweep)
          call make_sweep_case(deck, i, case, error)
+         if (allocated(error)) return
+         call build_models(case, models, error)
+         if (size(deck%sweep%axes) > 0) call add_context(error, case_in_words(deck%sweep, i))
          if (allocated(error)) return
       end do
       call write_resolved(deck, text)

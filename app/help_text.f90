@@ -39,7 +39,7 @@ contains
          text = "camroller export FILE.h5 [--series [--case N] | --summary] [-o FILE.csv]"//n//n// &
             & "Print the series of one case, or the summary of all cases, as comma-separated values."//n//n// &
             & "  --series                   series over the cam angle (the default)"//n// &
-            & "  --case N                   case, from 1; 1 where not given"//n// &
+            & "  --case N                   case, from 0 as in the file; 0 where not given"//n// &
             & "  --summary                  one row for each case"//n// &
             & "  -o, --output FILE          file to write; the output unit where not given"
       case ("version")

@@ -18,7 +18,7 @@ module camroller_deck
    use camroller_deck_relations, only : check_relations
    use camroller_deck_tables, only : deck_tables_t, obtain_tables
    use camroller_deck_case, only : fill_case
-   use camroller_deck_sweep, only : sweep_t, read_sweep, sweep_size, sweep_overrides
+   use camroller_deck_sweep, only : sweep_t, read_sweep, sweep_size, sweep_overrides, case_in_words
    implicit none
    private
 
@@ -164,7 +164,7 @@ contains
       end if
       call sweep_overrides(deck%sweep, case_number, overrides)
       call make_case(deck, overrides, case, error)
-      if (allocated(error)) call add_context(error, "case "//integer_text(case_number)//" of the sweep")
+      if (size(overrides) > 0) call add_context(error, case_in_words(deck%sweep, case_number))
    end subroutine make_sweep_case
 
 end module camroller_deck

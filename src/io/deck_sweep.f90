@@ -17,7 +17,8 @@ module camroller_deck_sweep
    implicit none
    private
 
-   public :: sweep_t, sweep_axis_t, read_sweep, sweep_size, sweep_position, sweep_overrides, sweep_numbers, sweep_words
+   public :: sweep_t, sweep_axis_t, read_sweep, sweep_size, sweep_position, sweep_overrides, sweep_numbers, sweep_words, &
+      & case_in_words
 
    !> Most values of one key, and most cases of a grid
    integer, parameter :: most_values = 10000, most_cases = 1000000
@@ -288,6 +289,26 @@ contains
          overrides(i)%text = sweep%axes(i)%key//"="//trim(sweep%axes(i)%values(position(i)))
       end do
    end subroutine sweep_overrides
+
+   !> A case in words: its number as in result files, from 0, and what is different in it.
+   function case_in_words(sweep, case_number) result(words)
+      !> The grid
+      type(sweep_t), intent(in) :: sweep
+      !> Number of the case, from 1
+      integer, intent(in) :: case_number
+      !> The words
+      character(len=:), allocatable :: words
+
+      type(override_t), allocatable :: overrides(:)
+      integer :: i
+
+      words = "case "//integer_text(case_number - 1)
+      call sweep_overrides(sweep, case_number, overrides)
+      do i = 1, size(overrides)
+         words = words//merge(" (", ", ", i == 1)//overrides(i)%text
+      end do
+      if (size(overrides) > 0) words = words//")"
+   end function case_in_words
 
    !> Values of one key that varies, for every case.
    subroutine sweep_numbers(sweep, axis, numbers)

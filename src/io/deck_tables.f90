@@ -23,6 +23,9 @@ module camroller_deck_tables
    !> What counts as zero lift, relative to the largest lift [-]
    real(wp), parameter :: zero_lift = 1.0e-9_wp
 
+   !> Difference of two pressures that are taken for the same, relative to the largest pressure [-]
+   real(wp), parameter :: same_pressure = 1.0e-6_wp
+
    !> Tables of a deck; without a path where there is none
    type :: deck_tables_t
       !> Lift of the first and of the second lobe shape, cylinder pressure
@@ -154,6 +157,8 @@ contains
       if (length > 360.0_wp .or. length < 360.0_wp - 2.0_wp*widest) then
          call row_mistake(table, n, "the table must cover one turn of the camshaft, 360 degrees, not "// &
             & number_text(length, 6), mistakes)
+      else if (length >= 360.0_wp .and. abs(table%y(n) - table%y(1)) > same_pressure*maxval(abs(table%y))) then
+         call row_mistake(table, n, "the pressure must end as it begins, with "//number_text(table%y(1), 10), mistakes)
       end if
    end subroutine check_pressure
 
@@ -207,7 +212,7 @@ contains
       type(settings_t), intent(in) :: settings
       !> The table
       type(table_t), intent(in) :: table
-      !> Cam angle from full lift, from -pi to pi [rad]
+      !> Cam angle from full lift, increasing [rad]
       real(wp), allocatable, intent(out) :: angle(:)
       !> Gauge pressure [Pa]
       real(wp), allocatable, intent(out) :: pressure(:)
@@ -225,8 +230,9 @@ contains
       if (table%x(n) - table%x(1) >= 360.0_wp) n = n - 1
       angle = modulo(table%x(:n)*degree - nose + pi, two_pi) - pi
       first = minloc(angle, dim=1)
-      angle = cshift(angle, first - 1)
-      pressure = cshift(to_si(unit, table%y(:n)), first - 1)
+      angle = [cshift(angle, first - 1), angle(first) + two_pi]
+      pressure = to_si(unit, table%y(:n))
+      pressure = [cshift(pressure, first - 1), pressure(first)]
    end subroutine get_pressure_table
 
 end module camroller_deck_tables

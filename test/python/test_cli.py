@@ -56,8 +56,8 @@ def test_version_is_told(camroller):
     (["run", "x", "--set"], "option '--set' needs a value"),
     (["run", "x", "--quiet=yes"], "option '--quiet' takes no value"),
     (["check", "x", "y"], "'check' does not take 'y'"),
-    (["export", "x", "--case", "none"], "option '--case' takes the number of a case, from 1, not 'none'"),
-    (["export", "x", "--case", "0"], "option '--case' takes the number of a case, from 1, not '0'"),
+    (["export", "x", "--case", "none"], "option '--case' takes the number of a case, from 0, not 'none'"),
+    (["export", "x", "--case", "-1"], "option '--case' takes the number of a case, from 0, not '-1'"),
     (["help", "me"], "unknown command 'me'"),
     (["defaults", "asperty"], "no group 'asperty'; did you mean 'asperity'?"),
 ])

@@ -159,7 +159,8 @@ contains
       call make_sweep_case(deck, 2, case, raised)
       call check(error, allocated(raised))
       if (allocated(error)) return
-      call check(error, index(raised%message, "case 2 of the sweep: override: 'wall_thickness_mm' must be below"), 1, &
+      call check(error, index(raised%message, "case 1 (roller.wall_thickness_mm=9): override: "// &
+         & "'wall_thickness_mm' must be below"), 1, &
          & raised%message)
    end subroutine broken_rule
 

@@ -32,6 +32,7 @@ contains
          new_unittest("a lift table arrives in SI, from full lift", lift_in_si), &
          new_unittest("rows of zero lift outside of the event are left out", dwell_is_left_out), &
          new_unittest("a pressure table is turned to begin half a turn before full lift", pressure_is_turned), &
+         new_unittest("a pressure table covers one turn and ends as it begins", pressure_mistakes), &
          new_unittest("mistakes in a table are told with file and line", table_mistakes), &
          new_unittest("a table that cannot be read is told at the key that names it", no_table), &
          new_unittest("an override can name another table", other_table) &
@@ -88,9 +89,13 @@ contains
          & case)
       call remove_table()
       if (allocated(error)) return
-      call check(error, size(case%gas_force%angle), 12, "the last row repeats the first")
+      call check(error, size(case%gas_force%angle), 13)
       if (allocated(error)) return
-      call check(error, all(case%gas_force%angle(2:) > case%gas_force%angle(:11)))
+      call check(error, all(case%gas_force%angle(2:) > case%gas_force%angle(:12)))
+      if (allocated(error)) return
+      call check(error, case%gas_force%angle(13), pi, rel=.true., thr=round_off)
+      if (allocated(error)) return
+      call check(error, case%gas_force%pressure(13), case%gas_force%pressure(1), thr=0.0_wp, message="one turn later")
       if (allocated(error)) return
       call check(error, case%gas_force%angle(1), -pi, rel=.true., thr=round_off)
       if (allocated(error)) return
@@ -98,6 +103,47 @@ contains
       if (allocated(error)) return
       call check(error, case%gas_force%valve_area, pi*1.0e-4_wp, rel=.true., thr=round_off)
    end subroutine pressure_is_turned
+
+   subroutine pressure_mistakes(error)
+      type(error_type), allocatable, intent(out) :: error
+
+      character(len=:), allocatable :: rows
+      character(len=16) :: row
+      integer :: i
+
+      rows = ""
+      do i = 0, 330, 30
+         write (row, '(i0, 1x, i0)') i, i
+         rows = rows//trim(row)//n
+      end do
+      call expect_pressure(error, rows//"360 10"//n, path//":13: the pressure must end as it begins, with 0")
+      call expect_pressure(error, rows//"360 0"//n//"390 30"//n, path//":14: the table must cover one turn")
+      call expect_pressure(error, rows(:index(rows, "270") - 1), path//":9: the table must cover one turn")
+      call expect_pressure(error, rows, "")
+   end subroutine pressure_mistakes
+
+   !> A pressure table has one mistake, and its message begins with some words; none where these are blank.
+   subroutine expect_pressure(error, rows, message)
+      !> Outcome of the test; nothing is tried where it is known already
+      type(error_type), allocatable, intent(inout) :: error
+      !> The table
+      character(len=*), intent(in) :: rows
+      !> How the message begins
+      character(len=*), intent(in) :: message
+
+      type(deck_t) :: deck
+      type(error_t), allocatable :: raised
+
+      if (allocated(error)) return
+      call write_table(rows)
+      call read_text(changed_deck("", "&gas_force table = '"//path//"' valve_diameter_mm = 20 /"), deck, raised)
+      call remove_table()
+      if (allocated(raised) .neqv. message /= "") then
+         call test_failed(error, "accepted or refused, against: "//message)
+      else if (allocated(raised)) then
+         if (index(raised%message, message) /= 1) call test_failed(error, raised%message)
+      end if
+   end subroutine expect_pressure
 
    subroutine table_mistakes(error)
       type(error_type), allocatable, intent(out) :: error

@@ -1,0 +1,264 @@
+!> The command `run`: every case of a deck into one result file.
+!>
+!> Layer: app. In: the command line. Out: a result file, a line about it. A case that fails is recorded and does not end the
+!> others; the program still ends with its kind of error. Where no case has a result, there is no file.
+module camroller_run_command
+   use, intrinsic :: iso_fortran_env, only : error_unit, output_unit
+   use camroller_kinds, only : wp
+   use camroller_error, only : error_t, raise, add_context, kind_usage
+   use camroller_case, only : case_t
+   use camroller_result, only : result_t
+   use camroller_run, only : run_case
+   use camroller_cli, only : config_t
+   use camroller_deck, only : deck_t, read_deck, make_sweep_case
+   use camroller_deck_document, only : echo_t, get_echo
+   use camroller_deck_sweep, only : sweep_size, sweep_numbers, sweep_words, case_in_words
+   use camroller_deck_values, only : longest_text
+   use camroller_number_text, only : integer_text
+   use camroller_output, only : output_t, output_options_t, open_output, write_case, write_failure, close_output, &
+      & abandon_output, write_deck, write_sweep, write_run
+   use camroller_progress, only : progress_t, start_progress, show_progress, end_progress, seconds_since
+   use camroller_settings, only : take
+   use camroller_system_file, only : utc_date
+   use camroller_version, only : version_text, build_commit, compiler_facts
+   implicit none
+   private
+
+   public :: run_deck
+
+   !> What happened to the cases
+   type :: tally_t
+      !> Cases without a result, and cases with remarks
+      integer :: failed = 0, remarked = 0
+      !> The first failure
+      type(error_t), allocatable :: failure
+      !> The first remarks
+      character(len=:), allocatable :: remarks
+   end type tally_t
+
+contains
+
+   !> Run a deck.
+   subroutine run_deck(config, error)
+      !> What to do
+      type(config_t), intent(in) :: config
+      !> What went wrong; the first failure where there are several
+      type(error_t), allocatable, intent(out) :: error
+
+      type(deck_t) :: deck
+      type(output_t) :: writer
+      type(progress_t) :: progress
+      type(tally_t) :: tally
+      character(len=:), allocatable :: path
+      integer :: cases
+
+      call read_deck(deck, config%subject, config%overrides, error)
+      if (allocated(error)) return
+      call check_cases(deck, error)
+      if (allocated(error)) return
+      path = output_path(config)
+      if (path == config%subject) then
+         call raise(error, kind_usage, "the result would replace the deck '"//path//"'")
+         return
+      end if
+      cases = sweep_size(deck%sweep)
+      call start_progress(progress, config%is_quiet)
+      call open_output(writer, path, cases, options_of(deck), error)
+      if (.not. allocated(error)) call write_facts(writer, deck, error)
+      if (.not. allocated(error)) call run_cases(deck, writer, progress, tally, error)
+      call end_progress(progress)
+      if (allocated(error)) return
+      if (tally%failed == cases) then
+         call abandon_output(writer)
+         call move_alloc(tally%failure, error)
+         return
+      end if
+      call close_output(writer, error)
+      if (allocated(error)) return
+      if (.not. config%is_quiet) call report(path, cases, seconds_since(progress), tally)
+      if (tally%failed == 0) return
+      call move_alloc(tally%failure, error)
+      error%message = integer_text(tally%failed)//" of "//integer_text(cases)//" cases have no result; the first is "// &
+         & error%message
+   end subroutine run_deck
+
+   !> Do the values of every case go together?
+   subroutine check_cases(deck, error)
+      !> The deck
+      type(deck_t), intent(in) :: deck
+      !> Deck error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(case_t) :: case
+      integer :: i
+
+      do i = 1, sweep_size(deck%sweep)
+         call make_sweep_case(deck, i, case, error)
+         if (allocated(error)) return
+      end do
+   end subroutine check_cases
+
+   !> Run and write every case.
+   subroutine run_cases(deck, writer, progress, tally, error)
+      !> The deck
+      type(deck_t), intent(in) :: deck
+      !> The result file
+      type(output_t), intent(inout) :: writer
+      !> How far the run is
+      type(progress_t), intent(inout) :: progress
+      !> What happened
+      type(tally_t), intent(inout) :: tally
+      !> File error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(case_t) :: case
+      type(result_t) :: result
+      type(error_t), allocatable :: failure
+      integer :: i
+
+      do i = 1, sweep_size(deck%sweep)
+         call make_sweep_case(deck, i, case, failure)
+         if (.not. allocated(failure)) then
+            call run_case(case, result, failure)
+            if (size(deck%sweep%axes) > 0) call add_context(failure, case_in_words(deck%sweep, i))
+         end if
+         if (allocated(failure)) then
+            call write_failure(writer, i, failure, error)
+            tally%failed = tally%failed + 1
+            if (tally%failed == 1) tally%failure = failure
+         else
+            call write_case(writer, i, result, error)
+            call note_remarks(deck, i, result, tally)
+         end if
+         if (allocated(error)) return
+         call show_progress(progress, i, sweep_size(deck%sweep))
+      end do
+   end subroutine run_cases
+
+   !> Take note of remarks.
+   subroutine note_remarks(deck, case_number, result, tally)
+      !> The deck
+      type(deck_t), intent(in) :: deck
+      !> Number of the case, from 1
+      integer, intent(in) :: case_number
+      !> Its result
+      type(result_t), intent(in) :: result
+      !> What happened
+      type(tally_t), intent(inout) :: tally
+
+      if (.not. allocated(result%warnings)) return
+      if (result%warnings == "") return
+      tally%remarked = tally%remarked + 1
+      if (tally%remarked == 1) tally%remarks = case_in_words(deck%sweep, case_number)//": "//result%warnings
+   end subroutine note_remarks
+
+   !> Deck, sweep and build into the result file.
+   subroutine write_facts(writer, deck, error)
+      !> The result file
+      type(output_t), intent(inout) :: writer
+      !> The deck
+      type(deck_t), intent(in) :: deck
+      !> File error
+      type(error_t), allocatable, intent(out) :: error
+
+      character(len=longest_text), allocatable :: words(:)
+      !> Values of a key that varies [unit of the key]
+      real(wp), allocatable :: numbers(:)
+      type(echo_t) :: echo
+      integer :: i
+
+      call get_echo(deck, echo)
+      call write_deck(writer, deck%text, echo%keys, echo%values, echo%units, echo%origins, error)
+      do i = 1, size(deck%sweep%axes)
+         if (allocated(error)) return
+         associate (axis => deck%sweep%axes(i))
+            if (axis%is_numeric) then
+               call sweep_numbers(deck%sweep, i, numbers)
+               call write_sweep(writer, axis%key, axis%unit, numbers, error)
+            else
+               call sweep_words(deck%sweep, i, words)
+               call write_sweep(writer, axis%key, axis%unit, words, error)
+            end if
+         end associate
+      end do
+      if (.not. allocated(error)) call write_build(writer, error)
+   end subroutine write_facts
+
+   !> Program, build, date and command into the result file.
+   subroutine write_build(writer, error)
+      !> The result file
+      type(output_t), intent(inout) :: writer
+      !> File error
+      type(error_t), allocatable, intent(out) :: error
+
+      character(len=*), parameter :: names(*) = [character(len=8) :: "program", "version", "commit", "compiler", "options", &
+         & "date", "command"]
+      character(len=:), allocatable :: compiler, options, command, values(:)
+      integer :: length
+
+      call compiler_facts(compiler, options)
+      call get_command(length=length)
+      allocate (character(len=length) :: command)
+      call get_command(command)
+      allocate (character(len=max(len(compiler), len(options), length, len(build_commit), 20)) :: values(size(names)))
+      values(1) = "camroller"
+      values(2) = version_text
+      values(3) = build_commit
+      values(4) = compiler
+      values(5) = options
+      values(6) = utc_date()
+      values(7) = command
+      call write_run(writer, names, values, error)
+   end subroutine write_build
+
+   !> Choices of the group &output.
+   function options_of(deck) result(options)
+      !> The deck
+      type(deck_t), intent(in) :: deck
+      !> What is written, and how
+      type(output_options_t) :: options
+
+      call take(deck%settings, "output", "series", options%series)
+      call take(deck%settings, "output", "compression", options%compression)
+   end function options_of
+
+   !> File to write: as asked for, or the deck's name with another ending in the present folder.
+   pure function output_path(config) result(path)
+      !> What to do
+      type(config_t), intent(in) :: config
+      !> Path of the file
+      character(len=:), allocatable :: path
+
+      integer :: point
+
+      path = config%output
+      if (path /= "") return
+      path = config%subject(index(config%subject, "/", back=.true.) + 1:)
+      point = index(path, ".", back=.true.)
+      if (point > 1) path = path(:point - 1)
+      path = path//".h5"
+   end function output_path
+
+   !> Say what was done.
+   subroutine report(path, cases, time, tally)
+      !> Path of the result file
+      character(len=*), intent(in) :: path
+      !> Number of cases
+      integer, intent(in) :: cases
+      !> Time taken, in words
+      character(len=*), intent(in) :: time
+      !> What happened
+      type(tally_t), intent(in) :: tally
+
+      character(len=:), allocatable :: words
+
+      words = integer_text(cases)//" cases in "
+      if (cases == 1) words = "one case in "
+      write (output_unit, '(a)') path//": "//words//time
+      if (tally%remarked == 0) return
+      words = "remarks on "//integer_text(tally%remarked)//" cases (see /run/warnings); the first is on "
+      if (tally%remarked == 1) words = "remarks on "
+      write (error_unit, '(a)') words//tally%remarks
+   end subroutine report
+
+end module camroller_run_command
