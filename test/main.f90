@@ -29,6 +29,9 @@ program main
    use test_camshaft, only : collect_camshaft
    use test_kinematics_reference, only : collect_kinematics_reference
    use test_cycle_reference, only : collect_cycle_reference
+   use test_unit_rescaling_contact, only : collect_unit_rescaling_contact
+   use test_unit_rescaling_train, only : collect_unit_rescaling_train
+   use test_derivatives, only : collect_derivatives
    implicit none
 
    call run_command_line()
@@ -62,7 +65,10 @@ contains
          new_testsuite("journal", collect_journal), &
          new_testsuite("camshaft", collect_camshaft), &
          new_testsuite("kinematics_reference", collect_kinematics_reference), &
-         new_testsuite("cycle_reference", collect_cycle_reference) &
+         new_testsuite("cycle_reference", collect_cycle_reference), &
+         new_testsuite("unit_rescaling_contact", collect_unit_rescaling_contact), &
+         new_testsuite("unit_rescaling_train", collect_unit_rescaling_train), &
+         new_testsuite("derivatives", collect_derivatives) &
          ]
 
       call get_argument(1, suite_name)
