@@ -1,0 +1,175 @@
+"""Runs from outside: what is written, what is said, and what stays where something fails."""
+
+import csv
+import io
+import os
+import pathlib
+import pty
+import subprocess
+
+import h5py
+import numpy
+import pytest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+THESIS = ROOT / "decks/thesis.nml"
+USAGE, DECK, DOMAIN, FILE = 2, 3, 4, 6
+COARSE = ["--set", "output.angle_step_deg=5"]
+
+
+def run(camroller, *arguments, folder):
+    """Run the program without a terminal."""
+    return subprocess.run([camroller, *map(str, arguments)], cwd=folder, capture_output=True, text=True,
+                          stdin=subprocess.DEVNULL, timeout=300)
+
+
+def one_case(path, *changes):
+    """The reference deck without its sweep, with some of its text replaced."""
+    text = THESIS.read_text()
+    text = text[:text.index("&sweep")]
+    for old, new in changes:
+        assert old in text
+        text = text.replace(old, new)
+    path.write_text(text)
+    return path
+
+
+@pytest.fixture(scope="module")
+def thesis(camroller, tmp_path_factory):
+    """Result of the reference deck, coarse."""
+    folder = tmp_path_factory.mktemp("thesis")
+    result = run(camroller, "run", THESIS, *COARSE, folder=folder)
+    assert result.returncode == 0, result.stderr
+    assert result.stdout.startswith("thesis.h5: 9 cases in ")
+    return folder / "thesis.h5"
+
+
+def test_cases_stand_in_the_order_of_the_sweep(thesis):
+    with h5py.File(thesis) as file:
+        assert list(file["sweep/operating_point.speed_rpm"]) == [300] * 3 + [600] * 3 + [900] * 3
+        assert list(file["sweep/operating_point.oil_temperature_degC"]) == [25, 60, 95] * 3
+        assert file["series/contact_load"].shape == (9, 72)
+        assert list(file["summary/status"]) == [0] * 9
+
+
+def test_file_tells_its_deck_and_its_run(camroller, thesis):
+    with h5py.File(thesis) as file:
+        assert file["deck/text"][()].decode() == THESIS.read_text()
+        values = file["deck/values"]
+        assert values["output.angle_step_deg"][()] == 5
+        assert values["output.angle_step_deg"].attrs["given"] in ("given", b"given")
+        assert values["spring.seat_stiffness_N_m"][()] == 1e7
+        assert values["spring.seat_stiffness_N_m"].attrs["given"] in ("default", b"default")
+        assert values["lubricant.viscosity_points_Pa_s"][()].decode() == "0.15, 0.0305, 0.01"
+        command = file["run"].attrs["command"]
+        assert str(THESIS) in (command if isinstance(command, str) else command.decode())
+
+
+def test_nothing_is_said_when_quiet(camroller, tmp_path):
+    result = run(camroller, "run", one_case(tmp_path / "deck.nml"), *COARSE, "--quiet", folder=tmp_path)
+    assert (result.returncode, result.stdout, result.stderr) == (0, "", "")
+    assert (tmp_path / "deck.h5").exists()
+
+
+def test_export_gives_the_numbers_of_the_file(camroller, thesis, tmp_path):
+    result = run(camroller, "export", thesis, "--case", 4, folder=tmp_path)
+    assert result.returncode == 0, result.stderr
+    rows = list(csv.reader(io.StringIO(result.stdout)))
+    column = rows[0].index("contact_load")
+    with h5py.File(thesis) as file:
+        numbers = [float(row[column]) for row in rows[2:]]
+        assert numpy.array_equal(numbers, file["series/contact_load"][4])
+    summary = run(camroller, "export", thesis, "--summary", "-o", "summary.csv", folder=tmp_path)
+    assert (summary.returncode, summary.stdout) == (0, ""), summary.stderr
+    assert len((tmp_path / "summary.csv").read_text().splitlines()) == 2 + 9
+
+
+def test_export_of_a_case_that_is_not_there(camroller, thesis, tmp_path):
+    assert run(camroller, "export", thesis, "--case", 9, folder=tmp_path).returncode == USAGE
+
+
+def test_two_runs_give_the_same_numbers(camroller, thesis, tmp_path):
+    result = run(camroller, "run", THESIS, *COARSE, folder=tmp_path)
+    assert result.returncode == 0
+    with h5py.File(thesis) as first, h5py.File(tmp_path / "thesis.h5") as second:
+        for group in ("series", "summary"):
+            assert list(first[group]) == list(second[group])
+            for name in first[group]:
+                assert numpy.array_equal(first[group][name], second[group][name]), name
+
+
+@pytest.mark.parametrize("changes, code, words", [
+    ([("pivot_to_cam_mm = 31.5", "pivot_to_cam_mm = 60")], DOMAIN, "no closed triangle"),
+    ([("max_lift_mm = 9.5", "max_lift_mm = 25")], DOMAIN, ""),
+    ([("stiffness_N_m = 25000", "stiffness_N_m = 2500")], DECK, "seat"),
+    ([("radius_mm = 8.5", "radius_mm = -8.5")], DECK, "must be above 0"),
+], ids=["no triangle", "too much lift", "adjuster stronger than spring", "negative length"])
+def test_impossible_cases_leave_the_earlier_file(camroller, tmp_path, changes, code, words):
+    deck = one_case(tmp_path / "deck.nml", *changes)
+    (tmp_path / "deck.h5").write_text("earlier")
+    result = run(camroller, "run", deck, folder=tmp_path)
+    assert result.returncode == code, result.stderr
+    assert words in result.stderr
+    assert result.stdout == ""
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["deck.h5", "deck.nml"]
+    assert (tmp_path / "deck.h5").read_text() == "earlier"
+    checked = run(camroller, "check", deck, folder=tmp_path)
+    assert checked.returncode == code
+    assert words in checked.stderr
+
+
+def test_a_case_that_fails_does_not_end_the_others(camroller, tmp_path):
+    deck = one_case(tmp_path / "deck.nml")
+    deck.write_text(deck.read_text() + "&sweep key_1 = 'mechanism.pivot_to_cam_mm' values_1 = 31.5, 60, 31 /\n")
+    result = run(camroller, "run", deck, *COARSE, folder=tmp_path)
+    assert result.returncode == DOMAIN
+    assert "1 of 3 cases have no result; the first is case 1 (mechanism.pivot_to_cam_mm=60): " in result.stderr
+    with h5py.File(tmp_path / "deck.h5") as file:
+        assert list(file["summary/status"]) == [0, DOMAIN, 0]
+        assert numpy.isnan(file["series/contact_load"][1]).all()
+        assert numpy.isfinite(file["series/contact_load"][2]).all()
+
+
+@pytest.mark.parametrize("output", ["no_such_folder/x.h5", "deck.nml/x.h5", "/proc/x.h5", "."])
+def test_places_that_cannot_be_written(camroller, tmp_path, output):
+    deck = one_case(tmp_path / "deck.nml")
+    result = run(camroller, "run", deck, "-o", output, *COARSE, folder=tmp_path)
+    assert result.returncode == FILE, result.stderr
+    assert result.stderr.startswith("camroller: ")
+    assert [path.name for path in tmp_path.iterdir()] == ["deck.nml"]
+
+
+def test_the_deck_is_not_replaced(camroller, tmp_path):
+    deck = one_case(tmp_path / "deck.nml")
+    text = deck.read_text()
+    assert run(camroller, "run", deck, "-o", deck, folder=tmp_path).returncode == USAGE
+    assert deck.read_text() == text
+
+
+def test_names_can_be_swept(camroller, tmp_path):
+    deck = one_case(tmp_path / "deck.nml")
+    deck.write_text(deck.read_text() + "&sweep key_1 = 'film.law' values_1 = 'moes', 'pan_hamrock' /\n")
+    result = run(camroller, "run", deck, *COARSE, folder=tmp_path)
+    assert result.returncode == 0, result.stderr
+    with h5py.File(tmp_path / "deck.h5") as file:
+        assert [name.decode() for name in file["sweep/film.law"][()]] == ["moes", "pan_hamrock"]
+        assert (file["series/film_thickness_min"][0] != file["series/film_thickness_min"][1]).any()
+
+
+def test_a_long_run_shows_progress_on_a_terminal_only(camroller, tmp_path):
+    deck = one_case(tmp_path / "deck.nml")
+    deck.write_text(deck.read_text() + "&sweep key_1 = 'operating_point.speed_rpm' from_1 = 300 to_1 = 420 count_1 = 61 /\n")
+    master, slave = pty.openpty()
+    with subprocess.Popen([camroller, "run", str(deck), *COARSE], cwd=tmp_path, stdin=subprocess.DEVNULL,
+                          stdout=subprocess.DEVNULL, stderr=slave) as process:
+        os.close(slave)
+        seen = b""
+        try:
+            while block := os.read(master, 4096):
+                seen += block
+        except OSError:
+            pass
+        os.close(master)
+    assert b" of 61 cases" in seen
+    logged = run(camroller, "run", deck, *COARSE, folder=tmp_path)
+    assert " of 61 cases" not in logged.stderr.split("remarks")[0]
