@@ -1,0 +1,34 @@
+"""The hard decks: each says why it is hard, and its tables are those of their script."""
+
+import pathlib
+import subprocess
+import sys
+
+import f90nml
+import pytest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+FOLDER = ROOT / "decks/hard"
+DECKS = sorted(FOLDER.glob("*.nml"))
+
+
+def test_there_are_hard_decks():
+    assert len(DECKS) >= 24
+
+
+@pytest.mark.parametrize("path", DECKS, ids=lambda path: path.name)
+def test_each_deck_says_why_it_is_hard(path):
+    assert path.read_text().startswith("! Hard because ")
+    assert f90nml.read(path)["case"]["title"]
+
+
+def test_the_tables_are_those_of_their_script(tmp_path):
+    subprocess.run([sys.executable, FOLDER / "tables/make_tables.py", tmp_path], check=True)
+    made = {path.name: path.read_text() for path in tmp_path.glob("*.txt")}
+    assert made == {path.name: path.read_text() for path in (FOLDER / "tables").glob("*.txt")}
+
+
+@pytest.mark.parametrize("path", DECKS, ids=lambda path: path.name)
+def test_each_deck_is_valid(path, camroller):
+    done = subprocess.run([camroller, "check", path], capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
