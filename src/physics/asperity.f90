@@ -69,18 +69,17 @@ contains
       call integral_5_2(film_ratio, value, slope)
    end subroutine asperity_load_function
 
-   !> Real area over its value per unit of F_2: F_2.
-   elemental function asperity_area_function(film_ratio) result(value)
+   !> Real area over its value per unit of F_2: F_2 and its derivative.
+   elemental subroutine asperity_area_function(film_ratio, value, slope)
       !> Film thickness over roughness, h/sigma >= 0 [-]
       real(wp), intent(in) :: film_ratio
       !> F_2 [-]
-      real(wp) :: value
-
-      !> Derivative, not passed on [-]
-      real(wp) :: slope
+      real(wp), intent(out) :: value
+      !> Derivative with respect to the film ratio [-]
+      real(wp), intent(out) :: slope
 
       call integral_2(film_ratio, value, slope)
-   end function asperity_area_function
+   end subroutine asperity_area_function
 
    !> Load on the asperities, `W_a = (8 sqrt(2)/15) pi (eta beta sigma)^2 sqrt(sigma/beta) E' A_a F_5/2(h/sigma)`.
    elemental subroutine asperity_load(film_ratio, roughness_product, roughness_over_tip_radius, modulus, area, &

@@ -21,6 +21,9 @@ module camroller_load_share
       real(wp) :: asperity_load
       !> Real over apparent contact area [-]
       real(wp) :: real_area_ratio
+      !> Change of minimum film, ln; central film, ln; asperity load; real area ratio with ln(load), the apparent area growing with
+      !> the root of the load [-]
+      real(wp) :: film_min_slope, film_central_slope, asperity_slope, real_area_slope
    end type share_t
 
    !> Smallest central film over equivalent radius [-]: far below a molecule, it keeps the traction slope finite at standstill
@@ -34,8 +37,8 @@ module camroller_load_share
 
 contains
 
-   !> Share a load between film and asperities.
-   pure subroutine share_load(line, load, share, asperity, area, start)
+   !> Share a load between film and asperities: converged to round-off.
+   pure subroutine share_load(line, load, share, asperity, area)
       !> Film over the load at the speed of the contact
       type(film_line_t), intent(in) :: line
       !> Whole load over E' R L, positive [-]
@@ -46,32 +49,25 @@ contains
       type(asperity_constants_t), intent(in), optional :: asperity
       !> Apparent area over E' R L, to go with `asperity` [1/Pa]
       real(wp), intent(in), optional :: area
-      !> Film ratio at which the iteration starts, from a contact nearby; zero or absent: from the film that carries everything [-]
-      real(wp), intent(in), optional :: start
 
       type(film_shape_t) :: shape
-      ! Film ratio [-]
-      real(wp) :: film_ratio
+      ! Film ratio; asperity load over E' R L, its change with ln H [-]
+      real(wp) :: film_ratio, asperity_load, stiffness
 
-      share%asperity_load = 0.0_wp
-      share%real_area_ratio = 0.0_wp
-      film_ratio = 0.0_wp
-      if (present(start)) film_ratio = start
       shape%minimum = 0.0_wp
       shape%central = 0.0_wp
-      if (film_ratio <= 0.0_wp .or. film_ratio >= largest_film_ratio .or. takes_whole_load(line%law)) then
-         if (line%groups%speed > 0.0_wp) call film_at_load(line, load, shape)
-         film_ratio = shape%minimum/line%groups%roughness
-      end if
+      shape%minimum_load_slope = 0.0_wp
+      shape%central_load_slope = 0.0_wp
+      if (line%groups%speed > 0.0_wp) call film_at_load(line, load, shape)
+      film_ratio = shape%minimum/line%groups%roughness
       if (present(asperity)) then
          if (film_ratio < largest_film_ratio) then
-            call share_with_asperities(line, load, asperity%load_factor*area, film_ratio, share%asperity_load, shape)
-            share%real_area_ratio = asperity%area_factor*asperity_area_function(film_ratio)
-            shape%minimum = film_ratio*line%groups%roughness
+            call share_with_asperities(line, load, asperity%load_factor*area, film_ratio, asperity_load, stiffness, shape)
+            call complete_share(line, load, asperity, film_ratio, asperity_load, stiffness, shape, share)
+            return
          end if
       end if
-      share%film_min = shape%minimum
-      share%film_central = max(shape%central, shape%minimum, smallest_film)
+      call film_alone(shape, share)
    end subroutine share_load
 
    !> One step of Newton's method from a film ratio nearby: as good as `share_load` to the square of the change it makes.
@@ -95,8 +91,8 @@ contains
       real(wp), intent(out) :: change
 
       type(film_shape_t) :: shape
-      ! F_5/2, its derivative, film load over E' R L and its derivative over ln H, film ratio [-]
-      real(wp) :: value, slope, film_load, film_load_slope, film_ratio
+      ! F_5/2, its derivative, film load over E' R L and its derivative over ln H [-]
+      real(wp) :: value, slope, film_load, film_load_slope
 
       change = 0.0_wp
       film_load = 0.0_wp
@@ -116,16 +112,73 @@ contains
          call share_load(line, load, share, asperity, area)
          return
       end if
-      film_ratio = start*(1.0_wp + change)
-      share%asperity_load = load - film_load - film_load_slope*change
-      share%real_area_ratio = asperity%area_factor*asperity_area_function(film_ratio)
-      share%film_min = film_ratio*line%groups%roughness
-      share%film_central = shape%central*(1.0_wp + shape%central_load_slope*film_load_slope/film_load*change)
-      share%film_central = max(share%film_central, share%film_min, smallest_film)
+      shape%central = shape%central*(1.0_wp + shape%central_load_slope*film_load_slope/film_load*change)
+      call complete_share(line, load, asperity, start*(1.0_wp + change), load - film_load - film_load_slope*change, &
+         & -film_load_slope, shape, share)
    end subroutine improve_share
 
+   !> Load share without asperities within reach.
+   pure subroutine film_alone(shape, share)
+      !> Film that carries everything
+      type(film_shape_t), intent(in) :: shape
+      !> Film and load share
+      type(share_t), intent(out) :: share
+
+      share%film_min = shape%minimum
+      share%film_central = max(shape%central, shape%minimum, smallest_film)
+      share%asperity_load = 0.0_wp
+      share%real_area_ratio = 0.0_wp
+      share%film_min_slope = shape%minimum_load_slope
+      share%film_central_slope = shape%central_load_slope
+      share%asperity_slope = 0.0_wp
+      share%real_area_slope = 0.0_wp
+   end subroutine film_alone
+
+   !> Real area, and how everything follows the load when the apparent area grows with its root.
+   pure subroutine complete_share(line, load, asperity, film_ratio, asperity_load, stiffness, shape, share)
+      !> Film over the load at the speed of the contact
+      type(film_line_t), intent(in) :: line
+      !> Whole load over E' R L [-]
+      real(wp), intent(in) :: load
+      !> Asperities
+      type(asperity_constants_t), intent(in) :: asperity
+      !> Film ratio [-]
+      real(wp), intent(in) :: film_ratio
+      !> Asperity load over E' R L, and its change with ln H [-]
+      real(wp), intent(in) :: asperity_load, stiffness
+      !> Film there
+      type(film_shape_t), intent(in) :: shape
+      !> Film and load share
+      type(share_t), intent(out) :: share
+
+      ! F_2 with its derivative; load of the film over E' R L [-]
+      real(wp) :: area_value, area_slope, film_load
+      ! d ln H/d ln W [-]
+      real(wp) :: film_slope
+
+      call asperity_area_function(film_ratio, area_value, area_slope)
+      share%film_min = film_ratio*line%groups%roughness
+      share%film_central = max(shape%central, share%film_min, smallest_film)
+      share%asperity_load = asperity_load
+      share%real_area_ratio = asperity%area_factor*area_value
+      film_load = load - asperity_load
+      film_slope = 0.0_wp
+      if (takes_whole_load(line%law)) then
+         film_slope = shape%minimum_load_slope
+      else if (film_load > smallest_film_part*load) then
+         film_slope = shape%minimum_load_slope*(load - 0.5_wp*asperity_load)/(film_load + shape%minimum_load_slope*stiffness)
+      end if
+      share%film_min_slope = film_slope
+      share%asperity_slope = 0.5_wp*asperity_load + stiffness*film_slope
+      share%real_area_slope = asperity%area_factor*area_slope*film_ratio*film_slope
+      share%film_central_slope = shape%central_load_slope
+      if (.not. takes_whole_load(line%law)) then
+         share%film_central_slope = shape%central_load_slope*(load - share%asperity_slope)/max(film_load, smallest_film_part*load)
+      end if
+   end subroutine complete_share
+
    !> Film ratio at which the asperities carry what the film does not, by Newton's method on logarithms inside a bracket.
-   pure subroutine share_with_asperities(line, load, capacity, film_ratio, asperity_load, shape)
+   pure subroutine share_with_asperities(line, load, capacity, film_ratio, asperity_load, stiffness, shape)
       !> Film over the load at the speed of the contact
       type(film_line_t), intent(in) :: line
       !> Whole load over E' R L [-]
@@ -135,8 +188,8 @@ contains
       !> In: film ratio to start from, that with the film carrying everything for laws that take the whole load; out: film
       !> ratio [-]
       real(wp), intent(inout) :: film_ratio
-      !> Asperity load over E' R L [-]
-      real(wp), intent(out) :: asperity_load
+      !> Asperity load over E' R L, and its change with ln H [-]
+      real(wp), intent(out) :: asperity_load, stiffness
       !> In: film that carries everything; out: film
       type(film_shape_t), intent(inout) :: shape
 
@@ -149,6 +202,7 @@ contains
 
       call asperity_load_function(film_ratio, value, slope)
       asperity_load = min(capacity*value, load)
+      stiffness = capacity*slope*film_ratio
       if (takes_whole_load(line%law)) return
       if (line%groups%speed <= 0.0_wp .and. asperity_load < load) return
 
@@ -161,6 +215,7 @@ contains
          if (has_film) then
             call film_at_load(line, film_load, shape)
             film_load_slope = -capacity*slope*film_ratio
+            stiffness = -film_load_slope
             change = log(shape%minimum/(film_ratio*line%groups%roughness)) &
                & /(1.0_wp - shape%minimum_load_slope*film_load_slope/film_load)
             if (abs(change) <= tolerance) then

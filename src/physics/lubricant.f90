@@ -69,6 +69,8 @@ module camroller_lubricant
       real(wp) :: roelands_exponent = 0.0_wp
    end type oil_t
 
+   !> Exponent at which a viscosity ratio is held: far above any shear that a limiting traction lets through, below overflow [-]
+   real(wp), parameter :: largest_exponent = 600.0_wp
    !> Power of Cameron's law [-]
    integer, parameter :: cameron_power = 16
    integer, private :: k
@@ -243,57 +245,75 @@ contains
       viscosity = (exp(exp(value)) - walther_constant)*square_millimetre*density
    end subroutine walther_viscosity
 
-   !> Viscosity at a pressure over that at ambient pressure.
-   !>
-   !> Barus `exp(alpha p)`; Cameron `(1 + alpha p/16)^16`, good to about 1 GPa; Roelands
-   !> `exp((ln eta0 + 9.67) ((1 + 5.1e-9 p)^Z - 1))`.
-   pure function relative_viscosity(oil, pressure) result(ratio)
-      !> Oil at its temperature
-      type(oil_t), intent(in) :: oil
-      !> Pressure above ambient [Pa]
-      real(wp), intent(in) :: pressure
-      !> Viscosity ratio [-]
-      real(wp) :: ratio
-
-      select case (oil%pressure_law)
-      case (law_barus)
-         ratio = exp(oil%pressure_viscosity*pressure)
-      case (law_cameron)
-         ratio = (1.0_wp + oil%pressure_viscosity*pressure/cameron_power)**cameron_power
-      case default
-         ratio = exp(oil%roelands_exponent*((1.0_wp + pressure/roelands_pressure)**oil%roelands_index - 1.0_wp))
-      end select
-   end function relative_viscosity
-
    !> Mean of the relative viscosity over a contact with pressure `p0 sqrt(1 - x^2/b^2)`: the integral in
-   !> Islam (2019) eq. (33) over `2 b`.
+   !> Islam (2019) eq. (33) over `2 b`; and its logarithmic slope over p0.
    !>
    !> Cameron's law integrates to a polynomial of degree 16; the other laws go through Gauss-Legendre quadrature in the
    !> angle phi, x = b sin(phi), with 24 points: better than 1e-12 up to `alpha p0` = 35.
-   pure function mean_relative_viscosity(oil, peak) result(mean)
+   pure subroutine mean_relative_viscosity(oil, peak, mean, log_slope)
       !> Oil at its temperature
       type(oil_t), intent(in) :: oil
       !> Pressure in the middle of the contact, p0 [Pa]
       real(wp), intent(in) :: peak
       !> Mean viscosity ratio [-]
-      real(wp) :: mean
+      real(wp), intent(out) :: mean
+      !> d ln(mean)/d ln(p0) [-]
+      real(wp), intent(out) :: log_slope
 
       integer :: i
-
-      ! alpha p0 [-]
-      real(wp) :: exponent
+      ! alpha p0; derivative of the mean over it; viscosity ratio at a point and its logarithmic slope [-]
+      real(wp) :: exponent, derivative, ratio, point_slope
 
       mean = 0.0_wp
+      derivative = 0.0_wp
       if (oil%pressure_law == law_cameron) then
          exponent = oil%pressure_viscosity*peak
          do i = cameron_power, 0, -1
+            derivative = derivative*exponent + mean
             mean = mean*exponent + cameron_coefficients(i)
          end do
+         log_slope = derivative*exponent/mean
          return
       end if
       do i = 1, size(rule_heights)
-         mean = mean + rule_weights(i)*relative_viscosity(oil, peak*rule_heights(i))
+         call relative_viscosity(oil, peak*rule_heights(i), ratio, point_slope)
+         mean = mean + rule_weights(i)*ratio
+         derivative = derivative + rule_weights(i)*ratio*point_slope
       end do
-   end function mean_relative_viscosity
+      log_slope = derivative/mean
+   end subroutine mean_relative_viscosity
+
+   !> Viscosity at a pressure over that at ambient pressure, and its logarithmic slope.
+   !>
+   !> Barus `exp(alpha p)`; Cameron `(1 + alpha p/16)^16`, good to about 1 GPa; Roelands
+   !> `exp((ln eta0 + 9.67) ((1 + 5.1e-9 p)^Z - 1))`.
+   pure subroutine relative_viscosity(oil, pressure, ratio, log_slope)
+      !> Oil at its temperature
+      type(oil_t), intent(in) :: oil
+      !> Pressure above ambient [Pa]
+      real(wp), intent(in) :: pressure
+      !> Viscosity ratio [-]
+      real(wp), intent(out) :: ratio
+      !> d ln(ratio)/d ln(pressure) [-]
+      real(wp), intent(out) :: log_slope
+
+      ! Base of the power in Cameron's and in Roelands' law; the latter's power [-]
+      real(wp) :: base, power
+
+      select case (oil%pressure_law)
+      case (law_barus)
+         log_slope = oil%pressure_viscosity*pressure
+         ratio = exp(min(log_slope, largest_exponent))
+      case (law_cameron)
+         base = 1.0_wp + oil%pressure_viscosity*pressure/cameron_power
+         ratio = base**cameron_power
+         log_slope = oil%pressure_viscosity*pressure/base
+      case default
+         base = 1.0_wp + pressure/roelands_pressure
+         power = base**oil%roelands_index
+         ratio = exp(min(oil%roelands_exponent*(power - 1.0_wp), largest_exponent))
+         log_slope = oil%roelands_exponent*oil%roelands_index*power*(1.0_wp - 1.0_wp/base)
+      end select
+   end subroutine relative_viscosity
 
 end module camroller_lubricant

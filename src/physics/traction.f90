@@ -75,10 +75,10 @@ contains
       force = sliding_speed*viscosity*area/film
    end function newtonian_shear
 
-   !> Shear force of an Eyring film, `int tau_E asinh(eta V_s/(h_c tau_E)) dA`, and its slope over the sliding speed.
+   !> Shear force of an Eyring film, `int tau_E asinh(eta V_s/(h_c tau_E)) dA`, and its slopes.
    !>
    !> Quadrature as for the mean viscosity; as the stress tends to infinity the force tends to the Newtonian one.
-   pure subroutine eyring_shear(sliding_speed, oil, peak, area, film, eyring_stress, force, slope)
+   pure subroutine eyring_shear(sliding_speed, oil, peak, area, film, eyring_stress, force, slope, peak_slope)
       !> Sliding speed, V_s [m/s]
       real(wp), intent(in) :: sliding_speed
       !> Oil at its temperature
@@ -95,43 +95,60 @@ contains
       real(wp), intent(out) :: force
       !> d force/d sliding speed at constant film and pressure [N s/m]
       real(wp), intent(out) :: slope
+      !> d force/d ln(peak) at constant film [N]
+      real(wp), intent(out) :: peak_slope
 
-      ! eta/(h_c tau_E) at a point [s/m]
-      real(wp) :: rate
+      ! eta/(h_c tau_E) at a point, and over the viscosity ratio there [s/m]
+      real(wp) :: rate, unit_rate
+      ! Viscosity ratio at a point, its logarithmic slope, slope of asinh [-]
+      real(wp) :: ratio, log_slope, bend
       integer :: i
 
       force = 0.0_wp
       slope = 0.0_wp
+      peak_slope = 0.0_wp
+      unit_rate = oil%viscosity/(film*eyring_stress)
       do i = 1, size(rule_heights)
-         rate = oil%viscosity*relative_viscosity(oil, peak*rule_heights(i))/(film*eyring_stress)
+         call relative_viscosity(oil, peak*rule_heights(i), ratio, log_slope)
+         rate = unit_rate*ratio
+         bend = rate/hypot(1.0_wp, rate*sliding_speed)
          force = force + rule_weights(i)*asinh(rate*sliding_speed)
-         slope = slope + rule_weights(i)*rate/hypot(1.0_wp, rate*sliding_speed)
+         slope = slope + rule_weights(i)*bend
+         peak_slope = peak_slope + rule_weights(i)*bend*sliding_speed*log_slope
       end do
       force = force*area*eyring_stress
       slope = slope*area*eyring_stress
+      peak_slope = peak_slope*area*eyring_stress
    end subroutine eyring_shear
 
    !> Limit a shear force to a limiting traction: sharply, or smoothly as `limit tanh(force/limit)`.
-   elemental subroutine limit_shear(cap, limit, force, slope)
+   elemental subroutine limit_shear(cap, limit, force, force_slope, limit_slope)
       !> Position in `cap_names`
       integer, intent(in) :: cap
       !> Limiting force, mu_lim W [N], positive
       real(wp), intent(in) :: limit
       !> Shear force, in and out [N]
       real(wp), intent(inout) :: force
-      !> Its slope over the sliding speed, in and out [N s/m]
-      real(wp), intent(inout) :: slope
+      !> d(limited force)/d(force) [-]
+      real(wp), intent(out) :: force_slope
+      !> d(limited force)/d(limit) [-]
+      real(wp), intent(out) :: limit_slope
 
-      ! tanh(force/limit) [-]
-      real(wp) :: part
+      ! tanh(force/limit), force over limit [-]
+      real(wp) :: part, load_factor
 
+      force_slope = 1.0_wp
+      limit_slope = 0.0_wp
       if (cap == cap_smooth) then
-         part = tanh(force/limit)
+         load_factor = force/limit
+         part = tanh(load_factor)
          force = limit*part
-         slope = slope*(1.0_wp - part)*(1.0_wp + part)
+         force_slope = (1.0_wp - part)*(1.0_wp + part)
+         limit_slope = part - load_factor*force_slope
       else if (abs(force) > limit) then
-         force = sign(limit, force)
-         slope = 0.0_wp
+         limit_slope = sign(1.0_wp, force)
+         force = limit*limit_slope
+         force_slope = 0.0_wp
       end if
    end subroutine limit_shear
 
@@ -147,12 +164,13 @@ contains
       share = tanh(sliding_speed/mobilising_speed)
    end function mobilised_share
 
-   !> Rolling resistance of each surface, its size; zero at standstill or without load.
+   !> Rolling resistance of each surface, its size, and its logarithmic slope over the load; zero at standstill or without load.
    !>
    !> Goksem and Hargreaves (1978), elastic regime: `F_r = 4.318 (G U)^0.658 W*^0.0126 L R/alpha`; Islam (2019) eq. (39).
    !> Biboulet and Houpert (2010), doi 10.1243/13506501JET790, rigid to elastic: with U2 = 2 U and M2 = W*/sqrt(U2),
    !> `F_r/(E' R L) = W*^1.5 T`, `T = 1.4/M2 / (1 + ((1.4/1.45) sqrt(M2))^10)^0.1`.
-   elemental function rolling_resistance(law, speed_group, load_group, modulus, radius, length, pressure_viscosity) result(force)
+   elemental subroutine rolling_resistance(law, speed_group, load_group, modulus, radius, length, pressure_viscosity, force, &
+      & log_slope)
       !> Position in `rolling_law_names`
       integer, intent(in) :: law
       !> U [-]
@@ -168,29 +186,37 @@ contains
       !> Pressure-viscosity coefficient, alpha [1/Pa]
       real(wp), intent(in) :: pressure_viscosity
       !> Rolling resistance [N]
-      real(wp) :: force
+      real(wp), intent(out) :: force
+      !> d ln(force)/d ln(load group) [-]
+      real(wp), intent(out) :: log_slope
 
       ! sqrt(2 U) [-]
       real(wp) :: root
-      ! M2 (1.4/1.45)^2 [-]
-      real(wp) :: regime
+      ! M2 (1.4/1.45)^2; its power 5 or -5, the smaller of both [-]
+      real(wp) :: regime, blend
 
       force = 0.0_wp
+      log_slope = 0.0_wp
       if (speed_group <= 0.0_wp .or. load_group <= 0.0_wp) return
       select case (law)
       case (rolling_goksem_hargreaves)
          force = 4.318_wp*(pressure_viscosity*modulus*speed_group)**0.658_wp*load_group**0.0126_wp &
             & *length*radius/pressure_viscosity
+         log_slope = 0.0126_wp
       case (rolling_biboulet_houpert)
          root = sqrt(2.0_wp*speed_group)
          regime = load_group/root*(1.4_wp/1.45_wp)**2
          if (regime < 1.0_wp) then
-            force = 1.4_wp*sqrt(load_group)*root/(1.0_wp + regime**5)**0.1_wp
+            blend = regime**5
+            force = 1.4_wp*sqrt(load_group)*root
+            log_slope = 0.5_wp/(1.0_wp + blend)
          else
-            force = 1.45_wp*root*sqrt(root)/(1.0_wp + regime**(-5))**0.1_wp
+            blend = (1.0_wp/regime)**5
+            force = 1.45_wp*root*sqrt(root)
+            log_slope = 0.5_wp*blend/(1.0_wp + blend)
          end if
-         force = force*modulus*radius*length
+         force = force*(1.0_wp + blend)**(-0.1_wp)*modulus*radius*length
       end select
-   end function rolling_resistance
+   end subroutine rolling_resistance
 
 end module camroller_traction

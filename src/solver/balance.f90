@@ -7,7 +7,7 @@ module camroller_balance
    use camroller_model, only : model_t
    use camroller_kinematics, only : position_t
    use camroller_dynamics, only : moments_t
-   use camroller_contact, only : contact_t
+   use camroller_contact_forces, only : contact_t
    use camroller_state, only : evaluate_loading, evaluate_spin
    use camroller_spin, only : rolling_speed_at, rolling_speed_slope
    use camroller_roots, only : bracket_t, start_bracket, narrow_bracket, root_wanted, root_found

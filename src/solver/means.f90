@@ -9,6 +9,8 @@ module camroller_means
    use camroller_case, only : case_t
    use camroller_model, only : model_t
    use camroller_state, only : state_t
+   use camroller_contact_forces, only : film_groups
+   use camroller_film, only : is_in_range
    use camroller_cycle, only : cycle_t, state_at
    use camroller_catalogue, only : series_values, follower_torques, torque_count
    use camroller_shaft, only : shaft_t, shaft_torques
@@ -118,11 +120,26 @@ contains
       statistics%highest = max(statistics%highest, values)
       statistics%torques = statistics%torques + weight*torques
       if (.not. state%contact%is_touching) statistics%lost_share = statistics%lost_share + weight
-      if (.not. state%contact%is_in_range) then
+      if (.not. has_film_in_range(model, state)) then
          if (statistics%outside_share <= 0.0_wp) statistics%first_outside = angle
          statistics%outside_share = statistics%outside_share + weight
       end if
    end subroutine add_point
+
+   !> Is the film law inside its published range? True where there is no contact.
+   pure function has_film_in_range(model, state) result(inside)
+      !> Model of the lobe
+      type(model_t), intent(in) :: model
+      !> State of the follower
+      type(state_t), intent(in) :: state
+      !> True inside
+      logical :: inside
+
+      inside = .true.
+      if (state%contact%is_touching) then
+         inside = is_in_range(model%film_law, film_groups(model, state%position, state%contact))
+      end if
+   end function has_film_in_range
 
    !> Mean torque of all camshaft bearings, over panels that end at the stops of every cam.
    subroutine mean_bearing_torque(shaft, models, cycles, mean, error)

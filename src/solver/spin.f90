@@ -9,7 +9,7 @@ module camroller_spin
    use camroller_model, only : model_t
    use camroller_kinematics, only : position_t
    use camroller_dynamics, only : moments_t
-   use camroller_contact, only : contact_t
+   use camroller_contact_forces, only : contact_t
    use camroller_state, only : evaluate_loading, evaluate_spin
    implicit none
    private
@@ -22,6 +22,8 @@ module camroller_spin
       type(model_t), pointer :: model => null()
       !> Is the state the roller's surface speed instead of the sliding speed?
       logical :: has_surface_speed = .false.
+      !> Relative error of load and forces that is good enough; zero: round-off [-]
+      real(wp) :: accuracy = 0.0_wp
    contains
       procedure :: get_rate
       procedure :: get_decay_rate
@@ -52,7 +54,8 @@ contains
       rate = 0.0_wp
       call evaluate_loading(self%model, time, position, force, moments, status)
       if (status /= 0) return
-      call evaluate_spin(self%model, position, moments, sliding_speed_of(self, position, state(1)), contact, acceleration, status)
+      call evaluate_spin(self%model, position, moments, sliding_speed_of(self, position, state(1)), contact, acceleration, &
+         & status, self%accuracy)
       if (status /= 0) return
       rate(1) = self%model%roller_radius*acceleration/self%model%speed
       if (.not. self%has_surface_speed) rate(1) = rolling_speed_slope(self%model, position) - rate(1)

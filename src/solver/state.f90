@@ -7,7 +7,8 @@ module camroller_state
    use camroller_kinematics, only : position_t
    use camroller_dynamics, only : moments_t, evaluate_moments, stored_power
    use camroller_gas, only : gas_force
-   use camroller_contact, only : contact_t, solve_contact
+   use camroller_contact, only : solve_contact
+   use camroller_contact_forces, only : contact_t
    use camroller_roller, only : spin_acceleration
    use camroller_torque, only : cam_torque, contact_power, normal_direction
    implicit none
@@ -73,7 +74,7 @@ contains
    end subroutine evaluate_loading
 
    !> Contact and angular acceleration of the roller: what the integration of its spin needs.
-   pure subroutine evaluate_spin(model, position, moments, sliding_speed, contact, acceleration, status)
+   pure subroutine evaluate_spin(model, position, moments, sliding_speed, contact, acceleration, status, accuracy)
       !> The model
       type(model_t), intent(in) :: model
       !> Geometry at this angle
@@ -88,8 +89,10 @@ contains
       real(wp), intent(out) :: acceleration
       !> 0 fine, positive: no balance found
       integer, intent(out) :: status
+      !> Relative error of load and forces that is good enough; absent: round-off [-]
+      real(wp), intent(in), optional :: accuracy
 
-      call solve_contact(model, position, moments, sliding_speed, contact, status)
+      call solve_contact(model, position, moments, sliding_speed, contact, status, accuracy)
       acceleration = spin_acceleration(contact%traction, merge(contact%rolling_resistance, 0.0_wp, &
          & model%has_rolling_in_balance), model%roller_radius, contact%bearing_torque, model%roller_inertia)
    end subroutine evaluate_spin

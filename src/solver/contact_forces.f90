@@ -1,0 +1,291 @@
+!> Everything in the contact at a given load, and how it changes with the load.
+!>
+!> Layer: solver. In: model, geometry, sliding speed, load. Out: `contact_t` and `slopes_t`. The load is found by `contact`.
+module camroller_contact_forces
+   use camroller_kinds, only : wp
+   use camroller_model, only : model_t
+   use camroller_kinematics, only : position_t
+   use camroller_hertz, only : half_width
+   use camroller_lubricant, only : mean_relative_viscosity
+   use camroller_film, only : groups_t, film_line_t, new_film_line
+   use camroller_load_share, only : share_t, share_load, improve_share
+   use camroller_traction, only : film_pressure, newtonian_shear, eyring_shear, limit_shear, mobilised_share, &
+      & rolling_resistance, law_newtonian, rolling_biboulet_houpert
+   use camroller_needle, only : bearing_torque
+   implicit none
+   private
+
+   public :: contact_t, setting_t, slopes_t, set_speeds, prepare_contact, evaluate_contact, release_contact, &
+      & film_groups
+
+   !> State of the contact
+   type :: contact_t
+      !> Do cam and roller touch?
+      logical :: is_touching
+      !> Speed of the contact point over the cam and over the roller, V_c and V_f [m/s]
+      real(wp) :: cam_surface_speed, roller_surface_speed
+      !> Speed of the roller's surface in pure rolling, V_roll, and sliding speed, V_s [m/s]
+      real(wp) :: rolling_speed, sliding_speed
+      !> Mean surface speed, V_e [m/s]
+      real(wp) :: entrainment_speed
+      !> Spin of the roller; spin relative to the finger [rad/s]
+      real(wp) :: roller_spin, relative_spin
+      !> Normal load, W [N]
+      real(wp) :: load
+      !> Half width [m] and apparent area [m^2] of the contact
+      real(wp) :: half_width, apparent_area
+      !> Minimum and central film [m]
+      real(wp) :: film_min, film_central
+      !> Minimum film over composite roughness [-]
+      real(wp) :: film_ratio
+      !> Load carried by asperities, W_a [N], and their real contact area, A_r [m^2]
+      real(wp) :: asperity_load, real_area
+      !> Shear of the film over the part that the asperities leave, (1 - A_r/A_a) F_h [N]
+      real(wp) :: shear
+      !> Boundary friction that the asperities can bear, F_b, and the part that the slip mobilises, with its sign [N]
+      real(wp) :: boundary_capacity, boundary_mobilised
+      !> Rolling resistance of each surface, F_r, with the sign of the entrainment [N]
+      real(wp) :: rolling_resistance
+      !> Traction, F_t [N]; its slope over the sliding speed at constant load and film [N s/m]
+      real(wp) :: traction, traction_slope
+      !> Net tangential force on the roller, T' = F_t + F_r (2 R/r_R - 1) [N]
+      real(wp) :: tangential_force
+      !> Torque of the roller's bearing, T_B [N m]
+      real(wp) :: bearing_torque
+   end type contact_t
+
+   !> What does not change with the load while the balance is sought
+   type :: setting_t
+      !> Film over the load at the entrainment speed
+      type(film_line_t) :: line
+      !> E' R L [N]
+      real(wp) :: scale
+      !> Mobilised part of the boundary friction [-]
+      real(wp) :: mobilised
+      !> Torque of the roller's bearing over the load [m]
+      real(wp) :: bearing_arm
+   end type setting_t
+
+   !> Derivatives with respect to the logarithm of the load, at constant speeds
+   type :: slopes_t
+      !> ln of the film ratio [-]
+      real(wp) :: film_ratio
+      !> Traction, rolling resistance, tangential force [N]
+      real(wp) :: traction, rolling_resistance, tangential_force
+   end type slopes_t
+
+contains
+
+   !> Speeds of the surfaces for a sliding speed.
+   pure subroutine set_speeds(model, position, sliding_speed, contact)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> Geometry at this angle
+      type(position_t), intent(in) :: position
+      !> Sliding speed, V_s [m/s]
+      real(wp), intent(in) :: sliding_speed
+      !> State of the contact: speeds
+      type(contact_t), intent(inout) :: contact
+
+      contact%cam_surface_speed = model%speed*position%surface_travel
+      contact%rolling_speed = contact%cam_surface_speed
+      if (model%has_exact_spin) contact%rolling_speed = model%speed*position%rolling_travel
+      contact%sliding_speed = sliding_speed
+      contact%roller_surface_speed = contact%cam_surface_speed - sliding_speed
+      contact%entrainment_speed = contact%cam_surface_speed - 0.5_wp*sliding_speed
+      contact%roller_spin = (contact%rolling_speed - sliding_speed)/model%roller_radius
+      contact%relative_spin = contact%roller_spin - model%linkage%sense*position%finger_slope*model%speed
+   end subroutine set_speeds
+
+   !> What the speeds alone decide.
+   pure subroutine prepare_contact(model, position, contact, setting)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> Geometry at this angle
+      type(position_t), intent(in) :: position
+      !> State of the contact; the speeds are set
+      type(contact_t), intent(in) :: contact
+      !> What does not change with the load
+      type(setting_t), intent(out) :: setting
+
+      setting%scale = model%modulus*position%equivalent_radius*model%contact_width
+      call new_film_line(setting%line, model%film_law, film_groups(model, position, contact))
+      setting%mobilised = 0.0_wp
+      if (allocated(model%boundary)) then
+         setting%mobilised = mobilised_share(contact%sliding_speed, model%boundary%mobilising_speed)
+      end if
+      setting%bearing_arm = 0.0_wp
+      if (allocated(model%bearing)) then
+         setting%bearing_arm = bearing_torque(model%bearing%friction_coefficient, 1.0_wp, model%bearing%radius, &
+            & contact%relative_spin, model%bearing%reversal_spin)
+      end if
+   end subroutine prepare_contact
+
+   !> Dimensionless groups of the contact.
+   pure function film_groups(model, position, contact) result(groups)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> Geometry at this angle
+      type(position_t), intent(in) :: position
+      !> State of the contact; load and speeds are set
+      type(contact_t), intent(in) :: contact
+      !> The groups
+      type(groups_t) :: groups
+
+      groups%speed = model%oil%viscosity*abs(contact%entrainment_speed)/(model%modulus*position%equivalent_radius)
+      groups%material = model%oil%pressure_viscosity*model%modulus
+      groups%load = contact%load/(model%modulus*position%equivalent_radius*model%contact_width)
+      groups%roughness = model%roughness/position%equivalent_radius
+      groups%hardness = model%hardness/model%modulus
+   end function film_groups
+
+   !> Everything in the contact at a given load.
+   pure subroutine evaluate_contact(model, position, setting, load, contact, slopes, change)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> Geometry at this angle
+      type(position_t), intent(in) :: position
+      !> What does not change with the load
+      type(setting_t), intent(in) :: setting
+      !> Normal load, W, positive [N]
+      real(wp), intent(in) :: load
+      !> State of the contact; the speeds are set, and the film ratio is that of a contact nearby or zero
+      type(contact_t), intent(inout) :: contact
+      !> Derivatives over ln(load)
+      type(slopes_t), intent(out) :: slopes
+      !> Relative change of the film ratio that was made; its square is about the error left [-]
+      real(wp), intent(out) :: change
+
+      type(share_t) :: share
+      ! Load over E' R L, and the part that the rolling law takes; logarithmic slope of rolling resistance [-]
+      real(wp) :: load_group, rolling_load, rolling_slope
+      ! 2 R/r_R - 1 [-]
+      real(wp) :: rolling_part
+
+      contact%load = load
+      contact%is_touching = .true.
+      contact%half_width = half_width(load, position%equivalent_radius, model%contact_width, model%modulus)
+      contact%apparent_area = 2.0_wp*contact%half_width*model%contact_width
+      load_group = load/setting%scale
+      change = 0.0_wp
+      if (allocated(model%boundary)) then
+         call improve_share(setting%line, load_group, share, model%boundary%constants, &
+            & contact%apparent_area/setting%scale, contact%film_ratio, change)
+      else
+         call share_load(setting%line, load_group, share)
+      end if
+      contact%film_min = share%film_min*position%equivalent_radius
+      contact%film_central = share%film_central*position%equivalent_radius
+      contact%film_ratio = contact%film_min/model%roughness
+      contact%asperity_load = share%asperity_load*setting%scale
+      contact%real_area = share%real_area_ratio*contact%apparent_area
+      slopes%film_ratio = share%film_min_slope
+      call set_traction(model, share, setting, contact, slopes)
+
+      rolling_load = load_group
+      if (model%rolling_law == rolling_biboulet_houpert) rolling_load = load_group - share%asperity_load
+      call rolling_resistance(model%rolling_law, setting%line%groups%speed, rolling_load, model%modulus, &
+         & position%equivalent_radius, model%contact_width, model%oil%pressure_viscosity, contact%rolling_resistance, &
+         & rolling_slope)
+      contact%rolling_resistance = sign(contact%rolling_resistance, contact%entrainment_speed)
+      slopes%rolling_resistance = contact%rolling_resistance*rolling_slope
+      if (model%rolling_law == rolling_biboulet_houpert .and. rolling_load > 0.0_wp) then
+         slopes%rolling_resistance = slopes%rolling_resistance*(load_group - share%asperity_slope)/rolling_load
+      end if
+      rolling_part = 2.0_wp*position%equivalent_radius/model%roller_radius - 1.0_wp
+      contact%tangential_force = contact%traction + contact%rolling_resistance*rolling_part
+      slopes%tangential_force = slopes%traction + slopes%rolling_resistance*rolling_part
+      contact%bearing_torque = setting%bearing_arm*load
+   end subroutine evaluate_contact
+
+   !> Shear of the film, boundary friction and their sum.
+   pure subroutine set_traction(model, share, setting, contact, slopes)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> Load share
+      type(share_t), intent(in) :: share
+      !> What does not change with the load
+      type(setting_t), intent(in) :: setting
+      !> State of the contact; film and load share are set
+      type(contact_t), intent(inout) :: contact
+      !> Derivatives over ln(load): traction
+      type(slopes_t), intent(inout) :: slopes
+
+      ! Pressure in the middle of the film [Pa]; its logarithmic slope over the load [-]
+      real(wp) :: peak, peak_slope
+      ! Mean viscosity ratio and its logarithmic slope over the pressure [-]
+      real(wp) :: viscosity, viscosity_slope
+      ! Slope of the shear over the sliding speed [N s/m]
+      real(wp) :: speed_slope
+      ! Derivative of the shear over ln(load), over ln(peak); limit [N]
+      real(wp) :: shear_slope, pressure_slope, limit
+      ! Derivatives of the limited shear over the shear and over the limit [-]
+      real(wp) :: by_shear, by_limit
+      ! Load of the film and its derivative over ln(load) [N]
+      real(wp) :: film_load, film_load_slope
+
+      film_load = contact%load - contact%asperity_load
+      film_load_slope = contact%load - share%asperity_slope*setting%scale
+      peak = film_pressure(film_load, contact%apparent_area, contact%real_area)
+      peak_slope = -0.5_wp + share%real_area_slope/(1.0_wp - share%real_area_ratio)
+      if (film_load > 0.0_wp) peak_slope = peak_slope + film_load_slope/film_load
+      if (model%shear_law == law_newtonian) then
+         call mean_relative_viscosity(model%oil, peak, viscosity, viscosity_slope)
+         speed_slope = newtonian_shear(1.0_wp, model%oil%viscosity*viscosity, contact%apparent_area, contact%film_central)
+         contact%shear = speed_slope*contact%sliding_speed
+         pressure_slope = contact%shear*viscosity_slope
+      else
+         call eyring_shear(contact%sliding_speed, model%oil, peak, contact%apparent_area, contact%film_central, &
+            & model%eyring_stress, contact%shear, speed_slope, pressure_slope)
+      end if
+      shear_slope = 0.5_wp*contact%shear + pressure_slope*peak_slope &
+         & - share%film_central_slope*speed_slope*contact%sliding_speed
+      limit = model%limiting_coefficient*contact%load
+      call limit_shear(model%cap, limit, contact%shear, by_shear, by_limit)
+      shear_slope = by_shear*shear_slope + by_limit*limit
+      speed_slope = by_shear*speed_slope
+
+      slopes%traction = shear_slope*(1.0_wp - share%real_area_ratio) - contact%shear*share%real_area_slope
+      contact%shear = contact%shear*(1.0_wp - share%real_area_ratio)
+      contact%traction = contact%shear
+      contact%traction_slope = speed_slope*(1.0_wp - share%real_area_ratio)
+      contact%boundary_capacity = 0.0_wp
+      contact%boundary_mobilised = 0.0_wp
+      if (.not. allocated(model%boundary)) return
+
+      contact%boundary_capacity = model%boundary%film_shear_strength*contact%real_area &
+         & + model%boundary%coefficient*contact%asperity_load
+      contact%boundary_mobilised = contact%boundary_capacity*setting%mobilised
+      contact%traction = contact%traction + contact%boundary_mobilised
+      slopes%traction = slopes%traction + setting%mobilised*(model%boundary%film_shear_strength &
+         & *(0.5_wp*contact%real_area + contact%apparent_area*share%real_area_slope) &
+         & + model%boundary%coefficient*share%asperity_slope*setting%scale)
+      contact%traction_slope = contact%traction_slope &
+         & + contact%boundary_capacity*(1.0_wp - setting%mobilised)*(1.0_wp + setting%mobilised)/model%boundary%mobilising_speed
+   end subroutine set_traction
+
+   !> No contact: no force; the film is reported as zero, since there is none to speak of.
+   pure subroutine release_contact(contact)
+      !> State of the contact; the speeds are kept
+      type(contact_t), intent(inout) :: contact
+
+      contact%is_touching = .false.
+      contact%load = 0.0_wp
+      contact%half_width = 0.0_wp
+      contact%apparent_area = 0.0_wp
+      contact%film_min = 0.0_wp
+      contact%film_central = 0.0_wp
+      contact%film_ratio = 0.0_wp
+      contact%asperity_load = 0.0_wp
+      contact%real_area = 0.0_wp
+      contact%shear = 0.0_wp
+      contact%boundary_capacity = 0.0_wp
+      contact%boundary_mobilised = 0.0_wp
+      contact%rolling_resistance = 0.0_wp
+      contact%traction = 0.0_wp
+      contact%traction_slope = 0.0_wp
+      contact%tangential_force = 0.0_wp
+      contact%bearing_torque = 0.0_wp
+   end subroutine release_contact
+
+end module camroller_contact_forces
