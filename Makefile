@@ -11,6 +11,7 @@ PYTHON := .venv/bin/python
 # Both builds keep to the standard and never let the compiler change values: no -ffast-math, and no fused
 # multiply-add, so that results do not depend on whether a machine has it. The plain x86-64 target of gfortran has none
 # anyway. fpm keeps a folder for each set of flags. build/commit holds the commit, see tools/write_commit.sh.
+export PKG_CONFIG_PATH := $(CURDIR)/build/pkgconfig:$(PKG_CONFIG_PATH)
 COMMON_FLAGS := -std=f2018 -g -ffp-contract=off -fbacktrace -Ibuild/commit
 export DEBUG_FLAGS := $(COMMON_FLAGS) -O0 -Wall -Wextra -Wimplicit-interface -fcheck=all \
   -ffpe-trap=invalid,zero,overflow -finit-real=snan

@@ -31,6 +31,15 @@ has_hdf5() {
     [ -f "${directory:-/usr/include}/hdf5.mod" ]
 }
 
+# Where HDF5 is there with and without MPI, the serial one is linked: pkg-config then looks in build/pkgconfig first.
+serial_hdf5() {
+    local folder
+    folder=$(pkg-config --variable=pcfiledir hdf5-serial 2> /dev/null) || return 0
+    [ -f "$folder/hdf5-serial.pc" ] || return 0
+    mkdir -p build/pkgconfig
+    ln -sf "$folder/hdf5-serial.pc" build/pkgconfig/hdf5.pc
+}
+
 system_packages() {
     local missing
     missing=$(missing_packages | tr '\n' ' ')
@@ -99,5 +108,6 @@ unpack_test_drive() { # folder
 
 mkdir -p build
 system_packages
+serial_hdf5
 python_tools
 test_drive

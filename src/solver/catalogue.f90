@@ -199,7 +199,10 @@ contains
       character(len=*), intent(in) :: name, unit, description, source
 
       list%count = list%count + 1
-      list%items(list%count) = quantity_t(name, unit, description, source)
+      list%items(list%count)%name = name
+      list%items(list%count)%unit = unit
+      list%items(list%count)%description = description
+      list%items(list%count)%source = source
    end subroutine add
 
    !> Append a value to a list.

@@ -279,7 +279,10 @@ contains
       real(wp), intent(in) :: value
 
       count = count + 1
-      quantities(count) = quantity_t(name, unit, description, source)
+      quantities(count)%name = name
+      quantities(count)%unit = unit
+      quantities(count)%description = description
+      quantities(count)%source = source
       values(count) = value
    end subroutine add
 

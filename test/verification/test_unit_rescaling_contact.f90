@@ -96,6 +96,7 @@ contains
       type(oil_t) :: oil, oil_in_units
       type(units_t) :: u
       character(len=7), parameter :: pressure_laws(2) = [character(len=7) :: "barus", "cameron"]
+      real(wp) :: f(2), g(2)
       integer :: i, k
 
       do i = 1, size(systems)
@@ -103,11 +104,13 @@ contains
          do k = 1, 2
             call sample_oil("direct", pressure_laws(k), units_t(1.0_wp, 1.0_wp, 1.0_wp, 1.0_wp), oil)
             call sample_oil("direct", pressure_laws(k), u, oil_in_units)
-            call compare(error, "relative viscosity", u, number, [relative_viscosity(oil, 4.0e8_wp)], &
-               & [relative_viscosity(oil_in_units, scaled(u, 4.0e8_wp, pressure))])
+            call relative_viscosity(oil, 4.0e8_wp, f(1), f(2))
+            call relative_viscosity(oil_in_units, scaled(u, 4.0e8_wp, pressure), g(1), g(2))
+            call compare(error, "relative viscosity", u, number, f, g)
             if (allocated(error)) return
-            call compare(error, "mean relative viscosity", u, number, [mean_relative_viscosity(oil, 6.0e8_wp)], &
-               & [mean_relative_viscosity(oil_in_units, scaled(u, 6.0e8_wp, pressure))])
+            call mean_relative_viscosity(oil, 6.0e8_wp, f(1), f(2))
+            call mean_relative_viscosity(oil_in_units, scaled(u, 6.0e8_wp, pressure), g(1), g(2))
+            call compare(error, "mean relative viscosity", u, number, f, g)
             if (allocated(error)) return
          end do
          call sample_oil("vogel", "cameron", units_t(1.0_wp, 1.0_wp, 1.0_wp, 1.0_wp), oil)
@@ -197,7 +200,7 @@ contains
       type(oil_t) :: oil, oil_in_units
       type(units_t) :: u
       real(wp), parameter :: film = 0.12e-6_wp, contact_area = 1.4e-6_wp, peak = 6.0e8_wp
-      real(wp) :: f, g, f_slope, g_slope
+      real(wp) :: f, g, f_slope, g_slope, f_peak, g_peak
       integer :: i, k
 
       do i = 1, size(systems)
@@ -211,24 +214,24 @@ contains
          if (allocated(error)) return
          call sample_oil("direct", "cameron", units_t(1.0_wp, 1.0_wp, 1.0_wp, 1.0_wp), oil)
          call sample_oil("direct", "cameron", u, oil_in_units)
-         call eyring_shear(sliding, oil, peak, contact_area, film, 5.0e6_wp, f, f_slope)
+         call eyring_shear(sliding, oil, peak, contact_area, film, 5.0e6_wp, f, f_slope, f_peak)
          call eyring_shear(scaled(u, sliding, speed), oil_in_units, scaled(u, peak, pressure), scaled(u, &
             contact_area, area), &
-            & scaled(u, film, length), scaled(u, 5.0e6_wp, pressure), g, g_slope)
+            & scaled(u, film, length), scaled(u, 5.0e6_wp, pressure), g, g_slope, g_peak)
          call compare(error, "Eyring shear", u, force, [f], [g])
          if (allocated(error)) return
          call compare(error, "slope of Eyring shear", u, drag, [f_slope], [g_slope])
          if (allocated(error)) return
+         call compare(error, "pressure slope of Eyring shear", u, force, [f_peak], [g_peak])
+         if (allocated(error)) return
          do k = 1, size(cap_names)
             f = 50.0_wp
-            f_slope = 2.0e4_wp
             g = scaled(u, f, force)
-            g_slope = scaled(u, f_slope, drag)
-            call limit_shear(k, 59.0_wp, f, f_slope)
-            call limit_shear(k, scaled(u, 59.0_wp, force), g, g_slope)
+            call limit_shear(k, 59.0_wp, f, f_slope, f_peak)
+            call limit_shear(k, scaled(u, 59.0_wp, force), g, g_slope, g_peak)
             call compare(error, "limited shear", u, force, [f], [g])
             if (allocated(error)) return
-            call compare(error, "slope of limited shear", u, drag, [f_slope], [g_slope])
+            call compare(error, "slopes of limited shear", u, number, [f_slope, f_peak], [g_slope, g_peak])
             if (allocated(error)) return
          end do
          call compare(error, "mobilised share", u, number, [mobilised_share(sliding, 1.0e-3_wp)], &
@@ -240,7 +243,7 @@ contains
    subroutine test_rolling(error)
       type(error_type), allocatable, intent(out) :: error
       type(units_t) :: u
-      real(wp) :: speed_group, load_group
+      real(wp) :: speed_group, load_group, f, g, f_slope, g_slope
       integer :: i, k, law
 
       speed_group = eta*entrainment/(modulus*radius)
@@ -250,11 +253,12 @@ contains
             do k = 1, 2
                ! the elastic and the rigid side
                load_group = load/(modulus*radius*width)*1.0e-2_wp**(k - 1)
-               call compare(error, rolling_law_names(law), u, force, &
-                  & [rolling_resistance(law, speed_group, load_group, modulus, radius, width, alpha)], &
-                  & [rolling_resistance(law, speed_group, load_group, scaled(u, modulus, pressure), scaled(u, &
-                  radius, length), &
-                  & scaled(u, width, length), scaled(u, alpha, per_pressure))])
+               call rolling_resistance(law, speed_group, load_group, modulus, radius, width, alpha, f, f_slope)
+               call rolling_resistance(law, speed_group, load_group, scaled(u, modulus, pressure), &
+                  scaled(u, radius, length), scaled(u, width, length), scaled(u, alpha, per_pressure), g, g_slope)
+               call compare(error, rolling_law_names(law), u, force, [f], [g])
+               if (allocated(error)) return
+               call compare(error, rolling_law_names(law), u, number, [f_slope], [g_slope])
                if (allocated(error)) return
             end do
          end do
@@ -269,11 +273,13 @@ contains
       type(oil_t) :: oil, oil_in_units
       type(units_t), parameter :: si = units_t(1.0_wp, 1.0_wp, 1.0_wp, 1.0_wp), u = units_t(16.0_wp, 1.0_wp, &
          1.0_wp, 1.0_wp)
+      real(wp) :: f(2), g(2)
 
       call sample_oil("direct", "roelands", si, oil)
       call sample_oil("direct", "roelands", u, oil_in_units)
-      call compare(expected, "Roelands", u, number, [relative_viscosity(oil, 4.0e8_wp)], &
-         & [relative_viscosity(oil_in_units, scaled(u, 4.0e8_wp, pressure))], round_off=1.0e12_wp)
+      call relative_viscosity(oil, 4.0e8_wp, f(1), f(2))
+      call relative_viscosity(oil_in_units, scaled(u, 4.0e8_wp, pressure), g(1), g(2))
+      call compare(expected, "Roelands", u, number, f, g, round_off=1.0e12_wp)
       call check(error, allocated(expected), "the reference pressure of Roelands' law is not noticed")
       if (allocated(error)) return
       expected%stat = 0
