@@ -6,9 +6,12 @@ module test_derivatives
    use camroller_lift, only : lift_t, lift_law_t, new_lift_law, evaluate_lift
    use camroller_kinematics, only : mechanism_t, linkage_t, position_t, rotation_names, new_linkage, evaluate_position
    use camroller_dynamics, only : train_t, stored_energy, stored_power
-   use camroller_film, only : film_law_names, film_shape_t, groups_t, film_shape
-   use camroller_lubricant, only : lubricant_t, oil_t, pressure_law_names, get_oil
-   use camroller_traction, only : cap_names, eyring_shear, limit_shear
+   use camroller_film, only : film_law_names, film_shape_t, film_line_t, groups_t, film_shape, new_film_line
+   use camroller_lubricant, only : lubricant_t, oil_t, pressure_law_names, get_oil, relative_viscosity, &
+      & mean_relative_viscosity
+   use camroller_traction, only : cap_names, rolling_law_names, eyring_shear, limit_shear, rolling_resistance
+   use camroller_asperity, only : asperity_t, asperity_constants_t, new_asperity_constants
+   use camroller_load_share, only : share_t, share_load
    implicit none
    private
 
@@ -30,7 +33,10 @@ contains
          new_unittest("stored power is the rate of the stored energy", test_power), &
          new_unittest("film laws: slopes over load and speed", test_film), &
          new_unittest("Eyring shear: slope over sliding speed", test_eyring), &
-         new_unittest("limited shear: slope over sliding speed", test_limit) &
+         new_unittest("limited shear: slopes over shear and limit", test_limit), &
+         new_unittest("viscosity at a point and its mean: slope over pressure", test_viscosity), &
+         new_unittest("rolling resistance: slope over load", test_rolling), &
+         new_unittest("load share: slopes over load with a growing area", test_share) &
          ]
    end subroutine collect_derivatives
 
@@ -187,7 +193,7 @@ contains
       type(error_t), allocatable :: failure
       type(lubricant_t) :: lubricant
       type(oil_t) :: oil
-      real(wp) :: sliding, low, mid, high, slope, unused
+      real(wp) :: sliding, low, mid, high, slope, peak_slope, unused, more
       integer :: i, law
 
       lubricant%viscosity = 0.0305_wp
@@ -197,10 +203,15 @@ contains
          call get_oil(lubricant, 333.15_wp, oil, failure)
          do i = -4, 1
             sliding = 3.0_wp*10.0_wp**i
-            call eyring_shear(sliding*(1.0_wp - h), oil, 5.0e8_wp, 1.4e-6_wp, 2.0e-7_wp, 5.0e6_wp, low, unused)
-            call eyring_shear(sliding, oil, 5.0e8_wp, 1.4e-6_wp, 2.0e-7_wp, 5.0e6_wp, mid, slope)
-            call eyring_shear(sliding*(1.0_wp + h), oil, 5.0e8_wp, 1.4e-6_wp, 2.0e-7_wp, 5.0e6_wp, high, unused)
+            call eyring_shear(sliding*(1.0_wp - h), oil, 5.0e8_wp, 1.4e-6_wp, 2.0e-7_wp, 5.0e6_wp, low, unused, more)
+            call eyring_shear(sliding, oil, 5.0e8_wp, 1.4e-6_wp, 2.0e-7_wp, 5.0e6_wp, mid, slope, peak_slope)
+            call eyring_shear(sliding*(1.0_wp + h), oil, 5.0e8_wp, 1.4e-6_wp, 2.0e-7_wp, 5.0e6_wp, high, unused, more)
             call check(error, abs((high - low)/(2.0_wp*h) - slope*sliding) < tolerance*mid, pressure_law_names(law))
+            if (allocated(error)) return
+            call eyring_shear(sliding, oil, 5.0e8_wp*exp(-h), 1.4e-6_wp, 2.0e-7_wp, 5.0e6_wp, low, unused, more)
+            call eyring_shear(sliding, oil, 5.0e8_wp*exp(h), 1.4e-6_wp, 2.0e-7_wp, 5.0e6_wp, high, unused, more)
+            call check(error, abs((high - low)/(2.0_wp*h) - peak_slope) < 100.0_wp*tolerance*mid, &
+               "pressure, "//pressure_law_names(law))
             if (allocated(error)) return
          end do
       end do
@@ -208,29 +219,129 @@ contains
 
    subroutine test_limit(error)
       type(error_type), allocatable, intent(out) :: error
-      ! Limit [N], slope before the limit [N s/m]
-      real(wp), parameter :: limit = 50.0_wp, rate = 2.0e4_wp
-      real(wp) :: sliding, low, mid, high, slope, unused
+      ! Limit [N]
+      real(wp), parameter :: limit = 50.0_wp
+      real(wp) :: force, low, mid, high, by_force, by_limit, unused, more
       integer :: cap, i
 
       do cap = 1, size(cap_names)
          do i = -10, 10
-            sliding = 1.03e-3_wp*real(i, wp) + 1.0e-5_wp
-            low = rate*(sliding - h*1.0e-3_wp)
-            mid = rate*sliding
-            high = rate*(sliding + h*1.0e-3_wp)
-            unused = rate
-            call limit_shear(cap, limit, low, unused)
-            slope = rate
-            call limit_shear(cap, limit, mid, slope)
-            unused = rate
-            call limit_shear(cap, limit, high, unused)
-            call check(error, abs((high - low)/(2.0_wp*h*1.0e-3_wp) - slope) < 10.0_wp*tolerance*rate, cap_names(cap))
+            force = 20.6_wp*real(i, wp) + 0.2_wp
+            low = force - h*limit
+            mid = force
+            high = force + h*limit
+            call limit_shear(cap, limit, low, unused, more)
+            call limit_shear(cap, limit, mid, by_force, by_limit)
+            call limit_shear(cap, limit, high, unused, more)
+            call check(error, abs((high - low)/(2.0_wp*h*limit) - by_force) < 10.0_wp*tolerance, cap_names(cap))
             if (allocated(error)) return
             call check(error, abs(mid) <= limit, "limit exceeded, "//cap_names(cap))
+            if (allocated(error)) return
+            low = force
+            high = force
+            call limit_shear(cap, limit*(1.0_wp - h), low, unused, more)
+            call limit_shear(cap, limit*(1.0_wp + h), high, unused, more)
+            call check(error, abs((high - low)/(2.0_wp*h*limit) - by_limit) < 10.0_wp*tolerance, "limit, "//cap_names(cap))
             if (allocated(error)) return
          end do
       end do
    end subroutine test_limit
+
+   subroutine test_viscosity(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(error_t), allocatable :: failure
+      type(lubricant_t) :: lubricant
+      type(oil_t) :: oil
+      real(wp) :: peak, low, mid, high, slope, unused
+      integer :: i, law
+
+      lubricant%viscosity = 0.0305_wp
+      lubricant%pressure_viscosity = 2.2e-8_wp
+      do law = 1, size(pressure_law_names)
+         lubricant%pressure_law = pressure_law_names(law)
+         call get_oil(lubricant, 333.15_wp, oil, failure)
+         do i = 1, 15
+            peak = 1.0e8_wp*real(i, wp)
+            call mean_relative_viscosity(oil, peak*exp(-h), low, unused)
+            call mean_relative_viscosity(oil, peak, mid, slope)
+            call mean_relative_viscosity(oil, peak*exp(h), high, unused)
+            ! slopes reach 33, third derivatives their cube
+            call check(error, abs(log(high/low)/(2.0_wp*h) - slope) < 100.0_wp*tolerance, &
+               "mean, "//pressure_law_names(law))
+            if (allocated(error)) return
+            call relative_viscosity(oil, peak*exp(-h), low, unused)
+            call relative_viscosity(oil, peak, mid, slope)
+            call relative_viscosity(oil, peak*exp(h), high, unused)
+            call check(error, abs(log(high/low)/(2.0_wp*h) - slope) < 100.0_wp*tolerance, &
+               "point, "//pressure_law_names(law))
+            if (allocated(error)) return
+         end do
+      end do
+   end subroutine test_viscosity
+
+   subroutine test_rolling(error)
+      type(error_type), allocatable, intent(out) :: error
+      real(wp) :: load, low, mid, high, slope, unused
+      integer :: i, law
+
+      do law = 1, 2
+         do i = 0, 20
+            load = 1.0e-7_wp*2.0_wp**i
+            call rolling_resistance(law, 1.0e-11_wp, load*exp(-h), 2.0e11_wp, 0.005_wp, 0.0137_wp, 2.2e-8_wp, low, unused)
+            call rolling_resistance(law, 1.0e-11_wp, load, 2.0e11_wp, 0.005_wp, 0.0137_wp, 2.2e-8_wp, mid, slope)
+            call rolling_resistance(law, 1.0e-11_wp, load*exp(h), 2.0e11_wp, 0.005_wp, 0.0137_wp, 2.2e-8_wp, high, unused)
+            call check(error, abs(log(high/low)/(2.0_wp*h) - slope) < 10.0_wp*tolerance, rolling_law_names(law))
+            if (allocated(error)) return
+         end do
+      end do
+   end subroutine test_rolling
+
+   subroutine test_share(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(asperity_constants_t) :: constants
+      type(film_line_t) :: line
+      type(groups_t) :: groups
+      type(share_t) :: low, mid, high
+      ! Load over E' R L [-], apparent area over E' R L for unit load [1/Pa]
+      real(wp) :: load, area
+      real(wp), parameter :: modulus = 2.0e11_wp
+      integer :: i, k, law
+
+      call new_asperity_constants(constants, asperity_t(), modulus)
+      groups%material = 4500.0_wp
+      groups%roughness = 4.0e-5_wp
+      groups%hardness = 0.03_wp
+      groups%load = 0.0_wp
+      ! A_a = 2 L sqrt(8 W R/(pi L E')), so A_a/(E' R L) = sqrt(32/pi W*)/E'
+      area = sqrt(32.0_wp/acos(-1.0_wp))/modulus
+      do law = 1, size(film_law_names)
+         do k = 1, 6
+            groups%speed = 1.0e-13_wp*6.0_wp**k
+            call new_film_line(line, law, groups)
+            do i = 0, 6
+               load = 3.0e-6_wp*3.0_wp**i
+               call share_load(line, load*exp(-h), low, constants, area*sqrt(load*exp(-h)))
+               call share_load(line, load, mid, constants, area*sqrt(load))
+               call share_load(line, load*exp(h), high, constants, area*sqrt(load*exp(h)))
+               ! beyond the part of the load at which slopes are held the film is all but dry
+               if (mid%asperity_load > 0.9_wp*load .or. mid%film_min > 7.99_wp*groups%roughness) cycle
+               call check(error, abs(log(high%film_min/low%film_min)/(2.0_wp*h) - mid%film_min_slope) < 10.0_wp*tolerance, &
+                  "minimum film, "//film_law_names(law))
+               if (allocated(error)) return
+               if (mid%film_central > 1.001_wp*mid%film_min) then
+                  call check(error, abs(log(high%film_central/low%film_central)/(2.0_wp*h) - mid%film_central_slope) &
+                     < 10.0_wp*tolerance, "central film, "//film_law_names(law))
+                  if (allocated(error)) return
+               end if
+               call check(error, abs((high%asperity_load - low%asperity_load)/(2.0_wp*h) - mid%asperity_slope) &
+                  < 10.0_wp*tolerance*load, "asperity load, "//film_law_names(law))
+               if (allocated(error)) return
+               call check(error, abs((high%real_area_ratio - low%real_area_ratio)/(2.0_wp*h) - mid%real_area_slope) &
+                  < 10.0_wp*tolerance, "real area, "//film_law_names(law))
+               if (allocated(error)) return
+            end do
+         end do
+      end do
+   end subroutine test_share
 
 end module test_derivatives
