@@ -20,8 +20,8 @@ module camroller_deck_sweep
    public :: sweep_t, sweep_axis_t, read_sweep, sweep_size, sweep_position, sweep_overrides, sweep_numbers, sweep_words, &
       & case_in_words
 
-   !> Most values of one key, and most cases of a grid
-   integer, parameter :: most_values = 10000, most_cases = 1000000
+   !> Most cases of a grid
+   integer, parameter :: most_cases = 1000000
 
    !> One key that varies
    type :: sweep_axis_t
@@ -184,7 +184,7 @@ contains
          return
       end if
       if (has_list) then
-         allocate (words(most_values))
+         allocate (words(len(get_word(settings, "sweep", "values_"//digit))/2 + 1))
          call split_words(get_word(settings, "sweep", "values_"//digit), words, n)
       else
          call take(settings, "sweep", "from_"//digit, first)
