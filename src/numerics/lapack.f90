@@ -6,7 +6,7 @@ module camroller_lapack
    implicit none
    private
 
-   public :: dgbsv, dpbsv
+   public :: dgbsv, dpbsv, dgetrf, dgetrs
 
    interface
 
@@ -39,6 +39,36 @@ module camroller_lapack
          !> 0, or the order of the minor that is not positive definite
          integer, intent(out) :: info
       end subroutine dpbsv
+
+      !> Factors of a general matrix, which they overwrite.
+      pure subroutine dgetrf(m, n, a, lda, ipiv, info)
+         import :: wp
+         !> Rows, columns, leading dimension of `a`
+         integer, intent(in) :: m, n, lda
+         !> The matrix, then its factors [any]
+         real(wp), intent(inout) :: a(lda, *)
+         !> Pivots
+         integer, intent(out) :: ipiv(*)
+         !> 0, or the column of a zero pivot
+         integer, intent(out) :: info
+      end subroutine dgetrf
+
+      !> Solve a system with the factors of a general matrix.
+      pure subroutine dgetrs(trans, n, nrhs, a, lda, ipiv, b, ldb, info)
+         import :: wp
+         !> `N`: the matrix itself, not its transpose
+         character(len=1), intent(in) :: trans
+         !> Unknowns, right-hand sides, leading dimension of `a`, of `b`
+         integer, intent(in) :: n, nrhs, lda, ldb
+         !> Factors [any]
+         real(wp), intent(in) :: a(lda, *)
+         !> Pivots
+         integer, intent(in) :: ipiv(*)
+         !> Right-hand sides, then solutions [any]
+         real(wp), intent(inout) :: b(ldb, *)
+         !> 0
+         integer, intent(out) :: info
+      end subroutine dgetrs
 
    end interface
 

@@ -1,38 +1,19 @@
-!> Initial value problems: what a problem and a method are, and the loop that drives them.
+!> Initial value problems: what a method is, and the loop that drives it.
 !>
-!> Layer: numerics. In: a problem, a method, a tolerance or step, angles at which a step must end. Out: a trajectory and
-!> counters. Methods supply single steps (`ode_explicit`); step-size control, stop times and the loop are here, so that
-!> a method is added by adding a file.
+!> Layer: numerics. In: a problem (`ode_problem`), a method, a tolerance or step, angles at which a step must end. Out: a
+!> trajectory and counters. Methods supply single steps; step-size control, stop times and the loop are here, so that a
+!> method is added by adding a file and a line in `ode_methods`.
 !>
-!> Status of a rate: 0 fine, positive "this trial state is impossible, try a smaller step", negative "give up".
+!> Status of a step: 0 fine, positive "this trial state is impossible, try a smaller step", negative "give up".
 module camroller_ode
    use camroller_kinds, only : wp
    use camroller_error, only : error_t, raise, kind_convergence
-   use camroller_trajectory, only : trajectory_t, start_trajectory, append_point
+   use camroller_ode_problem, only : problem_t, counters_t
+   use camroller_trajectory, only : trajectory_t, start_trajectory, append_point, append_curve
    implicit none
    private
 
-   public :: problem_t, method_t, options_t, counters_t, integrate
-
-   !> Right-hand side of `d state/d time = rate(time, state)`
-   type, abstract :: problem_t
-   contains
-      procedure(rate_interface), deferred :: get_rate
-      procedure(decay_interface), deferred :: get_decay_rate
-      procedure(words_interface), deferred :: name_time
-   end type problem_t
-
-   !> Work done, comparable between machines
-   type :: counters_t
-      !> Calls of the right-hand side
-      integer :: evaluations = 0
-      !> Jacobians formed
-      integer :: jacobians = 0
-      !> Steps accepted
-      integer :: accepted = 0
-      !> Steps rejected
-      integer :: rejected = 0
-   end type counters_t
+   public :: problem_t, counters_t, method_t, options_t, integrate
 
    !> A way to make one step
    type, abstract :: method_t
@@ -40,6 +21,21 @@ module camroller_ode
       integer :: error_order = 0
       !> Product of decay rate and step at which the method turns unstable [-]
       real(wp) :: stability_limit = huge(1.0_wp)
+      !> Does a step end with the rate at its end? Else the loop evaluates it, once the step is accepted
+      logical :: gives_rate = .true.
+      !> Does a step need the Jacobian at its start?
+      logical :: needs_jacobian = .false.
+      !> Jacobian at the start of the step, where needed [1/time]
+      real(wp), allocatable :: jacobian(:, :)
+      !> Derivative of the rate with respect to time there [state/time^2]
+      real(wp), allocatable :: time_slope(:)
+      !> Does a step leave its own curve in `bends`? Else the curve follows from the rates at both ends, which suits
+      !> methods whose steps are short against the decay: a rate carries the error of a state times the decay rate
+      logical :: has_curve = .false.
+      !> Curve of the last step, as `append_curve` takes it, shape (component, 3) [state]
+      real(wp), allocatable :: bends(:, :)
+      !> Error allowed per step, for methods that iterate; set by `integrate` [state]
+      real(wp), allocatable :: tolerance(:)
    contains
       procedure(step_interface), deferred :: try_step
    end type method_t
@@ -57,45 +53,6 @@ module camroller_ode
    end type options_t
 
    abstract interface
-      !> Rate of change of the state
-      subroutine rate_interface(self, time, state, rate, status)
-         import :: problem_t, wp
-         !> The problem; read only
-         class(problem_t), intent(in) :: self
-         !> Time [time]
-         real(wp), intent(in) :: time
-         !> State [state]
-         real(wp), intent(in) :: state(:)
-         !> Rate of change [state/time]
-         real(wp), intent(out) :: rate(:)
-         !> 0 fine, positive: try a smaller step, negative: give up
-         integer, intent(out) :: status
-      end subroutine rate_interface
-
-      !> Fastest decay rate of the problem at a state: size of the largest eigenvalue of the Jacobian
-      subroutine decay_interface(self, time, state, decay_rate)
-         import :: problem_t, wp
-         !> The problem; read only
-         class(problem_t), intent(in) :: self
-         !> Time [time]
-         real(wp), intent(in) :: time
-         !> State [state]
-         real(wp), intent(in) :: state(:)
-         !> Decay rate, zero where the problem does not know it [1/time]
-         real(wp), intent(out) :: decay_rate
-      end subroutine decay_interface
-
-      !> A time in the words of messages, e.g. `cam angle 214.5 deg`
-      function words_interface(self, time) result(text)
-         import :: problem_t, wp
-         !> The problem; read only
-         class(problem_t), intent(in) :: self
-         !> Time [time]
-         real(wp), intent(in) :: time
-         !> It in words
-         character(len=:), allocatable :: text
-      end function words_interface
-
       !> One step from an accepted point, which it leaves untouched
       subroutine step_interface(self, problem, time, state, rate, step, new_state, new_rate, error_estimate, &
          counters, status)
@@ -131,6 +88,8 @@ module camroller_ode
    real(wp), parameter :: safety = 0.9_wp, proportional = 0.7_wp, integral = 0.4_wp
    !> Largest growth and shrinkage of a step [-]
    real(wp), parameter :: max_growth = 5.0_wp, max_shrinkage = 0.2_wp
+   !> Error over tolerance below which smaller ones make no difference [-]
+   real(wp), parameter :: least_error = 1.0e-4_wp
    !> Part of the stability limit that a step may use [-]
    real(wp), parameter :: stability_margin = 0.95_wp
 
@@ -160,8 +119,8 @@ contains
 
       ! Rate at the present point [state/time]
       real(wp) :: rate(size(state))
-      ! Step proposed by the controller, a few roundings, start of the segment [time]
-      real(wp) :: step, margin, start
+      ! Step proposed by the controller, a few roundings, start and end of the segment [time]
+      real(wp) :: step, margin, start, finish
       ! Error of the step before over its tolerance [-]
       real(wp) :: last_error
       integer :: segment, status
@@ -170,10 +129,12 @@ contains
       if (step <= 0.0_wp) step = 1.0e-4_wp*(stops(size(stops)) - stops(1))
       last_error = 1.0_wp
       margin = 4.0_wp*spacing(maxval(abs(stops)))
+      if (allocated(options%tolerance)) method%tolerance = options%tolerance
       call start_trajectory(trajectory, size(state))
       do segment = 1, size(stops) - 1
          if (stops(segment + 1) - stops(segment) <= 64.0_wp*margin) cycle
          start = stops(segment) + margin
+         finish = stops(segment + 1) - margin
          call problem%get_rate(start, state, rate, status)
          counters%evaluations = counters%evaluations + 1
          if (status /= 0) then
@@ -181,17 +142,15 @@ contains
             return
          end if
          call append_point(trajectory, start, state, rate)
-         call integrate_segment(problem, method, options, start, stops(segment + 1) - margin, state, rate, step, &
-            last_error, &
-            & trajectory, counters, error)
+         call integrate_segment(problem, method, options, start, finish, state, rate, step, last_error, trajectory, &
+            & counters, error)
          if (allocated(error)) return
       end do
    end subroutine integrate
 
    !> Integrate from one stop to the next.
-   subroutine integrate_segment(problem, method, options, start, finish, state, rate, step, last_error, &
-      trajectory, counters, &
-      & error)
+   subroutine integrate_segment(problem, method, options, start, finish, state, rate, step, last_error, trajectory, &
+      & counters, error)
       !> The problem
       class(problem_t), intent(in) :: problem
       !> The method
@@ -217,65 +176,65 @@ contains
       !> Convergence error
       type(error_t), allocatable, intent(out) :: error
 
-      ! Time, size of this step [time]
-      real(wp) :: time, this_step
-      ! Trial state [state], its rate [state/time] and error [state]
-      real(wp) :: new_state(size(state)), new_rate(size(state)), estimate(size(state))
+      ! Time, its end, size of this step [time]
+      real(wp) :: time, new_time, this_step
+      ! Trial state [state], its rate [state/time]
+      real(wp) :: new_state(size(state)), new_rate(size(state))
       ! Error over tolerance [-]
       real(wp) :: scaled_error
       integer :: status
-      logical :: is_last
+      logical :: is_last, has_jacobian, was_rejected
 
       time = start
+      has_jacobian = .false.
+      was_rejected = .false.
       do
-         this_step = limited_step(problem, method, options, time, state, step)
-         is_last = time + this_step*(1.0_wp + 1.0e-9_wp) >= finish
-         if (is_last) this_step = finish - time
-         if (.not. is_last .and. method%error_order > 0) this_step = min(this_step, 0.5_wp*(finish - time))
-         call method%try_step(problem, time, state, rate, this_step, new_state, new_rate, estimate, counters, status)
+         call choose_step(problem, method, options, time, finish, state, step, this_step, is_last)
+         new_time = merge(finish, time + this_step, is_last)
+         status = 0
          scaled_error = 0.0_wp
-         if (status > 0) scaled_error = 1.0e3_wp
-         if (status == 0 .and. method%error_order > 0) scaled_error = maxval(abs(estimate)/options%tolerance)
-         if (status < 0 .or. .not. scaled_error < huge(1.0_wp)) then
-            call raise(error, kind_convergence, &
-               "the integration met a state that cannot be evaluated at "//problem%name_time(time))
-            return
+         if (method%needs_jacobian .and. .not. has_jacobian) then
+            call problem%get_jacobian(time, state, rate, finish, method%jacobian, method%time_slope, counters, status)
+            has_jacobian = .true.
          end if
-
-         if (scaled_error <= 1.0_wp) then
+         if (status == 0) then
+            call try_checked_step(problem, method, time, new_time, this_step, state, rate, new_state, new_rate, &
+               & scaled_error, counters, status)
+         end if
+         if (status /= 0) then
+            call raise(error, kind_convergence, "the integration met a state that cannot be evaluated at "// &
+               & problem%name_time(time))
+         else if (scaled_error <= 1.0_wp) then
             counters%accepted = counters%accepted + 1
-            time = time + this_step
-            if (is_last) time = finish
+            time = new_time
             state = new_state
             rate = new_rate
-            call append_point(trajectory, time, state, rate)
-            if (method%error_order > 0) then
-               if (.not. is_last .or. this_step >= step) step = this_step*growth(scaled_error, last_error, &
-                  method%error_order)
-               last_error = max(scaled_error, 1.0e-4_wp)
+            if (method%has_curve) then
+               call append_curve(trajectory, time, state, rate, method%bends)
+            else
+               call append_point(trajectory, time, state, rate)
             end if
+            call adapt_step(method, this_step, is_last, was_rejected, scaled_error, last_error, step)
             if (is_last) return
+            has_jacobian = .false.
+            was_rejected = .false.
          else
             counters%rejected = counters%rejected + 1
+            was_rejected = .true.
             step = this_step*max(max_shrinkage, safety*scaled_error**(-1.0_wp/max(method%error_order, 1)))
             if (method%error_order == 0) then
                call raise(error, kind_convergence, "a fixed step failed at "//problem%name_time(time))
-               return
             end if
          end if
-         if (counters%accepted + counters%rejected > options%max_steps) then
-            call raise(error, kind_convergence, "the number of steps is used up at "//problem%name_time(time))
-            return
-         end if
-         if (step <= 16.0_wp*spacing(max(abs(start), abs(finish)))) then
-            call raise(error, kind_convergence, "the step has become too small at "//problem%name_time(time))
-            return
-         end if
+         if (.not. allocated(error)) call check_progress(problem, options, time, step, counters, error)
+         if (allocated(error)) return
       end do
    end subroutine integrate_segment
 
-   !> Step that tolerance, largest step and stability allow.
-   function limited_step(problem, method, options, time, state, step) result(limited)
+   !> Step that tolerance, largest step, stability and the end of the segment allow.
+   !>
+   !> A step that would leave a short remainder is cut to half of what is left.
+   subroutine choose_step(problem, method, options, time, finish, state, step, this_step, is_last)
       !> The problem
       class(problem_t), intent(in) :: problem
       !> The method
@@ -284,37 +243,131 @@ contains
       type(options_t), intent(in) :: options
       !> Time [time]
       real(wp), intent(in) :: time
+      !> End of the segment [time]
+      real(wp), intent(in) :: finish
       !> State [state]
       real(wp), intent(in) :: state(:)
       !> Step proposed by the controller [time]
       real(wp), intent(in) :: step
       !> Step to take [time]
-      real(wp) :: limited
+      real(wp), intent(out) :: this_step
+      !> Does it end the segment?
+      logical, intent(out) :: is_last
 
       ! Fastest decay rate [1/time]
       real(wp) :: decay_rate
 
-      limited = min(step, options%max_step)
-      if (method%error_order == 0 .or. method%stability_limit >= huge(1.0_wp)) return
-      call problem%get_decay_rate(time, state, decay_rate)
-      if (decay_rate*limited > stability_margin*method%stability_limit) then
-         limited = stability_margin*method%stability_limit/decay_rate
+      this_step = min(step, options%max_step)
+      if (method%error_order > 0 .and. method%stability_limit < huge(1.0_wp)) then
+         call problem%get_decay_rate(time, state, decay_rate)
+         if (decay_rate*this_step > stability_margin*method%stability_limit) then
+            this_step = stability_margin*method%stability_limit/decay_rate
+         end if
       end if
-   end function limited_step
+      is_last = time + this_step*(1.0_wp + 1.0e-9_wp) >= finish
+      if (is_last) this_step = finish - time
+      if (.not. is_last .and. method%error_order > 0) this_step = min(this_step, 0.5_wp*(finish - time))
+   end subroutine choose_step
 
-   !> Growth of the step after an accepted one: proportional-integral control.
-   pure function growth(scaled_error, last_error, error_order) result(factor)
-      !> Error over tolerance of this step [-]
+   !> Try a step; a trial without a value, or with one that is no number, has an error far beyond its tolerance.
+   subroutine try_checked_step(problem, method, time, new_time, this_step, state, rate, new_state, new_rate, &
+      & scaled_error, counters, status)
+      !> The problem
+      class(problem_t), intent(in) :: problem
+      !> The method
+      class(method_t), intent(inout) :: method
+      !> Time at the start and at the end of the step, its size [time]
+      real(wp), intent(in) :: time, new_time, this_step
+      !> State at the start [state]
+      real(wp), intent(in) :: state(:)
+      !> Rate at the start [state/time]
+      real(wp), intent(in) :: rate(:)
+      !> State at the end [state]
+      real(wp), intent(out) :: new_state(:)
+      !> Rate at the end [state/time]
+      real(wp), intent(out) :: new_rate(:)
+      !> Error over tolerance [-]
+      real(wp), intent(out) :: scaled_error
+      !> Work done
+      type(counters_t), intent(inout) :: counters
+      !> 0, or negative: give up
+      integer, intent(out) :: status
+
+      ! Error over tolerance that stands for an impossible trial [-]
+      real(wp), parameter :: impossible = 1.0e3_wp
+      ! Error of the step [state]
+      real(wp) :: estimate(size(state))
+
+      call method%try_step(problem, time, state, rate, this_step, new_state, new_rate, estimate, counters, status)
+      scaled_error = impossible
+      if (status == 0) then
+         scaled_error = 0.0_wp
+         if (method%error_order > 0) scaled_error = maxval(abs(estimate)/method%tolerance)
+         if (.not. all(abs(new_state) < huge(1.0_wp) .and. abs(estimate) < huge(1.0_wp))) scaled_error = impossible
+      end if
+      if (status == 0 .and. scaled_error <= 1.0_wp .and. .not. method%gives_rate) then
+         call problem%get_rate(new_time, new_state, new_rate, status)
+         counters%evaluations = counters%evaluations + 1
+         if (status > 0) scaled_error = impossible
+      end if
+      status = min(status, 0)
+   end subroutine try_checked_step
+
+   !> Proposal for the next step after an accepted one: proportional-integral control.
+   !>
+   !> A step that was cut short by the end of its segment says nothing about the next one unless it may grow.
+   pure subroutine adapt_step(method, this_step, is_last, was_rejected, scaled_error, last_error, step)
+      !> The method
+      class(method_t), intent(in) :: method
+      !> Step taken [time]
+      real(wp), intent(in) :: this_step
+      !> Did it end its segment?
+      logical, intent(in) :: is_last
+      !> Was a longer step rejected just before?
+      logical, intent(in) :: was_rejected
+      !> Error of this step over tolerance [-]
       real(wp), intent(in) :: scaled_error
-      !> Error over tolerance of the step before [-]
-      real(wp), intent(in) :: last_error
-      !> Power of the step in the local error
-      integer, intent(in) :: error_order
-      !> New step over this step [-]
-      real(wp) :: factor
+      !> The same of the step before; out: of this one [-]
+      real(wp), intent(inout) :: last_error
+      !> Step proposed [time]
+      real(wp), intent(inout) :: step
 
-      factor = safety*max(scaled_error, 1.0e-4_wp)**(-proportional/error_order)*last_error**(integral/error_order)
+      ! New step over this one, smallest error that counts [-]
+      real(wp) :: factor, error_in_use
+
+      if (method%error_order == 0) return
+      error_in_use = max(scaled_error, least_error)
+      factor = safety*error_in_use**(-proportional/method%error_order)*last_error**(integral/method%error_order)
       factor = min(max_growth, max(max_shrinkage, factor))
-   end function growth
+      if (was_rejected) factor = min(factor, 1.0_wp)
+      if (is_last) then
+         step = max(step, this_step*factor)
+      else
+         step = this_step*factor
+      end if
+      last_error = error_in_use
+   end subroutine adapt_step
+
+   !> Refuse an integration that does not come on.
+   subroutine check_progress(problem, options, time, step, counters, error)
+      !> The problem
+      class(problem_t), intent(in) :: problem
+      !> Tolerance or step
+      type(options_t), intent(in) :: options
+      !> Time [time]
+      real(wp), intent(in) :: time
+      !> Step proposed [time]
+      real(wp), intent(in) :: step
+      !> Work done
+      type(counters_t), intent(in) :: counters
+      !> Convergence error
+      type(error_t), allocatable, intent(out) :: error
+
+      if (counters%accepted + counters%rejected > options%max_steps) then
+         call raise(error, kind_convergence, "the number of steps is used up at "//problem%name_time(time))
+      else if (step <= 16.0_wp*spacing(abs(time))) then
+         call raise(error, kind_convergence, "the step has become too small at "//problem%name_time(time))
+      end if
+   end subroutine check_progress
 
 end module camroller_ode

@@ -1,13 +1,17 @@
 !> Points that an integration has accepted, and the curve through them.
 !>
-!> Layer: numerics. In: time, state and rate at each accepted point. Out: the state at any time between, by cubic
-!> Hermite interpolation on the rates, or linear where the method itself is no better.
+!> Layer: numerics. In: time, state and rate at each accepted point. Out: the state at any time between, by the
+!> curve that the method left for each interval, by cubic Hermite interpolation on the rates where it left none, or linear where
+!> the method itself is no better.
+!>
+!> Between points `left` and `right`, at place `p` of the interval, the curve is
+!> `left + p (right - left) + p (1 - p) (b1 + p (b2 + p b3))` with the bends b1 to b3.
 module camroller_trajectory
    use camroller_kinds, only : wp
    implicit none
    private
 
-   public :: trajectory_t, start_trajectory, append_point, interpolate_state
+   public :: trajectory_t, start_trajectory, append_point, append_curve, interpolate_state
 
    !> Accepted points, in order of time; at a kink of the rate two points share a time
    type :: trajectory_t
@@ -19,6 +23,8 @@ module camroller_trajectory
       real(wp), allocatable :: state(:, :)
       !> Rate at each point, shape (component, point) [state/time]
       real(wp), allocatable :: rate(:, :)
+      !> Bends of the curve that ends at each point, shape (component, 3, point) [state]
+      real(wp), allocatable :: bends(:, :, :)
       !> Interpolate linearly?
       logical :: is_linear = .false.
    end type trajectory_t
@@ -38,14 +44,14 @@ contains
       trajectory%count = 0
       if (allocated(trajectory%state)) then
          if (size(trajectory%state, 1) == components) return
-         deallocate (trajectory%time, trajectory%state, trajectory%rate)
+         deallocate (trajectory%time, trajectory%state, trajectory%rate, trajectory%bends)
       end if
-      allocate (trajectory%time(first_room), trajectory%state(components, first_room), trajectory%rate(components, &
-         first_room))
+      allocate (trajectory%time(first_room), trajectory%state(components, first_room), &
+         & trajectory%rate(components, first_room), trajectory%bends(components, 3, first_room))
    end subroutine start_trajectory
 
-   !> Append a point.
-   subroutine append_point(trajectory, time, state, rate)
+   !> Append a point, reached by the cubic Hermite curve on the rates at both ends, or linearly.
+   pure subroutine append_point(trajectory, time, state, rate)
       !> The trajectory
       type(trajectory_t), intent(inout) :: trajectory
       !> Time, not before the last point [time]
@@ -55,30 +61,62 @@ contains
       !> Rate [state/time]
       real(wp), intent(in) :: rate(:)
 
+      ! Bends [state]
+      real(wp) :: bends(size(state), 3)
+      integer :: last
+
+      bends = 0.0_wp
+      last = trajectory%count
+      if (last > 0 .and. .not. trajectory%is_linear) then
+         associate (length => time - trajectory%time(last), change => state - trajectory%state(:, last))
+            bends(:, 1) = length*trajectory%rate(:, last) - change
+            bends(:, 2) = 2.0_wp*change - length*(trajectory%rate(:, last) + rate)
+         end associate
+      end if
+      call append_curve(trajectory, time, state, rate, bends)
+   end subroutine append_point
+
+   !> Append a point and the curve that reaches it.
+   pure subroutine append_curve(trajectory, time, state, rate, bends)
+      !> The trajectory
+      type(trajectory_t), intent(inout) :: trajectory
+      !> Time, not before the last point [time]
+      real(wp), intent(in) :: time
+      !> State [state]
+      real(wp), intent(in) :: state(:)
+      !> Rate [state/time]
+      real(wp), intent(in) :: rate(:)
+      !> Bends of the curve, shape (component, 3) [state]
+      real(wp), intent(in) :: bends(:, :)
+
       if (trajectory%count == size(trajectory%time)) call grow(trajectory)
       trajectory%count = trajectory%count + 1
       trajectory%time(trajectory%count) = time
       trajectory%state(:, trajectory%count) = state
       trajectory%rate(:, trajectory%count) = rate
-   end subroutine append_point
+      trajectory%bends(:, :, trajectory%count) = bends
+   end subroutine append_curve
 
    !> Twice the room.
-   subroutine grow(trajectory)
+   pure subroutine grow(trajectory)
       !> The trajectory
       type(trajectory_t), intent(inout) :: trajectory
 
-      ! Larger copies [time], [state], [state/time]
-      real(wp), allocatable :: time(:), state(:, :), rate(:, :)
+      ! Larger copies [time], [state], [state/time], [state]
+      real(wp), allocatable :: time(:), state(:, :), rate(:, :), bends(:, :, :)
       integer :: n
 
       n = trajectory%count
-      allocate (time(2*n), state(size(trajectory%state, 1), 2*n), rate(size(trajectory%state, 1), 2*n))
+      allocate (time(2*n), state(size(trajectory%state, 1), 2*n), rate(size(trajectory%state, 1), 2*n), &
+         & bends(size(trajectory%state, 1), 3, 2*n))
       time(:n) = trajectory%time
       state(:, :n) = trajectory%state
       rate(:, :n) = trajectory%rate
+      bends(:, :, :n) = trajectory%bends
       call move_alloc(time, trajectory%time)
       call move_alloc(state, trajectory%state)
       call move_alloc(rate, trajectory%rate)
+      call move_alloc(bends, trajectory%bends)
    end subroutine grow
 
    !> State at a time inside the trajectory; the search starts from a hint, so that rising times cost nothing.
@@ -102,11 +140,10 @@ contains
          return
       end if
       place = (time - trajectory%time(hint))/length
-      associate (left => trajectory%state(:, hint), right => trajectory%state(:, hint + 1))
-         state = left + place*(right - left)
-         if (trajectory%is_linear) return
-         state = state + place*(1.0_wp - place)*((1.0_wp - place)*(length*trajectory%rate(:, hint) - (right - left)) &
-            & - place*(length*trajectory%rate(:, hint + 1) - (right - left)))
+      associate (left => trajectory%state(:, hint), right => trajectory%state(:, hint + 1), &
+         & bends => trajectory%bends(:, :, hint + 1))
+         state = left + place*(right - left) &
+            & + place*(1.0_wp - place)*(bends(:, 1) + place*(bends(:, 2) + place*bends(:, 3)))
       end associate
    end subroutine interpolate_state
 

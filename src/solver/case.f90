@@ -5,6 +5,7 @@
 module camroller_case
    use camroller_kinds, only : wp, degree
    use camroller_names, only : name_length
+   use camroller_ode_methods, only : method_names
    use camroller_lift, only : lift_t
    use camroller_kinematics, only : mechanism_t
    use camroller_dynamics, only : masses_t, spring_t, gas_force_t
@@ -24,8 +25,6 @@ module camroller_case
 
    !> Bookkeeping of forces and losses: closed energy balance, or as in the source thesis
    character(len=*), parameter :: energy_names(*) = [character(len=name_length) :: "consistent", "source"]
-   !> Ways to integrate the roller's spin
-   character(len=*), parameter :: method_names(*) = [character(len=name_length) :: "bogacki_shampine", "dormand_prince", "euler"]
 
    !> Speed and temperature
    type :: operating_point_t

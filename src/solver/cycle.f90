@@ -6,8 +6,7 @@
 module camroller_cycle
    use camroller_kinds, only : wp, pi, two_pi, degree
    use camroller_error, only : error_t, raise, add_context, kind_convergence
-   use camroller_names, only : find_name
-   use camroller_case, only : numerics_t, method_names
+   use camroller_case, only : numerics_t
    use camroller_model, only : model_t
    use camroller_kinematics, only : position_t
    use camroller_dynamics, only : moments_t
@@ -15,8 +14,8 @@ module camroller_cycle
    use camroller_events, only : find_stops, cycle_stops
    use camroller_spin, only : spin_problem_t, rolling_speed_at
    use camroller_balance, only : find_balance
-   use camroller_ode, only : options_t, counters_t, integrate
-   use camroller_ode_explicit, only : explicit_method_t, new_explicit_method
+   use camroller_ode, only : method_t, options_t, counters_t, integrate
+   use camroller_ode_methods, only : new_method
    use camroller_trajectory, only : trajectory_t, interpolate_state
    implicit none
    private
@@ -64,24 +63,24 @@ contains
       type(error_t), allocatable, intent(out) :: error
 
       type(spin_problem_t) :: problem
-      type(explicit_method_t) :: method
+      class(method_t), allocatable :: method
       type(options_t) :: options
       ! Stops within one turn [rad]
       real(wp), allocatable :: stops(:)
       ! Sliding speed or surface speed; at the start of the cycle; scale of the sliding speed [m/s]
       real(wp) :: state(1), first(1), scale
-      integer :: choice, turn
+      integer :: turn
 
-      call find_name("integration method", numerics%method, method_names, choice, error)
+      call new_method(method, numerics%method, 1, error)
       if (allocated(error)) return
       problem%model => model
-      problem%has_surface_speed = method_names(choice) == "euler"
+      problem%has_surface_speed = method%error_order == 0
       cycle%has_surface_speed = problem%has_surface_speed
       cycle%is_linear = problem%has_surface_speed
-      call new_explicit_method(method, method_names(choice), 1)
       call find_stops(model, stops)
       call choose_start(problem, cycle%start, state(1), scale)
       cycle%stops = cycle_stops(stops, cycle%start)
+      problem%small_state = [scale]
       options%tolerance = [numerics%tolerance*scale]
       options%step = numerics%step
       if (.not. cycle%is_linear) options%step = min(numerics%step, 0.01_wp*degree)

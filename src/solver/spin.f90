@@ -5,7 +5,7 @@
 !> speeds. The source integrates the roller's surface speed `r_R omega_R` instead; its fixed step does so here too.
 module camroller_spin
    use camroller_kinds, only : wp, degree
-   use camroller_ode, only : problem_t
+   use camroller_ode_problem, only : problem_t
    use camroller_model, only : model_t
    use camroller_kinematics, only : position_t
    use camroller_dynamics, only : moments_t

@@ -1,0 +1,146 @@
+!> What an initial value problem is: its right-hand side, its Jacobian and the work done on it.
+!>
+!> Layer: numerics. In: nothing. Out: `problem_t`, which problems extend, and `counters_t`. A problem that knows its
+!> Jacobian better than a difference quotient does overrides `get_jacobian`.
+!>
+!> Status of a rate: 0 fine, positive "this trial state is impossible, try a smaller step", negative "give up".
+module camroller_ode_problem
+   use camroller_kinds, only : wp
+   implicit none
+   private
+
+   public :: problem_t, counters_t, difference_jacobian, time_increment
+
+   !> Right-hand side of `d state/d time = rate(time, state)`
+   type, abstract :: problem_t
+      !> Size of each component below which differences between states stop to matter, for difference quotients; 1 where not
+      !> allocated [state]
+      real(wp), allocatable :: small_state(:)
+   contains
+      procedure(rate_interface), deferred :: get_rate
+      procedure(decay_interface), deferred :: get_decay_rate
+      procedure(words_interface), deferred :: name_time
+      procedure :: get_jacobian => difference_jacobian
+   end type problem_t
+
+   !> Work done, comparable between machines
+   type :: counters_t
+      !> Calls of the right-hand side, those for difference quotients included
+      integer :: evaluations = 0
+      !> Jacobians formed
+      integer :: jacobians = 0
+      !> Matrices factorised
+      integer :: factorisations = 0
+      !> Steps accepted
+      integer :: accepted = 0
+      !> Steps rejected
+      integer :: rejected = 0
+   end type counters_t
+
+   abstract interface
+      !> Rate of change of the state
+      subroutine rate_interface(self, time, state, rate, status)
+         import :: problem_t, wp
+         !> The problem; read only
+         class(problem_t), intent(in) :: self
+         !> Time [time]
+         real(wp), intent(in) :: time
+         !> State [state]
+         real(wp), intent(in) :: state(:)
+         !> Rate of change [state/time]
+         real(wp), intent(out) :: rate(:)
+         !> 0 fine, positive: try a smaller step, negative: give up
+         integer, intent(out) :: status
+      end subroutine rate_interface
+
+      !> Fastest decay rate of the problem at a state: size of the largest eigenvalue of the Jacobian
+      subroutine decay_interface(self, time, state, decay_rate)
+         import :: problem_t, wp
+         !> The problem; read only
+         class(problem_t), intent(in) :: self
+         !> Time [time]
+         real(wp), intent(in) :: time
+         !> State [state]
+         real(wp), intent(in) :: state(:)
+         !> Decay rate [1/time]
+         real(wp), intent(out) :: decay_rate
+      end subroutine decay_interface
+
+      !> A time in the words of messages, e.g. `cam angle 214.5 deg`
+      function words_interface(self, time) result(text)
+         import :: problem_t, wp
+         !> The problem; read only
+         class(problem_t), intent(in) :: self
+         !> Time [time]
+         real(wp), intent(in) :: time
+         !> It in words
+         character(len=:), allocatable :: text
+      end function words_interface
+   end interface
+
+contains
+
+   !> Jacobian and slope with time by forward differences.
+   !>
+   !> Increments are the square root of the rounding unit times the size of the variable, which balances truncation
+   !> against rounding: half of the figures of a rate are right in the quotient.
+   subroutine difference_jacobian(self, time, state, rate, horizon, jacobian, time_slope, counters, status)
+      !> The problem; read only
+      class(problem_t), intent(in) :: self
+      !> Time [time]
+      real(wp), intent(in) :: time
+      !> State [state]
+      real(wp), intent(in) :: state(:)
+      !> Rate there [state/time]
+      real(wp), intent(in) :: rate(:)
+      !> Time up to which the right-hand side is smooth; later times are not looked at [time]
+      real(wp), intent(in) :: horizon
+      !> Derivative of the rates (row) with respect to the state (column) [1/time]
+      real(wp), intent(out) :: jacobian(:, :)
+      !> Derivative of the rates with respect to time [state/time^2]
+      real(wp), intent(out) :: time_slope(:)
+      !> Work done
+      type(counters_t), intent(inout) :: counters
+      !> 0 fine, positive: try a smaller step, negative: give up
+      integer, intent(out) :: status
+
+      ! State moved [state], time moved [time], rate there [state/time]
+      real(wp) :: moved_state(size(state)), moved_time, moved_rate(size(state))
+      ! Size of a component [state]
+      real(wp) :: small_state
+      integer :: i
+
+      counters%jacobians = counters%jacobians + 1
+      moved_state = state
+      do i = 1, size(state)
+         small_state = 1.0_wp
+         if (allocated(self%small_state)) small_state = self%small_state(i)
+         moved_state(i) = state(i) + sqrt(epsilon(1.0_wp))*max(abs(state(i)), small_state)
+         call self%get_rate(time, moved_state, moved_rate, status)
+         counters%evaluations = counters%evaluations + 1
+         if (status /= 0) return
+         jacobian(:, i) = (moved_rate - rate)/(moved_state(i) - state(i))
+         moved_state(i) = state(i)
+      end do
+      moved_time = time + time_increment(time, horizon)
+      call self%get_rate(moved_time, state, moved_rate, status)
+      counters%evaluations = counters%evaluations + 1
+      if (status /= 0) return
+      time_slope = (moved_rate - rate)/(moved_time - time)
+   end subroutine difference_jacobian
+
+   !> Increment of time for a forward difference that stays this side of the horizon.
+   pure function time_increment(time, horizon) result(increment)
+      !> Time [time]
+      real(wp), intent(in) :: time
+      !> Time not to be passed, some roundings ahead at least [time]
+      real(wp), intent(in) :: horizon
+      !> Increment, exact in the time it leads to [time]
+      real(wp) :: increment
+
+      increment = sqrt(epsilon(1.0_wp))*max(abs(time), horizon - time)
+      increment = max(min(increment, 0.5_wp*(horizon - time)), spacing(time))
+      increment = (time + increment) - time
+   end function time_increment
+
+end module camroller_ode_problem

@@ -1,0 +1,331 @@
+!> Rosenbrock methods: the tables, and the one procedure that steps them.
+!>
+!> Layer: numerics. In: the name of a method. Out: a `method_t`. Each stage solves one linear system with the matrix
+!> `I/(gamma h) - J`; nothing is iterated. With the increments u_i the form stepped is
+!>
+!>     (I/(gamma h) - J) u_i = f(t + c_i h, y + sum a_ij u_j) + sum C_ij u_j/h + h d_i df/dt
+!>
+!> All methods are L-stable and stiffly accurate: the last increment is at the same time the error estimate, and the
+!> trial state of the last stage plus that increment is the new state. The curve of a step is a combination of the increments,
+!> not of the rates at its ends, which stiffness would spoil. Source of form and curve: Hairer and Wanner, Solving
+!> Ordinary Differential Equations II, 2nd ed., Springer (1996), section IV.7 and chapter VI.4.
+!>
+!> | method | order | stages | source |
+!> |---|---|---|---|
+!> | `rodas3` | 3(2) | 4, two of them share a rate | Sandu et al., Atmos. Environ. 31 (1997) 3459; curve: see `set_rodas3` |
+!> | `rodas4` | 4(3) | 6 | Hairer and Wanner (1996), VI.4 |
+!> | `rodas4p` | 4(3) | 6, no loss of order on stiff smooth solutions | Steinebach, preprint 1741, TU Darmstadt (1995) |
+!> | `rodas5p` | 5(4) | 8, no loss of order on stiff smooth solutions | Steinebach, BIT Numer. Math. 63 (2023) 27 |
+module camroller_ode_rosenbrock
+   use camroller_kinds, only : wp
+   use camroller_ode, only : problem_t, method_t, counters_t
+   use camroller_lapack, only : dgetrf, dgetrs
+   implicit none
+   private
+
+   public :: rosenbrock_method_t, new_rosenbrock_method
+
+   !> A Rosenbrock method: its table and its work space
+   type, extends(method_t) :: rosenbrock_method_t
+      !> Number of stages
+      integer :: stages = 0
+      !> Diagonal coefficient, gamma [-]
+      real(wp) :: diagonal = 0.0_wp
+      !> Times of the stages, c [-]
+      real(wp), allocatable :: nodes(:)
+      !> Weights of df/dt in the stages, d [-]
+      real(wp), allocatable :: slope_weights(:)
+      !> Weights of the increments (row) in the trial state of a stage (column), a [-]
+      real(wp), allocatable :: weights(:, :)
+      !> Weights of the increments (row) on the right-hand side of a stage (column), C [-]
+      real(wp), allocatable :: couplings(:, :)
+      !> Weights of the increments (row) in the bends of the curve (column) [-]
+      real(wp), allocatable :: bend_weights(:, :)
+      !> Does a stage have the trial state and the time of the one before?
+      logical, allocatable :: repeats_rate(:)
+      !> Increments of the stages, shape (component, stage) [state]
+      real(wp), allocatable :: increments(:, :)
+      !> The matrix of the stages or its factors [1/time]
+      real(wp), allocatable :: matrix(:, :)
+      !> Rate at a trial state and right-hand side of a stage [state/time]
+      real(wp), allocatable :: stage_rate(:), right_side(:)
+      !> Pivots of the factors
+      integer, allocatable :: pivots(:)
+   contains
+      procedure :: try_step => try_rosenbrock_step
+   end type rosenbrock_method_t
+
+contains
+
+   !> Make a method by its name.
+   subroutine new_rosenbrock_method(method, name, components)
+      !> The method
+      type(rosenbrock_method_t), intent(out) :: method
+      !> `rodas3`, `rodas4p`, `rodas5p`, else `rodas4`
+      character(len=*), intent(in) :: name
+      !> Number of components of the state
+      integer, intent(in) :: components
+
+      integer :: stage
+
+      select case (name)
+      case ("rodas3")
+         call set_rodas3(method)
+      case ("rodas4p")
+         call set_rodas4p(method)
+      case ("rodas5p")
+         call set_rodas5p(method)
+      case default
+         call set_rodas4(method)
+      end select
+      method%gives_rate = .false.
+      method%needs_jacobian = .true.
+      method%has_curve = .true.
+      allocate (method%repeats_rate(method%stages))
+      method%repeats_rate(1) = .true.
+      do stage = 2, method%stages
+         method%repeats_rate(stage) = .not. any(abs(method%weights(:, stage) - method%weights(:, stage - 1)) > 0.0_wp) &
+            & .and. .not. abs(method%nodes(stage) - method%nodes(stage - 1)) > 0.0_wp
+      end do
+      allocate (method%increments(components, method%stages), method%bends(components, 3))
+      allocate (method%jacobian(components, components), method%time_slope(components))
+      allocate (method%matrix(components, components), method%stage_rate(components), method%right_side(components))
+      allocate (method%pivots(components))
+   end subroutine new_rosenbrock_method
+
+   !> Room for a table, filled with zeros.
+   subroutine clear_table(method, stages)
+      !> The method
+      type(rosenbrock_method_t), intent(inout) :: method
+      !> Number of stages
+      integer, intent(in) :: stages
+
+      method%stages = stages
+      allocate (method%nodes(stages), method%slope_weights(stages), method%weights(stages, stages), &
+         & method%couplings(stages, stages), method%bend_weights(stages, 3))
+      method%nodes = 0.0_wp
+      method%slope_weights = 0.0_wp
+      method%weights = 0.0_wp
+      method%couplings = 0.0_wp
+      method%bend_weights = 0.0_wp
+   end subroutine clear_table
+
+   !> Sandu et al. (1997). The curve is ours: the one parabola of second order for smooth solutions that is of second order for
+   !> infinite stiffness as well.
+   subroutine set_rodas3(method)
+      !> The method
+      type(rosenbrock_method_t), intent(inout) :: method
+
+      call clear_table(method, 4)
+      method%error_order = 3
+      method%diagonal = 0.5_wp
+      method%nodes = [0.0_wp, 0.0_wp, 1.0_wp, 1.0_wp]
+      method%slope_weights = [0.5_wp, 1.5_wp, 0.0_wp, 0.0_wp]
+      method%weights(:2, 3) = [2.0_wp, 0.0_wp]
+      method%weights(:3, 4) = [2.0_wp, 0.0_wp, 1.0_wp]
+      method%couplings(:1, 2) = [4.0_wp]
+      method%couplings(:2, 3) = [1.0_wp, -1.0_wp]
+      method%couplings(:3, 4) = [1.0_wp, -1.0_wp, -8.0_wp/3.0_wp]
+      method%bend_weights(:3, 1) = [3.0_wp, -1.0_wp, -1.0_wp]
+   end subroutine set_rodas3
+
+   !> Hairer and Wanner (1996).
+   subroutine set_rodas4(method)
+      !> The method
+      type(rosenbrock_method_t), intent(inout) :: method
+
+      call clear_table(method, 6)
+      method%error_order = 4
+      method%diagonal = 0.25_wp
+      method%nodes = [0.0_wp, 0.386_wp, 0.21_wp, 0.63_wp, 1.0_wp, 1.0_wp]
+      method%slope_weights(:4) = [0.25_wp, -0.1043_wp, 0.1035_wp, -0.0362_wp]
+      method%weights(:1, 2) = [1.544_wp]
+      method%weights(:2, 3) = [0.9466785280815826_wp, 0.2557011698983284_wp]
+      method%weights(:3, 4) = [3.314825187068521_wp, 2.896124015972201_wp, 0.9986419139977817_wp]
+      method%weights(:4, 5) = [1.221224509226641_wp, 6.019134481288629_wp, 12.53708332932087_wp, -0.6878860361058950_wp]
+      method%weights(:5, 6) = [method%weights(:4, 5), 1.0_wp]
+      method%couplings(:1, 2) = [-5.6688_wp]
+      method%couplings(:2, 3) = [-2.430093356833875_wp, -0.2063599157091915_wp]
+      method%couplings(:3, 4) = [-0.1073529058151375_wp, -9.594562251023355_wp, -20.47028614809616_wp]
+      method%couplings(:4, 5) = [7.496443313967647_wp, -10.24680431464352_wp, -33.99990352819905_wp, 11.70890893206160_wp]
+      method%couplings(:5, 6) = [8.083246795921522_wp, -7.981132988064893_wp, -31.52159432874371_wp, &
+         & 16.31930543123136_wp, -6.058818238834054_wp]
+      method%bend_weights(:5, 1) = [10.12623508344586_wp, -7.487995877610167_wp, -34.80091861555747_wp, &
+         & -7.992771707568823_wp, 1.025137723295662_wp]
+      method%bend_weights(:5, 2) = [-0.6762803392801253_wp, 6.087714651680015_wp, 16.43084320892478_wp, &
+         & 24.76722511418386_wp, -6.594389125716872_wp]
+   end subroutine set_rodas4
+
+   !> Steinebach (1995).
+   subroutine set_rodas4p(method)
+      !> The method
+      type(rosenbrock_method_t), intent(inout) :: method
+
+      call clear_table(method, 6)
+      method%error_order = 4
+      method%diagonal = 0.25_wp
+      method%nodes = [0.0_wp, 0.75_wp, 0.21_wp, 0.63_wp, 1.0_wp, 1.0_wp]
+      method%slope_weights(:4) = [0.25_wp, -0.5_wp, -0.023504_wp, -0.0362_wp]
+      method%weights(:1, 2) = [3.0_wp]
+      method%weights(:2, 3) = [1.831036793486759_wp, 0.4955183967433795_wp]
+      method%weights(:3, 4) = [2.304376582692669_wp, -0.05249275245743001_wp, -1.176798761832782_wp]
+      method%weights(:4, 5) = [-7.170454962423024_wp, -4.741636671481785_wp, -16.31002631330971_wp, &
+         & -1.062004044111401_wp]
+      method%weights(:5, 6) = [method%weights(:4, 5), 1.0_wp]
+      method%couplings(:1, 2) = [-12.0_wp]
+      method%couplings(:2, 3) = [-8.791795173947035_wp, -2.207865586973518_wp]
+      method%couplings(:3, 4) = [10.81793056857153_wp, 6.780270611428266_wp, 19.53485944642410_wp]
+      method%couplings(:4, 5) = [34.19095006749676_wp, 15.49671153725963_wp, 54.74760875964130_wp, 14.16005392148534_wp]
+      method%couplings(:5, 6) = [34.62605830930532_wp, 15.30084976114473_wp, 56.99955578662667_wp, &
+         & 18.40807009793095_wp, -5.714285714285717_wp]
+      method%bend_weights(:4, 1) = [25.09876703708589_wp, 11.62013104361867_wp, 28.49148307714626_wp, -5.664021568594133_wp]
+      method%bend_weights(:5, 2) = [1.638054557396973_wp, -0.7373619806678748_wp, 8.477918219238990_wp, &
+         & 15.99253148779520_wp, -1.882352941176471_wp]
+   end subroutine set_rodas4p
+
+   !> Steinebach (2023).
+   subroutine set_rodas5p(method)
+      !> The method
+      type(rosenbrock_method_t), intent(inout) :: method
+
+      call clear_table(method, 8)
+      method%error_order = 5
+      method%diagonal = 0.21193756319429014_wp
+      method%nodes = [0.0_wp, 0.6358126895828704_wp, 0.4095798393397535_wp, 0.9769306725060716_wp, 0.4288403609558664_wp, &
+         & 1.0_wp, 1.0_wp, 1.0_wp]
+      method%slope_weights(:5) = [0.21193756319429014_wp, -0.42387512638858027_wp, -0.3384627126235924_wp, &
+         & 1.8046452872882734_wp, 2.325825639765069_wp]
+      method%weights(:1, 2) = [3.0_wp]
+      method%weights(:2, 3) = [2.849394379747939_wp, 0.45842242204463923_wp]
+      method%weights(:3, 4) = [-6.954028509809101_wp, 2.489845061869568_wp, -10.358996098473584_wp]
+      method%weights(:4, 5) = [2.8029986275628964_wp, 0.5072464736228206_wp, -0.3988312541770524_wp, &
+         & -0.04721187230404641_wp]
+      method%weights(:5, 6) = [-7.502846399306121_wp, 2.561846144803919_wp, -11.627539656261098_wp, &
+         & -0.18268767659942256_wp, 0.030198172008377946_wp]
+      method%weights(:6, 7) = [method%weights(:5, 6), 1.0_wp]
+      method%weights(:7, 8) = [method%weights(:6, 7), 1.0_wp]
+      method%couplings(:1, 2) = [-14.155112264123755_wp]
+      method%couplings(:2, 3) = [-17.97296035885952_wp, -2.859693295451294_wp]
+      method%couplings(:3, 4) = [147.12150275711716_wp, -1.41221402718213_wp, 71.68940251302358_wp]
+      method%couplings(:4, 5) = [165.43517024871676_wp, -0.4592823456491126_wp, 42.90938336958603_wp, &
+         & -5.961986721573306_wp]
+      method%couplings(:5, 6) = [24.854864614690072_wp, -3.0009227002832186_wp, 47.4931110020768_wp, &
+         & 5.5814197821558125_wp, -0.6610691825249471_wp]
+      method%couplings(:6, 7) = [30.91273214028599_wp, -3.1208243349937974_wp, 77.79954646070892_wp, &
+         & 34.28646028294783_wp, -19.097331116725623_wp, -28.087943162872662_wp]
+      method%couplings(:7, 8) = [37.80277123390563_wp, -3.2571969029072276_wp, 112.26918849496327_wp, &
+         & 66.9347231244047_wp, -40.06618937091002_wp, -54.66780262877968_wp, -9.48861652309627_wp]
+      method%bend_weights(:, 1) = [25.948786856663858_wp, -2.5579724845846235_wp, 10.433815404888879_wp, &
+         & -2.3679251022685204_wp, 0.524948541321073_wp, 1.1241088310450404_wp, 0.4272876194431874_wp, &
+         & -0.17202221070155493_wp]
+      method%bend_weights(:, 2) = [-9.91568850695171_wp, -0.9689944594115154_wp, 3.0438037242978453_wp, &
+         & -24.495224566215796_wp, 20.176138334709044_wp, 15.98066361424651_wp, -6.789040303419874_wp, &
+         & -6.710236069923372_wp]
+      method%bend_weights(:, 3) = [11.419903575922262_wp, 2.8879645146136994_wp, 72.92137995996029_wp, &
+         & 80.12511834622643_wp, -52.072871366152654_wp, -59.78993625266729_wp, -0.15582684282751913_wp, &
+         & 4.883087185713722_wp]
+   end subroutine set_rodas5p
+
+   !> One step of a Rosenbrock method.
+   subroutine try_rosenbrock_step(self, problem, time, state, rate, step, new_state, new_rate, error_estimate, &
+      counters, status)
+      !> The method with its work space and the Jacobian at this point
+      class(rosenbrock_method_t), intent(inout) :: self
+      !> The problem
+      class(problem_t), intent(in) :: problem
+      !> Time at the start of the step [time]
+      real(wp), intent(in) :: time
+      !> State there [state]
+      real(wp), intent(in) :: state(:)
+      !> Rate there [state/time]
+      real(wp), intent(in) :: rate(:)
+      !> Size of the step [time]
+      real(wp), intent(in) :: step
+      !> State at the end [state]
+      real(wp), intent(out) :: new_state(:)
+      !> Left to the loop: zero [state/time]
+      real(wp), intent(out) :: new_rate(:)
+      !> Estimate of the error made in this step [state]
+      real(wp), intent(out) :: error_estimate(:)
+      !> Work done so far
+      type(counters_t), intent(inout) :: counters
+      !> 0 fine, positive: try a smaller step, negative: give up
+      integer, intent(out) :: status
+
+      integer :: stage, i
+
+      new_state = state
+      new_rate = 0.0_wp
+      error_estimate = 0.0_wp
+      self%stage_rate = rate
+      call factorise(self, step, counters, status)
+      if (status /= 0) return
+      do stage = 1, self%stages
+         self%right_side = step*self%slope_weights(stage)*self%time_slope
+         new_state = state
+         do i = 1, stage - 1
+            new_state = new_state + self%weights(i, stage)*self%increments(:, i)
+            self%right_side = self%right_side + (self%couplings(i, stage)/step)*self%increments(:, i)
+         end do
+         if (.not. self%repeats_rate(stage)) then
+            call problem%get_rate(time + step*self%nodes(stage), new_state, self%stage_rate, status)
+            counters%evaluations = counters%evaluations + 1
+            if (status /= 0) return
+         end if
+         self%right_side = self%right_side + self%stage_rate
+         call solve(self)
+         self%increments(:, stage) = self%right_side
+      end do
+      error_estimate = self%increments(:, self%stages)
+      new_state = new_state + error_estimate
+      do i = 1, 3
+         self%bends(:, i) = 0.0_wp
+         do stage = 1, self%stages
+            self%bends(:, i) = self%bends(:, i) + self%bend_weights(stage, i)*self%increments(:, stage)
+         end do
+      end do
+   end subroutine try_rosenbrock_step
+
+   !> Factors of the matrix of the stages; a single component needs none.
+   subroutine factorise(self, step, counters, status)
+      !> The method with its work space
+      type(rosenbrock_method_t), intent(inout) :: self
+      !> Size of the step [time]
+      real(wp), intent(in) :: step
+      !> Work done so far
+      type(counters_t), intent(inout) :: counters
+      !> 0 fine, positive where the matrix is singular
+      integer, intent(out) :: status
+
+      integer :: i, n
+
+      n = size(self%pivots)
+      self%matrix = -self%jacobian
+      do i = 1, n
+         self%matrix(i, i) = self%matrix(i, i) + 1.0_wp/(self%diagonal*step)
+      end do
+      status = 0
+      if (n == 1) then
+         if (.not. abs(self%matrix(1, 1)) > 0.0_wp) status = 1
+      else
+         call dgetrf(n, n, self%matrix, n, self%pivots, status)
+      end if
+      counters%factorisations = counters%factorisations + 1
+   end subroutine factorise
+
+   !> Solve the system of a stage: from its right-hand side to the increment.
+   subroutine solve(self)
+      !> The method with its work space
+      type(rosenbrock_method_t), intent(inout) :: self
+
+      integer :: info
+
+      if (size(self%pivots) == 1) then
+         self%right_side = self%right_side/self%matrix(1, 1)
+      else
+         call dgetrs("N", size(self%pivots), 1, self%matrix, size(self%pivots), self%pivots, self%right_side, &
+            & size(self%pivots), info)
+      end if
+   end subroutine solve
+
+end module camroller_ode_rosenbrock
