@@ -32,6 +32,8 @@ program main
    use test_unit_rescaling_contact, only : collect_unit_rescaling_contact
    use test_unit_rescaling_train, only : collect_unit_rescaling_train
    use test_derivatives, only : collect_derivatives
+   use test_ode, only : collect_ode
+   use test_ode_rosenbrock, only : collect_ode_rosenbrock
    implicit none
 
    call run_command_line()
@@ -46,6 +48,8 @@ contains
 
       suites = [ &
          new_testsuite("error", collect_error), &
+         new_testsuite("ode", collect_ode), &
+         new_testsuite("ode_rosenbrock", collect_ode_rosenbrock), &
          new_testsuite("names", collect_names), &
          new_testsuite("version", collect_version), &
          new_testsuite("roots", collect_roots), &

@@ -209,11 +209,7 @@ contains
             time = new_time
             state = new_state
             rate = new_rate
-            if (method%has_curve) then
-               call append_curve(trajectory, time, state, rate, method%bends)
-            else
-               call append_point(trajectory, time, state, rate)
-            end if
+            call keep_point(method, time, state, rate, trajectory)
             call adapt_step(method, this_step, is_last, was_rejected, scaled_error, last_error, step)
             if (is_last) return
             has_jacobian = .false.
@@ -222,14 +218,32 @@ contains
             counters%rejected = counters%rejected + 1
             was_rejected = .true.
             step = this_step*max(max_shrinkage, safety*scaled_error**(-1.0_wp/max(method%error_order, 1)))
-            if (method%error_order == 0) then
-               call raise(error, kind_convergence, "a fixed step failed at "//problem%name_time(time))
-            end if
          end if
-         if (.not. allocated(error)) call check_progress(problem, options, time, step, counters, error)
+         if (.not. allocated(error)) call check_progress(problem, method, options, time, step, was_rejected, &
+            & counters, error)
          if (allocated(error)) return
       end do
    end subroutine integrate_segment
+
+   !> Append an accepted point to the trajectory, with the curve that the method has left, if any.
+   pure subroutine keep_point(method, time, state, rate, trajectory)
+      !> The method
+      class(method_t), intent(in) :: method
+      !> Time [time]
+      real(wp), intent(in) :: time
+      !> State [state]
+      real(wp), intent(in) :: state(:)
+      !> Rate [state/time]
+      real(wp), intent(in) :: rate(:)
+      !> Accepted points
+      type(trajectory_t), intent(inout) :: trajectory
+
+      if (method%has_curve) then
+         call append_curve(trajectory, time, state, rate, method%bends)
+      else
+         call append_point(trajectory, time, state, rate)
+      end if
+   end subroutine keep_point
 
    !> Step that tolerance, largest step, stability and the end of the segment allow.
    !>
@@ -349,21 +363,27 @@ contains
    end subroutine adapt_step
 
    !> Refuse an integration that does not come on.
-   subroutine check_progress(problem, options, time, step, counters, error)
+   subroutine check_progress(problem, method, options, time, step, was_rejected, counters, error)
       !> The problem
       class(problem_t), intent(in) :: problem
+      !> The method
+      class(method_t), intent(in) :: method
       !> Tolerance or step
       type(options_t), intent(in) :: options
       !> Time [time]
       real(wp), intent(in) :: time
       !> Step proposed [time]
       real(wp), intent(in) :: step
+      !> Was the step just tried rejected?
+      logical, intent(in) :: was_rejected
       !> Work done
       type(counters_t), intent(in) :: counters
       !> Convergence error
       type(error_t), allocatable, intent(out) :: error
 
-      if (counters%accepted + counters%rejected > options%max_steps) then
+      if (was_rejected .and. method%error_order == 0) then
+         call raise(error, kind_convergence, "a fixed step failed at "//problem%name_time(time))
+      else if (counters%accepted + counters%rejected > options%max_steps) then
          call raise(error, kind_convergence, "the number of steps is used up at "//problem%name_time(time))
       else if (step <= 16.0_wp*spacing(abs(time))) then
          call raise(error, kind_convergence, "the step has become too small at "//problem%name_time(time))
