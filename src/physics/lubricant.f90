@@ -73,12 +73,14 @@ module camroller_lubricant
    real(wp), parameter :: largest_exponent = 600.0_wp
    !> Power of Cameron's law [-]
    integer, parameter :: cameron_power = 16
-   integer, private :: k
+   !> Its powers of the pressure [-]
+   real(wp), parameter :: powers(0:cameron_power) = [0.0_wp, 1.0_wp, 2.0_wp, 3.0_wp, 4.0_wp, 5.0_wp, 6.0_wp, 7.0_wp, 8.0_wp, &
+      & 9.0_wp, 10.0_wp, 11.0_wp, 12.0_wp, 13.0_wp, 14.0_wp, 15.0_wp, 16.0_wp]
    !> Coefficients of the polynomial in alpha p0 that Cameron's law integrates to: binomial(16, k)/16^k
    !> int_0^1 (1 - u^2)^(k/2) du, the integral being sqrt(pi)/2 Gamma(k/2 + 1)/Gamma(k/2 + 3/2) [-]
-   real(wp), parameter :: cameron_coefficients(0:cameron_power) = [( &
-      & gamma(17.0_wp)/(gamma(k + 1.0_wp)*gamma(17.0_wp - k))/16.0_wp**k &
-      & *0.5_wp*sqrt(pi)*gamma(0.5_wp*k + 1.0_wp)/gamma(0.5_wp*k + 1.5_wp), k=0, cameron_power)]
+   real(wp), parameter :: cameron_coefficients(0:cameron_power) = &
+      & gamma(17.0_wp)/(gamma(powers + 1.0_wp)*gamma(17.0_wp - powers))/16.0_wp**powers &
+      & *0.5_wp*sqrt(pi)*gamma(0.5_wp*powers + 1.0_wp)/gamma(0.5_wp*powers + 1.5_wp)
 
 contains
 
