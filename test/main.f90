@@ -34,6 +34,7 @@ program main
    use test_derivatives, only : collect_derivatives
    use test_ode, only : collect_ode
    use test_ode_rosenbrock, only : collect_ode_rosenbrock
+   use test_energy, only : collect_energy
    implicit none
 
    call run_command_line()
@@ -72,7 +73,8 @@ contains
          new_testsuite("cycle_reference", collect_cycle_reference), &
          new_testsuite("unit_rescaling_contact", collect_unit_rescaling_contact), &
          new_testsuite("unit_rescaling_train", collect_unit_rescaling_train), &
-         new_testsuite("derivatives", collect_derivatives) &
+         new_testsuite("derivatives", collect_derivatives), &
+         new_testsuite("energy", collect_energy) &
          ]
 
       call get_argument(1, suite_name)
