@@ -35,6 +35,10 @@ program main
    use test_ode, only : collect_ode
    use test_ode_rosenbrock, only : collect_ode_rosenbrock
    use test_energy, only : collect_energy
+   use test_invariance, only : collect_invariance
+   use test_magnitudes, only : collect_magnitudes
+   use test_film_literature, only : collect_film_literature
+   use test_roller_problem, only : collect_roller_problem
    implicit none
 
    call run_command_line()
@@ -74,7 +78,11 @@ contains
          new_testsuite("unit_rescaling_contact", collect_unit_rescaling_contact), &
          new_testsuite("unit_rescaling_train", collect_unit_rescaling_train), &
          new_testsuite("derivatives", collect_derivatives), &
-         new_testsuite("energy", collect_energy) &
+         new_testsuite("energy", collect_energy), &
+         new_testsuite("invariance", collect_invariance), &
+         new_testsuite("magnitudes", collect_magnitudes), &
+         new_testsuite("film_literature", collect_film_literature), &
+         new_testsuite("roller_problem", collect_roller_problem) &
          ]
 
       call get_argument(1, suite_name)
