@@ -27,155 +27,155 @@ module reference_cases
 contains
 
    !> The valve train of Islam (2019) with a closed energy balance, without camshaft bearings.
-   function thesis_case() result(case)
+   function thesis_case() result(the_case)
       !> The case at 300 rev/min and 95 degC
-      type(case_t) :: case
+      type(case_t) :: the_case
 
-      case%title = "thesis"
-      case%mechanism%pivot_to_roller = 20.8e-3_wp
-      case%mechanism%pivot_to_pad = 35.5e-3_wp
-      case%mechanism%pivot_to_cam = 31.5e-3_wp
-      case%mechanism%roller_arm_angle = -3.5_wp*degree
-      case%mechanism%valve_axis_angle = 37.5_wp*degree
-      case%mechanism%base_radius = 18.0e-3_wp
-      case%mechanism%roller_radius = 8.5e-3_wp
-      case%mechanism%contact_width = 13.7e-3_wp
-      case%lift%law = "power"
-      case%lift%exponents = [4]
-      case%lift%max_lift = 9.5e-3_wp
-      case%lift%opening_half_angle = 70.0_wp*degree
-      case%lift%closing_half_angle = 70.0_wp*degree
-      case%masses%valve = 0.0432_wp
-      case%masses%finger = 0.0418_wp
-      case%spring%stiffness = 25.0e3_wp
-      case%spring%precompression = 8.4e-3_wp
-      case%spring%base_circle_load = 64.0_wp
-      case%spring%seat_stiffness = 1.0e7_wp
-      case%materials%cam_modulus = 170.0e9_wp
-      case%materials%cam_poisson_ratio = 0.28_wp
-      case%materials%roller_modulus = 204.0e9_wp
-      case%materials%roller_poisson_ratio = 0.29_wp
-      case%materials%hardness = 2.0e9_wp
-      case%surface%cam_roughness = 0.14e-6_wp
-      case%surface%roller_roughness = 0.14e-6_wp
-      case%lubricant%pressure_viscosity = 2.2e-8_wp
-      case%roller%mass = 0.0088_wp
-      case%roller%wall_thickness = 2.4e-3_wp
-      call add_effects(case)
-      call set_point(case, point_speeds(1), point_viscosities(3))
-      case%numerics%method = "bogacki_shampine"
-      case%numerics%tolerance = 1.0e-6_wp
+      the_case%title = "thesis"
+      the_case%mechanism%pivot_to_roller = 20.8e-3_wp
+      the_case%mechanism%pivot_to_pad = 35.5e-3_wp
+      the_case%mechanism%pivot_to_cam = 31.5e-3_wp
+      the_case%mechanism%roller_arm_angle = -3.5_wp*degree
+      the_case%mechanism%valve_axis_angle = 37.5_wp*degree
+      the_case%mechanism%base_radius = 18.0e-3_wp
+      the_case%mechanism%roller_radius = 8.5e-3_wp
+      the_case%mechanism%contact_width = 13.7e-3_wp
+      the_case%lift%law = "power"
+      the_case%lift%exponents = [4]
+      the_case%lift%max_lift = 9.5e-3_wp
+      the_case%lift%opening_half_angle = 70.0_wp*degree
+      the_case%lift%closing_half_angle = 70.0_wp*degree
+      the_case%masses%valve = 0.0432_wp
+      the_case%masses%finger = 0.0418_wp
+      the_case%spring%stiffness = 25.0e3_wp
+      the_case%spring%precompression = 8.4e-3_wp
+      the_case%spring%base_circle_load = 64.0_wp
+      the_case%spring%seat_stiffness = 1.0e7_wp
+      the_case%materials%cam_modulus = 170.0e9_wp
+      the_case%materials%cam_poisson_ratio = 0.28_wp
+      the_case%materials%roller_modulus = 204.0e9_wp
+      the_case%materials%roller_poisson_ratio = 0.29_wp
+      the_case%materials%hardness = 2.0e9_wp
+      the_case%surface%cam_roughness = 0.14e-6_wp
+      the_case%surface%roller_roughness = 0.14e-6_wp
+      the_case%lubricant%pressure_viscosity = 2.2e-8_wp
+      the_case%roller%mass = 0.0088_wp
+      the_case%roller%wall_thickness = 2.4e-3_wp
+      call add_effects(the_case)
+      call set_point(the_case, point_speeds(1), point_viscosities(3))
+      the_case%numerics%method = "bogacki_shampine"
+      the_case%numerics%tolerance = 1.0e-6_wp
    end function thesis_case
 
    !> Asperities, needle bearing and valve guide of Islam (2019).
-   subroutine add_effects(case)
+   subroutine add_effects(the_case)
       !> The case
-      type(case_t), intent(inout) :: case
+      type(case_t), intent(inout) :: the_case
 
-      allocate (case%asperity, case%needle_bearing, case%valve_guide)
-      case%asperity%boundary_coefficient = 0.2_wp
-      case%needle_bearing%friction_coefficient = 0.0015_wp
-      case%needle_bearing%needle_radius = 0.99e-3_wp
-      case%valve_guide%length = 36.0e-3_wp
-      case%valve_guide%stem_diameter = 5.0e-3_wp
-      case%valve_guide%radial_clearance = 0.02e-3_wp
+      allocate (the_case%asperity, the_case%needle_bearing, the_case%valve_guide)
+      the_case%asperity%boundary_coefficient = 0.2_wp
+      the_case%needle_bearing%friction_coefficient = 0.0015_wp
+      the_case%needle_bearing%needle_radius = 0.99e-3_wp
+      the_case%valve_guide%length = 36.0e-3_wp
+      the_case%valve_guide%stem_diameter = 5.0e-3_wp
+      the_case%valve_guide%radial_clearance = 0.02e-3_wp
    end subroutine add_effects
 
    !> Speed and viscosity.
-   subroutine set_point(case, speed, viscosity)
+   subroutine set_point(the_case, speed, viscosity)
       !> The case
-      type(case_t), intent(inout) :: case
+      type(case_t), intent(inout) :: the_case
       !> Cam speed [rad/s]
       real(wp), intent(in) :: speed
       !> Viscosity [Pa s]
       real(wp), intent(in) :: viscosity
 
-      case%operating_point%speed = speed
-      case%operating_point%oil_temperature = 333.15_wp
-      case%lubricant%temperature_law = "direct"
-      case%lubricant%viscosity = viscosity
+      the_case%operating_point%speed = speed
+      the_case%operating_point%oil_temperature = 333.15_wp
+      the_case%lubricant%temperature_law = "direct"
+      the_case%lubricant%viscosity = viscosity
    end subroutine set_point
 
    !> The same with the bookkeeping of the thesis.
-   function source_case() result(case)
+   function source_case() result(the_case)
       !> The case at 300 rev/min and 95 degC
-      type(case_t) :: case
+      type(case_t) :: the_case
 
-      case = thesis_case()
-      case%energy = "source"
-      case%spring%load_arm = "parallel"
-      case%roller%spin = "thesis"
-      case%asperity%boundary = "full"
-      case%traction%rolling_law = "goksem_hargreaves"
+      the_case = thesis_case()
+      the_case%energy = "source"
+      the_case%spring%load_arm = "parallel"
+      the_case%roller%spin = "thesis"
+      the_case%asperity%boundary = "full"
+      the_case%traction%rolling_law = "goksem_hargreaves"
    end function source_case
 
    !> Another geometry, with hollow flanks and an asymmetric lift `9 mm (1 - x^2)^3 (1 + 0.1 x)`, x = angle/55 deg, as a table.
-   function skewed_case(rotation) result(case)
+   function skewed_case(rotation) result(the_case)
       !> Sense of rotation
       character(len=*), intent(in) :: rotation
       !> The case at 600 rev/min and 60 degC
-      type(case_t) :: case
+      type(case_t) :: the_case
 
       ! Part of the half angle [-]
       real(wp) :: x(skewed_rows)
       integer :: i
 
-      case = thesis_case()
-      case%title = "skewed"
-      case%mechanism%pivot_to_roller = 24.0e-3_wp
-      case%mechanism%pivot_to_pad = 42.0e-3_wp
-      case%mechanism%pivot_to_cam = 37.0e-3_wp
-      case%mechanism%roller_arm_angle = 5.0_wp*degree
-      case%mechanism%valve_axis_angle = 30.0_wp*degree
-      case%mechanism%base_radius = 17.0e-3_wp
-      case%mechanism%roller_radius = 9.0e-3_wp
-      case%mechanism%rotation = rotation
+      the_case = thesis_case()
+      the_case%title = "skewed"
+      the_case%mechanism%pivot_to_roller = 24.0e-3_wp
+      the_case%mechanism%pivot_to_pad = 42.0e-3_wp
+      the_case%mechanism%pivot_to_cam = 37.0e-3_wp
+      the_case%mechanism%roller_arm_angle = 5.0_wp*degree
+      the_case%mechanism%valve_axis_angle = 30.0_wp*degree
+      the_case%mechanism%base_radius = 17.0e-3_wp
+      the_case%mechanism%roller_radius = 9.0e-3_wp
+      the_case%mechanism%rotation = rotation
       x = [(real(2*i, wp)/real(skewed_rows - 1, wp) - 1.0_wp, i=0, skewed_rows - 1)]
-      case%lift%law = "table"
-      case%lift%table_angle = x*skewed_half_angle
-      case%lift%table_lift = 9.0e-3_wp*((1.0_wp - x)*(1.0_wp + x))**3*(1.0_wp + 0.1_wp*x)
-      call set_point(case, point_speeds(2), point_viscosities(2))
+      the_case%lift%law = "table"
+      the_case%lift%table_angle = x*skewed_half_angle
+      the_case%lift%table_lift = 9.0e-3_wp*((1.0_wp - x)*(1.0_wp + x))**3*(1.0_wp + 0.1_wp*x)
+      call set_point(the_case, point_speeds(2), point_viscosities(2))
    end function skewed_case
 
    !> The case that a row of the cycle reference belongs to.
-   function named_case(name) result(case)
+   function named_case(name) result(the_case)
       !> Name in the table
       character(len=*), intent(in) :: name
       !> The case
-      type(case_t) :: case
+      type(case_t) :: the_case
 
       select case (name)
       case ("source_hot_slow")
-         case = source_case()
+         the_case = source_case()
       case ("skewed_reversed")
-         case = skewed_case("towards_pivot")
+         the_case = skewed_case("towards_pivot")
       case default
-         case = thesis_case()
-         if (name == "warm") call set_point(case, point_speeds(2), point_viscosities(2))
-         if (name == "cold_fast") call set_point(case, point_speeds(3), point_viscosities(1))
+         the_case = thesis_case()
+         if (name == "warm") call set_point(the_case, point_speeds(2), point_viscosities(2))
+         if (name == "cold_fast") call set_point(the_case, point_speeds(3), point_viscosities(1))
       end select
    end function named_case
 
    !> A cylinder pressure that rises and falls before and while the valve opens.
-   subroutine add_gas_force(case)
+   subroutine add_gas_force(the_case)
       !> The case
-      type(case_t), intent(inout) :: case
+      type(case_t), intent(inout) :: the_case
 
       ! Rows of the table: every five degrees
       integer, parameter :: rows = 73
       integer :: i
 
-      allocate (case%gas_force)
-      case%gas_force%angle = [(real(5*i - 180, wp)*degree, i=0, rows - 1)]
-      case%gas_force%pressure = 4.0e5_wp*(1.0_wp + cos(case%gas_force%angle + 1.1_wp))**3/8.0_wp
-      case%gas_force%pressure(rows) = case%gas_force%pressure(1)
-      case%gas_force%valve_area = 6.0e-4_wp
+      allocate (the_case%gas_force)
+      the_case%gas_force%angle = [(real(5*i - 180, wp)*degree, i=0, rows - 1)]
+      the_case%gas_force%pressure = 4.0e5_wp*(1.0_wp + cos(the_case%gas_force%angle + 1.1_wp))**3/8.0_wp
+      the_case%gas_force%pressure(rows) = the_case%gas_force%pressure(1)
+      the_case%gas_force%valve_area = 6.0e-4_wp
    end subroutine add_gas_force
 
    !> Model of a case.
-   subroutine make_model(case, model, error)
+   subroutine make_model(the_case, model, error)
       !> The case
-      type(case_t), intent(in) :: case
+      type(case_t), intent(in) :: the_case
       !> Its model
       type(model_t), intent(out) :: model
       !> The case was refused
@@ -183,14 +183,14 @@ contains
 
       type(error_t), allocatable :: failure
 
-      call new_model(model, case, case%lift, failure)
+      call new_model(model, the_case, the_case%lift, failure)
       if (allocated(failure)) call test_failed(error, failure%message)
    end subroutine make_model
 
    !> Periodic cycle of a model.
-   subroutine make_cycle(case, model, cycle, error)
+   subroutine make_cycle(the_case, model, cycle, error)
       !> The case
-      type(case_t), intent(in) :: case
+      type(case_t), intent(in) :: the_case
       !> Its model
       type(model_t), intent(in), target :: model
       !> Its cycle
@@ -200,7 +200,7 @@ contains
 
       type(error_t), allocatable :: failure
 
-      call integrate_cycle(cycle, model, case%numerics, failure)
+      call integrate_cycle(cycle, model, the_case%numerics, failure)
       if (allocated(failure)) call test_failed(error, failure%message)
    end subroutine make_cycle
 

@@ -163,7 +163,9 @@ contains
       type(groups_t) :: groups
       type(film_shape_t) :: shape
       ! Load, its event part [N]; blending [-]; half width, films [m]; asperity load [N]; share of boundary friction [-]
-      real(wp) :: load, event, blend, width, central, film_ratio, asperity_load, mobilised, area
+      real(wp) :: load, event, blend, width, central, film_ratio, asperity_load, mobilised
+      ! Area [m^2]; mean viscosity over that at ambient pressure, derivatives [-]
+      real(wp) :: area, thickening, slopes(2)
       integer :: status
 
       associate (model => problem%model)
@@ -190,15 +192,17 @@ contains
             *max(4.0_wp - film_ratio, 0.0_wp)**6.804_wp
          asperity_load = min(asperity_load, load)
 
-         forces%slope = newtonian_shear(1.0_wp, problem%oil%viscosity*mean_relative_viscosity(problem%oil, &
-            peak_pressure(load, position%equivalent_radius, model%contact_width, model%modulus)), area, central)
+         call mean_relative_viscosity(problem%oil, peak_pressure(load, position%equivalent_radius, model%contact_width, &
+            model%modulus), thickening, slopes(1))
+         forces%slope = newtonian_shear(1.0_wp, problem%oil%viscosity*thickening, area, central)
          forces%traction = forces%slope*forces%sliding_speed
-         call limit_shear(cap_smooth, 0.08_wp*load, forces%traction, forces%slope)
+         call limit_shear(cap_smooth, 0.08_wp*load, forces%traction, slopes(1), slopes(2))
+         forces%slope = forces%slope*slopes(1)
          mobilised = mobilised_share(forces%sliding_speed, 0.01_wp)
          forces%traction = forces%traction + 0.2_wp*asperity_load*mobilised
          forces%slope = forces%slope + 0.2_wp*asperity_load*(1.0_wp - mobilised**2)/0.01_wp
-         forces%rolling = rolling_resistance(rolling_goksem_hargreaves, groups%speed, groups%load, model%modulus, &
-            position%equivalent_radius, model%contact_width, problem%oil%pressure_viscosity)
+         call rolling_resistance(rolling_goksem_hargreaves, groups%speed, groups%load, model%modulus, &
+            position%equivalent_radius, model%contact_width, problem%oil%pressure_viscosity, forces%rolling, slopes(1))
          forces%bearing = bearing_torque(0.0015_wp, load, model%bearing%radius, spin, 1.0_wp)
       end associate
    end subroutine evaluate_forces
