@@ -1,0 +1,56 @@
+"""The theory page names procedures, tests and deck keys: they exist."""
+
+import pathlib
+import re
+
+import pytest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+PAGE = (ROOT / "doc/theory.md").read_text(encoding="utf-8")
+
+
+def section(number):
+    """Text of a section of the page."""
+    return PAGE[PAGE.index(f"\n## {number}. "):PAGE.index(f"\n## {number + 1}. ")]
+
+
+ROWS = re.findall(r"^\| \((\d+)\) \| (.+) \| (.+) \| (.+) \|$", section(21), re.MULTILINE)
+KEYS = (ROOT / "src/io/deck_keys.f90").read_text(encoding="utf-8")
+
+
+def squeeze(text):
+    """Text of a Fortran file with continued strings and lines joined."""
+    return re.sub(r'"\s*(//)?\s*&\s*&?\s*"', "", text)
+
+
+def test_every_numbered_equation_has_a_row():
+    assert [int(row[0]) for row in ROWS] == list(range(1, 47))
+
+
+@pytest.mark.parametrize("number, what, where, test", ROWS, ids=[row[0] for row in ROWS])
+def test_row_points_at_what_exists(number, what, where, test):
+    if where.startswith("not used"):
+        assert test == "-"
+        return
+    text = None
+    for name in re.findall(r"`([^`]+)`", where):
+        if name.endswith(".f90"):
+            path = ROOT / (name if "/" in name else f"src/physics/{name}")
+            assert path.is_file(), path
+            text = path.read_text(encoding="utf-8")
+        else:
+            assert re.search(rf"\b{name}\b", text), f"{name} is not in the file before it"
+    suite, claim = re.fullmatch(r"`(test_\w+)`: (.+)", test).groups()
+    files = list((ROOT / "test").glob(f"*/{suite}.f90"))
+    assert len(files) == 1, suite
+    assert f'"{claim}"' in squeeze(files[0].read_text(encoding="utf-8"))
+    assert f"use {suite}, only" in (ROOT / "test/main.f90").read_text(encoding="utf-8")
+
+
+def test_deck_keys_exist():
+    named = re.findall(r"`(\w+)\.(\w+)`", section(22))
+    assert len(named) > 30
+    groups = set(re.findall(r'add_group\(schema, "(\w+)"', KEYS))
+    keys = set(re.findall(r'add_\w+\(schema, "(\w+)"', KEYS))
+    assert {group for group, _ in named} <= groups
+    assert {key for _, key in named} <= keys
