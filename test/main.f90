@@ -39,6 +39,7 @@ program main
    use test_magnitudes, only : collect_magnitudes
    use test_film_literature, only : collect_film_literature
    use test_roller_problem, only : collect_roller_problem
+   use test_simulation, only : collect_simulation
    implicit none
 
    call run_command_line()
@@ -82,7 +83,8 @@ contains
          new_testsuite("invariance", collect_invariance), &
          new_testsuite("magnitudes", collect_magnitudes), &
          new_testsuite("film_literature", collect_film_literature), &
-         new_testsuite("roller_problem", collect_roller_problem) &
+         new_testsuite("roller_problem", collect_roller_problem), &
+         new_testsuite("simulation", collect_simulation) &
          ]
 
       call get_argument(1, suite_name)

@@ -7,7 +7,7 @@ module camroller_cycle
    use camroller_kinds, only : wp, pi, two_pi, degree
    use camroller_error, only : error_t, raise, add_context, kind_convergence
    use camroller_case, only : numerics_t
-   use camroller_model, only : model_t
+   use camroller_model, only : model_t, evaluate_geometry
    use camroller_kinematics, only : position_t
    use camroller_dynamics, only : moments_t
    use camroller_state, only : state_t, evaluate_state, evaluate_loading
@@ -20,7 +20,7 @@ module camroller_cycle
    implicit none
    private
 
-   public :: cycle_t, integrate_cycle, state_at
+   public :: cycle_t, integrate_cycle, integrate_between, choose_start, state_at
 
    !> One periodic cycle
    type :: cycle_t
@@ -44,6 +44,10 @@ module camroller_cycle
    integer, parameter :: balance_points = 72
    !> Cam angle over which the difference between algebraic balance and periodic state decays before the cycle [rad]
    real(wp), parameter :: run_up_angle = 5.0_wp*degree
+   !> Part of the integration's tolerance to which the contact is solved at each evaluation [-]
+   real(wp), parameter :: contact_accuracy = 1.0e-3_wp
+   !> First step of a method with error control [rad]
+   real(wp), parameter :: first_step = 0.01_wp*degree
    !> Largest step [rad]
    real(wp), parameter :: largest_step = 10.0_wp*degree
    !> Sliding speed that counts as a scale where the balance gives less, over the speed of pure rolling [-]
@@ -71,21 +75,12 @@ contains
       real(wp) :: state(1), first(1), scale
       integer :: turn
 
-      call new_method(method, numerics%method, 1, error)
-      if (allocated(error)) return
-      problem%model => model
-      problem%has_surface_speed = method%error_order == 0
-      cycle%has_surface_speed = problem%has_surface_speed
-      cycle%is_linear = problem%has_surface_speed
       call find_stops(model, stops)
-      call choose_start(problem, cycle%start, state(1), scale)
+      call choose_start(model, cycle%start, state(1), scale)
+      call choose_method(cycle, model, numerics, scale, problem, method, options, error)
+      if (allocated(error)) return
+      if (cycle%has_surface_speed) state(1) = rolling_speed_at_angle(model, cycle%start) - state(1)
       cycle%stops = cycle_stops(stops, cycle%start)
-      problem%small_state = [scale]
-      options%tolerance = [numerics%tolerance*scale]
-      options%step = numerics%step
-      if (.not. cycle%is_linear) options%step = min(numerics%step, 0.01_wp*degree)
-      options%max_step = largest_step
-      cycle%trajectory%is_linear = cycle%is_linear
 
       ! The balance is not quite the periodic state: a short run up to the start lets the difference decay
       call integrate(problem, method, options, run_up_stops(cycle%stops), state, cycle%trajectory, cycle%counters, error)
@@ -105,6 +100,95 @@ contains
          & "and end still differ by more than periodicity; explicit steps beyond the stability limit do this")
    end subroutine integrate_cycle
 
+   !> Integrate from one angle to another, less than a turn ahead, with the roller's spin given at the first.
+   subroutine integrate_between(piece, model, numerics, stops, scale, roller_spin, error)
+      !> The piece of a cycle
+      type(cycle_t), intent(out) :: piece
+      !> The model
+      type(model_t), intent(in), target :: model
+      !> Method and tolerance
+      type(numerics_t), intent(in) :: numerics
+      !> First angle, stops between, last angle [rad]
+      real(wp), intent(in) :: stops(:)
+      !> Scale of the sliding speed, to which the tolerance is relative [m/s]
+      real(wp), intent(in) :: scale
+      !> Spin of the roller, from first to last angle [rad/s]
+      real(wp), intent(inout) :: roller_spin
+      !> Deck error for an unknown method, convergence error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(spin_problem_t) :: problem
+      class(method_t), allocatable :: method
+      type(options_t) :: options
+      ! Sliding speed or surface speed [m/s]
+      real(wp) :: state(1)
+      integer :: last
+
+      last = size(stops)
+      piece%start = stops(1)
+      piece%stops = stops
+      call choose_method(piece, model, numerics, scale, problem, method, options, error)
+      if (allocated(error)) return
+      state = roller_spin*model%roller_radius
+      if (.not. piece%has_surface_speed) state = rolling_speed_at_angle(model, stops(1)) - state
+      call integrate(problem, method, options, stops, state, piece%trajectory, piece%counters, error)
+      call add_context(error, "integrating the roller's spin")
+      if (allocated(error)) return
+      if (.not. piece%has_surface_speed) state = rolling_speed_at_angle(model, stops(last)) - state
+      roller_spin = state(1)/model%roller_radius
+   end subroutine integrate_between
+
+   !> Problem, method and options of an integration.
+   subroutine choose_method(cycle, model, numerics, scale, problem, method, options, error)
+      !> The cycle: how its trajectory is to be read
+      type(cycle_t), intent(inout) :: cycle
+      !> The model
+      type(model_t), intent(in), target :: model
+      !> Method and tolerance
+      type(numerics_t), intent(in) :: numerics
+      !> Scale of the sliding speed [m/s]
+      real(wp), intent(in) :: scale
+      !> The roller's spin
+      type(spin_problem_t), intent(out) :: problem
+      !> The method
+      class(method_t), allocatable, intent(out) :: method
+      !> Tolerance and steps
+      type(options_t), intent(out) :: options
+      !> Deck error for an unknown method
+      type(error_t), allocatable, intent(out) :: error
+
+      call new_method(method, numerics%method, 1, error)
+      if (allocated(error)) return
+      cycle%has_surface_speed = method%error_order == 0
+      cycle%is_linear = cycle%has_surface_speed
+      cycle%trajectory%is_linear = cycle%is_linear
+      problem%model => model
+      problem%has_surface_speed = cycle%has_surface_speed
+      problem%small_state = [scale]
+      problem%accuracy = contact_accuracy*numerics%tolerance
+      if (cycle%is_linear) problem%accuracy = 0.0_wp
+      options%tolerance = [numerics%tolerance*scale]
+      options%step = numerics%step
+      if (.not. cycle%is_linear) options%step = min(numerics%step, first_step)
+      options%max_step = largest_step
+   end subroutine choose_method
+
+   !> Speed of the roller's surface in pure rolling at a cam angle.
+   function rolling_speed_at_angle(model, angle) result(speed)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> Cam angle from full lift [rad]
+      real(wp), intent(in) :: angle
+      !> V_roll [m/s]
+      real(wp) :: speed
+
+      type(position_t) :: position
+      integer :: status
+
+      call evaluate_geometry(model, angle, position, status)
+      speed = rolling_speed_at(model, position)
+   end function rolling_speed_at_angle
+
    !> Stops of the run-up to a cycle: the last degrees before its start.
    pure function run_up_stops(stops) result(run_up)
       !> Stops of the cycle, with start and end [rad]
@@ -120,41 +204,39 @@ contains
    end function run_up_stops
 
    !> Angle of fastest decay with the algebraic balance there, and the scale of the sliding speed.
-   subroutine choose_start(problem, start, state, scale)
-      !> The roller's spin
-      type(spin_problem_t), intent(in) :: problem
+   subroutine choose_start(model, start, sliding_speed, scale)
+      !> The model
+      type(model_t), intent(in) :: model
       !> Cam angle from full lift [rad]
       real(wp), intent(out) :: start
-      !> State there [m/s]
-      real(wp), intent(out) :: state
+      !> Sliding speed there [m/s]
+      real(wp), intent(out) :: sliding_speed
       !> Largest sliding speed of the algebraic balance [m/s]
       real(wp), intent(out) :: scale
 
       type(position_t) :: position
-      ! Angle [rad], sliding speed [m/s], decay rate [1/rad], fastest of them
-      real(wp) :: angle, sliding_speed, decay_rate, fastest
-      ! Speed of pure rolling, largest of them [m/s]
-      real(wp) :: rolling_speed, largest_rolling
+      ! Angle [rad], sliding speed of the balance [m/s], decay rate [1/rad], fastest of them
+      real(wp) :: angle, balance, decay_rate, fastest
+      ! Largest speed of pure rolling [m/s]
+      real(wp) :: largest_rolling
       integer :: i
       logical :: is_found
 
       start = 0.0_wp
-      state = 0.0_wp
+      sliding_speed = 0.0_wp
       scale = 0.0_wp
       fastest = -1.0_wp
       largest_rolling = 0.0_wp
       do i = 0, balance_points - 1
          angle = -pi + (i + 0.5_wp)*two_pi/balance_points
-         call find_balance(problem%model, angle, position, sliding_speed, decay_rate, is_found)
-         rolling_speed = rolling_speed_at(problem%model, position)
-         largest_rolling = max(largest_rolling, abs(rolling_speed))
+         call find_balance(model, angle, position, balance, decay_rate, is_found)
+         largest_rolling = max(largest_rolling, abs(rolling_speed_at(model, position)))
          if (.not. is_found) cycle
-         scale = max(scale, abs(sliding_speed))
+         scale = max(scale, abs(balance))
          if (decay_rate > fastest) then
             fastest = decay_rate
             start = angle
-            state = sliding_speed
-            if (problem%has_surface_speed) state = rolling_speed - sliding_speed
+            sliding_speed = balance
          end if
       end do
       scale = max(scale, least_slip*largest_rolling)

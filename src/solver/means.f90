@@ -18,7 +18,7 @@ module camroller_means
    implicit none
    private
 
-   public :: statistics_t, integrate_lobe, mean_bearing_torque
+   public :: statistics_t, integrate_lobe, integrate_torques, mean_bearing_torque
 
    !> Means over the cycle of one lobe shape
    type :: statistics_t
@@ -37,7 +37,7 @@ module camroller_means
    !> Three-point Gauss-Legendre quadrature on [0, 1]: nodes and weights [-]
    real(wp), parameter :: gauss_nodes(3) = 0.5_wp*[1.0_wp - sqrt(0.6_wp), 1.0_wp, 1.0_wp + sqrt(0.6_wp)]
    real(wp), parameter :: gauss_weights(3) = [5.0_wp, 8.0_wp, 5.0_wp]/18.0_wp
-   !> Trapezoidal rule on [0, 1], points drawn inside so that kinks at the ends do not matter [-]
+   !> Trapezoidal rule on [0, 1] [-]
    real(wp), parameter :: trapezoid_nodes(2) = [0.0_wp, 1.0_wp]
    real(wp), parameter :: trapezoid_weights(2) = [0.5_wp, 0.5_wp]
    !> Longest panel for the camshaft bearings [rad]
@@ -60,33 +60,81 @@ contains
       !> Convergence error
       type(error_t), allocatable, intent(out) :: error
 
-      ! Rule on [0, 1]: nodes, weights [-]
-      real(wp), allocatable :: nodes(:), weights(:)
-      ! Length of the interval, angle [rad]; weight of the point over the cycle [-]
-      real(wp) :: length, angle, weight
-      integer :: interval, node, hint
+      ! Angles [rad] and weights [-] of the rule over the cycle
+      real(wp), allocatable :: angles(:), weights(:)
+      integer :: point, hint
 
       allocate (statistics%mean(series_count), statistics%lowest(series_count), statistics%highest(series_count))
       statistics%mean = 0.0_wp
       statistics%lowest = huge(1.0_wp)
       statistics%highest = -huge(1.0_wp)
-      nodes = gauss_nodes
-      weights = gauss_weights
-      if (cycle%is_linear) then
-         nodes = trapezoid_nodes
-         weights = trapezoid_weights
-      end if
+      call list_points(cycle, angles, weights)
       hint = 1
-      do interval = 1, cycle%trajectory%count - 1
-         length = cycle%trajectory%time(interval + 1) - cycle%trajectory%time(interval)
-         do node = 1, size(nodes)
-            angle = cycle%trajectory%time(interval) + nodes(node)*length
-            weight = weights(node)*length/two_pi
-            call add_point(case, model, cycle, angle, weight, hint, statistics, error)
-            if (allocated(error)) return
-         end do
+      do point = 1, size(angles)
+         call add_point(case, model, cycle, angles(point), weights(point), hint, statistics, error)
+         if (allocated(error)) return
       end do
    end subroutine integrate_lobe
+
+   !> Mean torques of a follower over a cycle or a piece of one.
+   subroutine integrate_torques(model, cycle, torques, error)
+      !> Model of the lobe
+      type(model_t), intent(in) :: model
+      !> Cycle or a piece of one
+      type(cycle_t), intent(in) :: cycle
+      !> Mean torques [N m], last the energy residual [W]
+      real(wp), intent(out) :: torques(torque_count)
+      !> Convergence error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(state_t) :: state
+      ! Angles [rad] and weights [-] of the rule
+      real(wp), allocatable :: angles(:), weights(:)
+      integer :: point, hint
+
+      torques = 0.0_wp
+      call list_points(cycle, angles, weights)
+      hint = 1
+      do point = 1, size(angles)
+         call state_at(cycle, model, angles(point), hint, state, error)
+         if (allocated(error)) return
+         torques = torques + weights(point)*follower_torques(state)
+      end do
+   end subroutine integrate_torques
+
+   !> Points and weights of the rule over all intervals of a trajectory; the weights add up to one.
+   pure subroutine list_points(cycle, angles, weights)
+      !> Cycle or a piece of one
+      type(cycle_t), intent(in) :: cycle
+      !> Cam angles from full lift [rad]
+      real(wp), allocatable, intent(out) :: angles(:)
+      !> Weights [-]
+      real(wp), allocatable, intent(out) :: weights(:)
+
+      ! Rule on [0, 1] [-]
+      real(wp), allocatable :: rule_nodes(:), rule_weights(:)
+      ! Length of an interval and of all [rad]
+      real(wp) :: length, span
+      integer :: interval, points, first
+
+      rule_nodes = gauss_nodes
+      rule_weights = gauss_weights
+      if (cycle%is_linear) then
+         rule_nodes = trapezoid_nodes
+         rule_weights = trapezoid_weights
+      end if
+      points = size(rule_nodes)
+      associate (times => cycle%trajectory%time(:cycle%trajectory%count))
+         span = times(size(times)) - times(1)
+         allocate (angles(points*(size(times) - 1)), weights(points*(size(times) - 1)))
+         do interval = 1, size(times) - 1
+            length = times(interval + 1) - times(interval)
+            first = points*(interval - 1)
+            angles(first + 1:first + points) = times(interval) + rule_nodes*length
+            weights(first + 1:first + points) = rule_weights*length/span
+         end do
+      end associate
+   end subroutine list_points
 
    !> Add one point of the rule.
    subroutine add_point(case, model, cycle, angle, weight, hint, statistics, error)

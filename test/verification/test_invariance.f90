@@ -200,12 +200,16 @@ contains
 
       case = thesis_case()
       call set_point(case, point_speeds(2), point_viscosities(1))
+      case%numerics%method = "rodas5p"
+      case%numerics%tolerance = 1.0e-10_wp
       deallocate (case%asperity, case%needle_bearing, case%valve_guide)
       call sample(case, expected, error)
       if (allocated(error)) return
 
       case = thesis_case()
       call set_point(case, point_speeds(2), point_viscosities(1))
+      case%numerics%method = "rodas5p"
+      case%numerics%tolerance = 1.0e-10_wp
       case%asperity%boundary_coefficient = 0.0_wp
       case%asperity%film_shear_strength = 0.0_wp
       ! asperities that carry nothing to speak of; a product of zero would be a smooth surface
@@ -222,7 +226,9 @@ contains
       ! torques that are zero in the one and 1e-12 of something in the other are judged by the contact's
       values(6:7, :) = values(6:7, :) + values(4:5, :)
       expected(6:7, :) = expected(6:7, :) + expected(4:5, :)
-      call compare(values, expected, 1.0e-10_wp, error)
+      ! the contact is solved to a part of the integration's tolerance, which the roller's inertia shows most: its torque is
+      ! the small difference of forces
+      call compare(values, expected, 1.0e-9_wp, error)
    end subroutine test_zero_effects
 
    subroutine test_mirror(error)
