@@ -40,6 +40,7 @@ program main
    use test_film_literature, only : collect_film_literature
    use test_roller_problem, only : collect_roller_problem
    use test_simulation, only : collect_simulation
+   use test_ode_special, only : collect_ode_special
    implicit none
 
    call run_command_line()
@@ -56,6 +57,7 @@ contains
          new_testsuite("error", collect_error), &
          new_testsuite("ode", collect_ode), &
          new_testsuite("ode_rosenbrock", collect_ode_rosenbrock), &
+         new_testsuite("ode_special", collect_ode_special), &
          new_testsuite("names", collect_names), &
          new_testsuite("version", collect_version), &
          new_testsuite("roots", collect_roots), &

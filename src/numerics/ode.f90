@@ -19,7 +19,7 @@ module camroller_ode
    type, abstract :: method_t
       !> Order of the error estimate plus one: the local error grows with the step to this power; 0 for a fixed step
       integer :: error_order = 0
-      !> Product of decay rate and step at which the method turns unstable [-]
+      !> Product of decay rate and step at which the method turns unstable; adaptive steps keep within it [-]
       real(wp) :: stability_limit = huge(1.0_wp)
       !> Does a step end with the rate at its end? Else the loop evaluates it, once the step is accepted
       logical :: gives_rate = .true.
@@ -46,6 +46,8 @@ module camroller_ode
       real(wp), allocatable :: tolerance(:)
       !> Step of a method without error estimate, first step of the others [time]
       real(wp) :: step = 0.0_wp
+      !> Is every step of that size, whatever its error? So it is for methods without error estimate
+      logical :: is_fixed = .false.
       !> Largest step [time]
       real(wp) :: max_step = huge(1.0_wp)
       !> Steps after which the integration is given up
@@ -189,7 +191,7 @@ contains
       has_jacobian = .false.
       was_rejected = .false.
       do
-         call choose_step(problem, method, options, time, finish, state, step, this_step, is_last)
+         call choose_step(problem, method, options, time, finish, state, step, this_step, is_last, counters)
          new_time = merge(finish, time + this_step, is_last)
          status = 0
          scaled_error = 0.0_wp
@@ -198,8 +200,8 @@ contains
             has_jacobian = .true.
          end if
          if (status == 0) then
-            call try_checked_step(problem, method, time, new_time, this_step, state, rate, new_state, new_rate, &
-               & scaled_error, counters, status)
+            call try_checked_step(problem, method, options, time, new_time, this_step, state, rate, new_state, &
+               & new_rate, scaled_error, counters, status)
          end if
          if (status /= 0) then
             call raise(error, kind_convergence, "the integration met a state that cannot be evaluated at "// &
@@ -210,7 +212,9 @@ contains
             state = new_state
             rate = new_rate
             call keep_point(method, time, state, rate, trajectory)
-            call adapt_step(method, this_step, is_last, was_rejected, scaled_error, last_error, step)
+            if (.not. is_fixed(method, options)) then
+               call adapt_step(method, this_step, is_last, was_rejected, scaled_error, last_error, step)
+            end if
             if (is_last) return
             has_jacobian = .false.
             was_rejected = .false.
@@ -224,6 +228,18 @@ contains
          if (allocated(error)) return
       end do
    end subroutine integrate_segment
+
+   !> Are the steps fixed, by choice or for want of an error estimate?
+   pure function is_fixed(method, options)
+      !> The method
+      class(method_t), intent(in) :: method
+      !> Tolerance or step
+      type(options_t), intent(in) :: options
+      !> Are they?
+      logical :: is_fixed
+
+      is_fixed = options%is_fixed .or. method%error_order == 0
+   end function is_fixed
 
    !> Append an accepted point to the trajectory, with the curve that the method has left, if any.
    pure subroutine keep_point(method, time, state, rate, trajectory)
@@ -248,7 +264,7 @@ contains
    !> Step that tolerance, largest step, stability and the end of the segment allow.
    !>
    !> A step that would leave a short remainder is cut to half of what is left.
-   subroutine choose_step(problem, method, options, time, finish, state, step, this_step, is_last)
+   subroutine choose_step(problem, method, options, time, finish, state, step, this_step, is_last, counters)
       !> The problem
       class(problem_t), intent(in) :: problem
       !> The method
@@ -267,29 +283,34 @@ contains
       real(wp), intent(out) :: this_step
       !> Does it end the segment?
       logical, intent(out) :: is_last
+      !> Work done
+      type(counters_t), intent(inout) :: counters
 
       ! Fastest decay rate [1/time]
       real(wp) :: decay_rate
 
       this_step = min(step, options%max_step)
-      if (method%error_order > 0 .and. method%stability_limit < huge(1.0_wp)) then
+      if (.not. is_fixed(method, options) .and. method%stability_limit < huge(1.0_wp)) then
          call problem%get_decay_rate(time, state, decay_rate)
+         counters%decay_rates = counters%decay_rates + 1
          if (decay_rate*this_step > stability_margin*method%stability_limit) then
             this_step = stability_margin*method%stability_limit/decay_rate
          end if
       end if
       is_last = time + this_step*(1.0_wp + 1.0e-9_wp) >= finish
       if (is_last) this_step = finish - time
-      if (.not. is_last .and. method%error_order > 0) this_step = min(this_step, 0.5_wp*(finish - time))
+      if (.not. (is_last .or. is_fixed(method, options))) this_step = min(this_step, 0.5_wp*(finish - time))
    end subroutine choose_step
 
    !> Try a step; a trial without a value, or with one that is no number, has an error far beyond its tolerance.
-   subroutine try_checked_step(problem, method, time, new_time, this_step, state, rate, new_state, new_rate, &
-      & scaled_error, counters, status)
+   subroutine try_checked_step(problem, method, options, time, new_time, this_step, state, rate, new_state, &
+      & new_rate, scaled_error, counters, status)
       !> The problem
       class(problem_t), intent(in) :: problem
       !> The method
       class(method_t), intent(inout) :: method
+      !> Tolerance or step
+      type(options_t), intent(in) :: options
       !> Time at the start and at the end of the step, its size [time]
       real(wp), intent(in) :: time, new_time, this_step
       !> State at the start [state]
@@ -316,7 +337,7 @@ contains
       scaled_error = impossible
       if (status == 0) then
          scaled_error = 0.0_wp
-         if (method%error_order > 0) scaled_error = maxval(abs(estimate)/method%tolerance)
+         if (.not. is_fixed(method, options)) scaled_error = maxval(abs(estimate)/method%tolerance)
          if (.not. all(abs(new_state) < huge(1.0_wp) .and. abs(estimate) < huge(1.0_wp))) scaled_error = impossible
       end if
       if (status == 0 .and. scaled_error <= 1.0_wp .and. .not. method%gives_rate) then
@@ -349,7 +370,6 @@ contains
       ! New step over this one, smallest error that counts [-]
       real(wp) :: factor, error_in_use
 
-      if (method%error_order == 0) return
       error_in_use = max(scaled_error, least_error)
       factor = safety*error_in_use**(-proportional/method%error_order)*last_error**(integral/method%error_order)
       factor = min(max_growth, max(max_shrinkage, factor))
@@ -381,7 +401,7 @@ contains
       !> Convergence error
       type(error_t), allocatable, intent(out) :: error
 
-      if (was_rejected .and. method%error_order == 0) then
+      if (was_rejected .and. is_fixed(method, options)) then
          call raise(error, kind_convergence, "a fixed step failed at "//problem%name_time(time))
       else if (counters%accepted + counters%rejected > options%max_steps) then
          call raise(error, kind_convergence, "the number of steps is used up at "//problem%name_time(time))

@@ -2,11 +2,14 @@
 !>
 !> Layer: numerics. In: a name. Out: a `method_t`. A new method is a file and a line here.
 module camroller_ode_methods
-   use camroller_error, only : error_t
+   use camroller_error, only : error_t, raise, kind_domain
    use camroller_names, only : name_length, find_name
    use camroller_ode, only : method_t
    use camroller_ode_explicit, only : explicit_method_t, new_explicit_method
    use camroller_ode_rosenbrock, only : rosenbrock_method_t, new_rosenbrock_method
+   use camroller_ode_implicit, only : radau_method_t, new_radau_method
+   use camroller_ode_stabilised, only : chebyshev_method_t, new_chebyshev_method
+   use camroller_ode_exponential, only : exponential_method_t, new_exponential_method
    implicit none
    private
 
@@ -20,19 +23,27 @@ module camroller_ode_methods
       integer :: order, companion_order
       !> Is it stable for every decay rate, whatever the step?
       logical :: is_stiffly_stable
+      !> Components it can have at most
+      integer :: max_components
       !> Where it is from
       character(len=80) :: source
    end type method_facts_t
 
+   !> No limit to the number of components
+   integer, parameter :: unlimited = huge(1)
+
    !> All methods
    type(method_facts_t), parameter :: method_facts(*) = [ &
-      & method_facts_t("rodas3", 3, 2, .true., "Sandu et al., Atmos. Environ. 31 (1997) 3459"), &
-      & method_facts_t("rodas4", 4, 3, .true., "Hairer and Wanner, Solving ODEs II (1996), VI.4"), &
-      & method_facts_t("rodas4p", 4, 3, .true., "Steinebach, TH Darmstadt, preprint 1741 (1995)"), &
-      & method_facts_t("rodas5p", 5, 4, .true., "Steinebach, BIT Numer. Math. 63 (2023) 27"), &
-      & method_facts_t("bogacki_shampine", 3, 2, .false., "Bogacki and Shampine, Appl. Math. Lett. 2 (1989) 321"), &
-      & method_facts_t("dormand_prince", 5, 4, .false., "Dormand and Prince, J. Comput. Appl. Math. 6 (1980) 19"), &
-      & method_facts_t("euler", 1, 0, .false., "Euler (1768), as in the source thesis")]
+      & method_facts_t("rodas3", 3, 2, .true., unlimited, "Sandu et al., Atmos. Environ. 31 (1997) 3459"), &
+      & method_facts_t("rodas4", 4, 3, .true., unlimited, "Hairer and Wanner, Solving ODEs II (1996), VI.4"), &
+      & method_facts_t("rodas4p", 4, 3, .true., unlimited, "Steinebach, TH Darmstadt, preprint 1741 (1995)"), &
+      & method_facts_t("rodas5p", 5, 4, .true., unlimited, "Steinebach, BIT Numer. Math. 63 (2023) 27"), &
+      & method_facts_t("radau5", 5, 3, .true., unlimited, "Hairer and Wanner, Solving ODEs II (1996), IV.8"), &
+      & method_facts_t("exprb32", 3, 2, .true., 1, "Hochbruck and Ostermann, Acta Numerica 19 (2010) 209"), &
+      & method_facts_t("rkc", 2, 2, .false., unlimited, "Sommeijer et al., J. Comput. Appl. Math. 88 (1998) 315"), &
+      & method_facts_t("bogacki_shampine", 3, 2, .false., unlimited, "Bogacki and Shampine, Appl. Math. Lett. 2 (1989) 321"), &
+      & method_facts_t("dormand_prince", 5, 4, .false., unlimited, "Dormand and Prince, J. Comput. Appl. Math. 6 (1980) 19"), &
+      & method_facts_t("euler", 1, 0, .false., unlimited, "Euler (1768), as in the source thesis")]
 
    !> Their names
    character(len=name_length), parameter :: method_names(*) = method_facts%name
@@ -47,20 +58,39 @@ contains
       character(len=*), intent(in) :: name
       !> Number of components of the state
       integer, intent(in) :: components
-      !> Deck error for an unknown name, with the list of the known ones
+      !> Deck error for an unknown name, with the list of the known ones; domain error for too many components
       type(error_t), allocatable, intent(out) :: error
 
       type(explicit_method_t), allocatable :: explicit_method
       type(rosenbrock_method_t), allocatable :: rosenbrock_method
+      type(radau_method_t), allocatable :: radau_method
+      type(chebyshev_method_t), allocatable :: chebyshev_method
+      type(exponential_method_t), allocatable :: exponential_method
       integer :: choice
 
       call find_name("integration method", name, method_names, choice, error)
       if (allocated(error)) return
+      if (components > method_facts(choice)%max_components) then
+         call raise(error, kind_domain, "integration method '"//trim(name)//"' is for a single unknown")
+         return
+      end if
       select case (name)
       case ("rodas3", "rodas4", "rodas4p", "rodas5p")
          allocate (rosenbrock_method)
          call new_rosenbrock_method(rosenbrock_method, name, components)
          call move_alloc(rosenbrock_method, method)
+      case ("radau5")
+         allocate (radau_method)
+         call new_radau_method(radau_method, components)
+         call move_alloc(radau_method, method)
+      case ("rkc")
+         allocate (chebyshev_method)
+         call new_chebyshev_method(chebyshev_method, components)
+         call move_alloc(chebyshev_method, method)
+      case ("exprb32")
+         allocate (exponential_method)
+         call new_exponential_method(exponential_method)
+         call move_alloc(exponential_method, method)
       case default
          allocate (explicit_method)
          call new_explicit_method(explicit_method, name, components)

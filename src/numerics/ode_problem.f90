@@ -27,6 +27,8 @@ module camroller_ode_problem
    type :: counters_t
       !> Calls of the right-hand side, those for difference quotients included
       integer :: evaluations = 0
+      !> Calls for the decay rate, which cost about as much as a call of the right-hand side
+      integer :: decay_rates = 0
       !> Jacobians formed
       integer :: jacobians = 0
       !> Matrices factorised

@@ -5,7 +5,7 @@ module ode_problems
    implicit none
    private
 
-   public :: decay_t, power_t, pair_t, switch_t, wall_t
+   public :: decay_t, rough_t, line_t, power_t, pair_t, switch_t, wall_t
 
    !> Calls that a problem has seen
    type, abstract, extends(problem_t) :: counted_t
@@ -25,6 +25,20 @@ module ode_problems
       procedure :: get_jacobian => decay_jacobian
    end type decay_t
 
+   !> The same with a Jacobian that is wrong by a factor
+   type, extends(decay_t) :: rough_t
+      real(wp) :: factor = 1.0_wp
+   contains
+      procedure :: get_jacobian => rough_jacobian
+   end type rough_t
+
+   !> y' = -decay (y - t) + 1, y = t + y(0) exp(-decay t)
+   type, extends(decay_t) :: line_t
+   contains
+      procedure :: get_rate => line_rate_of_change
+      procedure :: get_jacobian => line_jacobian
+   end type line_t
+
    !> y' = power t**(power - 1)
    type, extends(counted_t) :: power_t
       integer :: power = 1
@@ -33,7 +47,7 @@ module ode_problems
       procedure :: get_jacobian => power_jacobian
    end type power_t
 
-   !> y1' = y1**2/y2 cos t, y2' = y2 cos t: y1 = y2 = exp(sin t), with every derivative in play
+   !> y1' = y1**2/y2 cos t, y2' = y2 cos t: y1 = y2 = exp(sin t), with every derivative in play; alone y' = y**2 exp(-sin t) cos t
    type, extends(counted_t) :: pair_t
    contains
       procedure :: get_rate => pair_rate_of_change
@@ -141,6 +155,44 @@ contains
       status = 0
    end subroutine decay_jacobian
 
+   subroutine rough_jacobian(self, time, state, rate, horizon, jacobian, time_slope, counters, status)
+      class(rough_t), intent(in) :: self
+      real(wp), intent(in) :: time, state(:), rate(:), horizon
+      real(wp), intent(out) :: jacobian(:, :), time_slope(:)
+      type(counters_t), intent(inout) :: counters
+      integer, intent(out) :: status
+
+      call decay_jacobian(self, time, state, rate, horizon, jacobian, time_slope, counters, status)
+      jacobian = self%factor*jacobian
+   end subroutine rough_jacobian
+
+   subroutine line_rate_of_change(self, time, state, rate, status)
+      class(line_t), intent(in) :: self
+      real(wp), intent(in) :: time
+      real(wp), intent(in) :: state(:)
+      real(wp), intent(out) :: rate(:)
+      integer, intent(out) :: status
+
+      call self%count_call()
+      rate = -self%decay*(state - time) + 1.0_wp
+      status = 0
+   end subroutine line_rate_of_change
+
+   subroutine line_jacobian(self, time, state, rate, horizon, jacobian, time_slope, counters, status)
+      class(line_t), intent(in) :: self
+      real(wp), intent(in) :: time, state(:), rate(:), horizon
+      real(wp), intent(out) :: jacobian(:, :), time_slope(:)
+      type(counters_t), intent(inout) :: counters
+      integer, intent(out) :: status
+
+      associate (unused_time => time, unused_state => state, unused_rate => rate, unused_horizon => horizon)
+      end associate
+      jacobian = -self%decay
+      time_slope = self%decay
+      counters%jacobians = counters%jacobians + 1
+      status = 0
+   end subroutine line_jacobian
+
    subroutine power_rate_of_change(self, time, state, rate, status)
       class(power_t), intent(in) :: self
       real(wp), intent(in) :: time
@@ -179,7 +231,11 @@ contains
       integer, intent(out) :: status
 
       call self%count_call()
-      rate = [state(1)**2/state(2), state(2)]*cos(time)
+      if (size(state) == 1) then
+         rate = state**2*exp(-sin(time))*cos(time)
+      else
+         rate = [state(1)**2/state(2), state(2)]*cos(time)
+      end if
       status = 0
    end subroutine pair_rate_of_change
 

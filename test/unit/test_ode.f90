@@ -49,9 +49,10 @@ contains
       type(error_t), allocatable :: failure
 
       call new_method(method, name, size(state), failure)
-      options%tolerance = spread(1.0e20_wp, 1, size(state))
+      ! the tolerance of iterations
+      options%tolerance = spread(1.0e-12_wp, 1, size(state))
       options%step = step
-      options%max_step = step
+      options%is_fixed = .true.
       call integrate(problem, method, options, times, state, trajectory, counters, failure)
       if (allocated(failure)) state = -huge(1.0_wp)
    end subroutine integrate_evenly
@@ -60,12 +61,13 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(pair_t) :: problem
       type(trajectory_t) :: trajectory
-      real(wp) :: state(2), errors(2), order
+      real(wp), allocatable :: state(:)
+      real(wp) :: errors(2), order
       integer :: i, k
 
       do i = 1, size(method_names)
          do k = 1, 2
-            state = 1.0_wp
+            state = spread(1.0_wp, 1, min(2, method_facts(i)%max_components))
             call integrate_evenly(problem, method_names(i), 0.05_wp/2**(k - 1), [0.0_wp, 1.0_wp], state, trajectory)
             errors(k) = maxval(abs(state - exp(sin(1.0_wp))))
          end do
@@ -80,12 +82,13 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(pair_t) :: problem
       type(trajectory_t) :: trajectory
-      real(wp) :: state(2), errors(2), order, time
+      real(wp), allocatable :: state(:)
+      real(wp) :: errors(2), order, time
       integer :: i, k, n, hint
 
       do i = 1, size(method_names)
          do k = 1, 2
-            state = 1.0_wp
+            state = spread(1.0_wp, 1, min(2, method_facts(i)%max_components))
             trajectory%is_linear = method_facts(i)%companion_order == 0
             call integrate_evenly(problem, method_names(i), 0.05_wp/2**(k - 1), [0.0_wp, 1.0_wp], state, trajectory)
             errors(k) = 0.0_wp
@@ -320,17 +323,17 @@ contains
       type(counters_t) :: counters
       type(error_t), allocatable :: failure
       integer, target :: calls
-      real(wp) :: state(2)
+      real(wp), allocatable :: state(:)
       integer :: i
 
       problem%calls => calls
       do i = 1, size(method_names)
-         call new_method(method, method_names(i), 2, failure)
+         state = spread(1.0_wp, 1, min(2, method_facts(i)%max_components))
+         call new_method(method, method_names(i), size(state), failure)
          counters = counters_t()
          calls = 0
-         options%tolerance = [1.0e-6_wp, 1.0e-6_wp]
+         options%tolerance = spread(1.0e-6_wp, 1, size(state))
          options%step = 0.5_wp
-         state = 1.0_wp
          call integrate(problem, method, options, [0.0_wp, 1.0_wp, 2.5_wp], state, trajectory, counters, failure)
          call check(error, counters%evaluations == calls, trim(method_names(i))//" miscounts its evaluations")
          if (allocated(error)) return

@@ -1,0 +1,156 @@
+!> Exponential Rosenbrock method of order 3: the linear part of a step is solved exactly, the rest explicitly.
+!>
+!> Layer: numerics. In: nothing. Out: a `method_t` for problems of one component. With the Jacobian J and the slope with time v
+!> at the start of a step h, `z = h J` and `phi_k` the functions below, the stages are
+!>
+!>     U = y + h phi_1(z) f + h^2 phi_2(z) v,    D = f(t + h, U) - f - J (U - y) - h v,    y_new = U + 2 h phi_3(z) D
+!>
+!> U is a method of order 2 by itself, so that the last term is the error estimate. More components would need functions
+!> of matrices; Rosenbrock methods serve those.
+!>
+!> Source: Hochbruck and Ostermann, Acta Numerica 19 (2010) 209, section 2.4, method `exprb32`.
+module camroller_ode_exponential
+   use camroller_kinds, only : wp
+   use camroller_ode, only : problem_t, method_t, counters_t
+   implicit none
+   private
+
+   public :: exponential_method_t, new_exponential_method, phi_functions
+
+   !> The method; it needs no work space of its own
+   type, extends(method_t) :: exponential_method_t
+   contains
+      procedure :: try_step => try_exponential_step
+   end type exponential_method_t
+
+   !> Largest growth exponent of a step [-]; beyond it a smaller step is taken
+   real(wp), parameter :: largest_growth = 10.0_wp
+
+contains
+
+   !> Make the method.
+   pure subroutine new_exponential_method(method)
+      !> The method
+      type(exponential_method_t), intent(out) :: method
+
+      method%error_order = 3
+      method%gives_rate = .false.
+      method%needs_jacobian = .true.
+      method%has_curve = .true.
+      allocate (method%jacobian(1, 1), method%time_slope(1), method%bends(1, 3))
+   end subroutine new_exponential_method
+
+   !> `phi_1 = (exp(z) - 1)/z`, `phi_2 = (phi_1 - 1)/z`, `phi_3 = (phi_2 - 1/2)/z`.
+   !>
+   !> Near zero, where the differences would cancel, by the power series of phi_3 and the same recurrence backwards.
+   pure function phi_functions(z) result(phi)
+      !> Argument [-]
+      real(wp), intent(in) :: z
+      !> The three functions [-]
+      real(wp) :: phi(3)
+
+      ! Below this argument the series needs no more than its terms to be exact [-]
+      real(wp), parameter :: near = 1.0_wp
+      integer, parameter :: terms = 16
+      integer :: k
+
+      if (abs(z) < near) then
+         ! sum of z^k/(k + 3)!, from the smallest term on
+         phi(3) = 1.0_wp
+         do k = terms, 1, -1
+            phi(3) = 1.0_wp + z/(k + 3)*phi(3)
+         end do
+         phi(3) = phi(3)/6.0_wp
+         phi(2) = 0.5_wp + z*phi(3)
+         phi(1) = 1.0_wp + z*phi(2)
+      else
+         phi(1) = (exp(max(z, -700.0_wp)) - 1.0_wp)/z
+         phi(2) = (phi(1) - 1.0_wp)/z
+         phi(3) = (phi(2) - 0.5_wp)/z
+      end if
+   end function phi_functions
+
+   !> One step.
+   subroutine try_exponential_step(self, problem, time, state, rate, step, new_state, new_rate, error_estimate, &
+      counters, status)
+      !> The method and the Jacobian at this point
+      class(exponential_method_t), intent(inout) :: self
+      !> The problem
+      class(problem_t), intent(in) :: problem
+      !> Time at the start of the step [time]
+      real(wp), intent(in) :: time
+      !> State there [state]
+      real(wp), intent(in) :: state(:)
+      !> Rate there [state/time]
+      real(wp), intent(in) :: rate(:)
+      !> Size of the step [time]
+      real(wp), intent(in) :: step
+      !> State at the end [state]
+      real(wp), intent(out) :: new_state(:)
+      !> Left to the loop: zero [state/time]
+      real(wp), intent(out) :: new_rate(:)
+      !> Estimate of the error made in this step [state]
+      real(wp), intent(out) :: error_estimate(:)
+      !> Work done so far
+      type(counters_t), intent(inout) :: counters
+      !> 0 fine, positive: try a smaller step, negative: give up
+      integer, intent(out) :: status
+
+      ! Functions of h J [-], what is not linear in the rate at the end [state/time]
+      real(wp) :: phi(3), remainder(1), stage_rate(1)
+      ! h J [-]
+      real(wp) :: z
+
+      new_state = state
+      new_rate = 0.0_wp
+      error_estimate = 0.0_wp
+      z = step*self%jacobian(1, 1)
+      status = 1
+      if (z > largest_growth) return
+      phi = phi_functions(z)
+      counters%factorisations = counters%factorisations + 1
+      new_state = state + step*(phi(1)*rate + step*phi(2)*self%time_slope)
+      call problem%get_rate(time + step, new_state, stage_rate, status)
+      counters%evaluations = counters%evaluations + 1
+      if (status /= 0) return
+      remainder = stage_rate - rate - self%jacobian(1, 1)*(new_state - state) - step*self%time_slope
+      error_estimate = 2.0_wp*step*phi(3)*remainder
+      new_state = new_state + error_estimate
+      call bend_curve(self, state, rate, step, remainder, new_state)
+   end subroutine try_exponential_step
+
+   !> Bends of the polynomial through the method's own solution at the quarters of the step.
+   !>
+   !> Within the step the part that is not linear grows with the square of time. Fast transients, which the step itself takes
+   !> exactly, are not resolved between its ends; the step is short where they are large.
+   pure subroutine bend_curve(self, state, rate, step, remainder, new_state)
+      !> The method and the Jacobian at this point
+      class(exponential_method_t), intent(inout) :: self
+      !> State at the start [state]
+      real(wp), intent(in) :: state(:)
+      !> Rate there [state/time]
+      real(wp), intent(in) :: rate(:)
+      !> Size of the step [time]
+      real(wp), intent(in) :: step
+      !> What is not linear in the rate at the end [state/time]
+      real(wp), intent(in) :: remainder(1)
+      !> State at the end [state]
+      real(wp), intent(in) :: new_state(:)
+
+      ! Functions of the Jacobian [-], place on the step [-], part of the step [time], bends there [state]
+      real(wp) :: phi(3), place, part, bend(1, 3)
+      integer :: i
+
+      do i = 1, 3
+         place = 0.25_wp*i
+         part = place*step
+         phi = phi_functions(part*self%jacobian(1, 1))
+         bend(:, i) = part*(phi(1)*rate + part*phi(2)*self%time_slope + 2.0_wp*place**2*phi(3)*remainder)
+         bend(:, i) = (bend(:, i) - place*(new_state - state))/(place*(1.0_wp - place))
+      end do
+      self%bends(:, 3) = 8.0_wp*(bend(:, 1) - 2.0_wp*bend(:, 2) + bend(:, 3))
+      self%bends(:, 2) = 2.0_wp*(bend(:, 3) - bend(:, 1)) - self%bends(:, 3)
+      self%bends(:, 1) = bend(:, 2) - 0.5_wp*self%bends(:, 2) - 0.25_wp*self%bends(:, 3)
+   end subroutine bend_curve
+
+end module camroller_ode_exponential

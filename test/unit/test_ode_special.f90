@@ -1,0 +1,202 @@
+!> What is peculiar to single methods: stages by decay rate, functions of the Jacobian, iterations with a rough Jacobian.
+module test_ode_special
+   use testdrive, only : unittest_type, new_unittest, error_type, check
+   use camroller_kinds, only : wp
+   use camroller_error, only : error_t, kind_domain
+   use camroller_ode, only : method_t, options_t, counters_t, integrate
+   use camroller_ode_problem, only : problem_t
+   use camroller_ode_methods, only : new_method
+   use camroller_ode_exponential, only : phi_functions
+   use camroller_ode_stabilised, only : chebyshev_limit
+   use camroller_trajectory, only : trajectory_t, interpolate_state
+   use ode_problems, only : decay_t, line_t, rough_t
+   implicit none
+   private
+
+   public :: collect_ode_special
+
+contains
+
+   subroutine collect_ode_special(testsuite)
+      type(unittest_type), allocatable, intent(out) :: testsuite(:)
+
+      testsuite = [ &
+         new_unittest("rkc: stages grow with the root of decay rate times step, and no disturbance grows", test_stages), &
+         new_unittest("rkc: two stages where nothing decays", test_two_stages), &
+         new_unittest("exprb32: functions at known arguments, and no seam between series and recurrence", test_functions), &
+         new_unittest("exprb32: linear problems are solved exactly, the curve included", test_linear), &
+         new_unittest("exprb32: more than one unknown is refused", test_refusal), &
+         new_unittest("radau5: a rough Jacobian costs iterations, not accuracy", test_rough), &
+         new_unittest("radau5: without convergence the step becomes smaller", test_no_convergence) &
+         ]
+   end subroutine collect_ode_special
+
+   !> Integrate with steps of one size and count.
+   subroutine integrate_evenly(problem, name, step, finish, state, trajectory, counters, failure)
+      class(problem_t), intent(in) :: problem
+      character(len=*), intent(in) :: name
+      real(wp), intent(in) :: step, finish
+      real(wp), intent(inout) :: state(:)
+      type(trajectory_t), intent(inout) :: trajectory
+      type(counters_t), intent(out) :: counters
+      type(error_t), allocatable, intent(out) :: failure
+
+      class(method_t), allocatable :: method
+      type(options_t) :: options
+
+      call new_method(method, name, size(state), failure)
+      if (allocated(failure)) return
+      options%tolerance = spread(1.0e-9_wp, 1, size(state))
+      options%step = step
+      options%is_fixed = .true.
+      call integrate(problem, method, options, [0.0_wp, finish], state, trajectory, counters, failure)
+   end subroutine integrate_evenly
+
+   subroutine test_stages(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(decay_t) :: problem
+      type(trajectory_t) :: trajectory
+      type(counters_t) :: counters
+      type(error_t), allocatable :: failure
+      real(wp) :: state(1)
+      integer :: k, stages
+
+      do k = 1, 5
+         problem%decay = 10.0_wp**k
+         state = 2.0_wp
+         call integrate_evenly(problem, "rkc", 0.1_wp, 10.0_wp, state, trajectory, counters, failure)
+         call check(error, .not. allocated(failure), "fails")
+         if (allocated(error)) return
+         ! the damping takes 5 per cent or more of a disturbance away in each of 100 steps: 0.95^100 = 0.006
+         call check(error, abs(state(1) - cos(10.0_wp)) < 0.01_wp, "a disturbance grows")
+         if (allocated(error)) return
+         ! s stages with the start's rate known and the end's wanted, and the first point
+         stages = (counters%evaluations - 1)/counters%accepted
+         call check(error, chebyshev_limit(stages) >= 0.1_wp*problem%decay .and. &
+            & stages <= 2 + nint(sqrt(1.0_wp + 1.1_wp*1.54_wp*0.1_wp*problem%decay)), "number of stages")
+         if (allocated(error)) return
+      end do
+   end subroutine test_stages
+
+   subroutine test_two_stages(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(decay_t) :: problem
+      type(trajectory_t) :: trajectory
+      type(counters_t) :: counters
+      type(error_t), allocatable :: failure
+      real(wp) :: state(1)
+
+      problem%decay = 0.0_wp
+      state = 1.0_wp
+      call integrate_evenly(problem, "rkc", 0.1_wp, 1.0_wp, state, trajectory, counters, failure)
+      call check(error, .not. allocated(failure) .and. counters%evaluations == 2*counters%accepted + 1)
+   end subroutine test_two_stages
+
+   subroutine test_functions(error)
+      type(error_type), allocatable, intent(out) :: error
+      real(wp) :: phi(3), other(3)
+      integer :: i
+
+      phi = phi_functions(0.0_wp)
+      call check(error, all(abs(phi - [1.0_wp, 0.5_wp, 1.0_wp/6.0_wp]) < epsilon(1.0_wp)), "at zero")
+      if (allocated(error)) return
+      phi = phi_functions(-1.0_wp) - [1.0_wp - exp(-1.0_wp), exp(-1.0_wp), 0.5_wp - exp(-1.0_wp)]
+      call check(error, all(abs(phi) < 4.0_wp*epsilon(1.0_wp)), "at -1")
+      if (allocated(error)) return
+      ! limits: -1/z, -1/z - 1/z^2, -1/(2 z) - 1/z^2 - 1/z^3
+      phi = phi_functions(-1.0e5_wp) - [1.0e-5_wp, 1.0e-5_wp - 1.0e-10_wp, 0.5e-5_wp - 1.0e-10_wp + 1.0e-15_wp]
+      call check(error, all(abs(phi) < 4.0e-5_wp*epsilon(1.0_wp)), "at -100000")
+      if (allocated(error)) return
+      do i = -1, 1, 2
+         phi = phi_functions(real(i, wp))
+         other = phi_functions(i*(1.0_wp - epsilon(1.0_wp)))
+         ! the recurrence loses a figure of differences at arguments of one
+         call check(error, all(abs(phi - other) < 10.0_wp*epsilon(1.0_wp)), "seam")
+         if (allocated(error)) return
+      end do
+   end subroutine test_functions
+
+   subroutine test_linear(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(line_t) :: problem
+      type(trajectory_t) :: trajectory
+      type(counters_t) :: counters
+      type(error_t), allocatable :: failure
+      real(wp) :: state(1)
+      integer :: k, hint
+
+      do k = 0, 5
+         problem%decay = 10.0_wp**k
+         state = 1.0_wp
+         call integrate_evenly(problem, "exprb32", 0.5_wp, 1.0_wp, state, trajectory, counters, failure)
+         call check(error, .not. allocated(failure), "fails")
+         if (allocated(error)) return
+         ! sums of terms of the size of rate times step
+         call check(error, abs(state(1) - 1.0_wp - exp(-problem%decay)) < 10.0_wp*problem%decay*epsilon(1.0_wp), "end")
+         if (allocated(error)) return
+         ! from the second step on even the fastest disturbance has died out, and a straight line is left
+         hint = 1
+         call interpolate_state(trajectory, 0.8_wp, hint, state)
+         call check(error, k < 2 .or. abs(state(1) - 0.8_wp) < 10.0_wp*problem%decay*epsilon(1.0_wp), "curve")
+         if (allocated(error)) return
+      end do
+   end subroutine test_linear
+
+   subroutine test_refusal(error)
+      type(error_type), allocatable, intent(out) :: error
+      class(method_t), allocatable :: method
+      type(error_t), allocatable :: failure
+
+      call new_method(method, "exprb32", 2, failure)
+      call check(error, allocated(failure), "two unknowns accepted")
+      if (allocated(error)) return
+      call check(error, failure%kind == kind_domain .and. index(failure%message, "exprb32") > 0, failure%message)
+   end subroutine test_refusal
+
+   subroutine test_rough(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(rough_t) :: problem
+      type(trajectory_t) :: trajectory
+      type(counters_t) :: good, rough
+      type(error_t), allocatable :: failure
+      real(wp) :: state(1), reference
+
+      problem%decay = 1.0e3_wp
+      problem%factor = 1.0_wp
+      state = 1.0_wp
+      call integrate_evenly(problem, "radau5", 0.05_wp, 1.0_wp, state, trajectory, good, failure)
+      reference = state(1)
+      problem%factor = 1.2_wp
+      state = 1.0_wp
+      call integrate_evenly(problem, "radau5", 0.05_wp, 1.0_wp, state, trajectory, rough, failure)
+      call check(error, .not. allocated(failure), "fails")
+      if (allocated(error)) return
+      ! the tolerance of the iteration is a part of this
+      call check(error, abs(state(1) - reference) < 1.0e-9_wp, "another result")
+      if (allocated(error)) return
+      call check(error, rough%evaluations > good%evaluations, "the test cannot fail")
+   end subroutine test_rough
+
+   subroutine test_no_convergence(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(rough_t) :: problem
+      class(method_t), allocatable :: method
+      type(trajectory_t) :: trajectory
+      type(options_t) :: options
+      type(counters_t) :: counters
+      type(error_t), allocatable :: failure
+      real(wp) :: state(1)
+
+      problem%decay = 100.0_wp
+      problem%factor = -1.0_wp
+      call new_method(method, "radau5", 1, failure)
+      options%tolerance = [1.0e-6_wp]
+      options%step = 0.5_wp
+      state = 1.0_wp
+      call integrate(problem, method, options, [0.0_wp, 1.0_wp], state, trajectory, counters, failure)
+      call check(error, .not. allocated(failure) .and. counters%rejected > 0, "no step rejected")
+      if (allocated(error)) return
+      call check(error, abs(state(1) - cos(1.0_wp)) < 1.0e-5_wp, "wrong end")
+   end subroutine test_no_convergence
+
+end module test_ode_special
