@@ -16,17 +16,16 @@ module camroller_balance
 
    public :: find_balance
 
-   !> Accuracy of the sliding speed over the speed of pure rolling [-]: far below any slip of interest
-   real(wp), parameter :: slip_tolerance = 1.0e-14_wp
-
 contains
 
    !> Sliding speed of the algebraic balance at an angle.
-   subroutine find_balance(model, angle, position, sliding_speed, decay_rate, is_found)
+   subroutine find_balance(model, angle, tolerance, position, sliding_speed, decay_rate, is_found)
       !> The model
       type(model_t), intent(in) :: model
       !> Cam angle from full lift [rad]
       real(wp), intent(in) :: angle
+      !> Accuracy of the sliding speed over the speed of pure rolling [-]
+      real(wp), intent(in) :: tolerance
       !> Geometry there
       type(position_t), intent(out) :: position
       !> Sliding speed [m/s]; zero where there is none
@@ -49,11 +48,11 @@ contains
       call evaluate_loading(model, angle, position, force, moments, status)
       if (status /= 0) return
       limit = abs(rolling_speed_at(model, position))
-      call sliding_rate(model, position, moments, -limit, contact, rate_low)
-      call sliding_rate(model, position, moments, limit, contact, rate_high)
-      call start_bracket(bracket, -limit, limit, rate_low, rate_high, slip_tolerance*limit)
+      call sliding_rate(model, position, moments, -limit, tolerance, contact, rate_low)
+      call sliding_rate(model, position, moments, limit, tolerance, contact, rate_high)
+      call start_bracket(bracket, -limit, limit, rate_low, rate_high, tolerance*limit)
       do while (bracket%status == root_wanted)
-         call sliding_rate(model, position, moments, bracket%trial, contact, rate)
+         call sliding_rate(model, position, moments, bracket%trial, tolerance, contact, rate)
          call narrow_bracket(bracket, rate)
       end do
       is_found = bracket%status == root_found .and. contact%is_touching
@@ -63,7 +62,7 @@ contains
    end subroutine find_balance
 
    !> dV_s/dtheta at a sliding speed.
-   subroutine sliding_rate(model, position, moments, sliding_speed, contact, rate)
+   subroutine sliding_rate(model, position, moments, sliding_speed, accuracy, contact, rate)
       !> The model
       type(model_t), intent(in) :: model
       !> Geometry at this angle
@@ -72,6 +71,8 @@ contains
       type(moments_t), intent(in) :: moments
       !> Sliding speed [m/s]
       real(wp), intent(in) :: sliding_speed
+      !> Relative error of load and forces that is good enough [-]
+      real(wp), intent(in) :: accuracy
       !> State of the contact
       type(contact_t), intent(out) :: contact
       !> dV_s/dtheta [m/s/rad]
@@ -81,7 +82,7 @@ contains
       real(wp) :: acceleration
       integer :: status
 
-      call evaluate_spin(model, position, moments, sliding_speed, contact, acceleration, status)
+      call evaluate_spin(model, position, moments, sliding_speed, contact, acceleration, status, accuracy)
       rate = rolling_speed_slope(model, position) - model%roller_radius*acceleration/model%speed
    end subroutine sliding_rate
 

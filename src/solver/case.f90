@@ -37,7 +37,7 @@ module camroller_case
    !> How the case is integrated and reported
    type :: numerics_t
       !> One of `method_names`
-      character(len=name_length) :: method = "bogacki_shampine"
+      character(len=name_length) :: method = "rodas5p"
       !> Relative tolerance of the sliding speed over a step [-]; adaptive methods
       real(wp) :: tolerance = 1.0e-6_wp
       !> Cam angle of a step [rad]; method `euler`

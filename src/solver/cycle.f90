@@ -41,7 +41,9 @@ module camroller_cycle
    end type cycle_t
 
    !> Angles at which the algebraic balance is tried
-   integer, parameter :: balance_points = 72
+   integer, parameter :: balance_points = 36
+   !> Accuracy of the balance over the speed of pure rolling: for a scale, and for the start of the run-up [-]
+   real(wp), parameter :: scan_tolerance = 1.0e-5_wp, start_tolerance = 1.0e-10_wp
    !> Cam angle over which the difference between algebraic balance and periodic state decays before the cycle [rad]
    real(wp), parameter :: run_up_angle = 5.0_wp*degree
    !> Part of the integration's tolerance to which the contact is solved at each evaluation [-]
@@ -229,7 +231,7 @@ contains
       largest_rolling = 0.0_wp
       do i = 0, balance_points - 1
          angle = -pi + (i + 0.5_wp)*two_pi/balance_points
-         call find_balance(model, angle, position, balance, decay_rate, is_found)
+         call find_balance(model, angle, scan_tolerance, position, balance, decay_rate, is_found)
          largest_rolling = max(largest_rolling, abs(rolling_speed_at(model, position)))
          if (.not. is_found) cycle
          scale = max(scale, abs(balance))
@@ -240,6 +242,7 @@ contains
          end if
       end do
       scale = max(scale, least_slip*largest_rolling)
+      if (fastest >= 0.0_wp) call find_balance(model, start, start_tolerance, position, sliding_speed, decay_rate, is_found)
    end subroutine choose_start
 
    !> State of the follower at any cam angle.

@@ -45,6 +45,8 @@ module camroller_simulation
       type(state_t) :: state
    end type outcome_t
 
+   !> Accuracy of the algebraic balance over the speed of pure rolling [-]: far below any slip of interest
+   real(wp), parameter :: balance_tolerance = 1.0e-12_wp
    !> Longest piece that is integrated in one go [rad]
    real(wp), parameter :: longest_piece = pi
 
@@ -73,7 +75,7 @@ contains
       simulation%numerics = case%numerics
       simulation%angle = cam_angle
       call choose_start(simulation%model, unused, sliding_speed, simulation%scale)
-      call find_balance(simulation%model, cam_angle - pi, position, sliding_speed, decay_rate, is_found)
+      call find_balance(simulation%model, cam_angle - pi, balance_tolerance, position, sliding_speed, decay_rate, is_found)
       simulation%roller_spin = (rolling_speed_at(simulation%model, position) - sliding_speed)/simulation%model%roller_radius
    end subroutine start_simulation
 
