@@ -35,6 +35,8 @@ program main
    use test_ode, only : collect_ode
    use test_ode_rosenbrock, only : collect_ode_rosenbrock
    use test_energy, only : collect_energy
+   use test_lubricant, only : collect_lubricant
+   use test_hertz, only : collect_hertz
    use test_invariance, only : collect_invariance
    use test_magnitudes, only : collect_magnitudes
    use test_film_literature, only : collect_film_literature
@@ -82,6 +84,8 @@ contains
          new_testsuite("unit_rescaling_train", collect_unit_rescaling_train), &
          new_testsuite("derivatives", collect_derivatives), &
          new_testsuite("energy", collect_energy), &
+         new_testsuite("lubricant", collect_lubricant), &
+         new_testsuite("hertz", collect_hertz), &
          new_testsuite("invariance", collect_invariance), &
          new_testsuite("magnitudes", collect_magnitudes), &
          new_testsuite("film_literature", collect_film_literature), &

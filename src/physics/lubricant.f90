@@ -136,7 +136,7 @@ contains
       if (complete) complete = size(lubricant%temperature_points) == needed .and. size(lubricant%viscosity_points) == needed
       if (complete) return
       call raise(error, kind_deck, "lubricant: law '"//trim(lubricant%temperature_law)//"' takes "// &
-         & merge("three", "two  ", needed == 3)//" temperatures with as many viscosities")
+         & trim(merge("three", "two  ", needed == 3))//" temperatures with as many viscosities")
    end subroutine check_points
 
    !> Alpha from Roelands' index or the index from alpha: `Z = alpha p_r/(ln eta0 + 9.67)`.
