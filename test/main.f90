@@ -35,6 +35,8 @@ program main
    use test_ode, only : collect_ode
    use test_ode_rosenbrock, only : collect_ode_rosenbrock
    use test_energy, only : collect_energy
+   use test_load_share, only : collect_load_share
+   use test_film, only : collect_film
    use test_lubricant, only : collect_lubricant
    use test_hertz, only : collect_hertz
    use test_invariance, only : collect_invariance
@@ -84,6 +86,8 @@ contains
          new_testsuite("unit_rescaling_train", collect_unit_rescaling_train), &
          new_testsuite("derivatives", collect_derivatives), &
          new_testsuite("energy", collect_energy), &
+         new_testsuite("load_share", collect_load_share), &
+         new_testsuite("film", collect_film), &
          new_testsuite("lubricant", collect_lubricant), &
          new_testsuite("hertz", collect_hertz), &
          new_testsuite("invariance", collect_invariance), &

@@ -113,7 +113,7 @@ contains
          return
       end if
       shape%central = shape%central*(1.0_wp + shape%central_load_slope*film_load_slope/film_load*change)
-      call complete_share(line, load, asperity, start*(1.0_wp + change), load - film_load - film_load_slope*change, &
+      call complete_share(line, load, asperity, start*(1.0_wp + change), min(load - film_load - film_load_slope*change, load), &
          & -film_load_slope, shape, share)
    end subroutine improve_share
 
@@ -220,7 +220,8 @@ contains
                & /(1.0_wp - shape%minimum_load_slope*film_load_slope/film_load)
             if (abs(change) <= tolerance) then
                film_ratio = film_ratio*(1.0_wp + change)
-               asperity_load = load - film_load - film_load_slope*change
+               ! A film that carries next to nothing must not come out as carrying less
+               asperity_load = min(load - film_load - film_load_slope*change, load)
                shape%central = shape%central*(1.0_wp + shape%central_load_slope*film_load_slope/film_load*change)
                return
             end if
