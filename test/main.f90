@@ -35,6 +35,10 @@ program main
    use test_ode, only : collect_ode
    use test_ode_rosenbrock, only : collect_ode_rosenbrock
    use test_energy, only : collect_energy
+   use test_contact, only : collect_contact
+   use test_events, only : collect_events
+   use test_train, only : collect_train
+   use test_traction, only : collect_traction
    use test_load_share, only : collect_load_share
    use test_film, only : collect_film
    use test_lubricant, only : collect_lubricant
@@ -86,6 +90,10 @@ contains
          new_testsuite("unit_rescaling_train", collect_unit_rescaling_train), &
          new_testsuite("derivatives", collect_derivatives), &
          new_testsuite("energy", collect_energy), &
+         new_testsuite("contact", collect_contact), &
+         new_testsuite("events", collect_events), &
+         new_testsuite("train", collect_train), &
+         new_testsuite("traction", collect_traction), &
          new_testsuite("load_share", collect_load_share), &
          new_testsuite("film", collect_film), &
          new_testsuite("lubricant", collect_lubricant), &

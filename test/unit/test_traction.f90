@@ -1,0 +1,252 @@
+!> Friction of the contact: limits, caps, continuity.
+module test_traction
+   use testdrive, only : unittest_type, new_unittest, error_type, check
+   use camroller_kinds, only : wp, pi
+   use camroller_error, only : error_t
+   use camroller_lubricant, only : lubricant_t, oil_t, get_oil, mean_relative_viscosity
+   use camroller_traction, only : film_pressure, newtonian_shear, eyring_shear, limit_shear, mobilised_share, rolling_resistance, &
+      cap_smooth, cap_sharp, rolling_biboulet_houpert, rolling_goksem_hargreaves, rolling_none
+   implicit none
+   private
+
+   public :: collect_traction
+
+   !> A hundred roundings [-]
+   real(wp), parameter :: roundings = 100.0_wp*epsilon(1.0_wp)
+   !> A contact: peak pressure [Pa], area [m^2], film [m]
+   real(wp), parameter :: peak = 0.6e9_wp, area = 1.4e-6_wp, film = 1.2e-7_wp
+   !> E' [Pa], R and L [m], alpha [1/Pa]
+   real(wp), parameter :: modulus = 2.018e11_wp, radius = 5.0e-3_wp, length = 13.7e-3_wp, alpha = 2.2e-8_wp
+
+contains
+
+   subroutine collect_traction(testsuite)
+      type(unittest_type), allocatable, intent(out) :: testsuite(:)
+
+      testsuite = [ &
+         new_unittest("the film's half ellipse of pressure carries its load", test_film_pressure), &
+         new_unittest("Newtonian shear of a worked example", test_newtonian), &
+         new_unittest("an Eyring oil of large stress is Newtonian", test_eyring_newtonian), &
+         new_unittest("an Eyring oil under fast shear follows the logarithm", test_eyring_fast), &
+         new_unittest("Eyring shear is odd, rises with slip and stays below Newton's", test_eyring_shape), &
+         new_unittest("smooth cap: odd, below its limit, straight for small forces", test_smooth_cap), &
+         new_unittest("sharp cap: nothing below the limit, the limit above", test_sharp_cap), &
+         new_unittest("boundary friction is mobilised by slip, odd and saturating", test_mobilised), &
+         new_unittest("Goksem and Hargreaves' rolling resistance of a worked example", test_goksem), &
+         new_unittest("Biboulet and Houpert: rigid and elastic limits", test_biboulet_limits), &
+         new_unittest("Biboulet and Houpert: the formula as published", test_biboulet_formula), &
+         new_unittest("Biboulet and Houpert: both branches meet", test_biboulet_switch), &
+         new_unittest("no rolling resistance at standstill, without load or without a law", test_rolling_zero) &
+         ]
+   end subroutine collect_traction
+
+   !> Oil of the thesis at 60 degC.
+   subroutine make_oil(oil)
+      type(oil_t), intent(out) :: oil
+      type(lubricant_t) :: lubricant
+      type(error_t), allocatable :: failure
+
+      lubricant%viscosity = 0.0305_wp
+      lubricant%pressure_viscosity = alpha
+      call get_oil(lubricant, 333.15_wp, oil, failure)
+      if (allocated(failure)) error stop "a valid oil is refused"
+   end subroutine make_oil
+
+   subroutine test_film_pressure(error)
+      type(error_type), allocatable, intent(out) :: error
+
+      ! pi/4 of the peak is the mean
+      call check(error, 0.25_wp*pi*film_pressure(500.0_wp, 1.5e-6_wp, 0.2e-6_wp)*1.3e-6_wp, 500.0_wp, thr=roundings, rel=.true.)
+   end subroutine test_film_pressure
+
+   subroutine test_newtonian(error)
+      type(error_type), allocatable, intent(out) :: error
+
+      ! 0.1 m/s over 0.1 um is 1e6 1/s; 100 Pa s makes 1e8 Pa; over 1 mm^2 100 N
+      call check(error, newtonian_shear(0.1_wp, 100.0_wp, 1.0e-6_wp, 1.0e-7_wp), 100.0_wp, thr=roundings, rel=.true.)
+   end subroutine test_newtonian
+
+   subroutine test_eyring_newtonian(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(oil_t) :: oil
+      real(wp) :: force, slope, peak_slope, mean, log_slope
+      integer :: i
+
+      call make_oil(oil)
+      call mean_relative_viscosity(oil, peak, mean, log_slope)
+      do i = 0, 2
+         ! asinh(x)/x = 1 - x^2/6, with x = eta V_s/(h tau_E) up to 2e-6
+         call eyring_shear(1.0e-4_wp*10.0_wp**i, oil, peak, area, film, 1.0e16_wp, force, slope, peak_slope)
+         call check(error, force, newtonian_shear(1.0e-4_wp*10.0_wp**i, oil%viscosity*mean, area, film), thr=1.0e-11_wp, &
+            rel=.true.)
+         if (allocated(error)) return
+         call check(error, slope, newtonian_shear(1.0_wp, oil%viscosity*mean, area, film), thr=1.0e-11_wp, rel=.true.)
+         if (allocated(error)) return
+         ! the rule of 24 points against Cameron's polynomial
+         call check(error, peak_slope, force*log_slope, thr=1.0e-11_wp, rel=.true.)
+         if (allocated(error)) return
+      end do
+   end subroutine test_eyring_newtonian
+
+   subroutine test_eyring_fast(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(oil_t) :: oil
+      real(wp) :: force, faster, slope, peak_slope
+      real(wp), parameter :: stress = 1.0e3_wp
+
+      call make_oil(oil)
+      call eyring_shear(10.0_wp, oil, peak, area, film, stress, force, slope, peak_slope)
+      call eyring_shear(20.0_wp, oil, peak, area, film, stress, faster, slope, peak_slope)
+      ! asinh(x) = ln(2 x) + 1/(4 x^2), and even the ambient oil at the edges has x = 2500: 4e-8
+      call check(error, faster - force, area*stress*log(2.0_wp), thr=1.0e-7_wp, rel=.true.)
+      if (allocated(error)) return
+      call check(error, slope, area*stress/20.0_wp, thr=1.0e-7_wp, rel=.true.)
+   end subroutine test_eyring_fast
+
+   subroutine test_eyring_shape(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(oil_t) :: oil
+      real(wp) :: force, opposite, slope, before, newtonian, mean, log_slope, peak_slope
+      integer :: i
+
+      call make_oil(oil)
+      call mean_relative_viscosity(oil, peak, mean, log_slope)
+      before = 0.0_wp
+      do i = -6, 1
+         newtonian = newtonian_shear(10.0_wp**i, oil%viscosity*mean, area, film)
+         call eyring_shear(10.0_wp**i, oil, peak, area, film, 5.0e6_wp, force, slope, peak_slope)
+         call eyring_shear(-10.0_wp**i, oil, peak, area, film, 5.0e6_wp, opposite, slope, peak_slope)
+         call check(error, force > before .and. force <= newtonian*(1.0_wp + 1.0e-12_wp), "shape")
+         if (allocated(error)) return
+         call check(error, opposite, -force, thr=roundings, rel=.true.)
+         if (allocated(error)) return
+         before = force
+      end do
+   end subroutine test_eyring_shape
+
+   subroutine test_smooth_cap(error)
+      type(error_type), allocatable, intent(out) :: error
+      real(wp) :: force, slope, limit_slope
+      integer :: sign
+
+      do sign = -1, 1, 2
+         force = sign*1.0e-3_wp
+         call limit_shear(cap_smooth, 50.0_wp, force, slope, limit_slope)
+         ! F (1 - (F/lim)^2/3)
+         call check(error, force, sign*1.0e-3_wp*(1.0_wp - 4.0e-10_wp/3.0_wp), thr=roundings, rel=.true.)
+         if (allocated(error)) return
+         force = sign*50.0_wp
+         call limit_shear(cap_smooth, 50.0_wp, force, slope, limit_slope)
+         call check(error, force, sign*50.0_wp*tanh(1.0_wp), thr=roundings, rel=.true.)
+         if (allocated(error)) return
+         force = sign*1.0e9_wp
+         call limit_shear(cap_smooth, 50.0_wp, force, slope, limit_slope)
+         call check(error, force, sign*50.0_wp, thr=roundings, rel=.true.)
+         if (allocated(error)) return
+         call check(error, abs(slope) <= 0.0_wp .and. abs(limit_slope - sign) <= roundings, "slopes at the limit")
+         if (allocated(error)) return
+      end do
+   end subroutine test_smooth_cap
+
+   subroutine test_sharp_cap(error)
+      type(error_type), allocatable, intent(out) :: error
+      real(wp) :: forces(5), slopes(5), limit_slopes(5)
+
+      forces = [-80.0_wp, -49.0_wp, 0.0_wp, 50.0_wp, 50.1_wp]
+      call limit_shear(cap_sharp, 50.0_wp, forces, slopes, limit_slopes)
+      call check(error, all(abs(forces - [-50.0_wp, -49.0_wp, 0.0_wp, 50.0_wp, 50.0_wp]) <= 0.0_wp), "forces")
+      if (allocated(error)) return
+      call check(error, all(abs(slopes - [0.0_wp, 1.0_wp, 1.0_wp, 1.0_wp, 0.0_wp]) <= 0.0_wp), "slopes")
+      if (allocated(error)) return
+      call check(error, all(abs(limit_slopes - [-1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp]) <= 0.0_wp), "slopes over the limit")
+   end subroutine test_sharp_cap
+
+   subroutine test_mobilised(error)
+      type(error_type), allocatable, intent(out) :: error
+
+      call check(error, mobilised_share(1.0e-3_wp, 1.0e-3_wp), tanh(1.0_wp), thr=roundings, rel=.true.)
+      if (allocated(error)) return
+      call check(error, mobilised_share(-1.0e-3_wp, 1.0e-3_wp), -tanh(1.0_wp), thr=roundings, rel=.true.)
+      if (allocated(error)) return
+      call check(error, mobilised_share(1.0_wp, 1.0e-3_wp), 1.0_wp, thr=roundings)
+      if (allocated(error)) return
+      call check(error, abs(mobilised_share(0.0_wp, 1.0e-3_wp)) <= 0.0_wp)
+   end subroutine test_mobilised
+
+   !> Rolling resistance over E' R L.
+   function rolling(law, speed, load) result(force)
+      integer, intent(in) :: law
+      real(wp), intent(in) :: speed, load
+      real(wp) :: force
+      real(wp) :: slope
+
+      call rolling_resistance(law, speed, load, modulus, radius, length, alpha, force, slope)
+      force = force/(modulus*radius*length)
+   end function rolling
+
+   subroutine test_goksem(error)
+      type(error_type), allocatable, intent(out) :: error
+      real(wp) :: force, slope
+
+      ! G U = 1e-7, W* = 1: 4.318 10^(-4.606) L R/alpha = 4.318 2.477422e-5 3.113636e3
+      call rolling_resistance(rolling_goksem_hargreaves, 1.0e-7_wp/(alpha*modulus), 1.0_wp, modulus, radius, length, alpha, &
+         force, slope)
+      call check(error, force, 0.3330815_wp, thr=1.0e-6_wp, rel=.true.)
+      if (allocated(error)) return
+      call check(error, rolling(rolling_goksem_hargreaves, 1.0e-11_wp, 4.0e-4_wp) &
+         /rolling(rolling_goksem_hargreaves, 1.0e-11_wp, 1.0e-4_wp), 4.0_wp**0.0126_wp, thr=roundings, rel=.true.)
+   end subroutine test_goksem
+
+   subroutine test_biboulet_limits(error)
+      type(error_type), allocatable, intent(out) :: error
+
+      ! M2 = 1e-3 and 1e3: the other limit counts for M2^(-5)/10
+      call check(error, rolling(rolling_biboulet_houpert, 0.5e-12_wp, 1.0e-9_wp), 1.4_wp*sqrt(1.0e-12_wp*1.0e-9_wp), &
+         thr=1.0e-14_wp, rel=.true.)
+      if (allocated(error)) return
+      call check(error, rolling(rolling_biboulet_houpert, 0.5e-12_wp, 1.0e-3_wp), 1.45_wp*1.0e-9_wp, thr=1.0e-14_wp, rel=.true.)
+   end subroutine test_biboulet_limits
+
+   subroutine test_biboulet_formula(error)
+      type(error_type), allocatable, intent(out) :: error
+      ! U2 = 2 U; M2 [-]
+      real(wp), parameter :: u2 = 3.0e-11_wp
+      real(wp) :: m2, load
+      integer :: i
+
+      do i = -8, 12
+         m2 = 10.0_wp**(0.25_wp*i)
+         load = m2*sqrt(u2)
+         call check(error, rolling(rolling_biboulet_houpert, 0.5_wp*u2, load), load**1.5_wp*m2**(-1.5_wp)*1.4_wp*sqrt(m2) &
+            /(1.0_wp + (1.4_wp/1.45_wp*sqrt(m2))**10)**0.1_wp, thr=roundings, rel=.true.)
+         if (allocated(error)) return
+      end do
+   end subroutine test_biboulet_formula
+
+   subroutine test_biboulet_switch(error)
+      type(error_type), allocatable, intent(out) :: error
+      ! Load group at which the branches meet [-]
+      real(wp) :: load, left, right, left_slope, right_slope
+
+      load = sqrt(2.0e-12_wp)*(1.45_wp/1.4_wp)**2
+      call rolling_resistance(rolling_biboulet_houpert, 1.0e-12_wp, load*(1.0_wp - 1.0e-14_wp), modulus, radius, length, alpha, &
+         left, left_slope)
+      call rolling_resistance(rolling_biboulet_houpert, 1.0e-12_wp, load*(1.0_wp + 1.0e-14_wp), modulus, radius, length, alpha, &
+         right, right_slope)
+      call check(error, right, left, thr=roundings, rel=.true.)
+      if (allocated(error)) return
+      call check(error, right_slope, left_slope, thr=1.0e-13_wp)
+   end subroutine test_biboulet_switch
+
+   subroutine test_rolling_zero(error)
+      type(error_type), allocatable, intent(out) :: error
+      integer :: law
+
+      do law = 1, 3
+         call check(error, abs(rolling(law, 0.0_wp, 1.0e-4_wp)) <= 0.0_wp .and. abs(rolling(law, 1.0e-11_wp, 0.0_wp)) <= 0.0_wp)
+         if (allocated(error)) return
+      end do
+      call check(error, abs(rolling(rolling_none, 1.0e-11_wp, 1.0e-4_wp)) <= 0.0_wp)
+   end subroutine test_rolling_zero
+
+end module test_traction

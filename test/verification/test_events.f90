@@ -1,0 +1,355 @@
+!> Events and refusals that depend on the whole model: stops, undercut, margin against loss of contact, contradictions.
+module test_events
+   use testdrive, only : unittest_type, new_unittest, error_type, check, test_failed
+   use camroller_kinds, only : wp, pi, two_pi, degree
+   use camroller_error, only : error_t, kind_deck, kind_domain
+   use camroller_case, only : case_t
+   use camroller_model, only : model_t, new_model
+   use camroller_kinematics, only : position_t, rotation_names
+   use camroller_dynamics, only : moments_t
+   use camroller_state, only : state_t, evaluate_state, evaluate_loading
+   use camroller_events, only : margin_t, find_stops, find_stops_between, cycle_stops, check_geometry, find_margin
+   use closeness, only : check_close, check_scaled, expect_error, expect_success
+   use reference_cases, only : thesis_case, source_case, skewed_case, make_model, set_point, point_speeds, point_viscosities
+   implicit none
+   private
+
+   public :: collect_events
+
+contains
+
+   subroutine collect_events(testsuite)
+      type(unittest_type), allocatable, intent(out) :: testsuite(:)
+
+      testsuite = [ &
+         new_unittest("edges of the event and the valve's leaving its seat are stops", test_stops), &
+         new_unittest("loss and return of contact are stops", test_loss_stops), &
+         new_unittest("stops of a cycle begin anywhere and keep their order", test_cycle_stops), &
+         new_unittest("stops between two angles over several turns", test_stops_between), &
+         new_unittest("an undercut cam is refused with its angle", test_undercut), &
+         new_unittest("a hollow flank refuses a large grinding wheel and takes a small one", test_wheel), &
+         new_unittest("a lift out of reach is refused with its angle", test_reach), &
+         new_unittest("the margin is the smallest load, and contact is lost at its speed", test_margin), &
+         new_unittest("without negative inertia forces contact is never lost", test_no_loss_speed), &
+         new_unittest("a closed energy balance refuses what it cannot have, all at once", test_contradictions), &
+         new_unittest("an adjuster that lifts the valve is refused with both forces", test_adjuster), &
+         new_unittest("unknown names list the known ones", test_names), &
+         new_unittest("numbers that cannot be are refused", test_numbers) &
+         ]
+   end subroutine collect_events
+
+   subroutine test_stops(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: case
+      type(model_t) :: model
+      real(wp), allocatable :: stops(:)
+      ! Angle at which the valve has left its seat [rad]: 9.5 mm (1 - x^2)^4 is the seat lift
+      real(wp) :: seat_angle, expected(4)
+      integer :: i
+
+      case = thesis_case()
+      call make_model(case, model, error)
+      if (allocated(error)) return
+      call find_stops(model, stops)
+      call check(error, size(stops), 4)
+      if (allocated(error)) return
+      seat_angle = 70.0_wp*degree*sqrt(1.0_wp - (model%train%seat_lift/9.5e-3_wp)**0.25_wp)
+      expected = [-70.0_wp*degree, -seat_angle, seat_angle, 70.0_wp*degree]
+      do i = 1, 4
+         ! the lift at the seat is flat: 35 um with a slope of 1e-3 m/rad, and both angles carry roundings
+         call check_scaled(error, stops(i), expected(i), 1.0_wp, 1.0e-13_wp, "a stop")
+         if (allocated(error)) return
+      end do
+   end subroutine test_stops
+
+   subroutine test_loss_stops(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: case
+      type(model_t) :: model
+      type(state_t) :: before, after
+      type(position_t) :: position
+      type(moments_t) :: moments
+      real(wp), allocatable :: stops(:)
+      real(wp) :: force
+      integer :: i, status, losses
+
+      case = thesis_case()
+      deallocate (case%valve_guide)
+      call set_point(case, 6.0_wp*point_speeds(3), point_viscosities(2))
+      call make_model(case, model, error)
+      if (allocated(error)) return
+      call find_stops(model, stops)
+      losses = 0
+      do i = 1, size(stops)
+         call evaluate_state(model, stops(i) - 1.0e-9_wp, 0.0_wp, before, status)
+         call evaluate_state(model, stops(i) + 1.0e-9_wp, 0.0_wp, after, status)
+         if (before%contact%is_touching .eqv. after%contact%is_touching) cycle
+         losses = losses + 1
+         call evaluate_loading(model, stops(i), position, force, moments, status)
+         call check_scaled(error, moments%total, 0.0_wp, moments%spring, 1.0e-13_wp, "moment where contact changes")
+         if (allocated(error)) return
+      end do
+      call check(error, losses >= 2 .and. mod(losses, 2) == 0, "contact is not lost and found again")
+   end subroutine test_loss_stops
+
+   subroutine test_cycle_stops(error)
+      type(error_type), allocatable, intent(out) :: error
+      real(wp), parameter :: stops(4) = [-1.2_wp, -0.9_wp, 0.9_wp, 1.2_wp]
+      real(wp) :: start
+      real(wp), allocatable :: ahead(:)
+      integer :: i, k
+
+      do i = -9, 9
+         start = 0.7_wp*i
+         ahead = cycle_stops(stops, start)
+         call check(error, size(ahead), 6)
+         if (allocated(error)) return
+         call check(error, abs(ahead(1) - start) <= 0.0_wp .and. abs(ahead(6) - start - two_pi) < 1.0e-14_wp .and. &
+            all(ahead(2:) > ahead(:5)), "order")
+         if (allocated(error)) return
+         do k = 2, 5
+            call check(error, minval(abs(modulo(ahead(k) - stops + pi, two_pi) - pi)) < 1.0e-14_wp, "a stop has moved")
+            if (allocated(error)) return
+         end do
+      end do
+   end subroutine test_cycle_stops
+
+   subroutine test_stops_between(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: case
+      type(model_t) :: model
+      real(wp), allocatable :: once(:), stops(:)
+      integer :: turn
+
+      case = thesis_case()
+      call make_model(case, model, error)
+      if (allocated(error)) return
+      call find_stops(model, once)
+      call find_stops_between(model, -pi, 5.0_wp*pi, stops)
+      call check(error, size(stops), 3*size(once) + 2)
+      if (allocated(error)) return
+      do turn = 0, 2
+         call check(error, all(abs(stops(2 + turn*size(once):1 + (turn + 1)*size(once)) - once - turn*two_pi) < 1.0e-12_wp), &
+            "stops of a turn")
+         if (allocated(error)) return
+      end do
+   end subroutine test_stops_between
+
+   subroutine test_undercut(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: case
+      type(model_t) :: model
+      type(error_t), allocatable :: failure
+
+      case = thesis_case()
+      call make_model(case, model, error)
+      if (allocated(error)) return
+      call check_geometry(model, 0.0_wp, failure)
+      call expect_success(error, failure)
+      if (allocated(error)) return
+      ! a shorter event of the same lift has too sharp a nose: undercut round 180 deg
+      case%lift%opening_half_angle = 36.0_wp*degree
+      case%lift%closing_half_angle = 36.0_wp*degree
+      call make_model(case, model, error)
+      if (allocated(error)) return
+      call check_geometry(model, 0.0_wp, failure)
+      call expect_error(error, failure, kind_domain, "undercut")
+      if (allocated(error)) return
+      call check(error, index(failure%message, " at cam angle 1") > 0 .and. index(failure%message, " deg") > 0, failure%message)
+   end subroutine test_undercut
+
+   subroutine test_wheel(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: case
+      type(model_t) :: model
+      type(position_t) :: position
+      type(moments_t) :: moments
+      type(error_t), allocatable :: failure
+      ! Smallest pitch curvature [1/m]; largest wheel [m]; gas force [N]
+      real(wp) :: hollow, largest, force
+      integer :: i, status
+
+      case = skewed_case(rotation_names(1))
+      call make_model(case, model, error)
+      if (allocated(error)) return
+      hollow = 0.0_wp
+      do i = 0, 1439
+         call evaluate_loading(model, -pi + i*two_pi/1440, position, force, moments, status)
+         hollow = min(hollow, position%pitch_curvature)
+      end do
+      if (hollow >= 0.0_wp) call test_failed(error, "this geometry has no hollow flank")
+      if (allocated(error)) return
+      ! radius of the flank: that of the pitch curve and the roller's
+      largest = -1.0_wp/hollow + case%mechanism%roller_radius
+      call check_geometry(model, 0.999_wp*largest, failure)
+      call expect_success(error, failure)
+      if (allocated(error)) return
+      call check_geometry(model, 1.001_wp*largest, failure)
+      call expect_error(error, failure, kind_domain, "grinding wheel")
+   end subroutine test_wheel
+
+   subroutine test_reach(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: case
+      type(model_t) :: model
+      type(error_t), allocatable :: failure
+
+      case = thesis_case()
+      case%lift%max_lift = 45.0e-3_wp
+      call make_model(case, model, error)
+      if (allocated(error)) return
+      call check_geometry(model, 0.0_wp, failure)
+      call expect_error(error, failure, kind_domain, "at cam angle")
+   end subroutine test_reach
+
+   subroutine test_margin(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: case
+      type(model_t) :: model
+      type(margin_t) :: margin, at_loss
+      integer :: i
+
+      do i = 1, 2
+         case = thesis_case()
+         if (i == 2) case = skewed_case(rotation_names(2))
+         call make_model(case, model, error)
+         if (allocated(error)) return
+         call find_margin(model, margin)
+         call check(error, margin%smallest_load > 0.0_wp .and. margin%contact_loss_speed > model%speed, "contact at this speed")
+         if (allocated(error)) return
+         ! at the speed of first loss the smallest load is zero; the parabola through a scan of a quarter of a degree leaves 1e-4
+         ! of the spring's load
+         call set_point(case, margin%contact_loss_speed, point_viscosities(2))
+         call make_model(case, model, error)
+         if (allocated(error)) return
+         call find_margin(model, at_loss)
+         call check_scaled(error, at_loss%smallest_load, 0.0_wp, 500.0_wp, 1.0e-4_wp, "smallest load at the speed of loss")
+         if (allocated(error)) return
+         call check_close(error, at_loss%contact_loss_speed, margin%contact_loss_speed, 1.0e-6_wp, "speed of loss")
+         if (allocated(error)) return
+      end do
+   end subroutine test_margin
+
+   subroutine test_no_loss_speed(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: case
+      type(model_t) :: model
+      type(margin_t) :: margin
+
+      case = thesis_case()
+      case%masses%valve = 0.0_wp
+      case%masses%finger = 0.0_wp
+      call make_model(case, model, error)
+      if (allocated(error)) return
+      call find_margin(model, margin)
+      call check(error, margin%contact_loss_speed > huge(1.0_wp), "a speed is given")
+      if (allocated(error)) return
+      call check_close(error, margin%smallest_load, case%spring%base_circle_load, 1.0e-12_wp, "smallest load")
+   end subroutine test_no_loss_speed
+
+   !> A case is refused with a kind and words.
+   subroutine refused(case, kind, words, error)
+      type(case_t), intent(in) :: case
+      integer, intent(in) :: kind
+      character(len=*), intent(in) :: words
+      type(error_type), allocatable, intent(out) :: error
+      type(model_t) :: model
+      type(error_t), allocatable :: failure
+
+      call new_model(model, case, case%lift, failure)
+      call expect_error(error, failure, kind, words)
+   end subroutine refused
+
+   subroutine test_contradictions(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: case
+      character(len=28), parameter :: words(5) = [character(len=28) :: "load_arm 'exact'", "spin 'exact'", &
+         "in_roller_balance = .true.", "seating 'continuous'", "boundary 'mobilised'"]
+      integer :: i
+
+      case = source_case()
+      case%traction%in_roller_balance = .false.
+      case%spring%seating = "maximum"
+      case%energy = "consistent"
+      do i = 1, size(words)
+         call refused(case, kind_deck, trim(words(i)), error)
+         if (allocated(error)) return
+      end do
+   end subroutine test_contradictions
+
+   subroutine test_adjuster(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: case
+      type(model_t) :: model
+
+      case = thesis_case()
+      case%spring%stiffness = 2500.0_wp
+      call refused(case, kind_deck, "37.5 N, the closed spring holds 21.0 N", error)
+      if (allocated(error)) return
+      case = source_case()
+      case%spring%stiffness = 2500.0_wp
+      case%spring%seating = "maximum"
+      call make_model(case, model, error)
+   end subroutine test_adjuster
+
+   subroutine test_names(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: case
+
+      case = thesis_case()
+      case%film%law = "dowson"
+      call refused(case, kind_deck, "masjedi_khonsari_rough", error)
+      if (allocated(error)) return
+      case = thesis_case()
+      case%traction%cap = "hard"
+      call refused(case, kind_deck, "sharp", error)
+      if (allocated(error)) return
+      case = thesis_case()
+      case%traction%shear_law = "ering"
+      call refused(case, kind_deck, "eyring", error)
+      if (allocated(error)) return
+      case = thesis_case()
+      case%asperity%boundary = "none"
+      call refused(case, kind_deck, "mobilised", error)
+      if (allocated(error)) return
+      case = thesis_case()
+      case%needle_bearing%kind = "balls"
+      call refused(case, kind_deck, "plain_pin", error)
+      if (allocated(error)) return
+      case = thesis_case()
+      case%energy = "thesis"
+      call refused(case, kind_deck, "source", error)
+   end subroutine test_names
+
+   subroutine test_numbers(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: case
+
+      case = thesis_case()
+      case%operating_point%speed = 0.0_wp
+      call refused(case, kind_deck, "speed must be positive", error)
+      if (allocated(error)) return
+      case = thesis_case()
+      case%surface%cam_roughness = 0.0_wp
+      case%surface%roller_roughness = 0.0_wp
+      call refused(case, kind_deck, "roughness must be positive", error)
+      if (allocated(error)) return
+      case = thesis_case()
+      case%roller%wall_thickness = 9.0e-3_wp
+      call refused(case, kind_deck, "wall thinner than the radius", error)
+      if (allocated(error)) return
+      case = thesis_case()
+      case%traction%shear_law = "eyring"
+      call refused(case, kind_deck, "positive eyring stress", error)
+      if (allocated(error)) return
+      case = thesis_case()
+      case%film%law = "masjedi_khonsari_rough"
+      case%materials%hardness = 0.0_wp
+      call refused(case, kind_deck, "needs the hardness", error)
+      if (allocated(error)) return
+      case = thesis_case()
+      case%traction%limiting_coefficient = 0.0_wp
+      call refused(case, kind_deck, "limiting coefficient must be positive", error)
+   end subroutine test_numbers
+
+end module test_events
