@@ -61,6 +61,32 @@ contains
       character(len=:), allocatable :: suite_name, test_name
       integer :: passed, failed, skipped, i
 
+      suites = all_suites()
+      call get_argument(1, suite_name)
+      call get_argument(2, test_name)
+      passed = 0
+      failed = 0
+      skipped = 0
+      if (allocated(suite_name)) then
+         i = select_suite(suites, suite_name)
+         if (i == 0) call refuse(suite_name, suites)
+         call run_suite(suites(i), test_name, passed, failed, skipped)
+      else
+         do i = 1, size(suites)
+            call run_suite(suites(i), test_name, passed, failed, skipped)
+         end do
+      end if
+      if (skipped > 0) write (output_unit, '(i0, a)') skipped, " skipped"
+      write (output_unit, '(i0, a, i0, a)') passed, " passed, ", failed, " failed"
+      if (failed > 0 .or. passed + skipped == 0) stop 1, quiet = .true.
+   end subroutine run_command_line
+
+   !> Every suite there is.
+   ! style: procedure because it is one list
+   function all_suites() result(suites)
+      !> The suites
+      type(testsuite_type), allocatable :: suites(:)
+
       suites = [ &
          new_testsuite("error", collect_error), &
          new_testsuite("ode", collect_ode), &
@@ -104,25 +130,7 @@ contains
          new_testsuite("roller_problem", collect_roller_problem), &
          new_testsuite("simulation", collect_simulation) &
          ]
-
-      call get_argument(1, suite_name)
-      call get_argument(2, test_name)
-      passed = 0
-      failed = 0
-      skipped = 0
-      if (allocated(suite_name)) then
-         i = select_suite(suites, suite_name)
-         if (i == 0) call refuse(suite_name, suites)
-         call run_suite(suites(i), test_name, passed, failed, skipped)
-      else
-         do i = 1, size(suites)
-            call run_suite(suites(i), test_name, passed, failed, skipped)
-         end do
-      end if
-      if (skipped > 0) write (output_unit, '(i0, a)') skipped, " skipped"
-      write (output_unit, '(i0, a, i0, a)') passed, " passed, ", failed, " failed"
-      if (failed > 0 .or. passed + skipped == 0) stop 1, quiet = .true.
-   end subroutine run_command_line
+   end function all_suites
 
    !> Run one suite, or one test of it, and add to the counts.
    subroutine run_suite(suite, test_name, passed, failed, skipped)
