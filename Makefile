@@ -3,7 +3,7 @@
 SHELL := /bin/bash
 .DEFAULT_GOAL := help
 .PHONY: help setup commit build debug run test quick check check-layers check-style check-format check-lint check-warnings format \
-  clean distclean
+  bench clean distclean
 
 FPM := .venv/bin/fpm
 PYTHON := .venv/bin/python
@@ -65,8 +65,11 @@ check-warnings: commit
 format: setup ## set the blanks inside statements right
 	@$(PYTHON) tools/check_format.py --fix
 
+bench: commit ## time cycles, also against SUNDIALS and scipy: tables and plots in bench/tables (ten minutes)
+	@bench/run.sh
+
 clean: ## remove what was built; keep tools and results
-	rm -rf build/gfortran* build/debug build/release build/commit build/tests build/*.log build/compile_commands.json
+	rm -rf build/gfortran* build/debug build/release build/commit build/tests build/bench bench/build build/*.log build/compile_commands.json
 
 distclean: ## remove everything that is not in git, results too
-	rm -rf build .venv results
+	rm -rf build bench/build .venv results

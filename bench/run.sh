@@ -1,0 +1,52 @@
+#!/usr/bin/env bash
+# Build the benchmarks, run all of them, rewrite the tables and plots in bench/tables.
+#
+# Usage: make bench          less than ten minutes on an idle machine
+# Times are processor times of one core, medians of repeated runs, solvers taking turns; only ratios carry over to other machines.
+# Needs SUNDIALS, which nothing else here does: installed as root on a machine with apt-get, otherwise named.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+fail() { printf 'bench: %s\n' "$*" >&2; exit 1; }
+
+if [ ! -f /usr/include/cvode/cvode.h ] && ! pkg-config --exists sundials_cvode 2> /dev/null; then
+    command -v apt-get > /dev/null || fail "SUNDIALS is missing (libsundials-dev in Debian)"
+    [ "$(id -u)" = 0 ] || fail "SUNDIALS is missing; type: sudo apt-get install --no-install-recommends libsundials-dev"
+    { apt-get update -qq && DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends libsundials-dev; } \
+        > build/bench-apt.log 2>&1 < /dev/null || { tail -n 20 build/bench-apt.log >&2; fail "cannot install libsundials-dev"; }
+    # it brings a second HDF5, among which the set-up chooses
+    tools/setup.sh
+fi
+
+# As the release build, and fit for a shared library without giving up what knowing the callee allows
+flags="$RELEASE_FLAGS -I../build/commit -fPIC -fno-semantic-interposition"
+fpm=$PWD/.venv/bin/fpm
+python=$PWD/.venv/bin/python
+target=$PWD/build/bench
+mkdir -p "$target" bench/tables
+(cd bench && "$fpm" install --flag "$flags" --prefix "$target") > "$target/build.log" 2>&1 || { cat "$target/build.log"; exit 1; }
+
+folder=$(pkg-config --libs-only-L hdf5)
+hdf5=()
+for name in hdf5hl_fortran hdf5_hl_fortran hdf5_fortran hdf5_hl hdf5; do
+    if gfortran -shared -o "$target/found.so" $folder "-l$name" 2> /dev/null; then hdf5+=("-l$name"); fi
+done
+gfortran -shared -o "$target/librhs.so" -Wl,-u,bench_open "$target/lib/libbench.a" $folder "${hdf5[@]}" \
+    -lsundials_cvode -lsundials_nvecserial -lopenblas
+
+export OPENBLAS_NUM_THREADS=1
+core=()
+if command -v taskset > /dev/null; then core=(taskset -c "$(($(nproc) - 1))"); fi
+tables=bench/tables
+measure() { # table, command
+    local table=$1
+    shift
+    printf 'bench: %s\n' "$table"
+    "${core[@]}" "$@" > "$target/table.part" && mv "$target/table.part" "$tables/$table"
+}
+measure cycle_speed.txt "$target/bin/cycle_speed" decks
+measure against_cvode.txt "$target/bin/against_cvode" decks
+measure against_scipy.txt "$python" bench/against_scipy.py "$target/librhs.so" decks
+"$python" bench/summarise.py "$tables/against_cvode.txt" "$tables/against_scipy.txt" > "$tables/summary.txt"
+"$python" bench/plot.py "$tables" "$tables/against_cvode.txt" "$tables/against_scipy.txt"
+cat "$tables/summary.txt"

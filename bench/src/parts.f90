@@ -1,0 +1,152 @@
+!> Time of the parts that a cycle is made of.
+module bench_parts
+   use camroller_kinds, only : wp, pi, two_pi
+   use camroller_error, only : error_t
+   use camroller_case, only : numerics_t
+   use camroller_kinematics, only : position_t
+   use camroller_dynamics, only : moments_t
+   use camroller_contact_forces, only : contact_t
+   use camroller_state, only : state_t, evaluate_loading, evaluate_spin
+   use camroller_events, only : find_stops
+   use camroller_balance, only : find_balance
+   use camroller_cycle, only : cycle_t, integrate_cycle, state_at
+   use bench_clock, only : seconds_used, median
+   use bench_tasks, only : task_t
+   implicit none
+   private
+
+   public :: part_names, part_units, measure_parts
+
+   !> What is measured
+   character(len=*), parameter :: part_names(*) = [character(len=10) :: "rate", "loading", "contact", "contact_6", "stops", &
+      & "balances", "cycle", "states"]
+   !> Its unit
+   character(len=*), parameter :: part_units(*) = [character(len=2) :: "ns", "ns", "ns", "ns", "us", "us", "us", "us"]
+   !> Repeated measurements
+   integer, parameter :: rounds = 7
+   !> Relative error of load and forces in the part `contact_6` [-]
+   real(wp), parameter :: coarse = 1.0e-6_wp
+
+contains
+
+   !> Measure the parts of one operating point.
+   subroutine measure_parts(task, times, evaluations, error)
+      !> Task
+      type(task_t), intent(in) :: task
+      !> Median time of each part, in its unit [ns] or [us]
+      real(wp), intent(out) :: times(size(part_names))
+      !> Evaluations of the right-hand side that `cycle` takes
+      integer, intent(out) :: evaluations
+      !> Convergence error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(cycle_t) :: cycle
+      type(numerics_t) :: numerics
+      ! Time of each part in each round, time at the start [s]
+      real(wp) :: seconds(rounds, size(part_names)), start
+      integer :: round
+
+      do round = 1, rounds
+         call time_evaluations(task, seconds(round, :4))
+         call time_preparation(task, seconds(round, 5:6))
+         start = seconds_used()
+         call integrate_cycle(cycle, task%model, numerics, error)
+         if (allocated(error)) return
+         seconds(round, 7) = seconds_used() - start
+         start = seconds_used()
+         call take_states(task, cycle, error)
+         if (allocated(error)) return
+         seconds(round, 8) = seconds_used() - start
+      end do
+      do round = 1, size(part_names)
+         times(round) = median(seconds(:, round))*merge(1.0e9_wp, 1.0e6_wp, part_units(round) == "ns")
+      end do
+      evaluations = cycle%counters%evaluations
+   end subroutine measure_parts
+
+   !> Time of one evaluation along the solution: right-hand side, geometry and moments, contact, contact to less accuracy.
+   subroutine time_evaluations(task, seconds)
+      !> Task
+      type(task_t), intent(in) :: task
+      !> Times [s]
+      real(wp), intent(out) :: seconds(4)
+
+      type(position_t), allocatable :: positions(:)
+      type(moments_t), allocatable :: moments(:)
+      type(contact_t) :: contact
+      ! Time at the start [s], gas force [N], angular acceleration [rad/s^2], rate [m/s/rad], sliding speed [m/s]
+      real(wp) :: start, force, acceleration, rate(1), sliding_speed
+      integer :: i, n, status
+
+      n = size(task%angles)
+      allocate (positions(n), moments(n))
+      start = seconds_used()
+      do i = 1, n
+         call task%problem%get_rate(task%angles(i), task%sliding_speed(i:i)*1.001_wp, rate, status)
+      end do
+      seconds(1) = (seconds_used() - start)/n
+      start = seconds_used()
+      do i = 1, n
+         call evaluate_loading(task%model, task%angles(i), positions(i), force, moments(i), status)
+      end do
+      seconds(2) = (seconds_used() - start)/n
+      start = seconds_used()
+      do i = 1, n
+         sliding_speed = task%sliding_speed(i)*1.001_wp
+         call evaluate_spin(task%model, positions(i), moments(i), sliding_speed, contact, acceleration, status)
+      end do
+      seconds(3) = (seconds_used() - start)/n
+      start = seconds_used()
+      do i = 1, n
+         sliding_speed = task%sliding_speed(i)*1.001_wp
+         call evaluate_spin(task%model, positions(i), moments(i), sliding_speed, contact, acceleration, status, coarse)
+      end do
+      seconds(4) = (seconds_used() - start)/n
+   end subroutine time_evaluations
+
+   !> Time of what comes before an integration: stops, and the algebraic balance round the cycle, where a start is chosen.
+   subroutine time_preparation(task, seconds)
+      !> Task
+      type(task_t), intent(in) :: task
+      !> Times of both [s]
+      real(wp), intent(out) :: seconds(2)
+
+      !> Angles at which the balance is sought
+      integer, parameter :: balance_points = 72
+      type(position_t) :: position
+      ! Stops [rad]; time at the start [s]; sliding speed [m/s]; decay rate [1/rad]
+      real(wp), allocatable :: stops(:)
+      real(wp) :: start, sliding_speed, decay_rate
+      integer :: i
+      logical :: is_found
+
+      start = seconds_used()
+      call find_stops(task%model, stops)
+      seconds(1) = seconds_used() - start
+      start = seconds_used()
+      do i = 1, balance_points
+         call find_balance(task%model, -pi + (i - 0.5_wp)*two_pi/balance_points, position, sliding_speed, decay_rate, is_found)
+      end do
+      seconds(2) = seconds_used() - start
+   end subroutine time_preparation
+
+   !> States at the output angles, as results hold them.
+   subroutine take_states(task, cycle, error)
+      !> Task
+      type(task_t), intent(in) :: task
+      !> Cycle
+      type(cycle_t), intent(in) :: cycle
+      !> Convergence error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(state_t) :: state
+      integer :: i, hint
+
+      hint = 1
+      do i = 1, size(task%angles)
+         call state_at(cycle, task%model, task%angles(i), hint, state, error)
+         if (allocated(error)) return
+      end do
+   end subroutine take_states
+
+end module bench_parts
