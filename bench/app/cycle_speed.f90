@@ -34,9 +34,9 @@ contains
       call print_circumstances("Parts of a cycle, medians of repeated runs")
       write (output_unit, "(a)") "# rate: right-hand side; loading: geometry and moments in it; contact: the rest of it; "// &
          & "contact_6: the same, load and forces to 1e-6"
-      write (output_unit, "(a)") "# stops: finding them; balances: 72 of them; cycle: integrate_cycle with default numerics, "// &
+      write (output_unit, "(a)") "# stops: finding them; cycle: integrate_cycle with default numerics, "// &
          & "from no knowledge to periodic; states: everything at 720 angles"
-      write (output_unit, "(a, t25, 9a15)") "# task", (trim(part_names(i))//" ["//part_units(i)//"]", i=1, size(part_names)), &
+      write (output_unit, "(a, t25, 8a15)") "# task", (trim(part_names(i))//" ["//part_units(i)//"]", i=1, size(part_names)), &
          & "evaluations"
       do i = 1, size(tasks)
          select type (problem => tasks(i)%problem)
@@ -46,7 +46,7 @@ contains
                write (error_unit, "(2a)") "cycle_speed: ", error%message
                error stop 1
             end if
-            write (output_unit, "(a24, 8f15.1, i15)") tasks(i)%name, times, evaluations
+            write (output_unit, "(a24, 7f15.1, i15)") tasks(i)%name, times, evaluations
          end select
       end do
    end subroutine main

@@ -1,6 +1,6 @@
 !> Time of the parts that a cycle is made of.
 module bench_parts
-   use camroller_kinds, only : wp, pi, two_pi
+   use camroller_kinds, only : wp
    use camroller_error, only : error_t
    use camroller_case, only : numerics_t
    use camroller_kinematics, only : position_t
@@ -8,7 +8,6 @@ module bench_parts
    use camroller_contact_forces, only : contact_t
    use camroller_state, only : state_t, evaluate_loading, evaluate_spin
    use camroller_events, only : find_stops
-   use camroller_balance, only : find_balance
    use camroller_cycle, only : cycle_t, integrate_cycle, state_at
    use bench_clock, only : seconds_used, median
    use bench_tasks, only : task_t
@@ -19,9 +18,9 @@ module bench_parts
 
    !> What is measured
    character(len=*), parameter :: part_names(*) = [character(len=10) :: "rate", "loading", "contact", "contact_6", "stops", &
-      & "balances", "cycle", "states"]
+      & "cycle", "states"]
    !> Its unit
-   character(len=*), parameter :: part_units(*) = [character(len=2) :: "ns", "ns", "ns", "ns", "us", "us", "us", "us"]
+   character(len=*), parameter :: part_units(*) = [character(len=2) :: "ns", "ns", "ns", "ns", "us", "us", "us"]
    !> Repeated measurements
    integer, parameter :: rounds = 7
    !> Relative error of load and forces in the part `contact_6` [-]
@@ -44,19 +43,23 @@ contains
       type(numerics_t) :: numerics
       ! Time of each part in each round, time at the start [s]
       real(wp) :: seconds(rounds, size(part_names)), start
+      ! Stops [rad]
+      real(wp), allocatable :: stops(:)
       integer :: round
 
       do round = 1, rounds
          call time_evaluations(task, seconds(round, :4))
-         call time_preparation(task, seconds(round, 5:6))
+         start = seconds_used()
+         call find_stops(task%model, stops)
+         seconds(round, 5) = seconds_used() - start
          start = seconds_used()
          call integrate_cycle(cycle, task%model, numerics, error)
          if (allocated(error)) return
-         seconds(round, 7) = seconds_used() - start
+         seconds(round, 6) = seconds_used() - start
          start = seconds_used()
          call take_states(task, cycle, error)
          if (allocated(error)) return
-         seconds(round, 8) = seconds_used() - start
+         seconds(round, 7) = seconds_used() - start
       end do
       do round = 1, size(part_names)
          times(round) = median(seconds(:, round))*merge(1.0e9_wp, 1.0e6_wp, part_units(round) == "ns")
@@ -103,32 +106,6 @@ contains
       end do
       seconds(4) = (seconds_used() - start)/n
    end subroutine time_evaluations
-
-   !> Time of what comes before an integration: stops, and the algebraic balance round the cycle, where a start is chosen.
-   subroutine time_preparation(task, seconds)
-      !> Task
-      type(task_t), intent(in) :: task
-      !> Times of both [s]
-      real(wp), intent(out) :: seconds(2)
-
-      !> Angles at which the balance is sought
-      integer, parameter :: balance_points = 72
-      type(position_t) :: position
-      ! Stops [rad]; time at the start [s]; sliding speed [m/s]; decay rate [1/rad]
-      real(wp), allocatable :: stops(:)
-      real(wp) :: start, sliding_speed, decay_rate
-      integer :: i
-      logical :: is_found
-
-      start = seconds_used()
-      call find_stops(task%model, stops)
-      seconds(1) = seconds_used() - start
-      start = seconds_used()
-      do i = 1, balance_points
-         call find_balance(task%model, -pi + (i - 0.5_wp)*two_pi/balance_points, position, sliding_speed, decay_rate, is_found)
-      end do
-      seconds(2) = seconds_used() - start
-   end subroutine time_preparation
 
    !> States at the output angles, as results hold them.
    subroutine take_states(task, cycle, error)
