@@ -2,8 +2,8 @@
 
 SHELL := /bin/bash
 .DEFAULT_GOAL := help
-.PHONY: help setup commit build debug run test quick check check-layers check-style check-format check-lint check-warnings format \
-  bench clean distclean
+.PHONY: help setup commit build debug run comparison test quick check check-layers check-style check-format check-lint \
+  check-warnings format bench clean distclean
 
 FPM := .venv/bin/fpm
 PYTHON := .venv/bin/python
@@ -38,6 +38,16 @@ run: build ## run decks/thesis.nml and plot it: results/thesis.h5 and figures be
 	@mkdir -p results
 	build/release/bin/camroller run decks/thesis.nml -o results/thesis.h5
 	$(PYTHON) post/plot.py results/thesis.h5 --output results
+
+comparison: build ## compare with the source thesis: doc/thesis_comparison.md and doc/figures
+	@mkdir -p results/comparison doc/figures
+	@set -o pipefail; $(PYTHON) post/thesis_comparison.py --runs | while read -r name arguments; do \
+	  build/release/bin/camroller run $$arguments -o results/comparison/$$name.h5 --quiet || exit 1; done
+	$(PYTHON) post/thesis_comparison.py results/comparison --page doc/thesis_comparison.md
+	@for figure in mean_torque slip; do $(PYTHON) post/plot.py results/comparison/thesis.h5 \
+	  results/comparison/thesis_source.h5 --figure $$figure --dpi 90 --output doc/figures || exit 1; done
+	@$(PYTHON) post/plot.py results/comparison/thesis.h5 --figure mean_torque --dpi 90 --output doc/figures
+	@$(PYTHON) post/plot.py results/comparison/thesis.h5 --figure overview --dpi 80 --output doc/figures
 
 test: build debug ## all tests, with run-time checks and optimised
 	@$(PYTHON) tools/run_tests.py

@@ -63,6 +63,7 @@ def parser():
     made.add_argument("--cases", action="append", default=[], metavar="WHICH",
                       help="only these cases: numbers from 0 as in 0,2-4 or values as in speed_rpm=300,600; "
                            "given more than once, a case must fit all")
+    made.add_argument("--dpi", type=int, default=130, help="pixels per inch of a PNG (default: 130)")
     made.add_argument("--angles", choices=["event", "cycle"],
                       help="cam angles of the single figures: around the valve event or the whole cycle "
                            "(default: what suits the figure)")
@@ -79,7 +80,7 @@ def draw_to_file(name, layout, folder, options):
     target = folder / f"{common_name(layout.results)}_{name}.{options.format}"
     try:
         folder.mkdir(parents=True, exist_ok=True)
-        figure.savefig(target, dpi=130, metadata=NO_DATE[options.format])
+        figure.savefig(target, dpi=options.dpi, metadata=NO_DATE[options.format])
     except OSError as error:
         raise ResultError(f"{target}: cannot be written: {error.strerror or error}") from None
     print(f"{name}: {target}")
