@@ -47,7 +47,7 @@ comparison: build ## compare with the source thesis: doc/thesis_comparison.md an
 	@for figure in mean_torque slip; do $(PYTHON) post/plot.py results/comparison/thesis.h5 \
 	  results/comparison/thesis_source.h5 --figure $$figure --dpi 90 --output doc/figures || exit 1; done
 	@$(PYTHON) post/plot.py results/comparison/thesis.h5 --figure mean_torque --dpi 90 --output doc/figures
-	@$(PYTHON) post/plot.py results/comparison/thesis.h5 --figure overview --dpi 80 --output doc/figures
+	@$(PYTHON) post/plot.py results/comparison/thesis.h5 --figure overview --dpi 72 --output doc/figures
 
 test: build debug ## all tests, with run-time checks and optimised
 	@$(PYTHON) tools/run_tests.py

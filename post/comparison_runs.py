@@ -41,7 +41,8 @@ CHOICES = [
 SMOOTH = ("surface.cam_roughness_um=0.099", "surface.roller_roughness_um=0.099")
 SMOOTHER = [Run("thesis_smoother", "thesis", SMOOTH), Run("thesis_source_smoother", "thesis_source", SMOOTH)]
 # Nothing of it settles: whatever is there after a turn is taken as periodic
-FIXED_STEP = Run("fixed_step", "thesis_source", ("numerics.method=euler", "numerics.step_deg=1", "numerics.periodicity=1"))
+FIXED_STEP = Run("fixed_step", "thesis_source",
+                 ("numerics.method=euler", "numerics.step_deg=1", "numerics.periodicity=1"))
 RUNS = [*MAIN, *CHOICES, *SMOOTHER, FIXED_STEP]
 
 

@@ -3,8 +3,8 @@
     python post/thesis_comparison.py --runs                                   what to run, a line each
     python post/thesis_comparison.py results/comparison --page PAGE.md        the page, from the files of these runs
 
-`make comparison` does both. Verdicts follow from the criteria in comparison_claims.py, numbers from the files, and reasons
-are printed where a claim does not hold. Exit code 0, or 2 if a file cannot be used or the page cannot be written.
+`make comparison` does both. Verdicts follow from the criteria in comparison_claims.py, numbers from the files, and
+reasons are printed where a claim does not hold. Exit code 0, or 2 if a file cannot be used or the page cannot be written.
 """
 
 import argparse
@@ -18,17 +18,20 @@ from comparison_tables import as_printed, both_decks, each_choice, fixed_step, m
 from read import ResultError
 
 DECKS = ("thesis", "thesis_source")
-SHOWN = {"thesis": "`thesis.nml`", "thesis_source": "`thesis_source.nml`", "thesis_smoother": "`thesis.nml`, 0.14 µm together",
+SHOWN = {"thesis": "`thesis.nml`", "thesis_source": "`thesis_source.nml`", "thesis_smoother": "`thesis.nml`, 0.14 "
+                                                                                              "µm together",
          "thesis_source_smoother": "`thesis_source.nml`, 0.14 µm together"}
 HEAD = """# Comparison with the source
 
-Islam (2019), *Tribological study of friction in roller follower valve train considering effects of asperity interaction and
-roller sliding*, chapter 3, makes ten statements that can be checked; its figures are pictures, so most of them are trends. Each is
-split into claims with a criterion, and each claim is checked against two runs: `thesis.nml`, with a closed energy balance, and
-`thesis_source.nml`, with the bookkeeping of the source. A statement *agrees* if all of its claims hold, *differs* if none does, and
-agrees *partly* otherwise. Nothing is tuned to fit. `make comparison` makes this page; numbers and verdicts come from the runs.
+Islam (2019), *Tribological study of friction in roller follower valve train considering effects of asperity
+interaction and roller sliding*, chapter 3, makes ten statements that can be checked; its figures are pictures, so most
+of them are trends. Each is split into claims with a criterion, and each claim is checked against two runs:
+`thesis.nml`, with a closed energy balance, and `thesis_source.nml`, with the bookkeeping of the source. A statement
+*agrees* if all of its claims hold, *differs* if none does, and agrees *partly* otherwise. Nothing is tuned to fit.
+`make comparison` makes this page; numbers and verdicts come from the runs.
 
-Flanks are cam angles of 116 to 137 and 222 to 242 degrees, as the source names them; *near the nose* is within 15 degrees of it.
+Flanks are cam angles of 116 to 137 and 222 to 242 degrees, as the source names them; *near the nose* is within 15
+degrees of it.
 """.splitlines()
 
 
@@ -74,7 +77,8 @@ def overview(runs):
     yield from table(["", "statement", *SHOWN.values()],
                      [[str(number), statement.title, *(verdict_of(statement, runs[name]) for name in SHOWN)]
                       for number, statement in enumerate(STATEMENTS, 1)])
-    yield from ["", "The source does not say whether its roughness of 0.14 µm is that of each surface or of both together. The decks "
+    yield from ["", "The source does not say whether its roughness of 0.14 µm is that of each surface or of both "
+                    "together. The decks "
                 "take the first; the last two columns take the second.", ""]
 
 
@@ -94,7 +98,9 @@ def section(number, statement, runs):
     verdicts = ", ".join(f"{SHOWN[deck]} {verdict_of(statement, runs[deck])}" for deck in DECKS)
     yield from ["", f"Verdict: {verdicts}.", ""]
     if reasons:
-        yield from ["Why:", "", *(f"- *{words}* ({', '.join(decks)}): {text}" for (words, text), decks in reasons.items()), ""]
+        yield from ["Why:", "",
+                    *(f"- *{words}* ({', '.join(decks)}): {text}" for (words, text), decks in reasons.items()),
+            ""]
 
 
 if __name__ == "__main__":
