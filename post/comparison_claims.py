@@ -287,24 +287,21 @@ def geometric_hardly_changes(points):
 STATEMENTS = (
     Statement("Peak pressure", "section on viscosity", "The Hertz pressure goes up to 0.64 GPa.", (
         Claim("peak_pressure", "largest pressure within 5 % of 0.64 GPa", peak_pressure),)),
-    Statement("Contact load", "Fig. 5", "The spring dominates at low speed and loads the nose; inertia relieves "
-                                        "the nose and "
-              "loads the flanks as speed grows.", (
+    Statement("Contact load", "Fig. 5", "The spring dominates at low speed and loads the nose; inertia relieves the "
+                                        "nose and loads the flanks as speed grows.", (
         Claim("load_nose", "at 300 rev/min the largest load is within 15° of the nose", load_peaks_at_nose),
         Claim("load_nose_speed", "the load at the nose falls with speed", load_falls_at_nose),
         Claim("load_flank_speed", "the largest load on the flanks rises with speed", load_rises_on_flanks))),
-    Statement("Film", "Figs. 6 and 7", "Entrainment and film are largest on the flanks and smallest at the nose; "
-                                       "the film grows "
-              "with speed and thins with temperature.", (
+    Statement("Film", "Figs. 6 and 7", "Entrainment and film are largest on the flanks and smallest at the nose; the "
+                                       "film grows with speed and thins with temperature.", (
         Claim("entrainment", "entrainment is faster on the flanks than at the nose", flanks_entrain_more),
         Claim("film_places", "thickest film on a flank, thinnest within 15° of the nose, at all points",
               film_extremes),
         Claim("film_speed", "the thinnest film grows with speed", film_rises_with_speed),
         Claim("film_warmth", "the thinnest film falls with temperature", film_falls_with_temperature))),
-    Statement("Share of asperities", "Figs. 9, 11 and 13", "Asperities take almost no part in the contact's "
-                                                           "friction at 25 °C, none "
-              "of it on the flanks; up to 60 % at the nose at 300 rev/min and 60 °C and about 82 % at 95 °C; less at "
-              "higher speed.", (
+    Statement("Share of asperities", "Figs. 9, 11 and 13",
+            "Asperities take almost no part in the contact's friction at 25 °C, none of it on the flanks; up to 60 % "
+            "at the nose at 300 rev/min and 60 °C and about 82 % at 95 °C; less at higher speed.", (
         Claim("share_cold", "below 10 % everywhere at 25 °C", share_small_when_cold),
         Claim("share_flank", "below 1 % on the flanks at 25 °C", share_none_on_flanks),
         Claim("share_60", "largest near the nose, 300 rev/min, 60 °C: 60 % within 10 points",
@@ -313,9 +310,9 @@ STATEMENTS = (
               share_at_nose(0, 2, 0.82)),
         Claim("share_speed", "the mean share near the nose falls with speed at each temperature",
               share_falls_with_speed))),
-    Statement("Friction of the contact", "Figs. 8, 10 and 12", "At 25 °C friction grows with speed; at 95 °C its "
-                                                               "mean falls from 300 "
-              "to 600 rev/min and grows to 900; it falls from 25 to 60 °C.", (
+    Statement("Friction of the contact", "Figs. 8, 10 and 12",
+            "At 25 °C friction grows with speed; at 95 °C its mean falls from 300 to 600 rev/min and grows to 900; "
+            "it falls from 25 to 60 °C.", (
         Claim("friction_cold", "mean force at 25 °C rises with speed", friction_rises_when_cold),
         Claim("friction_hot_falls", "mean force at 95 °C falls from 300 to 600 rev/min", friction_falls_when_hot),
         Claim("friction_hot_rises", "mean force at 95 °C rises from 600 to 900 rev/min", friction_rises_when_hot),
@@ -324,28 +321,27 @@ STATEMENTS = (
         Claim("rolling_places", "extremes of the mean force at these two points", rolling_extremes),
         Claim("rolling_trends", "mean force rises with speed and falls with temperature", rolling_trends))),
     Statement("Slip", "Figs. 15 to 18", "The roller slips most on the flanks, a little on the base circle, and "
-                                        "nearly rolls at the "
-              "nose when slow; slip grows with speed; it turns negative on the flanks where the roller cannot "
-              "follow.", (
-        Claim("slip_flanks", "where slip exceeds 1 %, it is largest on the flanks, not on the base "
-                                       "circle (from 10° beside the event) or near the nose",
+                                        "nearly rolls at the nose when slow; slip grows with speed; it turns "
+                                        "negative on the flanks where the roller cannot follow.", (
+        Claim("slip_flanks", "where slip exceeds 1 %, it is largest on the flanks, not on the base circle (from 10° "
+                             "beside the event) or near the nose",
               slip_largest_on_flanks),
         Claim("slip_nose", "below 1 % near the nose at 300 rev/min", slip_small_at_nose),
         Claim("slip_speed_cold", "mean slip rises with speed at 25 °C", slip_rises(0)),
         Claim("slip_speed_warm", "mean slip rises with speed at 60 and at 95 °C", slip_rises(1, 2)),
         Claim("slip_negative", "below -1 % somewhere in the event at 600 and 900 rev/min, 25 °C",
               slip_turns_negative))),
-    Statement("Mean friction torque", "Figs. 19 and 22", "At 300 and 600 rev/min it falls from 25 to 60 °C and "
-                                                         "grows to 95 °C; at "
-              "900 rev/min it falls throughout.", (
+    Statement("Mean friction torque", "Figs. 19 and 22",
+            "At 300 and 600 rev/min it falls from 25 to 60 °C and grows to 95 °C; at 900 rev/min it falls "
+            "throughout.", (
         Claim("torque_warming", "falls from 25 to 60 °C at 300 and 600 rev/min",
               torque_falls(slice(0, 2), slice(0, 2))),
         Claim("torque_heating", "rises from 60 to 95 °C at 300 and 600 rev/min", torque_rises_on_heating),
         Claim("torque_fast", "falls from 25 to 60 to 95 °C at 900 rev/min",
               torque_falls(slice(2, 3), slice(0, 3))))),
-    Statement("Other sources of friction", "Fig. 19", "The camshaft's bearings take most at 900 rev/min and 25 °C, "
-                                                      "30 % of the "
-              "torque; valve guide and needle bearing are alike and take 0.6 to 3 % each.", (
+    Statement("Other sources of friction", "Fig. 19",
+            "The camshaft's bearings take most at 900 rev/min and 25 °C, 30 % of the torque; valve guide and needle "
+            "bearing are alike and take 0.6 to 3 % each.", (
         Claim("bearings_place", "bearing torque largest at 900 rev/min and 25 °C", bearings_most_when_cold_and_fast),
         Claim("bearings_share", "30 % of the torque there, within 10 points", bearing_share),
         Claim("guide_share", "guide between 0.6 and 3 % at all points", small_share("guide")),
@@ -353,8 +349,7 @@ STATEMENTS = (
         Claim("guide_needle", "guide and needle bearing within a factor of three at all points",
               guide_like_needle))),
     Statement("Geometric torque", "Fig. 21", "Its positive and negative parts are equal; speed hardly changes it, "
-                                             "temperature not at "
-              "all.", (
+                                             "temperature not at all.", (
         Claim("geometric_parts", "both peaks equal within 1 %", geometric_parts_equal),
         Claim("geometric_change", "peaks at all points within 5 %", geometric_hardly_changes))),
 )

@@ -25,8 +25,8 @@ def at_angle(points, name, angle):
 def share_cold(runs, points):
     smoother = runs["thesis_source_smoother"].scalar("max_asperity_friction_share")[:, 0].max()
     return "boundary friction counts in full however little the roller slips, and the deck takes 0.14 µm as the " \
-           "roughness of " \
-           f"each surface. With 0.14 µm as that of both together the largest share is {percent(smoother)}."
+           "roughness of each surface. With 0.14 µm as that of both together the largest share is " \
+           f"{percent(smoother)}."
 
 
 def share_flank(runs, points):
@@ -42,21 +42,18 @@ def share_nose(column):
         smoother = largest(runs["thesis_source_smoother"], "asperity_friction_share", NOSE)[0, column]
         return f"at the nose the roller slips by {significant(slip * 100.0, 2)} %, so the film's shear is " \
                f"{significant(shear, 2)} N beside {significant(boundary)} N of boundary friction that counts in " \
-               "full. A smoother " \
-               f"surface (0.14 µm for both together) does not change that: {percent(smoother)}. Only more slip " \
-               "could lower " \
-               "it; a step that overshoots makes slip, and too much of it (see the last section)."
+               f"full. A smoother surface (0.14 µm for both together) does not change that: {percent(smoother)}. " \
+               "Only more slip could lower it; a step that overshoots makes slip, and too much of it (see the last " \
+               "section)."
     return words
 
 
 def friction_hot_thesis(runs, points):
     rolling, traction = points.scalar("mean_friction_rolling")[:, 2], points.scalar("mean_traction")[:, 2]
     return "in balance the roller draws only the traction that rolling resistance, needle bearing and inertia ask " \
-           "for (mean " \
-           f"{listed(traction)} N at the three speeds), and asperities give no more than is missing. Rolling " \
-           "resistance grows with " \
-           f"speed ({listed(rolling)} N), so friction does too. The fall in the source is that of boundary " \
-           "friction counted in full."
+           f"for (mean {listed(traction)} N at the three speeds), and asperities give no more than is missing. " \
+           f"Rolling resistance grows with speed ({listed(rolling)} N), so friction does too. The fall in the " \
+           "source is that of boundary friction counted in full."
 
 
 def friction_hot_source(runs, points):
@@ -64,26 +61,22 @@ def friction_hot_source(runs, points):
     shear = np.abs(points.series("friction_hydrodynamic")).mean(axis=-1)[1:, 2]
     return f"boundary friction falls as the film grows ({listed(boundary)} N on average); the film's shear " \
            f"({listed(shear, 1.0, 2)} N) and rolling friction grow by much less. The source's rise needs more slip " \
-           "than an " \
-           "accurate integration gives."
+           "than an accurate integration gives."
 
 
 def friction_warming_source(runs, points):
     smoother = runs["thesis_source_smoother"].scalar("mean_friction_contact")[0, :2]
     return "at 300 rev/min boundary friction, counted in full, grows by more than the film's shear falls. The " \
-           "roughness decides: " \
-           f"with 0.14 µm for both surfaces together the two are {listed(smoother)} N."
+           f"roughness decides: with 0.14 µm for both surfaces together the two are {listed(smoother)} N."
 
 
 def slip_flanks_thesis(runs, points):
     resistance = largest(points, "friction_rolling", *BASE)[0, 0]
     apart = runs["rolling_apart"]
     return "on the base circle the lash adjuster's 64 N press the roller on a thick film whose rolling resistance " \
-           "is up to " \
-           f"{significant(resistance)} N at 300 rev/min and 25 °C; the film transmits that only with much slip. " \
-           "The source leaves " \
-           "rolling resistance out of the roller's balance: doing so takes the slip at 0° there from " \
-           f"{percent(at_angle(points, 'slip_ratio', 0.0)[0, 0])} to " \
+           f"is up to {significant(resistance)} N at 300 rev/min and 25 °C; the film transmits that only with much " \
+           "slip. The source leaves rolling resistance out of the roller's balance: doing so takes the slip at 0° " \
+           f"there from {percent(at_angle(points, 'slip_ratio', 0.0)[0, 0])} to " \
            f"{percent(at_angle(apart, 'slip_ratio', 0.0)[0, 0])}."
 
 
@@ -91,94 +84,81 @@ def slip_speed_thesis(runs, points):
     late = at_angle(points, "slip_ratio", 280.0)[:, 0]
     early = at_angle(points, "slip_ratio", 90.0)[:, 0]
     return f"the mean is that of the base circle. Slip there does grow with speed ({listed(early, 100.0)} % at " \
-           "90°), but after the " \
-           "event the roller comes from nearly pure rolling, and a faster cam turns further while it slows down " \
-           f"({listed(late, 100.0)} % at 280°)."
+           "90°), but after the event the roller comes from nearly pure rolling, and a faster cam turns further " \
+           f"while it slows down ({listed(late, 100.0)} % at 280°)."
 
 
 def slip_speed_cold_source(runs, points):
     base, flank = at_angle(points, "slip_ratio", 90.0)[:, 0], largest(points, "slip_ratio", *FLANKS)[:, 0]
     return "on the base circle only the needle bearing brakes the roller, with a torque that does not depend on " \
-           "speed, while the " \
-           f"film pulls harder the faster it is sheared: {listed(base, 100.0)} % at 90°. Where the roller " \
-           "overruns, slip counts " \
-           f"negative. The largest slip on the flanks does grow: {listed(flank, 100.0)} %. The source does not say " \
-           "how its mean is " \
-           "taken."
+           f"speed, while the film pulls harder the faster it is sheared: {listed(base, 100.0)} % at 90°. Where the " \
+           "roller overruns, slip counts negative. The largest slip on the flanks does grow: " \
+           f"{listed(flank, 100.0)} %. The source does not say how its mean is taken."
 
 
 def slip_speed_warm_source(runs, points):
     slip = points.scalar("mean_slip_ratio")[:, 2]
     return f"it rises at 60 °C. At 95 °C the roller hardly slips at all ({listed(slip, 100.0, 2)} %): the " \
-           "asperities hold it, at a " \
-           "sliding speed set by the traction asked for, of which a faster cam makes a smaller ratio until inertia " \
-           "counts."
+           "asperities hold it, at a sliding speed set by the traction asked for, of which a faster cam makes a " \
+           "smaller ratio until inertia counts."
 
 
 def slip_negative_thesis(runs, points):
     spin, apart = (runs[name].scalar("min_slip_ratio")[2, 0] for name in ("thesis_spin", "rolling_apart"))
     return "the roller overruns where the cam asks it to slow down faster than friction can. With the turning " \
-           "contact normal in its " \
-           "spin it has less to slow down, and rolling resistance helps to brake it. Either alone is enough to " \
-           "keep it from " \
-           f"overrunning: smallest slip at 900 rev/min and 25 °C {significant(spin * 100.0, 2)} % with `spin = " \
-           "'thesis'` and " \
-           f"{significant(apart * 100.0, 2)} % with `in_roller_balance = .false.`. The source has neither."
+           "contact normal in its spin it has less to slow down, and rolling resistance helps to brake it. Either " \
+           "alone is enough to keep it from overrunning: smallest slip at 900 rev/min and 25 °C " \
+           f"{significant(spin * 100.0, 2)} % with `spin = 'thesis'` and {significant(apart * 100.0, 2)} % with " \
+           "`in_roller_balance = .false.`. The source has neither."
 
 
 def torque_heating_thesis(runs, points):
     full = runs["full_boundary"].torque("friction")[:2, 1:]
     return "asperities transmit what the roller needs and no more, so a thinner film brings no more friction. The " \
-           "rise is boundary " \
-           f"friction counted in full: with that alone the torques are {listed(full[0], 1e3)} N mm at 300 and " \
-           f"{listed(full[1], 1e3)} N mm at 600 rev/min. A roller that sticks while boundary friction is charged " \
-           "for it breaks the " \
-           "energy balance; what a real engine shows here depends on how much the roller slips when hot."
+           f"rise is boundary friction counted in full: with that alone the torques are {listed(full[0], 1e3)} N mm " \
+           f"at 300 and {listed(full[1], 1e3)} N mm at 600 rev/min. A roller that sticks while boundary friction is " \
+           "charged for it breaks the energy balance; what a real engine shows here depends on how much the roller " \
+           "slips when hot."
 
 
 def torque_fast_source(runs, points):
     smoother = runs["thesis_source_smoother"].torque("friction")[2]
     return "boundary friction in full just outweighs what bearings and film lose. The roughness decides: with 0.14 " \
-           "µm for both " \
-           f"surfaces together the torque falls throughout, {listed(smoother, 1e3)} N mm."
+           f"µm for both surfaces together the torque falls throughout, {listed(smoother, 1e3)} N mm."
 
 
 def bearings_share(runs, points):
     bearing, rest = points.torque("bearings")[2, 0], (points.torque("friction") - points.torque("bearings"))[2, 0]
     parts = [factor * bearing / (factor * bearing + rest) for factor in (np.pi / 6.0, 0.25)]
     return "width, number and places of bearings and cams are not in the source. The deck has two bearings of 20 " \
-           "mm for one cam; " \
-           f"with one bearing for two cams, a quarter of the torque, the share would be {percent(parts[1])}. The " \
-           "source's " \
-           f"equation (44) as printed, pi/6 of the classical value, would give {percent(parts[0])}."
+           "mm for one cam; with one bearing for two cams, a quarter of the torque, the share would be " \
+           f"{percent(parts[1])}. The source's equation (44) as printed, pi/6 of the classical value, would give " \
+           f"{percent(parts[0])}."
 
 
 def guide_share(runs, points):
     guide, total = points.torque("guide"), points.torque("friction")
     return f"the guide's drag is viscosity times speed, {band(guide, 1e3)} N mm with the clearance of 0.02 mm. To " \
-           "be 0.6 to 3 % of " \
-           f"the whole, the whole must be at least {significant(guide[2, 0] / 0.03 * 1e3)} N mm at 900 rev/min and " \
-           "25 °C (here " \
-           f"{significant(total[2, 0] * 1e3)}) and at most {significant(guide[0, 2] / 0.006 * 1e3)} N mm at 300 " \
-           "rev/min and 95 °C " \
-           f"(here {significant(total[0, 2] * 1e3)})."
+           f"be 0.6 to 3 % of the whole, the whole must be at least {significant(guide[2, 0] / 0.03 * 1e3)} N mm at " \
+           f"900 rev/min and 25 °C (here {significant(total[2, 0] * 1e3)}) and at most " \
+           f"{significant(guide[0, 2] / 0.006 * 1e3)} N mm at 300 rev/min and 95 °C (here " \
+           f"{significant(total[0, 2] * 1e3)})."
 
 
 def needle_share(runs, points):
     needle, total, step = points.torque("needle"), points.torque("friction"), runs["fixed_step"].torque("friction")
     return f"its torque is load times coefficient times radius, {band(needle, 1e3)} N mm at all points. To be 0.6 " \
-           "to 3 % of the " \
-           f"whole, the whole must be {significant(needle.mean() / 0.03 * 1e3, 2)} to " \
-           f"{significant(needle.mean() / 0.006 * 1e3, 2)} " \
-           f"N mm; it is {band(total, 1e3)} N mm here. The fixed step of the source gives totals of that size: about " \
-           f"{round(step.min(), 1):.1f} to {round(step.max(), 1):.1f} N m (last section)."
+           f"to 3 % of the whole, the whole must be {significant(needle.mean() / 0.03 * 1e3, 2)} to " \
+           f"{significant(needle.mean() / 0.006 * 1e3, 2)} N mm; it is {band(total, 1e3)} N mm here. The fixed step " \
+           f"of the source gives totals of that size: about {round(step.min(), 1):.1f} to " \
+           f"{round(step.max(), 1):.1f} N m (last section)."
 
 
 def guide_needle(runs, points):
     guide, needle = points.torque("guide"), points.torque("needle")
     return f"the guide's torque varies {significant(guide.max() / guide.min(), 2)}-fold with viscosity and speed, " \
-           "the needle " \
-           f"bearing's {significant(needle.max() / needle.min(), 2)}-fold, so the two can be alike at some points only."
+           f"the needle bearing's {significant(needle.max() / needle.min(), 2)}-fold, so the two can be alike at " \
+           "some points only."
 
 
 REASONS = {

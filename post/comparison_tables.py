@@ -54,19 +54,16 @@ def both_decks(runs):
     speeds = np.abs(first.series("rolling_speed") / first.series("cam_surface_speed") - 1.0)[0, 0]
     yield from ["## Both decks beside each other", "",
                 "Points are cam speed in rev/min over oil temperature in °C; the first number is `thesis.nml`, the "
-                "second "
-                "`thesis_source.nml`. Mean torques:", ""]
+                "second `thesis_source.nml`. Mean torques:", ""]
     yield from beside(TORQUE_COLUMNS, first, second)
     yield from ["", "![Mean friction torque](figures/thesis_vs_thesis_source_mean_torque.png)", "", "The contact:", ""]
     yield from beside(CONTACT_COLUMNS, first, second)
     yield from ["", "![Slip ratio](figures/thesis_vs_thesis_source_slip.png)", "",
                 "The mean friction coefficient is mean friction over mean load. Loads, pressures and films are "
-                "nearly the same; "
-                "friction and slip are not, because of how the losses are counted and what turns the roller. The "
-                "speed of the "
-                "roller's surface in pure rolling, which the source takes as the contact's speed over the cam, "
-                "differs from that by "
-                f"up to {percent(speeds.max())} (at {first.angle[speeds.argmax()]:.0f}°).", ""]
+                "nearly the same; friction and slip are not, because of how the losses are counted and what turns "
+                "the roller. The speed of the roller's surface in pure rolling, which the source takes as the "
+                f"contact's speed over the cam, differs from that by up to {percent(speeds.max())} (at "
+                f"{first.angle[speeds.argmax()]:.0f}°).", ""]
 
 
 def each_choice(runs):
@@ -74,10 +71,8 @@ def each_choice(runs):
     base = runs["open_energy"]
     yield from ["## What each choice is worth", "",
                 "The closed energy balance needs all of its parts, so the first step is to give it up: losses are "
-                "then added up "
-                "as in the source, everything else stays. On top of that, one choice at a time is made as in the "
-                "source. Mean "
-                "friction torque in N mm:", ""]
+                "then added up as in the source, everything else stays. On top of that, one choice at a time is made "
+                "as in the source. Mean friction torque in N mm:", ""]
     runs_shown = [("`thesis.nml`", runs["thesis"]), *((run.words, runs[run.name]) for run in CHOICES),
                   ("`thesis_source.nml`: all together", runs["thesis_source"])]
     yield from table(["run", *NAMES], [[words, *(significant(points.torque("friction")[where] * 1e3)
@@ -100,38 +95,32 @@ def choices_in_words(runs, base):
 
     closed = (base.torque("friction") / runs["thesis"].torque("friction") - 1.0) * 100.0
     yield from [
-        f"- *Losses as in the source* ({closed.min():+.1f} to {closed.max():+.1f} % against `thesis.nml`): the "
-        "needle bearing counts "
-        "twice, once in the traction that keeps the roller turning and once by itself, which shows most where all "
-        "else is small. "
-        "When cold, part of it is made up for by rolling friction, charged on the arm of the tangent instead of at "
-        "the speeds of "
-        "both surfaces.",
-        f"- *Arm* ({span('parallel_arm')}): the normal is taken parallel to the valve's axis, which makes the load "
-        "a little smaller on "
-        "average during the event and leaves it on the base circle.",
+        f"- *Losses as in the source* ({closed.min():+.1f} to {closed.max():+.1f} % against `thesis.nml`): the needle "
+        "bearing counts twice, once in the traction that keeps the roller turning and once by itself, which shows "
+        "most where all else is small. When cold, part of it is made up for by rolling friction, charged on the arm "
+        "of the tangent instead of at the speeds of both surfaces.",
+        f"- *Arm* ({span('parallel_arm')}): the normal is taken parallel to the valve's axis, which makes the load a "
+        "little smaller on average during the event and leaves it on the base circle.",
         f"- *Spin* ({span('thesis_spin')}): the roller turns more slowly at the nose, so the needle bearing takes "
-        "less; its inertia asks "
-        "for more traction, which raises the contact's loss where that is the larger part, fast and hot.",
+        "less; its inertia asks for more traction, which raises the contact's loss where that is the larger part, "
+        "fast and hot.",
         f"- *Boundary friction* ({span('full_boundary')}): counted in full it is the largest change of all, where "
-        "films are thin. Slip "
-        "stays the same, since the roller's own balance has no use for it: nothing in the mechanism supplies that "
-        "power.",
-        f"- *Rolling law* ({span('goksem_rolling')}): an elastic law on a nearly rigid base circle brakes the "
-        "roller more, hence more "
-        "slip there; during the event it gives less than the law of `thesis.nml`.",
+        "films are thin. Slip stays the same, since the roller's own balance has no use for it: nothing in the "
+        "mechanism supplies that power.",
+        f"- *Rolling law* ({span('goksem_rolling')}): an elastic law on a nearly rigid base circle brakes the roller "
+        "more, hence more slip there; during the event it gives less than the law of `thesis.nml`.",
         f"- *Rolling resistance outside the roller's balance* ({span('rolling_apart')}): it no longer brakes the "
-        "roller, so slip on the "
-        "cold base circle falls by an order of magnitude, and the traction that would drive against it is not charged.",
+        "roller, so slip on the cold base circle falls by an order of magnitude, and the traction that would drive "
+        "against it is not charged.",
         ""]
 
 
 def magnitudes(runs):
     """Losses against what was measured on other roller cams."""
     yield from ["## Magnitudes", "",
-                "Bair and others (1986) measured 0.32 to 0.70 J per cam revolution for a roller follower's lobe, a "
-                "mean torque of "
-                "0.05 to 0.11 N m. Energy lost per cam revolution, in J, with the camshaft's bearings and without:", ""]
+                "Bair and others (1986) found 1.75 to 3.9 J per cam revolution for flat followers and 18 % of that "
+                "for roller followers: 0.32 to 0.70 J, a mean torque of 0.05 to 0.11 N m. Energy lost per cam revolution, in J, with the camshaft's bearings "
+                "and without:", ""]
     works = []
     for name in ("thesis", "thesis_source"):
         whole = runs[name].scalar("work_friction")
@@ -140,13 +129,10 @@ def magnitudes(runs):
                      [[name, *(significant(work[where]) for work in works)] for name, where in zip(NAMES, WHERE)])
     inside = [int(((work >= 0.32) & (work <= 0.70)).sum()) for work in works]
     yield from ["", f"Inside the measured range are {inside[0]}, {inside[1]}, {inside[2]} and {inside[3]} of nine "
-                    "points; mean torques go "
-                f"from {band(runs['thesis'].torque('friction'))} N m and from "
-                f"{band(runs['thesis_source'].torque('friction'))} N m. The "
-                "order of magnitude is right. Hot, fully balanced runs lie below the measured range, cold ones "
-                "with two bearings "
-                "for one cam above it; the measured train had another geometry, so no more than the order can be "
-                "asked for.", ""]
+                    f"points; mean torques go from {band(runs['thesis'].torque('friction'))} N m and from "
+                    f"{band(runs['thesis_source'].torque('friction'))} N m. The order of magnitude is right. Hot, "
+                    "fully balanced runs lie below the measured range, cold ones with two bearings for one cam above "
+                    "it; the measured train had another geometry, so no more than the order can be asked for.", ""]
 
 
 def as_printed(runs):
@@ -154,14 +140,12 @@ def as_printed(runs):
     points = runs["thesis_as_printed"]
     torque = points.series("torque_geometric").max(axis=-1)
     yield from ["## Values as printed", "",
-                f"`thesis_as_printed.nml` keeps the misprints. Its spring gives a peak pressure of "
+                "`thesis_as_printed.nml` keeps the misprints. Its spring gives a peak pressure of "
                 f"{significant(points.scalar('max_hertz_pressure').max() * 1e-9)} GPa (statement 1: 0.64 GPa), "
-                "geometric torques of "
-                f"{listed(torque[:, 0])} N m at the three speeds (statement 10: hardly any change; `thesis.nml` "
-                "has ten times as much) "
-                "and a load that is the adjuster's 64 N for most of the event; its guide takes "
-                f"{band(points.share('guide'), 100.0)} % "
-                "of the friction torque (statement 9: 0.6 to 3 %). It cannot be what the source ran.", ""]
+                f"geometric torques of {listed(torque[:, 0])} N m at the three speeds (statement 10: hardly any "
+                "change; `thesis.nml` has ten times as much) and a load that is the adjuster's 64 N for most of the "
+                f"event; its guide takes {band(points.share('guide'), 100.0)} % of the friction torque (statement 9: "
+                "0.6 to 3 %). It cannot be what the source ran.", ""]
 
 
 def fixed_step(runs):
@@ -174,24 +158,20 @@ def fixed_step(runs):
             before, after = claim.check(accurate)[0], claim.check(points)[0]
             (gained if after and not before else lost if before and not after else []).append(claim.words)
     yield from ["## The source's step", "",
-                "The source integrates the roller with an explicit step and does not state its size; here it is "
-                "one degree. The film's traction decays within a "
-                "small part of that, so the step overshoots and the sliding speed jumps between the friction "
-                "limits: chatter, not "
-                "physics. Its numbers change with every rounding, so they are given to one digit and not tested. "
-                "`thesis_source.nml` with this step: slip up "
-                f"to {significant(100.0 * slip.min(), 1)} % at the calmest of the nine points and "
-                f"{significant(100.0 * slip.max(), 1)} % at the worst, "
-                f"mean friction torque {total.min():.1f} to {total.max():.1f} N m instead of "
-                f"{accurate.torque('friction').min():.2f} to {accurate.torque('friction').max():.2f} N m, bearings "
-                f"{10.0 * round(10.0 * points.share('bearings')[2, 0]):.0f} % of it at 900 rev/min and 25 °C, "
-                "needle bearing "
-                f"{100.0 * points.share('needle').min():.0f} to {100.0 * points.share('needle').max():.0f} %.", "",
+                "The source integrates the roller with an explicit step and does not state its size; here it is one "
+                "degree. The film's traction decays within a small part of that, so the step overshoots and the "
+                "sliding speed jumps between the friction limits: chatter, not physics. Its numbers change with "
+                "every rounding, so they are given to one digit and not tested. `thesis_source.nml` with this step: "
+                f"slip up to {significant(100.0 * slip.min(), 1)} % at the calmest of the nine points and "
+                f"{significant(100.0 * slip.max(), 1)} % at the worst, mean friction torque {total.min():.1f} to "
+                f"{total.max():.1f} N m instead of {accurate.torque('friction').min():.2f} to "
+                f"{accurate.torque('friction').max():.2f} N m, bearings "
+                f"{10.0 * round(10.0 * points.share('bearings')[2, 0]):.0f} % of it at 900 rev/min and 25 °C, needle "
+                f"bearing {100.0 * points.share('needle').min():.0f} to {100.0 * points.share('needle').max():.0f} "
+                "%.", "",
                 "Claims that hold with this step and not with an accurate integration:", "",
                 *(f"- {words}" for words in gained or ["none"]), "",
                 "Claims that no longer hold with it:", "", *(f"- {words}" for words in lost or ["none"]), "",
-                "\"Areas of high slip followed at once by very low slip\", which the source reports, are what such "
-                "a step gives. Some of "
-                "its shares and trends are thus those of the step; others hold by chance, and a step of one degree "
-                "does not "
-                "reproduce its figures either: how it stepped remains open.", ""]
+                "\"Areas of high slip followed at once by very low slip\", which the source reports, are what such a "
+                "step gives. Some of its shares and trends are thus those of the step; others hold by chance, and a "
+                "step of one degree does not reproduce its figures either: how it stepped remains open.", ""]

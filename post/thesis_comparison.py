@@ -4,7 +4,8 @@
     python post/thesis_comparison.py results/comparison --page PAGE.md        the page, from the files of these runs
 
 `make comparison` does both. Verdicts follow from the criteria in comparison_claims.py, numbers from the files, and
-reasons are printed where a claim does not hold. Exit code 0, or 2 if a file cannot be used or the page cannot be written.
+reasons are printed where a claim does not hold. Exit code 0, or 2 if a file cannot be used or the page cannot be
+written.
 """
 
 import argparse
@@ -18,8 +19,8 @@ from comparison_tables import as_printed, both_decks, each_choice, fixed_step, m
 from read import ResultError
 
 DECKS = ("thesis", "thesis_source")
-SHOWN = {"thesis": "`thesis.nml`", "thesis_source": "`thesis_source.nml`", "thesis_smoother": "`thesis.nml`, 0.14 "
-                                                                                              "µm together",
+SHOWN = {"thesis": "`thesis.nml`", "thesis_source": "`thesis_source.nml`", "thesis_smoother":
+        "`thesis.nml`, 0.14 µm together",
          "thesis_source_smoother": "`thesis_source.nml`, 0.14 µm together"}
 HEAD = """# Comparison with the source
 
@@ -78,8 +79,7 @@ def overview(runs):
                      [[str(number), statement.title, *(verdict_of(statement, runs[name]) for name in SHOWN)]
                       for number, statement in enumerate(STATEMENTS, 1)])
     yield from ["", "The source does not say whether its roughness of 0.14 µm is that of each surface or of both "
-                    "together. The decks "
-                "take the first; the last two columns take the second.", ""]
+                    "together. The decks take the first; the last two columns take the second.", ""]
 
 
 def section(number, statement, runs):
