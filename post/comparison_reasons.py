@@ -136,13 +136,19 @@ def bearings_share(runs, points):
            f"{percent(parts[0])}."
 
 
+def without_bearings(points, source):
+    """Largest share of a source when the camshaft's bearings are not counted."""
+    share = points.torque(source) / (points.torque("friction") - points.torque("bearings"))
+    return f"Without the camshaft's bearings its largest share is {percent(share.max())}."
+
+
 def guide_share(runs, points):
     guide, total = points.torque("guide"), points.torque("friction")
     return f"the guide's drag is viscosity times speed, {band(guide, 1e3)} N mm with the clearance of 0.02 mm. To " \
            f"be 0.6 to 3 % of the whole, the whole must be at least {significant(guide[2, 0] / 0.03 * 1e3)} N mm at " \
            f"900 rev/min and 25 °C (here {significant(total[2, 0] * 1e3)}) and at most " \
            f"{significant(guide[0, 2] / 0.006 * 1e3)} N mm at 300 rev/min and 95 °C (here " \
-           f"{significant(total[0, 2] * 1e3)})."
+           f"{significant(total[0, 2] * 1e3)}). {without_bearings(points, 'guide')}"
 
 
 def needle_share(runs, points):
@@ -151,7 +157,7 @@ def needle_share(runs, points):
            f"to 3 % of the whole, the whole must be {significant(needle.mean() / 0.03 * 1e3, 2)} to " \
            f"{significant(needle.mean() / 0.006 * 1e3, 2)} N mm; it is {band(total, 1e3)} N mm here. The fixed step " \
            f"of the source gives totals of that size: about {round(step.min(), 1):.1f} to " \
-           f"{round(step.max(), 1):.1f} N m (last section)."
+           f"{round(step.max(), 1):.1f} N m (last section). {without_bearings(points, 'needle')}"
 
 
 def guide_needle(runs, points):

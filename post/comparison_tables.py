@@ -61,9 +61,11 @@ def both_decks(runs):
     yield from ["", "![Slip ratio](figures/thesis_vs_thesis_source_slip.png)", "",
                 "The mean friction coefficient is mean friction over mean load. Loads, pressures and films are "
                 "nearly the same; friction and slip are not, because of how the losses are counted and what turns "
-                "the roller. The speed of the roller's surface in pure rolling, which the source takes as the "
-                f"contact's speed over the cam, differs from that by up to {percent(speeds.max())} (at "
-                f"{first.angle[speeds.argmax()]:.0f}°).", ""]
+                "the roller. Cold, the largest friction is a short peak at the beginning of the event "
+                f"({first.angle[np.argmax(first.series('friction_contact')[2, 0])]:.0f}° at 900 rev/min), where the "
+                "load comes back and spins up a roller that has slowed down. The speed of the roller's surface in "
+                "pure rolling, which the source takes as the contact's speed over the cam, differs from that by up "
+                f"to {percent(speeds.max())} (at {first.angle[speeds.argmax()]:.0f}°).", ""]
 
 
 def each_choice(runs):
@@ -119,8 +121,8 @@ def magnitudes(runs):
     """Losses against what was measured on other roller cams."""
     yield from ["## Magnitudes", "",
                 "Bair and others (1986) found 1.75 to 3.9 J per cam revolution for flat followers and 18 % of that "
-                "for roller followers: 0.32 to 0.70 J, a mean torque of 0.05 to 0.11 N m. Energy lost per cam revolution, in J, with the camshaft's bearings "
-                "and without:", ""]
+                "for roller followers: 0.32 to 0.70 J, a mean torque of 0.05 to 0.11 N m. Energy lost per cam "
+                "revolution, in J, with the camshaft's bearings and without:", ""]
     works = []
     for name in ("thesis", "thesis_source"):
         whole = runs[name].scalar("work_friction")
