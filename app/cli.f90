@@ -13,16 +13,16 @@ module camroller_cli
 
    !> Commands
    character(len=*), parameter :: command_names(*) = [character(len=8) :: &
-      & "run", "check", "defaults", "export", "version", "help"]
+      & "run", "check", "study", "defaults", "export", "version", "help"]
    !> Options of each command, in the same order
    character(len=*), parameter :: option_names(*) = [character(len=48) :: &
-      & "--output --set --quiet --help", "--set --help", "--markdown --help", &
-      & "--series --summary --case --output --help", &
+      & "--output --set --quiet --help", "--set --help", &
+      & "--output --set --repeats --quick --quiet --help", "--markdown --help", "--series --summary --case --output --help", &
       & "--help", "--help"]
    !> Most words beside options that each command takes
-   integer, parameter :: most_words(*) = [1, 1, 1, 1, 0, 1]
+   integer, parameter :: most_words(*) = [1, 1, 1, 1, 1, 0, 1]
    !> Does each command need a word?
-   logical, parameter :: needs_word(*) = [.true., .true., .false., .true., .false., .false.]
+   logical, parameter :: needs_word(*) = [.true., .true., .true., .false., .true., .false., .false.]
 
    !> What to do
    type :: config_t
@@ -44,6 +44,10 @@ module camroller_cli
       logical :: is_help = .false.
       !> Case to export, from 0 as in the file
       integer :: case_number = 0
+      !> Runs of a study whose median time counts
+      integer :: repeats = 5
+      !> A study of a few trials only?
+      logical :: is_quick = .false.
    end type config_t
 
 contains
@@ -160,7 +164,8 @@ contains
             & see(config))
          return
       end if
-      if (option == "--output" .or. option == "--set" .or. option == "--case") then
+      if (option == "--output" .or. option == "--set" .or. option == "--case" .or. &
+         & option == "--repeats") then
          if (equals > 0 .and. index(arguments(position)%text, "--") == 1) then
             value = arguments(position)%text(equals + 1:)
          else if (position < size(arguments)) then
@@ -181,7 +186,11 @@ contains
       case ("--set")
          config%overrides = [config%overrides, override_t(value)]
       case ("--case")
-         call read_case_number(value, config, error)
+         call read_whole_number(option, value, "the number of a case, from 0", see(config), config%case_number, error)
+      case ("--repeats")
+         call read_whole_number(option, value, "a number of runs", see(config), config%repeats, error)
+      case ("--quick")
+         config%is_quick = .true.
       case ("--quiet")
          config%is_quiet = .true.
       case ("--markdown")
@@ -193,23 +202,22 @@ contains
       end select
    end subroutine read_option
 
-   !> Number of a case.
-   subroutine read_case_number(value, config, error)
-      !> The word
-      character(len=*), intent(in) :: value
+   !> A whole number, not negative.
+   subroutine read_whole_number(option, value, meaning, advice, number, error)
+      !> The option, its word, what it takes, where to read more
+      character(len=*), intent(in) :: option, value, meaning, advice
       !> Gets the number
-      type(config_t), intent(inout) :: config
+      integer, intent(inout) :: number
       !> Usage error
       type(error_t), allocatable, intent(out) :: error
 
       integer :: status
 
       status = 1
-      if (verify(value, "0123456789") == 0 .and. len(value) > 0) read (value, *, iostat=status) config%case_number
+      if (verify(value, "0123456789") == 0 .and. len(value) > 0) read (value, *, iostat=status) number
       if (status == 0) return
-      call raise(error, kind_usage, "option '--case' takes the number of a case, from 0, not '"//value//"'"// &
-         & see(config))
-   end subroutine read_case_number
+      call raise(error, kind_usage, "option '"//option//"' takes "//meaning//", not '"//value//"'"//advice)
+   end subroutine read_whole_number
 
    !> Long name of an option.
    pure function long_form(option) result(long)

@@ -18,6 +18,7 @@ module camroller_commands
    use camroller_number_text, only : integer_text
    use camroller_run, only : build_models
    use camroller_run_command, only : run_deck
+   use camroller_study_command, only : study_deck
    use camroller_version, only : version_text, build_commit, compiler_facts
    implicit none
    private
@@ -67,6 +68,8 @@ contains
          call show_help(config, error)
       case ("run")
          call run_deck(config, error)
+      case ("study")
+         call study_deck(config, error)
       case ("export")
          call export_table(config, error)
       end select

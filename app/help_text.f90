@@ -31,6 +31,17 @@ contains
          text = "camroller check DECK [--set group.key=value]..."//n//n// &
             & "Read a deck, check every case of it without running it, and print the values it comes to."//n//n// &
             & "  -s, --set group.key=value  other value than the deck's; may be repeated"
+      case ("study")
+         text = "camroller study DECK [-o FILE] [--repeats N] [--quick] [--set group.key=value]..."//n//n// &
+            & "Measure what accuracy costs: every method over a ladder of tolerances or steps, against a reference from two"// &
+            & n// &
+            & "unrelated methods, and what simpler models change and save. Prints tables and writes one HDF5 file: the"//n// &
+            & "deck's name with _study.h5 in the present folder, or FILE."//n//n// &
+            & "  -o, --output FILE          file to write"//n// &
+            & "  --repeats N                runs whose median time counts; 5 where not given"//n// &
+            & "  --quick                    a few trials of each method only"//n// &
+            & "  -s, --set group.key=value  other value than the deck's; may be repeated"//n// &
+            & "  -q, --quiet                say nothing but errors"
       case ("defaults")
          text = "camroller defaults [GROUP] [--markdown]"//n//n// &
             & "Print a complete deck with every key explained, or one group of it."//n//n// &
@@ -48,6 +59,7 @@ contains
          text = "camroller: friction, slip and drive torque of roller-finger-follower valve trains"//n//n// &
             & "  camroller run DECK         compute and write an HDF5 file"//n// &
             & "  camroller check DECK       read and check a deck, print what it comes to"//n// &
+            & "  camroller study DECK       measure what accuracy costs"//n// &
             & "  camroller defaults [GROUP] print a complete deck with every key explained"//n// &
             & "  camroller export FILE.h5   print results as comma-separated values"//n// &
             & "  camroller version          version and build"//n// &

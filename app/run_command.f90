@@ -24,7 +24,7 @@ module camroller_run_command
    implicit none
    private
 
-   public :: run_deck
+   public :: run_deck, check_cases, write_facts, output_path
 
    !> What happened to the cases
    type :: tally_t
@@ -56,7 +56,7 @@ contains
       if (allocated(error)) return
       call check_cases(deck, error)
       if (allocated(error)) return
-      path = output_path(config)
+      path = output_path(config, ".h5")
       if (path == config%subject) then
          call raise(error, kind_usage, "the result would replace the deck '"//path//"'")
          return
@@ -223,9 +223,11 @@ contains
    end function options_of
 
    !> File to write: as asked for, or the deck's name with another ending in the present folder.
-   pure function output_path(config) result(path)
+   pure function output_path(config, ending) result(path)
       !> What to do
       type(config_t), intent(in) :: config
+      !> Ending in place of the deck's
+      character(len=*), intent(in) :: ending
       !> Path of the file
       character(len=:), allocatable :: path
 
@@ -236,7 +238,7 @@ contains
       path = config%subject(index(config%subject, "/", back=.true.) + 1:)
       point = index(path, ".", back=.true.)
       if (point > 1) path = path(:point - 1)
-      path = path//".h5"
+      path = path//ending
    end function output_path
 
    !> Say what was done.

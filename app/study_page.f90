@@ -1,0 +1,200 @@
+!> The tables of a study as text.
+!>
+!> Layer: app. In: tables. Out: lines; of many cases the largest error and the geometric mean of the times.
+module camroller_study_page
+   use, intrinsic :: ieee_arithmetic, only : ieee_is_nan
+   use camroller_kinds, only : wp, pi
+   use camroller_study_table, only : study_table_t, column_of, word_length
+   implicit none
+   private
+
+   public :: reference_page, method_page, model_page
+
+   character(len=*), parameter :: n = new_line("a")
+   !> Longest line
+   integer, parameter :: width = 128
+
+contains
+
+   !> One line for each reference.
+   function reference_page(table) result(text)
+      !> Table of references
+      type(study_table_t), intent(in) :: table
+      !> The page
+      character(len=:), allocatable :: text
+
+      character(len=width) :: line
+      integer :: row
+
+      text = "References"//n//"case  speed  oil    agreement  fastest    slip per    friction   smallest"//n// &
+         & "      rpm    degC   of two     decay      revolution  torque     film"//n// &
+         & "                               [1/rad]    [-]         [N m]      [um]"
+      do row = 1, table%rows
+         associate (v => table%numbers(row, :))
+            write (line, '(i4, f8.1, f7.1)') nint(v(1)), v(3)*30.0_wp/pi, v(4) - 273.15_wp
+            if (nint(v(2)) == 0) then
+               write (line(20:), '(es10.1, es11.2, es12.3, es11.3, f9.4)') v(5), v(6), v(8), v(9), v(10)*1.0e6_wp
+            else
+               line(21:) = table%words(row, 1)
+            end if
+         end associate
+         text = text//n//trim(line)
+      end do
+      text = text//n
+   end function reference_page
+
+   !> One line for each method and rung: worst case of each error, mean work and time.
+   function method_page(table) result(text)
+      !> Table of methods
+      type(study_table_t), intent(in) :: table
+      !> The page
+      character(len=:), allocatable :: text
+
+      logical :: is_same(table%rows)
+      logical :: is_done(table%rows)
+      integer :: row
+
+      text = "Methods, all cases: largest errors; means of work, geometric mean of time"//n// &
+         & "method            tolerance  step   error of   of mean    of film    estimated  evalua-  steps   rejected  "// &
+         & "time    failed"//n// &
+         & "                             [deg]  sliding    friction   minimum    error      tions                      "// &
+         & "[ms]"
+      is_done = .false.
+      do row = 1, table%rows
+         if (is_done(row)) cycle
+         is_same = table%words(:table%rows, 1) == table%words(row, 1) &
+            & .and. same(column_of(table, "tolerance"), row) .and. same(column_of(table, "step"), row)
+         is_done = is_done .or. is_same
+         text = text//n//method_line(table, row, is_same)
+      end do
+      text = text//n
+   end function method_page
+
+   !> Line for a method and rung.
+   function method_line(table, row, is_same) result(text)
+      !> Table of methods
+      type(study_table_t), intent(in) :: table
+      !> First of its rows
+      integer, intent(in) :: row
+      !> All of its rows
+      logical, intent(in) :: is_same(:)
+      !> The line
+      character(len=:), allocatable :: text
+
+      character(len=width) :: line
+      ! Numbers of a column [unit of the column]
+      real(wp), allocatable :: rung(:)
+      logical :: fine(size(is_same))
+
+      line = table%words(row, 1)
+      rung = column_of(table, "tolerance")
+      if (.not. ieee_is_nan(rung(row))) write (line(18:), '(es9.0)') rung(row)
+      rung = column_of(table, "step")
+      if (.not. ieee_is_nan(rung(row))) write (line(28:), '(f7.3)') rung(row)
+      fine = is_same .and. column_of(table, "status") <= 0.0_wp
+      if (any(fine)) then
+         write (line(36:), '(4es11.1, f10.0, f9.0, f8.1, f11.3)') worst("error_sliding_speed"), &
+            & worst("error_torque_friction"), worst("error_film_min"), worst("estimated_error"), mean("evaluations"), &
+            & mean("steps"), mean("rejected"), 1.0e3_wp*geometric_mean(pack(column_of(table, "time"), fine))
+      end if
+      if (count(fine) < count(is_same)) write (line(119:), '(i4)') count(is_same) - count(fine)
+      text = trim(line)
+
+   contains
+
+      !> Largest number of a column.
+      function worst(name) result(value)
+         !> Its name
+         character(len=*), intent(in) :: name
+         !> The number [unit of the column]
+         real(wp) :: value
+
+         value = maxval(pack(column_of(table, name), fine))
+      end function worst
+
+      !> Mean of a column.
+      function mean(name) result(value)
+         !> Its name
+         character(len=*), intent(in) :: name
+         !> The mean [unit of the column]
+         real(wp) :: value
+
+         value = sum(pack(column_of(table, name), fine))/count(fine)
+      end function mean
+   end function method_line
+
+   !> Geometric mean.
+   pure function geometric_mean(values) result(mean)
+      !> Positive numbers [any]
+      real(wp), intent(in) :: values(:)
+      !> Their geometric mean [any]
+      real(wp) :: mean
+
+      mean = exp(sum(log(max(values, tiny(1.0_wp))))/size(values))
+   end function geometric_mean
+
+   !> Rows with the same number as a row, none counting as a number of its own.
+   pure function same(values, row) result(answer)
+      !> Numbers of a column [unit of the column]
+      real(wp), intent(in) :: values(:)
+      !> The row
+      integer, intent(in) :: row
+      !> The answer for each row
+      logical :: answer(size(values))
+
+      if (ieee_is_nan(values(row))) then
+         answer = ieee_is_nan(values)
+      else
+         answer = .not. ieee_is_nan(values)
+         where (answer) answer = .not. abs(values - values(row)) > 0.0_wp
+      end if
+   end function same
+
+   !> One line for each model: largest changes over all cases.
+   function model_page(table) result(text)
+      !> Table of models
+      type(study_table_t), intent(in) :: table
+      !> The page
+      character(len=:), allocatable :: text
+
+      character(len=width) :: line
+      logical :: is_done(table%rows), is_same(table%rows), fine(table%rows)
+      integer :: row
+
+      text = "Models, all cases: largest changes in size, with their sign; geometric mean of time"//n// &
+         & "model                    compared with   friction   slip       film       time    time saved  failed"//n// &
+         & "                                         torque     per turn   minimum    [ms]    [%]"
+      is_done = .false.
+      do row = 1, table%rows
+         if (is_done(row)) cycle
+         is_same = table%words(:table%rows, 1) == table%words(row, 1)
+         is_done = is_done .or. is_same
+         fine = is_same .and. column_of(table, "status") <= 0.0_wp .and. .not. ieee_is_nan(column_of(table, "time_saved"))
+         line = table%words(row, 1) (:24)//" "//table%words(row, 2) (:13)
+         if (any(fine)) write (line(39:), '(3f10.2, a, f9.3, f10.0)') 100.0_wp*extreme("change_torque_friction"), &
+            & 100.0_wp*extreme("change_slip"), 100.0_wp*extreme("change_film_min"), " %", &
+            & 1.0e3_wp*geometric_mean(pack(column_of(table, "time"), fine)), &
+            & 100.0_wp*(1.0_wp - geometric_mean(1.0_wp - pack(column_of(table, "time_saved"), fine)))
+         if (count(fine) < count(is_same)) write (line(93:), '(i4)') count(is_same) - count(fine)
+         text = text//n//trim(line)
+      end do
+      text = text//n
+
+   contains
+
+      !> Number of a column that is largest in size.
+      function extreme(name) result(value)
+         !> Name of the column
+         character(len=*), intent(in) :: name
+         !> The number [unit of the column]
+         real(wp) :: value
+
+         ! Numbers of the column [unit of the column]
+         real(wp), allocatable :: values(:)
+
+         values = pack(column_of(table, name), fine)
+         value = values(maxloc(abs(values), 1))
+      end function extreme
+   end function model_page
+
+end module camroller_study_page
