@@ -46,6 +46,8 @@ program main
    use test_invariance, only : collect_invariance
    use test_magnitudes, only : collect_magnitudes
    use test_film_literature, only : collect_film_literature
+   use test_study, only : collect_study
+   use test_error_estimate, only : collect_error_estimate
    use test_roller_problem, only : collect_roller_problem
    use test_simulation, only : collect_simulation
    use test_ode_special, only : collect_ode_special
@@ -127,6 +129,8 @@ contains
          new_testsuite("invariance", collect_invariance), &
          new_testsuite("magnitudes", collect_magnitudes), &
          new_testsuite("film_literature", collect_film_literature), &
+         new_testsuite("study", collect_study), &
+         new_testsuite("error_estimate", collect_error_estimate), &
          new_testsuite("roller_problem", collect_roller_problem), &
          new_testsuite("simulation", collect_simulation) &
          ]

@@ -11,7 +11,7 @@ module camroller_trajectory
    implicit none
    private
 
-   public :: trajectory_t, start_trajectory, append_point, append_curve, interpolate_state
+   public :: trajectory_t, start_trajectory, append_point, append_curve, interpolate_state, curve_slope
 
    !> Accepted points, in order of time; at a kink of the rate two points share a time
    type :: trajectory_t
@@ -146,6 +146,32 @@ contains
             & + place*(1.0_wp - place)*(bends(:, 1) + place*(bends(:, 2) + place*bends(:, 3)))
       end associate
    end subroutine interpolate_state
+
+   !> Slope of the curve at a time, in the interval where `interpolate_state` has found it.
+   pure subroutine curve_slope(trajectory, time, interval, slope)
+      !> The trajectory, with two points at least
+      type(trajectory_t), intent(in) :: trajectory
+      !> Time inside the interval [time]
+      real(wp), intent(in) :: time
+      !> The interval
+      integer, intent(in) :: interval
+      !> Slope [state/time]
+      real(wp), intent(out) :: slope(:)
+
+      ! Length of the interval [time], place in it [-]
+      real(wp) :: length, place
+
+      slope = 0.0_wp
+      length = trajectory%time(interval + 1) - trajectory%time(interval)
+      if (length <= 0.0_wp) return
+      place = (time - trajectory%time(interval))/length
+      associate (bends => trajectory%bends(:, :, interval + 1))
+         slope = trajectory%state(:, interval + 1) - trajectory%state(:, interval) &
+            & + (1.0_wp - 2.0_wp*place)*(bends(:, 1) + place*(bends(:, 2) + place*bends(:, 3))) &
+            & + place*(1.0_wp - place)*(bends(:, 2) + 2.0_wp*place*bends(:, 3))
+      end associate
+      slope = slope/length
+   end subroutine curve_slope
 
    !> Interval of a table of rising times that holds a time: a few steps from the hint, else by bisection.
    pure subroutine find_interval(times, time, hint)

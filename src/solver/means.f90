@@ -13,7 +13,10 @@ module camroller_means
    use camroller_film, only : is_in_range
    use camroller_cycle, only : cycle_t, state_at
    use camroller_catalogue, only : series_values, follower_torques, torque_count
+   use camroller_error_estimate, only : estimate_t, add_defect, end_interval, estimated_error
    use camroller_shaft, only : shaft_t, shaft_torques
+   use camroller_spin, only : decay_rate_of, rolling_speed_slope
+   use camroller_trajectory, only : curve_slope
    use camroller_events, only : cycle_stops
    implicit none
    private
@@ -32,6 +35,10 @@ module camroller_means
       real(wp) :: lost_share = 0.0_wp, outside_share = 0.0_wp
       !> Cam angle from full lift where the film law's range is first left [rad]
       real(wp) :: first_outside = 0.0_wp
+      !> Largest size of the sliding speed met [m/s]
+      real(wp) :: largest_sliding = 0.0_wp
+      !> Estimate of the error of the sliding speed over its largest value [-]
+      real(wp) :: error = 0.0_wp
    end type statistics_t
 
    !> Three-point Gauss-Legendre quadrature on [0, 1]: nodes and weights [-]
@@ -62,6 +69,9 @@ contains
 
       ! Angles [rad] and weights [-] of the rule over the cycle
       real(wp), allocatable :: angles(:), weights(:)
+      ! Places of the rule in an interval [-]
+      real(wp), allocatable :: nodes(:)
+      type(estimate_t) :: estimate
       integer :: point, hint
 
       allocate (statistics%mean(series_count), statistics%lowest(series_count), statistics%highest(series_count))
@@ -69,11 +79,18 @@ contains
       statistics%lowest = huge(1.0_wp)
       statistics%highest = -huge(1.0_wp)
       call list_points(cycle, angles, weights)
+      nodes = gauss_nodes
+      if (cycle%is_linear) nodes = trapezoid_nodes
       hint = 1
       do point = 1, size(angles)
-         call add_point(case, model, cycle, angles(point), weights(point), hint, statistics, error)
+         call add_point(case, model, cycle, angles(point), weights(point), hint, statistics, estimate, error)
          if (allocated(error)) return
+         if (estimate%points < size(nodes)) cycle
+         associate (first => (point - 1)/size(nodes) + 1)
+            call end_interval(estimate, nodes, cycle%trajectory%time(first + 1) - cycle%trajectory%time(first))
+         end associate
       end do
+      statistics%error = cycle%closure + estimated_error(estimate)/max(statistics%largest_sliding, tiny(1.0_wp))
    end subroutine integrate_lobe
 
    !> Mean torques of a follower over a cycle or a piece of one.
@@ -137,7 +154,7 @@ contains
    end subroutine list_points
 
    !> Add one point of the rule.
-   subroutine add_point(case, model, cycle, angle, weight, hint, statistics, error)
+   subroutine add_point(case, model, cycle, angle, weight, hint, statistics, estimate, error)
       !> The case
       type(case_t), intent(in) :: case
       !> Model of the lobe
@@ -152,6 +169,8 @@ contains
       integer, intent(inout) :: hint
       !> Means and extremes so far
       type(statistics_t), intent(inout) :: statistics
+      !> Estimate of the error so far
+      type(estimate_t), intent(inout) :: estimate
       !> Convergence error
       type(error_t), allocatable, intent(out) :: error
 
@@ -167,12 +186,38 @@ contains
       statistics%lowest = min(statistics%lowest, values)
       statistics%highest = max(statistics%highest, values)
       statistics%torques = statistics%torques + weight*torques
+      statistics%largest_sliding = max(statistics%largest_sliding, abs(state%contact%sliding_speed))
+      call add_defect(estimate, defect_at(model, cycle, angle, hint, state), decay_rate_of(model, state%contact))
       if (.not. state%contact%is_touching) statistics%lost_share = statistics%lost_share + weight
       if (.not. has_film_in_range(model, state)) then
          if (statistics%outside_share <= 0.0_wp) statistics%first_outside = angle
          statistics%outside_share = statistics%outside_share + weight
       end if
    end subroutine add_point
+
+   !> Slope of the cycle's curve less the rate of the roller equation.
+   pure function defect_at(model, cycle, angle, interval, state) result(defect)
+      !> Model of the lobe
+      type(model_t), intent(in) :: model
+      !> Cycle of the lobe
+      type(cycle_t), intent(in) :: cycle
+      !> Cam angle from full lift, in the trajectory [rad]
+      real(wp), intent(in) :: angle
+      !> Interval of the trajectory that holds it
+      integer, intent(in) :: interval
+      !> State there
+      type(state_t), intent(in) :: state
+      !> The defect [m/s/rad]
+      real(wp) :: defect
+
+      ! Slope of the curve, rate of the equation [m/s/rad]
+      real(wp) :: slope(1), rate
+
+      call curve_slope(cycle%trajectory, angle, interval, slope)
+      rate = model%roller_radius*state%spin_acceleration/model%speed
+      if (.not. cycle%has_surface_speed) rate = rolling_speed_slope(model, state%position) - rate
+      defect = slope(1) - rate
+   end function defect_at
 
    !> Is the film law inside its published range? True where there is no contact.
    pure function has_film_in_range(model, state) result(inside)

@@ -14,7 +14,7 @@ module camroller_spin
    implicit none
    private
 
-   public :: spin_problem_t, sliding_speed_of, rolling_speed_slope, rolling_speed_at
+   public :: spin_problem_t, sliding_speed_of, rolling_speed_slope, rolling_speed_at, decay_rate_of
 
    !> The roller's spin over the cam angle
    type, extends(problem_t) :: spin_problem_t
@@ -83,8 +83,20 @@ contains
       call evaluate_loading(self%model, time, position, force, moments, status)
       if (status /= 0) return
       call evaluate_spin(self%model, position, moments, sliding_speed_of(self, position, state(1)), contact, acceleration, status)
-      decay_rate = self%model%roller_radius**2*contact%traction_slope/(self%model%roller_inertia*self%model%speed)
+      decay_rate = decay_rate_of(self%model, contact)
    end subroutine get_decay_rate
+
+   !> Decay rate of a disturbance of the spin with the contact as it is.
+   pure function decay_rate_of(model, contact) result(decay_rate)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> State of the contact
+      type(contact_t), intent(in) :: contact
+      !> Decay rate [1/rad]
+      real(wp) :: decay_rate
+
+      decay_rate = model%roller_radius**2*contact%traction_slope/(model%roller_inertia*model%speed)
+   end function decay_rate_of
 
    !> A cam angle in the words of messages, as files count it.
    function name_time(self, time) result(text)

@@ -51,6 +51,8 @@ contains
       call add_losses(case, result, means, quantities, values, count)
       call add_slip(statistics(1), result, quantities, values, count)
       call add_margins(models(1), statistics(1), result, quantities, values, count)
+      call add(quantities, values, count, "estimated_error", "1", &
+         & "estimate of the largest error of the sliding speed over its largest value", "numerics", maxval(statistics%error))
       call add_counters(cycles, quantities, values, count)
       result%summary = quantities(:count)
       result%summary_values = values(:count)

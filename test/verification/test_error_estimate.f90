@@ -1,0 +1,129 @@
+!> The estimate of a cycle's error: closed forms, and whether it holds against a tighter solution.
+module test_error_estimate
+   use testdrive, only : unittest_type, new_unittest, error_type, check, test_failed
+   use camroller_kinds, only : wp, degree
+   use camroller_case, only : case_t
+   use camroller_error_estimate, only : estimate_t, add_defect, end_interval, estimated_error
+   use camroller_study_errors, only : largest_deviation
+   use camroller_study_probe, only : probe_t, run_probe
+   use reference_cases, only : thesis_case, source_case, skewed_case, set_point, point_speeds, point_viscosities
+   implicit none
+   private
+
+   public :: collect_error_estimate
+
+   !> Margin that the estimate contains [-]
+   real(wp), parameter :: margin = 3.0_wp
+   !> Gauss nodes [-]
+   real(wp), parameter :: nodes(3) = 0.5_wp*[1.0_wp - sqrt(0.6_wp), 1.0_wp, 1.0_wp + sqrt(0.6_wp)]
+
+contains
+
+   subroutine collect_error_estimate(testsuite)
+      type(unittest_type), allocatable, intent(out) :: testsuite(:)
+
+      testsuite = [ &
+         new_unittest("a constant defect with decay gives the closed form", test_constant), &
+         new_unittest("without decay a defect adds up to its integral", test_integral), &
+         new_unittest("under fast decay the error is the defect over the decay rate", test_stiff), &
+         new_unittest("a cycle without decay has no finite error", test_no_decay), &
+         new_unittest("the estimate holds up against the reference for every kind of method", test_methods) &
+         ]
+   end subroutine collect_error_estimate
+
+   !> Carry a defect over equal intervals.
+   pure subroutine carry(defects, rate, length, intervals, estimate)
+      ! Defects at the nodes [m/s/rad], decay rate [1/rad], length of an interval [rad]
+      real(wp), intent(in) :: defects(3), rate, length
+      integer, intent(in) :: intervals
+      type(estimate_t), intent(inout) :: estimate
+      integer :: i, j
+
+      do i = 1, intervals
+         do j = 1, 3
+            call add_defect(estimate, defects(j), rate)
+         end do
+         call end_interval(estimate, nodes, length)
+      end do
+   end subroutine carry
+
+   subroutine test_constant(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(estimate_t) :: estimate
+
+      call carry([0.5_wp, 0.5_wp, 0.5_wp], 2.0_wp, 0.1_wp, 10, estimate)
+      call check(error, estimate%error, 0.25_wp*(1.0_wp - exp(-2.0_wp)), thr=100.0_wp*epsilon(1.0_wp))
+      if (allocated(error)) return
+      call check(error, estimate%contraction, exp(-2.0_wp), thr=100.0_wp*epsilon(1.0_wp))
+   end subroutine test_constant
+
+   subroutine test_integral(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(estimate_t) :: estimate
+
+      ! 6 x^2 - 6 x + 1 has no integral over [0, 1]
+      call carry(6.0_wp*nodes**2 - 6.0_wp*nodes + 1.0_wp, 0.0_wp, 0.3_wp, 5, estimate)
+      call check(error, abs(estimate%error) <= 100.0_wp*epsilon(1.0_wp))
+      if (allocated(error)) return
+      call carry(nodes**2, 0.0_wp, 0.3_wp, 1, estimate)
+      call check(error, estimate%error, 0.1_wp, thr=100.0_wp*epsilon(1.0_wp))
+   end subroutine test_integral
+
+   subroutine test_stiff(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(estimate_t) :: estimate
+
+      call carry([3.0_wp, 3.0_wp, 3.0_wp], 1.0e6_wp, 0.01_wp, 3, estimate)
+      call check(error, estimate%error, 3.0e-6_wp, thr=100.0_wp*epsilon(1.0_wp), rel=.true.)
+      if (allocated(error)) return
+      call check(error, estimated_error(estimate), margin*3.0e-6_wp, thr=100.0_wp*epsilon(1.0_wp), rel=.true.)
+   end subroutine test_stiff
+
+   subroutine test_no_decay(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(estimate_t) :: estimate
+
+      call carry([1.0_wp, 1.0_wp, 1.0_wp], 0.0_wp, 0.1_wp, 1, estimate)
+      call check(error, estimated_error(estimate) > 1.0e10_wp)
+   end subroutine test_no_decay
+
+   subroutine test_methods(error)
+      type(error_type), allocatable, intent(out) :: error
+      character(len=16), parameter :: methods(*) = [character(len=16) :: "rodas3", "rodas4", "rodas5p", "radau5", "exprb32", &
+         & "rkc"]
+      type(case_t) :: cases(4)
+      type(probe_t) :: reference, probe
+      ! Error found [-]
+      real(wp) :: true_error
+      character(len=120) :: words
+      integer :: i, method, power
+
+      cases(1:2) = thesis_case()
+      call set_point(cases(1), point_speeds(1), point_viscosities(1))
+      call set_point(cases(2), point_speeds(3), point_viscosities(3))
+      cases(3) = source_case()
+      cases(4) = skewed_case("away_from_pivot")
+      do i = 1, size(cases)
+         cases(i)%numerics%method = "rodas5p"
+         cases(i)%numerics%tolerance = 1.0e-10_wp
+         cases(i)%numerics%output_step = 0.02_wp*degree
+         call run_probe(cases(i), 1, reference)
+         do method = 1, size(methods)
+            do power = 3, 6
+               cases(i)%numerics%method = methods(method)
+               cases(i)%numerics%tolerance = 10.0_wp**(-power)
+               call run_probe(cases(i), 1, probe)
+               true_error = largest_deviation(probe%sliding_speed, reference%sliding_speed)
+               write (words, "(a, i2, 1x, a, 3es10.2)") "case", i, methods(method), cases(i)%numerics%tolerance, true_error, &
+                  & probe%estimated_error
+               ! Above the true error, and no more than ten times the margin above it; the reference itself is good to 1e-9
+               call check(error, true_error <= probe%estimated_error + 1.0e-9_wp, words)
+               if (allocated(error)) return
+               call check(error, probe%estimated_error <= 10.0_wp*margin*true_error + 1.0e-9_wp, words)
+               if (allocated(error)) return
+            end do
+         end do
+      end do
+   end subroutine test_methods
+
+end module test_error_estimate
