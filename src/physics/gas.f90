@@ -36,8 +36,9 @@ contains
       real(wp), parameter :: span_tolerance = 1.0e-6_wp
       integer :: last
 
-      last = size(gas%angle)
-      if (last < 2 .or. size(gas%pressure) /= last) then
+      last = 0
+      if (allocated(gas%angle) .and. allocated(gas%pressure)) last = merge(size(gas%angle), 0, size(gas%angle) == size(gas%pressure))
+      if (last < 2) then
          call raise(error, kind_deck, "gas force: the table needs as many pressures as angles, two at least")
          return
       end if

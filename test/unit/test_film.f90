@@ -27,6 +27,7 @@ contains
          new_unittest("Moes: elastic and isoviscous it is 2.621 M^(-1/5)", test_moes_elastic), &
          new_unittest("Moes: rigid and piezoviscous it is 1.287 L^(2/3)", test_moes_rigid_piezo), &
          new_unittest("Moes: elastic and piezoviscous it is 1.311 M^(-1/8) L^(3/4)", test_moes_elastic_piezo), &
+         new_unittest("Moes: the minimum dips below the centre where deformation rules, and only there", test_moes_dip), &
          new_unittest("a line of loads gives the same films as single groups", test_line), &
          new_unittest("published ranges end where they are said to", test_ranges), &
          new_unittest("only the rough regression takes the whole load", test_whole_load) &
@@ -141,6 +142,18 @@ contains
       ! (Q/P)^3.5 = 5e-5 of which 2/7 counts, E/Q = 1e-8
       call check(error, moes_film(1.0e16_wp, 1.0e9_wp), 1.311_wp*1.0e-2_wp*1.0e9_wp**0.75_wp, thr=2.0e-5_wp, rel=.true.)
    end subroutine test_moes_elastic_piezo
+
+   subroutine test_moes_dip(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(film_shape_t) :: shape
+
+      ! elastic: 1.55 over 1.77 of the numerical solution, three digits each
+      call film_shape(law_moes, groups_t(0.5_wp, 1.0e3_wp, 1.0e8_wp, 0.0_wp, 0.0_wp), shape)
+      call check(error, shape%minimum/shape%central, 1.55_wp/1.77_wp, thr=0.5e-3_wp)
+      if (allocated(error)) return
+      call film_shape(law_moes, groups_t(0.5_wp, 1.0e-3_wp, 1.0e-9_wp, 0.0_wp, 0.0_wp), shape)
+      call check(error, shape%minimum, shape%central, thr=1.0e-13_wp, rel=.true.)
+   end subroutine test_moes_dip
 
    subroutine test_line(error)
       type(error_type), allocatable, intent(out) :: error

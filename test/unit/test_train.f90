@@ -155,6 +155,9 @@ contains
       type(gas_law_t) :: law
       type(error_t), allocatable :: failure
 
+      call new_gas_law(law, gas, failure)
+      call check(error, said(failure, kind_deck, "as many pressures as angles"), "no table at all")
+      if (allocated(error)) return
       call make_table(gas)
       gas%pressure = gas%pressure(:12)
       call new_gas_law(law, gas, failure)
