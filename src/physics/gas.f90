@@ -37,7 +37,9 @@ contains
       integer :: last
 
       last = 0
-      if (allocated(gas%angle) .and. allocated(gas%pressure)) last = merge(size(gas%angle), 0, size(gas%angle) == size(gas%pressure))
+      if (allocated(gas%angle) .and. allocated(gas%pressure)) then
+         if (size(gas%angle) == size(gas%pressure)) last = size(gas%angle)
+      end if
       if (last < 2) then
          call raise(error, kind_deck, "gas force: the table needs as many pressures as angles, two at least")
          return
