@@ -14,7 +14,10 @@ module camroller_balance
    implicit none
    private
 
-   public :: find_balance
+   public :: find_balance, follow_balance
+
+   !> Steps from a guess nearby before the search starts anew: each gains a digit or more
+   integer, parameter :: max_steps = 12
 
 contains
 
@@ -60,6 +63,55 @@ contains
       sliding_speed = bracket%trial
       decay_rate = model%roller_radius**2*contact%traction_slope/(model%roller_inertia*model%speed)
    end subroutine find_balance
+
+   !> Sliding speed of the algebraic balance from a guess nearby: Newton's method with the slope at constant film and load, and the
+   !> search over all speeds where that does not settle.
+   subroutine follow_balance(model, angle, tolerance, guess, sliding_speed, evaluations, is_found)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> Cam angle from full lift [rad]
+      real(wp), intent(in) :: angle
+      !> Accuracy of the sliding speed [m/s]
+      real(wp), intent(in) :: tolerance
+      !> Sliding speed to start from [m/s]
+      real(wp), intent(in) :: guess
+      !> Sliding speed [m/s]
+      real(wp), intent(out) :: sliding_speed
+      !> Evaluations of the contact, counted on
+      integer, intent(inout) :: evaluations
+      !> Is there a balance?
+      logical, intent(out) :: is_found
+
+      ! Part of the tolerance to which the contact is solved [-]
+      real(wp), parameter :: part = 1.0e-2_wp
+      ! Evaluations of a search over all speeds, about
+      integer, parameter :: search = 16
+      type(position_t) :: position
+      type(moments_t) :: moments
+      type(contact_t) :: contact
+      ! Gas force [N]; dV_s/dtheta [m/s/rad]; decay rate [1/rad]; step [m/s]; speed of pure rolling [m/s]
+      real(wp) :: force, rate, decay_rate, step, rolling
+      integer :: i, status
+
+      is_found = .false.
+      sliding_speed = guess
+      call evaluate_loading(model, angle, position, force, moments, status)
+      if (status /= 0) return
+      rolling = abs(rolling_speed_at(model, position))
+      do i = 1, max_steps
+         call sliding_rate(model, position, moments, sliding_speed, part*tolerance/max(tolerance, rolling), contact, rate)
+         evaluations = evaluations + 1
+         decay_rate = model%roller_radius**2*contact%traction_slope/(model%roller_inertia*model%speed)
+         if (.not. decay_rate > 0.0_wp) exit
+         step = rate/decay_rate
+         if (.not. abs(sliding_speed + step) < rolling) exit
+         sliding_speed = sliding_speed + step
+         is_found = abs(step) <= tolerance .and. contact%is_touching
+         if (is_found) return
+      end do
+      call find_balance(model, angle, tolerance/rolling, position, sliding_speed, decay_rate, is_found)
+      evaluations = evaluations + search
+   end subroutine follow_balance
 
    !> dV_s/dtheta at a sliding speed.
    subroutine sliding_rate(model, position, moments, sliding_speed, accuracy, contact, rate)

@@ -5,7 +5,7 @@
 module camroller_case
    use camroller_kinds, only : wp, degree
    use camroller_names, only : name_length
-   use camroller_ode_methods, only : method_names
+   use camroller_ode_methods, only : ode_method_names => method_names
    use camroller_lift, only : lift_t
    use camroller_kinematics, only : mechanism_t
    use camroller_dynamics, only : masses_t, spring_t, gas_force_t
@@ -21,8 +21,12 @@ module camroller_case
    implicit none
    private
 
-   public :: case_t, operating_point_t, numerics_t, energy_names, method_names
+   public :: case_t, operating_point_t, numerics_t, energy_names, method_names, quasi_static
 
+   !> Name of the model that takes the roller's spin from its algebraic balance
+   character(len=name_length), parameter :: quasi_static = "quasi_static"
+   !> Ways to find the roller's spin: the integration methods, and the quasi-static limit
+   character(len=name_length), parameter :: method_names(*) = [ode_method_names, quasi_static]
    !> Bookkeeping of forces and losses: closed energy balance, or as in the source thesis
    character(len=*), parameter :: energy_names(*) = [character(len=name_length) :: "consistent", "source"]
 

@@ -6,7 +6,7 @@
 module camroller_cycle
    use camroller_kinds, only : wp, pi, two_pi, degree
    use camroller_error, only : error_t, raise, add_context, kind_convergence
-   use camroller_case, only : numerics_t
+   use camroller_case, only : numerics_t, quasi_static
    use camroller_model, only : model_t, evaluate_geometry
    use camroller_kinematics, only : position_t
    use camroller_dynamics, only : moments_t
@@ -14,6 +14,7 @@ module camroller_cycle
    use camroller_events, only : find_stops, cycle_stops
    use camroller_spin, only : spin_problem_t, rolling_speed_at
    use camroller_balance, only : find_balance
+   use camroller_quasi_static, only : quasi_static_cycle
    use camroller_ode, only : method_t, options_t, counters_t, integrate
    use camroller_ode_methods, only : new_method
    use camroller_trajectory, only : trajectory_t, interpolate_state
@@ -79,6 +80,13 @@ contains
 
       call find_stops(model, stops)
       call choose_start(model, cycle%start, state(1), scale)
+      if (numerics%method == quasi_static) then
+         cycle%stops = cycle_stops(stops, cycle%start)
+         cycle%is_linear = .true.
+         cycle%cycles = 1
+         call quasi_static_cycle(model, cycle%stops, numerics%tolerance*scale, cycle%trajectory, cycle%counters, error)
+         return
+      end if
       call choose_method(cycle, model, numerics, scale, problem, method, options, error)
       if (allocated(error)) return
       if (cycle%has_surface_speed) state(1) = rolling_speed_at_angle(model, cycle%start) - state(1)
