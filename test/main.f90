@@ -50,6 +50,7 @@ program main
    use test_error_estimate, only : collect_error_estimate
    use test_roller_problem, only : collect_roller_problem
    use test_simulation, only : collect_simulation
+   use test_quasi_static, only : collect_quasi_static
    use test_ode_special, only : collect_ode_special
    implicit none
 
@@ -132,7 +133,8 @@ contains
          new_testsuite("study", collect_study), &
          new_testsuite("error_estimate", collect_error_estimate), &
          new_testsuite("roller_problem", collect_roller_problem), &
-         new_testsuite("simulation", collect_simulation) &
+         new_testsuite("simulation", collect_simulation), &
+         new_testsuite("quasi_static", collect_quasi_static) &
          ]
    end function all_suites
 
