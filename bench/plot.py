@@ -40,7 +40,7 @@ def style(solver: str, ours: list[str]) -> tuple[str, object, str, str]:
     if solver in STYLES:
         return STYLES[solver]
     if solver in EXPLICIT:
-        return solver.replace("_", "-"), "tab:brown" if solver == EXPLICIT[0] else "tab:olive", "-", "."
+        return solver.replace("_", "-"), "tab:olive" if solver == EXPLICIT[0] else "tab:cyan", "-", "."
     return solver, plt.get_cmap("tab10")(ours.index(solver)), "-", "o"
 
 
@@ -67,8 +67,8 @@ def draw(rows: list[Row], prefix: str, columns: int, path: pathlib.Path) -> None
     for panel in panels[:, 0]:
         panel.set_ylabel("time of a cycle [ms]")
     handles, labels = panels[0, 0].get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside lower center", ncols=7, fontsize=9, frameon=False)
-    figure.savefig(path, dpi=110)
+    figure.legend(handles, labels, loc="outside lower center", ncols=8, fontsize=9, frameon=False)
+    figure.savefig(path, dpi=85)
     plt.close(figure)
 
 

@@ -19,6 +19,8 @@ module bench_ladder
       real(wp) :: tolerance = 0.0_wp
       !> Runs per measurement
       integer :: repeats = 1
+      !> Rounds it takes part in
+      integer :: rounds = 1
       type(counters_t) :: counters
       !> Errors reached: sliding speed, mean loss [-]
       real(wp) :: slip_error = 0.0_wp, loss_error = 0.0_wp
@@ -40,10 +42,11 @@ module bench_ladder
    !> Tolerances per decade, decades from the coarsest one; the coarsest one [-]
    integer, parameter :: per_decade = 2, decades = 11
    real(wp), parameter :: coarsest = 1.0e-1_wp
-   !> Rounds of measurement
-   integer, parameter :: rounds = 5
+   !> Rounds of measurement; those for runs longer than `long` [s]
+   integer, parameter :: rounds = 5, few_rounds = 2
+   real(wp), parameter :: long = 5.0e-3_wp
    !> Time of a measurement; time of a run beyond which a solver gets no tighter tolerance [s]
-   real(wp), parameter :: measurement = 1.0e-3_wp, patience = 0.04_wp
+   real(wp), parameter :: measurement = 1.0e-3_wp, patience = 0.02_wp
    !> Error below which it gets none either [-]
    real(wp), parameter :: enough = 1.0e-9_wp
 
@@ -76,6 +79,7 @@ contains
          do rung = 1, per_decade*decades + 1
             do i = 1, size(names)
                if (rung > contestants(i)%count) cycle
+               if (round > contestants(i)%rungs(rung)%rounds) cycle
                call measure(contestants(i), task, contestants(i)%rungs(rung), round, states)
             end do
          end do
@@ -129,7 +133,8 @@ contains
          call measure_errors(task, states, rung%slip_error, rung%loss_error)
          rung%repeats = max(1, ceiling(measurement/max(seconds, 1.0e-9_wp)))
          if (allocated(rung%seconds)) deallocate (rung%seconds)
-         allocate (rung%seconds(rounds), source=0.0_wp)
+         rung%rounds = merge(few_rounds, rounds, seconds > long)
+         allocate (rung%seconds(rung%rounds), source=0.0_wp)
          contestant%count = contestant%count + 1
          contestant%rungs(contestant%count) = rung
          if (seconds > patience .or. max(rung%slip_error, rung%loss_error) < enough) exit
