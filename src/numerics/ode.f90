@@ -21,6 +21,10 @@ module camroller_ode
       integer :: error_order = 0
       !> Product of decay rate and step at which the method turns unstable; adaptive steps keep within it [-]
       real(wp) :: stability_limit = huge(1.0_wp)
+      !> Exponents of a proportional-integral controller times the order of the error estimate: those of explicit methods
+      !> at their stability limit, after Gustafsson, ACM Trans. Math. Softw. 17 (1991) 533. One and zero make the plain
+      !> controller, which lets steps grow fast where stability does not limit them [-]
+      real(wp) :: proportional = 0.7_wp, integral = 0.4_wp
       !> Does a step end with the rate at its end? Else the loop evaluates it, once the step is accepted
       logical :: gives_rate = .true.
       !> Does a step need the Jacobian at its start?
@@ -84,10 +88,8 @@ module camroller_ode
       end subroutine step_interface
    end interface
 
-   !> Step-size control: part of the optimal step that is taken, and the exponents of a proportional-integral controller
-   !> divided by the order of the error estimate. Source: Gustafsson, ACM Trans. Math. Softw. 17 (1991) 533; values as
-   !> usual for explicit methods at their stability limit [-]
-   real(wp), parameter :: safety = 0.9_wp, proportional = 0.7_wp, integral = 0.4_wp
+   !> Step-size control: part of the optimal step that is taken [-]
+   real(wp), parameter :: safety = 0.9_wp
    !> Largest growth and shrinkage of a step [-]
    real(wp), parameter :: max_growth = 5.0_wp, max_shrinkage = 0.2_wp
    !> Error over tolerance below which smaller ones make no difference [-]
@@ -371,7 +373,8 @@ contains
       real(wp) :: factor, error_in_use
 
       error_in_use = max(scaled_error, least_error)
-      factor = safety*error_in_use**(-proportional/method%error_order)*last_error**(integral/method%error_order)
+      factor = safety*error_in_use**(-method%proportional/method%error_order) &
+         & *last_error**(method%integral/method%error_order)
       factor = min(max_growth, max(max_shrinkage, factor))
       if (was_rejected) factor = min(factor, 1.0_wp)
       if (is_last) then

@@ -36,6 +36,8 @@ contains
       method%error_order = 3
       method%gives_rate = .false.
       method%needs_jacobian = .true.
+      method%proportional = 1.0_wp
+      method%integral = 0.0_wp
       method%has_curve = .true.
       allocate (method%jacobian(1, 1), method%time_slope(1), method%bends(1, 3))
    end subroutine new_exponential_method

@@ -73,6 +73,8 @@ contains
       method%error_order = 4
       method%gives_rate = .false.
       method%needs_jacobian = .true.
+      method%proportional = 1.0_wp
+      method%integral = 0.0_wp
       method%has_curve = .true.
       factors = weights
       do i = 1, 3

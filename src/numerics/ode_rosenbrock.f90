@@ -80,6 +80,8 @@ contains
       end select
       method%gives_rate = .false.
       method%needs_jacobian = .true.
+      method%proportional = 1.0_wp
+      method%integral = 0.0_wp
       method%has_curve = .true.
       allocate (method%repeats_rate(method%stages))
       method%repeats_rate(1) = .true.

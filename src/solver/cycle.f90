@@ -50,9 +50,9 @@ module camroller_cycle
    !> Part of the integration's tolerance to which the contact is solved at each evaluation [-]
    real(wp), parameter :: contact_accuracy = 1.0e-3_wp
    !> First step of a method with error control [rad]
-   real(wp), parameter :: first_step = 0.01_wp*degree
+   real(wp), parameter :: first_step = 0.1_wp*degree
    !> Largest step [rad]
-   real(wp), parameter :: largest_step = 10.0_wp*degree
+   real(wp), parameter :: largest_step = 30.0_wp*degree
    !> Sliding speed that counts as a scale where the balance gives less, over the speed of pure rolling [-]
    real(wp), parameter :: least_slip = 1.0e-5_wp
 
