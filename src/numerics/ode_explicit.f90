@@ -8,6 +8,9 @@
 !> | `euler` | 1, fixed step | 1 | Euler (1768) |
 !> | `bogacki_shampine` | 3(2) | 4, the last is the first of the next step | Appl. Math. Lett. 2 (1989) 321 |
 !> | `dormand_prince` | 5(4) | 7, the last is the first of the next step | J. Comput. Appl. Math. 6 (1980) 19 |
+!>
+!> The curve of a step is the cubic on the rates at its ends; `dormand_prince` adds a quartic term, which makes it one order
+!> better. Source: Hairer, Norsett and Wanner, Solving Ordinary Differential Equations I, 2nd ed., Springer (1993), II.6.
 module camroller_ode_explicit
    use camroller_kinds, only : wp
    use camroller_ode, only : problem_t, method_t, counters_t
@@ -26,6 +29,8 @@ module camroller_ode_explicit
       real(wp), allocatable :: weights(:, :)
       !> Weights of the error estimate [-]
       real(wp), allocatable :: error_weights(:)
+      !> Weights of the quartic term of the curve, where it has one [-]
+      real(wp), allocatable :: quartic_weights(:)
       !> Rates at the stages [state/time]
       real(wp), allocatable :: stage_rates(:, :)
    contains
@@ -56,7 +61,8 @@ contains
          method%error_weights = 0.0_wp
          method%stability_limit = 2.0_wp
       end select
-      allocate (method%stage_rates(components, 0:method%stages))
+      allocate (method%stage_rates(components, 0:method%stages), method%bends(components, 3))
+      method%has_curve = allocated(method%quartic_weights)
    end subroutine new_explicit_method
 
    !> Bogacki and Shampine (1989).
@@ -99,6 +105,9 @@ contains
       method%error_weights = method_difference([method%weights(:, 6), 0.0_wp], &
          & [5179.0_wp/57600.0_wp, 0.0_wp, 7571.0_wp/16695.0_wp, 393.0_wp/640.0_wp, -92097.0_wp/339200.0_wp, &
          & 187.0_wp/2100.0_wp, 1.0_wp/40.0_wp])
+      method%quartic_weights = [-12715105075.0_wp/11282082432.0_wp, 0.0_wp, 87487479700.0_wp/32700410799.0_wp, &
+         & -10690763975.0_wp/1880347072.0_wp, 701980252875.0_wp/199316789632.0_wp, -1453857185.0_wp/822651844.0_wp, &
+         & 69997945.0_wp/29380423.0_wp]
    end subroutine set_dormand_prince
 
    !> Weights of the error estimate: those of the method minus those of its companion.
@@ -157,6 +166,26 @@ contains
       do i = 0, self%stages
          error_estimate = error_estimate + step*self%error_weights(i + 1)*self%stage_rates(:, i)
       end do
+      if (self%has_curve) call bend_curve(self, step, new_state - state)
    end subroutine try_explicit_step
+
+   !> Bends of the cubic on the rates at both ends, and a quartic term that vanishes there together with its slope.
+   pure subroutine bend_curve(self, step, change)
+      !> The method with the rates of a step
+      type(explicit_method_t), intent(inout) :: self
+      !> Size of the step [time]
+      real(wp), intent(in) :: step
+      !> Change of the state over the step [state]
+      real(wp), intent(in) :: change(:)
+
+      integer :: i
+
+      self%bends(:, 1) = step*self%stage_rates(:, 0) - change
+      self%bends(:, 3) = 0.0_wp
+      do i = 0, self%stages
+         self%bends(:, 3) = self%bends(:, 3) - step*self%quartic_weights(i + 1)*self%stage_rates(:, i)
+      end do
+      self%bends(:, 2) = 2.0_wp*change - step*(self%stage_rates(:, 0) + self%stage_rates(:, self%stages)) - self%bends(:, 3)
+   end subroutine bend_curve
 
 end module camroller_ode_explicit

@@ -43,8 +43,6 @@ contains
       integer, intent(in) :: components
 
       method%error_order = 3
-      method%proportional = 1.0_wp
-      method%integral = 0.0_wp
       allocate (method%before(components), method%last(components))
    end subroutine new_chebyshev_method
 

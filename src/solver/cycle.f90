@@ -49,6 +49,8 @@ module camroller_cycle
    real(wp), parameter :: run_up_angle = 5.0_wp*degree
    !> Part of the integration's tolerance to which the contact is solved at each evaluation [-]
    real(wp), parameter :: contact_accuracy = 1.0e-3_wp
+   !> Error allowed per step over the error allowed in the cycle: errors of a few steps add up before they decay [-]
+   real(wp), parameter :: step_part = 0.2_wp
    !> First step of a method with error control [rad]
    real(wp), parameter :: first_step = 0.1_wp*degree
    !> Largest step [rad]
@@ -177,7 +179,7 @@ contains
       problem%small_state = [scale]
       problem%accuracy = contact_accuracy*numerics%tolerance
       if (cycle%is_linear) problem%accuracy = 0.0_wp
-      options%tolerance = [numerics%tolerance*scale]
+      options%tolerance = [step_part*numerics%tolerance*scale]
       options%step = numerics%step
       if (.not. cycle%is_linear) options%step = min(numerics%step, first_step)
       options%max_step = largest_step
