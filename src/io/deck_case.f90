@@ -191,6 +191,7 @@ contains
          call take(settings, "asperity", "boundary_coefficient", asperity%boundary_coefficient)
          call take(settings, "asperity", "film_shear_strength_MPa", asperity%film_shear_strength)
          call take(settings, "asperity", "boundary", asperity%boundary)
+         call take(settings, "asperity", "mobilisation", asperity%mobilisation)
          call take(settings, "asperity", "mobilising_speed_m_s", asperity%mobilising_speed)
       end associate
    end subroutine fill_asperity

@@ -12,7 +12,7 @@ module camroller_deck_keys
    use camroller_dynamics, only : seating_names, load_arm_names
    use camroller_lubricant, only : temperature_law_names, pressure_law_names
    use camroller_film, only : film_law_names, range_policy_names
-   use camroller_asperity, only : asperity_t, boundary_names
+   use camroller_asperity, only : asperity_t, boundary_names, mobilisation_names
    use camroller_traction, only : shear_law_names, cap_names, rolling_law_names
    use camroller_needle, only : needle_bearing_t, roller_bearing_names
    use camroller_journal, only : cam_bearings_t, journal_law_names
@@ -288,7 +288,9 @@ contains
          & "shear strength of the surface film on the real contact area", default=standard%film_shear_strength)
       call add_name(schema, "boundary", boundary_names, standard%boundary, &
          & "boundary friction that is counted: what the slip mobilises, or all of it")
-      call add_number(schema, "mobilising_speed_m_s", positive, "sliding speed that mobilises boundary friction", &
+      call add_name(schema, "mobilisation", mobilisation_names, standard%mobilisation, &
+         & "boundary friction grows with the sliding speed, or the roller sticks and slides")
+      call add_number(schema, "mobilising_speed_m_s", positive, "sliding speed that mobilises regularised boundary friction", &
          & default=standard%mobilising_speed)
    end subroutine add_asperity_keys
 

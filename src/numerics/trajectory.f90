@@ -11,7 +11,7 @@ module camroller_trajectory
    implicit none
    private
 
-   public :: trajectory_t, start_trajectory, append_point, append_curve, interpolate_state, curve_slope
+   public :: trajectory_t, start_trajectory, append_point, append_curve, append_until, interpolate_state, curve_slope
 
    !> Accepted points, in order of time; at a kink of the rate two points share a time
    type :: trajectory_t
@@ -96,6 +96,40 @@ contains
       trajectory%rate(:, trajectory%count) = rate
       trajectory%bends(:, :, trajectory%count) = bends
    end subroutine append_curve
+
+   !> Append another trajectory up to a time; the curve that holds the time is cut there.
+   pure subroutine append_until(trajectory, source, time)
+      !> The trajectory
+      type(trajectory_t), intent(inout) :: trajectory
+      !> Points to append; later than those of the trajectory
+      type(trajectory_t), intent(in) :: source
+      !> Time up to which they are taken [time]
+      real(wp), intent(in) :: time
+
+      ! State where it is cut [state]; bends of the curve that is left [state]
+      real(wp) :: state(size(source%state, 1)), bends(size(source%state, 1), 3)
+      ! Part of the curve that is left [-]
+      real(wp) :: part
+      integer :: point
+
+      do point = 1, source%count
+         if (source%time(point) > time) exit
+         call append_curve(trajectory, source%time(point), source%state(:, point), source%rate(:, point), &
+            & merge(0.0_wp, 1.0_wp, point == 1)*source%bends(:, :, point))
+      end do
+      if (point == 1 .or. point > source%count) return
+      if (source%time(point - 1) >= time) return
+
+      part = (time - source%time(point - 1))/(source%time(point) - source%time(point - 1))
+      associate (b => source%bends(:, :, point))
+         bends(:, 3) = part**4*b(:, 3)
+         bends(:, 2) = bends(:, 3) - part**3*(b(:, 3) - b(:, 2))
+         bends(:, 1) = bends(:, 2) - part**2*(b(:, 2) - b(:, 1))
+         state = source%state(:, point - 1) + part*(source%state(:, point) - source%state(:, point - 1)) &
+            & + part*(1.0_wp - part)*(b(:, 1) + part*(b(:, 2) + part*b(:, 3)))
+      end associate
+      call append_curve(trajectory, time, state, source%rate(:, point), bends)
+   end subroutine append_until
 
    !> Twice the room.
    pure subroutine grow(trajectory)

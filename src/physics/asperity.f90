@@ -11,12 +11,14 @@ module camroller_asperity
    implicit none
    private
 
-   public :: asperity_t, asperity_constants_t, boundary_names, largest_film_ratio
+   public :: asperity_t, asperity_constants_t, boundary_names, mobilisation_names, largest_film_ratio
    public :: new_asperity_constants, asperity_load_function, asperity_area_function
    public :: asperity_load, asperity_area
 
    !> Boundary friction that is counted: all of it, or what the slip mobilises
    character(len=*), parameter :: boundary_names(*) = [character(len=name_length) :: "mobilised", "full"]
+   !> How slip mobilises boundary friction: growing with the sliding speed, or at once, with any part of it at rest
+   character(len=*), parameter :: mobilisation_names(*) = [character(len=name_length) :: "regularised", "stick_slip"]
 
    !> Asperities and their friction
    type :: asperity_t
@@ -30,7 +32,9 @@ module camroller_asperity
       real(wp) :: film_shear_strength = 0.0_wp
       !> One of `boundary_names`
       character(len=name_length) :: boundary = "mobilised"
-      !> Sliding speed that mobilises boundary friction, v_b [m/s]
+      !> One of `mobilisation_names`
+      character(len=name_length) :: mobilisation = "regularised"
+      !> Sliding speed that mobilises regularised boundary friction, v_b [m/s]
       real(wp) :: mobilising_speed = 1.0e-3_wp
    end type asperity_t
 

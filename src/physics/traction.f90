@@ -12,7 +12,7 @@ module camroller_traction
    private
 
    public :: traction_t, shear_law_names, cap_names, rolling_law_names
-   public :: film_pressure, newtonian_shear, eyring_shear, limit_shear, mobilised_share, rolling_resistance
+   public :: film_pressure, newtonian_shear, eyring_shear, limit_shear, mobilised_share, sliding_direction, rolling_resistance
    public :: law_newtonian, law_eyring, cap_smooth, cap_sharp, rolling_biboulet_houpert, rolling_goksem_hargreaves, rolling_none
 
    !> Shear of the film
@@ -163,6 +163,17 @@ contains
 
       share = tanh(sliding_speed/mobilising_speed)
    end function mobilised_share
+
+   !> The same in the limit of no mobilising speed: the sign of the sliding speed; zero at rest, where any part may be mobilised.
+   elemental function sliding_direction(sliding_speed) result(direction)
+      !> Sliding speed, V_s [m/s]
+      real(wp), intent(in) :: sliding_speed
+      !> -1, 0 or 1 [-]
+      real(wp) :: direction
+
+      direction = 0.0_wp
+      if (abs(sliding_speed) > 0.0_wp) direction = sign(1.0_wp, sliding_speed)
+   end function sliding_direction
 
    !> Rolling resistance of each surface, its size, and its logarithmic slope over the load; zero at standstill or without load.
    !>

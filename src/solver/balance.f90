@@ -10,14 +10,17 @@ module camroller_balance
    use camroller_contact_forces, only : contact_t
    use camroller_state, only : evaluate_loading, evaluate_spin
    use camroller_spin, only : rolling_speed_at, rolling_speed_slope
+   use camroller_stick, only : has_stick, rates_at_rest, breakaway
    use camroller_roots, only : bracket_t, start_bracket, narrow_bracket, root_wanted, root_found
    implicit none
    private
 
-   public :: find_balance, follow_balance
+   public :: find_balance, follow_balance, least_slip
 
    !> Steps from a guess nearby before the search starts anew: each gains a digit or more
    integer, parameter :: max_steps = 12
+   !> Sliding speed that counts as a scale where the balance gives less, over the speed of pure rolling [-]
+   real(wp), parameter :: least_slip = 1.0e-5_wp
 
 contains
 
@@ -43,6 +46,8 @@ contains
       type(bracket_t) :: bracket
       ! Gas force [N]; largest sliding speed looked at [m/s]; dV_s/dtheta and at both ends of the bracket [m/s/rad]
       real(wp) :: force, limit, rate, rate_low, rate_high
+      ! Rates at rest with friction at either limit [m/s/rad]
+      real(wp) :: rates(2)
       integer :: status
 
       sliding_speed = 0.0_wp
@@ -51,6 +56,13 @@ contains
       call evaluate_loading(model, angle, position, force, moments, status)
       if (status /= 0) return
       limit = abs(rolling_speed_at(model, position))
+      if (has_stick(model)) then
+         call rates_at_rest(model, angle, rates, status)
+         is_found = status == 0 .and. rates(1) < rates(2) .and. breakaway(rates, 0.0_wp) == 0
+         ! As fast as friction stops the slip that counts as none at all
+         if (is_found) decay_rate = min(-rates(1), rates(2))/(least_slip*limit)
+         if (is_found .or. status /= 0) return
+      end if
       call sliding_rate(model, position, moments, -limit, tolerance, contact, rate_low)
       call sliding_rate(model, position, moments, limit, tolerance, contact, rate_high)
       call start_bracket(bracket, -limit, limit, rate_low, rate_high, tolerance*limit)

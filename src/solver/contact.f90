@@ -30,7 +30,7 @@ module camroller_contact
 contains
 
    !> Solve the contact.
-   pure subroutine solve_contact(model, position, moments, sliding_speed, contact, status, accuracy)
+   pure subroutine solve_contact(model, position, moments, sliding_speed, contact, status, accuracy, mobilised)
       !> The model
       type(model_t), intent(in) :: model
       !> Geometry at this angle
@@ -45,6 +45,8 @@ contains
       integer, intent(out) :: status
       !> Relative error of load and forces that is good enough; absent: round-off [-]
       real(wp), intent(in), optional :: accuracy
+      !> Mobilised part of the boundary friction; absent: as the sliding speed has it [-]
+      real(wp), intent(in), optional :: mobilised
 
       type(setting_t) :: setting
       type(slopes_t) :: slopes
@@ -67,7 +69,7 @@ contains
          return
       end if
       contact%load = load
-      call prepare_contact(model, position, contact, setting)
+      call prepare_contact(model, position, contact, setting, mobilised)
       contact%film_ratio = 0.0_wp
       if (model%is_consistent) then
          enough = 0.0_wp

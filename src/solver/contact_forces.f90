@@ -9,7 +9,7 @@ module camroller_contact_forces
    use camroller_lubricant, only : mean_relative_viscosity
    use camroller_film, only : groups_t, film_line_t, new_film_line
    use camroller_load_share, only : share_t, share_load, improve_share
-   use camroller_traction, only : film_pressure, newtonian_shear, eyring_shear, limit_shear, mobilised_share, &
+   use camroller_traction, only : film_pressure, newtonian_shear, eyring_shear, limit_shear, mobilised_share, sliding_direction, &
       & rolling_resistance, law_newtonian, rolling_biboulet_houpert
    use camroller_needle, only : bearing_torque
    implicit none
@@ -98,7 +98,7 @@ contains
    end subroutine set_speeds
 
    !> What the speeds alone decide.
-   pure subroutine prepare_contact(model, position, contact, setting)
+   pure subroutine prepare_contact(model, position, contact, setting, mobilised)
       !> The model
       type(model_t), intent(in) :: model
       !> Geometry at this angle
@@ -107,12 +107,17 @@ contains
       type(contact_t), intent(in) :: contact
       !> What does not change with the load
       type(setting_t), intent(out) :: setting
+      !> Mobilised part of the boundary friction; absent: as the sliding speed has it [-]
+      real(wp), intent(in), optional :: mobilised
 
       setting%scale = model%modulus*position%equivalent_radius*model%contact_width
       call new_film_line(setting%line, model%film_law, film_groups(model, position, contact))
       setting%mobilised = 0.0_wp
-      if (allocated(model%boundary)) then
+      if (present(mobilised)) then
+         setting%mobilised = mobilised
+      else if (allocated(model%boundary)) then
          setting%mobilised = mobilised_share(contact%sliding_speed, model%boundary%mobilising_speed)
+         if (model%boundary%is_set_valued) setting%mobilised = sliding_direction(contact%sliding_speed)
       end if
       setting%bearing_arm = 0.0_wp
       if (allocated(model%bearing)) then
@@ -260,6 +265,7 @@ contains
       slopes%traction = slopes%traction + setting%mobilised*(model%boundary%film_shear_strength &
          & *(0.5_wp*contact%real_area + contact%apparent_area*share%real_area_slope) &
          & + model%boundary%coefficient*share%asperity_slope*setting%scale)
+      if (model%boundary%is_set_valued) return
       contact%traction_slope = contact%traction_slope &
          & + contact%boundary_capacity*(1.0_wp - setting%mobilised)*(1.0_wp + setting%mobilised)/model%boundary%mobilising_speed
    end subroutine set_traction

@@ -5,7 +5,7 @@
 !> rule; it is checked, and further cycles are integrated where it is not.
 module camroller_cycle
    use camroller_kinds, only : wp, pi, two_pi, degree
-   use camroller_error, only : error_t, raise, add_context, kind_convergence
+   use camroller_error, only : error_t, raise, add_context, kind_convergence, kind_deck
    use camroller_case, only : numerics_t, quasi_static
    use camroller_model, only : model_t, evaluate_geometry
    use camroller_kinematics, only : position_t
@@ -13,8 +13,10 @@ module camroller_cycle
    use camroller_state, only : state_t, evaluate_state, evaluate_loading
    use camroller_events, only : find_stops, cycle_stops
    use camroller_spin, only : spin_problem_t, rolling_speed_at
-   use camroller_balance, only : find_balance
+   use camroller_balance, only : find_balance, least_slip
    use camroller_quasi_static, only : quasi_static_cycle
+   use camroller_stick, only : has_stick, share_at_rest
+   use camroller_stick_slip, only : phase_t, integrate_phases, direction_at
    use camroller_ode, only : method_t, options_t, counters_t, integrate
    use camroller_ode_methods, only : new_method
    use camroller_trajectory, only : trajectory_t, interpolate_state
@@ -26,6 +28,8 @@ module camroller_cycle
    !> One periodic cycle
    type :: cycle_t
       type(trajectory_t) :: trajectory
+      !> Phases of sliding and sticking; allocated where boundary friction is set-valued
+      type(phase_t), allocatable :: phases(:)
       type(counters_t) :: counters
       !> Is the trajectory that of the roller's surface speed instead of the sliding speed?
       logical :: has_surface_speed = .false.
@@ -55,8 +59,6 @@ module camroller_cycle
    real(wp), parameter :: first_step = 0.1_wp*degree
    !> Largest step [rad]
    real(wp), parameter :: largest_step = 30.0_wp*degree
-   !> Sliding speed that counts as a scale where the balance gives less, over the speed of pure rolling [-]
-   real(wp), parameter :: least_slip = 1.0e-5_wp
 
 contains
 
@@ -83,6 +85,8 @@ contains
       call find_stops(model, stops)
       call choose_start(model, cycle%start, state(1), scale)
       if (numerics%method == quasi_static) then
+         call check_mobilisation(model, error)
+         if (allocated(error)) return
          cycle%stops = cycle_stops(stops, cycle%start)
          cycle%is_linear = .true.
          cycle%cycles = 1
@@ -95,18 +99,19 @@ contains
       cycle%stops = cycle_stops(stops, cycle%start)
 
       ! The balance is not quite the periodic state: a short run up to the start lets the difference decay
-      call integrate(problem, method, options, run_up_stops(cycle%stops), state, cycle%trajectory, cycle%counters, error)
-      call add_context(error, "integrating the roller's spin")
+      call integrate_spin(cycle, problem, method, options, run_up_stops(cycle%stops), state, error)
       if (allocated(error)) return
       do turn = 1, numerics%max_cycles
          cycle%cycles = turn
          first = state
-         call integrate(problem, method, options, cycle%stops, state, cycle%trajectory, cycle%counters, error)
-         call add_context(error, "integrating the roller's spin")
+         call integrate_spin(cycle, problem, method, options, cycle%stops, state, error)
          if (allocated(error)) return
          if (.not. cycle%has_surface_speed) scale = max(scale, maxval(abs(cycle%trajectory%state(1, :cycle%trajectory%count))))
          cycle%closure = abs(state(1) - first(1))/scale
-         if (cycle%closure <= numerics%periodicity) return
+         if (cycle%closure <= numerics%periodicity) then
+            if (allocated(cycle%phases)) cycle%stops = cycle_stops([cycle%stops, cycle%phases%start], cycle%start)
+            return
+         end if
       end do
       call raise(error, kind_convergence, "the cycle did not become periodic: after the cycles that max_cycles allows, start "// &
          & "and end still differ by more than periodicity; explicit steps beyond the stability limit do this")
@@ -143,8 +148,7 @@ contains
       if (allocated(error)) return
       state = roller_spin*model%roller_radius
       if (.not. piece%has_surface_speed) state = rolling_speed_at_angle(model, stops(1)) - state
-      call integrate(problem, method, options, stops, state, piece%trajectory, piece%counters, error)
-      call add_context(error, "integrating the roller's spin")
+      call integrate_spin(piece, problem, method, options, stops, state, error)
       if (allocated(error)) return
       if (.not. piece%has_surface_speed) state = rolling_speed_at_angle(model, stops(last)) - state
       roller_spin = state(1)/model%roller_radius
@@ -173,6 +177,7 @@ contains
       if (allocated(error)) return
       cycle%has_surface_speed = method%error_order == 0
       cycle%is_linear = cycle%has_surface_speed
+      if (cycle%has_surface_speed) call check_mobilisation(model, error)
       cycle%trajectory%is_linear = cycle%is_linear
       problem%model => model
       problem%has_surface_speed = cycle%has_surface_speed
@@ -184,6 +189,42 @@ contains
       if (.not. cycle%is_linear) options%step = min(numerics%step, first_step)
       options%max_step = largest_step
    end subroutine choose_method
+
+   !> Refuse sticking and sliding with a method that cannot tell them apart.
+   subroutine check_mobilisation(model, error)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> Deck error
+      type(error_t), allocatable, intent(out) :: error
+
+      if (.not. has_stick(model)) return
+      call raise(error, kind_deck, "asperity mobilisation = 'stick_slip' needs an integration method with error control")
+   end subroutine check_mobilisation
+
+   !> Integrate between stops, in phases where boundary friction is set-valued.
+   subroutine integrate_spin(cycle, problem, method, options, stops, state, error)
+      !> The cycle or a piece of one: trajectory, phases, counters
+      type(cycle_t), intent(inout) :: cycle
+      !> The roller's spin
+      type(spin_problem_t), intent(inout) :: problem
+      !> The method
+      class(method_t), intent(inout) :: method
+      !> Tolerance and steps
+      type(options_t), intent(in) :: options
+      !> First angle, stops between, last angle [rad]
+      real(wp), intent(in) :: stops(:)
+      !> Sliding speed or surface speed, from first to last angle [m/s]
+      real(wp), intent(inout) :: state(1)
+      !> Convergence error
+      type(error_t), allocatable, intent(out) :: error
+
+      if (has_stick(problem%model)) then
+         call integrate_phases(problem, method, options, stops, state, cycle%trajectory, cycle%phases, cycle%counters, error)
+      else
+         call integrate(problem, method, options, stops, state, cycle%trajectory, cycle%counters, error)
+      end if
+      call add_context(error, "integrating the roller's spin")
+   end subroutine integrate_spin
 
    !> Speed of the roller's surface in pure rolling at a cam angle.
    function rolling_speed_at_angle(model, angle) result(speed)
@@ -274,6 +315,8 @@ contains
       type(moments_t) :: moments
       ! Angle within the cycle [rad], sliding speed or surface speed [m/s], gas force [N]
       real(wp) :: inside, value(1), force
+      ! Mobilised part of the boundary friction [-]
+      real(wp) :: share
       integer :: status
 
       inside = cycle%start + modulo(angle - cycle%start, two_pi)
@@ -282,7 +325,17 @@ contains
          call evaluate_loading(model, inside, position, force, moments, status)
          value = rolling_speed_at(model, position) - value
       end if
-      call evaluate_state(model, inside, value(1), state, status)
+      if (allocated(cycle%phases)) then
+         share = real(direction_at(cycle%phases, inside), wp)
+         status = 0
+         if (abs(share) <= 0.0_wp) then
+            value = 0.0_wp
+            call share_at_rest(model, inside, share, status)
+         end if
+         if (status == 0) call evaluate_state(model, inside, value(1), state, status, share)
+      else
+         call evaluate_state(model, inside, value(1), state, status)
+      end if
       if (status /= 0) call raise(error, kind_convergence, "load and friction of the contact have no common solution")
    end subroutine state_at
 

@@ -13,7 +13,7 @@ module camroller_model
    use camroller_materials, only : combined_modulus, combined_roughness
    use camroller_lubricant, only : lubricant_t, oil_t, get_oil
    use camroller_film, only : film_law_names, range_policy_names, law_masjedi_khonsari_rough
-   use camroller_asperity, only : boundary_names, asperity_constants_t, new_asperity_constants
+   use camroller_asperity, only : boundary_names, mobilisation_names, asperity_constants_t, new_asperity_constants
    use camroller_traction, only : traction_t, shear_law_names, cap_names, rolling_law_names
    use camroller_needle, only : friction_radius, roller_bearing_names
    use camroller_guide, only : guide_drag_coefficient
@@ -48,6 +48,8 @@ module camroller_model
       real(wp) :: mobilising_speed
       !> Is all of the boundary friction counted, whether mobilised or not?
       logical :: is_full
+      !> Does friction take any value up to its limit where nothing slides, and its limit elsewhere?
+      logical :: is_set_valued
    end type boundary_part_t
 
    !> A model of one lobe and its follower
@@ -326,6 +328,9 @@ contains
          if (allocated(error)) return
          allocate (model%boundary)
          model%boundary%is_full = choice == 2
+         call find_name("mobilisation of boundary friction", case%asperity%mobilisation, mobilisation_names, choice, error)
+         if (allocated(error)) return
+         model%boundary%is_set_valued = choice == 2
          model%boundary%coefficient = case%asperity%boundary_coefficient
          model%boundary%film_shear_strength = case%asperity%film_shear_strength
          model%boundary%mobilising_speed = case%asperity%mobilising_speed

@@ -14,6 +14,7 @@ module camroller_simulation
    use camroller_balance, only : find_balance
    use camroller_events, only : find_stops_between
    use camroller_spin, only : rolling_speed_at
+   use camroller_stick, only : has_stick, share_at_rest, rest_speed
    use camroller_cycle, only : cycle_t, integrate_between, choose_start
    use camroller_means, only : integrate_torques
    use camroller_run, only : build_models
@@ -166,11 +167,20 @@ contains
       integer, intent(out) :: status
 
       type(position_t) :: position
+      ! Sliding speed [m/s]; mobilised part of the boundary friction, not allocated where the sliding speed decides [-]
+      real(wp) :: sliding_speed
+      real(wp), allocatable :: share
 
       call evaluate_geometry(simulation%model, simulation%angle - pi, position, status)
       if (status /= 0) return
-      call evaluate_state(simulation%model, simulation%angle - pi, rolling_speed_at(simulation%model, position) &
-         & - simulation%roller_spin*simulation%model%roller_radius, state, status)
+      sliding_speed = rolling_speed_at(simulation%model, position) - simulation%roller_spin*simulation%model%roller_radius
+      if (has_stick(simulation%model) .and. abs(sliding_speed) <= rest_speed(simulation%numerics%tolerance*simulation%scale)) then
+         allocate (share)
+         sliding_speed = 0.0_wp
+         call share_at_rest(simulation%model, simulation%angle - pi, share, status)
+         if (status /= 0) return
+      end if
+      call evaluate_state(simulation%model, simulation%angle - pi, sliding_speed, state, status, share)
    end subroutine state_with_spin
 
 end module camroller_simulation

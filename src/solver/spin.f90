@@ -24,6 +24,8 @@ module camroller_spin
       logical :: has_surface_speed = .false.
       !> Relative error of load and forces that is good enough; zero: round-off [-]
       real(wp) :: accuracy = 0.0_wp
+      !> Mobilised part of the boundary friction; not allocated: as the sliding speed has it [-]
+      real(wp), allocatable :: mobilised
    contains
       procedure :: get_rate
       procedure :: get_decay_rate
@@ -55,7 +57,7 @@ contains
       call evaluate_loading(self%model, time, position, force, moments, status)
       if (status /= 0) return
       call evaluate_spin(self%model, position, moments, sliding_speed_of(self, position, state(1)), contact, acceleration, &
-         & status, self%accuracy)
+         & status, self%accuracy, self%mobilised)
       if (status /= 0) return
       rate(1) = self%model%roller_radius*acceleration/self%model%speed
       if (.not. self%has_surface_speed) rate(1) = rolling_speed_slope(self%model, position) - rate(1)
@@ -82,7 +84,8 @@ contains
       decay_rate = 0.0_wp
       call evaluate_loading(self%model, time, position, force, moments, status)
       if (status /= 0) return
-      call evaluate_spin(self%model, position, moments, sliding_speed_of(self, position, state(1)), contact, acceleration, status)
+      call evaluate_spin(self%model, position, moments, sliding_speed_of(self, position, state(1)), contact, acceleration, &
+         & status, mobilised=self%mobilised)
       decay_rate = decay_rate_of(self%model, contact)
    end subroutine get_decay_rate
 

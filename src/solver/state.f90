@@ -74,7 +74,8 @@ contains
    end subroutine evaluate_loading
 
    !> Contact and angular acceleration of the roller: what the integration of its spin needs.
-   pure subroutine evaluate_spin(model, position, moments, sliding_speed, contact, acceleration, status, accuracy)
+   pure subroutine evaluate_spin(model, position, moments, sliding_speed, contact, acceleration, status, accuracy, &
+      & mobilised)
       !> The model
       type(model_t), intent(in) :: model
       !> Geometry at this angle
@@ -91,14 +92,16 @@ contains
       integer, intent(out) :: status
       !> Relative error of load and forces that is good enough; absent: round-off [-]
       real(wp), intent(in), optional :: accuracy
+      !> Mobilised part of the boundary friction; absent: as the sliding speed has it [-]
+      real(wp), intent(in), optional :: mobilised
 
-      call solve_contact(model, position, moments, sliding_speed, contact, status, accuracy)
+      call solve_contact(model, position, moments, sliding_speed, contact, status, accuracy, mobilised)
       acceleration = spin_acceleration(contact%traction, merge(contact%rolling_resistance, 0.0_wp, &
          & model%has_rolling_in_balance), model%roller_radius, contact%bearing_torque, model%roller_inertia)
    end subroutine evaluate_spin
 
    !> Everything at one angle.
-   pure subroutine evaluate_state(model, angle, sliding_speed, state, status)
+   pure subroutine evaluate_state(model, angle, sliding_speed, state, status, mobilised)
       !> The model
       type(model_t), intent(in) :: model
       !> Cam angle from full lift [rad]
@@ -109,13 +112,16 @@ contains
       type(state_t), intent(out) :: state
       !> 0 fine, negative: the finger cannot reach this lift, positive: no balance found
       integer, intent(out) :: status
+      !> Mobilised part of the boundary friction; absent: as the sliding speed has it [-]
+      real(wp), intent(in), optional :: mobilised
 
       ! Unit vectors of load and traction on the roller [-]
       real(wp) :: normal(2), tangent(2)
 
       call evaluate_loading(model, angle, state%position, state%gas_force, state%moments, status)
       if (status /= 0) return
-      call evaluate_spin(model, state%position, state%moments, sliding_speed, state%contact, state%spin_acceleration, status)
+      call evaluate_spin(model, state%position, state%moments, sliding_speed, state%contact, state%spin_acceleration, status, &
+         & mobilised=mobilised)
       if (status /= 0) return
       call add_friction(model, state)
       if (model%is_consistent) then
