@@ -35,6 +35,7 @@ program main
    use test_ode, only : collect_ode
    use test_ode_rosenbrock, only : collect_ode_rosenbrock
    use test_energy, only : collect_energy
+   use test_stick_slip, only : collect_stick_slip
    use test_contact, only : collect_contact
    use test_events, only : collect_events
    use test_train, only : collect_train
@@ -119,6 +120,7 @@ contains
          new_testsuite("unit_rescaling_train", collect_unit_rescaling_train), &
          new_testsuite("derivatives", collect_derivatives), &
          new_testsuite("energy", collect_energy), &
+         new_testsuite("stick_slip", collect_stick_slip), &
          new_testsuite("contact", collect_contact), &
          new_testsuite("events", collect_events), &
          new_testsuite("train", collect_train), &

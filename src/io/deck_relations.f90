@@ -33,6 +33,7 @@ contains
       call contact_has_what_its_laws_need(settings, mistakes)
       if (has_group(settings, "cam_bearings")) call cams_stand_between_bearings(settings, mistakes)
       call output_step_divides_the_turn(settings, mistakes)
+      call stick_slip_has_a_method(settings, mistakes)
    end subroutine check_relations
 
    !> The closed energy balance needs exact arm and spin, mobilised boundary friction, rolling resistance in the
@@ -61,6 +62,22 @@ contains
       if (is_in_balance) return
       call complain(mistakes, settings, "traction", "in_roller_balance", "'in_roller_balance' must be .true."//advice)
    end subroutine energy_needs_its_bookkeeping
+
+   !> Only methods with error control tell sticking from sliding.
+   subroutine stick_slip_has_a_method(settings, mistakes)
+      !> The settings
+      type(settings_t), intent(in) :: settings
+      !> Mistakes so far
+      type(mistakes_t), intent(inout) :: mistakes
+
+      if (.not. has_group(settings, "asperity")) return
+      if (get_word(settings, "asperity", "mobilisation") /= "stick_slip") return
+      select case (get_word(settings, "numerics", "method"))
+      case ("euler", "quasi_static")
+         call complain(mistakes, settings, "asperity", "mobilisation", "'stick_slip' needs an integration method with error "// &
+            & "control; choose another 'method' in &numerics")
+      end select
+   end subroutine stick_slip_has_a_method
 
    !> The ring's wall is thinner than its radius, and a needle fits into the hole.
    subroutine roller_has_a_hole(settings, mistakes)

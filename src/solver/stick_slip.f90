@@ -44,8 +44,10 @@ module camroller_stick_slip
 
    !> Angle integrated after a phase has ended; doubled where none ends [rad]
    real(wp), parameter :: short_stretch = 20.0_wp*degree
-   !> Step of the scan for the end of sticking, longest interval of the trajectory meanwhile [rad]
-   real(wp), parameter :: scan_step = 0.5_wp*degree, longest_interval = 2.0_wp*degree
+   !> Longest and shortest step of the scan for the end of sticking [rad]
+   real(wp), parameter :: longest_scan = 1.0_wp*degree, shortest_scan = 1.0e-3_wp*degree
+   !> Distance of a rate in the middle of such a step from a straight line, over its size [-]: what happens between them is seen
+   real(wp), parameter :: largest_bend = 1.0e-3_wp
    !> Places at which the curve between two points is looked at
    integer, parameter :: places = 4
    !> Phases allowed in one integration: more than one a degree
@@ -309,42 +311,80 @@ contains
       !> Convergence error
       type(error_t), allocatable, intent(out) :: error
 
-      ! Angles and the end of the segment [rad]
-      real(wp) :: left, right, segment_end
-      ! Rates at rest at both angles [m/s/rad]
-      real(wp) :: rates_left(2), rates(2)
-      integer :: steps, i
+      ! Start, middle and end of a step [rad]; rates at rest there [m/s/rad]
+      real(wp) :: angles(3), rates(2, 3)
+      ! End of the segment, next step [rad]
+      real(wp) :: segment_end, step
+      integer :: last
 
       walk%stretch = short_stretch
+      step = longest_scan
       direction = 0
-      rates = 0.0_wp
       do while (walk%finish - walk%angle > 64.0_wp*walk%margin)
          segment_end = minval(stops, mask=stops > walk%angle + 64.0_wp*walk%margin)
-         right = walk%angle + walk%margin
-         steps = ceiling((segment_end - walk%angle)/scan_step)
-         do i = 0, steps
-            left = right
-            rates_left = rates
-            if (i > 0) right = walk%angle + walk%margin + (segment_end - walk%angle - 2.0_wp*walk%margin)*i/steps
-            call counted_rates(problem, right, rates, counters, error)
-            if (allocated(error)) return
-            direction = breakaway(rates, walk%rest_rate)
-            if (direction /= 0) then
-               if (i > 0) right = breakaway_between(problem, direction, walk%rest_rate, left, right, rates_left, rates, counters)
-               call append_point(trajectory, right, [0.0_wp], [0.0_wp])
-               walk%angle = right
-               return
-            end if
-            if (i == 0 .or. i == steps .or. mod(i, nint(longest_interval/scan_step)) == 0) then
-               call append_point(trajectory, right, [0.0_wp], [0.0_wp])
-            end if
+         angles(3) = walk%angle + walk%margin
+         call counted_rates(problem, angles(3), rates(:, 3), counters, error)
+         if (.not. allocated(error)) direction = breakaway(rates(:, 3), walk%rest_rate)
+         do while (direction == 0 .and. angles(3) < segment_end - walk%margin .and. .not. allocated(error))
+            call append_point(trajectory, angles(3), [0.0_wp], [0.0_wp])
+            angles(1) = angles(3)
+            rates(:, 1) = rates(:, 3)
+            call scan_step(problem, segment_end - walk%margin, walk%rest_rate, angles, rates, step, counters, error)
+            if (allocated(error)) exit
+            do last = 2, 3
+               direction = breakaway(rates(:, last), walk%rest_rate)
+               if (direction /= 0) exit
+            end do
+            if (direction /= 0) angles(3) = breakaway_between(problem, direction, walk%rest_rate, angles(last - 1:last), &
+               & rates(:, last - 1:last), counters)
          end do
-         walk%angle = segment_end
+         if (allocated(error)) return
+         call append_point(trajectory, angles(3), [0.0_wp], [0.0_wp])
+         walk%angle = merge(segment_end, angles(3), direction == 0)
+         if (direction /= 0) return
       end do
    end subroutine stick
 
+   !> One step of the scan, short enough for the rates to be all but straight lines.
+   subroutine scan_step(problem, finish, least_rate, angles, rates, step, counters, error)
+      !> The problem
+      type(spin_problem_t), intent(in) :: problem
+      !> Angle that is not to be passed [rad]
+      real(wp), intent(in) :: finish
+      !> Rate that counts as none [m/s/rad]
+      real(wp), intent(in) :: least_rate
+      !> Start of the step, given, middle and end [rad]
+      real(wp), intent(inout) :: angles(3)
+      !> Rates at rest there [m/s/rad]
+      real(wp), intent(inout) :: rates(2, 3)
+      !> Step to try; out: step to try next [rad]
+      real(wp), intent(inout) :: step
+      !> Work done
+      type(counters_t), intent(inout) :: counters
+      !> Convergence error
+      type(error_t), allocatable, intent(out) :: error
+
+      ! Distance of the middle from the straight line over the size of the rates [-]
+      real(wp) :: bend
+      integer :: i
+
+      do
+         angles(3) = min(angles(1) + step, finish)
+         if (finish - angles(3) < 0.5_wp*step) angles(3) = finish
+         angles(2) = 0.5_wp*(angles(1) + angles(3))
+         do i = 2, 3
+            call counted_rates(problem, angles(i), rates(:, i), counters, error)
+            if (allocated(error)) return
+         end do
+         bend = maxval(abs(rates(:, 2) - 0.5_wp*(rates(:, 1) + rates(:, 3))))/(maxval(abs(rates)) + least_rate)
+         if (bend <= largest_bend .or. step <= shortest_scan) exit
+         step = 0.5_wp*step
+      end do
+      if (bend <= 0.25_wp*largest_bend) step = min(2.0_wp*step, longest_scan)
+   end subroutine scan_step
+
    !> Angle at which friction no longer holds the roller.
-   function breakaway_between(problem, direction, threshold, left, right, rates_left, rates_right, counters) result(angle)
+   function breakaway_between(problem, direction, threshold, ends, rates_at_ends, counters) result(angle)
       !> The problem
       type(spin_problem_t), intent(in) :: problem
       !> Direction in which it breaks away
@@ -352,9 +392,9 @@ contains
       !> Rate up to which friction holds [m/s/rad]
       real(wp), intent(in) :: threshold
       !> Angles before and after [rad]
-      real(wp), intent(in) :: left, right
+      real(wp), intent(in) :: ends(2)
       !> Rates at rest there [m/s/rad]
-      real(wp), intent(in) :: rates_left(2), rates_right(2)
+      real(wp), intent(in) :: rates_at_ends(2, 2)
       !> Work done
       type(counters_t), intent(inout) :: counters
       !> The angle [rad]
@@ -366,8 +406,8 @@ contains
       integer :: which, status
 
       which = merge(1, 2, direction > 0)
-      call start_bracket(bracket, left, right, direction*rates_left(which) - threshold, &
-         & direction*rates_right(which) - threshold, 0.0_wp)
+      call start_bracket(bracket, ends(1), ends(2), direction*rates_at_ends(which, 1) - threshold, &
+         & direction*rates_at_ends(which, 2) - threshold, 0.0_wp)
       do while (bracket%status == root_wanted)
          call rates_at_rest(problem%model, bracket%trial, rates, status)
          counters%evaluations = counters%evaluations + size(rates)

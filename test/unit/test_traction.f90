@@ -4,7 +4,7 @@ module test_traction
    use camroller_kinds, only : wp, pi
    use camroller_error, only : error_t
    use camroller_lubricant, only : lubricant_t, oil_t, get_oil, mean_relative_viscosity
-   use camroller_traction, only : film_pressure, newtonian_shear, eyring_shear, limit_shear, mobilised_share, rolling_resistance, &
+   use camroller_traction, only : film_pressure, newtonian_shear, eyring_shear, limit_shear, mobilised_share, sliding_direction, rolling_resistance, &
       cap_smooth, cap_sharp, rolling_biboulet_houpert, rolling_goksem_hargreaves, rolling_none
    implicit none
    private
@@ -171,6 +171,9 @@ contains
       call check(error, mobilised_share(1.0_wp, 1.0e-3_wp), 1.0_wp, thr=roundings)
       if (allocated(error)) return
       call check(error, abs(mobilised_share(0.0_wp, 1.0e-3_wp)) <= 0.0_wp)
+      if (allocated(error)) return
+      call check(error, all(abs(sliding_direction([-1.0e-300_wp, 0.0_wp, 3.0_wp]) - [-1.0_wp, 0.0_wp, 1.0_wp]) <= 0.0_wp), &
+         "direction")
    end subroutine test_mobilised
 
    !> Rolling resistance over E' R L.
