@@ -4,7 +4,8 @@ module test_traction
    use camroller_kinds, only : wp, pi
    use camroller_error, only : error_t
    use camroller_lubricant, only : lubricant_t, oil_t, get_oil, mean_relative_viscosity
-   use camroller_traction, only : film_pressure, newtonian_shear, eyring_shear, limit_shear, mobilised_share, sliding_direction, rolling_resistance, &
+   use camroller_traction, only : film_pressure, newtonian_shear, eyring_shear, limit_shear, mobilised_share, &
+      & sliding_direction, rolling_resistance, &
       cap_smooth, cap_sharp, rolling_biboulet_houpert, rolling_goksem_hargreaves, rolling_none
    implicit none
    private
