@@ -242,7 +242,7 @@ contains
       character(len=*), parameter :: sticking = "&asperity boundary_coefficient = 0.1 mobilisation = 'stick_slip' / "
 
       call expect_mistake(error, "", sticking//"&numerics method = 'euler' /", &
-         & "'stick_slip' needs an integration method with error control")
+         & "11:53: 'stick_slip' needs an integration method with error control")
       call expect_valid(error, "", sticking//"&numerics method = 'radau5' /")
       call expect_mistake(error, "exponents = 4", "", "5:1: lift law 'power' needs 'exponents' in &lift")
       call expect_mistake(error, "exponents = 4", "exponents = 2", &
