@@ -26,8 +26,12 @@ module camroller_events
       real(wp) :: contact_loss_speed
    end type margin_t
 
-   !> Points of the scan over one cycle: a quarter of a degree
-   integer, parameter :: scan_points = 1440
+   !> Longest step of a scan [rad]
+   real(wp), parameter :: longest_step = 0.25_wp*degree
+   !> Least number of steps of a scan, shared out evenly between the pieces of the lift: an event may be shorter than a step
+   integer, parameter :: least_steps = 256
+   !> Difference between two steps, over both together, up to which they count as equal [-]
+   real(wp), parameter :: even_spacing = 1.0e-6_wp
    !> Accuracy of an angle [rad]: a few roundings of a turn
    real(wp), parameter :: angle_tolerance = 4.0e-15_wp
 
@@ -53,18 +57,60 @@ contains
       !> Cam angles, increasing [rad]
       real(wp), allocatable, intent(out) :: stops(:)
 
+      stops = [lift_stops_between(model, start, finish), switch_angles(model, start, finish)]
+      call sort(stops)
+      stops = [start, pack(stops, stops > start), finish]
+   end subroutine find_stops_between
+
+   !> Kinks of the lift from one angle up to another, which is left out.
+   pure function lift_stops_between(model, start, finish) result(stops)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> First and last angle, of any turn [rad]
+      real(wp), intent(in) :: start, finish
+      !> The kinks, increasing [rad]
+      real(wp), allocatable :: stops(:)
+
       ! Kinks of the lift in the turn that begins at `start`, and in those after it [rad]
       real(wp) :: kinks(size(model%lift_stops))
 
-      stops = switch_angles(model, start, finish)
+      allocate (stops(0))
       kinks = start + modulo(model%lift_stops - start, two_pi)
+      call sort(kinks)
       do while (any(kinks < finish))
          stops = [stops, pack(kinks, kinks < finish)]
          kinks = kinks + two_pi
       end do
-      call sort(stops)
-      stops = [start, pack(stops, stops > start), finish]
-   end subroutine find_stops_between
+   end function lift_stops_between
+
+   !> Angles of a scan: the ends, every kink of the lift, and even steps between them, so that no event is too short to be seen.
+   pure function scan_angles(model, start, finish) result(angles)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> First and last angle [rad]
+      real(wp), intent(in) :: start, finish
+      !> Angles, increasing, with both ends [rad]
+      real(wp), allocatable :: angles(:)
+
+      ! Ends of the pieces [rad]
+      real(wp), allocatable :: edges(:)
+      integer, allocatable :: steps(:)
+      integer :: piece, last, i
+
+      edges = lift_stops_between(model, start, finish)
+      edges = [start, pack(edges, edges > start), finish]
+      steps = max(ceiling((edges(2:) - edges(:size(edges) - 1))/longest_step), 1 + least_steps/size(edges))
+      allocate (angles(1 + sum(steps)))
+      angles(1) = start
+      last = 1
+      do piece = 1, size(steps)
+         do i = 1, steps(piece) - 1
+            angles(last + i) = edges(piece) + (edges(piece + 1) - edges(piece))*i/steps(piece)
+         end do
+         last = last + steps(piece)
+         angles(last) = edges(piece + 1)
+      end do
+   end function scan_angles
 
    !> Angles between two others at which one of the switches changes its sign, found by a scan.
    function switch_angles(model, start, finish) result(angles)
@@ -77,20 +123,18 @@ contains
 
       ! Values at the ends of a scan interval: lift above the seat [m] and moment that keeps contact [N m]
       real(wp) :: before(2), after(2)
-      ! Angle, step of the scan [rad]
-      real(wp) :: angle, step
-      integer :: i, kind, points
+      ! Angles of the scan [rad]
+      real(wp), allocatable :: scan(:)
+      integer :: i, kind
 
       allocate (angles(0))
-      points = max(1, ceiling((finish - start)/two_pi*scan_points))
-      step = (finish - start)/points
+      scan = scan_angles(model, start, finish)
       before = switches(model, start)
-      do i = 1, points
-         angle = start + i*step
-         after = switches(model, angle)
+      do i = 2, size(scan)
+         after = switches(model, scan(i))
          do kind = 1, size(before)
             if ((before(kind) > 0.0_wp) .eqv. (after(kind) > 0.0_wp)) cycle
-            angles = [angles, switch_angle(model, kind, angle - step, angle, before(kind), after(kind))]
+            angles = [angles, switch_angle(model, kind, scan(i - 1), scan(i), before(kind), after(kind))]
          end do
          before = after
       end do
@@ -174,12 +218,14 @@ contains
 
       type(position_t) :: position
       type(moments_t) :: moments
-      ! Angle [rad], gas force [N]
+      ! Angles of the scan, angle [rad]; gas force [N]
+      real(wp), allocatable :: scan(:)
       real(wp) :: angle, force
       integer :: i, status
 
-      do i = 0, scan_points - 1
-         angle = -pi + i*two_pi/scan_points
+      scan = scan_angles(model, -pi, pi)
+      do i = 1, size(scan)
+         angle = scan(i)
          call evaluate_loading(model, angle, position, force, moments, status)
          if (status /= 0) then
             call raise(error, kind_domain, "mechanism: the finger cannot reach the lift"//at_angle(angle))
@@ -222,6 +268,8 @@ contains
       !> Margin
       type(margin_t), intent(out) :: margin
 
+      ! Angles of the scan, with one on either side [rad]
+      real(wp), allocatable :: scan(:)
       ! Loads [N] and squares of the loss speed [rad^2/s^2] at three neighbouring points
       real(wp) :: loads(3), squares(3)
       ! Smallest square so far [rad^2/s^2]
@@ -231,17 +279,19 @@ contains
       margin%smallest_load = huge(1.0_wp)
       margin%angle = 0.0_wp
       smallest_square = huge(1.0_wp)
-      call frictionless(model, -pi - two_pi/scan_points, loads(2), squares(2))
-      call frictionless(model, -pi, loads(3), squares(3))
-      do i = 1, scan_points
+      scan = scan_angles(model, -pi, pi)
+      scan = [scan(size(scan) - 1) - two_pi, scan]
+      call frictionless(model, scan(1), loads(2), squares(2))
+      call frictionless(model, scan(2), loads(3), squares(3))
+      do i = 3, size(scan)
          loads(:2) = loads(2:)
          squares(:2) = squares(2:)
-         call frictionless(model, -pi + i*two_pi/scan_points, loads(3), squares(3))
+         call frictionless(model, scan(i), loads(3), squares(3))
          if (loads(2) < margin%smallest_load) then
-            margin%smallest_load = min(loads(2), valley(loads))
-            margin%angle = -pi + (i - 1)*two_pi/scan_points
+            margin%smallest_load = min(loads(2), valley(scan(i - 2:i), loads))
+            margin%angle = scan(i - 1)
          end if
-         if (squares(2) < smallest_square) smallest_square = min(squares(2), valley(squares))
+         if (squares(2) < smallest_square) smallest_square = min(squares(2), valley(scan(i - 2:i), squares))
       end do
       margin%contact_loss_speed = ieee_value(1.0_wp, ieee_positive_inf)
       if (smallest_square < huge(1.0_wp)) margin%contact_loss_speed = sqrt(max(smallest_square, 0.0_wp))
@@ -272,7 +322,9 @@ contains
    end subroutine frictionless
 
    !> Lowest value of the parabola through three equally spaced points with the middle one lowest; else the middle one.
-   pure function valley(values) result(lowest)
+   pure function valley(angles, values) result(lowest)
+      !> Three angles [rad]
+      real(wp), intent(in) :: angles(3)
       !> Three values [any]
       real(wp), intent(in) :: values(3)
       !> Lowest value [any]
@@ -284,6 +336,7 @@ contains
       lowest = values(2)
       if (maxval(values) >= 0.5_wp*huge(1.0_wp)) return
       if (values(2) > min(values(1), values(3))) return
+      if (abs(angles(1) - 2.0_wp*angles(2) + angles(3)) > even_spacing*(angles(3) - angles(1))) return
       bend = values(1) - 2.0_wp*values(2) + values(3)
       if (bend > 0.0_wp) lowest = values(2) - (values(3) - values(1))**2/(8.0_wp*bend)
    end function valley

@@ -5,7 +5,7 @@
 !> speeds. The source integrates the roller's surface speed `r_R omega_R` instead; its fixed step does so here too.
 module camroller_spin
    use camroller_kinds, only : wp, degree
-   use camroller_ode_problem, only : problem_t
+   use camroller_ode_problem, only : problem_t, counters_t, time_increment
    use camroller_model, only : model_t
    use camroller_kinematics, only : position_t
    use camroller_dynamics, only : moments_t
@@ -29,8 +29,14 @@ module camroller_spin
    contains
       procedure :: get_rate
       procedure :: get_decay_rate
+      procedure :: get_jacobian
       procedure :: name_time
    end type spin_problem_t
+
+   !> Increment of a difference quotient over the size of its variable [-]
+   real(wp), parameter :: increment_ratio = sqrt(epsilon(1.0_wp))
+   !> Change of the traction over its limit, up to which the traction counts as a straight line of the sliding speed [-]
+   real(wp), parameter :: largest_change = 1.0e-4_wp
 
 contains
 
@@ -100,6 +106,113 @@ contains
 
       decay_rate = model%roller_radius**2*contact%traction_slope/(model%roller_inertia*model%speed)
    end function decay_rate_of
+
+   !> Jacobian and slope with the cam angle by forward differences.
+   !>
+   !> Traction saturates within a sliding speed that may lie twenty decades below the largest one of the cycle, where an
+   !> increment chosen for the latter would see no slope at all. An increment that changes the traction by more than a small
+   !> part of its limit is therefore replaced by one that does not, from the analytic slope of the traction.
+   subroutine get_jacobian(self, time, state, rate, horizon, jacobian, time_slope, counters, status)
+      !> The problem
+      class(spin_problem_t), intent(in) :: self
+      !> Cam angle from full lift [rad]
+      real(wp), intent(in) :: time
+      !> Sliding speed or surface speed [m/s]
+      real(wp), intent(in) :: state(:)
+      !> Its derivative with respect to the cam angle [m/s/rad]
+      real(wp), intent(in) :: rate(:)
+      !> Cam angle up to which the right-hand side is smooth [rad]
+      real(wp), intent(in) :: horizon
+      !> Derivative of the rate with respect to the state [1/rad]
+      real(wp), intent(out) :: jacobian(:, :)
+      !> Derivative of the rate with respect to the cam angle [m/s/rad^2]
+      real(wp), intent(out) :: time_slope(:)
+      !> Work done
+      type(counters_t), intent(inout) :: counters
+      !> 0 fine, positive: try a smaller step, negative: give up
+      integer, intent(out) :: status
+
+      type(contact_t) :: contact
+      ! State moved [m/s], angle moved [rad], rate there and rate that it is compared with [m/s/rad]
+      real(wp) :: moved_state(1), moved_time, moved_rate(1), base_rate(1)
+      ! Size of the state [m/s]; rate that all of the traction makes up [m/s/rad]
+      real(wp) :: size_of_state, limit
+
+      counters%jacobians = counters%jacobians + 1
+      size_of_state = 1.0_wp
+      if (allocated(self%small_state)) size_of_state = self%small_state(1)
+      moved_state = state(1) + increment_ratio*max(abs(state(1)), size_of_state)
+      base_rate = rate
+      call rate_and_contact(self, time, moved_state(1), moved_rate(1), contact, counters, status)
+      if (status /= 0) return
+      limit = self%model%limiting_coefficient*contact%load + contact%boundary_capacity
+      limit = limit*self%model%roller_radius**2/(self%model%roller_inertia*self%model%speed)
+      if (abs(moved_rate(1) - rate(1)) > largest_change*limit) then
+         call rate_and_contact(self, time, state(1), base_rate(1), contact, counters, status)
+         if (status /= 0) return
+         call choose_increment(self%model, contact, state(1), moved_state(1))
+         call rate_and_contact(self, time, moved_state(1), moved_rate(1), contact, counters, status)
+         if (status /= 0) return
+      end if
+      jacobian(1, 1) = (moved_rate(1) - base_rate(1))/(moved_state(1) - state(1))
+      moved_time = time + time_increment(time, horizon)
+      call self%get_rate(moved_time, state, moved_rate, status)
+      counters%evaluations = counters%evaluations + 1
+      if (status /= 0) return
+      time_slope = (moved_rate - base_rate)/(moved_time - time)
+   end subroutine get_jacobian
+
+   !> Move a state by so little that its traction stays a straight line.
+   pure subroutine choose_increment(model, contact, state, moved_state)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> The contact at the state
+      type(contact_t), intent(in) :: contact
+      !> Sliding speed or surface speed [m/s]
+      real(wp), intent(in) :: state
+      !> In: state moved by too much; out: by less [m/s]
+      real(wp), intent(inout) :: moved_state
+
+      ! Increment [m/s], traction by which it moves [N]
+      real(wp) :: increment, change
+
+      increment = moved_state - state
+      change = 0.1_wp*largest_change*(model%limiting_coefficient*contact%load + contact%boundary_capacity)
+      if (contact%traction_slope*increment > change) increment = change/contact%traction_slope
+      moved_state = state + max(increment, 4.0_wp*spacing(state))
+   end subroutine choose_increment
+
+   !> Rate with the contact that it comes from, to round-off.
+   subroutine rate_and_contact(self, time, state, rate, contact, counters, status)
+      !> The problem
+      class(spin_problem_t), intent(in) :: self
+      !> Cam angle from full lift [rad]
+      real(wp), intent(in) :: time
+      !> Sliding speed or surface speed [m/s]
+      real(wp), intent(in) :: state
+      !> Its derivative with respect to the cam angle [m/s/rad]
+      real(wp), intent(out) :: rate
+      !> State of the contact
+      type(contact_t), intent(out) :: contact
+      !> Work done
+      type(counters_t), intent(inout) :: counters
+      !> 0 fine, positive: try a smaller step, negative: give up
+      integer, intent(out) :: status
+
+      type(position_t) :: position
+      type(moments_t) :: moments
+      ! Gas force [N]; angular acceleration of the roller [rad/s^2]
+      real(wp) :: force, acceleration
+
+      rate = 0.0_wp
+      counters%evaluations = counters%evaluations + 1
+      call evaluate_loading(self%model, time, position, force, moments, status)
+      if (status /= 0) return
+      call evaluate_spin(self%model, position, moments, sliding_speed_of(self, position, state), contact, acceleration, status)
+      if (status /= 0) return
+      rate = self%model%roller_radius*acceleration/self%model%speed
+      if (.not. self%has_surface_speed) rate = rolling_speed_slope(self%model, position) - rate
+   end subroutine rate_and_contact
 
    !> A cam angle in the words of messages, as files count it.
    function name_time(self, time) result(text)
