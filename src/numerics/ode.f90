@@ -94,6 +94,8 @@ module camroller_ode
    real(wp), parameter :: max_growth = 5.0_wp, max_shrinkage = 0.2_wp
    !> Error over tolerance below which smaller ones make no difference [-]
    real(wp), parameter :: least_error = 1.0e-4_wp
+   !> Departure from the linear rate over span and size of the rate, up to which a step is taken to have seen a saturation [-]
+   real(wp), parameter :: largest_departure = 0.5_wp
    !> Part of the stability limit that a step may use [-]
    real(wp), parameter :: stability_margin = 0.95_wp
 
@@ -347,8 +349,46 @@ contains
          counters%evaluations = counters%evaluations + 1
          if (status > 0) scaled_error = impossible
       end if
+      if (status == 0 .and. scaled_error <= 1.0_wp .and. method%needs_jacobian) then
+         call check_saturation(problem, method, time, new_time, state, rate, new_state, new_rate, estimate, scaled_error)
+      end if
       status = min(status, 0)
    end subroutine try_checked_step
+
+   !> Raise the error of a step that crosses a range of the state within which the rate saturates, without seeing it.
+   !>
+   !> Two signs: an error of the state that the Jacobian turns into more than the allowed error of the rate, and a rate at
+   !> the end that is far from the linear one. Without them a step may jump from one side of a narrow range to the other,
+   !> again and again.
+   subroutine check_saturation(problem, method, time, new_time, state, rate, new_state, new_rate, estimate, scaled_error)
+      !> The problem
+      class(problem_t), intent(in) :: problem
+      !> The method with the Jacobian at the start of the step
+      class(method_t), intent(in) :: method
+      !> Time at the start and at the end of the step [time]
+      real(wp), intent(in) :: time, new_time
+      !> State and rate at the start [state, state/time]
+      real(wp), intent(in) :: state(:), rate(:)
+      !> State and rate at the end [state, state/time]
+      real(wp), intent(in) :: new_state(:), new_rate(:)
+      !> Error of the step [state]
+      real(wp), intent(in) :: estimate(:)
+      !> Error over tolerance [-]
+      real(wp), intent(inout) :: scaled_error
+
+      ! Span and resolution of the rate at both ends [state/time]
+      real(wp) :: span(2), resolution(2)
+      ! Departure from the linear rate, and that which is allowed [state/time]
+      real(wp) :: departure(size(state)), allowed(size(state))
+
+      call problem%get_saturation(time, span(1), resolution(1))
+      if (span(1) >= huge(1.0_wp)) return
+      call problem%get_saturation(new_time, span(2), resolution(2))
+      scaled_error = max(scaled_error, maxval(abs(matmul(method%jacobian, estimate)))/maxval(resolution))
+      departure = new_rate - rate - matmul(method%jacobian, new_state - state) - method%time_slope*(new_time - time)
+      allowed = largest_departure*(maxval(span) + abs(rate) + abs(new_rate))
+      scaled_error = max(scaled_error, maxval((abs(departure)/allowed)**method%error_order))
+   end subroutine check_saturation
 
    !> Proposal for the next step after an accepted one: proportional-integral control.
    !>

@@ -21,6 +21,7 @@ module camroller_ode_problem
       procedure(decay_interface), deferred :: get_decay_rate
       procedure(words_interface), deferred :: name_time
       procedure :: get_jacobian => difference_jacobian
+      procedure :: get_saturation => no_saturation
    end type problem_t
 
    !> Work done, comparable between machines
@@ -81,6 +82,24 @@ module camroller_ode_problem
    end interface
 
 contains
+
+   !> A right-hand side that does not saturate.
+   !>
+   !> A problem whose rate saturates within a narrow range of the state overrides this: errors of the state that are small
+   !> against the largest state may still throw the rate from one end of its range to the other.
+   subroutine no_saturation(self, time, span, resolution)
+      !> The problem; read only
+      class(problem_t), intent(in) :: self
+      !> Time [time]
+      real(wp), intent(in) :: time
+      !> Part of the rate that saturates, its size; huge where nothing does [state/time]
+      real(wp), intent(out) :: span
+      !> Error of the rate that is allowed for an error of the state [state/time]
+      real(wp), intent(out) :: resolution
+
+      span = huge(self%small_state)
+      resolution = huge(time)
+   end subroutine no_saturation
 
    !> Jacobian and slope with time by forward differences.
    !>
