@@ -96,6 +96,9 @@ module camroller_ode
    real(wp), parameter :: least_error = 1.0e-4_wp
    !> Departure from the linear rate over span and size of the rate, up to which a step is taken to have seen a saturation [-]
    real(wp), parameter :: largest_departure = 0.5_wp
+   !> Fewest steps, shared out evenly between the segments: what happens within a segment shows between its ends only, and a
+   !> method may look at nothing but the ends of its steps
+   integer, parameter :: fewest_steps = 32
    !> Part of the stability limit that a step may use [-]
    real(wp), parameter :: stability_margin = 0.95_wp
 
@@ -129,8 +132,10 @@ contains
       real(wp) :: step, margin, start, finish
       ! Error of the step before over its tolerance [-]
       real(wp) :: last_error
+      type(options_t) :: limits
       integer :: segment, status
 
+      limits = options
       step = options%step
       if (step <= 0.0_wp) step = 1.0e-4_wp*(stops(size(stops)) - stops(1))
       last_error = 1.0_wp
@@ -148,7 +153,10 @@ contains
             return
          end if
          call append_point(trajectory, start, state, rate)
-         call integrate_segment(problem, method, options, start, finish, state, rate, step, last_error, trajectory, &
+         if (.not. is_fixed(method, options)) then
+            limits%max_step = min(options%max_step, (finish - start)/max(1, fewest_steps/(size(stops) - 1)))
+         end if
+         call integrate_segment(problem, method, limits, start, finish, state, rate, step, last_error, trajectory, &
             & counters, error)
          if (allocated(error)) return
       end do
@@ -376,18 +384,19 @@ contains
       !> Error over tolerance [-]
       real(wp), intent(inout) :: scaled_error
 
-      ! Span and resolution of the rate at both ends [state/time]
-      real(wp) :: span(2), resolution(2)
-      ! Departure from the linear rate, and that which is allowed [state/time]
-      real(wp) :: departure(size(state)), allowed(size(state))
+      ! Span of the rate at both ends [state/time], part of it that is resolved [-]
+      real(wp) :: span(2), resolution
+      ! Departure from the linear rate, and size of the rates [state/time]
+      real(wp) :: departure(size(state)), sizes(size(state))
 
-      call problem%get_saturation(time, span(1), resolution(1))
+      call problem%get_saturation(time, span(1), resolution)
       if (span(1) >= huge(1.0_wp)) return
-      call problem%get_saturation(new_time, span(2), resolution(2))
-      scaled_error = max(scaled_error, maxval(abs(matmul(method%jacobian, estimate)))/maxval(resolution))
+      call problem%get_saturation(new_time, span(2), resolution)
+      sizes = maxval(span) + abs(rate) + abs(new_rate)
+      if (.not. all(sizes > 0.0_wp)) return
       departure = new_rate - rate - matmul(method%jacobian, new_state - state) - method%time_slope*(new_time - time)
-      allowed = largest_departure*(maxval(span) + abs(rate) + abs(new_rate))
-      scaled_error = max(scaled_error, maxval((abs(departure)/allowed)**method%error_order))
+      scaled_error = max(scaled_error, maxval(abs(matmul(method%jacobian, estimate))/(resolution*sizes)), &
+         & maxval((abs(departure)/(largest_departure*sizes))**method%error_order))
    end subroutine check_saturation
 
    !> Proposal for the next step after an accepted one: proportional-integral control.

@@ -94,11 +94,11 @@ contains
       real(wp), intent(in) :: time
       !> Part of the rate that saturates, its size; huge where nothing does [state/time]
       real(wp), intent(out) :: span
-      !> Error of the rate that is allowed for an error of the state [state/time]
+      !> Error of the rate that is allowed for an error of the state, over the rate [-]
       real(wp), intent(out) :: resolution
 
       span = huge(self%small_state)
-      resolution = huge(time)
+      resolution = merge(1.0_wp, 0.0_wp, time < span)
    end subroutine no_saturation
 
    !> Jacobian and slope with time by forward differences.

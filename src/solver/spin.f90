@@ -36,8 +36,8 @@ module camroller_spin
 
    !> Increment of a difference quotient over the size of its variable [-]
    real(wp), parameter :: increment_ratio = sqrt(epsilon(1.0_wp))
-   !> Largest error of the traction over its limit, and the same over the accuracy of the contact [-]
-   real(wp), parameter :: coarsest_resolution = 1.0e-2_wp, accuracy_ratio = 1.0e5_wp
+   !> Largest and smallest error of the traction over its limit, and the same over the accuracy of the contact [-]
+   real(wp), parameter :: coarsest_resolution = 1.0e-2_wp, finest_resolution = 1.0e-10_wp, accuracy_ratio = 1.0e5_wp
    !> Change of the traction over its limit, up to which the traction counts as a straight line of the sliding speed [-]
    real(wp), parameter :: largest_change = 1.0e-4_wp
 
@@ -119,7 +119,7 @@ contains
       real(wp), intent(in) :: time
       !> Rate of the largest traction, zero without contact [m/s/rad]
       real(wp), intent(out) :: span
-      !> Error of the rate that is allowed for an error of the sliding speed [m/s/rad]
+      !> Error of the rate that is allowed for an error of the sliding speed, over the rate [-]
       real(wp), intent(out) :: resolution
 
       type(position_t) :: position
@@ -129,14 +129,13 @@ contains
       integer :: status
 
       span = huge(1.0_wp)
-      resolution = huge(1.0_wp)
+      resolution = max(min(coarsest_resolution, accuracy_ratio*self%accuracy), finest_resolution)
       call evaluate_loading(self%model, time, position, force, moments, status)
       if (status /= 0) return
       coefficient = self%model%limiting_coefficient
       if (allocated(self%model%boundary)) coefficient = max(coefficient, self%model%boundary%coefficient)
       span = coefficient*max(moments%total/position%normal_arm, 0.0_wp)*self%model%roller_radius**2 &
          & /(self%model%roller_inertia*self%model%speed)
-      resolution = max(min(coarsest_resolution, accuracy_ratio*self%accuracy)*span, tiny(1.0_wp))
    end subroutine get_saturation
 
    !> Jacobian and slope with the cam angle by forward differences.
