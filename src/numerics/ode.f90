@@ -55,7 +55,7 @@ module camroller_ode
       !> Largest step [time]
       real(wp) :: max_step = huge(1.0_wp)
       !> Steps after which the integration is given up
-      integer :: max_steps = 10000000
+      integer :: max_steps = 1000000
    end type options_t
 
    abstract interface
@@ -133,13 +133,14 @@ contains
       ! Error of the step before over its tolerance [-]
       real(wp) :: last_error
       type(options_t) :: limits
-      integer :: segment, status
+      integer :: segment, segments, status
 
       limits = options
       step = options%step
       if (step <= 0.0_wp) step = 1.0e-4_wp*(stops(size(stops)) - stops(1))
       last_error = 1.0_wp
       margin = 4.0_wp*spacing(maxval(abs(stops)))
+      segments = count(stops(2:) - stops(:size(stops) - 1) > 64.0_wp*margin)
       if (allocated(options%tolerance)) method%tolerance = options%tolerance
       call start_trajectory(trajectory, size(state))
       do segment = 1, size(stops) - 1
@@ -154,7 +155,7 @@ contains
          end if
          call append_point(trajectory, start, state, rate)
          if (.not. is_fixed(method, options)) then
-            limits%max_step = min(options%max_step, (finish - start)/max(1, fewest_steps/(size(stops) - 1)))
+            limits%max_step = min(options%max_step, (finish - start)/max(1, fewest_steps/segments))
          end if
          call integrate_segment(problem, method, limits, start, finish, state, rate, step, last_error, trajectory, &
             & counters, error)
