@@ -53,6 +53,8 @@ program main
    use test_simulation, only : collect_simulation
    use test_quasi_static, only : collect_quasi_static
    use test_ode_special, only : collect_ode_special
+   use test_hard_cases, only : collect_hard_cases
+   use test_random_cases, only : collect_random_cases
    implicit none
 
    call run_command_line()
@@ -93,6 +95,8 @@ contains
 
       suites = [ &
          new_testsuite("error", collect_error), &
+         new_testsuite("hard_cases", collect_hard_cases), &
+         new_testsuite("random_cases", collect_random_cases), &
          new_testsuite("ode", collect_ode), &
          new_testsuite("ode_rosenbrock", collect_ode_rosenbrock), &
          new_testsuite("ode_special", collect_ode_special), &

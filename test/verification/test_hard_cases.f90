@@ -1,0 +1,237 @@
+!> Every deck in `decks/hard` by every method that claims to be stable, or the error that it has to end with.
+module test_hard_cases
+   use testdrive, only : new_unittest, unittest_type, error_type, test_failed
+   use camroller_kinds, only : wp, pi, two_pi
+   use camroller_error, only : error_t
+   use camroller_case, only : case_t
+   use camroller_model, only : model_t
+   use camroller_run, only : build_models, run_case
+   use camroller_result, only : result_t
+   use camroller_deck, only : deck_t, override_t, read_deck, make_case
+   use camroller_cycle, only : cycle_t, integrate_cycle, integrate_between, choose_start
+   use camroller_events, only : find_stops_between
+   use camroller_ode_methods, only : method_facts
+   use camroller_trajectory, only : interpolate_state
+   use cycle_checks, only : sample_t, take_sample, compare_samples, difference
+   implicit none
+   private
+
+   public :: collect_hard_cases
+
+   !> Length of the name of a deck
+   integer, parameter :: name_length = 32
+   !> Decks that every stable method must solve
+   character(len=name_length), parameter :: solved(*) = [character(len=name_length) :: &
+      "cold_start_minus_20", "cold_start_minus_30", "hot_thin_film", "cranking_1_rpm", "cranking_20_rpm_cold", &
+      "near_standstill", "roller_started_backwards", "contact_loss_3200_rpm", "contact_loss_5000_rpm", &
+      "load_touches_zero", "unloaded_base_circle", "light_base_circle_load", "straight_flank", "hollow_flank", &
+      "nearly_undercut_nose", "stick_slip_boundary", "stick_slip_boundary_reversal", "no_rolling_resistance", &
+      "no_needle_friction", "light_roller", "heavy_roller", "rigid_spring", "soft_spring", "noisy_table", &
+      "noisy_table_smoothed", "coarse_table", "fine_table", "steep_ramp", "short_event", "outside_film_law", &
+      "pressure_1500_MPa_roelands", "pressure_1500_MPa_barus", "smooth_surfaces", "rough_surfaces", "narrow_contact", &
+      "wide_contact", "event_touches_cycle_end", "no_dwell", "periodic_table", "sharp_cap_eyring", "sharp_cap", &
+      "stuck_roller", "towards_pivot_flight"]
+
+   !> A deck that has no answer, and what its error says
+   type :: ending_t
+      character(len=name_length) :: deck
+      character(len=40) :: words
+   end type ending_t
+
+   !> Decks that must end with an error. Two cams undercut; a film law is outside a range that the deck forbids to leave; a roller
+   !> that nothing drives needs hundreds of thousands of cycles; steps far beyond stability do not become periodic.
+   type(ending_t), parameter :: endings(*) = [ &
+      ending_t("very_noisy_table", "undercut"), ending_t("short_undercut", "undercut"), &
+      ending_t("outside_film_law_stop", "outside its published range"), &
+      ending_t("frictionless_contact", "did not become periodic"), &
+      ending_t("large_fixed_steps", "did not become periodic")]
+
+   !> Decks at which any ending is good, with a result or with an error: their viscosity in the contact leaves the range of what a
+   !> step can resolve
+   character(len=name_length), parameter :: beyond(*) = [character(len=name_length) :: "pressure_4000_MPa_barus"]
+
+   !> Tolerances of the methods, of the reference, and of a loose and a tight integration [-]
+   real(wp), parameter :: tolerance = 1.0e-4_wp, reference_tolerance = 1.0e-8_wp, tight = 1.0e-6_wp
+   !> The method of the reference
+   character(len=*), parameter :: reference_method = "rodas5p"
+
+contains
+
+   !> Collect the tests.
+   subroutine collect_hard_cases(testsuite)
+      !> The tests
+      type(unittest_type), allocatable, intent(out) :: testsuite(:)
+
+      testsuite = [ &
+         new_unittest("every stable method solves every hard case, and all agree", test_solved), &
+         new_unittest("what has no answer ends with an error that says why", test_endings), &
+         new_unittest("every hard deck is tested", test_all_decks), &
+         new_unittest("a roller that starts backwards forgets it within a turn", test_backwards) &
+         ]
+   end subroutine collect_hard_cases
+
+   !> Read a hard deck.
+   subroutine get_case(name, case, error)
+      character(len=*), intent(in) :: name
+      type(case_t), intent(out) :: case
+      type(error_type), allocatable, intent(out) :: error
+      type(deck_t) :: deck
+      type(override_t) :: none(0)
+      type(error_t), allocatable :: failure
+
+      call read_deck(deck, "decks/hard/"//trim(name)//".nml", none, failure)
+      if (.not. allocated(failure)) call make_case(deck, none, case, failure)
+      if (allocated(failure)) call test_failed(error, failure%message)
+   end subroutine get_case
+
+   subroutine test_solved(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(error_type), allocatable :: trouble
+      character(len=:), allocatable :: list
+      integer :: i
+
+      list = ""
+      do i = 1, size(solved)
+         call check_deck(trim(solved(i)), trouble)
+         if (allocated(trouble)) list = list//new_line("a")//trim(solved(i))//": "//trouble%message
+      end do
+      if (list /= "") call test_failed(error, list)
+   end subroutine test_solved
+
+   !> One deck by every method that claims to be stable.
+   subroutine check_deck(name, error)
+      character(len=*), intent(in) :: name
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: case
+      type(model_t), allocatable :: models(:)
+      type(error_t), allocatable :: failure
+      type(sample_t) :: reference, sample
+      character(len=:), allocatable :: trouble
+      integer :: i
+
+      call get_case(name, case, error)
+      if (allocated(error)) return
+      call build_models(case, models, failure)
+      if (allocated(failure)) then
+         call test_failed(error, failure%message)
+         return
+      end if
+      call take_sample(models(1), case%numerics, reference_method, reference_tolerance, reference)
+      trouble = reference%trouble
+      do i = 1, size(method_facts)
+         if (trouble /= "") exit
+         if (.not. method_facts(i)%is_stiffly_stable) cycle
+         call check_method(models(1), case, trim(method_facts(i)%name), reference, sample, trouble)
+      end do
+      if (trouble /= "") call test_failed(error, trouble)
+   end subroutine check_deck
+
+   !> One method against the reference, and whether a smaller tolerance helps.
+   subroutine check_method(model, case, method, reference, sample, trouble)
+      type(model_t), intent(in) :: model
+      type(case_t), intent(in) :: case
+      character(len=*), intent(in) :: method
+      type(sample_t), intent(in) :: reference
+      type(sample_t), intent(out) :: sample
+      character(len=:), allocatable, intent(out) :: trouble
+      ! A smaller tolerance has helped where the error is this part of that of the larger one, or below the tolerance itself [-]
+      real(wp), parameter :: progress = 0.5_wp
+      type(sample_t) :: better
+      character(len=80) :: buffer
+
+      call take_sample(model, case%numerics, method, tolerance, sample)
+      trouble = sample%trouble
+      if (trouble == "") trouble = compare_samples(sample, reference)
+      if (trouble /= "") then
+         trouble = method//": "//trouble
+         return
+      end if
+      if (method /= reference_method) return
+      call take_sample(model, case%numerics, method, tight, better)
+      trouble = better%trouble
+      if (trouble == "") trouble = compare_samples(better, reference)
+      if (trouble /= "") return
+      if (difference(better, reference) <= max(progress*difference(sample, reference), tight)) return
+      write (buffer, "(a, es9.2, a, es9.2)") "a smaller tolerance takes the error from ", difference(sample, reference), &
+         " to ", difference(better, reference)
+      trouble = method//": "//trim(buffer)
+   end subroutine check_method
+
+   subroutine test_endings(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: case
+      type(result_t) :: result
+      type(error_t), allocatable :: failure
+      integer :: i
+
+      do i = 1, size(endings)
+         call get_case(endings(i)%deck, case, error)
+         if (allocated(error)) return
+         call run_case(case, result, failure)
+         if (.not. allocated(failure)) then
+            call test_failed(error, trim(endings(i)%deck)//" gives a result")
+            return
+         end if
+         if (index(failure%message, trim(endings(i)%words)) == 0) then
+            call test_failed(error, trim(endings(i)%deck)//": "//failure%message)
+            return
+         end if
+         deallocate (failure)
+      end do
+   end subroutine test_endings
+
+   !> Each deck of the folder is in one of the lists, and each list names decks that are there.
+   subroutine test_all_decks(error)
+      type(error_type), allocatable, intent(out) :: error
+      integer, parameter :: in_folder = 49
+      integer :: i
+      type(case_t) :: case
+
+      do i = 1, size(solved)
+         call get_case(solved(i), case, error)
+         if (allocated(error)) return
+      end do
+      if (size(solved) + size(endings) + size(beyond) /= in_folder) call test_failed(error, "a deck is in no list")
+   end subroutine test_all_decks
+
+   !> Spin that starts backwards at the speed of pure rolling: the entrainment speed passes through zero on the way to the cycle.
+   subroutine test_backwards(error)
+      type(error_type), allocatable, intent(out) :: error
+      ! Angle of the start and of the end, on the base circle [rad]
+      real(wp), parameter :: start = -2.8_wp, finish = start + 0.9_wp*two_pi
+      type(case_t) :: case
+      type(model_t), allocatable :: models(:)
+      type(error_t), allocatable :: failure
+      type(cycle_t) :: cycle, piece
+      ! Stops [rad], sliding speeds [m/s], their scale [m/s], spin [rad/s]
+      real(wp), allocatable :: stops(:)
+      real(wp) :: periodic(1), reached(1), scale, spin, angle, sliding_speed
+      integer :: i, hint
+
+      call get_case("roller_started_backwards", case, error)
+      if (allocated(error)) return
+      call build_models(case, models, failure)
+      if (.not. allocated(failure)) call find_stops_between(models(1), start, finish, stops)
+      do i = 1, size(method_facts)
+         if (.not. method_facts(i)%is_stiffly_stable .or. allocated(failure)) cycle
+         case%numerics%method = method_facts(i)%name
+         case%numerics%tolerance = tight
+         call integrate_cycle(cycle, models(1), case%numerics, failure)
+         if (allocated(failure)) exit
+         call choose_start(models(1), angle, sliding_speed, scale)
+         spin = -models(1)%speed
+         call integrate_between(piece, models(1), case%numerics, stops, scale, spin, failure)
+         if (allocated(failure)) exit
+         hint = 1
+         call interpolate_state(cycle%trajectory, cycle%start + modulo(finish - cycle%start, two_pi), hint, periodic)
+         hint = 1
+         call interpolate_state(piece%trajectory, finish, hint, reached)
+         if (.not. abs(reached(1) - periodic(1)) <= tight*scale*piece%counters%accepted) then
+            call test_failed(error, trim(method_facts(i)%name)//": the start is not forgotten")
+            return
+         end if
+      end do
+      if (allocated(failure)) call test_failed(error, failure%message)
+   end subroutine test_backwards
+
+end module test_hard_cases
