@@ -75,45 +75,51 @@ contains
       character(len=*), intent(in) :: name
       type(case_t), intent(out) :: case
       type(error_type), allocatable, intent(out) :: error
-      type(deck_t) :: deck
-      type(override_t) :: none(0)
       type(error_t), allocatable :: failure
 
-      call read_deck(deck, "decks/hard/"//trim(name)//".nml", none, failure)
-      if (.not. allocated(failure)) call make_case(deck, none, case, failure)
+      call read_case(name, case, failure)
       if (allocated(failure)) call test_failed(error, failure%message)
    end subroutine get_case
 
+   !> The same, with an error of the library.
+   subroutine read_case(name, case, failure)
+      character(len=*), intent(in) :: name
+      type(case_t), intent(out) :: case
+      type(error_t), allocatable, intent(out) :: failure
+      type(deck_t) :: deck
+      type(override_t) :: none(0)
+
+      call read_deck(deck, "decks/hard/"//trim(name)//".nml", none, failure)
+      if (.not. allocated(failure)) call make_case(deck, none, case, failure)
+   end subroutine read_case
+
    subroutine test_solved(error)
       type(error_type), allocatable, intent(out) :: error
-      type(error_type), allocatable :: trouble
-      character(len=:), allocatable :: list
+      character(len=:), allocatable :: list, trouble
       integer :: i
 
       list = ""
       do i = 1, size(solved)
          call check_deck(trim(solved(i)), trouble)
-         if (allocated(trouble)) list = list//new_line("a")//trim(solved(i))//": "//trouble%message
+         if (trouble /= "") list = list//new_line("a")//trim(solved(i))//": "//trouble
       end do
       if (list /= "") call test_failed(error, list)
    end subroutine test_solved
 
    !> One deck by every method that claims to be stable.
-   subroutine check_deck(name, error)
+   subroutine check_deck(name, trouble)
       character(len=*), intent(in) :: name
-      type(error_type), allocatable, intent(out) :: error
+      character(len=:), allocatable, intent(out) :: trouble
       type(case_t) :: case
       type(model_t), allocatable :: models(:)
       type(error_t), allocatable :: failure
-      type(sample_t) :: reference, sample
-      character(len=:), allocatable :: trouble
+      type(sample_t) :: reference
       integer :: i
 
-      call get_case(name, case, error)
-      if (allocated(error)) return
-      call build_models(case, models, failure)
+      call read_case(name, case, failure)
+      if (.not. allocated(failure)) call build_models(case, models, failure)
       if (allocated(failure)) then
-         call test_failed(error, failure%message)
+         trouble = failure%message
          return
       end if
       call take_sample(models(1), case%numerics, reference_method, reference_tolerance, reference)
@@ -121,22 +127,21 @@ contains
       do i = 1, size(method_facts)
          if (trouble /= "") exit
          if (.not. method_facts(i)%is_stiffly_stable) cycle
-         call check_method(models(1), case, trim(method_facts(i)%name), reference, sample, trouble)
+         call check_method(models(1), case, trim(method_facts(i)%name), reference, trouble)
       end do
-      if (trouble /= "") call test_failed(error, trouble)
    end subroutine check_deck
 
    !> One method against the reference, and whether a smaller tolerance helps.
-   subroutine check_method(model, case, method, reference, sample, trouble)
+   subroutine check_method(model, case, method, reference, trouble)
       type(model_t), intent(in) :: model
       type(case_t), intent(in) :: case
       character(len=*), intent(in) :: method
       type(sample_t), intent(in) :: reference
-      type(sample_t), intent(out) :: sample
       character(len=:), allocatable, intent(out) :: trouble
-      ! A smaller tolerance has helped where the error is this part of that of the larger one, or below the tolerance itself [-]
-      real(wp), parameter :: progress = 0.5_wp
-      type(sample_t) :: better
+      ! A smaller tolerance has helped where the error is this part of that of the larger one, or a few
+      ! times the tolerance: the larger one may have been lucky [-]
+      real(wp), parameter :: progress = 0.5_wp, few = 10.0_wp
+      type(sample_t) :: sample, better
       character(len=80) :: buffer
 
       call take_sample(model, case%numerics, method, tolerance, sample)
@@ -151,7 +156,7 @@ contains
       trouble = better%trouble
       if (trouble == "") trouble = compare_samples(better, reference)
       if (trouble /= "") return
-      if (difference(better, reference) <= max(progress*difference(sample, reference), tight)) return
+      if (difference(better, reference) <= max(progress*difference(sample, reference), few*tight)) return
       write (buffer, "(a, es9.2, a, es9.2)") "a smaller tolerance takes the error from ", difference(sample, reference), &
          " to ", difference(better, reference)
       trouble = method//": "//trim(buffer)
