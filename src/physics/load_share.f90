@@ -221,7 +221,7 @@ contains
             if (abs(change) <= tolerance) then
                film_ratio = film_ratio*(1.0_wp + change)
                ! A film that carries next to nothing must not come out as carrying less
-               asperity_load = min(load - film_load - film_load_slope*change, load)
+               asperity_load = max(0.0_wp, min(load - film_load - film_load_slope*change, load))
                shape%central = shape%central*(1.0_wp + shape%central_load_slope*film_load_slope/film_load*change)
                return
             end if

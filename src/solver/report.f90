@@ -18,6 +18,9 @@ module camroller_report
 
    public :: make_result, output_angles
 
+   !> Estimate of the error of the sliding speed, over the largest, beyond which a result is worth a warning [-]
+   real(wp), parameter :: worth_a_warning = 0.1_wp
+
 contains
 
    !> Series and summary of a case.
@@ -52,6 +55,7 @@ contains
          if (allocated(error)) return
          call check_range(models(lobe), statistics(lobe), result%warnings, error)
          if (allocated(error)) return
+         call check_error(statistics(lobe), result%warnings)
       end do
       call mean_bearing_torque(shaft, models, cycles, bearing_torque, error)
       if (allocated(error)) return
@@ -100,6 +104,22 @@ contains
          result%series_values(i, :) = values
       end do
    end subroutine sample_series
+
+   !> Warn where the sliding speed is no answer, as with explicit steps beyond the stability limit.
+   subroutine check_error(statistics, warnings)
+      !> Means over the cycle of a lobe, with the estimate of its error
+      type(statistics_t), intent(in) :: statistics
+      !> Warnings, one per line
+      character(len=:), allocatable, intent(inout) :: warnings
+
+      character(len=12) :: buffer
+
+      if (statistics%error <= worth_a_warning) return
+      write (buffer, "(es9.1)") statistics%error
+      if (len(warnings) > 0) warnings = warnings//new_line("a")
+      warnings = warnings//"the sliding speed is not resolved: the estimate of its error is "//trim(adjustl(buffer))// &
+         & " of the largest; take another method, a smaller tolerance or smaller steps"
+   end subroutine check_error
 
    !> Warn or stop where the film law was used outside its range.
    subroutine check_range(model, statistics, warnings, error)

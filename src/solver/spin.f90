@@ -231,6 +231,10 @@ contains
       call evaluate_loading(self%model, time, position, force, moments, status)
       if (status /= 0) return
       call evaluate_spin(self%model, position, moments, sliding_speed_of(self, position, state), contact, acceleration, status)
+      if (status > 0) then
+         call evaluate_spin(self%model, position, moments, sliding_speed_of(self, position, state), contact, acceleration, &
+            & status, self%accuracy)
+      end if
       if (status /= 0) return
       rate = self%model%roller_radius*acceleration/self%model%speed
       if (.not. self%has_surface_speed) rate = rolling_speed_slope(self%model, position) - rate

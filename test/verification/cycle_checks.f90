@@ -87,6 +87,7 @@ contains
       type(error_t), allocatable :: error
       ! Largest energy left over and largest sum of powers [W], smallest and largest numbers that must be possible
       real(wp) :: residual, power
+      character(len=12) :: buffer
       integer :: i, hint
 
       hint = 1
@@ -96,7 +97,8 @@ contains
       do i = 1, points
          call state_at(cycle, model, -pi + (i - offset)*two_pi/points, hint, state, error)
          if (allocated(error)) then
-            sample%trouble = error%message
+            write (buffer, "(f0.2)") 180.0_wp + (-pi + (i - offset)*two_pi/points)*180.0_wp/pi
+            sample%trouble = error%message//" at cam angle "//trim(buffer)
             return
          end if
          if (.not. is_possible(state)) sample%trouble = "a state has a number that cannot be"
