@@ -201,7 +201,7 @@ contains
       logical :: has_film
 
       call asperity_load_function(film_ratio, value, slope)
-      asperity_load = min(capacity*value, load)
+      asperity_load = max(0.0_wp, min(capacity*value, load))
       stiffness = capacity*slope*film_ratio
       if (takes_whole_load(line%law)) return
       if (line%groups%speed <= 0.0_wp .and. asperity_load < load) return
@@ -239,7 +239,7 @@ contains
       end do
       film_ratio = high
       call asperity_load_function(film_ratio, value, slope)
-      asperity_load = min(capacity*value, load)
+      asperity_load = max(0.0_wp, min(capacity*value, load))
    end subroutine share_with_asperities
 
 end module camroller_load_share

@@ -57,6 +57,9 @@ module camroller_cycle
    real(wp), parameter :: step_part = 0.2_wp
    !> First step of a method with error control [rad]
    real(wp), parameter :: first_step = 0.1_wp*degree
+   !> Steps after which a method that stiffness does not slow down is given up: several times what a lift table of thousands of rows
+   !> takes
+   integer, parameter :: most_implicit_steps = 100000
    !> Largest step [rad]
    real(wp), parameter :: largest_step = 30.0_wp*degree
 
@@ -188,6 +191,7 @@ contains
       options%step = numerics%step
       if (.not. cycle%is_linear) options%step = min(numerics%step, first_step)
       options%max_step = largest_step
+      if (method%needs_jacobian) options%max_steps = most_implicit_steps
    end subroutine choose_method
 
    !> Refuse sticking and sliding with a method that cannot tell them apart.
