@@ -182,7 +182,7 @@ contains
       contact%film_min = share%film_min*position%equivalent_radius
       contact%film_central = share%film_central*position%equivalent_radius
       contact%film_ratio = contact%film_min/model%roughness
-      contact%asperity_load = share%asperity_load*setting%scale
+      contact%asperity_load = max(0.0_wp, share%asperity_load)*setting%scale
       contact%real_area = share%real_area_ratio*contact%apparent_area
       slopes%film_ratio = share%film_min_slope
       call set_traction(model, share, setting, contact, slopes)

@@ -18,7 +18,7 @@ module camroller_error_estimate
    !> Parts into which an interval is cut
    integer, parameter :: parts = 4
    !> The estimate is of first order; true errors were met at up to twice as much [-]
-   real(wp), parameter :: margin = 4.0_wp
+   real(wp), parameter :: margin = 6.0_wp
 
    !> The estimate on its way round the cycle
    type :: estimate_t

@@ -13,7 +13,7 @@ module test_error_estimate
    public :: collect_error_estimate
 
    !> Margin that the estimate contains [-]
-   real(wp), parameter :: margin = 4.0_wp
+   real(wp), parameter :: margin = 6.0_wp
    !> Gauss nodes [-]
    real(wp), parameter :: nodes(3) = 0.5_wp*[1.0_wp - sqrt(0.6_wp), 1.0_wp, 1.0_wp + sqrt(0.6_wp)]
 
