@@ -2,7 +2,7 @@
 
 SHELL := /bin/bash
 .DEFAULT_GOAL := help
-.PHONY: help setup commit build debug run comparison test quick check check-layers check-style check-format check-lint \
+.PHONY: help setup commit build debug run comparison test quick random check check-layers check-style check-format check-lint \
   check-warnings format bench clean distclean
 
 FPM := .venv/bin/fpm
@@ -51,6 +51,9 @@ comparison: build ## compare with the source thesis: doc/thesis_comparison.md an
 
 test: build debug ## all tests, with run-time checks and optimised
 	@$(PYTHON) tools/run_tests.py
+
+random: commit ## cases drawn at random by two methods, optimised: CASES=20000 SEED=1; failures print a deck
+	@RANDOM_CASES=$(or $(CASES),20000) RANDOM_SEED=$(or $(SEED),1) $(FPM) test --flag "$(RELEASE_FLAGS)" -- random_cases
 
 quick: commit ## Fortran tests with run-time checks; choose with SUITE=film TEST="..."
 	@$(FPM) test --flag "$(DEBUG_FLAGS)" -- $(SUITE) $(if $(TEST),"$(TEST)")

@@ -17,7 +17,7 @@ module test_random_cases
    public :: collect_random_cases
 
    !> Cases of a test run, and the seed of the first
-   integer, parameter :: usual_cases = 500, usual_seed = 1
+   integer, parameter :: usual_cases = 5, usual_seed = 1
    !> Tolerance of both methods [-]
    real(wp), parameter :: tolerance = 1.0e-4_wp
    !> Part of the decks drawn that must have a geometry, lest nothing is tested [-]
