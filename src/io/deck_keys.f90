@@ -358,7 +358,7 @@ contains
       call add_group(schema, "numerics", group_standard, "how the roller's spin is integrated")
       call add_name(schema, "method", method_names, standard%numerics%method, "way to integrate")
       call add_number(schema, "tolerance", range_t(1.0e-13_wp, 0.1_wp), &
-         & "relative tolerance of the sliding speed over a step; adaptive methods", &
+         & "error of the sliding speed aimed at, over its largest value; methods that control their steps", &
          & default=standard%numerics%tolerance)
       call add_number(schema, "step_deg", up_to(90.0_wp), "cam angle of a step; method 'euler'", &
          & default=standard%numerics%step)

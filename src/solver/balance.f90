@@ -76,39 +76,74 @@ contains
       decay_rate = model%roller_radius**2*contact%traction_slope/(model%roller_inertia*model%speed)
    end subroutine find_balance
 
-   !> Sliding speed of the algebraic balance from a guess nearby: Newton's method with the slope at constant film and load, and the
-   !> search over all speeds where that does not settle.
-   subroutine follow_balance(model, angle, tolerance, guess, sliding_speed, evaluations, is_found)
+   !> Sliding speed of the algebraic balance from a guess nearby; by the search over all speeds where that does not settle.
+   subroutine follow_balance(model, angle, tolerance, position, sliding_speed, decay_rate, evaluations, is_found)
       !> The model
       type(model_t), intent(in) :: model
       !> Cam angle from full lift [rad]
       real(wp), intent(in) :: angle
       !> Accuracy of the sliding speed [m/s]
       real(wp), intent(in) :: tolerance
-      !> Sliding speed to start from [m/s]
-      real(wp), intent(in) :: guess
-      !> Sliding speed [m/s]
-      real(wp), intent(out) :: sliding_speed
+      !> Geometry there
+      type(position_t), intent(out) :: position
+      !> Sliding speed, in: to start from [m/s]
+      real(wp), intent(inout) :: sliding_speed
+      !> Decay rate of a disturbance there [1/rad]
+      real(wp), intent(out) :: decay_rate
       !> Evaluations of the contact, counted on
       integer, intent(inout) :: evaluations
       !> Is there a balance?
       logical, intent(out) :: is_found
 
-      ! Part of the tolerance to which the contact is solved [-]
-      real(wp), parameter :: part = 1.0e-2_wp
       ! Evaluations of a search over all speeds, about
       integer, parameter :: search = 16
-      type(position_t) :: position
       type(moments_t) :: moments
-      type(contact_t) :: contact
-      ! Gas force [N]; dV_s/dtheta [m/s/rad]; decay rate [1/rad]; step [m/s]; speed of pure rolling [m/s]
-      real(wp) :: force, rate, decay_rate, step, rolling
-      integer :: i, status
+      ! Gas force [N]; speed of pure rolling, or what stands for it at rest [m/s]
+      real(wp) :: force, rolling
+      integer :: status
 
       is_found = .false.
-      sliding_speed = guess
+      decay_rate = 0.0_wp
       call evaluate_loading(model, angle, position, force, moments, status)
       if (status /= 0) return
+      ! Friction that jumps at rest has no slope to follow there
+      if (.not. has_stick(model)) then
+         call improve_balance(model, position, moments, tolerance, sliding_speed, decay_rate, evaluations, is_found)
+         if (is_found) return
+      end if
+      rolling = max(abs(rolling_speed_at(model, position)), tolerance)
+      call find_balance(model, angle, tolerance/rolling, position, sliding_speed, decay_rate, is_found)
+      evaluations = evaluations + search
+   end subroutine follow_balance
+
+   !> Sliding speed of the algebraic balance from one nearby, by Newton's method with the slope at constant film and load.
+   subroutine improve_balance(model, position, moments, tolerance, sliding_speed, decay_rate, evaluations, is_found)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> Geometry at this angle
+      type(position_t), intent(in) :: position
+      !> Moments about the pivot
+      type(moments_t), intent(in) :: moments
+      !> Accuracy of the sliding speed [m/s]
+      real(wp), intent(in) :: tolerance
+      !> Sliding speed, in: to start from [m/s]
+      real(wp), intent(inout) :: sliding_speed
+      !> Decay rate of a disturbance there [1/rad]
+      real(wp), intent(out) :: decay_rate
+      !> Evaluations of the contact, counted on
+      integer, intent(inout) :: evaluations
+      !> Did it settle, at a sliding speed below that of a roller at rest?
+      logical, intent(out) :: is_found
+
+      ! Part of the tolerance to which the contact is solved [-]
+      real(wp), parameter :: part = 1.0e-2_wp
+      type(contact_t) :: contact
+      ! dV_s/dtheta [m/s/rad]; step [m/s]; speed of pure rolling [m/s]
+      real(wp) :: rate, step, rolling
+      integer :: i
+
+      is_found = .false.
+      decay_rate = 0.0_wp
       rolling = abs(rolling_speed_at(model, position))
       do i = 1, max_steps
          call sliding_rate(model, position, moments, sliding_speed, part*tolerance/max(tolerance, rolling), contact, rate)
@@ -121,9 +156,7 @@ contains
          is_found = abs(step) <= tolerance .and. contact%is_touching
          if (is_found) return
       end do
-      call find_balance(model, angle, tolerance/rolling, position, sliding_speed, decay_rate, is_found)
-      evaluations = evaluations + search
-   end subroutine follow_balance
+   end subroutine improve_balance
 
    !> dV_s/dtheta at a sliding speed.
    subroutine sliding_rate(model, position, moments, sliding_speed, accuracy, contact, rate)

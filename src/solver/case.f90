@@ -42,7 +42,7 @@ module camroller_case
    type :: numerics_t
       !> One of `method_names`
       character(len=name_length) :: method = "rodas5p"
-      !> Relative tolerance of the sliding speed over a step [-]; adaptive methods
+      !> Error of the sliding speed aimed at, over its largest value [-]; methods that control their steps
       real(wp) :: tolerance = 1.0e-6_wp
       !> Cam angle of a step [rad]; method `euler`
       real(wp) :: step = degree

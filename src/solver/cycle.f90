@@ -13,7 +13,7 @@ module camroller_cycle
    use camroller_state, only : state_t, evaluate_state, evaluate_loading
    use camroller_events, only : find_stops, cycle_stops
    use camroller_spin, only : spin_problem_t, rolling_speed_at
-   use camroller_balance, only : find_balance, least_slip
+   use camroller_balance, only : follow_balance, least_slip
    use camroller_quasi_static, only : quasi_static_cycle
    use camroller_stick, only : has_stick, share_at_rest
    use camroller_stick_slip, only : phase_t, integrate_phases, direction_at
@@ -86,7 +86,7 @@ contains
       integer :: turn
 
       call find_stops(model, stops)
-      call choose_start(model, cycle%start, state(1), scale)
+      call choose_start(model, cycle%start, state(1), scale, cycle%counters%evaluations)
       if (numerics%method == quasi_static) then
          call check_mobilisation(model, error)
          if (allocated(error)) return
@@ -261,7 +261,7 @@ contains
    end function run_up_stops
 
    !> Angle of fastest decay with the algebraic balance there, and the scale of the sliding speed.
-   subroutine choose_start(model, start, sliding_speed, scale)
+   subroutine choose_start(model, start, sliding_speed, scale, evaluations)
       !> The model
       type(model_t), intent(in) :: model
       !> Cam angle from full lift [rad]
@@ -270,12 +270,14 @@ contains
       real(wp), intent(out) :: sliding_speed
       !> Largest sliding speed of the algebraic balance [m/s]
       real(wp), intent(out) :: scale
+      !> Evaluations of the contact, counted on
+      integer, intent(inout) :: evaluations
 
       type(position_t) :: position
       ! Angle [rad], sliding speed of the balance [m/s], decay rate [1/rad], fastest of them
       real(wp) :: angle, balance, decay_rate, fastest
-      ! Largest speed of pure rolling [m/s]
-      real(wp) :: largest_rolling
+      ! Largest speed of pure rolling, accuracy of the scan [m/s]
+      real(wp) :: largest_rolling, tolerance
       integer :: i
       logical :: is_found
 
@@ -284,9 +286,11 @@ contains
       scale = 0.0_wp
       fastest = -1.0_wp
       largest_rolling = 0.0_wp
+      balance = 0.0_wp
+      tolerance = scan_tolerance*abs(rolling_speed_at_angle(model, -pi))
       do i = 0, balance_points - 1
          angle = -pi + (i + 0.5_wp)*two_pi/balance_points
-         call find_balance(model, angle, scan_tolerance, position, balance, decay_rate, is_found)
+         call follow_balance(model, angle, tolerance, position, balance, decay_rate, evaluations, is_found)
          largest_rolling = max(largest_rolling, abs(rolling_speed_at(model, position)))
          if (.not. is_found) cycle
          scale = max(scale, abs(balance))
@@ -297,7 +301,9 @@ contains
          end if
       end do
       scale = max(scale, least_slip*largest_rolling)
-      if (fastest >= 0.0_wp) call find_balance(model, start, start_tolerance, position, sliding_speed, decay_rate, is_found)
+      if (.not. fastest >= 0.0_wp) return
+      tolerance = start_tolerance*max(abs(rolling_speed_at_angle(model, start)), scale)
+      call follow_balance(model, start, tolerance, position, sliding_speed, decay_rate, evaluations, is_found)
    end subroutine choose_start
 
    !> State of the follower at any cam angle.
