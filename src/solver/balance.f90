@@ -46,8 +46,6 @@ contains
       type(bracket_t) :: bracket
       ! Gas force [N]; largest sliding speed looked at [m/s]; dV_s/dtheta and at both ends of the bracket [m/s/rad]
       real(wp) :: force, limit, rate, rate_low, rate_high
-      ! Rates at rest with friction at either limit [m/s/rad]
-      real(wp) :: rates(2)
       integer :: status
 
       sliding_speed = 0.0_wp
@@ -56,13 +54,8 @@ contains
       call evaluate_loading(model, angle, position, force, moments, status)
       if (status /= 0) return
       limit = abs(rolling_speed_at(model, position))
-      if (has_stick(model)) then
-         call rates_at_rest(model, angle, rates, status)
-         is_found = status == 0 .and. rates(1) < rates(2) .and. breakaway(rates, 0.0_wp) == 0
-         ! As fast as friction stops the slip that counts as none at all
-         if (is_found) decay_rate = min(-rates(1), rates(2))/(least_slip*limit)
-         if (is_found .or. status /= 0) return
-      end if
+      call find_rest(model, angle, limit, decay_rate, is_found, status)
+      if (is_found .or. status /= 0) return
       call sliding_rate(model, position, moments, -limit, tolerance, contact, rate_low)
       call sliding_rate(model, position, moments, limit, tolerance, contact, rate_high)
       call start_bracket(bracket, -limit, limit, rate_low, rate_high, tolerance*limit)
@@ -75,6 +68,33 @@ contains
       sliding_speed = bracket%trial
       decay_rate = model%roller_radius**2*contact%traction_slope/(model%roller_inertia*model%speed)
    end subroutine find_balance
+
+   !> Is the balance a roller at rest on the cam, held there by friction?
+   subroutine find_rest(model, angle, rolling, decay_rate, is_found, status)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> Cam angle from full lift [rad]
+      real(wp), intent(in) :: angle
+      !> Speed of pure rolling, positive [m/s]
+      real(wp), intent(in) :: rolling
+      !> Decay rate that stands for friction, which stops the slip that counts as none at all [1/rad]
+      real(wp), intent(out) :: decay_rate
+      !> Is it? Never so where friction is regularised
+      logical, intent(out) :: is_found
+      !> 0 fine, else as from the contact
+      integer, intent(out) :: status
+
+      ! Rates at rest with friction at either limit [m/s/rad]
+      real(wp) :: rates(2)
+
+      is_found = .false.
+      decay_rate = 0.0_wp
+      status = 0
+      if (.not. has_stick(model)) return
+      call rates_at_rest(model, angle, rates, status)
+      is_found = status == 0 .and. rates(1) < rates(2) .and. breakaway(rates, 0.0_wp) == 0
+      if (is_found) decay_rate = min(-rates(1), rates(2))/(least_slip*rolling)
+   end subroutine find_rest
 
    !> Sliding speed of the algebraic balance from a guess nearby; by the search over all speeds where that does not settle.
    subroutine follow_balance(model, angle, tolerance, position, sliding_speed, decay_rate, evaluations, is_found)
@@ -106,12 +126,12 @@ contains
       decay_rate = 0.0_wp
       call evaluate_loading(model, angle, position, force, moments, status)
       if (status /= 0) return
-      ! Friction that jumps at rest has no slope to follow there
-      if (.not. has_stick(model)) then
-         call improve_balance(model, position, moments, tolerance, sliding_speed, decay_rate, evaluations, is_found)
-         if (is_found) return
-      end if
       rolling = max(abs(rolling_speed_at(model, position)), tolerance)
+      call find_rest(model, angle, rolling, decay_rate, is_found, status)
+      if (is_found) sliding_speed = 0.0_wp
+      if (is_found .or. status /= 0) return
+      call improve_balance(model, position, moments, tolerance, sliding_speed, decay_rate, evaluations, is_found)
+      if (is_found) return
       call find_balance(model, angle, tolerance/rolling, position, sliding_speed, decay_rate, is_found)
       evaluations = evaluations + search
    end subroutine follow_balance
