@@ -68,7 +68,6 @@ contains
       type(position_t) :: position
       ! Sliding speed [m/s]; decay rate [1/rad]; an angle that is not needed [rad]
       real(wp) :: sliding_speed, decay_rate, unused
-      integer :: evaluations
       logical :: is_found
 
       call build_models(case, models, error)
@@ -76,8 +75,7 @@ contains
       simulation%model = models(1)
       simulation%numerics = case%numerics
       simulation%angle = cam_angle
-      evaluations = 0
-      call choose_start(simulation%model, unused, sliding_speed, simulation%scale, evaluations)
+      call choose_start(simulation%model, unused, sliding_speed, simulation%scale)
       call find_balance(simulation%model, cam_angle - pi, balance_tolerance, position, sliding_speed, decay_rate, is_found)
       simulation%roller_spin = (rolling_speed_at(simulation%model, position) - sliding_speed)/simulation%model%roller_radius
    end subroutine start_simulation

@@ -258,8 +258,7 @@ contains
          case%numerics%tolerance = tight
          call integrate_cycle(cycle, models(1), case%numerics, failure)
          if (allocated(failure)) exit
-         hint = 0
-         call choose_start(models(1), angle, sliding_speed, scale, hint)
+         call choose_start(models(1), angle, sliding_speed, scale)
          spin = -models(1)%speed
          call integrate_between(piece, models(1), case%numerics, stops, scale, spin, failure)
          if (allocated(failure)) exit
