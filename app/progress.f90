@@ -44,7 +44,8 @@ contains
       !> Is no line wanted?
       logical, intent(in) :: is_quiet
 
-      progress%is_wanted = .not. is_quiet .and. c_isatty(error_descriptor) /= 0
+      progress%is_wanted = c_isatty(error_descriptor) /= 0
+      if (is_quiet) progress%is_wanted = .false.
       call system_clock(progress%start)
       progress%last = progress%start
    end subroutine start_progress

@@ -86,7 +86,7 @@ contains
       real(wp), allocatable :: rung(:)
       logical :: fine(size(is_same))
 
-      line = table%words(row, 1)
+      line = table%words(row, 1) (:width)
       rung = column_of(table, "tolerance")
       if (.not. ieee_is_nan(rung(row))) write (line(18:), '(es9.0)') rung(row)
       rung = column_of(table, "step")
@@ -170,7 +170,8 @@ contains
          is_same = table%words(:table%rows, 1) == table%words(row, 1)
          is_done = is_done .or. is_same
          fine = is_same .and. column_of(table, "status") <= 0.0_wp .and. .not. ieee_is_nan(column_of(table, "time_saved"))
-         line = table%words(row, 1) (:24)//" "//table%words(row, 2) (:13)
+         line(:24) = table%words(row, 1) (:24)
+         line(25:) = " "//table%words(row, 2) (:13)
          if (any(fine)) write (line(39:), '(3f10.2, a, f9.3, f10.0)') 100.0_wp*extreme("change_torque_friction"), &
             & 100.0_wp*extreme("change_slip"), 100.0_wp*extreme("change_film_min"), " %", &
             & 1.0e3_wp*geometric_mean(pack(column_of(table, "time"), fine)), &
