@@ -86,7 +86,7 @@ contains
       real(wp), allocatable :: rung(:)
       logical :: fine(size(is_same))
 
-      line = table%words(row, 1) (:width)
+      write (line, "(a)") table%words(row, 1) (:width)
       rung = column_of(table, "tolerance")
       if (.not. ieee_is_nan(rung(row))) write (line(18:), '(es9.0)') rung(row)
       rung = column_of(table, "step")
