@@ -2,7 +2,7 @@
 
 SHELL := /bin/bash
 .DEFAULT_GOAL := help
-.PHONY: help setup commit build debug run comparison test quick random check check-layers check-style check-format check-lint \
+.PHONY: help setup commit build debug run comparison test quick random study check check-layers check-style check-format check-lint \
   check-warnings format bench clean distclean
 
 FPM := .venv/bin/fpm
@@ -48,6 +48,12 @@ comparison: build ## compare with the source thesis: doc/thesis_comparison.md an
 	  results/comparison/thesis_source.h5 --figure $$figure --dpi 90 --output doc/figures || exit 1; done
 	@$(PYTHON) post/plot.py results/comparison/thesis.h5 --figure mean_torque --dpi 90 --output doc/figures
 	@$(PYTHON) post/plot.py results/comparison/thesis.h5 --figure overview --dpi 72 --output doc/figures
+
+study: build ## what accuracy costs on decks/thesis.nml: tables and figures of doc/accuracy_and_cost.md, a quarter of an hour
+	@mkdir -p results
+	build/release/bin/camroller study decks/thesis.nml -o results/thesis_study.h5 > results/thesis_study.txt
+	cp results/thesis_study.txt doc/accuracy_tables.txt
+	$(PYTHON) post/plot_study.py results/thesis_study.h5 --output doc/figures
 
 test: build debug ## all tests, with run-time checks and optimised
 	@$(PYTHON) tools/run_tests.py

@@ -15,9 +15,10 @@ module camroller_study_command
    use camroller_run_command, only : check_cases, write_facts, output_path
    use camroller_study, only : reference_t, make_reference, new_method_table, new_reference_table, study_methods, &
       & add_reference
+   use camroller_study_accuracy, only : new_accuracy_table, study_accuracy
    use camroller_study_file, only : write_study, close_study
    use camroller_study_models, only : new_model_table, study_models
-   use camroller_study_page, only : reference_page, method_page, model_page
+   use camroller_study_page, only : reference_page, method_page, accuracy_page, model_page
    use camroller_study_table, only : study_table_t
    implicit none
    private
@@ -25,11 +26,11 @@ module camroller_study_command
    public :: study_deck
 
    !> Tables, and what they hold
-   character(len=*), parameter :: table_names(*) = [character(len=10) :: "references", "methods", "models"]
+   character(len=*), parameter :: table_names(*) = [character(len=10) :: "references", "methods", "accuracy", "models"]
    character(len=*), parameter :: table_titles(*) = [character(len=56) :: "what counts as right, case by case", &
-      & "errors, work and time of every method", "what simpler models change and save"]
+      & "errors, work and time of every method", "accuracy asked for, kept and paid for", "what simpler models change and save"]
    !> Their positions
-   integer, parameter :: references = 1, methods = 2, models = 3
+   integer, parameter :: references = 1, methods = 2, accuracies = 3, models = 4
 
 contains
 
@@ -93,6 +94,7 @@ contains
 
       call new_reference_table(tables(references))
       call new_method_table(tables(methods))
+      call new_accuracy_table(tables(accuracies))
       call new_model_table(tables(models))
       do i = 1, sweep_size(deck%sweep)
          call make_sweep_case(deck, i, case, error)
@@ -103,6 +105,7 @@ contains
             if (.not. allocated(failure)) call move_alloc(error, failure)
          else
             call study_methods(tables(methods), i, case, reference, config%repeats, config%is_quick)
+            call study_accuracy(tables(accuracies), i, case, reference, config%repeats)
             call study_models(tables(models), i, case, config%repeats)
          end if
          call show_progress(progress, i, sweep_size(deck%sweep))
@@ -118,7 +121,8 @@ contains
       !> Time taken, in words
       character(len=*), intent(in) :: time
 
-      write (output_unit, '(a)') reference_page(tables(references)), method_page(tables(methods)), model_page(tables(models)), &
+      write (output_unit, '(a)') reference_page(tables(references)), method_page(tables(methods)), &
+         & accuracy_page(tables(accuracies)), model_page(tables(models)), &
          & path//": "//integer_text(tables(references)%rows)//" cases in "//time
    end subroutine report
 

@@ -8,7 +8,7 @@ module camroller_study_page
    implicit none
    private
 
-   public :: reference_page, method_page, model_page
+   public :: reference_page, method_page, accuracy_page, model_page
 
    character(len=*), parameter :: n = new_line("a")
    !> Longest line
@@ -149,6 +149,52 @@ contains
          where (answer) answer = .not. abs(values - values(row)) > 0.0_wp
       end if
    end function same
+
+   !> One line for each accuracy: worst case of each error, mean work and time.
+   function accuracy_page(table) result(text)
+      !> Table of accuracies
+      type(study_table_t), intent(in) :: table
+      !> The page
+      character(len=:), allocatable :: text
+
+      character(len=width) :: line
+      logical :: is_done(table%rows), is_same(table%rows), fine(table%rows)
+      ! Accuracies asked for [-]
+      real(wp), allocatable :: accuracies(:)
+      integer :: row
+
+      text = "Accuracy asked for, all cases: largest errors; means of work, geometric mean of time of whole runs"//n// &
+         & "accuracy   error of   of mean    estimated  evalua-  steps       time    failed"//n// &
+         & "           sliding    losses     error      tions                [ms]"
+      accuracies = column_of(table, "accuracy")
+      is_done = .false.
+      do row = 1, table%rows
+         if (is_done(row)) cycle
+         is_same = same(accuracies, row)
+         is_done = is_done .or. is_same
+         fine = is_same .and. column_of(table, "status") <= 0.0_wp
+         write (line, '(es8.0)') accuracies(row)
+         if (any(fine)) write (line(9:), '(3es11.1, f10.0, f9.0, f11.3)') &
+            & maxval(pack(column_of(table, "error_sliding_speed"), fine)), maxval(pack(column_of(table, "error_losses"), fine)), &
+            & maxval(pack(column_of(table, "estimated_error"), fine)), mean_of("evaluations"), mean_of("steps"), &
+            & 1.0e3_wp*geometric_mean(pack(column_of(table, "time"), fine))
+         if (count(fine) < count(is_same)) write (line(73:), '(i4)') count(is_same) - count(fine)
+         text = text//n//trim(line)
+      end do
+      text = text//n
+
+   contains
+
+      !> Mean of a column.
+      function mean_of(name) result(value)
+         !> Its name
+         character(len=*), intent(in) :: name
+         !> The mean [unit of the column]
+         real(wp) :: value
+
+         value = sum(pack(column_of(table, name), fine))/count(fine)
+      end function mean_of
+   end function accuracy_page
 
    !> One line for each model: largest changes over all cases.
    function model_page(table) result(text)

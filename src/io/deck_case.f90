@@ -239,6 +239,7 @@ contains
       !> The case
       type(case_t), intent(inout) :: case
 
+      call take(settings, "numerics", "accuracy", case%numerics%accuracy)
       call take(settings, "numerics", "method", case%numerics%method)
       call take(settings, "numerics", "tolerance", case%numerics%tolerance)
       call take(settings, "numerics", "step_deg", case%numerics%step)

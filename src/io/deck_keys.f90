@@ -6,7 +6,7 @@
 module camroller_deck_keys
    use camroller_kinds, only : wp, pi
    use camroller_units, only : length_unit_names, pressure_unit_names
-   use camroller_case, only : case_t, energy_names, method_names
+   use camroller_case, only : case_t, energy_names, method_choices
    use camroller_lift, only : lift_t, lift_law_names
    use camroller_kinematics, only : rotation_names
    use camroller_dynamics, only : seating_names, load_arm_names
@@ -356,15 +356,20 @@ contains
       type(case_t), intent(in) :: standard
 
       call add_group(schema, "numerics", group_standard, "how the roller's spin is integrated")
-      call add_name(schema, "method", method_names, standard%numerics%method, "way to integrate")
+      call add_number(schema, "accuracy", range_t(1.0e-10_wp, 0.1_wp), &
+         & "largest error of the sliding speed over its largest value; mean losses are better than that", &
+         & default=standard%numerics%accuracy)
+      call add_name(schema, "method", method_choices, standard%numerics%method, "way to integrate; 'automatic' takes the "// &
+         & "one with the least work")
       call add_number(schema, "tolerance", range_t(1.0e-13_wp, 0.1_wp), &
-         & "relative tolerance of the sliding speed over a step; adaptive methods", &
-         & default=standard%numerics%tolerance)
+         & "in place of accuracy: error of the sliding speed aimed at, over its largest value; nobody checks what comes of it", &
+         & is_optional=.true.)
       call add_number(schema, "step_deg", up_to(90.0_wp), "cam angle of a step; method 'euler'", &
          & default=standard%numerics%step)
       call add_number(schema, "periodicity", up_to(1.0_wp), &
          & "largest difference between start and end of the reported "// &
-         & "cycle, relative to the largest sliding speed", default=standard%numerics%periodicity)
+         & "cycle, relative to the largest sliding speed; 0.3 accuracy where not given, 1e-6 beside a tolerance", &
+         & is_optional=.true.)
       call add_integer(schema, "max_cycles", one_or_more, &
          & "cycles after which a case that is not periodic is given up", &
          & default=standard%numerics%max_cycles)

@@ -7,7 +7,7 @@ module camroller_deck_relations
    use camroller_kinds, only : wp
    use camroller_number_text, only : integer_text
    use camroller_mistakes, only : mistakes_t
-   use camroller_settings, only : settings_t, take, is_known, is_wrong, get_word, has_group
+   use camroller_settings, only : settings_t, take, find_value, is_known, is_wrong, get_word, has_group
    use camroller_deck_complaint, only : complain, complain_about_group
    implicit none
    private
@@ -32,6 +32,7 @@ contains
       call oil_has_what_its_law_needs(settings, mistakes)
       call contact_has_what_its_laws_need(settings, mistakes)
       if (has_group(settings, "cam_bearings")) call cams_stand_between_bearings(settings, mistakes)
+      call accuracy_or_tolerance(settings, mistakes)
       call output_step_divides_the_turn(settings, mistakes)
       call stick_slip_has_a_method(settings, mistakes)
    end subroutine check_relations
@@ -377,6 +378,18 @@ contains
          & " entries for "// &
          & integer_text(cams)//" cams of 'cam_positions_mm'")
    end subroutine check_length
+
+   !> A tolerance takes the place of an accuracy.
+   subroutine accuracy_or_tolerance(settings, mistakes)
+      !> The settings
+      type(settings_t), intent(in) :: settings
+      !> Mistakes so far
+      type(mistakes_t), intent(inout) :: mistakes
+
+      if (.not. settings%values(find_value(settings, "numerics", "accuracy"))%is_given) return
+      if (.not. settings%values(find_value(settings, "numerics", "tolerance"))%is_given) return
+      call complain(mistakes, settings, "numerics", "tolerance", "'tolerance' takes the place of 'accuracy'; give one of them")
+   end subroutine accuracy_or_tolerance
 
    !> The reported angles are the same in every cycle.
    subroutine output_step_divides_the_turn(settings, mistakes)

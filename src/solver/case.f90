@@ -21,7 +21,7 @@ module camroller_case
    implicit none
    private
 
-   public :: case_t, operating_point_t, numerics_t, energy_names, method_names, quasi_static
+   public :: case_t, operating_point_t, numerics_t, energy_names, method_names, quasi_static, method_choices, automatic_method
 
    !> Name of the model that takes the roller's spin from its algebraic balance
    character(len=name_length), parameter :: quasi_static = "quasi_static"
@@ -29,6 +29,11 @@ module camroller_case
    character(len=name_length), parameter :: method_names(*) = [ode_method_names, quasi_static]
    !> Bookkeeping of forces and losses: closed energy balance, or as in the source thesis
    character(len=*), parameter :: energy_names(*) = [character(len=name_length) :: "consistent", "source"]
+
+   !> Let the program choose the method
+   character(len=*), parameter :: automatic_method = "automatic"
+   !> Methods that a case can name
+   character(len=*), parameter :: method_choices(*) = [character(len=name_length) :: automatic_method, method_names]
 
    !> Speed and temperature
    type :: operating_point_t
@@ -40,14 +45,17 @@ module camroller_case
 
    !> How the case is integrated and reported
    type :: numerics_t
-      !> One of `method_names`
-      character(len=name_length) :: method = "rodas5p"
-      !> Relative tolerance of the sliding speed over a step [-]; adaptive methods
-      real(wp) :: tolerance = 1.0e-6_wp
+      !> Error of the sliding speed over its largest value that is allowed, and of mean losses [-]
+      real(wp) :: accuracy = 1.0e-4_wp
+      !> One of `method_choices`
+      character(len=name_length) :: method = automatic_method
+      !> Error of the sliding speed aimed at, over its largest value; follows from the accuracy where zero [-]
+      real(wp) :: tolerance = 0.0_wp
       !> Cam angle of a step [rad]; method `euler`
       real(wp) :: step = degree
-      !> Largest difference between start and end of the reported cycle, relative to the largest sliding speed [-]
-      real(wp) :: periodicity = 1.0e-6_wp
+      !> Largest difference between start and end of the reported cycle, relative to the largest sliding speed; follows from the
+      !> accuracy, or is 1e-6 beside a tolerance, where zero [-]
+      real(wp) :: periodicity = 0.0_wp
       !> Cycles after which a case that is not periodic is given up
       integer :: max_cycles = 20
       !> Cam angle between reported points [rad]

@@ -6,6 +6,7 @@
 module camroller_cycle
    use camroller_kinds, only : wp, pi, two_pi, degree
    use camroller_error, only : error_t, raise, add_context, kind_convergence, kind_deck
+   use camroller_accuracy, only : resolve_numerics
    use camroller_case, only : numerics_t, quasi_static
    use camroller_model, only : model_t, evaluate_geometry
    use camroller_kinematics, only : position_t
@@ -13,7 +14,7 @@ module camroller_cycle
    use camroller_state, only : state_t, evaluate_state, evaluate_loading
    use camroller_events, only : find_stops, cycle_stops
    use camroller_spin, only : spin_problem_t, rolling_speed_at
-   use camroller_balance, only : find_balance, least_slip
+   use camroller_balance, only : follow_balance, least_slip
    use camroller_quasi_static, only : quasi_static_cycle
    use camroller_stick, only : has_stick, share_at_rest
    use camroller_stick_slip, only : phase_t, integrate_phases, direction_at
@@ -83,20 +84,22 @@ contains
       real(wp), allocatable :: stops(:)
       ! Sliding speed or surface speed; at the start of the cycle; scale of the sliding speed [m/s]
       real(wp) :: state(1), first(1), scale
+      type(numerics_t) :: resolved
       integer :: turn
 
+      resolved = resolve_numerics(numerics)
       call find_stops(model, stops)
-      call choose_start(model, cycle%start, state(1), scale)
-      if (numerics%method == quasi_static) then
+      call choose_start(model, cycle%start, state(1), scale, cycle%counters%evaluations)
+      if (resolved%method == quasi_static) then
          call check_mobilisation(model, error)
          if (allocated(error)) return
          cycle%stops = cycle_stops(stops, cycle%start)
          cycle%is_linear = .true.
          cycle%cycles = 1
-         call quasi_static_cycle(model, cycle%stops, numerics%tolerance*scale, cycle%trajectory, cycle%counters, error)
+         call quasi_static_cycle(model, cycle%stops, resolved%tolerance*scale, cycle%trajectory, cycle%counters, error)
          return
       end if
-      call choose_method(cycle, model, numerics, scale, problem, method, options, error)
+      call choose_method(cycle, model, resolved, scale, problem, method, options, error)
       if (allocated(error)) return
       if (cycle%has_surface_speed) state(1) = rolling_speed_at_angle(model, cycle%start) - state(1)
       cycle%stops = cycle_stops(stops, cycle%start)
@@ -104,14 +107,14 @@ contains
       ! The balance is not quite the periodic state: a short run up to the start lets the difference decay
       call integrate_spin(cycle, problem, method, options, run_up_stops(cycle%stops), state, error)
       if (allocated(error)) return
-      do turn = 1, numerics%max_cycles
+      do turn = 1, resolved%max_cycles
          cycle%cycles = turn
          first = state
          call integrate_spin(cycle, problem, method, options, cycle%stops, state, error)
          if (allocated(error)) return
          if (.not. cycle%has_surface_speed) scale = max(scale, maxval(abs(cycle%trajectory%state(1, :cycle%trajectory%count))))
          cycle%closure = abs(state(1) - first(1))/scale
-         if (cycle%closure <= numerics%periodicity) then
+         if (cycle%closure <= resolved%periodicity) then
             if (allocated(cycle%phases)) cycle%stops = cycle_stops([cycle%stops, cycle%phases%start], cycle%start)
             return
          end if
@@ -176,7 +179,10 @@ contains
       !> Deck error for an unknown method
       type(error_t), allocatable, intent(out) :: error
 
-      call new_method(method, numerics%method, 1, error)
+      type(numerics_t) :: resolved
+
+      resolved = resolve_numerics(numerics)
+      call new_method(method, resolved%method, 1, error)
       if (allocated(error)) return
       cycle%has_surface_speed = method%error_order == 0
       cycle%is_linear = cycle%has_surface_speed
@@ -185,9 +191,9 @@ contains
       problem%model => model
       problem%has_surface_speed = cycle%has_surface_speed
       problem%small_state = [scale]
-      problem%accuracy = contact_accuracy*numerics%tolerance
+      problem%accuracy = contact_accuracy*resolved%tolerance
       if (cycle%is_linear) problem%accuracy = 0.0_wp
-      options%tolerance = [step_part*numerics%tolerance*scale]
+      options%tolerance = [step_part*resolved%tolerance*scale]
       options%step = numerics%step
       if (.not. cycle%is_linear) options%step = min(numerics%step, first_step)
       options%max_step = largest_step
@@ -261,7 +267,7 @@ contains
    end function run_up_stops
 
    !> Angle of fastest decay with the algebraic balance there, and the scale of the sliding speed.
-   subroutine choose_start(model, start, sliding_speed, scale)
+   subroutine choose_start(model, start, sliding_speed, scale, evaluations)
       !> The model
       type(model_t), intent(in) :: model
       !> Cam angle from full lift [rad]
@@ -270,12 +276,14 @@ contains
       real(wp), intent(out) :: sliding_speed
       !> Largest sliding speed of the algebraic balance [m/s]
       real(wp), intent(out) :: scale
+      !> Evaluations of the contact, counted on
+      integer, intent(inout) :: evaluations
 
       type(position_t) :: position
       ! Angle [rad], sliding speed of the balance [m/s], decay rate [1/rad], fastest of them
       real(wp) :: angle, balance, decay_rate, fastest
-      ! Largest speed of pure rolling [m/s]
-      real(wp) :: largest_rolling
+      ! Largest speed of pure rolling, accuracy of the scan [m/s]
+      real(wp) :: largest_rolling, tolerance
       integer :: i
       logical :: is_found
 
@@ -284,9 +292,11 @@ contains
       scale = 0.0_wp
       fastest = -1.0_wp
       largest_rolling = 0.0_wp
+      balance = 0.0_wp
+      tolerance = scan_tolerance*abs(rolling_speed_at_angle(model, -pi))
       do i = 0, balance_points - 1
          angle = -pi + (i + 0.5_wp)*two_pi/balance_points
-         call find_balance(model, angle, scan_tolerance, position, balance, decay_rate, is_found)
+         call follow_balance(model, angle, tolerance, position, balance, decay_rate, evaluations, is_found)
          largest_rolling = max(largest_rolling, abs(rolling_speed_at(model, position)))
          if (.not. is_found) cycle
          scale = max(scale, abs(balance))
@@ -297,7 +307,9 @@ contains
          end if
       end do
       scale = max(scale, least_slip*largest_rolling)
-      if (fastest >= 0.0_wp) call find_balance(model, start, start_tolerance, position, sliding_speed, decay_rate, is_found)
+      if (.not. fastest >= 0.0_wp) return
+      tolerance = start_tolerance*max(abs(rolling_speed_at_angle(model, start)), scale)
+      call follow_balance(model, start, tolerance, position, sliding_speed, decay_rate, evaluations, is_found)
    end subroutine choose_start
 
    !> State of the follower at any cam angle.

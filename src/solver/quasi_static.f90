@@ -7,6 +7,7 @@ module camroller_quasi_static
    use camroller_kinds, only : wp, degree
    use camroller_error, only : error_t, raise, kind_convergence
    use camroller_model, only : model_t
+   use camroller_kinematics, only : position_t
    use camroller_balance, only : follow_balance
    use camroller_ode, only : counters_t
    use camroller_trajectory, only : trajectory_t, start_trajectory, append_point
@@ -122,10 +123,15 @@ contains
       !> Convergence error
       type(error_t), allocatable, intent(out) :: error
 
+      type(position_t) :: position
+      ! Decay rate [1/rad]
+      real(wp) :: decay_rate
       character(len=16) :: buffer
       logical :: is_found
 
-      call follow_balance(model, angle, balance_part*tolerance, guess, sliding_speed, counters%evaluations, is_found)
+      sliding_speed = guess
+      call follow_balance(model, angle, balance_part*tolerance, position, sliding_speed, decay_rate, counters%evaluations, &
+         & is_found)
       if (is_found) return
       write (buffer, "(f0.3)") modulo(180.0_wp + angle/degree, 360.0_wp)
       call raise(error, kind_convergence, "quasi-static limit: the roller has no algebraic balance at cam angle "//trim(buffer)// &

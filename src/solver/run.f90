@@ -2,13 +2,16 @@
 !>
 !> Layer: solver. In: `case_t`. Out: `result_t`. No files, no printing, no state left behind.
 module camroller_run
-   use camroller_error, only : error_t, add_context
-   use camroller_case, only : case_t
+   use camroller_kinds, only : wp
+   use camroller_error, only : error_t, add_context, kind_convergence
+   use camroller_accuracy, only : is_checked, most_refinements, refine_tolerance, resolve_numerics, &
+      & strongest_refinement
+   use camroller_case, only : case_t, numerics_t
    use camroller_model, only : model_t, new_model
    use camroller_events, only : check_geometry
    use camroller_cycle, only : cycle_t, integrate_cycle
    use camroller_report, only : make_result
-   use camroller_result, only : result_t
+   use camroller_result, only : result_t, get_summary
    implicit none
    private
 
@@ -17,6 +20,9 @@ module camroller_run
 contains
 
    !> Run a case.
+   !>
+   !> Where the estimated error is above the accuracy asked for, the cycles are integrated again with a smaller tolerance; so they
+   !> are, once, where a cycle did not close, as errors may keep it from that.
    subroutine run_case(case, result, error)
       !> The case
       type(case_t), intent(in) :: case
@@ -26,18 +32,66 @@ contains
       type(error_t), allocatable, intent(out) :: error
 
       type(model_t), allocatable :: models(:)
-      type(cycle_t), allocatable :: cycles(:)
-      integer :: lobe
+      type(numerics_t) :: numerics
+      ! Estimated error [-]
+      real(wp) :: estimate
+      integer :: attempt
 
       call build_models(case, models, error)
       if (allocated(error)) return
+      numerics = resolve_numerics(case%numerics)
+      do attempt = 0, most_refinements
+         call run_models(case, models, numerics, result, error)
+         if (.not. is_checked(case%numerics)) return
+         if (allocated(error)) then
+            if (attempt > 0 .or. error%kind /= kind_convergence) return
+            numerics%tolerance = strongest_refinement*numerics%tolerance
+            cycle
+         end if
+         call get_summary(result, "estimated_error", estimate, error)
+         if (allocated(error) .or. estimate <= case%numerics%accuracy) return
+         numerics%tolerance = refine_tolerance(numerics%tolerance, case%numerics%accuracy, estimate)
+      end do
+      call warn(result, estimate)
+   end subroutine run_case
+
+   !> Integrate all lobe shapes and make the result.
+   subroutine run_models(case, models, numerics, result, error)
+      !> The case
+      type(case_t), intent(in) :: case
+      !> Model of each lobe shape
+      type(model_t), intent(in) :: models(:)
+      !> Method, tolerance, criterion
+      type(numerics_t), intent(in) :: numerics
+      !> The result
+      type(result_t), intent(out) :: result
+      !> What went wrong, of any kind
+      type(error_t), allocatable, intent(out) :: error
+
+      type(cycle_t), allocatable :: cycles(:)
+      integer :: lobe
+
       allocate (cycles(size(models)))
       do lobe = 1, size(models)
-         call integrate_cycle(cycles(lobe), models(lobe), case%numerics, error)
+         call integrate_cycle(cycles(lobe), models(lobe), numerics, error)
          if (allocated(error)) return
       end do
       call make_result(case, models, cycles, result, error)
-   end subroutine run_case
+   end subroutine run_models
+
+   !> Remark on an accuracy that was not reached.
+   subroutine warn(result, estimate)
+      !> The result
+      type(result_t), intent(inout) :: result
+      !> Estimated error [-]
+      real(wp), intent(in) :: estimate
+
+      character(len=12) :: buffer
+
+      write (buffer, "(es8.1)") estimate
+      if (len(result%warnings) > 0) result%warnings = result%warnings//new_line("a")
+      result%warnings = result%warnings//"the accuracy asked for was not reached; the estimated error is "//trim(adjustl(buffer))
+   end subroutine warn
 
    !> Models of the lobe shapes of a case, geometry checked over the whole cycle.
    subroutine build_models(case, models, error)

@@ -68,6 +68,7 @@ contains
       type(position_t) :: position
       ! Sliding speed [m/s]; decay rate [1/rad]; an angle that is not needed [rad]
       real(wp) :: sliding_speed, decay_rate, unused
+      integer :: evaluations
       logical :: is_found
 
       call build_models(case, models, error)
@@ -75,7 +76,8 @@ contains
       simulation%model = models(1)
       simulation%numerics = case%numerics
       simulation%angle = cam_angle
-      call choose_start(simulation%model, unused, sliding_speed, simulation%scale)
+      evaluations = 0
+      call choose_start(simulation%model, unused, sliding_speed, simulation%scale, evaluations)
       call find_balance(simulation%model, cam_angle - pi, balance_tolerance, position, sliding_speed, decay_rate, is_found)
       simulation%roller_spin = (rolling_speed_at(simulation%model, position) - sliding_speed)/simulation%model%roller_radius
    end subroutine start_simulation

@@ -62,7 +62,8 @@ contains
 
       trial = case
       trial%numerics = numerics_of(reference_rungs(1), case%numerics)
-      trial%numerics%periodicity = min(case%numerics%periodicity, reference_periodicity)
+      trial%numerics%periodicity = reference_periodicity
+      if (case%numerics%periodicity > 0.0_wp) trial%numerics%periodicity = min(case%numerics%periodicity, reference_periodicity)
       call run_probe(trial, 1, reference%probe)
       call pass_failure(reference%probe, trial%numerics, error)
       if (allocated(error)) return
@@ -202,7 +203,7 @@ contains
          & quantity_t("message", "", "what went wrong, or nothing", "study")], [ &
          & quantity_t("case", "1", "case of the sweep", "study"), &
          & quantity_t("status", "1", "0, or the kind of the error", "study"), &
-         & quantity_t("tolerance", "1", "relative tolerance over a step", "study"), &
+         & quantity_t("tolerance", "1", "error of the sliding speed aimed at, over its largest value", "study"), &
          & quantity_t("step", "degree", "fixed step", "study"), &
          & quantity_t("error_sliding_speed", "1", "largest error of the sliding speed over its largest value", "study"), &
          & losses, &

@@ -4,7 +4,7 @@
 module camroller_study_ladder
    use camroller_kinds, only : wp, degree
    use camroller_names, only : name_length
-   use camroller_case, only : numerics_t
+   use camroller_case, only : numerics_t, quasi_static
    use camroller_ode_methods, only : method_facts
    implicit none
    private
@@ -26,6 +26,8 @@ module camroller_study_ladder
    !> Fixed steps, the printed one of one degree among them [deg]
    real(wp), parameter :: fixed_steps(*) = [2.0_wp, 1.0_wp, 0.5_wp, 0.2_wp, 0.1_wp, 0.05_wp, 0.02_wp, 0.01_wp, &
       & 0.005_wp, 0.002_wp, 0.001_wp]
+   !> Rungs of the quasi-static limit
+   integer, parameter :: most_quasi_static = 3
    !> Those of a quick study [deg]
    real(wp), parameter :: few_steps(*) = [1.0_wp, 0.1_wp]
    !> Powers of ten of its tolerances
@@ -33,7 +35,7 @@ module camroller_study_ladder
 
 contains
 
-   !> All rungs, method by method.
+   !> All rungs, method by method; last the quasi-static limit, a model whose error does not go away with its tolerance.
    subroutine make_ladder(rungs, is_quick)
       !> The rungs
       type(rung_t), allocatable, intent(out) :: rungs(:)
@@ -59,6 +61,7 @@ contains
             rungs = [rungs, (rung_t(method_facts(method)%name, step=steps(i)*degree), i=1, size(steps))]
          end if
       end do
+      rungs = [rungs, (rung_t(quasi_static, tolerance=10.0_wp**(-powers(i))), i=1, min(size(powers), most_quasi_static))]
    end subroutine make_ladder
 
    !> Numerics of a case with one way to integrate.

@@ -297,6 +297,11 @@ contains
          & "11:133: a cam of lobe 2 needs the group &second_lift")
       call expect_mistake(error, "", "&second_lift max_lift_mm = 9 opening_half_angle_deg = 70 exponents = 4 /", &
          & "11:1: &second_lift is used by no cam")
+      call expect_mistake(error, "", "&numerics accuracy = 1e-3, tolerance = 1e-4 /", &
+         & "11:40: 'tolerance' takes the place of 'accuracy'; give one of them")
+      if (allocated(error)) return
+      call expect_valid(error, "", "&numerics method = 'rkc', tolerance = 1e-4 /")
+      if (allocated(error)) return
       call expect_mistake(error, "", "&output angle_step_deg = 0.7 /", "11:26: 360 must be a whole multiple")
       call expect_valid(error, "", "&output angle_step_deg = 0.1 /")
       call expect_mistake(error, "cam_roughness_um = 0.1 roller_roughness_um = 0.1", "cam_roughness_um = 0 "// &

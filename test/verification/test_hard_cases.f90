@@ -258,7 +258,8 @@ contains
          case%numerics%tolerance = tight
          call integrate_cycle(cycle, models(1), case%numerics, failure)
          if (allocated(failure)) exit
-         call choose_start(models(1), angle, sliding_speed, scale)
+         hint = 0
+         call choose_start(models(1), angle, sliding_speed, scale, hint)
          spin = -models(1)%speed
          call integrate_between(piece, models(1), case%numerics, stops, scale, spin, failure)
          if (allocated(failure)) exit

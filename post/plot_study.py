@@ -1,0 +1,174 @@
+"""Draw what `camroller study` has measured.
+
+    python post/plot_study.py results/thesis_study.h5            three figures beside the file
+    python post/plot_study.py FILE --output doc/figures --name thesis
+
+`<name>_work_precision.png`: error of the sliding speed against time, one curve a method, geometric means over the cases;
+`<name>_cheapest.png`: time of each method for a given error; `<name>_stability.png`: the fixed step of the source over fastest
+decay rate and step, with the theoretical limit. Needs no display. Exit code 2 where the file is no study.
+"""
+
+import argparse
+from pathlib import Path
+import sys
+
+import h5py
+import matplotlib
+import matplotlib.lines
+
+matplotlib.use("Agg")
+matplotlib.rcParams.update({"font.size": 9.0, "axes.spines.top": False, "axes.spines.right": False})
+
+from matplotlib.figure import Figure  # noqa: E402
+import numpy as np  # noqa: E402
+
+LIMIT = 2.0  # of explicit Euler: decay rate times step
+CHATTER = 1.05  # total variation of the slip ratio over that of the reference, above which a cycle chatters
+LEVELS = 10.0 ** np.arange(-1.0, -7.5, -0.5)
+COLOURS = ["#08306b", "#2171b5", "#6baed6", "#d55e00", "#a63603", "#238b45", "#74c476", "#6a51a3", "#9e9ac8", "#525252",
+           "#111111"]
+MARKERS = "os^vD<>PX*p"
+
+
+class StudyError(Exception):
+    """The file cannot be used; the text says why in one line."""
+
+
+def read_study(path):
+    """Tables of a study as dictionaries of columns."""
+    try:
+        with h5py.File(path) as file:
+            return {name: {column: _plain(data) for column, data in file["study"][name].items()}
+                    for name in ("references", "methods", "models", "accuracy")}
+    except (OSError, KeyError) as error:
+        raise StudyError(f"{path}: not a study: {error}") from None
+
+
+def _plain(data):
+    if h5py.check_string_dtype(data.dtype):
+        return np.array([text.decode() for text in data[()]])
+    return data[()]
+
+
+def curves(methods):
+    """For each method: its rungs in order, as geometric means over all cases of error and time, where all cases are fine."""
+    found = {}
+    for method in dict.fromkeys(methods["method"]):
+        rung = np.where(np.isnan(methods["tolerance"]), methods["step"], methods["tolerance"])
+        points = []
+        for value in dict.fromkeys(rung[methods["method"] == method]):
+            rows = (methods["method"] == method) & (rung == value)
+            if (methods["status"][rows] == 0).all():
+                points.append((_mean(methods["error_sliding_speed"][rows]), _mean(methods["time"][rows])))
+        if points:
+            found[method] = np.array(points)
+    return found
+
+
+def _mean(values):
+    return float(np.exp(np.mean(np.log(values))))
+
+
+def time_for(points, error):
+    """Shortest time at which a method's mean error is at or below a level; not a number where it is never."""
+    times = points[points[:, 0] <= error, 1]
+    return times.min() if times.size else np.nan
+
+
+def work_precision(study):
+    """Error against time."""
+    figure = Figure(figsize=(7.5, 5.0), layout="constrained")
+    axes = figure.subplots()
+    for number, (method, points) in enumerate(curves(study["methods"]).items()):
+        axes.plot(1e3 * points[:, 1], points[:, 0], color=COLOURS[number % len(COLOURS)], label=method, linewidth=1.2,
+                  marker=MARKERS[number % len(MARKERS)], markersize=4)
+    axes.set(xscale="log", yscale="log", xlabel="time for a periodic cycle [ms]",
+             ylabel="error of the sliding speed, max over max [-]", ylim=(5e-9, 30.0))
+    axes.grid(True, which="major", linewidth=0.3)
+    axes.legend(frameon=False, loc="upper left", bbox_to_anchor=(1.0, 1.0))
+    cases = (study["references"]["status"] == 0).sum()
+    axes.set_title(f"geometric means over {cases} cases", fontsize="medium")
+    return figure
+
+
+def cheapest(study):
+    """Time of each method for a given error; the cheapest is drawn over in black."""
+    figure = Figure(figsize=(7.5, 4.5), layout="constrained")
+    axes = figure.subplots()
+    found = curves(study["methods"])
+    times = np.array([[time_for(points, level) for level in LEVELS] for points in found.values()])
+    for number, (method, row) in enumerate(zip(found, times)):
+        axes.plot(LEVELS, 1e3 * row, color=COLOURS[number % len(COLOURS)], label=method, linewidth=1.2,
+                  marker=MARKERS[number % len(MARKERS)], markersize=4)
+    best = np.nanmin(np.where(np.isnan(times), np.inf, times), axis=0)
+    axes.plot(LEVELS, 1e3 * np.where(np.isinf(best), np.nan, best), color="black", linewidth=4, alpha=0.25, label="cheapest")
+    axes.set(xscale="log", yscale="log", xlabel="error of the sliding speed allowed [-]", ylabel="time for a periodic cycle [ms]")
+    axes.invert_xaxis()
+    axes.grid(True, which="major", linewidth=0.3)
+    axes.legend(frameon=False, loc="upper left", bbox_to_anchor=(1.0, 1.0))
+    return figure
+
+
+def is_stable(methods):
+    """Rows whose cycle became periodic and does not chatter."""
+    variation = np.where(np.isnan(methods["variation"]), np.inf, methods["variation"])
+    return (methods["status"] == 0) & (variation <= CHATTER)
+
+
+def stability(study):
+    """Where the fixed step of the source is stable, a panel for each oil temperature."""
+    methods, references = study["methods"], study["references"]
+    fixed = np.array(methods["method"]) == "euler"
+    stable = is_stable(methods)
+    oils = np.unique(references["oil_temperature"])
+    figure = Figure(figsize=(2.0 + 2.8 * len(oils), 4.0), layout="constrained")
+    grid = np.atleast_1d(figure.subplots(1, len(oils), sharey=True))
+    for axes, oil in zip(grid, oils):
+        cases = np.flatnonzero((references["oil_temperature"] == oil) & (references["status"] == 0))
+        cases = cases[np.argsort(references["speed"][cases])]
+        rpm = references["speed"][cases] * 30.0 / np.pi
+        for case, speed in zip(cases, rpm):
+            rows = fixed & (methods["case"] == references["case"][case])
+            for good, colour, marker in ((True, "#2171b5", "o"), (False, "#d55e00", "x")):
+                chosen = rows & (stable == good)
+                axes.plot(np.full(chosen.sum(), speed), methods["step"][chosen], color=colour, marker=marker, linestyle="none",
+                          markersize=5)
+        axes.plot(rpm, np.degrees(LIMIT / references["fastest_decay"][cases]), color="black", linewidth=1.0)
+        axes.set(yscale="log", xlabel="camshaft speed [rev/min]", title=f"oil at {oil - 273.15:.0f} \N{DEGREE SIGN}C")
+        axes.margins(x=0.15)
+    grid[0].set_ylabel("fixed step [\N{DEGREE SIGN}]")
+    handles = [matplotlib.lines.Line2D([], [], color="#2171b5", marker="o", linestyle="none", label="periodic, no chatter"),
+               matplotlib.lines.Line2D([], [], color="#d55e00", marker="x", linestyle="none", label="chatters or never closes"),
+               matplotlib.lines.Line2D([], [], color="black", label="fastest decay rate times step = 2")]
+    figure.legend(handles=handles, loc="outside upper center", ncols=3, frameon=False)
+    return figure
+
+
+FIGURES = {"work_precision": work_precision, "cheapest": cheapest, "stability": stability}
+
+
+def main(arguments=None):
+    """Command line; returns the exit code."""
+    made = argparse.ArgumentParser(prog="plot_study.py", description=__doc__,
+                                   formatter_class=argparse.RawDescriptionHelpFormatter)
+    made.add_argument("file", metavar="FILE", help="file of a study")
+    made.add_argument("--output", metavar="DIR", help="folder for the figures (default: that of the file)")
+    made.add_argument("--name", help="beginning of their names (default: that of the file)")
+    options = made.parse_args(arguments)
+    path = Path(options.file)
+    folder = Path(options.output) if options.output else path.parent
+    try:
+        study = read_study(path)
+        folder.mkdir(parents=True, exist_ok=True)
+        for name, draw in FIGURES.items():
+            target = folder / f"{options.name or path.stem}_{name}.png"
+            draw(study).savefig(target, dpi=110)
+            print(f"{name}: {target}")
+    except (StudyError, OSError) as error:
+        print(f"plot_study.py: {error}", file=sys.stderr)
+        return 2
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

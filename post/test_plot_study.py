@@ -1,0 +1,57 @@
+"""Figures of a study: what is drawn, what counts as stable, what is refused."""
+
+import h5py
+import numpy as np
+import pytest
+
+from plot_study import curves, is_stable, main, read_study, time_for
+
+
+@pytest.fixture(name="path")
+def made_up(tmp_path):
+    """A study of two cases, a method with two tolerances and two fixed steps, one of which fails."""
+    with h5py.File(tmp_path / "made_study.h5", "w") as file:
+        study = file.create_group("study")
+        study.create_group("models")
+        study.create_group("accuracy")
+        references = study.create_group("references")
+        for name, values in {"case": [0, 1], "status": [0, 0], "speed": [30.0, 60.0], "oil_temperature": [300.0, 300.0],
+                             "fastest_decay": [100.0, 200.0]}.items():
+            references[name] = np.array(values, dtype=float)
+        methods = study.create_group("methods")
+        methods["method"] = np.array(2 * ["rodas5p", "rodas5p", "euler", "euler"], dtype="S20")
+        nan = np.nan
+        for name, values in {"case": [0, 0, 0, 0, 1, 1, 1, 1], "status": [0, 0, 0, 0, 0, 0, 0, 5],
+                             "tolerance": 2 * [1e-2, 1e-4, nan, nan], "step": 2 * [nan, nan, 0.1, 1.0],
+                             "error_sliding_speed": [1e-2, 1e-4, 1e-1, 9.0, 4e-2, 4e-4, 1e-1, nan],
+                             "variation": [1.0, 1.0, 1.01, 7.0, 1.0, 1.0, 1.0, nan],
+                             "time": [1e-3, 4e-3, 1e-2, 1e-3, 1e-3, 4e-3, 1e-2, nan]}.items():
+            methods[name] = np.array(values)
+    return tmp_path / "made_study.h5"
+
+
+def test_curves_are_geometric_means_over_cases_that_are_all_fine(path):
+    found = curves(read_study(path)["methods"])
+    assert list(found) == ["rodas5p", "euler"]
+    assert np.allclose(found["rodas5p"], [[2e-2, 1e-3], [2e-4, 4e-3]])
+    assert len(found["euler"]) == 1
+    assert time_for(found["rodas5p"], 1e-3) == pytest.approx(4e-3)
+    assert np.isnan(time_for(found["rodas5p"], 1e-6))
+
+
+def test_chatter_and_failure_are_unstable(path):
+    stable = is_stable(read_study(path)["methods"])
+    assert list(stable) == [True, True, True, False, True, True, True, False]
+
+
+def test_three_figures_are_drawn(path, tmp_path):
+    assert main([str(path), "--output", str(tmp_path / "figures"), "--name", "x"]) == 0
+    assert sorted(file.name for file in (tmp_path / "figures").iterdir()) == [
+        "x_cheapest.png", "x_stability.png", "x_work_precision.png"]
+
+
+def test_a_file_that_is_no_study_is_refused(tmp_path, capsys):
+    with h5py.File(tmp_path / "other.h5", "w") as file:
+        file["x"] = 1
+    assert main([str(tmp_path / "other.h5")]) == 2
+    assert "not a study" in capsys.readouterr().err

@@ -1,0 +1,70 @@
+!> From the accuracy that a user wants to method and tolerance.
+!>
+!> Layer: solver. In: numerics as given. Out: numerics with a method and, unless the step is fixed, a tolerance.
+!>
+!> The numbers here come from `camroller study`, whose findings `doc/accuracy_and_cost.md` keeps.
+module camroller_accuracy
+   use camroller_kinds, only : wp
+   use camroller_case, only : numerics_t, automatic_method, quasi_static
+   implicit none
+   private
+
+   public :: resolve_numerics, is_checked, refine_tolerance, strongest_refinement, most_refinements
+
+   !> Method with the least work for errors from 1e-2 to 1e-8, or near it
+   character(len=*), parameter :: chosen_method = "rodas5p"
+   !> Method without error control
+   character(len=*), parameter :: fixed_method = "euler"
+   !> Tolerance over accuracy: errors of the chosen method stay within twice the tolerance, estimates near ten times [-]
+   real(wp), parameter :: tolerance_share = 0.1_wp
+   !> Smallest tolerance that rounding leaves a meaning [-]
+   real(wp), parameter :: least_tolerance = 1.0e-12_wp
+   !> Part of the reduction asked for by the estimate that is taken beyond it; strongest reduction at once [-]
+   real(wp), parameter :: refinement = 0.3_wp, strongest_refinement = 1.0e-3_wp
+   !> Periodicity over accuracy: start and end differ by the error of the integration at least [-]
+   real(wp), parameter :: periodicity_share = 0.3_wp
+   !> Periodicity that goes with a tolerance by hand [-]
+   real(wp), parameter :: usual_periodicity = 1.0e-6_wp
+   !> Times that a cycle is integrated again
+   integer, parameter :: most_refinements = 4
+
+contains
+
+   !> Method, tolerance and periodicity where they are not given.
+   pure function resolve_numerics(numerics) result(resolved)
+      !> As given
+      type(numerics_t), intent(in) :: numerics
+      !> With all of them
+      type(numerics_t) :: resolved
+
+      resolved = numerics
+      if (resolved%method == automatic_method) resolved%method = chosen_method
+      if (.not. numerics%tolerance > 0.0_wp) resolved%tolerance = max(least_tolerance, tolerance_share*numerics%accuracy)
+      if (numerics%periodicity > 0.0_wp) return
+      resolved%periodicity = usual_periodicity
+      if (is_checked(numerics)) resolved%periodicity = periodicity_share*numerics%accuracy
+   end function resolve_numerics
+
+   !> Is the error to be held below the accuracy? Not where tolerance or step are given by hand.
+   pure function is_checked(numerics) result(verdict)
+      !> As given
+      type(numerics_t), intent(in) :: numerics
+      !> True where the accuracy is a promise
+      logical :: verdict
+
+      verdict = .not. numerics%tolerance > 0.0_wp .and. numerics%method /= fixed_method .and. &
+         & numerics%method /= quasi_static
+   end function is_checked
+
+   !> Smaller tolerance for a cycle whose estimated error is above the accuracy.
+   pure function refine_tolerance(tolerance, accuracy, estimated_error) result(finer)
+      !> Tolerance of the last try, accuracy wanted, error estimated [-]
+      real(wp), intent(in) :: tolerance, accuracy, estimated_error
+      !> Tolerance of the next try [-]
+      real(wp) :: finer
+
+      finer = tolerance*max(strongest_refinement, refinement*accuracy/estimated_error)
+      finer = max(finer, least_tolerance)
+   end function refine_tolerance
+
+end module camroller_accuracy
