@@ -368,8 +368,8 @@ contains
          & default=standard%numerics%step)
       call add_number(schema, "periodicity", up_to(1.0_wp), &
          & "largest difference between start and end of the reported "// &
-         & "cycle, relative to the largest sliding speed; 0.3 accuracy where not given, 1e-6 beside a tolerance", &
-         & is_optional=.true.)
+         & "cycle, relative to the largest sliding speed, beside a tolerance; without one it is 0.3 accuracy", &
+         & default=standard%numerics%periodicity)
       call add_integer(schema, "max_cycles", one_or_more, &
          & "cycles after which a case that is not periodic is given up", &
          & default=standard%numerics%max_cycles)

@@ -23,8 +23,6 @@ module camroller_accuracy
    real(wp), parameter :: refinement = 0.3_wp, strongest_refinement = 1.0e-3_wp
    !> Periodicity over accuracy: start and end differ by the error of the integration at least [-]
    real(wp), parameter :: periodicity_share = 0.3_wp
-   !> Periodicity that goes with a tolerance by hand [-]
-   real(wp), parameter :: usual_periodicity = 1.0e-6_wp
    !> Times that a cycle is integrated again
    integer, parameter :: most_refinements = 4
 
@@ -40,8 +38,6 @@ contains
       resolved = numerics
       if (resolved%method == automatic_method) resolved%method = chosen_method
       if (.not. numerics%tolerance > 0.0_wp) resolved%tolerance = max(least_tolerance, tolerance_share*numerics%accuracy)
-      if (numerics%periodicity > 0.0_wp) return
-      resolved%periodicity = usual_periodicity
       if (is_checked(numerics)) resolved%periodicity = periodicity_share*numerics%accuracy
    end function resolve_numerics
 

@@ -90,7 +90,9 @@ contains
             call end_interval(estimate, nodes, cycle%trajectory%time(first + 1) - cycle%trajectory%time(first))
          end associate
       end do
-      statistics%error = cycle%closure + estimated_error(estimate)/max(statistics%largest_sliding, tiny(1.0_wp))
+      ! What start and end differ by comes again in every cycle that the periodic one is away
+      statistics%error = cycle%closure/max(1.0_wp - estimate%contraction, epsilon(1.0_wp)) &
+         & + estimated_error(estimate)/max(statistics%largest_sliding, tiny(1.0_wp))
    end subroutine integrate_lobe
 
    !> Mean torques of a follower over a cycle or a piece of one.

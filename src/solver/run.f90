@@ -3,7 +3,7 @@
 !> Layer: solver. In: `case_t`. Out: `result_t`. No files, no printing, no state left behind.
 module camroller_run
    use camroller_kinds, only : wp
-   use camroller_error, only : error_t, add_context, kind_convergence
+   use camroller_error, only : error_t, raise, add_context, kind_convergence
    use camroller_accuracy, only : is_checked, most_refinements, refine_tolerance, resolve_numerics, &
       & strongest_refinement
    use camroller_case, only : case_t, numerics_t
@@ -22,7 +22,8 @@ contains
    !> Run a case.
    !>
    !> Where the estimated error is above the accuracy asked for, the cycles are integrated again with a smaller tolerance; so they
-   !> are, once, where a cycle did not close, as errors may keep it from that.
+   !> are where a cycle did not close, as errors may keep it from that. What a later try cannot do leaves the result of an
+   !> earlier one, with a remark; without any figure that is right there is no result.
    subroutine run_case(case, result, error)
       !> The case
       type(case_t), intent(in) :: case
@@ -33,26 +34,36 @@ contains
 
       type(model_t), allocatable :: models(:)
       type(numerics_t) :: numerics
+      type(result_t) :: latest
       ! Estimated error [-]
       real(wp) :: estimate
       integer :: attempt
+      logical :: has_result
 
       call build_models(case, models, error)
       if (allocated(error)) return
       numerics = resolve_numerics(case%numerics)
-      do attempt = 0, most_refinements
+      if (.not. is_checked(case%numerics)) then
          call run_models(case, models, numerics, result, error)
-         if (.not. is_checked(case%numerics)) return
+         return
+      end if
+      has_result = .false.
+      do attempt = 0, most_refinements
+         call run_models(case, models, numerics, latest, error)
          if (allocated(error)) then
-            if (attempt > 0 .or. error%kind /= kind_convergence) return
+            if (has_result .or. attempt > 0 .or. error%kind /= kind_convergence) exit
             numerics%tolerance = strongest_refinement*numerics%tolerance
             cycle
          end if
+         result = latest
+         has_result = .true.
          call get_summary(result, "estimated_error", estimate, error)
          if (allocated(error) .or. estimate <= case%numerics%accuracy) return
          numerics%tolerance = refine_tolerance(numerics%tolerance, case%numerics%accuracy, estimate)
       end do
-      call warn(result, estimate)
+      if (.not. has_result) return
+      if (allocated(error)) deallocate (error)
+      call judge(result, estimate, error)
    end subroutine run_case
 
    !> Integrate all lobe shapes and make the result.
@@ -79,19 +90,27 @@ contains
       call make_result(case, models, cycles, result, error)
    end subroutine run_models
 
-   !> Remark on an accuracy that was not reached.
-   subroutine warn(result, estimate)
+   !> Remark on an accuracy that was not reached, or an error where nothing of the result can be right.
+   subroutine judge(result, estimate, error)
       !> The result
       type(result_t), intent(inout) :: result
       !> Estimated error [-]
       real(wp), intent(in) :: estimate
+      !> Convergence error
+      type(error_t), allocatable, intent(out) :: error
 
       character(len=12) :: buffer
 
-      write (buffer, "(es8.1)") estimate
+      write (buffer, "(es9.1e3)") estimate
+      if (estimate >= 1.0_wp) then
+         call raise(error, kind_convergence, "the cycle did not become periodic: hardly anything damps the roller's spin, and "// &
+            & "the estimated error is "//trim(adjustl(buffer))//" of the sliding speed")
+         return
+      end if
       if (len(result%warnings) > 0) result%warnings = result%warnings//new_line("a")
-      result%warnings = result%warnings//"the accuracy asked for was not reached; the estimated error is "//trim(adjustl(buffer))
-   end subroutine warn
+      result%warnings = result%warnings//"the accuracy asked for was not reached; the estimated error is "// &
+         & trim(adjustl(buffer))
+   end subroutine judge
 
    !> Models of the lobe shapes of a case, geometry checked over the whole cycle.
    subroutine build_models(case, models, error)

@@ -62,8 +62,7 @@ contains
 
       trial = case
       trial%numerics = numerics_of(reference_rungs(1), case%numerics)
-      trial%numerics%periodicity = reference_periodicity
-      if (case%numerics%periodicity > 0.0_wp) trial%numerics%periodicity = min(case%numerics%periodicity, reference_periodicity)
+      trial%numerics%periodicity = min(case%numerics%periodicity, reference_periodicity)
       call run_probe(trial, 1, reference%probe)
       call pass_failure(reference%probe, trial%numerics, error)
       if (allocated(error)) return

@@ -167,6 +167,7 @@ contains
       ! Sliding speeds [m/s]; estimated error [-]
       real(wp), allocatable :: values(:), right(:)
       real(wp) :: estimate
+      character(len=80) :: words
       integer :: power
 
       the_case = source_case()
@@ -184,9 +185,11 @@ contains
             call test_failed(error, failure%message)
             return
          end if
-         call check(error, largest_deviation(values, right) <= the_case%numerics%accuracy)
+         write (words, "(a, 3es10.2)") "accuracy, error, estimate", the_case%numerics%accuracy, largest_deviation(values, right), &
+            & estimate
+         call check(error, largest_deviation(values, right) <= the_case%numerics%accuracy, words)
          if (allocated(error)) return
-         call check(error, estimate <= the_case%numerics%accuracy .and. index(result%warnings, "accuracy") == 0)
+         call check(error, estimate <= the_case%numerics%accuracy .and. index(result%warnings, "accuracy") == 0, words)
          if (allocated(error)) return
       end do
       the_case%numerics%accuracy = 1.0e-15_wp
