@@ -21,8 +21,8 @@ module camroller_accuracy
    real(wp), parameter :: least_tolerance = 1.0e-12_wp
    !> Part of the reduction asked for by the estimate that is taken beyond it; strongest reduction at once [-]
    real(wp), parameter :: refinement = 0.3_wp, strongest_refinement = 1.0e-3_wp
-   !> Periodicity over accuracy: start and end differ by the error of the integration at least [-]
-   real(wp), parameter :: periodicity_share = 0.3_wp
+   !> Periodicity over accuracy: where the spin is hardly damped, what is left comes again in each of many cycles [-]
+   real(wp), parameter :: periodicity_share = 0.01_wp
    !> Times that a cycle is integrated again
    integer, parameter :: most_refinements = 4
 
