@@ -9,7 +9,7 @@ module camroller_accuracy
    implicit none
    private
 
-   public :: resolve_numerics, is_checked, refine_tolerance, strongest_refinement, most_refinements
+   public :: resolve_numerics, is_checked, refine_tolerance, way_out, most_refinements
 
    !> Method with the least work for errors from 1e-2 to 1e-8, or near it
    character(len=*), parameter :: chosen_method = "rodas5p"
@@ -21,6 +21,8 @@ module camroller_accuracy
    real(wp), parameter :: least_tolerance = 1.0e-12_wp
    !> Part of the reduction asked for by the estimate that is taken beyond it; strongest reduction at once [-]
    real(wp), parameter :: refinement = 0.3_wp, strongest_refinement = 1.0e-3_wp
+   !> Tolerance below which rounding is the likely reason why a cycle cannot be integrated [-]
+   real(wp), parameter :: near_rounding = 1.0e-9_wp
    !> Periodicity over accuracy: where the spin is hardly damped, what is left comes again in each of many cycles [-]
    real(wp), parameter :: periodicity_share = 0.01_wp
    !> Times that a cycle is integrated again
@@ -38,7 +40,7 @@ contains
       resolved = numerics
       if (resolved%method == automatic_method) resolved%method = chosen_method
       if (.not. numerics%tolerance > 0.0_wp) resolved%tolerance = max(least_tolerance, tolerance_share*numerics%accuracy)
-      if (is_checked(numerics)) resolved%periodicity = periodicity_share*numerics%accuracy
+      if (is_checked(numerics)) resolved%periodicity = max(least_tolerance, periodicity_share*numerics%accuracy)
    end function resolve_numerics
 
    !> Is the error to be held below the accuracy? Not where tolerance or step are given by hand.
@@ -53,14 +55,29 @@ contains
    end function is_checked
 
    !> Smaller tolerance for a cycle whose estimated error is above the accuracy.
-   pure function refine_tolerance(tolerance, accuracy, estimated_error) result(finer)
-      !> Tolerance of the last try, accuracy wanted, error estimated [-]
-      real(wp), intent(in) :: tolerance, accuracy, estimated_error
+   pure function refine_tolerance(tolerance, accuracy, estimated_error, least) result(finer)
+      !> Tolerance of the last try, accuracy wanted, error estimated, smallest tolerance that makes sense here [-]
+      real(wp), intent(in) :: tolerance, accuracy, estimated_error, least
       !> Tolerance of the next try [-]
       real(wp) :: finer
 
       finer = tolerance*max(strongest_refinement, refinement*accuracy/estimated_error)
-      finer = max(finer, least_tolerance)
+      finer = max(finer, least, least_tolerance)
    end function refine_tolerance
+
+   !> Other tolerance for a cycle that could not be integrated: a smaller one, since errors may keep a cycle from closing, or a
+   !> larger one where rounding is in the way.
+   pure function way_out(tolerance) result(other)
+      !> Tolerance of the try that failed [-]
+      real(wp), intent(in) :: tolerance
+      !> Tolerance of the next try [-]
+      real(wp) :: other
+
+      if (tolerance < near_rounding) then
+         other = tolerance/strongest_refinement
+      else
+         other = max(least_tolerance, tolerance*strongest_refinement)
+      end if
+   end function way_out
 
 end module camroller_accuracy

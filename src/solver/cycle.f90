@@ -16,6 +16,7 @@ module camroller_cycle
    use camroller_spin, only : spin_problem_t, rolling_speed_at
    use camroller_balance, only : follow_balance, least_slip
    use camroller_quasi_static, only : quasi_static_cycle
+   use camroller_contraction, only : largest_contraction
    use camroller_stick, only : has_stick, share_at_rest
    use camroller_stick_slip, only : phase_t, integrate_phases, direction_at
    use camroller_ode, only : method_t, options_t, counters_t, integrate
@@ -44,6 +45,8 @@ module camroller_cycle
       integer :: cycles = 0
       !> Difference of the sliding speed between end and start, relative to its largest value [-]
       real(wp) :: closure = 0.0_wp
+      !> Distance of the start from the periodic cycle, relative to the largest sliding speed [-]
+      real(wp) :: distance = 0.0_wp
    end type cycle_t
 
    !> Angles at which the algebraic balance is tried
@@ -85,7 +88,7 @@ contains
       ! Sliding speed or surface speed; at the start of the cycle; scale of the sliding speed [m/s]
       real(wp) :: state(1), first(1), scale
       type(numerics_t) :: resolved
-      integer :: turn
+      integer :: turn, most_steps
 
       resolved = resolve_numerics(numerics)
       call find_stops(model, stops)
@@ -104,24 +107,48 @@ contains
       if (cycle%has_surface_speed) state(1) = rolling_speed_at_angle(model, cycle%start) - state(1)
       cycle%stops = cycle_stops(stops, cycle%start)
 
+      most_steps = options%max_steps
       ! The balance is not quite the periodic state: a short run up to the start lets the difference decay
       call integrate_spin(cycle, problem, method, options, run_up_stops(cycle%stops), state, error)
       if (allocated(error)) return
       do turn = 1, resolved%max_cycles
          cycle%cycles = turn
          first = state
+         options%max_steps = most_steps + cycle%counters%accepted + cycle%counters%rejected
          call integrate_spin(cycle, problem, method, options, cycle%stops, state, error)
          if (allocated(error)) return
          if (.not. cycle%has_surface_speed) scale = max(scale, maxval(abs(cycle%trajectory%state(1, :cycle%trajectory%count))))
          cycle%closure = abs(state(1) - first(1))/scale
-         if (cycle%closure <= resolved%periodicity) then
+         if (is_periodic(cycle, problem, resolved%periodicity)) then
             if (allocated(cycle%phases)) cycle%stops = cycle_stops([cycle%stops, cycle%phases%start], cycle%start)
             return
          end if
       end do
-      call raise(error, kind_convergence, "the cycle did not become periodic: after the cycles that max_cycles allows, start "// &
-         & "and end still differ by more than periodicity; explicit steps beyond the stability limit do this")
+      call raise(error, kind_convergence, "the cycle did not become periodic: after the cycles that max_cycles allows, its "// &
+         & "start at "//problem%name_time(cycle%start)//" is still further from the periodic one than periodicity; a spin that "// &
+         & "hardly anything damps does this, and explicit steps beyond the stability limit")
    end subroutine integrate_cycle
+
+   !> Is a cycle whose closure is known as close to the periodic one as it must be?
+   function is_periodic(cycle, problem, periodicity) result(verdict)
+      !> The cycle; its distance from the periodic one is set
+      type(cycle_t), intent(inout) :: cycle
+      !> The roller's spin
+      type(spin_problem_t), intent(in) :: problem
+      !> Largest distance [-]
+      real(wp), intent(in) :: periodicity
+      !> True where it is
+      logical :: verdict
+
+      ! What the cycle leaves of a disturbance [-]
+      real(wp) :: contraction
+
+      verdict = cycle%closure <= periodicity
+      if (.not. verdict) return
+      call largest_contraction(problem, cycle%trajectory, cycle%phases, contraction, cycle%counters%evaluations)
+      cycle%distance = cycle%closure/max(1.0_wp - contraction, epsilon(1.0_wp))
+      verdict = cycle%distance <= periodicity
+   end function is_periodic
 
    !> Integrate from one angle to another, less than a turn ahead, with the roller's spin given at the first.
    subroutine integrate_between(piece, model, numerics, stops, scale, roller_spin, error)

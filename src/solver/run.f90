@@ -4,8 +4,7 @@
 module camroller_run
    use camroller_kinds, only : wp
    use camroller_error, only : error_t, raise, add_context, kind_convergence
-   use camroller_accuracy, only : is_checked, most_refinements, refine_tolerance, resolve_numerics, &
-      & strongest_refinement
+   use camroller_accuracy, only : is_checked, most_refinements, refine_tolerance, resolve_numerics, way_out
    use camroller_case, only : case_t, numerics_t
    use camroller_model, only : model_t, new_model
    use camroller_events, only : check_geometry
@@ -22,8 +21,8 @@ contains
    !> Run a case.
    !>
    !> Where the estimated error is above the accuracy asked for, the cycles are integrated again with a smaller tolerance; so they
-   !> are where a cycle did not close, as errors may keep it from that. What a later try cannot do leaves the result of an
-   !> earlier one, with a remark; without any figure that is right there is no result.
+   !> are, once, with another one where they could not be integrated. What a later try cannot do leaves the result of an earlier
+   !> one, with a remark; without any figure that is right there is no result.
    subroutine run_case(case, result, error)
       !> The case
       type(case_t), intent(in) :: case
@@ -32,11 +31,13 @@ contains
       !> What went wrong, of any kind
       type(error_t), allocatable, intent(out) :: error
 
+      ! Distance from a tolerance that was too small [-]
+      real(wp), parameter :: few = 10.0_wp
       type(model_t), allocatable :: models(:)
       type(numerics_t) :: numerics
       type(result_t) :: latest
-      ! Estimated error [-]
-      real(wp) :: estimate
+      ! Estimated error, tolerance of the next try, smallest tolerance that may work [-]
+      real(wp) :: estimate, other, least
       integer :: attempt
       logical :: has_result
 
@@ -48,18 +49,23 @@ contains
          return
       end if
       has_result = .false.
+      least = 0.0_wp
       do attempt = 0, most_refinements
          call run_models(case, models, numerics, latest, error)
          if (allocated(error)) then
             if (has_result .or. attempt > 0 .or. error%kind /= kind_convergence) exit
-            numerics%tolerance = strongest_refinement*numerics%tolerance
+            other = way_out(numerics%tolerance)
+            if (other > numerics%tolerance) least = few*numerics%tolerance
+            numerics%tolerance = other
             cycle
          end if
          result = latest
          has_result = .true.
          call get_summary(result, "estimated_error", estimate, error)
          if (allocated(error) .or. estimate <= case%numerics%accuracy) return
-         numerics%tolerance = refine_tolerance(numerics%tolerance, case%numerics%accuracy, estimate)
+         other = refine_tolerance(numerics%tolerance, case%numerics%accuracy, estimate, least)
+         if (.not. other < numerics%tolerance) exit
+         numerics%tolerance = other
       end do
       if (.not. has_result) return
       if (allocated(error)) deallocate (error)

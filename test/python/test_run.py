@@ -158,7 +158,7 @@ def test_names_can_be_swept(camroller, tmp_path):
 
 def test_a_long_run_shows_progress_on_a_terminal_only(camroller, tmp_path):
     deck = one_case(tmp_path / "deck.nml")
-    deck.write_text(deck.read_text() + "&sweep key_1 = 'operating_point.speed_rpm' from_1 = 300 to_1 = 420 count_1 = 61 /\n")
+    deck.write_text(deck.read_text() + "&sweep key_1 = 'operating_point.speed_rpm' from_1 = 300 to_1 = 420 count_1 = 901 /\n")
     master, slave = pty.openpty()
     with subprocess.Popen([camroller, "run", str(deck), *COARSE], cwd=tmp_path, stdin=subprocess.DEVNULL,
                           stdout=subprocess.DEVNULL, stderr=slave) as process:
@@ -170,6 +170,6 @@ def test_a_long_run_shows_progress_on_a_terminal_only(camroller, tmp_path):
         except OSError:
             pass
         os.close(master)
-    assert b" of 61 cases" in seen
+    assert b" of 901 cases" in seen
     logged = run(camroller, "run", deck, *COARSE, folder=tmp_path)
-    assert " of 61 cases" not in logged.stderr.split("remarks")[0]
+    assert " of 901 cases" not in logged.stderr.split("remarks")[0]

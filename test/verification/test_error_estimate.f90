@@ -2,7 +2,7 @@
 module test_error_estimate
    use testdrive, only : unittest_type, new_unittest, error_type, check, test_failed
    use camroller_kinds, only : wp, degree
-   use camroller_accuracy, only : is_checked, refine_tolerance, resolve_numerics
+   use camroller_accuracy, only : is_checked, refine_tolerance, resolve_numerics, way_out
    use camroller_case, only : case_t, numerics_t
    use camroller_error, only : error_t
    use camroller_result, only : result_t, get_series, get_summary
@@ -154,9 +154,11 @@ contains
       numerics%tolerance = 0.0_wp
       call check(error, .not. is_checked(numerics))
       if (allocated(error)) return
-      call check(error, refine_tolerance(1.0e-5_wp, 1.0e-4_wp, 2.0e-4_wp) < 0.5e-5_wp)
+      call check(error, refine_tolerance(1.0e-5_wp, 1.0e-4_wp, 2.0e-4_wp, 0.0_wp) < 0.5e-5_wp)
       if (allocated(error)) return
-      call check(error, refine_tolerance(1.0e-12_wp, 1.0e-10_wp, 1.0_wp), 1.0e-12_wp)
+      call check(error, refine_tolerance(1.0e-12_wp, 1.0e-10_wp, 1.0_wp, 0.0_wp), 1.0e-12_wp)
+      if (allocated(error)) return
+      call check(error, way_out(1.0e-5_wp) < 1.0e-5_wp .and. way_out(1.0e-12_wp) > 1.0e-12_wp)
    end subroutine test_resolved
 
    subroutine test_kept(error)
@@ -194,6 +196,8 @@ contains
       end do
       the_case%numerics%accuracy = 1.0e-15_wp
       call run_case(the_case, result, failure)
+      if (allocated(failure)) call test_failed(error, failure%message)
+      if (allocated(error)) return
       call check(error, index(result%warnings, "the accuracy asked for was not reached") > 0, result%warnings)
    end subroutine test_kept
 
