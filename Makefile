@@ -3,7 +3,7 @@
 SHELL := /bin/bash
 .DEFAULT_GOAL := help
 .PHONY: help setup commit build debug run comparison test quick random study check check-layers check-style check-format check-lint \
-  check-warnings format bench clean distclean
+  check-warnings format bench bench-effects clean distclean
 
 FPM := .venv/bin/fpm
 PYTHON := .venv/bin/python
@@ -86,6 +86,9 @@ format: setup ## set the blanks inside statements right
 
 bench: commit ## time cycles, also against SUNDIALS and scipy: tables and plots in bench/tables (ten minutes)
 	@bench/run.sh
+
+bench-effects: build ## instructions that effects cost, and that absent ones do not: bench/tables/effects.txt (three minutes)
+	@bench/effects.sh
 
 clean: ## remove what was built; keep tools and results
 	rm -rf build/gfortran* build/debug build/release build/commit build/tests build/bench bench/build build/*.log build/compile_commands.json

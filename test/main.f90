@@ -55,6 +55,7 @@ program main
    use test_ode_special, only : collect_ode_special
    use test_hard_cases, only : collect_hard_cases
    use test_random_cases, only : collect_random_cases
+   use test_effects, only : collect_effects
    implicit none
 
    call run_command_line()
@@ -97,6 +98,7 @@ contains
          new_testsuite("error", collect_error), &
          new_testsuite("hard_cases", collect_hard_cases), &
          new_testsuite("random_cases", collect_random_cases), &
+         new_testsuite("effects", collect_effects), &
          new_testsuite("ode", collect_ode), &
          new_testsuite("ode_rosenbrock", collect_ode_rosenbrock), &
          new_testsuite("ode_special", collect_ode_special), &

@@ -259,7 +259,6 @@ contains
       integer :: cam, segment, panels, panel, node
 
       mean = 0.0_wp
-      if (.not. allocated(shaft%journal)) return
       allocate (stops(0))
       do cam = 1, size(shaft%lobes)
          stops = [stops, cycles(shaft%lobes(cam))%stops + shaft%phases(cam)]

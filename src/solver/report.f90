@@ -57,7 +57,8 @@ contains
          if (allocated(error)) return
          call check_error(statistics(lobe), result%warnings)
       end do
-      call mean_bearing_torque(shaft, models, cycles, bearing_torque, error)
+      bearing_torque = 0.0_wp
+      if (allocated(case%cam_bearings)) call mean_bearing_torque(shaft, models, cycles, bearing_torque, error)
       if (allocated(error)) return
       call make_summary(case, models, cycles, shaft, statistics, bearing_torque, result)
    end subroutine make_result

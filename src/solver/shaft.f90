@@ -7,7 +7,7 @@ module camroller_shaft
    use camroller_error, only : error_t, raise, kind_domain
    use camroller_case, only : case_t
    use camroller_model, only : model_t
-   use camroller_state, only : state_t
+   use camroller_state, only : state_t, cam_force
    use camroller_cycle, only : cycle_t, state_at
    use camroller_catalogue, only : follower_torques, torque_count
    use camroller_journal, only : cam_bearings_t, journal_t, new_journal, journal_torque
@@ -87,8 +87,8 @@ contains
       type(error_t), allocatable, intent(out) :: error
 
       type(state_t) :: state
-      ! Force on each cam in the frame of the first follower [N]
-      real(wp) :: forces(2, size(shaft%lobes))
+      ! Force on each cam in the frame of the first follower, force of one follower in its own [N]
+      real(wp) :: forces(2, size(shaft%lobes)), force(2)
       integer :: cam
 
       torques = 0.0_wp
@@ -99,8 +99,10 @@ contains
          if (allocated(error)) return
          if (cam == 1) first_state = state
          torques = torques + follower_torques(state)
-         associate (c => shaft%directions(1, cam), s => shaft%directions(2, cam), f => state%cam_force)
-            forces(:, cam) = [c*f(1) - s*f(2), s*f(1) + c*f(2)]
+         if (.not. allocated(shaft%journal)) cycle
+         force = cam_force(models(shaft%lobes(cam)), state)
+         associate (c => shaft%directions(1, cam), s => shaft%directions(2, cam))
+            forces(:, cam) = [c*force(1) - s*force(2), s*force(1) + c*force(2)]
          end associate
       end do
       if (allocated(shaft%journal)) call add_bearings(shaft, forces, bearing_torque, error)

@@ -14,7 +14,7 @@ module camroller_state
    implicit none
    private
 
-   public :: state_t, evaluate_state, evaluate_spin, evaluate_loading
+   public :: state_t, evaluate_state, evaluate_spin, evaluate_loading, cam_force
 
    !> State of one follower; torques are on the camshaft, from this follower alone
    type :: state_t
@@ -45,8 +45,6 @@ module camroller_state
       real(wp) :: torque_drive
       !> Power that the cam needs by its own equilibrium, less losses, less what is stored [W]; consistent bookkeeping
       real(wp) :: energy_residual
-      !> Force of the follower on the cam, x from pivot to cam centre [N]
-      real(wp) :: cam_force(2)
    end type state_t
 
 contains
@@ -115,9 +113,6 @@ contains
       !> Mobilised part of the boundary friction; absent: as the sliding speed has it [-]
       real(wp), intent(in), optional :: mobilised
 
-      ! Unit vectors of load and traction on the roller [-]
-      real(wp) :: normal(2), tangent(2)
-
       call evaluate_loading(model, angle, state%position, state%gas_force, state%moments, status)
       if (status /= 0) return
       call evaluate_spin(model, state%position, state%moments, sliding_speed, state%contact, state%spin_acceleration, status, &
@@ -129,10 +124,24 @@ contains
       else
          call add_source_torques(model, state)
       end if
+   end subroutine evaluate_state
+
+   !> Force of the follower on the cam, x from pivot to cam centre: what camshaft bearings ask for.
+   pure function cam_force(model, state) result(force)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> State with its contact solved
+      type(state_t), intent(in) :: state
+      !> The force [N]
+      real(wp) :: force(2)
+
+      ! Unit vectors of load and traction on the roller [-]
+      real(wp) :: normal(2), tangent(2)
+
       call normal_direction(state%position%normal_arm, state%position%tangent_arm, model%linkage%a, state%position%arm_angle, &
          & model%linkage%sense, normal, tangent)
-      state%cam_force = -(state%contact%load*normal + state%contact%tangential_force*tangent)
-   end subroutine evaluate_state
+      force = -(state%contact%load*normal + state%contact%tangential_force*tangent)
+   end function cam_force
 
    !> Friction of the contact as it is reported. Source: Islam (2019) eq. (40).
    pure subroutine add_friction(model, state)

@@ -5,7 +5,7 @@ module test_contact
    use camroller_case, only : case_t
    use camroller_model, only : model_t
    use camroller_kinematics, only : position_t, rotation_names
-   use camroller_state, only : state_t, evaluate_state
+   use camroller_state, only : state_t, evaluate_state, cam_force
    use camroller_film, only : film_law_names
    use camroller_balance, only : find_balance
    use camroller_spin, only : rolling_speed_slope
@@ -246,7 +246,7 @@ contains
             free = free + 1
             call check(error, max(abs(state%contact%load), abs(state%contact%traction), abs(state%contact%bearing_torque), &
                abs(state%contact%rolling_resistance), abs(state%torque_drive), abs(state%spin_acceleration), &
-               abs(state%cam_force(1)), abs(state%cam_force(2)), abs(state%contact%traction_slope)) <= 0.0_wp, "a force is left")
+               maxval(abs(cam_force(model, state))), abs(state%contact%traction_slope)) <= 0.0_wp, "a force is left")
             if (allocated(error)) return
          end do
       end do

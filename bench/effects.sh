@@ -1,0 +1,22 @@
+#!/usr/bin/env bash
+# Count what effects cost and check that absent ones cost nothing; rewrites bench/tables/effects.txt.
+#
+# Usage: make bench-effects      three minutes
+# Needs valgrind, which nothing else here does. Instructions are counted, so a busy machine does not matter.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+fail() { printf 'bench-effects: %s\n' "$*" >&2; exit 1; }
+
+command -v valgrind > /dev/null || fail "valgrind is missing (valgrind in Debian)"
+program=build/release/bin/camroller
+work=build/bench/effects
+mkdir -p "$work"
+count() { .venv/bin/python bench/effects.py "$program" "$@" --work "$work" --set numerics.tolerance=1e-5; }
+{
+    count decks/thesis.nml --set operating_point.speed_rpm=300 --set operating_point.oil_temperature_degC=95
+    count decks/thesis.nml --set operating_point.speed_rpm=900 --set operating_point.oil_temperature_degC=25
+    count decks/three_cam_head.nml
+} > "$work/table.part"
+mv "$work/table.part" bench/tables/effects.txt
+cat bench/tables/effects.txt

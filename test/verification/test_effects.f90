@@ -1,0 +1,211 @@
+!> What a listed effect brings with it, and that an absent one leaves no trace.
+module test_effects
+   use, intrinsic :: iso_fortran_env, only : int64
+   use testdrive, only : unittest_type, new_unittest, error_type, test_failed, check
+   use camroller_kinds, only : wp
+   use camroller_error, only : error_t
+   use camroller_case, only : case_t
+   use camroller_result, only : result_t, quantity_t, find_quantity
+   use camroller_run, only : run_case
+   use reference_cases, only : thesis_case, source_case, set_point, point_speeds, point_viscosities
+   implicit none
+   private
+
+   public :: collect_effects
+
+contains
+
+   subroutine collect_effects(testsuite)
+      type(unittest_type), allocatable, intent(out) :: testsuite(:)
+
+      testsuite = [ &
+         new_unittest("camshaft bearings change no bit of anything else", test_bearings), &
+         new_unittest("the guide changes no bit of anything else in the source's bookkeeping", test_guide), &
+         new_unittest("the needle bearing changes no bit of the load in the source's bookkeeping", test_needle), &
+         new_unittest("an absent effect has no series and no scalar", test_absent) &
+         ]
+   end subroutine collect_effects
+
+   subroutine test_bearings(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: case
+      type(result_t) :: with, without
+      integer :: k
+
+      do k = 1, 2
+         case = thesis_case()
+         if (k == 2) case = source_case()
+         call set_point(case, point_speeds(k + 1), point_viscosities(k))
+         call run(case, without, error)
+         if (allocated(error)) return
+         call add_bearings(case)
+         call run(case, with, error)
+         if (.not. allocated(error)) call compare(without, with, "torque_bearings", error)
+         if (allocated(error)) return
+      end do
+   end subroutine test_bearings
+
+   subroutine test_guide(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: case
+      type(result_t) :: with, without
+
+      case = source_case()
+      call run(case, with, error)
+      if (allocated(error)) return
+      deallocate (case%valve_guide)
+      call run(case, without, error)
+      if (.not. allocated(error)) call compare(without, with, "torque_guide", error)
+   end subroutine test_guide
+
+   ! Its torque brakes the roller in either bookkeeping, so that spin and what depends on it do change
+   subroutine test_needle(error)
+      type(error_type), allocatable, intent(out) :: error
+      character(len=*), parameter :: names(*) = [character(len=20) :: "contact_load", "hertz_half_width", "hertz_pressure", &
+         "rolling_speed", "cam_surface_speed", "torque_geometric"]
+      type(case_t) :: case
+      type(result_t) :: with, without
+      integer :: i
+
+      case = source_case()
+      call run(case, with, error)
+      if (allocated(error)) return
+      deallocate (case%needle_bearing)
+      call run(case, without, error)
+      if (allocated(error)) return
+      do i = 1, size(names)
+         call check(error, all(same_bits(with%series_values(:, find_quantity(with%series, names(i))), &
+            without%series_values(:, find_quantity(without%series, names(i))))), trim(names(i))//" has changed")
+         if (allocated(error)) return
+      end do
+      i = find_quantity(with%series, "sliding_speed")
+      call check(error, .not. all(same_bits(with%series_values(:, i), without%series_values(:, i))), "the roller is not braked")
+   end subroutine test_needle
+
+   subroutine test_absent(error)
+      type(error_type), allocatable, intent(out) :: error
+      character(len=*), parameter :: effects(*) = [character(len=14) :: "asperity", "needle_bearing", "valve_guide", &
+         "cam_bearings"]
+      type(case_t) :: case, variant
+      type(result_t) :: result
+      integer :: i
+
+      case = thesis_case()
+      call add_bearings(case)
+      call run(case, result, error)
+      if (allocated(error)) return
+      do i = 1, size(effects)
+         call check(error, has_source(result%series, effects(i)) .and. has_source(result%summary, effects(i)), &
+            trim(effects(i))//" has no series")
+         if (allocated(error)) return
+      end do
+      do i = 1, size(effects)
+         variant = case
+         if (effects(i) == "asperity") deallocate (variant%asperity)
+         if (effects(i) == "needle_bearing") deallocate (variant%needle_bearing)
+         if (effects(i) == "valve_guide") deallocate (variant%valve_guide)
+         if (effects(i) == "cam_bearings") deallocate (variant%cam_bearings)
+         call run(variant, result, error)
+         if (allocated(error)) return
+         call check(error, .not. (has_source(result%series, effects(i)) .or. has_source(result%summary, effects(i))), &
+            trim(effects(i))//" is absent and has a series or a scalar")
+         if (allocated(error)) return
+      end do
+   end subroutine test_absent
+
+   !> Does any quantity come from an effect?
+   pure function has_source(quantities, source) result(has)
+      type(quantity_t), intent(in) :: quantities(:)
+      character(len=*), intent(in) :: source
+      logical :: has
+      integer :: i
+
+      has = .false.
+      do i = 1, size(quantities)
+         has = has .or. quantities(i)%source == source
+      end do
+   end function has_source
+
+   !> Everything of a result without an effect is there with it, bit by bit, and so is the work; sums of losses are not compared.
+   subroutine compare(without, with, added, error)
+      type(result_t), intent(in) :: without, with
+      character(len=*), intent(in) :: added
+      type(error_type), allocatable, intent(out) :: error
+      integer :: i, other, compared
+
+      compared = 0
+      do i = 1, size(without%series)
+         other = find_quantity(with%series, without%series(i)%name)
+         call check(error, other > 0, without%series(i)%name//" is missing")
+         if (allocated(error)) return
+         if (is_sum(without%series(i)%name)) cycle
+         call check(error, all(same_bits(without%series_values(:, i), with%series_values(:, other))), &
+            without%series(i)%name//" has changed")
+         if (allocated(error)) return
+         compared = compared + 1
+      end do
+      do i = 1, size(without%summary)
+         other = find_quantity(with%summary, without%summary(i)%name)
+         call check(error, other > 0, without%summary(i)%name//" is missing")
+         if (allocated(error)) return
+         if (is_sum(without%summary(i)%name)) cycle
+         call check(error, same_bits(without%summary_values(i), with%summary_values(other)), &
+            without%summary(i)%name//" has changed")
+         if (allocated(error)) return
+         compared = compared + 1
+      end do
+      call check(error, compared > 60, "hardly anything is compared")
+      if (allocated(error)) return
+      other = find_quantity(with%series, added)
+      call check(error, maxval(abs(with%series_values(:, other))) > 0.0_wp, added//" is zero")
+   end subroutine compare
+
+   !> Is a quantity a sum over all losses, or relative to one?
+   pure function is_sum(name)
+      character(len=*), intent(in) :: name
+      logical :: is_sum
+
+      is_sum = index(name, "torque_friction") + index(name, "torque_drive") + index(name, "power_friction") &
+         + index(name, "work_friction") + index(name, "relative_energy_residual") > 0
+   end function is_sum
+
+   !> Are two numbers the same, bit by bit?
+   elemental function same_bits(one, other) result(same)
+      real(wp), intent(in) :: one, other
+      logical :: same
+
+      same = storage_size(one) == 64 .and. transfer(one, 0_int64) == transfer(other, 0_int64)
+   end function same_bits
+
+   !> Camshaft bearings of Islam (2019), one cam midway.
+   subroutine add_bearings(case)
+      type(case_t), intent(inout) :: case
+
+      allocate (case%cam_bearings)
+      case%cam_bearings%law = "long_full_sommerfeld"
+      case%cam_bearings%diameter = 23.0e-3_wp
+      case%cam_bearings%width = 20.0e-3_wp
+      case%cam_bearings%radial_clearance = 47.5e-6_wp
+      case%cam_bearings%bearing_positions = [0.0_wp, 60.0e-3_wp]
+      case%cam_bearings%cam_positions = [30.0e-3_wp]
+      case%cam_bearings%cam_phases = [0.0_wp]
+      case%cam_bearings%cam_lobes = [1]
+      case%cam_bearings%follower_angles = [0.0_wp]
+   end subroutine add_bearings
+
+   !> Run a case with the default method.
+   subroutine run(case, result, error)
+      type(case_t), intent(in) :: case
+      type(result_t), intent(out) :: result
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: quick
+      type(error_t), allocatable :: failure
+
+      quick = case
+      quick%numerics%method = "rodas5p"
+      quick%numerics%tolerance = 1.0e-5_wp
+      call run_case(quick, result, failure)
+      if (allocated(failure)) call test_failed(error, failure%message)
+   end subroutine run
+
+end module test_effects
