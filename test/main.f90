@@ -50,6 +50,7 @@ program main
    use test_study, only : collect_study
    use test_error_estimate, only : collect_error_estimate
    use test_roller_problem, only : collect_roller_problem
+   use test_spin_slopes, only : collect_spin_slopes
    use test_simulation, only : collect_simulation
    use test_quasi_static, only : collect_quasi_static
    use test_ode_special, only : collect_ode_special
@@ -125,6 +126,7 @@ contains
          new_testsuite("unit_rescaling_contact", collect_unit_rescaling_contact), &
          new_testsuite("unit_rescaling_train", collect_unit_rescaling_train), &
          new_testsuite("derivatives", collect_derivatives), &
+         new_testsuite("spin_slopes", collect_spin_slopes), &
          new_testsuite("energy", collect_energy), &
          new_testsuite("stick_slip", collect_stick_slip), &
          new_testsuite("contact", collect_contact), &

@@ -2,7 +2,7 @@
 module bench_cvode
    use, intrinsic :: iso_c_binding, only : c_int, c_long, c_int64_t, c_double, c_ptr, c_null_ptr, c_funloc, c_loc, c_f_pointer
    use camroller_kinds, only : wp
-   use camroller_ode_problem, only : problem_t, counters_t
+   use camroller_ode_problem, only : problem_t, counters_t, linear_t, new_linear
    use bench_own, only : largest_step
    use bench_cvode_interface, only : new_context, free_context, new_vector, free_vector, vector_data, new_matrix, free_matrix, &
       & matrix_data, new_dense_solver, free_dense_solver, cvode_create, cvode_init, cvode_reinit, cvode_free, &
@@ -18,6 +18,8 @@ module bench_cvode
    type :: callback_t
       class(problem_t), pointer :: problem => null()
       integer :: components = 0
+      !> Room for a rate with its derivatives
+      type(linear_t) :: linear
    end type callback_t
 
    !> CVODE with its memory
@@ -26,7 +28,7 @@ module bench_cvode
       type(counters_t) :: counters
       !> Does it start anew at each stop?
       logical :: restarts = .false.
-      !> Is the Jacobian the problem's decay rate, at the price of one evaluation?
+      !> Is the Jacobian the problem's own, at the price of one evaluation with slopes?
       logical :: knows_slope = .false.
       type(callback_t), pointer :: callback => null()
       !> State and errors allowed, as CVODE sees them [state]
@@ -47,7 +49,7 @@ contains
       class(problem_t), intent(in), target :: problem
       !> Number of components of the state
       integer, intent(in) :: components
-      !> Is the Jacobian the problem's decay rate? Else a difference quotient
+      !> Is the Jacobian the problem's own? Else a difference quotient
       logical, intent(in) :: knows_slope
       !> Start anew at each stop?
       logical, intent(in) :: restarts
@@ -61,6 +63,7 @@ contains
       allocate (solver%callback, solver%state(components), solver%tolerance(components))
       solver%callback%problem => problem
       solver%callback%components = components
+      call new_linear(solver%callback%linear, components)
       solver%state = 0.0_wp
       flag = new_context(c_null_ptr, solver%context)
       solver%state_vector = new_vector(n, c_loc(solver%state), solver%context)
@@ -186,7 +189,7 @@ contains
       status = int(code, c_int)
    end function rate_for_cvode
 
-   !> Jacobian as CVODE calls it: decay of the first component; what the others feed back is nothing.
+   !> Jacobian as CVODE calls it.
    function slope_for_cvode(time, state, rate, matrix, user_data, work_1, work_2, work_3) bind(c) result(status)
       !> Cam angle [rad]
       real(c_double), value :: time
@@ -198,16 +201,15 @@ contains
       type(callback_t), pointer :: callback
       ! State [state], Jacobian, column by column [1/rad]
       real(c_double), pointer :: values(:), jacobian(:)
-      ! Decay rate [1/rad]
-      real(wp) :: decay_rate
+      type(counters_t) :: counters
+      integer :: code
 
       call c_f_pointer(user_data, callback)
       call c_f_pointer(vector_data(state), values, [callback%components])
       call c_f_pointer(matrix_data(matrix), jacobian, [callback%components**2])
-      call callback%problem%get_decay_rate(time, values, decay_rate)
-      jacobian = 0.0_wp
-      jacobian(1) = -decay_rate
-      status = 0
+      call callback%problem%linearise(time, values, time, callback%linear, counters, code)
+      jacobian = reshape(callback%linear%jacobian, [size(jacobian)])
+      status = int(code, c_int)
    end function slope_for_cvode
 
 end module bench_cvode

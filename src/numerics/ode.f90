@@ -8,7 +8,7 @@
 module camroller_ode
    use camroller_kinds, only : wp
    use camroller_error, only : error_t, raise, kind_convergence
-   use camroller_ode_problem, only : problem_t, counters_t
+   use camroller_ode_problem, only : problem_t, linear_t, counters_t, new_linear, copy_linear
    use camroller_trajectory, only : trajectory_t, start_trajectory, append_point, append_curve
    implicit none
    private
@@ -25,18 +25,19 @@ module camroller_ode
       !> at their stability limit, after Gustafsson, ACM Trans. Math. Softw. 17 (1991) 533. One and zero make the plain
       !> controller, which lets steps grow fast where stability does not limit them [-]
       real(wp) :: proportional = 0.7_wp, integral = 0.4_wp
-      !> Does a step end with the rate at its end? Else the loop evaluates it, once the step is accepted
+      !> Does a step end with the rate at its end, and with its derivatives in `there` where it needs them at the start? Else
+      !> the loop evaluates them, once the step is accepted
       logical :: gives_rate = .true.
       !> Does a step need the Jacobian at its start?
       logical :: needs_jacobian = .false.
-      !> Jacobian at the start of the step, where needed [1/time]
-      real(wp), allocatable :: jacobian(:, :)
-      !> Derivative of the rate with respect to time there [state/time^2]
-      real(wp), allocatable :: time_slope(:)
+      !> Rate with its derivatives at the start of the step and at its end, where needed
+      type(linear_t) :: here, there
+      !> Time up to which the right-hand side is smooth; set by `integrate` [time]
+      real(wp) :: horizon = huge(1.0_wp)
       !> Does a step leave its own curve in `bends`? Else the curve follows from the rates at both ends, which suits
       !> methods whose steps are short against the decay: a rate carries the error of a state times the decay rate
       logical :: has_curve = .false.
-      !> Curve of the last step, as `append_curve` takes it, shape (component, 3) [state]
+      !> Curve of the last step, as `append_curve` takes it, shape (component, numbers given) [state]
       real(wp), allocatable :: bends(:, :)
       !> Error allowed per step, for methods that iterate; set by `integrate` [state]
       real(wp), allocatable :: tolerance(:)
@@ -143,12 +144,15 @@ contains
       segments = count(stops(2:) - stops(:size(stops) - 1) > 64.0_wp*margin)
       if (allocated(options%tolerance)) method%tolerance = options%tolerance
       call start_trajectory(trajectory, size(state))
+      if (method%needs_jacobian) then
+         call new_linear(method%here, size(state))
+         call new_linear(method%there, size(state))
+      end if
       do segment = 1, size(stops) - 1
          if (stops(segment + 1) - stops(segment) <= 64.0_wp*margin) cycle
          start = stops(segment) + margin
          finish = stops(segment + 1) - margin
-         call problem%get_rate(start, state, rate, status)
-         counters%evaluations = counters%evaluations + 1
+         call rate_here(problem, method, start, state, finish, rate, counters, status)
          if (status /= 0) then
             call raise(error, kind_convergence, "the right-hand side has no value at "//problem%name_time(start))
             return
@@ -162,6 +166,34 @@ contains
          if (allocated(error)) return
       end do
    end subroutine integrate
+
+   !> Rate where a segment begins, with its derivatives where the method needs them.
+   subroutine rate_here(problem, method, time, state, horizon, rate, counters, status)
+      !> The problem
+      class(problem_t), intent(in) :: problem
+      !> The method
+      class(method_t), intent(inout) :: method
+      !> Time [time]
+      real(wp), intent(in) :: time
+      !> State [state]
+      real(wp), intent(in) :: state(:)
+      !> End of the segment [time]
+      real(wp), intent(in) :: horizon
+      !> Rate [state/time]
+      real(wp), intent(out) :: rate(:)
+      !> Work done
+      type(counters_t), intent(inout) :: counters
+      !> 0 fine, positive: try a smaller step, negative: give up
+      integer, intent(out) :: status
+
+      if (method%needs_jacobian) then
+         call problem%linearise(time, state, horizon, method%here, counters, status)
+         rate = method%here%rate
+      else
+         call problem%get_rate(time, state, rate, status)
+         counters%evaluations = counters%evaluations + 1
+      end if
+   end subroutine rate_here
 
    !> Integrate from one stop to the next.
    subroutine integrate_segment(problem, method, options, start, finish, state, rate, step, last_error, trajectory, &
@@ -198,24 +230,16 @@ contains
       ! Error over tolerance [-]
       real(wp) :: scaled_error
       integer :: status
-      logical :: is_last, has_jacobian, was_rejected
+      logical :: is_last, was_rejected
 
       time = start
-      has_jacobian = .false.
+      method%horizon = finish
       was_rejected = .false.
       do
          call choose_step(problem, method, options, time, finish, state, step, this_step, is_last, counters)
          new_time = merge(finish, time + this_step, is_last)
-         status = 0
-         scaled_error = 0.0_wp
-         if (method%needs_jacobian .and. .not. has_jacobian) then
-            call problem%get_jacobian(time, state, rate, finish, method%jacobian, method%time_slope, counters, status)
-            has_jacobian = .true.
-         end if
-         if (status == 0) then
-            call try_checked_step(problem, method, options, time, new_time, this_step, state, rate, new_state, &
-               & new_rate, scaled_error, counters, status)
-         end if
+         call try_checked_step(problem, method, options, time, new_time, finish, this_step, state, rate, new_state, &
+            & new_rate, scaled_error, counters, status)
          if (status /= 0) then
             call raise(error, kind_convergence, "the integration met a state that cannot be evaluated at "// &
                & problem%name_time(time))
@@ -229,7 +253,7 @@ contains
                call adapt_step(method, this_step, is_last, was_rejected, scaled_error, last_error, step)
             end if
             if (is_last) return
-            has_jacobian = .false.
+            if (method%needs_jacobian) call copy_linear(method%there, method%here)
             was_rejected = .false.
          else
             counters%rejected = counters%rejected + 1
@@ -316,7 +340,7 @@ contains
    end subroutine choose_step
 
    !> Try a step; a trial without a value, or with one that is no number, has an error far beyond its tolerance.
-   subroutine try_checked_step(problem, method, options, time, new_time, this_step, state, rate, new_state, &
+   subroutine try_checked_step(problem, method, options, time, new_time, finish, this_step, state, rate, new_state, &
       & new_rate, scaled_error, counters, status)
       !> The problem
       class(problem_t), intent(in) :: problem
@@ -324,8 +348,8 @@ contains
       class(method_t), intent(inout) :: method
       !> Tolerance or step
       type(options_t), intent(in) :: options
-      !> Time at the start and at the end of the step, its size [time]
-      real(wp), intent(in) :: time, new_time, this_step
+      !> Time at the start and at the end of the step, end of the segment, size of the step [time]
+      real(wp), intent(in) :: time, new_time, finish, this_step
       !> State at the start [state]
       real(wp), intent(in) :: state(:)
       !> Rate at the start [state/time]
@@ -354,12 +378,19 @@ contains
          if (.not. all(abs(new_state) < huge(1.0_wp) .and. abs(estimate) < huge(1.0_wp))) scaled_error = impossible
       end if
       if (status == 0 .and. scaled_error <= 1.0_wp .and. .not. method%gives_rate) then
-         call problem%get_rate(new_time, new_state, new_rate, status)
-         counters%evaluations = counters%evaluations + 1
+         if (method%needs_jacobian .and. new_time < finish) then
+            call problem%linearise(new_time, new_state, finish, method%there, counters, status)
+            new_rate = method%there%rate
+         else
+            call problem%get_rate(new_time, new_state, new_rate, status)
+            counters%evaluations = counters%evaluations + 1
+         end if
          if (status > 0) scaled_error = impossible
       end if
       if (status == 0 .and. scaled_error <= 1.0_wp .and. method%needs_jacobian) then
-         call check_saturation(problem, method, time, new_time, state, rate, new_state, new_rate, estimate, scaled_error)
+         if (method%here%span < huge(1.0_wp)) then
+            call check_saturation(method, this_step, state, rate, new_state, new_rate, estimate, scaled_error)
+         end if
       end if
       status = min(status, 0)
    end subroutine try_checked_step
@@ -369,13 +400,11 @@ contains
    !> Two signs: an error of the state that the Jacobian turns into more than the allowed error of the rate, and a rate at
    !> the end that is far from the linear one. Without them a step may jump from one side of a narrow range to the other,
    !> again and again.
-   subroutine check_saturation(problem, method, time, new_time, state, rate, new_state, new_rate, estimate, scaled_error)
-      !> The problem
-      class(problem_t), intent(in) :: problem
-      !> The method with the Jacobian at the start of the step
+   pure subroutine check_saturation(method, step, state, rate, new_state, new_rate, estimate, scaled_error)
+      !> The method with the derivatives at both ends of the step
       class(method_t), intent(in) :: method
-      !> Time at the start and at the end of the step [time]
-      real(wp), intent(in) :: time, new_time
+      !> Size of the step [time]
+      real(wp), intent(in) :: step
       !> State and rate at the start [state, state/time]
       real(wp), intent(in) :: state(:), rate(:)
       !> State and rate at the end [state, state/time]
@@ -385,19 +414,21 @@ contains
       !> Error over tolerance [-]
       real(wp), intent(inout) :: scaled_error
 
-      ! Span of the rate at both ends [state/time], part of it that is resolved [-]
-      real(wp) :: span(2), resolution
-      ! Departure from the linear rate, and size of the rates [state/time]
-      real(wp) :: departure(size(state)), sizes(size(state))
+      ! Departure from the linear rate, error of the rate, and size of the rates [state/time]
+      real(wp) :: departure, error, span
+      integer :: i
 
-      call problem%get_saturation(time, span(1), resolution)
-      if (span(1) >= huge(1.0_wp)) return
-      call problem%get_saturation(new_time, span(2), resolution)
-      sizes = maxval(span) + abs(rate) + abs(new_rate)
-      if (.not. all(sizes > 0.0_wp)) return
-      departure = new_rate - rate - matmul(method%jacobian, new_state - state) - method%time_slope*(new_time - time)
-      scaled_error = max(scaled_error, maxval(abs(matmul(method%jacobian, estimate))/(resolution*sizes)), &
-         & maxval((abs(departure)/(largest_departure*sizes))**method%error_order))
+      span = method%here%span
+      if (method%there%span < huge(1.0_wp)) span = max(span, method%there%span)
+      do i = 1, size(state)
+         associate (row => method%here%jacobian(i, :), size_of_rate => span + abs(rate(i)) + abs(new_rate(i)))
+            if (.not. size_of_rate > 0.0_wp) cycle
+            departure = new_rate(i) - rate(i) - sum(row*(new_state - state)) - method%here%time_slope(i)*step
+            error = sum(row*estimate)
+            scaled_error = max(scaled_error, abs(error)/(method%here%resolution*size_of_rate), &
+               & (abs(departure)/(largest_departure*size_of_rate))**method%error_order)
+         end associate
+      end do
    end subroutine check_saturation
 
    !> Proposal for the next step after an accepted one: proportional-integral control.

@@ -1,7 +1,7 @@
 !> Exponential Rosenbrock method of order 3: the linear part of a step is solved exactly, the rest explicitly.
 !>
 !> Layer: numerics. In: nothing. Out: a `method_t` for problems of one component. With the Jacobian J and the slope with time v
-!> at the start of a step h, `z = h J` and `phi_k` the functions below, the stages are
+!> at the start of a step h, `z = h J` and `phi_k` the functions of `phi`, the stages are
 !>
 !>     U = y + h phi_1(z) f + h^2 phi_2(z) v,    D = f(t + h, U) - f - J (U - y) - h v,    y_new = U + 2 h phi_3(z) D
 !>
@@ -12,10 +12,11 @@
 module camroller_ode_exponential
    use camroller_kinds, only : wp
    use camroller_ode, only : problem_t, method_t, counters_t
+   use camroller_phi, only : phi_functions
    implicit none
    private
 
-   public :: exponential_method_t, new_exponential_method, phi_functions
+   public :: exponential_method_t, new_exponential_method
 
    !> The method; it needs no work space of its own
    type, extends(method_t) :: exponential_method_t
@@ -39,38 +40,8 @@ contains
       method%proportional = 1.0_wp
       method%integral = 0.0_wp
       method%has_curve = .true.
-      allocate (method%jacobian(1, 1), method%time_slope(1), method%bends(1, 3))
+      allocate (method%bends(1, 3))
    end subroutine new_exponential_method
-
-   !> `phi_1 = (exp(z) - 1)/z`, `phi_2 = (phi_1 - 1)/z`, `phi_3 = (phi_2 - 1/2)/z`.
-   !>
-   !> Near zero, where the differences would cancel, by the power series of phi_3 and the same recurrence backwards.
-   pure function phi_functions(z) result(phi)
-      !> Argument [-]
-      real(wp), intent(in) :: z
-      !> The three functions [-]
-      real(wp) :: phi(3)
-
-      ! Below this argument the series needs no more than its terms to be exact [-]
-      real(wp), parameter :: near = 1.0_wp
-      integer, parameter :: terms = 16
-      integer :: k
-
-      if (abs(z) < near) then
-         ! sum of z^k/(k + 3)!, from the smallest term on
-         phi(3) = 1.0_wp
-         do k = terms, 1, -1
-            phi(3) = 1.0_wp + z/(k + 3)*phi(3)
-         end do
-         phi(3) = phi(3)/6.0_wp
-         phi(2) = 0.5_wp + z*phi(3)
-         phi(1) = 1.0_wp + z*phi(2)
-      else
-         phi(1) = (exp(max(z, -700.0_wp)) - 1.0_wp)/z
-         phi(2) = (phi(1) - 1.0_wp)/z
-         phi(3) = (phi(2) - 0.5_wp)/z
-      end if
-   end function phi_functions
 
    !> One step.
    subroutine try_exponential_step(self, problem, time, state, rate, step, new_state, new_rate, error_estimate, &
@@ -106,16 +77,16 @@ contains
       new_state = state
       new_rate = 0.0_wp
       error_estimate = 0.0_wp
-      z = step*self%jacobian(1, 1)
+      z = step*self%here%jacobian(1, 1)
       status = 1
       if (z > largest_growth) return
-      phi = phi_functions(z)
+      phi = phi_functions(3, z)
       counters%factorisations = counters%factorisations + 1
-      new_state = state + step*(phi(1)*rate + step*phi(2)*self%time_slope)
+      new_state = state + step*(phi(1)*rate + step*phi(2)*self%here%time_slope)
       call problem%get_rate(time + step, new_state, stage_rate, status)
       counters%evaluations = counters%evaluations + 1
       if (status /= 0) return
-      remainder = stage_rate - rate - self%jacobian(1, 1)*(new_state - state) - step*self%time_slope
+      remainder = stage_rate - rate - self%here%jacobian(1, 1)*(new_state - state) - step*self%here%time_slope
       error_estimate = 2.0_wp*step*phi(3)*remainder
       new_state = new_state + error_estimate
       call bend_curve(self, state, rate, step, remainder, new_state)
@@ -146,8 +117,8 @@ contains
       do i = 1, 3
          place = 0.25_wp*i
          part = place*step
-         phi = phi_functions(part*self%jacobian(1, 1))
-         bend(:, i) = part*(phi(1)*rate + part*phi(2)*self%time_slope + 2.0_wp*place**2*phi(3)*remainder)
+         phi = phi_functions(3, part*self%here%jacobian(1, 1))
+         bend(:, i) = part*(phi(1)*rate + part*phi(2)*self%here%time_slope + 2.0_wp*place**2*phi(3)*remainder)
          bend(:, i) = (bend(:, i) - place*(new_state - state))/(place*(1.0_wp - place))
       end do
       self%bends(:, 3) = 8.0_wp*(bend(:, 1) - 2.0_wp*bend(:, 2) + bend(:, 3))

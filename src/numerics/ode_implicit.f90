@@ -90,7 +90,6 @@ contains
       end do
       call dgetrf(3, 3, factors, 3, pivots, info)
       call dgetrs("N", 3, 3, factors, 3, pivots, method%inverse, 3, info)
-      allocate (method%jacobian(components, components), method%time_slope(components))
       allocate (method%matrix(3*components, 3*components), method%estimate_matrix(components, components))
       allocate (method%pivots(3*components), method%estimate_pivots(components))
       allocate (method%stages(components, 3), method%correction(components, 3), method%stage_rate(components))
@@ -190,9 +189,9 @@ contains
 
       n = size(self%stage_rate)
       self%matrix = 0.0_wp
-      self%estimate_matrix = -self%jacobian
+      self%estimate_matrix = -self%here%jacobian
       do i = 1, 3
-         self%matrix((i - 1)*n + 1:i*n, (i - 1)*n + 1:i*n) = -self%jacobian
+         self%matrix((i - 1)*n + 1:i*n, (i - 1)*n + 1:i*n) = -self%here%jacobian
       end do
       do k = 1, n
          self%estimate_matrix(k, k) = self%estimate_matrix(k, k) + real_eigenvalue/step

@@ -10,6 +10,7 @@ module camroller_ode_methods
    use camroller_ode_implicit, only : radau_method_t, new_radau_method
    use camroller_ode_stabilised, only : chebyshev_method_t, new_chebyshev_method
    use camroller_ode_exponential, only : exponential_method_t, new_exponential_method
+   use camroller_ode_hermite, only : hermite_method_t, new_hermite_method
    implicit none
    private
 
@@ -40,6 +41,7 @@ module camroller_ode_methods
       & method_facts_t("rodas5p", 5, 4, .true., unlimited, "Steinebach, BIT Numer. Math. 63 (2023) 27"), &
       & method_facts_t("radau5", 5, 3, .true., unlimited, "Hairer and Wanner, Solving ODEs II (1996), IV.8"), &
       & method_facts_t("exprb32", 3, 2, .true., 1, "Hochbruck and Ostermann, Acta Numerica 19 (2010) 209"), &
+      & method_facts_t("hermite", 6, 5, .true., 1, "ours; see Hochbruck and Ostermann, BIT Numer. Math. 51 (2011) 889"), &
       & method_facts_t("rkc", 2, 2, .false., unlimited, "Sommeijer et al., J. Comput. Appl. Math. 88 (1998) 315"), &
       & method_facts_t("bogacki_shampine", 3, 2, .false., unlimited, "Bogacki and Shampine, Appl. Math. Lett. 2 (1989) 321"), &
       & method_facts_t("dormand_prince", 5, 4, .false., unlimited, "Dormand and Prince, J. Comput. Appl. Math. 6 (1980) 19"), &
@@ -66,6 +68,7 @@ contains
       type(radau_method_t), allocatable :: radau_method
       type(chebyshev_method_t), allocatable :: chebyshev_method
       type(exponential_method_t), allocatable :: exponential_method
+      type(hermite_method_t), allocatable :: hermite_method
       integer :: choice
 
       call find_name("integration method", name, method_names, choice, error)
@@ -87,6 +90,10 @@ contains
          allocate (chebyshev_method)
          call new_chebyshev_method(chebyshev_method, components)
          call move_alloc(chebyshev_method, method)
+      case ("hermite")
+         allocate (hermite_method)
+         call new_hermite_method(hermite_method)
+         call move_alloc(hermite_method, method)
       case ("exprb32")
          allocate (exponential_method)
          call new_exponential_method(exponential_method)

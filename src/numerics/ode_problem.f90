@@ -1,7 +1,7 @@
 !> What an initial value problem is: its right-hand side, its Jacobian and the work done on it.
 !>
-!> Layer: numerics. In: nothing. Out: `problem_t`, which problems extend, and `counters_t`. A problem that knows its
-!> Jacobian better than a difference quotient does overrides `get_jacobian`.
+!> Layer: numerics. In: nothing. Out: `problem_t`, which problems extend, `linear_t` and `counters_t`. A problem that knows its
+!> Jacobian better than a difference quotient does overrides `get_jacobian`, or `linearise` where rate and Jacobian come together.
 !>
 !> Status of a rate: 0 fine, positive "this trial state is impossible, try a smaller step", negative "give up".
 module camroller_ode_problem
@@ -9,7 +9,7 @@ module camroller_ode_problem
    implicit none
    private
 
-   public :: problem_t, counters_t, difference_jacobian, time_increment
+   public :: problem_t, linear_t, counters_t, new_linear, copy_linear, linearise_in_two, difference_jacobian, time_increment
 
    !> Right-hand side of `d state/d time = rate(time, state)`
    type, abstract :: problem_t
@@ -21,8 +21,24 @@ module camroller_ode_problem
       procedure(decay_interface), deferred :: get_decay_rate
       procedure(words_interface), deferred :: name_time
       procedure :: get_jacobian => difference_jacobian
-      procedure :: get_saturation => no_saturation
+      procedure :: linearise => linearise_in_two
    end type problem_t
+
+   !> Rate at a point with its first derivatives
+   type :: linear_t
+      !> Rate [state/time]
+      real(wp), allocatable :: rate(:)
+      !> Derivative of the rates (row) with respect to the state (column) [1/time]
+      real(wp), allocatable :: jacobian(:, :)
+      !> Derivative of the rates with respect to time [state/time^2]
+      real(wp), allocatable :: time_slope(:)
+      !> Part of the rate that saturates within a narrow range of the state, its size; huge where nothing does. Errors of the
+      !> state that are small against the largest state may then still throw the rate from one end of its range to the other
+      !> [state/time]
+      real(wp) :: span = huge(1.0_wp)
+      !> Error of the rate that is allowed for an error of the state, over the rate, where something saturates [-]
+      real(wp) :: resolution = 1.0_wp
+   end type linear_t
 
    !> Work done, comparable between machines
    type :: counters_t
@@ -83,23 +99,57 @@ module camroller_ode_problem
 
 contains
 
-   !> A right-hand side that does not saturate.
+   !> Room for a rate with its derivatives.
+   pure subroutine new_linear(linear, components)
+      !> Rate and derivatives
+      type(linear_t), intent(out) :: linear
+      !> Number of components of the state
+      integer, intent(in) :: components
+
+      allocate (linear%rate(components), linear%jacobian(components, components), linear%time_slope(components))
+      linear%rate = 0.0_wp
+      linear%jacobian = 0.0_wp
+      linear%time_slope = 0.0_wp
+   end subroutine new_linear
+
+   !> Copy a rate and its derivatives.
+   pure subroutine copy_linear(source, target)
+      !> From here
+      type(linear_t), intent(in) :: source
+      !> To here; has its room
+      type(linear_t), intent(inout) :: target
+
+      target%rate(:) = source%rate
+      target%jacobian(:, :) = source%jacobian
+      target%time_slope(:) = source%time_slope
+      target%span = source%span
+      target%resolution = source%resolution
+   end subroutine copy_linear
+
+   !> Rate and its derivatives, one after the other.
    !>
-   !> A problem whose rate saturates within a narrow range of the state overrides this: errors of the state that are small
-   !> against the largest state may still throw the rate from one end of its range to the other.
-   subroutine no_saturation(self, time, span, resolution)
+   !> A problem that gets both from one evaluation, or whose rate saturates, overrides this.
+   subroutine linearise_in_two(self, time, state, horizon, linear, counters, status)
       !> The problem; read only
       class(problem_t), intent(in) :: self
       !> Time [time]
       real(wp), intent(in) :: time
-      !> Part of the rate that saturates, its size; huge where nothing does [state/time]
-      real(wp), intent(out) :: span
-      !> Error of the rate that is allowed for an error of the state, over the rate [-]
-      real(wp), intent(out) :: resolution
+      !> State [state]
+      real(wp), intent(in) :: state(:)
+      !> Time up to which the right-hand side is smooth; later times are not looked at [time]
+      real(wp), intent(in) :: horizon
+      !> Rate and derivatives; has its room
+      type(linear_t), intent(inout) :: linear
+      !> Work done
+      type(counters_t), intent(inout) :: counters
+      !> 0 fine, positive: try a smaller step, negative: give up
+      integer, intent(out) :: status
 
-      span = huge(self%small_state)
-      resolution = merge(1.0_wp, 0.0_wp, time < span)
-   end subroutine no_saturation
+      call self%get_rate(time, state, linear%rate, status)
+      counters%evaluations = counters%evaluations + 1
+      if (status /= 0) return
+      call self%get_jacobian(time, state, linear%rate, horizon, linear%jacobian, linear%time_slope, counters, status)
+   end subroutine linearise_in_two
 
    !> Jacobian and slope with time by forward differences.
    !>
@@ -150,7 +200,7 @@ contains
       time_slope = (moved_rate - rate)/(moved_time - time)
    end subroutine difference_jacobian
 
-   !> Increment of time for a forward difference that stays this side of the horizon.
+   !> Increment of time for a difference that stays this side of the horizon: forward, at the horizon itself backward.
    pure function time_increment(time, horizon) result(increment)
       !> Time [time]
       real(wp), intent(in) :: time
@@ -159,8 +209,12 @@ contains
       !> Increment, exact in the time it leads to [time]
       real(wp) :: increment
 
-      increment = sqrt(epsilon(1.0_wp))*max(abs(time), horizon - time)
-      increment = max(min(increment, 0.5_wp*(horizon - time)), spacing(time))
+      if (horizon > time) then
+         increment = sqrt(epsilon(1.0_wp))*max(abs(time), horizon - time)
+         increment = max(min(increment, 0.5_wp*(horizon - time)), spacing(time))
+      else
+         increment = -sqrt(epsilon(1.0_wp))*abs(time)
+      end if
       increment = (time + increment) - time
    end function time_increment
 

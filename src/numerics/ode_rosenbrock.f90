@@ -90,7 +90,6 @@ contains
             & .and. .not. abs(method%nodes(stage) - method%nodes(stage - 1)) > 0.0_wp
       end do
       allocate (method%increments(components, method%stages), method%bends(components, 3))
-      allocate (method%jacobian(components, components), method%time_slope(components))
       allocate (method%matrix(components, components), method%stage_rate(components), method%right_side(components))
       allocate (method%pivots(components))
    end subroutine new_rosenbrock_method
@@ -263,7 +262,7 @@ contains
       call factorise(self, step, counters, status)
       if (status /= 0) return
       do stage = 1, self%stages
-         self%right_side = step*self%slope_weights(stage)*self%time_slope
+         self%right_side = step*self%slope_weights(stage)*self%here%time_slope
          new_state = state
          do i = 1, stage - 1
             new_state = new_state + self%weights(i, stage)*self%increments(:, i)
@@ -302,7 +301,7 @@ contains
       integer :: i, n
 
       n = size(self%pivots)
-      self%matrix = -self%jacobian
+      self%matrix = -self%here%jacobian
       do i = 1, n
          self%matrix(i, i) = self%matrix(i, i) + 1.0_wp/(self%diagonal*step)
       end do

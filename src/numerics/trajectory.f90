@@ -5,7 +5,8 @@
 !> the method itself is no better.
 !>
 !> Between points `left` and `right`, at place `p` of the interval, the curve is
-!> `left + p (right - left) + p (1 - p) (b1 + p (b2 + p b3))` with the bends b1 to b3.
+!> `left + p (right - left) + p (1 - p) (b1 + p (b2 + p (b3 + p b4))) + a (exp(z p) - 1 - p (exp(z) - 1))` with the bends b1 to
+!> b4 and a layer of height a that decays with the exponent z, if there is one.
 module camroller_trajectory
    use camroller_kinds, only : wp
    implicit none
@@ -23,7 +24,7 @@ module camroller_trajectory
       real(wp), allocatable :: state(:, :)
       !> Rate at each point, shape (component, point) [state/time]
       real(wp), allocatable :: rate(:, :)
-      !> Bends of the curve that ends at each point, shape (component, 3, point) [state]
+      !> Curve that ends at each point, shape (component, 6, point): bends b1 to b4, height of the layer [state], its exponent [-]
       real(wp), allocatable :: bends(:, :, :)
       !> Interpolate linearly?
       logical :: is_linear = .false.
@@ -31,6 +32,8 @@ module camroller_trajectory
 
    !> Points for which a new trajectory has room
    integer, parameter :: first_room = 512
+   !> Numbers that make a curve, and how many of them are bends
+   integer, parameter, public :: curve_numbers = 6, most_bends = 4
 
 contains
 
@@ -47,7 +50,7 @@ contains
          deallocate (trajectory%time, trajectory%state, trajectory%rate, trajectory%bends)
       end if
       allocate (trajectory%time(first_room), trajectory%state(components, first_room), &
-         & trajectory%rate(components, first_room), trajectory%bends(components, 3, first_room))
+         & trajectory%rate(components, first_room), trajectory%bends(components, curve_numbers, first_room))
    end subroutine start_trajectory
 
    !> Append a point, reached by the cubic Hermite curve on the rates at both ends, or linearly.
@@ -62,7 +65,7 @@ contains
       real(wp), intent(in) :: rate(:)
 
       ! Bends [state]
-      real(wp) :: bends(size(state), 3)
+      real(wp) :: bends(size(state), 2)
       integer :: last
 
       bends = 0.0_wp
@@ -94,7 +97,8 @@ contains
       trajectory%time(trajectory%count) = time
       trajectory%state(:, trajectory%count) = state
       trajectory%rate(:, trajectory%count) = rate
-      trajectory%bends(:, :, trajectory%count) = bends
+      trajectory%bends(:, :size(bends, 2), trajectory%count) = bends
+      trajectory%bends(:, size(bends, 2) + 1:, trajectory%count) = 0.0_wp
    end subroutine append_curve
 
    !> Append another trajectory up to a time; the curve that holds the time is cut there.
@@ -107,7 +111,7 @@ contains
       real(wp), intent(in) :: time
 
       ! State where it is cut [state]; bends of the curve that is left [state]
-      real(wp) :: state(size(source%state, 1)), bends(size(source%state, 1), 3)
+      real(wp) :: state(size(source%state, 1)), bends(size(source%state, 1), curve_numbers)
       ! Part of the curve that is left [-]
       real(wp) :: part
       integer :: point
@@ -122,11 +126,13 @@ contains
 
       part = (time - source%time(point - 1))/(source%time(point) - source%time(point - 1))
       associate (b => source%bends(:, :, point))
-         bends(:, 3) = part**4*b(:, 3)
+         bends(:, 4) = part**5*b(:, 4)
+         bends(:, 3) = bends(:, 4) - part**4*(b(:, 4) - b(:, 3))
          bends(:, 2) = bends(:, 3) - part**3*(b(:, 3) - b(:, 2))
          bends(:, 1) = bends(:, 2) - part**2*(b(:, 2) - b(:, 1))
-         state = source%state(:, point - 1) + part*(source%state(:, point) - source%state(:, point - 1)) &
-            & + part*(1.0_wp - part)*(b(:, 1) + part*(b(:, 2) + part*b(:, 3)))
+         bends(:, 5) = b(:, 5)
+         bends(:, 6) = part*b(:, 6)
+         state = curve_state(source%state(:, point - 1), source%state(:, point), b, part)
       end associate
       call append_curve(trajectory, time, state, source%rate(:, point), bends)
    end subroutine append_until
@@ -142,7 +148,7 @@ contains
 
       n = trajectory%count
       allocate (time(2*n), state(size(trajectory%state, 1), 2*n), rate(size(trajectory%state, 1), 2*n), &
-         & bends(size(trajectory%state, 1), 3, 2*n))
+         & bends(size(trajectory%state, 1), curve_numbers, 2*n))
       time(:n) = trajectory%time
       state(:, :n) = trajectory%state
       rate(:, :n) = trajectory%rate
@@ -176,10 +182,30 @@ contains
       place = (time - trajectory%time(hint))/length
       associate (left => trajectory%state(:, hint), right => trajectory%state(:, hint + 1), &
          & bends => trajectory%bends(:, :, hint + 1))
-         state = left + place*(right - left) &
-            & + place*(1.0_wp - place)*(bends(:, 1) + place*(bends(:, 2) + place*bends(:, 3)))
+         state = curve_state(left, right, bends, place)
       end associate
    end subroutine interpolate_state
+
+   !> State at a place of a curve.
+   pure function curve_state(left, right, bends, place) result(state)
+      !> State at both ends [state]
+      real(wp), intent(in) :: left(:), right(:)
+      !> Bends, height and exponent of the layer, shape (component, 6) [state] and [-]
+      real(wp), intent(in) :: bends(:, :)
+      !> Place, from zero to one [-]
+      real(wp), intent(in) :: place
+      !> State there [state]
+      real(wp) :: state(size(left))
+
+      integer :: i
+
+      do i = 1, size(left)
+         state(i) = left(i) + place*(right(i) - left(i)) + place*(1.0_wp - place)*(bends(i, 1) + place*(bends(i, 2) &
+            & + place*(bends(i, 3) + place*bends(i, 4))))
+         if (abs(bends(i, 5)) > 0.0_wp) state(i) = state(i) + bends(i, 5)*(exp(bends(i, 6)*place) - 1.0_wp &
+            & - place*(exp(bends(i, 6)) - 1.0_wp))
+      end do
+   end function curve_state
 
    !> Slope of the curve at a time, in the interval where `interpolate_state` has found it.
    pure subroutine curve_slope(trajectory, time, interval, slope)
@@ -200,9 +226,10 @@ contains
       if (length <= 0.0_wp) return
       place = (time - trajectory%time(interval))/length
       associate (bends => trajectory%bends(:, :, interval + 1))
-         slope = trajectory%state(:, interval + 1) - trajectory%state(:, interval) &
-            & + (1.0_wp - 2.0_wp*place)*(bends(:, 1) + place*(bends(:, 2) + place*bends(:, 3))) &
-            & + place*(1.0_wp - place)*(bends(:, 2) + 2.0_wp*place*bends(:, 3))
+         slope = trajectory%state(:, interval + 1) - trajectory%state(:, interval) + (1.0_wp - 2.0_wp*place)*(bends(:, 1) &
+            & + place*(bends(:, 2) + place*(bends(:, 3) + place*bends(:, 4)))) &
+            & + place*(1.0_wp - place)*(bends(:, 2) + place*(2.0_wp*bends(:, 3) + place*3.0_wp*bends(:, 4))) &
+            & + bends(:, 5)*(bends(:, 6)*exp(bends(:, 6)*place) - (exp(bends(:, 6)) - 1.0_wp))
       end associate
       slope = slope/length
    end subroutine curve_slope

@@ -10,7 +10,7 @@ module camroller_dynamics
    private
 
    public :: masses_t, spring_t, gas_force_t, train_t, moments_t, seating_names, load_arm_names
-   public :: seat_force, unseated_share, evaluate_moments, stored_energy, stored_power
+   public :: seat_force, unseated_share, evaluate_moments, moment_slope, stored_energy, stored_power
 
    !> How the contact load passes from the base circle to the event
    character(len=*), parameter :: seating_names(*) = [character(len=name_length) :: "continuous", "maximum"]
@@ -132,6 +132,33 @@ contains
       moments%gas = gas_force*unseated_share(train, position%lift)*position%valve_arm
       moments%total = moments%spring - moments%seat + moments%valve + moments%finger + moments%gas
    end subroutine evaluate_moments
+
+   !> Derivative of the sum of the moments with respect to the cam angle.
+   pure function moment_slope(train, position, speed, gas_force, gas_slope) result(slope)
+      !> Masses and stiffnesses
+      type(train_t), intent(in) :: train
+      !> Geometry at this angle
+      type(position_t), intent(in) :: position
+      !> Cam speed, omega [rad/s]
+      real(wp), intent(in) :: speed
+      !> Cylinder pressure times valve area [N], and its derivative with respect to the cam angle [N/rad]
+      real(wp), intent(in) :: gas_force, gas_slope
+      !> Derivative [N m/rad]
+      real(wp) :: slope
+
+      ! Force at the valve [N], its derivative with respect to the cam angle [N/rad]
+      real(wp) :: force, force_slope
+      ! Derivative of the unseated share with respect to the lift [1/m]
+      real(wp) :: share_slope
+
+      share_slope = 0.0_wp
+      if (position%lift < train%seat_lift) share_slope = 2.0_wp*(1.0_wp - position%lift/train%seat_lift)/train%seat_lift
+      force = train%stiffness*(position%lift + train%precompression) - seat_force(train, position%lift) &
+         & + train%valve_mass*speed**2*position%lift_curvature + gas_force*unseated_share(train, position%lift)
+      force_slope = (train%stiffness + (train%closed_seat_force + gas_force)*share_slope)*position%lift_slope &
+         & + train%valve_mass*speed**2*position%lift_jerk + gas_slope*unseated_share(train, position%lift)
+      slope = force_slope*position%valve_arm + force*position%valve_arm_slope + train%finger_inertia*speed**2*position%finger_jerk
+   end function moment_slope
 
    !> Energy stored in spring, seat and moving masses without the roller's spin, zero for the closed valve at rest.
    !>

@@ -60,6 +60,8 @@ module camroller_film
       real(wp) :: central_load_slope, minimum_load_slope
       !> d ln(film)/d ln(U) [-]
       real(wp) :: central_speed_slope, minimum_speed_slope
+      !> d ln(film)/d ln(roughness over radius) [-]
+      real(wp) :: central_roughness_slope, minimum_roughness_slope
    end type film_shape_t
 
    !> Film over the load at one speed: what does not change with the load is worked out once
@@ -209,6 +211,8 @@ contains
       shape%central_load_slope = power_laws(4, 2, line%law)
       shape%minimum_speed_slope = power_laws(2, 1, line%law)
       shape%central_speed_slope = power_laws(2, 2, line%law)
+      shape%minimum_roughness_slope = 0.0_wp
+      shape%central_roughness_slope = 0.0_wp
       shape%minimum = exp(line%unit_logs(1) + shape%minimum_load_slope*log_load)
       shape%central = exp(line%unit_logs(2) + shape%central_load_slope*log_load)
    end subroutine power_at_load
@@ -235,6 +239,8 @@ contains
       shape%central_load_slope = shape%central_load_slope + rise(2)*rough_factors(4, 2)
       shape%minimum_speed_slope = shape%minimum_speed_slope + rise(1)*rough_factors(5, 1)
       shape%central_speed_slope = shape%central_speed_slope + rise(2)*rough_factors(5, 2)
+      shape%minimum_roughness_slope = rise(1)*rough_factors(2, 1)
+      shape%central_roughness_slope = rise(2)*rough_factors(2, 2)
    end subroutine roughen
 
    !> Moes' formula for the central film; the minimum lies below it by `moes_elastic_dip` where elastic deformation rules.
@@ -293,6 +299,8 @@ contains
       shape%minimum = (1.0_wp - dip)*shape%central
       shape%minimum_load_slope = slope_m - dip_slope/(1.0_wp - dip)
       shape%minimum_speed_slope = shape%central_speed_slope + 0.5_wp*dip_slope/(1.0_wp - dip)
+      shape%central_roughness_slope = 0.0_wp
+      shape%minimum_roughness_slope = 0.0_wp
    end subroutine moes_shape
 
 end module camroller_film

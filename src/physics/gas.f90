@@ -9,7 +9,7 @@ module camroller_gas
    implicit none
    private
 
-   public :: gas_law_t, new_gas_law, gas_force
+   public :: gas_law_t, new_gas_law, gas_force, gas_force_slope
 
    !> Pressure table ready for evaluation
    type :: gas_law_t
@@ -70,5 +70,22 @@ contains
       call evaluate_spline(law%pressure, law%first_angle + modulo(angle - law%first_angle, two_pi), values, status)
       force = values(0)*law%valve_area
    end function gas_force
+
+   !> Derivative of that force with respect to the cam angle.
+   pure function gas_force_slope(law, angle) result(slope)
+      !> The law
+      type(gas_law_t), intent(in) :: law
+      !> Cam angle from full lift, any turn [rad]
+      real(wp), intent(in) :: angle
+      !> Derivative [N/rad]
+      real(wp) :: slope
+
+      ! Pressure and its derivatives [Pa/rad^n]
+      real(wp) :: values(0:3)
+      integer :: status
+
+      call evaluate_spline(law%pressure, law%first_angle + modulo(angle - law%first_angle, two_pi), values, status)
+      slope = values(1)*law%valve_area
+   end function gas_force_slope
 
 end module camroller_gas

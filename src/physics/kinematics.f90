@@ -99,6 +99,16 @@ module camroller_kinematics
       real(wp) :: rolling_travel
       !> Derivative of `rolling_travel` with respect to the cam angle [m/rad^2]
       real(wp) :: rolling_travel_slope
+      !> Derivative of that [m/rad^3]
+      real(wp) :: rolling_travel_curvature
+      !> Third derivative of the lift [m/rad^3]
+      real(wp) :: lift_jerk
+      !> gamma''' [1/rad^2]
+      real(wp) :: finger_jerk
+      !> Derivatives of the arms of valve, normal, parallel normal and tangent with respect to the cam angle [m/rad]
+      real(wp) :: valve_arm_slope, normal_arm_slope, parallel_arm_slope, tangent_arm_slope
+      !> Derivative of `equivalent_radius` with respect to the cam angle [m/rad]
+      real(wp) :: radius_slope
    end type position_t
 
 contains
@@ -224,6 +234,16 @@ contains
       ! omega h_F - sense gamma' omega h_t, with the arms written out, is omega (M - r_R)
       position%rolling_travel = m - linkage%roller_radius
       position%rolling_travel_slope = m_1
+
+      position%lift_jerk = lift(3)
+      position%finger_jerk = gamma_3
+      position%valve_arm_slope = linkage%b*cos_pad*gamma_1
+      position%normal_arm_slope = (ad_cos*gamma_1 - position%normal_arm*m_1)/m
+      position%parallel_arm_slope = linkage%a*gamma_1*cos(position%arm_angle + linkage%valve_axis_angle)
+      position%tangent_arm_slope = -(ad_sin*gamma_1 + linkage%a**2*g_1 + position%tangent_arm*m_1)/m
+      position%radius_slope = -linkage%roller_radius**2*(l2_1 - 3.0_wp*l2*m_1/m)/m**3
+      position%rolling_travel_curvature = (linkage%a**2*(g_1**2 + linkage%sense*g*gamma_3) - linkage%sense*ad_cos*gamma_3 &
+         & + 2.0_wp*ad_sin*gamma_1*g_1 + g*(ad_cos*gamma_1**2 + ad_sin*gamma_2) - m_1**2)/m
    end subroutine evaluate_position
 
 end module camroller_kinematics

@@ -11,7 +11,19 @@ module camroller_load_share
    implicit none
    private
 
-   public :: share_t, share_load, improve_share
+   public :: share_t, share_change_t, share_load, improve_share, share_change
+
+   !> How film and load share follow a change of load, speed or radius
+   type :: share_change_t
+      !> Minimum film and central film over equivalent radius, their logarithms [-]
+      real(wp) :: film_min, film_central
+      !> Load of the film, its logarithm [-]
+      real(wp) :: film_load
+      !> Asperity load over E' R L [-]
+      real(wp) :: asperity_load
+      !> Real over apparent contact area [-]
+      real(wp) :: real_area_ratio
+   end type share_change_t
 
    !> Film and load share
    type :: share_t
@@ -21,9 +33,14 @@ module camroller_load_share
       real(wp) :: asperity_load
       !> Real over apparent contact area [-]
       real(wp) :: real_area_ratio
-      !> Change of minimum film, ln; central film, ln; asperity load; real area ratio with ln(load), the apparent area growing with
-      !> the root of the load [-]
-      real(wp) :: film_min_slope, film_central_slope, asperity_slope, real_area_slope
+      !> Load of the film over E' R L [-]
+      real(wp) :: film_load
+      !> Do asperities carry part of the load? Is the central film that of the law?
+      logical :: has_asperities, has_own_central
+      !> Change of asperity load over E' R L and of the real area ratio with the logarithm of the film ratio [-]
+      real(wp) :: stiffness, area_stiffness
+      !> Film with its slopes at the load of the film
+      type(film_shape_t) :: shape
    end type share_t
 
    !> Smallest central film over equivalent radius [-]: far below a molecule, it keeps the traction slope finite at standstill
@@ -54,10 +71,7 @@ contains
       ! Film ratio; asperity load over E' R L, its change with ln H [-]
       real(wp) :: film_ratio, asperity_load, stiffness
 
-      shape%minimum = 0.0_wp
-      shape%central = 0.0_wp
-      shape%minimum_load_slope = 0.0_wp
-      shape%central_load_slope = 0.0_wp
+      shape = film_shape_t(0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp)
       if (line%groups%speed > 0.0_wp) call film_at_load(line, load, shape)
       film_ratio = shape%minimum/line%groups%roughness
       if (present(asperity)) then
@@ -67,7 +81,7 @@ contains
             return
          end if
       end if
-      call film_alone(shape, share)
+      call film_alone(shape, load, share)
    end subroutine share_load
 
    !> One step of Newton's method from a film ratio nearby: as good as `share_load` to the square of the change it makes.
@@ -118,9 +132,11 @@ contains
    end subroutine improve_share
 
    !> Load share without asperities within reach.
-   pure subroutine film_alone(shape, share)
+   pure subroutine film_alone(shape, load, share)
       !> Film that carries everything
       type(film_shape_t), intent(in) :: shape
+      !> Whole load over E' R L [-]
+      real(wp), intent(in) :: load
       !> Film and load share
       type(share_t), intent(out) :: share
 
@@ -128,13 +144,15 @@ contains
       share%film_central = max(shape%central, shape%minimum, smallest_film)
       share%asperity_load = 0.0_wp
       share%real_area_ratio = 0.0_wp
-      share%film_min_slope = shape%minimum_load_slope
-      share%film_central_slope = shape%central_load_slope
-      share%asperity_slope = 0.0_wp
-      share%real_area_slope = 0.0_wp
+      share%film_load = load
+      share%has_asperities = .false.
+      share%has_own_central = shape%central >= max(shape%minimum, smallest_film)
+      share%stiffness = 0.0_wp
+      share%area_stiffness = 0.0_wp
+      share%shape = shape
    end subroutine film_alone
 
-   !> Real area, and how everything follows the load when the apparent area grows with its root.
+   !> Load share with asperities: real area and what the slopes need.
    pure subroutine complete_share(line, load, asperity, film_ratio, asperity_load, stiffness, shape, share)
       !> Film over the load at the speed of the contact
       type(film_line_t), intent(in) :: line
@@ -151,31 +169,68 @@ contains
       !> Film and load share
       type(share_t), intent(out) :: share
 
-      ! F_2 with its derivative; load of the film over E' R L [-]
-      real(wp) :: area_value, area_slope, film_load
-      ! d ln H/d ln W [-]
-      real(wp) :: film_slope
+      ! F_2 with its derivative [-]
+      real(wp) :: area_value, area_slope
 
       call asperity_area_function(film_ratio, area_value, area_slope)
       share%film_min = film_ratio*line%groups%roughness
       share%film_central = max(shape%central, share%film_min, smallest_film)
       share%asperity_load = asperity_load
       share%real_area_ratio = asperity%area_factor*area_value
-      film_load = load - asperity_load
-      film_slope = 0.0_wp
-      if (takes_whole_load(line%law)) then
-         film_slope = shape%minimum_load_slope
-      else if (film_load > smallest_film_part*load) then
-         film_slope = shape%minimum_load_slope*(load - 0.5_wp*asperity_load)/(film_load + shape%minimum_load_slope*stiffness)
-      end if
-      share%film_min_slope = film_slope
-      share%asperity_slope = 0.5_wp*asperity_load + stiffness*film_slope
-      share%real_area_slope = asperity%area_factor*area_slope*film_ratio*film_slope
-      share%film_central_slope = shape%central_load_slope
-      if (.not. takes_whole_load(line%law)) then
-         share%film_central_slope = shape%central_load_slope*(load - share%asperity_slope)/max(film_load, smallest_film_part*load)
-      end if
+      share%film_load = load - asperity_load
+      share%has_asperities = .true.
+      share%has_own_central = shape%central >= max(share%film_min, smallest_film)
+      share%stiffness = stiffness
+      share%area_stiffness = asperity%area_factor*area_slope*film_ratio
+      share%shape = shape
    end subroutine complete_share
+
+   !> How the share follows changes of load over radius, speed and radius; the apparent area is that of a line contact.
+   !>
+   !> With q = d ln(W/R), u = d ln U and r = d ln R, load groups follow q, the area over E' R L follows q/2 and the roughness
+   !> over the radius -r; `h = h(W* - w_a(h))` is differentiated as it stands.
+   pure function share_change(line, load, share, q, u, r) result(change)
+      !> Film over the load at the speed of the contact
+      type(film_line_t), intent(in) :: line
+      !> Whole load over E' R L [-]
+      real(wp), intent(in) :: load
+      !> Film and load share
+      type(share_t), intent(in) :: share
+      !> Changes of load over radius, of the speed group and of the radius, their logarithms [-]
+      real(wp), intent(in) :: q, u, r
+      !> What follows
+      type(share_change_t) :: change
+
+      ! Changes of minimum and central film over radius that speed and roughness make at constant load, and of the film ratio [-]
+      real(wp) :: own, own_central, film_ratio
+      ! Denominator of the slope of the film ratio [-]
+      real(wp) :: give
+
+      associate (shape => share%shape)
+         own = shape%minimum_speed_slope*u - shape%minimum_roughness_slope*r
+         own_central = shape%central_speed_slope*u - shape%central_roughness_slope*r
+         change%film_load = q
+         if (.not. share%has_asperities .or. takes_whole_load(line%law)) then
+            film_ratio = own + shape%minimum_load_slope*q + r
+         else
+            give = share%film_load + shape%minimum_load_slope*share%stiffness
+            film_ratio = 0.0_wp
+            if (give > 0.0_wp) then
+               film_ratio = (share%film_load*(own + r) + shape%minimum_load_slope*(load - 0.5_wp*share%asperity_load)*q)/give
+            end if
+            ! By the film law, since the difference of both loads may be next to nothing
+            if (shape%minimum_load_slope < 0.0_wp) change%film_load = (film_ratio - own - r)/shape%minimum_load_slope
+         end if
+         change%film_min = film_ratio - r
+         change%asperity_load = 0.5_wp*share%asperity_load*q + share%stiffness*film_ratio
+         change%real_area_ratio = share%area_stiffness*film_ratio
+         change%film_central = own_central + shape%central_load_slope*change%film_load
+      end associate
+      if (takes_whole_load(line%law)) change%film_load = (load*q - change%asperity_load)/max(share%film_load, tiny(load))
+      if (share%has_own_central) return
+      change%film_central = 0.0_wp
+      if (share%film_central > smallest_film) change%film_central = change%film_min
+   end function share_change
 
    !> Film ratio at which the asperities carry what the film does not, by Newton's method on logarithms inside a bracket.
    pure subroutine share_with_asperities(line, load, capacity, film_ratio, asperity_load, stiffness, shape)

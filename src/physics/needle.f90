@@ -7,7 +7,7 @@ module camroller_needle
    implicit none
    private
 
-   public :: needle_bearing_t, roller_bearing_names, friction_radius, bearing_torque
+   public :: needle_bearing_t, roller_bearing_names, friction_radius, bearing_torque, bearing_torque_slope
 
    !> What the roller turns on
    character(len=*), parameter :: roller_bearing_names(*) = [character(len=name_length) :: "needles", "plain_pin"]
@@ -59,5 +59,27 @@ contains
 
       torque = friction_coefficient*load*radius*tanh(spin/reversal_spin)
    end function bearing_torque
+
+   !> Derivative of that torque with respect to the spin.
+   elemental function bearing_torque_slope(friction_coefficient, load, radius, spin, reversal_spin) result(slope)
+      !> Friction coefficient, mu_p [-]
+      real(wp), intent(in) :: friction_coefficient
+      !> Load on the bearing [N]
+      real(wp), intent(in) :: load
+      !> Friction radius, r_p [m]
+      real(wp), intent(in) :: radius
+      !> Spin of the roller relative to its pin [rad/s]
+      real(wp), intent(in) :: spin
+      !> Spin over which the torque reverses [rad/s], positive
+      real(wp), intent(in) :: reversal_spin
+      !> Derivative [N m s/rad]
+      real(wp) :: slope
+
+      ! tanh(spin/reversal spin) [-]
+      real(wp) :: part
+
+      part = tanh(spin/reversal_spin)
+      slope = friction_coefficient*load*radius*(1.0_wp - part)*(1.0_wp + part)/reversal_spin
+   end function bearing_torque_slope
 
 end module camroller_needle

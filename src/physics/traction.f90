@@ -12,7 +12,8 @@ module camroller_traction
    private
 
    public :: traction_t, shear_law_names, cap_names, rolling_law_names
-   public :: film_pressure, newtonian_shear, eyring_shear, limit_shear, mobilised_share, sliding_direction, rolling_resistance
+   public :: film_pressure, newtonian_shear, eyring_shear, limit_shear, mobilised_share, sliding_direction, rolling_resistance, &
+      & resistance_speed_slope
    public :: law_newtonian, law_eyring, cap_smooth, cap_sharp, rolling_biboulet_houpert, rolling_goksem_hargreaves, rolling_none
 
    !> Shear of the film
@@ -229,5 +230,26 @@ contains
          force = force*(1.0_wp + blend)**(-0.1_wp)*modulus*radius*length
       end select
    end subroutine rolling_resistance
+
+   !> Logarithmic slope of the rolling resistance over the speed group, from the one over the load group.
+   !>
+   !> The law of Biboulet and Houpert is a power 3/2 of load and sqrt(2 U) together.
+   elemental function resistance_speed_slope(law, load_slope) result(slope)
+      !> Position in `rolling_law_names`
+      integer, intent(in) :: law
+      !> d ln(force)/d ln(load group) [-]
+      real(wp), intent(in) :: load_slope
+      !> d ln(force)/d ln(U) [-]
+      real(wp) :: slope
+
+      select case (law)
+      case (rolling_goksem_hargreaves)
+         slope = 0.658_wp
+      case (rolling_biboulet_houpert)
+         slope = 0.5_wp*(1.5_wp - load_slope)
+      case default
+         slope = 0.0_wp
+      end select
+   end function resistance_speed_slope
 
 end module camroller_traction

@@ -9,12 +9,12 @@ module camroller_contact
    use camroller_model, only : model_t
    use camroller_kinematics, only : position_t
    use camroller_dynamics, only : moments_t
-   use camroller_contact_forces, only : contact_t, setting_t, slopes_t, set_speeds, prepare_contact, evaluate_contact, &
-      & release_contact
+   use camroller_contact_forces, only : contact_t, setting_t, parts_t, motion_t, slopes_t, set_speeds, prepare_contact, &
+      & evaluate_contact, follow_contact, release_contact
    implicit none
    private
 
-   public :: solve_contact
+   public :: solve_contact, prepare_and_solve, finger_moment
 
    !> Balance of the finger: loss of figures allowed against the moment [-]; a few roundings
    real(wp), parameter :: balance_tolerance = 8.0_wp*epsilon(1.0_wp)
@@ -49,20 +49,43 @@ contains
       real(wp), intent(in), optional :: mobilised
 
       type(setting_t) :: setting
-      type(slopes_t) :: slopes
-      ! Moment that the contact load balances [N m]; arm of the load [m]; load without friction [N]
-      real(wp) :: moment, arm, load
+      type(parts_t) :: parts
+
+      call prepare_and_solve(model, position, moments, sliding_speed, contact, setting, parts, status, accuracy, mobilised)
+   end subroutine solve_contact
+
+   !> Solve the contact and keep what its slopes are made of.
+   pure subroutine prepare_and_solve(model, position, moments, sliding_speed, contact, setting, parts, status, accuracy, mobilised)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> Geometry at this angle
+      type(position_t), intent(in) :: position
+      !> Moments about the pivot at this angle
+      type(moments_t), intent(in) :: moments
+      !> Sliding speed, V_s [m/s]
+      real(wp), intent(in) :: sliding_speed
+      !> State of the contact
+      type(contact_t), intent(out) :: contact
+      !> What does not change with the load, where there is a load
+      type(setting_t), intent(out) :: setting
+      !> What slopes are made of, where there is a load
+      type(parts_t), intent(out) :: parts
+      !> 0 fine, positive where the balance was not reached
+      integer, intent(out) :: status
+      !> Relative error of load and forces that is good enough; absent: round-off [-]
+      real(wp), intent(in), optional :: accuracy
+      !> Mobilised part of the boundary friction; absent: as the sliding speed has it [-]
+      real(wp), intent(in), optional :: mobilised
+
+      ! Moment that the contact load balances [N m]; load without friction [N]
+      real(wp) :: moment, load
       ! Relative change of the film ratio in the last step; relative error that is good enough [-]
       real(wp) :: change, enough
 
       status = 0
       call set_speeds(model, position, sliding_speed, contact)
-      arm = merge(position%normal_arm, position%parallel_arm, model%has_exact_arm)
-      moment = moments%total
-      if (model%is_consistent .and. allocated(model%guide_drag)) then
-         moment = moment + model%guide_drag*model%speed*position%lift_slope*position%valve_arm
-      end if
-      load = moment/arm
+      moment = finger_moment(model, position, moments)
+      load = moment/merge(position%normal_arm, position%parallel_arm, model%has_exact_arm)
       if (model%takes_maximum_load) load = max(model%base_circle_load, load)
       if (.not. load > 0.0_wp) then
          call release_contact(contact)
@@ -74,17 +97,34 @@ contains
       if (model%is_consistent) then
          enough = 0.0_wp
          if (present(accuracy)) enough = accuracy
-         call balance_finger(model, position, setting, moment, enough, contact, status)
+         call balance_finger(model, position, setting, moment, enough, contact, parts, status)
       else
-         call evaluate_contact(model, position, setting, load, contact, slopes, change)
+         call evaluate_contact(model, position, setting, load, contact, parts, change)
       end if
-   end subroutine solve_contact
+   end subroutine prepare_and_solve
+
+   !> Moment about the pivot that the contact balances; with the drag of the guide where the bookkeeping is closed.
+   pure function finger_moment(model, position, moments) result(moment)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> Geometry at this angle
+      type(position_t), intent(in) :: position
+      !> Moments about the pivot at this angle
+      type(moments_t), intent(in) :: moments
+      !> Moment [N m]
+      real(wp) :: moment
+
+      moment = moments%total
+      if (model%is_consistent .and. allocated(model%guide_drag)) then
+         moment = moment + model%guide_drag*model%speed*position%lift_slope*position%valve_arm
+      end if
+   end function finger_moment
 
    !> Load at which `W h_W + sense (T' h_t + T_B) = moment`, by Newton's method inside a bracket.
    !>
    !> Friction changes the load by a few per cent at most, so the second evaluation is good to about 1e-5 and the third to
    !> 1e-10. Without a load at which friction lets the balance be, contact is lost.
-   pure subroutine balance_finger(model, position, setting, moment, enough, contact, status)
+   pure subroutine balance_finger(model, position, setting, moment, enough, contact, parts, status)
       !> The model
       type(model_t), intent(in) :: model
       !> Geometry at this angle
@@ -97,6 +137,8 @@ contains
       real(wp), intent(in) :: enough
       !> State of the contact
       type(contact_t), intent(inout) :: contact
+      !> What slopes are made of
+      type(parts_t), intent(out) :: parts
       !> 0 fine, positive where the balance was not reached
       integer, intent(out) :: status
 
@@ -114,11 +156,12 @@ contains
       low = 0.0_wp
       high = huge(1.0_wp)
       do iteration = 1, max_iterations
-         call evaluate_contact(model, position, setting, load, contact, slopes, change)
+         call evaluate_contact(model, position, setting, load, contact, parts, change)
+         slopes = follow_contact(model, setting, contact, parts, motion_t(load=1.0_wp))
          excess = load*position%normal_arm - moment &
             & + model%linkage%sense*(contact%tangential_force*position%tangent_arm + contact%bearing_torque)
          slope = load*position%normal_arm &
-            & + model%linkage%sense*(slopes%tangential_force*position%tangent_arm + contact%bearing_torque)
+            & + model%linkage%sense*(slopes%tangential_force*position%tangent_arm + slopes%bearing_torque)
          shift = -1.0_wp
          if (slope > 0.0_wp) shift = -excess/slope
          if (abs(shift)*step_curvature*max(abs(shift), share_tolerance) + change**2 <= enough) then

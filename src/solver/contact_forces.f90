@@ -1,4 +1,4 @@
-!> Everything in the contact at a given load, and how it changes with the load.
+!> Everything in the contact at a given load, and how it follows load, sliding speed and geometry.
 !>
 !> Layer: solver. In: model, geometry, sliding speed, load. Out: `contact_t` and `slopes_t`. The load is found by `contact`.
 module camroller_contact_forces
@@ -8,15 +8,15 @@ module camroller_contact_forces
    use camroller_hertz, only : half_width
    use camroller_lubricant, only : mean_relative_viscosity
    use camroller_film, only : groups_t, film_line_t, new_film_line
-   use camroller_load_share, only : share_t, share_load, improve_share
+   use camroller_load_share, only : share_t, share_change_t, share_load, improve_share, share_change
    use camroller_traction, only : film_pressure, newtonian_shear, eyring_shear, limit_shear, mobilised_share, sliding_direction, &
-      & rolling_resistance, law_newtonian, rolling_biboulet_houpert
-   use camroller_needle, only : bearing_torque
+      & rolling_resistance, resistance_speed_slope, law_newtonian, rolling_biboulet_houpert
+   use camroller_needle, only : bearing_torque, bearing_torque_slope
    implicit none
    private
 
-   public :: contact_t, setting_t, slopes_t, set_speeds, prepare_contact, evaluate_contact, release_contact, &
-      & film_groups
+   public :: contact_t, setting_t, parts_t, motion_t, slopes_t, set_speeds, prepare_contact, evaluate_contact, follow_contact, &
+      & release_contact, film_groups
 
    !> State of the contact
    type :: contact_t
@@ -62,16 +62,46 @@ module camroller_contact_forces
       real(wp) :: scale
       !> Mobilised part of the boundary friction [-]
       real(wp) :: mobilised
+      !> Its derivative over the sliding speed [s/m]
+      real(wp) :: mobilised_slope
       !> Torque of the roller's bearing over the load [m]
       real(wp) :: bearing_arm
    end type setting_t
 
-   !> Derivatives with respect to the logarithm of the load, at constant speeds
+   !> What the slopes of the forces are made of, kept from their evaluation
+   type :: parts_t
+      !> Film and load share
+      type(share_t) :: share
+      !> Load over E' R L [-]
+      real(wp) :: load_group
+      !> Shear of the film after its limit, over all of the contact [N]
+      real(wp) :: shear
+      !> Derivative of that over the shear before the limit and over the limit [-]
+      real(wp) :: by_shear, by_limit
+      !> Shear before its limit [N], derivative over ln(pressure) [N] and over the sliding speed [N s/m]
+      real(wp) :: free_shear, pressure_slope, speed_slope
+      !> Logarithmic slopes of the rolling resistance over load and speed group [-]
+      real(wp) :: rolling_load_slope, rolling_speed_slope
+      !> 2 R/r_R - 1 [-]
+      real(wp) :: rolling_part
+   end type parts_t
+
+   !> A direction in which a contact may move
+   type :: motion_t
+      !> Change of load, entrainment speed and equivalent radius, their logarithms [-]
+      real(wp) :: load = 0.0_wp, entrainment = 0.0_wp, radius = 0.0_wp
+      !> Change of sliding speed [m/s] and of the roller's spin relative to the finger [rad/s]
+      real(wp) :: sliding_speed = 0.0_wp, relative_spin = 0.0_wp
+   end type motion_t
+
+   !> Changes that follow
    type :: slopes_t
       !> ln of the film ratio [-]
       real(wp) :: film_ratio
       !> Traction, rolling resistance, tangential force [N]
       real(wp) :: traction, rolling_resistance, tangential_force
+      !> Torque of the roller's bearing [N m]
+      real(wp) :: bearing_torque
    end type slopes_t
 
 contains
@@ -113,11 +143,16 @@ contains
       setting%scale = model%modulus*position%equivalent_radius*model%contact_width
       call new_film_line(setting%line, model%film_law, film_groups(model, position, contact))
       setting%mobilised = 0.0_wp
+      setting%mobilised_slope = 0.0_wp
       if (present(mobilised)) then
          setting%mobilised = mobilised
       else if (allocated(model%boundary)) then
-         setting%mobilised = mobilised_share(contact%sliding_speed, model%boundary%mobilising_speed)
-         if (model%boundary%is_set_valued) setting%mobilised = sliding_direction(contact%sliding_speed)
+         if (model%boundary%is_set_valued) then
+            setting%mobilised = sliding_direction(contact%sliding_speed)
+         else
+            setting%mobilised = mobilised_share(contact%sliding_speed, model%boundary%mobilising_speed)
+            setting%mobilised_slope = (1.0_wp - setting%mobilised)*(1.0_wp + setting%mobilised)/model%boundary%mobilising_speed
+         end if
       end if
       setting%bearing_arm = 0.0_wp
       if (allocated(model%bearing)) then
@@ -145,7 +180,7 @@ contains
    end function film_groups
 
    !> Everything in the contact at a given load.
-   pure subroutine evaluate_contact(model, position, setting, load, contact, slopes, change)
+   pure subroutine evaluate_contact(model, position, setting, load, contact, parts, change)
       !> The model
       type(model_t), intent(in) :: model
       !> Geometry at this angle
@@ -156,104 +191,77 @@ contains
       real(wp), intent(in) :: load
       !> State of the contact; the speeds are set, and the film ratio is that of a contact nearby or zero
       type(contact_t), intent(inout) :: contact
-      !> Derivatives over ln(load)
-      type(slopes_t), intent(out) :: slopes
+      !> What slopes are made of
+      type(parts_t), intent(out) :: parts
       !> Relative change of the film ratio that was made; its square is about the error left [-]
       real(wp), intent(out) :: change
 
-      type(share_t) :: share
-      ! Load over E' R L, and the part that the rolling law takes; logarithmic slope of rolling resistance [-]
-      real(wp) :: load_group, rolling_load, rolling_slope
-      ! 2 R/r_R - 1 [-]
-      real(wp) :: rolling_part
+      ! Part of the load group that the rolling law takes [-]
+      real(wp) :: rolling_load
 
       contact%load = load
       contact%is_touching = .true.
       contact%half_width = half_width(load, position%equivalent_radius, model%contact_width, model%modulus)
       contact%apparent_area = 2.0_wp*contact%half_width*model%contact_width
-      load_group = load/setting%scale
+      parts%load_group = load/setting%scale
       change = 0.0_wp
       if (allocated(model%boundary)) then
-         call improve_share(setting%line, load_group, share, model%boundary%constants, &
+         call improve_share(setting%line, parts%load_group, parts%share, model%boundary%constants, &
             & contact%apparent_area/setting%scale, contact%film_ratio, change)
       else
-         call share_load(setting%line, load_group, share)
+         call share_load(setting%line, parts%load_group, parts%share)
       end if
-      contact%film_min = share%film_min*position%equivalent_radius
-      contact%film_central = share%film_central*position%equivalent_radius
+      contact%film_min = parts%share%film_min*position%equivalent_radius
+      contact%film_central = parts%share%film_central*position%equivalent_radius
       contact%film_ratio = contact%film_min/model%roughness
-      contact%asperity_load = max(0.0_wp, share%asperity_load)*setting%scale
-      contact%real_area = share%real_area_ratio*contact%apparent_area
-      slopes%film_ratio = share%film_min_slope
-      call set_traction(model, share, setting, contact, slopes)
+      contact%asperity_load = max(0.0_wp, parts%share%asperity_load)*setting%scale
+      contact%real_area = parts%share%real_area_ratio*contact%apparent_area
+      call set_traction(model, setting, contact, parts)
 
-      rolling_load = load_group
-      if (model%rolling_law == rolling_biboulet_houpert) rolling_load = load_group - share%asperity_load
+      rolling_load = parts%load_group
+      if (model%rolling_law == rolling_biboulet_houpert) rolling_load = parts%share%film_load
       call rolling_resistance(model%rolling_law, setting%line%groups%speed, rolling_load, model%modulus, &
          & position%equivalent_radius, model%contact_width, model%oil%pressure_viscosity, contact%rolling_resistance, &
-         & rolling_slope)
+         & parts%rolling_load_slope)
+      parts%rolling_speed_slope = resistance_speed_slope(model%rolling_law, parts%rolling_load_slope)
       contact%rolling_resistance = sign(contact%rolling_resistance, contact%entrainment_speed)
-      slopes%rolling_resistance = contact%rolling_resistance*rolling_slope
-      if (model%rolling_law == rolling_biboulet_houpert .and. rolling_load > 0.0_wp) then
-         slopes%rolling_resistance = slopes%rolling_resistance*(load_group - share%asperity_slope)/rolling_load
-      end if
-      rolling_part = 2.0_wp*position%equivalent_radius/model%roller_radius - 1.0_wp
-      contact%tangential_force = contact%traction + contact%rolling_resistance*rolling_part
-      slopes%tangential_force = slopes%traction + slopes%rolling_resistance*rolling_part
+      parts%rolling_part = 2.0_wp*position%equivalent_radius/model%roller_radius - 1.0_wp
+      contact%tangential_force = contact%traction + contact%rolling_resistance*parts%rolling_part
       contact%bearing_torque = setting%bearing_arm*load
    end subroutine evaluate_contact
 
    !> Shear of the film, boundary friction and their sum.
-   pure subroutine set_traction(model, share, setting, contact, slopes)
+   pure subroutine set_traction(model, setting, contact, parts)
       !> The model
       type(model_t), intent(in) :: model
-      !> Load share
-      type(share_t), intent(in) :: share
       !> What does not change with the load
       type(setting_t), intent(in) :: setting
       !> State of the contact; film and load share are set
       type(contact_t), intent(inout) :: contact
-      !> Derivatives over ln(load): traction
-      type(slopes_t), intent(inout) :: slopes
+      !> What slopes are made of; the load share is set
+      type(parts_t), intent(inout) :: parts
 
-      ! Pressure in the middle of the film [Pa]; its logarithmic slope over the load [-]
-      real(wp) :: peak, peak_slope
+      ! Pressure in the middle of the film [Pa]
+      real(wp) :: peak
       ! Mean viscosity ratio and its logarithmic slope over the pressure [-]
       real(wp) :: viscosity, viscosity_slope
-      ! Slope of the shear over the sliding speed [N s/m]
-      real(wp) :: speed_slope
-      ! Derivative of the shear over ln(load), over ln(peak); limit [N]
-      real(wp) :: shear_slope, pressure_slope, limit
-      ! Derivatives of the limited shear over the shear and over the limit [-]
-      real(wp) :: by_shear, by_limit
-      ! Load of the film and its derivative over ln(load) [N]
-      real(wp) :: film_load, film_load_slope
 
-      film_load = contact%load - contact%asperity_load
-      film_load_slope = contact%load - share%asperity_slope*setting%scale
-      peak = film_pressure(film_load, contact%apparent_area, contact%real_area)
-      peak_slope = -0.5_wp + share%real_area_slope/(1.0_wp - share%real_area_ratio)
-      if (film_load > 0.0_wp) peak_slope = peak_slope + film_load_slope/film_load
+      peak = film_pressure(contact%load - contact%asperity_load, contact%apparent_area, contact%real_area)
       if (model%shear_law == law_newtonian) then
          call mean_relative_viscosity(model%oil, peak, viscosity, viscosity_slope)
-         speed_slope = newtonian_shear(1.0_wp, model%oil%viscosity*viscosity, contact%apparent_area, contact%film_central)
-         contact%shear = speed_slope*contact%sliding_speed
-         pressure_slope = contact%shear*viscosity_slope
+         parts%speed_slope = newtonian_shear(1.0_wp, model%oil%viscosity*viscosity, contact%apparent_area, contact%film_central)
+         parts%free_shear = parts%speed_slope*contact%sliding_speed
+         parts%pressure_slope = parts%free_shear*viscosity_slope
       else
          call eyring_shear(contact%sliding_speed, model%oil, peak, contact%apparent_area, contact%film_central, &
-            & model%eyring_stress, contact%shear, speed_slope, pressure_slope)
+            & model%eyring_stress, parts%free_shear, parts%speed_slope, parts%pressure_slope)
       end if
-      shear_slope = 0.5_wp*contact%shear + pressure_slope*peak_slope &
-         & - share%film_central_slope*speed_slope*contact%sliding_speed
-      limit = model%limiting_coefficient*contact%load
-      call limit_shear(model%cap, limit, contact%shear, by_shear, by_limit)
-      shear_slope = by_shear*shear_slope + by_limit*limit
-      speed_slope = by_shear*speed_slope
+      parts%shear = parts%free_shear
+      call limit_shear(model%cap, model%limiting_coefficient*contact%load, parts%shear, parts%by_shear, parts%by_limit)
 
-      slopes%traction = shear_slope*(1.0_wp - share%real_area_ratio) - contact%shear*share%real_area_slope
-      contact%shear = contact%shear*(1.0_wp - share%real_area_ratio)
+      contact%shear = parts%shear*(1.0_wp - parts%share%real_area_ratio)
       contact%traction = contact%shear
-      contact%traction_slope = speed_slope*(1.0_wp - share%real_area_ratio)
+      contact%traction_slope = parts%by_shear*parts%speed_slope*(1.0_wp - parts%share%real_area_ratio)
       contact%boundary_capacity = 0.0_wp
       contact%boundary_mobilised = 0.0_wp
       if (.not. allocated(model%boundary)) return
@@ -262,13 +270,57 @@ contains
          & + model%boundary%coefficient*contact%asperity_load
       contact%boundary_mobilised = contact%boundary_capacity*setting%mobilised
       contact%traction = contact%traction + contact%boundary_mobilised
-      slopes%traction = slopes%traction + setting%mobilised*(model%boundary%film_shear_strength &
-         & *(0.5_wp*contact%real_area + contact%apparent_area*share%real_area_slope) &
-         & + model%boundary%coefficient*share%asperity_slope*setting%scale)
-      if (model%boundary%is_set_valued) return
-      contact%traction_slope = contact%traction_slope &
-         & + contact%boundary_capacity*(1.0_wp - setting%mobilised)*(1.0_wp + setting%mobilised)/model%boundary%mobilising_speed
+      contact%traction_slope = contact%traction_slope + contact%boundary_capacity*setting%mobilised_slope
    end subroutine set_traction
+
+   !> How the forces follow a motion of the contact.
+   pure function follow_contact(model, setting, contact, parts, motion) result(slopes)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> What does not change with the load
+      type(setting_t), intent(in) :: setting
+      !> State of the contact
+      type(contact_t), intent(in) :: contact
+      !> What slopes are made of
+      type(parts_t), intent(in) :: parts
+      !> Direction of the motion
+      type(motion_t), intent(in) :: motion
+      !> What follows
+      type(slopes_t) :: slopes
+
+      type(share_change_t) :: change
+      ! Changes of apparent area, pressure in the film and rolling resistance, their logarithms [-]; of the shear [N]
+      real(wp) :: area, pressure, rolling, shear
+
+      change = share_change(setting%line, parts%load_group, parts%share, motion%load - motion%radius, &
+         & motion%entrainment - motion%radius, motion%radius)
+      slopes%film_ratio = change%film_min + motion%radius
+      area = 0.5_wp*(motion%load + motion%radius)
+      pressure = change%film_load + motion%radius - area + change%real_area_ratio/(1.0_wp - parts%share%real_area_ratio)
+      shear = parts%free_shear*area + parts%pressure_slope*pressure + parts%speed_slope*(motion%sliding_speed &
+         & - contact%sliding_speed*(change%film_central + motion%radius))
+      shear = parts%by_shear*shear + parts%by_limit*model%limiting_coefficient*contact%load*motion%load
+      slopes%traction = shear*(1.0_wp - parts%share%real_area_ratio) - parts%shear*change%real_area_ratio
+      if (allocated(model%boundary)) then
+         slopes%traction = slopes%traction + setting%mobilised*(model%boundary%film_shear_strength &
+            & *(area*contact%real_area + contact%apparent_area*change%real_area_ratio) &
+            & + model%boundary%coefficient*(change%asperity_load*setting%scale + motion%radius*contact%asperity_load)) &
+            & + contact%boundary_capacity*setting%mobilised_slope*motion%sliding_speed
+      end if
+
+      rolling = motion%load - motion%radius
+      if (model%rolling_law == rolling_biboulet_houpert) rolling = change%film_load
+      rolling = motion%radius + parts%rolling_load_slope*rolling + parts%rolling_speed_slope*(motion%entrainment - motion%radius)
+      slopes%rolling_resistance = contact%rolling_resistance*rolling
+      slopes%tangential_force = slopes%traction + slopes%rolling_resistance*parts%rolling_part &
+         & + contact%rolling_resistance*(parts%rolling_part + 1.0_wp)*motion%radius
+      slopes%bearing_torque = contact%bearing_torque*motion%load
+      if (allocated(model%bearing) .and. abs(motion%relative_spin) > 0.0_wp) then
+         slopes%bearing_torque = slopes%bearing_torque + motion%relative_spin*bearing_torque_slope( &
+            & model%bearing%friction_coefficient, contact%load, model%bearing%radius, contact%relative_spin, &
+            & model%bearing%reversal_spin)
+      end if
+   end function follow_contact
 
    !> No contact: no force; the film is reported as zero, since there is none to speak of.
    pure subroutine release_contact(contact)

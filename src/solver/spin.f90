@@ -5,12 +5,13 @@
 !> speeds. The source integrates the roller's surface speed `r_R omega_R` instead; its fixed step does so here too.
 module camroller_spin
    use camroller_kinds, only : wp, degree
-   use camroller_ode_problem, only : problem_t, counters_t, time_increment
-   use camroller_model, only : model_t
+   use camroller_ode_problem, only : problem_t, linear_t, counters_t, time_increment, linearise_in_two
+   use camroller_model, only : model_t, evaluate_geometry
    use camroller_kinematics, only : position_t
    use camroller_dynamics, only : moments_t
    use camroller_contact_forces, only : contact_t
    use camroller_state, only : evaluate_loading, evaluate_spin
+   use camroller_spin_slopes, only : evaluate_spin_slopes
    implicit none
    private
 
@@ -29,17 +30,12 @@ module camroller_spin
    contains
       procedure :: get_rate
       procedure :: get_decay_rate
-      procedure :: get_jacobian
-      procedure :: get_saturation
+      procedure :: linearise
       procedure :: name_time
    end type spin_problem_t
 
-   !> Increment of a difference quotient over the size of its variable [-]
-   real(wp), parameter :: increment_ratio = sqrt(epsilon(1.0_wp))
    !> Largest and smallest error of the traction over its limit, and the same over the accuracy of the contact [-]
    real(wp), parameter :: coarsest_resolution = 1.0e-2_wp, finest_resolution = 1.0e-10_wp, accuracy_ratio = 1.0e5_wp
-   !> Change of the traction over its limit, up to which the traction counts as a straight line of the sliding speed [-]
-   real(wp), parameter :: largest_change = 1.0e-5_wp
 
 contains
 
@@ -110,112 +106,18 @@ contains
       decay_rate = model%roller_radius**2*contact%traction_slope/(model%roller_inertia*model%speed)
    end function decay_rate_of
 
-   !> Rate that the traction can make up, without friction in the load; the same part of it counts as an error as of the contact,
-   !> but not more than a hundredth.
-   subroutine get_saturation(self, time, span, resolution)
-      !> The problem
-      class(spin_problem_t), intent(in) :: self
-      !> Cam angle from full lift [rad]
-      real(wp), intent(in) :: time
-      !> Rate of the largest traction, zero without contact [m/s/rad]
-      real(wp), intent(out) :: span
-      !> Error of the rate that is allowed for an error of the sliding speed, over the rate [-]
-      real(wp), intent(out) :: resolution
-
-      type(position_t) :: position
-      type(moments_t) :: moments
-      ! Gas force [N], coefficient of the largest traction [-]
-      real(wp) :: force, coefficient
-      integer :: status
-
-      span = huge(1.0_wp)
-      resolution = max(min(coarsest_resolution, accuracy_ratio*self%accuracy), finest_resolution)
-      call evaluate_loading(self%model, time, position, force, moments, status)
-      if (status /= 0) return
-      coefficient = self%model%limiting_coefficient
-      if (allocated(self%model%boundary)) coefficient = max(coefficient, self%model%boundary%coefficient)
-      span = coefficient*max(moments%total/position%normal_arm, 0.0_wp)*self%model%roller_radius**2 &
-         & /(self%model%roller_inertia*self%model%speed)
-   end subroutine get_saturation
-
-   !> Jacobian and slope with the cam angle by forward differences.
-   !>
-   !> Traction saturates within a sliding speed that may lie twenty decades below the largest one of the cycle, where an
-   !> increment chosen for the latter would see no slope at all. An increment that changes the traction by more than a small
-   !> part of its limit is therefore replaced by one that does not, from the analytic slope of the traction. All rates are found
-   !> to round-off here, whatever accuracy is enough elsewhere, and the rate that is known is not used.
-   subroutine get_jacobian(self, time, state, rate, horizon, jacobian, time_slope, counters, status)
+   !> Rate with its derivatives over sliding speed and cam angle, all from one solution of the contact.
+   subroutine linearise(self, time, state, horizon, linear, counters, status)
       !> The problem
       class(spin_problem_t), intent(in) :: self
       !> Cam angle from full lift [rad]
       real(wp), intent(in) :: time
       !> Sliding speed or surface speed [m/s]
       real(wp), intent(in) :: state(:)
-      !> Its derivative with respect to the cam angle [m/s/rad]
-      real(wp), intent(in) :: rate(:)
       !> Cam angle up to which the right-hand side is smooth [rad]
       real(wp), intent(in) :: horizon
-      !> Derivative of the rate with respect to the state [1/rad]
-      real(wp), intent(out) :: jacobian(:, :)
-      !> Derivative of the rate with respect to the cam angle [m/s/rad^2]
-      real(wp), intent(out) :: time_slope(:)
-      !> Work done
-      type(counters_t), intent(inout) :: counters
-      !> 0 fine, positive: try a smaller step, negative: give up
-      integer, intent(out) :: status
-
-      type(contact_t) :: contact
-      ! State moved and size of the state [m/s], angle moved [rad], rates [m/s/rad]
-      real(wp) :: moved_state, size_of_state, moved_time, moved_rate, base_rate
-
-      counters%jacobians = counters%jacobians + 1
-      size_of_state = 1.0_wp
-      if (allocated(self%small_state)) size_of_state = self%small_state(1)
-      moved_state = state(1) + increment_ratio*max(abs(state(1)), size_of_state)
-      call rate_and_contact(self, time, state(1), base_rate, contact, counters, status)
-      if (status /= 0) return
-      call choose_increment(self%model, contact, state(1), moved_state)
-      call rate_and_contact(self, time, moved_state, moved_rate, contact, counters, status)
-      if (status /= 0) return
-      jacobian = (moved_rate - base_rate)/(moved_state - state(1))
-      moved_time = time + time_increment(time, horizon)
-      call rate_and_contact(self, moved_time, state(1), moved_rate, contact, counters, status)
-      if (status /= 0) return
-      time_slope = (moved_rate - base_rate)/(moved_time - time) + 0.0_wp*rate
-   end subroutine get_jacobian
-
-   !> Move a state by so little that its traction stays a straight line.
-   pure subroutine choose_increment(model, contact, state, moved_state)
-      !> The model
-      type(model_t), intent(in) :: model
-      !> The contact at the state
-      type(contact_t), intent(in) :: contact
-      !> Sliding speed or surface speed [m/s]
-      real(wp), intent(in) :: state
-      !> In: state moved by too much; out: by less [m/s]
-      real(wp), intent(inout) :: moved_state
-
-      ! Increment [m/s], traction by which it moves [N]
-      real(wp) :: increment, change
-
-      increment = moved_state - state
-      change = largest_change*(model%limiting_coefficient*contact%load + contact%boundary_capacity)
-      if (contact%traction_slope*increment > change) increment = change/contact%traction_slope
-      moved_state = state + max(increment, 4.0_wp*spacing(state))
-   end subroutine choose_increment
-
-   !> Rate with the contact that it comes from, to round-off.
-   subroutine rate_and_contact(self, time, state, rate, contact, counters, status)
-      !> The problem
-      class(spin_problem_t), intent(in) :: self
-      !> Cam angle from full lift [rad]
-      real(wp), intent(in) :: time
-      !> Sliding speed or surface speed [m/s]
-      real(wp), intent(in) :: state
-      !> Its derivative with respect to the cam angle [m/s/rad]
-      real(wp), intent(out) :: rate
-      !> State of the contact
-      type(contact_t), intent(out) :: contact
+      !> Rate [m/s/rad] with its derivatives [1/rad, m/s/rad^2]; has its room
+      type(linear_t), intent(inout) :: linear
       !> Work done
       type(counters_t), intent(inout) :: counters
       !> 0 fine, positive: try a smaller step, negative: give up
@@ -223,22 +125,46 @@ contains
 
       type(position_t) :: position
       type(moments_t) :: moments
-      ! Gas force [N]; angular acceleration of the roller [rad/s^2]
-      real(wp) :: force, acceleration
+      type(contact_t) :: contact
+      ! Gas force [N]; angular acceleration of the roller [rad/s^2], its derivatives [rad/s/m, 1/s^2]
+      real(wp) :: force, acceleration, speed_slope, angle_slope
+      ! Surface of the roller per turn of the cam [m/rad over rad/s]
+      real(wp) :: factor
 
-      rate = 0.0_wp
+      if (self%has_surface_speed) then
+         call linearise_in_two(self, time, state, horizon, linear, counters, status)
+         return
+      end if
       counters%evaluations = counters%evaluations + 1
+      counters%jacobians = counters%jacobians + 1
       call evaluate_loading(self%model, time, position, force, moments, status)
       if (status /= 0) return
-      call evaluate_spin(self%model, position, moments, sliding_speed_of(self, position, state), contact, acceleration, status)
-      if (status > 0) then
-         call evaluate_spin(self%model, position, moments, sliding_speed_of(self, position, state), contact, acceleration, &
-            & status, self%accuracy)
-      end if
+      call evaluate_spin_slopes(self%model, time, position, moments, force, state(1), contact, acceleration, speed_slope, &
+         & angle_slope, status, self%accuracy, self%mobilised)
       if (status /= 0) return
-      rate = self%model%roller_radius*acceleration/self%model%speed
-      if (.not. self%has_surface_speed) rate = rolling_speed_slope(self%model, position) - rate
-   end subroutine rate_and_contact
+      factor = self%model%roller_radius/self%model%speed
+      linear%rate(1) = rolling_speed_slope(self%model, position) - factor*acceleration
+      linear%jacobian(1, 1) = -factor*speed_slope
+      linear%time_slope(1) = rolling_speed_curvature(self%model, position, time, horizon) - factor*angle_slope
+      linear%span = largest_traction(self%model, position, moments)*self%model%roller_radius*factor/self%model%roller_inertia
+      linear%resolution = max(min(coarsest_resolution, accuracy_ratio*self%accuracy), finest_resolution)
+   end subroutine linearise
+
+   !> Largest traction that the contact can make up, friction in the load left out [N]; zero without contact.
+   pure function largest_traction(model, position, moments) result(traction)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> Geometry at this angle
+      type(position_t), intent(in) :: position
+      !> Moments about the pivot
+      type(moments_t), intent(in) :: moments
+      !> Traction [N]
+      real(wp) :: traction
+
+      traction = model%limiting_coefficient
+      if (allocated(model%boundary)) traction = max(traction, model%boundary%coefficient)
+      traction = traction*max(moments%total/position%normal_arm, 0.0_wp)
+   end function largest_traction
 
    !> A cam angle in the words of messages, as files count it.
    function name_time(self, time) result(text)
@@ -294,5 +220,31 @@ contains
 
       slope = model%speed*merge(position%rolling_travel_slope, position%surface_travel_slope, model%has_exact_spin)
    end function rolling_speed_slope
+
+   !> Second derivative of the speed in pure rolling; by a difference of geometry where it would take the lift's fourth derivative.
+   pure function rolling_speed_curvature(model, position, angle, horizon) result(curvature)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> Geometry at this angle
+      type(position_t), intent(in) :: position
+      !> Cam angle, and that up to which the lift is smooth [rad]
+      real(wp), intent(in) :: angle, horizon
+      !> d2V_roll/d(cam angle)2 [m/s/rad^2]
+      real(wp) :: curvature
+
+      type(position_t) :: ahead
+      ! Step [rad]
+      real(wp) :: step
+      integer :: status
+
+      if (model%has_exact_spin) then
+         curvature = model%speed*position%rolling_travel_curvature
+         return
+      end if
+      step = time_increment(angle, horizon)
+      call evaluate_geometry(model, angle + step, ahead, status)
+      curvature = 0.0_wp
+      if (status == 0) curvature = model%speed*(ahead%surface_travel_slope - position%surface_travel_slope)/step
+   end function rolling_speed_curvature
 
 end module camroller_spin

@@ -52,6 +52,7 @@ module ode_problems
    contains
       procedure :: get_rate => pair_rate_of_change
       procedure :: get_decay_rate => unit_decay
+      procedure :: get_jacobian => pair_jacobian
    end type pair_t
 
    !> y' = slopes(1) before the switch, slopes(2) after it
@@ -238,6 +239,27 @@ contains
       end if
       status = 0
    end subroutine pair_rate_of_change
+
+   subroutine pair_jacobian(self, time, state, rate, horizon, jacobian, time_slope, counters, status)
+      class(pair_t), intent(in) :: self
+      real(wp), intent(in) :: time, state(:), rate(:), horizon
+      real(wp), intent(out) :: jacobian(:, :), time_slope(:)
+      type(counters_t), intent(inout) :: counters
+      integer, intent(out) :: status
+
+      associate (unused_self => self, unused_rate => rate, unused_horizon => horizon)
+      end associate
+      if (size(state) == 1) then
+         jacobian = 2.0_wp*state(1)*exp(-sin(time))*cos(time)
+         time_slope = -state**2*exp(-sin(time))*(cos(time)**2 + sin(time))
+      else
+         jacobian(:, 1) = [2.0_wp*state(1)/state(2), 0.0_wp]*cos(time)
+         jacobian(:, 2) = [-(state(1)/state(2))**2, 1.0_wp]*cos(time)
+         time_slope = -[state(1)**2/state(2), state(2)]*sin(time)
+      end if
+      counters%jacobians = counters%jacobians + 1
+      status = 0
+   end subroutine pair_jacobian
 
    subroutine switch_rate_of_change(self, time, state, rate, status)
       class(switch_t), intent(in) :: self

@@ -66,6 +66,8 @@ contains
       integer :: i, k
 
       do i = 1, size(method_names)
+         ! the first step is of another order; see ode_special
+         if (method_names(i) == "hermite") cycle
          do k = 1, 2
             state = spread(1.0_wp, 1, min(2, method_facts(i)%max_components))
             call integrate_evenly(problem, method_names(i), 0.05_wp/2**(k - 1), [0.0_wp, 1.0_wp], state, trajectory)
@@ -84,7 +86,7 @@ contains
       type(trajectory_t) :: trajectory
       real(wp), allocatable :: state(:)
       real(wp) :: errors(2), order, time
-      character(len=*), parameter :: quartics(*) = [character(len=14) :: "rodas5p", "dormand_prince"]
+      character(len=*), parameter :: quartics(*) = [character(len=14) :: "rodas5p", "hermite", "dormand_prince"]
       integer :: i, k, n, hint
 
       do i = 1, size(method_names)
@@ -118,6 +120,8 @@ contains
       do i = 1, size(method_names)
          state = 1.0_wp
          problem%power = method_facts(i)%order
+         ! of the order of its first step
+         if (method_names(i) == "hermite") problem%power = 4
          call integrate_evenly(problem, method_names(i), 0.5_wp, [1.0_wp, 2.0_wp], state, trajectory)
          ! values up to 32; coefficients of tables reach 100 and are printed to 16 figures
          call check(error, abs(state(1) - 2.0_wp**problem%power) < 1.0e4_wp*epsilon(1.0_wp), &

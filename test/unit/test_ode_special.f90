@@ -6,10 +6,10 @@ module test_ode_special
    use camroller_ode, only : method_t, options_t, counters_t, integrate
    use camroller_ode_problem, only : problem_t
    use camroller_ode_methods, only : new_method
-   use camroller_ode_exponential, only : phi_functions
+   use camroller_phi, only : phi_functions
    use camroller_ode_stabilised, only : chebyshev_limit
    use camroller_trajectory, only : trajectory_t, interpolate_state
-   use ode_problems, only : decay_t, line_t, rough_t
+   use ode_problems, only : decay_t, line_t, rough_t, pair_t
    implicit none
    private
 
@@ -25,6 +25,9 @@ contains
          new_unittest("rkc: two stages where nothing decays", test_two_stages), &
          new_unittest("exprb32: functions at known arguments, and no seam between series and recurrence", test_functions), &
          new_unittest("exprb32: linear problems are solved exactly, the curve included", test_linear), &
+         new_unittest("hermite: order 6 once the first step is short", test_hermite_order), &
+         new_unittest("hermite: linear problems are solved exactly, the layer between the points included", test_hermite_linear), &
+         new_unittest("hermite: one evaluation a step", test_hermite_cost), &
          new_unittest("exprb32: more than one unknown is refused", test_refusal), &
          new_unittest("radau5: a rough Jacobian costs iterations, not accuracy", test_rough), &
          new_unittest("radau5: without convergence the step becomes smaller", test_no_convergence) &
@@ -97,19 +100,19 @@ contains
       real(wp) :: phi(3), other(3)
       integer :: i
 
-      phi = phi_functions(0.0_wp)
+      phi = phi_functions(3, 0.0_wp)
       call check(error, all(abs(phi - [1.0_wp, 0.5_wp, 1.0_wp/6.0_wp]) < epsilon(1.0_wp)), "at zero")
       if (allocated(error)) return
-      phi = phi_functions(-1.0_wp) - [1.0_wp - exp(-1.0_wp), exp(-1.0_wp), 0.5_wp - exp(-1.0_wp)]
+      phi = phi_functions(3, -1.0_wp) - [1.0_wp - exp(-1.0_wp), exp(-1.0_wp), 0.5_wp - exp(-1.0_wp)]
       call check(error, all(abs(phi) < 4.0_wp*epsilon(1.0_wp)), "at -1")
       if (allocated(error)) return
       ! limits: -1/z, -1/z - 1/z^2, -1/(2 z) - 1/z^2 - 1/z^3
-      phi = phi_functions(-1.0e5_wp) - [1.0e-5_wp, 1.0e-5_wp - 1.0e-10_wp, 0.5e-5_wp - 1.0e-10_wp + 1.0e-15_wp]
+      phi = phi_functions(3, -1.0e5_wp) - [1.0e-5_wp, 1.0e-5_wp - 1.0e-10_wp, 0.5e-5_wp - 1.0e-10_wp + 1.0e-15_wp]
       call check(error, all(abs(phi) < 4.0e-5_wp*epsilon(1.0_wp)), "at -100000")
       if (allocated(error)) return
       do i = -1, 1, 2
-         phi = phi_functions(real(i, wp))
-         other = phi_functions(i*(1.0_wp - epsilon(1.0_wp)))
+         phi = phi_functions(3, real(i, wp))
+         other = phi_functions(3, i*(1.0_wp - epsilon(1.0_wp)))
          ! the recurrence loses a figure of differences at arguments of one
          call check(error, all(abs(phi - other) < 10.0_wp*epsilon(1.0_wp)), "seam")
          if (allocated(error)) return
@@ -141,6 +144,91 @@ contains
          if (allocated(error)) return
       end do
    end subroutine test_linear
+
+   !> Integrate with steps that grow up to a largest one, whatever their error.
+   subroutine integrate_growing(problem, name, largest, finish, state, trajectory, counters, failure)
+      class(problem_t), intent(in) :: problem
+      character(len=*), intent(in) :: name
+      real(wp), intent(in) :: largest, finish
+      real(wp), intent(inout) :: state(:)
+      type(trajectory_t), intent(inout) :: trajectory
+      type(counters_t), intent(out) :: counters
+      type(error_t), allocatable, intent(out) :: failure
+
+      class(method_t), allocatable :: method
+      type(options_t) :: options
+
+      call new_method(method, name, size(state), failure)
+      if (allocated(failure)) return
+      options%tolerance = spread(1.0e3_wp, 1, size(state))
+      options%step = 1.0e-3_wp*largest
+      options%max_step = largest
+      call integrate(problem, method, options, [0.0_wp, finish], state, trajectory, counters, failure)
+   end subroutine integrate_growing
+
+   subroutine test_hermite_order(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(pair_t) :: problem
+      type(trajectory_t) :: trajectory
+      type(counters_t) :: counters
+      type(error_t), allocatable :: failure
+      real(wp) :: state(1), errors(2)
+      integer :: k
+
+      do k = 1, 2
+         state = 1.0_wp
+         call integrate_growing(problem, "hermite", 0.05_wp/2**(k - 1), 4.0_wp, state, trajectory, counters, failure)
+         call check(error, .not. allocated(failure), "fails")
+         if (allocated(error)) return
+         errors(k) = maxval(abs(trajectory%state(1, :trajectory%count) - exp(sin(trajectory%time(:trajectory%count)))))
+      end do
+      ! 64, and more or less by the next order: the relative step, times a factor of a few
+      call check(error, abs(errors(1)/errors(2) - 64.0_wp) < 0.25_wp*64.0_wp, "another order")
+   end subroutine test_hermite_order
+
+   subroutine test_hermite_linear(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(line_t) :: problem
+      type(trajectory_t) :: trajectory
+      type(counters_t) :: counters
+      type(error_t), allocatable :: failure
+      real(wp) :: state(1), time, allowed
+      integer :: k, n, hint
+
+      do k = -1, 5
+         problem%decay = 10.0_wp**k
+         state = 1.0_wp
+         call integrate_evenly(problem, "hermite", 0.5_wp, 1.0_wp, state, trajectory, counters, failure)
+         call check(error, .not. allocated(failure), "fails")
+         if (allocated(error)) return
+         hint = 1
+         do n = 0, 20
+            time = 0.05_wp*n
+            call interpolate_state(trajectory, time, hint, state)
+            ! sums of terms of the size of rate times step, with coefficients up to 50; layers with exponents up to two are a
+            ! polynomial of degree 5, which errs by z**6/6! times a product of distances below 4e-3
+            allowed = 100.0_wp*max(problem%decay, 1.0_wp)*epsilon(1.0_wp)
+            if (k < 1) allowed = allowed + (0.5_wp*problem%decay)**6*4.0e-3_wp/720.0_wp
+            call check(error, abs(state(1) - time - exp(-problem%decay*time)) < allowed, "curve")
+            if (allocated(error)) return
+         end do
+      end do
+   end subroutine test_hermite_linear
+
+   subroutine test_hermite_cost(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(decay_t) :: problem
+      type(trajectory_t) :: trajectory
+      type(counters_t) :: counters
+      type(error_t), allocatable :: failure
+      real(wp) :: state(1)
+
+      problem%decay = 100.0_wp
+      state = 2.0_wp
+      call integrate_evenly(problem, "hermite", 0.1_wp, 10.0_wp, state, trajectory, counters, failure)
+      call check(error, .not. allocated(failure) .and. counters%evaluations == counters%accepted + 1 .and. &
+         & counters%jacobians == counters%evaluations)
+   end subroutine test_hermite_cost
 
    subroutine test_refusal(error)
       type(error_type), allocatable, intent(out) :: error

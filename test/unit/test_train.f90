@@ -55,7 +55,8 @@ contains
       type(position_t) :: position
 
       position = position_t(lift, 1.0e-2_wp, -2.0e-2_wp, 0.0_wp, 0.3_wp, -0.5_wp, 0.035_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, &
-         0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp)
+         0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, &
+         & 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp)
    end function sample_position
 
    subroutine test_seat(error)

@@ -5,13 +5,15 @@ module test_derivatives
    use camroller_error, only : error_t
    use camroller_lift, only : lift_t, lift_law_t, new_lift_law, evaluate_lift
    use camroller_kinematics, only : mechanism_t, linkage_t, position_t, rotation_names, new_linkage, evaluate_position
-   use camroller_dynamics, only : train_t, stored_energy, stored_power
+   use camroller_dynamics, only : train_t, moments_t, evaluate_moments, moment_slope, stored_energy, stored_power
    use camroller_film, only : film_law_names, film_shape_t, film_line_t, groups_t, film_shape, new_film_line
    use camroller_lubricant, only : lubricant_t, oil_t, pressure_law_names, get_oil, relative_viscosity, &
       & mean_relative_viscosity
-   use camroller_traction, only : cap_names, rolling_law_names, eyring_shear, limit_shear, rolling_resistance
+   use camroller_traction, only : cap_names, rolling_law_names, eyring_shear, limit_shear, rolling_resistance, &
+      & resistance_speed_slope
+   use camroller_needle, only : bearing_torque, bearing_torque_slope
    use camroller_asperity, only : asperity_t, asperity_constants_t, new_asperity_constants
-   use camroller_load_share, only : share_t, share_load
+   use camroller_load_share, only : share_t, share_change_t, share_load, share_change
    implicit none
    private
 
@@ -30,13 +32,16 @@ contains
       testsuite = [ &
          new_unittest("finger angle: slope and curvature", test_finger), &
          new_unittest("surface travel and rolling travel: slopes", test_travel), &
+         new_unittest("arms, radius and rolling travel: slopes", test_arms), &
+         new_unittest("moments about the pivot: slope", test_moments), &
+         new_unittest("torque of the roller's bearing: slope over spin", test_bearing), &
          new_unittest("stored power is the rate of the stored energy", test_power), &
-         new_unittest("film laws: slopes over load and speed", test_film), &
+         new_unittest("film laws: slopes over load, speed and roughness", test_film), &
          new_unittest("Eyring shear: slope over sliding speed", test_eyring), &
          new_unittest("limited shear: slopes over shear and limit", test_limit), &
          new_unittest("viscosity at a point and its mean: slope over pressure", test_viscosity), &
-         new_unittest("rolling resistance: slope over load", test_rolling), &
-         new_unittest("load share: slopes over load with a growing area", test_share) &
+         new_unittest("rolling resistance: slopes over load and speed", test_rolling), &
+         new_unittest("load share: slopes over load with a growing area, over speed and over radius", test_share) &
          ]
    end subroutine collect_derivatives
 
@@ -117,6 +122,71 @@ contains
       end do
    end subroutine test_travel
 
+   subroutine test_arms(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(linkage_t) :: linkage
+      type(lift_law_t) :: law
+      type(position_t) :: low, mid, high
+      ! Scale of the arms and of their slopes [m]; slopes by differences and as given [m/rad]
+      real(wp), parameter :: scale = 0.03_wp
+      real(wp) :: differences(6), slopes(6)
+      integer :: i, sense
+
+      do sense = 1, size(rotation_names)
+         call make_mechanism(rotation_names(sense), linkage, law)
+         do i = -13, 13
+            call three_positions(linkage, law, 0.09_wp*real(i, wp) + 0.01_wp, low, mid, high)
+            differences = [high%valve_arm - low%valve_arm, high%normal_arm - low%normal_arm, &
+               & high%parallel_arm - low%parallel_arm, high%tangent_arm - low%tangent_arm, &
+               & high%equivalent_radius - low%equivalent_radius, high%rolling_travel_slope - low%rolling_travel_slope]/(2.0_wp*h)
+            slopes = [mid%valve_arm_slope, mid%normal_arm_slope, mid%parallel_arm_slope, mid%tangent_arm_slope, &
+               & mid%radius_slope, mid%rolling_travel_curvature]
+            ! radius and travel hold the lift's second derivative, whose third derivative is 100 times its value
+            call check(error, all(abs(differences - slopes) < 100.0_wp*tolerance*scale), rotation_names(sense))
+            if (allocated(error)) return
+            call check(error, abs((high%finger_curvature - low%finger_curvature)/(2.0_wp*h) - mid%finger_jerk) &
+               & < 100.0_wp*tolerance, "third derivative of the finger's angle")
+            if (allocated(error)) return
+         end do
+      end do
+   end subroutine test_arms
+
+   subroutine test_moments(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(linkage_t) :: linkage
+      type(lift_law_t) :: law
+      type(train_t) :: train
+      type(position_t) :: low, mid, high
+      type(moments_t) :: less, more
+      ! Cam speed [rad/s]; gas force [N] and its slope [N/rad]; scale: spring force on its arm [N m]
+      real(wp), parameter :: omega = 63.0_wp, gas = 300.0_wp, gas_slope = -150.0_wp, scale = 400.0_wp*0.035_wp
+      integer :: i
+
+      ! a soft seat, so that some of the angles lie where it still carries
+      train = train_t(0.0432_wp, 3.3e-5_wp, 25.0e3_wp, 8.4e-3_wp, 172.0_wp, 3.44e-3_wp)
+      call make_mechanism(rotation_names(1), linkage, law)
+      do i = -13, 13
+         call three_positions(linkage, law, 0.09_wp*real(i, wp) + 0.01_wp, low, mid, high)
+         call evaluate_moments(train, low, omega, gas - gas_slope*h, less)
+         call evaluate_moments(train, high, omega, gas + gas_slope*h, more)
+         call check(error, abs((more%total - less%total)/(2.0_wp*h) - moment_slope(train, mid, omega, gas, gas_slope)) &
+            & < 100.0_wp*tolerance*scale)
+         if (allocated(error)) return
+      end do
+   end subroutine test_moments
+
+   subroutine test_bearing(error)
+      type(error_type), allocatable, intent(out) :: error
+      ! Spins [rad/s]; friction coefficient [-], load [N], radius [m], spin of reversal [rad/s]; torque [N m]
+      real(wp), parameter :: spins(4) = [-3.0_wp, 0.0_wp, 0.4_wp, 20.0_wp]
+      real(wp), parameter :: friction = 0.0015_wp, load = 500.0_wp, radius = 5.0e-3_wp, reversal = 0.6_wp
+      real(wp), parameter :: torque = friction*load*radius
+
+      call check(error, all(abs((bearing_torque(friction, load, radius, spins + h*reversal, reversal) &
+         & - bearing_torque(friction, load, radius, spins - h*reversal, reversal))/(2.0_wp*h) &
+         & - reversal*bearing_torque_slope(friction, load, radius, spins, reversal)) < tolerance*torque))
+   end subroutine test_bearing
+
    subroutine test_power(error)
       type(error_type), allocatable, intent(out) :: error
       type(linkage_t) :: linkage
@@ -138,12 +208,12 @@ contains
    end subroutine test_power
 
    !> Logarithms of minimum and central film at groups changed by a factor
-   function film_logs(law, groups, load_factor, speed_factor) result(logs)
+   function film_logs(law, groups, load_factor, speed_factor, roughness_factor) result(logs)
       !> Place in the list of laws
       integer, intent(in) :: law
       type(groups_t), intent(in) :: groups
-      !> Factors of load and speed [-]
-      real(wp), intent(in) :: load_factor, speed_factor
+      !> Factors of load, speed and roughness [-]
+      real(wp), intent(in) :: load_factor, speed_factor, roughness_factor
       !> Logarithms [-]
       real(wp) :: logs(2)
       type(groups_t) :: changed
@@ -152,6 +222,7 @@ contains
       changed = groups
       changed%load = groups%load*load_factor
       changed%speed = groups%speed*speed_factor
+      changed%roughness = groups%roughness*roughness_factor
       call film_shape(law, changed, shape)
       logs = log([shape%minimum, shape%central])
    end function film_logs
@@ -173,15 +244,23 @@ contains
                groups%load = 2.0_wp*10.0_wp**i
                groups%speed = 3.0_wp*10.0_wp**k
                call film_shape(law, groups, shape)
-               quotient = (film_logs(law, groups, exp(h), 1.0_wp) - film_logs(law, groups, exp(-h), 1.0_wp))/(2.0_wp*h)
+               quotient = film_logs(law, groups, exp(h), 1.0_wp, 1.0_wp) - film_logs(law, groups, exp(-h), 1.0_wp, 1.0_wp)
+               quotient = quotient/(2.0_wp*h)
                call check(error, all(abs(quotient - [shape%minimum_load_slope, &
                   shape%central_load_slope]) < tolerance), &
                   "load, "//film_law_names(law))
                if (allocated(error)) return
-               quotient = (film_logs(law, groups, 1.0_wp, exp(h)) - film_logs(law, groups, 1.0_wp, exp(-h)))/(2.0_wp*h)
+               quotient = film_logs(law, groups, 1.0_wp, exp(h), 1.0_wp) - film_logs(law, groups, 1.0_wp, exp(-h), 1.0_wp)
+               quotient = quotient/(2.0_wp*h)
                call check(error, all(abs(quotient - [shape%minimum_speed_slope, &
                   shape%central_speed_slope]) < tolerance), &
                   "speed, "//film_law_names(law))
+               if (allocated(error)) return
+               quotient = film_logs(law, groups, 1.0_wp, 1.0_wp, exp(h)) - film_logs(law, groups, 1.0_wp, 1.0_wp, exp(-h))
+               quotient = quotient/(2.0_wp*h)
+               call check(error, all(abs(quotient - [shape%minimum_roughness_slope, &
+                  shape%central_roughness_slope]) < tolerance), &
+                  "roughness, "//film_law_names(law))
                if (allocated(error)) return
             end do
          end do
@@ -292,56 +371,105 @@ contains
             call rolling_resistance(law, 1.0e-11_wp, load*exp(h), 2.0e11_wp, 0.005_wp, 0.0137_wp, 2.2e-8_wp, high, unused)
             call check(error, abs(log(high/low)/(2.0_wp*h) - slope) < 10.0_wp*tolerance, rolling_law_names(law))
             if (allocated(error)) return
+            call rolling_resistance(law, 1.0e-11_wp*exp(-h), load, 2.0e11_wp, 0.005_wp, 0.0137_wp, 2.2e-8_wp, low, unused)
+            call rolling_resistance(law, 1.0e-11_wp*exp(h), load, 2.0e11_wp, 0.005_wp, 0.0137_wp, 2.2e-8_wp, high, unused)
+            call check(error, abs(log(high/low)/(2.0_wp*h) - resistance_speed_slope(law, slope)) < 10.0_wp*tolerance, &
+               & "speed, "//rolling_law_names(law))
+            if (allocated(error)) return
          end do
       end do
    end subroutine test_rolling
 
+   !> Load share with load over radius, speed and radius moved along their logarithms.
+   subroutine moved_share(law, groups, q, u, r, share, line, load)
+      !> Place in the list of laws
+      integer, intent(in) :: law
+      type(groups_t), intent(in) :: groups
+      !> Moves of load over radius, speed group and radius [-]
+      real(wp), intent(in) :: q, u, r
+      type(share_t), intent(out) :: share
+      type(film_line_t), intent(out) :: line
+      !> Load over E' R L [-]
+      real(wp), intent(out) :: load
+      type(asperity_constants_t) :: constants
+      type(groups_t) :: moved
+      real(wp), parameter :: modulus = 2.0e11_wp
+
+      call new_asperity_constants(constants, asperity_t(), modulus)
+      moved = groups
+      moved%speed = groups%speed*exp(u)
+      moved%roughness = groups%roughness*exp(-r)
+      load = groups%load*exp(q)
+      call new_film_line(line, law, moved)
+      ! A_a = 2 L sqrt(8 W R/(pi L E')), so A_a/(E' R L) = sqrt(32/pi W*)/E'
+      call share_load(line, load, share, constants, sqrt(32.0_wp/acos(-1.0_wp)*load)/modulus)
+   end subroutine moved_share
+
    subroutine test_share(error)
       type(error_type), allocatable, intent(out) :: error
-      type(asperity_constants_t) :: constants
       type(film_line_t) :: line
       type(groups_t) :: groups
       type(share_t) :: low, mid, high
-      ! Load over E' R L [-], apparent area over E' R L for unit load [1/Pa]
-      real(wp) :: load, area
-      real(wp), parameter :: modulus = 2.0e11_wp
-      integer :: i, k, law
+      type(share_change_t) :: change
+      ! Direction: load over radius, speed, radius; unit moves along it [-]; load over E' R L [-]
+      real(wp) :: d(3), load, unused
+      integer :: i, k, law, direction
 
-      call new_asperity_constants(constants, asperity_t(), modulus)
       groups%material = 4500.0_wp
       groups%roughness = 4.0e-5_wp
       groups%hardness = 0.03_wp
-      groups%load = 0.0_wp
-      ! A_a = 2 L sqrt(8 W R/(pi L E')), so A_a/(E' R L) = sqrt(32/pi W*)/E'
-      area = sqrt(32.0_wp/acos(-1.0_wp))/modulus
       do law = 1, size(film_law_names)
          do k = 1, 6
             groups%speed = 1.0e-13_wp*6.0_wp**k
-            call new_film_line(line, law, groups)
             do i = 0, 6
-               load = 3.0e-6_wp*3.0_wp**i
-               call share_load(line, load*exp(-h), low, constants, area*sqrt(load*exp(-h)))
-               call share_load(line, load, mid, constants, area*sqrt(load))
-               call share_load(line, load*exp(h), high, constants, area*sqrt(load*exp(h)))
-               ! beyond the part of the load at which slopes are held the film is all but dry
-               if (mid%asperity_load > 0.9_wp*load .or. mid%film_min > 7.99_wp*groups%roughness) cycle
-               call check(error, abs(log(high%film_min/low%film_min)/(2.0_wp*h) - mid%film_min_slope) < 10.0_wp*tolerance, &
-                  "minimum film, "//film_law_names(law))
-               if (allocated(error)) return
-               if (mid%film_central > 1.001_wp*mid%film_min) then
-                  call check(error, abs(log(high%film_central/low%film_central)/(2.0_wp*h) - mid%film_central_slope) &
-                     < 10.0_wp*tolerance, "central film, "//film_law_names(law))
+               groups%load = 3.0e-6_wp*3.0_wp**i
+               do direction = 1, 3
+                  d = 0.0_wp
+                  d(direction) = h
+                  call moved_share(law, groups, -d(1), -d(2), -d(3), low, line, unused)
+                  call moved_share(law, groups, d(1), d(2), d(3), high, line, unused)
+                  call moved_share(law, groups, 0.0_wp, 0.0_wp, 0.0_wp, mid, line, load)
+                  if (mid%film_min > 7.99_wp*groups%roughness .and. mid%film_min < 8.01_wp*groups%roughness) cycle
+                  d(direction) = 1.0_wp
+                  change = share_change(line, load, mid, d(1), d(2), d(3))
+                  call compare_shares(error, low, mid, high, change, load, direction, film_law_names(law))
                   if (allocated(error)) return
-               end if
-               call check(error, abs((high%asperity_load - low%asperity_load)/(2.0_wp*h) - mid%asperity_slope) &
-                  < 10.0_wp*tolerance*load, "asperity load, "//film_law_names(law))
-               if (allocated(error)) return
-               call check(error, abs((high%real_area_ratio - low%real_area_ratio)/(2.0_wp*h) - mid%real_area_slope) &
-                  < 10.0_wp*tolerance, "real area, "//film_law_names(law))
-               if (allocated(error)) return
+               end do
             end do
          end do
       end do
    end subroutine test_share
+
+   !> Changes of a load share against differences.
+   subroutine compare_shares(error, low, mid, high, change, load, direction, law)
+      type(error_type), allocatable, intent(out) :: error
+      type(share_t), intent(in) :: low, mid, high
+      type(share_change_t), intent(in) :: change
+      !> Load over E' R L [-]
+      real(wp), intent(in) :: load
+      integer, intent(in) :: direction
+      character(len=*), intent(in) :: law
+      character(len=*), parameter :: directions(3) = ["load  ", "speed ", "radius"]
+      ! Film laws are steep where the film carries little [-]
+      real(wp), parameter :: allowed = 10.0_wp*tolerance
+
+      call check(error, abs(log(high%film_min/low%film_min)/(2.0_wp*h) - change%film_min) < allowed, &
+         & directions(direction)//", minimum film, "//law)
+      if (allocated(error)) return
+      if (abs(mid%film_central - mid%film_min) > 0.001_wp*mid%film_min) then
+         call check(error, abs(log(high%film_central/low%film_central)/(2.0_wp*h) - change%film_central) < allowed, &
+            & directions(direction)//", central film, "//law)
+         if (allocated(error)) return
+      end if
+      call check(error, abs((high%asperity_load - low%asperity_load)/(2.0_wp*h) - change%asperity_load) < allowed*load, &
+         & directions(direction)//", asperity load, "//law)
+      if (allocated(error)) return
+      call check(error, abs((high%real_area_ratio - low%real_area_ratio)/(2.0_wp*h) - change%real_area_ratio) < allowed, &
+         & directions(direction)//", real area, "//law)
+      if (allocated(error)) return
+      if (mid%film_load < 0.01_wp*load) return
+      call check(error, abs(log(high%film_load/low%film_load)/(2.0_wp*h) - change%film_load) < 100.0_wp*allowed, &
+         & directions(direction)//", load of the film, "//law)
+   end subroutine compare_shares
 
 end module test_derivatives

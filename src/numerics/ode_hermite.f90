@@ -1,0 +1,350 @@
+!> Exponential Hermite method of order 6, of order 4 in the first step: one evaluation of the rate with its derivatives a step.
+!>
+!> Layer: numerics. In: nothing. Out: a `method_t` for problems of one component. About the start of a step h the rate is
+!> `f + J (y - y_n) + v (t - t_n) + R(t)`. The linear part is solved exactly. R, which vanishes there with its slope, is taken
+!> as the polynomial of degree 5 through its values and slopes at the starts of this step and the one before and at the end of
+!> this one:
+!>
+!>     y(t_n + x h) = y_n + x h (phi_1(x z) f + x h phi_2(x z) v + sum over k = 2 to 5 of k! phi_(k+1)(x z) x^k r_k),
+!>     R(t_n + x h) = r_2 x^2 + ... + r_5 x^5,    z = h J
+!>
+!> The end is predicted by the cubic through the two points that are known, in the first step after a stop by R = 0. Rate and
+!> derivatives are evaluated there once, and one step of Newton's method on the formula above, with these derivatives, corrects
+!> state and rate. The error estimate is what the formula loses without the slope at the earliest point (in the first step:
+!> without the slope at the end), at the end or in the middle of the step, whichever is larger. No state but y_n enters, so
+!> steps may change at will.
+!>
+!> The formula is ours; it joins the linearised exponential multistep methods of Hochbruck and Ostermann, BIT Numer. Math. 51
+!> (2011) 889, with second derivatives as in Enright, SIAM J. Numer. Anal. 11 (1974) 321.
+module camroller_ode_hermite
+   use camroller_kinds, only : wp
+   use camroller_ode, only : problem_t, method_t, counters_t
+   use camroller_phi, only : phi_functions
+   use camroller_trajectory, only : curve_numbers
+   implicit none
+   private
+
+   public :: hermite_method_t, new_hermite_method
+
+   !> A point with its rate and derivatives
+   type :: point_t
+      !> Time [time]
+      real(wp) :: time = huge(1.0_wp)
+      !> State [state]
+      real(wp) :: state = 0.0_wp
+      !> Rate [state/time]
+      real(wp) :: rate = 0.0_wp
+      !> Derivatives of the rate over state [1/time] and time [state/time^2]
+      real(wp) :: slope = 0.0_wp, time_slope = 0.0_wp
+   end type point_t
+
+   !> The method
+   type, extends(method_t) :: hermite_method_t
+      !> Start of the step before; start and end of the step tried last
+      type(point_t) :: before, start, end
+   contains
+      procedure :: try_step => try_hermite_step
+   end type hermite_method_t
+
+   !> The remainder over the square of the place, R/x^2, as a cubic in Newton's form on the places 1, 1, s, s:
+   !> `value + (x - 1) (slope + (x - 1) (bend + (x - s) twist))`
+   type :: remainder_t
+      !> Coefficients, which are divided differences [state/time]
+      real(wp) :: value = 0.0_wp, slope = 0.0_wp, bend = 0.0_wp, twist = 0.0_wp
+   end type remainder_t
+
+   !> Largest growth exponent of a step [-]; beyond it a smaller step is taken
+   real(wp), parameter :: largest_growth = 10.0_wp
+   !> Powers of the step that the estimates grow with, in the first step and later
+   integer, parameter :: first_order = 4, later_order = 6
+   !> Smallest denominator of Newton's step [-]; below it a smaller step is taken
+   real(wp), parameter :: least_denominator = 0.1_wp
+   !> Factorials of 2 to 5 [-]
+   real(wp), parameter :: factorials(0:3) = [2.0_wp, 6.0_wp, 24.0_wp, 120.0_wp]
+
+contains
+
+   !> Make the method.
+   subroutine new_hermite_method(method)
+      !> The method
+      type(hermite_method_t), intent(out) :: method
+
+      method%error_order = first_order
+      method%needs_jacobian = .true.
+      method%gives_rate = .true.
+      method%proportional = 1.0_wp
+      method%integral = 0.0_wp
+      method%has_curve = .true.
+      allocate (method%bends(1, curve_numbers))
+   end subroutine new_hermite_method
+
+   !> One step.
+   subroutine try_hermite_step(self, problem, time, state, rate, step, new_state, new_rate, error_estimate, counters, status)
+      !> The method and the derivatives at this point; out: those at the end, too
+      class(hermite_method_t), intent(inout) :: self
+      !> The problem
+      class(problem_t), intent(in) :: problem
+      !> Time at the start of the step [time]
+      real(wp), intent(in) :: time
+      !> State there [state]
+      real(wp), intent(in) :: state(:)
+      !> Rate there [state/time]
+      real(wp), intent(in) :: rate(:)
+      !> Size of the step [time]
+      real(wp), intent(in) :: step
+      !> State at the end [state]
+      real(wp), intent(out) :: new_state(:)
+      !> Rate at the end [state/time]
+      real(wp), intent(out) :: new_rate(:)
+      !> Estimate of the error made in this step [state]
+      real(wp), intent(out) :: error_estimate(:)
+      !> Work done so far
+      type(counters_t), intent(inout) :: counters
+      !> 0 fine, positive: try a smaller step, negative: give up
+      integer, intent(out) :: status
+
+      type(remainder_t) :: remainder, follower
+      ! Functions of h J; weights of x^2 to x^5 in the remainder [-]
+      real(wp) :: phi(6), weights(0:3)
+      ! Linear part of the new state; state predicted; correction [state]
+      real(wp) :: linear, predicted, correction
+      ! Place of the point before [-]; R/x^2 there, and its slope [state/time]
+      real(wp) :: s, past, past_slope
+      ! One minus the derivative of the formula over the state at the end [-]
+      real(wp) :: denominator
+
+      new_state = state
+      new_rate = rate
+      error_estimate = 0.0_wp
+      call remember(self, time, state(1), rate(1))
+      status = 1
+      if (step*self%start%slope > largest_growth) return
+      phi = phi_functions(6, step*self%start%slope)
+      weights = factorials*phi(3:)
+      counters%factorisations = counters%factorisations + 1
+      linear = state(1) + step*(phi(1)*rate(1) + step*phi(2)*self%start%time_slope)
+
+      call look_back(self%start, self%before, step, s, past, past_slope)
+      predicted = linear + step*((past - past_slope*s)*weights(0) + past_slope*weights(1))
+      if (.not. abs(predicted) < huge(1.0_wp)) return
+      call problem%linearise(time + step, [predicted], self%horizon, self%there, counters, status)
+      if (status /= 0) return
+
+      call close_remainder(self, step, predicted, s, past, past_slope, remainder, follower)
+      denominator = 1.0_wp - step*integral_of(follower, s, weights)
+      status = 1
+      if (.not. denominator > least_denominator) return
+      status = 0
+      correction = (linear + step*integral_of(remainder, s, weights) - predicted)/denominator
+      remainder%value = remainder%value + correction*follower%value
+      remainder%slope = remainder%slope + correction*follower%slope
+      remainder%bend = remainder%bend + correction*follower%bend
+      remainder%twist = remainder%twist + correction*follower%twist
+
+      new_state(1) = predicted + correction
+      new_rate(1) = self%there%rate(1) + self%there%jacobian(1, 1)*correction
+      self%there%rate(1) = new_rate(1)
+      self%end%time = time + step
+      self%end%state = new_state(1)
+      error_estimate(1) = step*abs(loss_of(self, step, remainder, s, weights))
+      call bend_curve(self, step, remainder, s, new_state(1))
+   end subroutine try_hermite_step
+
+   !> Keep the start of the step, and with it the start of the one before where this one goes on from its end.
+   pure subroutine remember(self, time, state, rate)
+      !> The method and the derivatives at this point
+      type(hermite_method_t), intent(inout) :: self
+      !> Time at the start of the step [time], state [state] and rate [state/time] there
+      real(wp), intent(in) :: time, state, rate
+
+      ! Is this another try at the same point, does it follow the step before?
+      logical :: is_repeated, follows
+
+      is_repeated = .not. (abs(time - self%start%time) > 0.0_wp .or. abs(state - self%start%state) > 0.0_wp)
+      if (is_repeated) return
+      follows = .not. (abs(time - self%end%time) > 0.0_wp .or. abs(state - self%end%state) > 0.0_wp)
+      self%before = point_t()
+      if (follows) self%before = self%start
+      self%error_order = merge(later_order, first_order, follows)
+      self%start = point_t(time, state, rate, self%here%jacobian(1, 1), self%here%time_slope(1))
+   end subroutine remember
+
+   !> What the step before says of the remainder of this one.
+   pure subroutine look_back(start, before, step, s, past, past_slope)
+      !> Start of this step, start of the one before
+      type(point_t), intent(in) :: start, before
+      !> Size of this step [time]
+      real(wp), intent(in) :: step
+      !> Place of the start of the step before, negative; positive where there is none [-]
+      real(wp), intent(out) :: s
+      !> R/x^2 there, and its slope with the place [state/time]
+      real(wp), intent(out) :: past, past_slope
+
+      ! Slope of R with the place, over the place [state/time]
+      real(wp) :: slope
+
+      s = 1.0_wp
+      past = 0.0_wp
+      past_slope = 0.0_wp
+      if (before%time > start%time) return
+      associate (back => before%time - start%time)
+         s = back/step
+         past = (before%rate - start%rate - start%slope*(before%state - start%state) - start%time_slope*back)/s**2
+         slope = step*(before%time_slope - start%time_slope + (before%slope - start%slope)*before%rate)/s
+      end associate
+      past_slope = (slope - 2.0_wp*past)/s
+   end subroutine look_back
+
+   !> The remainder with what the end says of it, and its derivative over the state at the end.
+   pure subroutine close_remainder(self, step, predicted, s, past, past_slope, remainder, follower)
+      !> The method with the derivatives at the end
+      type(hermite_method_t), intent(in) :: self
+      !> Size of the step [time]
+      real(wp), intent(in) :: step
+      !> State where rate and derivatives at the end have been evaluated [state]
+      real(wp), intent(in) :: predicted
+      !> Place of the start of the step before [-]; R/x^2 there and its slope [state/time]
+      real(wp), intent(in) :: s, past, past_slope
+      !> The remainder [state/time], its derivative [1/time]
+      type(remainder_t), intent(out) :: remainder, follower
+
+      ! Change of the Jacobian [1/time], slope of R with the place [state/time], distance of the places [-]
+      real(wp) :: change, slope, distance
+
+      change = self%there%jacobian(1, 1) - self%start%slope
+      slope = step*(self%there%time_slope(1) - self%start%time_slope + change*self%there%rate(1))
+      remainder%value = self%there%rate(1) - self%start%rate - self%start%slope*(predicted - self%start%state) &
+         & - self%start%time_slope*step
+      remainder%slope = slope - 2.0_wp*remainder%value
+      ! The derivatives of J and v over the state are not known and left out
+      follower%value = change
+      follower%slope = step*change*self%there%jacobian(1, 1) - 2.0_wp*change
+      if (s > 0.0_wp) return
+      distance = 1.0_wp - s
+      associate (secant => (remainder%value - past)/distance, follower_secant => follower%value/distance)
+         remainder%bend = (remainder%slope - secant)/distance
+         remainder%twist = (remainder%bend - (secant - past_slope)/distance)/distance
+         follower%bend = (follower%slope - follower_secant)/distance
+         follower%twist = (follower%bend - follower_secant/distance)/distance
+      end associate
+   end subroutine close_remainder
+
+   !> Coefficients of x^2 to x^5 in a remainder.
+   pure function coefficients_of(remainder, s) result(r)
+      !> The remainder [state/time]
+      type(remainder_t), intent(in) :: remainder
+      !> Place of the start of the step before [-]
+      real(wp), intent(in) :: s
+      !> Coefficients [state/time]
+      real(wp) :: r(0:3)
+
+      r(0) = remainder%value - remainder%slope + remainder%bend - s*remainder%twist
+      r(1) = remainder%slope - 2.0_wp*remainder%bend + (1.0_wp + 2.0_wp*s)*remainder%twist
+      r(2) = remainder%bend - (2.0_wp + s)*remainder%twist
+      r(3) = remainder%twist
+   end function coefficients_of
+
+   !> Integral of a remainder with weights for x^2 to x^5.
+   pure function integral_of(remainder, s, weights) result(integral)
+      !> The remainder [state/time]
+      type(remainder_t), intent(in) :: remainder
+      !> Place of the start of the step before [-]
+      real(wp), intent(in) :: s
+      !> Weights [-]
+      real(wp), intent(in) :: weights(0:3)
+      !> Integral [state/time]
+      real(wp) :: integral
+
+      integral = sum(coefficients_of(remainder, s)*weights)
+   end function integral_of
+
+   !> What the formula of the next lower order leaves out, at the end or in the middle of the step.
+   !>
+   !> Where the decay is fast against the step, the state follows the remainder at once, and an error in the middle is gone at
+   !> the end.
+   pure function loss_of(self, step, remainder, s, weights) result(loss)
+      !> The method
+      type(hermite_method_t), intent(in) :: self
+      !> Size of the step [time]
+      real(wp), intent(in) :: step
+      !> The remainder [state/time]
+      type(remainder_t), intent(in) :: remainder
+      !> Place of the start of the step before [-]
+      real(wp), intent(in) :: s
+      !> Weights of x^2 to x^5 in the remainder [-]
+      real(wp), intent(in) :: weights(0:3)
+      !> The larger of both, its size [state/time]
+      real(wp) :: loss
+
+      type(remainder_t) :: part
+      ! Functions of h J/2 [-]
+      real(wp) :: phi(6)
+
+      if (s > 0.0_wp) then
+         part%slope = remainder%slope
+      else
+         part%twist = remainder%twist
+      end if
+      phi = phi_functions(6, 0.5_wp*step*self%start%slope)
+      loss = max(abs(integral_of(part, s, weights)), &
+         & abs(integral_of(part, s, factorials*phi(3:)*[0.125_wp, 0.0625_wp, 0.03125_wp, 0.015625_wp])))
+   end function loss_of
+
+   !> The method's own solution between both ends.
+   !>
+   !> Taken apart into a decaying layer and a polynomial of degree 5, which is exact but cancels for small exponents; for these
+   !> by the polynomial of degree 5 through its slope at the start and its values at the quarters.
+   pure subroutine bend_curve(self, step, remainder, s, new_state)
+      !> The method
+      type(hermite_method_t), intent(inout) :: self
+      !> Size of the step [time]
+      real(wp), intent(in) :: step
+      !> The remainder [state/time]
+      type(remainder_t), intent(in) :: remainder
+      !> Place of the start of the step before [-]
+      real(wp), intent(in) :: s
+      !> State at the end [state]
+      real(wp), intent(in) :: new_state
+
+      ! Exponent from which on the solution is taken apart [-]
+      real(wp), parameter :: far = 2.0_wp
+      ! Exponent, place on the step, functions [-]
+      real(wp) :: z, place, phi(6)
+      ! Factorials times the polynomial of the rate, and their sums over powers of the exponent [state/time]
+      real(wp) :: rates(0:5), sums(0:5)
+      ! Change over the step, what the curve adds at the quarters [state]
+      real(wp) :: change, bend(3)
+      integer :: i
+
+      z = step*self%start%slope
+      rates = [self%start%rate, step*self%start%time_slope, factorials*coefficients_of(remainder, s)]
+      associate (b => self%bends(1, :))
+         b = 0.0_wp
+         if (abs(z) > far) then
+            sums(5) = rates(5)/z
+            do i = 4, 0, -1
+               sums(i) = (rates(i) + sums(i + 1))/z
+            end do
+            b(4) = step*sums(5)/120.0_wp
+            b(3) = b(4) + step*sums(4)/24.0_wp
+            b(2) = b(3) + step*sums(3)/6.0_wp
+            b(1) = b(2) + step*sums(2)/2.0_wp
+            b(5) = step*sums(0)
+            b(6) = z
+         else
+            change = new_state - self%start%state
+            b(1) = step*self%start%rate - change
+            do i = 1, 3
+               place = 0.25_wp*i
+               phi = phi_functions(6, place*z)
+               bend(i) = place*step*sum(rates*phi*[1.0_wp, place, place**2, place**3, place**4, place**5])
+               bend(i) = ((bend(i) - place*change)/(place*(1.0_wp - place)) - b(1))/place
+            end do
+            b(4) = 8.0_wp*(bend(1) - 2.0_wp*bend(2) + bend(3))
+            b(3) = 4.0_wp*(bend(2) - bend(1)) - 0.75_wp*b(4)
+            b(2) = bend(2) - 0.5_wp*b(3) - 0.25_wp*b(4)
+         end if
+      end associate
+   end subroutine bend_curve
+
+end module camroller_ode_hermite

@@ -1,0 +1,197 @@
+!> Derivatives of the roller equation over sliding speed and cam angle, against central differences of its right-hand side.
+module test_spin_slopes
+   use testdrive, only : unittest_type, new_unittest, error_type, check
+   use camroller_kinds, only : wp, degree
+   use camroller_case, only : case_t
+   use camroller_model, only : model_t
+   use camroller_kinematics, only : rotation_names
+   use camroller_film, only : film_law_names
+   use camroller_lubricant, only : pressure_law_names
+   use camroller_spin, only : spin_problem_t
+   use camroller_ode_problem, only : linear_t, counters_t, new_linear
+   use reference_cases, only : thesis_case, source_case, skewed_case, make_model, set_point, add_gas_force, point_speeds, &
+      point_viscosities
+   implicit none
+   private
+
+   public :: collect_spin_slopes
+
+   !> Sliding speeds over the radius of the cam times its speed [-]
+   real(wp), parameter :: slips(6) = [-0.3_wp, -1.0e-2_wp, 1.0e-5_wp, 1.0e-3_wp, 3.0e-2_wp, 0.5_wp]
+   !> Step of the differences, relative [-]: the cube root of round-off
+   real(wp), parameter :: h = 6.0e-6_wp
+   !> Difference allowed: truncation by third derivatives up to 1e4 times the first, h^2 1e4, and round-off epsilon/h [-]
+   real(wp), parameter :: tolerance = 4.0e-7_wp
+   !> Radius that speeds are measured by [m]
+   real(wp), parameter :: radius = 0.02_wp
+
+contains
+
+   subroutine collect_spin_slopes(testsuite)
+      type(unittest_type), allocatable, intent(out) :: testsuite(:)
+
+      testsuite = [ &
+         new_unittest("closed balance: every film law, either sense of rotation", test_film_laws), &
+         new_unittest("closed balance: every viscosity and shear law", test_shear_laws), &
+         new_unittest("the source's bookkeeping", test_source), &
+         new_unittest("without asperities, bearing and guide; with gas force", test_effects), &
+         new_unittest("with a given part of the boundary friction, as sliding and sticking have it", test_given_share), &
+         new_unittest("without contact only the kinematics is left", test_no_contact) &
+         ]
+   end subroutine collect_spin_slopes
+
+   !> Compare at angles of dwell, ramp and event and all slips.
+   subroutine compare(error, model, words, share)
+      type(error_type), allocatable, intent(out) :: error
+      type(model_t), intent(in), target :: model
+      character(len=*), intent(in) :: words
+      !> Mobilised part of the boundary friction, where given [-]
+      real(wp), intent(in), optional :: share
+      type(spin_problem_t) :: problem
+      type(linear_t) :: linear
+      type(counters_t) :: counters
+      ! Angle [rad], sliding speed and its step [m/s], rates [m/s/rad]
+      real(wp) :: angle, state(1), step, low(1), high(1)
+      ! Derivatives by differences [1/rad], [m/s/rad^2]; size of the latter [m/s/rad^2]
+      real(wp) :: slope, time_slope, scale
+      integer :: i, k, status
+
+      problem%model => model
+      if (present(share)) problem%mobilised = share
+      call new_linear(linear, 1)
+      do i = -9, 9
+         angle = (7*i + 1.1_wp)*degree
+         do k = 1, size(slips)
+            state = slips(k)*radius*model%speed
+            call problem%linearise(angle, state, angle + 1.0_wp, linear, counters, status)
+            call check(error, status, 0)
+            if (allocated(error)) return
+            ! traction saturates over sliding speeds of a thousandth of the largest
+            step = h*max(abs(state(1)), 1.0e-4_wp*radius*model%speed)
+            call problem%get_rate(angle, state - step, low, status)
+            call problem%get_rate(angle, state + step, high, status)
+            slope = (high(1) - low(1))/(2.0_wp*step)
+            scale = maxval(abs([low, high]))
+            call check(error, abs(slope - linear%jacobian(1, 1)) < tolerance*abs(slope) + 1.0e-14_wp*scale/step + 1.0e-9_wp, &
+               & "over the sliding speed, "//words)
+            if (allocated(error)) return
+            call problem%get_rate(angle - h, state, low, status)
+            call problem%get_rate(angle + h, state, high, status)
+            time_slope = (high(1) - low(1))/(2.0_wp*h)
+            call check(error, abs(time_slope - linear%time_slope(1)) < 10.0_wp*tolerance*(abs(time_slope) + scale), &
+               & "over the cam angle, "//words)
+            if (allocated(error)) return
+         end do
+      end do
+   end subroutine compare
+
+   subroutine test_film_laws(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: case
+      type(model_t) :: model
+      integer :: law, sense
+
+      do law = 1, size(film_law_names)
+         do sense = 1, 2
+            case = skewed_case(rotation_names(sense))
+            case%film%law = film_law_names(law)
+            call set_point(case, point_speeds(sense), point_viscosities(1 + mod(law, 3)))
+            call make_model(case, model, error)
+            if (allocated(error)) return
+            call compare(error, model, trim(film_law_names(law))//", "//rotation_names(sense))
+            if (allocated(error)) return
+         end do
+      end do
+   end subroutine test_film_laws
+
+   subroutine test_shear_laws(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: case
+      type(model_t) :: model
+      integer :: law, shear
+
+      do law = 1, size(pressure_law_names)
+         do shear = 1, 2
+            case = thesis_case()
+            case%lubricant%pressure_law = pressure_law_names(law)
+            case%traction%shear_law = merge("newtonian", "eyring   ", shear == 1)
+            case%traction%eyring_stress = 5.0e6_wp
+            case%asperity%film_shear_strength = 2.0e6_wp
+            case%traction%rolling_law = merge("goksem_hargreaves", "biboulet_houpert ", law == 2)
+            call set_point(case, point_speeds(law), point_viscosities(1 + shear))
+            call make_model(case, model, error)
+            if (allocated(error)) return
+            call compare(error, model, trim(pressure_law_names(law))//", "//case%traction%shear_law)
+            if (allocated(error)) return
+         end do
+      end do
+   end subroutine test_shear_laws
+
+   subroutine test_source(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: case
+      type(model_t) :: model
+      integer :: i
+
+      do i = 1, 3
+         case = source_case()
+         if (i == 2) case%spring%load_arm = "exact"
+         if (i == 3) case%spring%seating = "maximum"
+         call set_point(case, point_speeds(i), point_viscosities(i))
+         call make_model(case, model, error)
+         if (allocated(error)) return
+         call compare(error, model, "source")
+         if (allocated(error)) return
+      end do
+   end subroutine test_source
+
+   subroutine test_effects(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: case
+      type(model_t) :: model
+
+      case = thesis_case()
+      call add_gas_force(case)
+      call make_model(case, model, error)
+      if (allocated(error)) return
+      call compare(error, model, "gas force")
+      if (allocated(error)) return
+      deallocate (case%asperity, case%needle_bearing, case%valve_guide)
+      call make_model(case, model, error)
+      if (allocated(error)) return
+      call compare(error, model, "no effects")
+   end subroutine test_effects
+
+   subroutine test_given_share(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: case
+      type(model_t) :: model
+
+      case = thesis_case()
+      case%asperity%mobilisation = "stick_slip"
+      call make_model(case, model, error)
+      if (allocated(error)) return
+      call compare(error, model, "given share", share=-1.0_wp)
+   end subroutine test_given_share
+
+   subroutine test_no_contact(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: case
+      type(model_t), target :: model
+      type(spin_problem_t) :: problem
+      type(linear_t) :: linear
+      type(counters_t) :: counters
+      integer :: status
+
+      ! at ten times the speed the valve's inertia lifts the roller off over the nose
+      case = thesis_case()
+      call set_point(case, 10.0_wp*point_speeds(3), point_viscosities(2))
+      call make_model(case, model, error)
+      if (allocated(error)) return
+      problem%model => model
+      call new_linear(linear, 1)
+      call problem%linearise(0.01_wp, [1.0_wp], 1.0_wp, linear, counters, status)
+      call check(error, status == 0 .and. .not. abs(linear%jacobian(1, 1)) > 0.0_wp .and. .not. abs(linear%span) > 0.0_wp)
+   end subroutine test_no_contact
+
+end module test_spin_slopes
