@@ -45,6 +45,7 @@ measure() { # table, command
     "${core[@]}" "$@" > "$target/table.part" && mv "$target/table.part" "$tables/$table"
 }
 measure cycle_speed.txt "$target/bin/cycle_speed" decks
+measure ehl_speed.txt "$target/bin/ehl_speed"
 measure against_cvode.txt "$target/bin/against_cvode" decks
 measure against_scipy.txt "$python" bench/against_scipy.py "$target/librhs.so" decks
 "$python" bench/summarise.py "$tables/against_cvode.txt" "$tables/against_scipy.txt" > "$tables/summary.txt"

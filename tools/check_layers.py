@@ -21,9 +21,10 @@ MAY_USE = {
     "base": {"base"},
     "numerics": {"base", "numerics"},
     "physics": {"base", "numerics", "physics"},
-    "solver": {"base", "numerics", "physics", "solver"},
-    "io": {"base", "physics", "solver", "io"},
-    "app": {"base", "numerics", "physics", "solver", "io", "app"},
+    "ehl": {"base", "numerics", "physics", "ehl"},
+    "solver": {"base", "numerics", "physics", "ehl", "solver"},
+    "io": {"base", "physics", "ehl", "solver", "io"},
+    "app": {"base", "numerics", "physics", "ehl", "solver", "io", "app"},
 }
 
 # The floors of physics, lowest first: what does not depend on the valve train, then along the chain from the cam's shape
@@ -36,7 +37,7 @@ PHYSICS_FLOORS = [
     {"kinematics"},
     {"dynamics"},
     {"hertz", "gas"},
-    {"film", "ehl", "asperity"},
+    {"film", "asperity"},
     {"load_share"},
     {"traction"},
     {"roller"},

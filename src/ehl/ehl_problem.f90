@@ -1,0 +1,255 @@
+!> One line contact with a film between two rough elastic bodies: what is given, and the same without dimension.
+!>
+!> Layer: ehl. In: load, speeds, radius, modulus, oil, roughness. Out: `ehl_problem_t`. Scales: half width b, peak pressure p_H of
+!> a dry contact under the reference load, film b^2/R. Then Reynolds' equation is
+!>
+!>     d/dX(rho H) = d/dX(rho H^3/(lambda eta) dP/dX),   lambda = 12 u eta0 R^2/(b^3 p_H)
+!>
+!> with eta and rho over their values at ambient pressure; the load is `int P dX = pi/2` for the reference load.
+!> Sources: Dowson and Higginson, Elasto-Hydrodynamic Lubrication (1966); density `(5.9e8 Pa + 1.34 p)/(5.9e8 Pa + p)` there.
+module camroller_ehl_problem
+   use camroller_kinds, only : wp, pi
+   use camroller_lubricant, only : oil_t, relative_viscosity
+   use camroller_hertz, only : half_width, peak_pressure
+   use camroller_film, only : groups_t, film_shape_t, film_shape, law_moes
+   use camroller_asperity, only : asperity_constants_t, asperity_load_function
+   implicit none
+   private
+
+   public :: ehl_contact_t, ehl_problem_t, new_ehl_problem, range_text, in_range
+   public :: log_viscosity, relative_density, asperity_pressure, pressure_flow_factor
+
+   !> What a problem may be: in range, or which quantity is out of it
+   integer, parameter :: in_range = 0, pressure_out_of_range = 1, exponent_out_of_range = 2, speed_out_of_range = 3, &
+      & load_out_of_range = 4
+
+   !> Peak pressure of the dry contact [Pa], and pressure-viscosity coefficient times it [-], up to which solutions are given
+   real(wp), parameter :: largest_pressure = 1.5e9_wp, largest_exponent = 35.0_wp
+   !> Groups U and W* for which solutions are given [-]; the range of the tests is a part of it
+   real(wp), parameter :: speed_range(2) = [1.0e-15_wp, 1.0e-7_wp], load_range(2) = [1.0e-8_wp, 1.0e-2_wp]
+   !> Density: reference pressure [Pa] and the largest ratio [-]
+   real(wp), parameter :: density_pressure = 5.9e8_wp, density_limit = 1.34_wp
+   !> Pressure over its scale below which the viscosity is a straight line on a logarithmic scale [-]
+   real(wp), parameter :: smallest_pressure = 1.0e-9_wp
+   !> Film ratio below which the flow factor is held [-]
+   real(wp), parameter :: smallest_film_ratio = 0.5_wp
+
+   !> A line contact as it is given
+   type :: ehl_contact_t
+      !> Load over length [N/m]
+      real(wp) :: line_load
+      !> Equivalent radius, R [m]
+      real(wp) :: radius
+      !> Equivalent modulus, E' [Pa]
+      real(wp) :: modulus
+      !> Mean of the surfaces' speeds, positive [m/s]
+      real(wp) :: entrainment_speed
+      !> Difference of the surfaces' speeds [m/s]
+      real(wp) :: sliding_speed = 0.0_wp
+      !> The oil
+      type(oil_t) :: oil
+      !> Does the density of the oil grow with the pressure?
+      logical :: is_compressible = .true.
+      !> Shear stress at which the oil begins to thin, tau_E [Pa]; zero: never
+      real(wp) :: eyring_stress = 0.0_wp
+      !> Composite roughness [m]; zero: smooth
+      real(wp) :: roughness = 0.0_wp
+      !> Constants of the asperities; they touch where the roughness is positive
+      type(asperity_constants_t) :: asperity
+      !> Does roughness hinder the flow that pressure drives?
+      logical :: has_flow_factors = .false.
+   end type ehl_contact_t
+
+   !> The same without dimension, and the scales
+   type :: ehl_problem_t
+      !> Scales: length b [m], pressure p_H [Pa], film b^2/R [m]
+      real(wp) :: length_scale, pressure_scale, film_scale
+      !> Speed parameter, lambda [-]
+      real(wp) :: speed
+      !> Integral of the pressure [-]
+      real(wp) :: load = 0.5_wp*pi
+      !> The oil
+      type(oil_t) :: oil
+      !> Part of the logarithm of the viscosity ratio that acts: one, but less on the way to a solution [-]
+      real(wp) :: thickening = 1.0_wp
+      !> Does the density grow with the pressure?
+      logical :: is_compressible
+      !> Roughness over the film scale [-]
+      real(wp) :: roughness = 0.0_wp
+      !> Asperity pressure for F_5/2 = 1 over the pressure scale [-]
+      real(wp) :: asperity_factor = 0.0_wp
+      !> Does roughness hinder the flow?
+      logical :: has_flow_factors = .false.
+      !> Shear stress over tau_E in a film of the film scale at ambient viscosity [-]; zero: no thinning
+      real(wp) :: shear = 0.0_wp
+      !> Film at the centre by Moes' formula, to choose grid and start [-]
+      real(wp) :: expected_film
+   end type ehl_problem_t
+
+contains
+
+   !> Problem of a contact; a positive status and no numbers beyond the range for which solutions are given.
+   pure subroutine new_ehl_problem(problem, contact, status)
+      !> The problem
+      type(ehl_problem_t), intent(out) :: problem
+      !> The contact
+      type(ehl_contact_t), intent(in) :: contact
+      !> `in_range`, or what is out of it
+      integer, intent(out) :: status
+
+      type(groups_t) :: groups
+      type(film_shape_t) :: shape
+
+      groups%speed = contact%oil%viscosity*contact%entrainment_speed/(contact%modulus*contact%radius)
+      groups%material = contact%oil%pressure_viscosity*contact%modulus
+      groups%load = contact%line_load/(contact%modulus*contact%radius)
+      groups%roughness = 0.0_wp
+      groups%hardness = 0.0_wp
+      problem%pressure_scale = peak_pressure(contact%line_load, contact%radius, 1.0_wp, contact%modulus)
+      call check_range(groups, problem%pressure_scale, contact%oil%pressure_viscosity*problem%pressure_scale, status)
+      if (status /= in_range) return
+      problem%length_scale = half_width(contact%line_load, contact%radius, 1.0_wp, contact%modulus)
+      problem%film_scale = problem%length_scale**2/contact%radius
+      problem%speed = 12.0_wp*contact%entrainment_speed*contact%oil%viscosity*contact%radius**2 &
+         & /(problem%length_scale**3*problem%pressure_scale)
+      problem%oil = contact%oil
+      problem%is_compressible = contact%is_compressible
+      problem%has_flow_factors = contact%has_flow_factors
+      problem%roughness = contact%roughness/problem%film_scale
+      if (contact%roughness > 0.0_wp) problem%asperity_factor = contact%asperity%load_factor/problem%pressure_scale
+      if (contact%eyring_stress > 0.0_wp) problem%shear = contact%oil%viscosity*abs(contact%sliding_speed) &
+         & /(problem%film_scale*contact%eyring_stress)
+      call film_shape(law_moes, groups, shape)
+      problem%expected_film = shape%central*contact%radius/problem%film_scale
+   end subroutine new_ehl_problem
+
+   !> Is the contact one that solutions are given for?
+   pure subroutine check_range(groups, pressure, exponent, status)
+      !> Dimensionless groups
+      type(groups_t), intent(in) :: groups
+      !> Peak pressure of the dry contact [Pa]
+      real(wp), intent(in) :: pressure
+      !> The same times the pressure-viscosity coefficient [-]
+      real(wp), intent(in) :: exponent
+      !> `in_range`, or what is out of it
+      integer, intent(out) :: status
+
+      status = in_range
+      if (.not. (pressure <= largest_pressure)) then
+         status = pressure_out_of_range
+      else if (.not. (exponent <= largest_exponent)) then
+         status = exponent_out_of_range
+      else if (.not. (groups%speed >= speed_range(1) .and. groups%speed <= speed_range(2))) then
+         status = speed_out_of_range
+      else if (.not. (groups%load >= load_range(1) .and. groups%load <= load_range(2))) then
+         status = load_out_of_range
+      end if
+   end subroutine check_range
+
+   !> What a status of `new_ehl_problem` means, in words.
+   pure function range_text(status) result(text)
+      !> The status
+      integer, intent(in) :: status
+      !> Words
+      character(len=:), allocatable :: text
+
+      select case (status)
+      case (in_range)
+         text = "in range"
+      case (pressure_out_of_range)
+         text = "peak pressure of the dry contact above 1.5 GPa"
+      case (exponent_out_of_range)
+         text = "pressure-viscosity coefficient times peak pressure above 35"
+      case (speed_out_of_range)
+         text = "speed group U outside 1e-15 to 1e-7"
+      case default
+         text = "load group W* outside 1e-8 to 1e-2"
+      end select
+   end function range_text
+
+   !> Logarithm of the viscosity ratio at a pressure over the scale, and its slope; the slope at zero below it.
+   pure subroutine log_viscosity(problem, pressure, value, slope)
+      !> The problem
+      type(ehl_problem_t), intent(in) :: problem
+      !> Pressure over its scale [-]
+      real(wp), intent(in) :: pressure
+      !> ln(eta/eta0) and its derivative with respect to the pressure over its scale [-]
+      real(wp), intent(out) :: value, slope
+
+      ! Viscosity ratio and its logarithmic slope [-]
+      real(wp) :: ratio, log_slope
+
+      value = 0.0_wp
+      slope = problem%oil%pressure_viscosity*problem%pressure_scale
+      if (pressure > smallest_pressure) then
+         call relative_viscosity(problem%oil, pressure*problem%pressure_scale, ratio, log_slope)
+         value = log(ratio)
+         slope = log_slope/pressure
+      end if
+      value = value*problem%thickening
+      slope = slope*problem%thickening
+   end subroutine log_viscosity
+
+   !> Density over that at ambient pressure, and its slope.
+   pure subroutine relative_density(problem, pressure, value, slope)
+      !> The problem
+      type(ehl_problem_t), intent(in) :: problem
+      !> Pressure over its scale [-]
+      real(wp), intent(in) :: pressure
+      !> Density ratio and its derivative with respect to the pressure over its scale [-]
+      real(wp), intent(out) :: value, slope
+
+      ! Reference pressure over the scale [-]
+      real(wp) :: reference
+
+      value = 1.0_wp
+      slope = 0.0_wp
+      if (.not. problem%is_compressible) return
+      reference = density_pressure/problem%pressure_scale
+      value = (reference + density_limit*max(pressure, 0.0_wp))/(reference + max(pressure, 0.0_wp))
+      slope = (density_limit - 1.0_wp)*reference/(reference + max(pressure, 0.0_wp))**2
+   end subroutine relative_density
+
+   !> Pressure of touching asperities by Greenwood and Tripp's law, and its slope; a straight line below zero film.
+   pure subroutine asperity_pressure(problem, film, value, slope)
+      !> The problem
+      type(ehl_problem_t), intent(in) :: problem
+      !> Film over its scale [-]
+      real(wp), intent(in) :: film
+      !> Pressure over its scale, and its derivative with respect to the film over its scale [-]
+      real(wp), intent(out) :: value, slope
+
+      value = 0.0_wp
+      slope = 0.0_wp
+      if (problem%asperity_factor <= 0.0_wp) return
+      call asperity_load_function(max(film, 0.0_wp)/problem%roughness, value, slope)
+      if (film < 0.0_wp) value = value + slope*film/problem%roughness
+      value = problem%asperity_factor*value
+      slope = problem%asperity_factor*slope/problem%roughness
+   end subroutine asperity_pressure
+
+   !> Part of the flow driven by pressure that isotropic roughness lets through, `1 - 0.9 exp(-0.56 h/sigma)`, and its slope.
+   !>
+   !> Source: Patir and Cheng, J. Lubr. Technol. 100 (1978) 12, for a Peklenik number of one; fitted for h/sigma above 0.5, held
+   !> below.
+   pure subroutine pressure_flow_factor(problem, film, value, slope)
+      !> The problem
+      type(ehl_problem_t), intent(in) :: problem
+      !> Film over its scale [-]
+      real(wp), intent(in) :: film
+      !> Factor, and its derivative with respect to the film over its scale [-]
+      real(wp), intent(out) :: value, slope
+
+      ! Film ratio, hindered part [-]
+      real(wp) :: film_ratio, part
+
+      value = 1.0_wp
+      slope = 0.0_wp
+      if (.not. problem%has_flow_factors .or. problem%roughness <= 0.0_wp) return
+      film_ratio = film/problem%roughness
+      part = 0.9_wp*exp(-0.56_wp*max(film_ratio, smallest_film_ratio))
+      value = 1.0_wp - part
+      if (film_ratio > smallest_film_ratio) slope = 0.56_wp*part/problem%roughness
+   end subroutine pressure_flow_factor
+
+end module camroller_ehl_problem

@@ -1,0 +1,198 @@
+!> Reynolds' equation on the nodes: film, flow between nodes, and the derivative of everything.
+!>
+!> Layer: ehl. In: problem, grid, total pressure at the nodes, level of the gap. Out: film, flow, and the coefficients of their
+!> derivatives. The total pressure P is that of film and asperities; the asperities' part follows from the film, so that
+!> `H = H0 + X^2/2 + K P` and the film's pressure is `P - P_a(H)`. Flow between two nodes:
+!>
+!>     rho H  at the middle, by the quadratic through three nodes    minus    (rho H^3/lambda) mean(1/eta) (P_(i+1) - P_i)/step
+!>
+!> with `mean(1/eta)` exact where ln(eta) is linear between the nodes. What flows in and out of the cell of a node is in balance,
+!> where the film is full; where it has ruptured its pressure is zero.
+module camroller_ehl_reynolds
+   use camroller_kinds, only : wp
+   use camroller_ehl_grid, only : ehl_grid_t, deformation
+   use camroller_ehl_problem, only : ehl_problem_t, log_viscosity, relative_density, asperity_pressure, pressure_flow_factor
+   implicit none
+   private
+
+   public :: ehl_fields_t, new_ehl_fields, evaluate_film, evaluate_flow, effective_viscosity, storage_t
+
+   !> Everything at the nodes and between them at a given pressure
+   type :: ehl_fields_t
+      !> Film over b^2/R; pressure of the film and of the asperities over p_H [-]
+      real(wp), allocatable :: film(:), pressure(:), asperity(:)
+      !> Derivative of the asperities' pressure with respect to the film [-]
+      real(wp), allocatable :: asperity_slope(:)
+      !> Density and viscosity ratios; the latter as its logarithm [-]
+      real(wp), allocatable :: density(:), log_viscosity(:)
+      !> Slopes of density and ln(viscosity) with the film's pressure, and of ln(viscosity) with the film [-]
+      real(wp), allocatable :: density_slope(:), viscosity_slope(:), thinning_slope(:)
+      !> Mass flow between neighbours [-]
+      real(wp), allocatable :: flow(:)
+      !> Derivatives of the flow between i and i + 1 with respect to pressure of the film, then film, at i - 1, i, i + 1 [-]
+      real(wp), allocatable :: by_pressure(:, :), by_film(:, :)
+      !> Excess of what leaves a cell over what enters it, of inner nodes [-]
+      real(wp), allocatable :: excess(:)
+   end type ehl_fields_t
+
+   !> What the film stored at the time before: for contacts that change
+   type :: storage_t
+      !> Mass of the oil in the cells at the time before, over that of one film scale and half width now [-]
+      real(wp), allocatable :: mass(:)
+      !> Length of time over that in which the surfaces' mean speed travels one half width [-]
+      real(wp) :: duration = 0.0_wp
+      !> Change of the half width over the time step, over the half width now [-]
+      real(wp) :: growth = 0.0_wp
+   end type storage_t
+
+   !> Film over its scale below which a film between nodes does not count as thinner: trial states may overlap [-]
+   real(wp), parameter :: smallest_film = 1.0e-12_wp
+   !> Half the difference of ln(viscosity) between neighbours at which it is held, far beyond what any solution has [-]
+   real(wp), parameter :: largest_half = 300.0_wp
+
+contains
+
+   !> Room for everything.
+   pure subroutine new_ehl_fields(fields, nodes)
+      !> The fields
+      type(ehl_fields_t), intent(out) :: fields
+      !> Number of nodes
+      integer, intent(in) :: nodes
+
+      allocate (fields%film(nodes), fields%pressure(nodes), fields%asperity(nodes), fields%asperity_slope(nodes), &
+         & fields%density(nodes), fields%log_viscosity(nodes), fields%density_slope(nodes), fields%viscosity_slope(nodes), &
+         & fields%thinning_slope(nodes), fields%flow(nodes - 1), fields%by_pressure(3, nodes - 1), fields%by_film(3, nodes - 1), &
+         & fields%excess(nodes), source=0.0_wp)
+   end subroutine new_ehl_fields
+
+   !> Film, share of the asperities, and the state of the oil.
+   pure subroutine evaluate_film(problem, grid, total, level, fields)
+      !> The problem
+      type(ehl_problem_t), intent(in) :: problem
+      !> The grid
+      type(ehl_grid_t), intent(in) :: grid
+      !> Pressure of film and asperities at the nodes [-]
+      real(wp), intent(in) :: total(:)
+      !> Level of the gap, H0 [-]
+      real(wp), intent(in) :: level
+      !> Film and state of the oil
+      type(ehl_fields_t), intent(inout) :: fields
+
+      integer :: i
+
+      fields%film = level + 0.5_wp*grid%x**2 + deformation(grid, total)
+      do i = 1, grid%size
+         call asperity_pressure(problem, fields%film(i), fields%asperity(i), fields%asperity_slope(i))
+         fields%pressure(i) = total(i) - fields%asperity(i)
+         call relative_density(problem, fields%pressure(i), fields%density(i), fields%density_slope(i))
+         call effective_viscosity(problem, fields%pressure(i), fields%film(i), fields%log_viscosity(i), &
+            & fields%viscosity_slope(i), fields%thinning_slope(i))
+      end do
+   end subroutine evaluate_film
+
+   !> Logarithm of the viscosity ratio that acts on the flow: thinned by sliding as Eyring's law has it.
+   !>
+   !> `eta' = tau_E/(V_s/h) asinh(eta V_s/(h tau_E))`: Eyring (1936) with the shear rate of sliding alone.
+   pure subroutine effective_viscosity(problem, pressure, film, value, pressure_slope, film_slope)
+      !> The problem
+      type(ehl_problem_t), intent(in) :: problem
+      !> Pressure and film over their scales [-]
+      real(wp), intent(in) :: pressure, film
+      !> ln(viscosity ratio), and its derivatives with respect to pressure and film [-]
+      real(wp), intent(out) :: value, pressure_slope, film_slope
+
+      ! ln of the stress over tau_E without thinning; the stress itself; its thinned value; logarithmic slope of the latter [-]
+      real(wp) :: log_stress, stress, thinned, part
+
+      call log_viscosity(problem, pressure, value, pressure_slope)
+      film_slope = 0.0_wp
+      if (problem%shear <= 0.0_wp .or. film <= 0.0_wp) return
+      log_stress = value + log(problem%shear/film)
+      if (log_stress < -8.0_wp) return
+      if (log_stress > 300.0_wp) then
+         thinned = log_stress + log(2.0_wp)
+         part = 1.0_wp/thinned
+      else
+         stress = exp(log_stress)
+         thinned = asinh(stress)
+         part = stress/hypot(1.0_wp, stress)/thinned
+      end if
+      value = log(thinned*film/problem%shear)
+      pressure_slope = pressure_slope*part
+      film_slope = (1.0_wp - part)/film
+   end subroutine effective_viscosity
+
+   !> Flow between the nodes, its derivatives, and what is out of balance.
+   pure subroutine evaluate_flow(problem, grid, fields, storage)
+      !> The problem
+      type(ehl_problem_t), intent(in) :: problem
+      !> The grid
+      type(ehl_grid_t), intent(in) :: grid
+      !> In: film and state of the oil; out: flow
+      type(ehl_fields_t), intent(inout) :: fields
+      !> What was stored before; absent: nothing changes with time
+      type(storage_t), intent(in), optional :: storage
+
+      ! Mean of 1/viscosity and its derivatives over ln(viscosity) at both nodes; conductance and its derivatives [-]
+      real(wp) :: fluidity, fluidity_slopes(2), conductance, by_pressure(2), by_film(2)
+      ! Film, density, flow factor and its slope between the nodes; drop of pressure [-]
+      real(wp) :: film, density, factor, factor_slope, drop
+      ! Share of the mean speed with which the oil passes between the nodes [-]
+      real(wp) :: carried
+      integer :: i, j, k
+
+      do i = 1, grid%size - 1
+         carried = 1.0_wp
+         if (present(storage)) carried = 1.0_wp - 0.5_wp*(grid%x(i) + grid%x(i + 1))*storage%growth/storage%duration
+         call mean_fluidity(fields%log_viscosity(i), fields%log_viscosity(i + 1), fluidity, fluidity_slopes)
+         film = max(0.5_wp*(fields%film(i) + fields%film(i + 1)), smallest_film)
+         density = 0.5_wp*(fields%density(i) + fields%density(i + 1))
+         call pressure_flow_factor(problem, film, factor, factor_slope)
+         conductance = film**3/(problem%speed*grid%step(i))
+         drop = fields%pressure(i + 1) - fields%pressure(i)
+         by_pressure = conductance*factor*drop*(0.5_wp*fields%density_slope(i:i + 1)*fluidity &
+            & + density*fluidity_slopes*fields%viscosity_slope(i:i + 1))
+         by_film = conductance*density*drop*(fluidity*(1.5_wp*factor/film + 0.5_wp*factor_slope) &
+            & + factor*fluidity_slopes*fields%thinning_slope(i:i + 1))
+         conductance = conductance*density*factor*fluidity
+         fields%flow(i) = -conductance*drop
+         fields%by_pressure(:, i) = [0.0_wp, conductance - by_pressure(1), -conductance - by_pressure(2)]
+         fields%by_film(:, i) = [0.0_wp, -by_film(1), -by_film(2)]
+         do k = 1, 3
+            j = i - 2 + k
+            if (j < 1) cycle
+            fields%flow(i) = fields%flow(i) + carried*grid%face(k, i)*fields%density(j)*fields%film(j)
+            fields%by_pressure(k, i) = fields%by_pressure(k, i) + carried*grid%face(k, i)*fields%density_slope(j)*fields%film(j)
+            fields%by_film(k, i) = fields%by_film(k, i) + carried*grid%face(k, i)*fields%density(j)
+         end do
+      end do
+      fields%excess(2:grid%size - 1) = fields%flow(2:) - fields%flow(:grid%size - 2)
+      if (.not. present(storage)) return
+      fields%excess = fields%excess + (grid%weight*fields%density*fields%film - storage%mass)/storage%duration
+   end subroutine evaluate_flow
+
+   !> Mean of exp(-g) where g is linear between two values, and its derivatives with respect to both.
+   pure subroutine mean_fluidity(first, second, mean, slopes)
+      !> The two values [-]
+      real(wp), intent(in) :: first, second
+      !> The mean, and its derivatives [-]
+      real(wp), intent(out) :: mean, slopes(2)
+
+      ! Half the difference; sinh(x)/x and its derivative there; mean in the middle [-]
+      real(wp) :: half, ratio, ratio_slope, middle
+
+      half = 0.5_wp*(second - first)
+      if (abs(half) > largest_half) half = sign(largest_half, half)
+      if (abs(half) < 1.0e-2_wp) then
+         ratio = 1.0_wp + half**2/6.0_wp*(1.0_wp + half**2/20.0_wp)
+         ratio_slope = half/3.0_wp*(1.0_wp + half**2/10.0_wp)
+      else
+         ratio = sinh(half)/half
+         ratio_slope = (cosh(half) - ratio)/half
+      end if
+      middle = exp(-0.5_wp*(first + second))
+      mean = middle*ratio
+      slopes = 0.5_wp*middle*[-ratio - ratio_slope, -ratio + ratio_slope]
+   end subroutine mean_fluidity
+
+end module camroller_ehl_reynolds

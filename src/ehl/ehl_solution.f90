@@ -1,0 +1,428 @@
+!> Solution of a line contact from nothing or from one nearby, on two grids, and what it says about film and friction.
+!>
+!> Layer: ehl. In: contact, number of nodes. Out: films, friction, and the difference of two grids; or a status.
+!> From nothing: the pressure of a dry contact, or that of a rigid one, whichever the expected film calls for; where Newton's method
+!> finds no solution from either, it is followed from a faster contact with an oil that thickens less. No setting is asked for.
+module camroller_ehl_solution
+   use camroller_kinds, only : wp, pi
+   use camroller_error, only : error_t, raise, kind_domain, kind_convergence
+   use camroller_ehl_grid, only : ehl_grid_t, new_ehl_grid, new_uniform_grid, deformation, integral
+   use camroller_ehl_problem, only : ehl_contact_t, ehl_problem_t, new_ehl_problem, range_text, in_range
+   use camroller_ehl_reynolds, only : new_ehl_fields
+   use camroller_ehl_newton, only : ehl_state_t, solve_newton
+   use camroller_ehl_films, only : ehl_films_t, get_films, extrapolate
+   implicit none
+   private
+
+   public :: ehl_films_t, ehl_options_t, solve_contact_film, solve_cold, solve_on_grid, solve_on_grids, make_grid
+   public :: ehl_track_t, follow_contact
+
+   !> What may be chosen; nothing here decides whether a solution is found
+   type :: ehl_options_t
+      !> Number of nodes of the finer grid, odd
+      integer :: nodes = 129
+      !> Largest relative difference of a film on both grids for which a result is given [-]
+      real(wp) :: largest_difference = 0.1_wp
+      !> What Newton's method may leave over [-]
+      real(wp) :: tolerance = 1.0e-9_wp
+      !> Ends of the domain, inlet and outlet [half widths]; zero: as the film calls for
+      real(wp) :: reach(2) = 0.0_wp
+      !> Equal steps instead of steps that follow the pressure?
+      logical :: is_uniform = .false.
+   end type ehl_options_t
+
+   !> A contact that is followed while it changes: both grids with their last solutions
+   type :: ehl_track_t
+      !> Is there a solution?
+      logical :: is_started = .false.
+      !> Expected film for which the grids were made [-]
+      real(wp) :: expected_film
+      type(ehl_grid_t) :: grids(2)
+      type(ehl_state_t) :: states(2)
+   end type ehl_track_t
+
+   !> Factor by which the expected film may leave that of the grids [-]
+   real(wp), parameter :: largest_drift = 1.5_wp
+   !> Film over b^2/R below which the dry contact's pressure is the better start [-]
+   real(wp), parameter :: elastic_film = 0.3_wp
+   !> Inlet that starves the contact by less than 0.1 %: least [half widths], and over the length in which a parabola's gap doubles
+   !> [-]
+   real(wp), parameter :: least_inlet = 16.0_wp, inlet_part = 24.0_wp
+   !> Iterations from nothing, and from a solution nearby, before another way is tried
+   integer, parameter :: cold_iterations = 30, step_iterations = 30, refining_iterations = 60
+   !> Nodes of the coarsest grid
+   integer, parameter :: smallest_grid = 65
+   !> Where no start serves: first part of the thickening, first speed over that of the problem; first and smallest step [-]
+   real(wp), parameter :: first_part = 0.25_wp, first_speeds(2) = [1.0_wp, 30.0_wp], &
+      & first_step = 0.25_wp, smallest_step = 1.0e-3_wp
+   !> Cotangent-like constant of the rigid contact: angle at which its film ends, by Reynolds' condition [rad]
+   real(wp), parameter :: rigid_end = 0.443_wp
+
+contains
+
+   !> Film and friction of a contact from nothing, on two grids; extrapolated to steps of no length.
+   !>
+   !> Both grids are nested and the error falls with the square of the step, so that the difference of both is three times the
+   !> error of the finer one. The extrapolated film is better than that; the error stated is that of the finer grid.
+   subroutine solve_contact_film(contact, options, films, error)
+      !> The contact
+      type(ehl_contact_t), intent(in) :: contact
+      !> Number of nodes and the like
+      type(ehl_options_t), intent(in) :: options
+      !> Film and friction
+      type(ehl_films_t), intent(out) :: films
+      !> Domain error beyond the range; convergence error where none was found or both grids differ by too much
+      type(error_t), allocatable, intent(out) :: error
+
+      type(ehl_problem_t) :: problem
+      type(ehl_grid_t) :: grid
+      type(ehl_state_t) :: state
+      type(ehl_films_t) :: coarse
+      integer :: status
+      logical :: converged
+      character(len=32) :: text
+
+      call new_ehl_problem(problem, contact, status)
+      if (status /= in_range) then
+         call raise(error, kind_domain, "ehl: "//range_text(status))
+         return
+      end if
+      call solve_on_grids(problem, options, grid, state, films, coarse, converged)
+      if (.not. converged) then
+         call raise(error, kind_convergence, "ehl: no solution found")
+         return
+      end if
+      call extrapolate(coarse, films)
+      if (3.0_wp*films%error <= options%largest_difference) return
+      write (text, "(f0.1, a)") 300.0_wp*films%error, " %"
+      call raise(error, kind_convergence, "ehl: film on two grids differs by "//trim(text)//"; more nodes are needed")
+   end subroutine solve_contact_film
+
+   !> Film and friction of a contact near the one before, on the same two grids where they still suit it.
+   pure subroutine follow_contact(contact, options, track, films, status, converged)
+      !> The contact
+      type(ehl_contact_t), intent(in) :: contact
+      !> Number of nodes and the like
+      type(ehl_options_t), intent(in) :: options
+      !> The last solutions; they may be none
+      type(ehl_track_t), intent(inout) :: track
+      !> Film and friction
+      type(ehl_films_t), intent(out) :: films
+      !> `in_range`, or what is out of it
+      integer, intent(out) :: status
+      !> Was a solution found?
+      logical, intent(out) :: converged
+
+      type(ehl_problem_t) :: problem
+      type(ehl_films_t) :: both(2)
+      integer :: i
+
+      converged = .false.
+      call new_ehl_problem(problem, contact, status)
+      if (status /= in_range) return
+      if (track%is_started) then
+         if (max(problem%expected_film/track%expected_film, track%expected_film/problem%expected_film) <= largest_drift) then
+            do i = 1, 2
+               track%states(i)%iterations = 0
+               track%states(i)%factorisations = 0
+               call solve_newton(problem, track%grids(i), track%states(i), options%tolerance, step_iterations, converged)
+               if (.not. converged) exit
+               call get_films(problem, track%grids(i), track%states(i), both(i))
+            end do
+         end if
+      end if
+      if (.not. converged) call start_track(problem, options, track, both, converged)
+      track%is_started = converged
+      if (.not. converged) return
+      call extrapolate(both(1), both(2))
+      films = both(2)
+      films%iterations = sum(both%iterations)
+      films%factorisations = sum(both%factorisations)
+   end subroutine follow_contact
+
+   !> Solutions from nothing on both grids.
+   pure subroutine start_track(problem, options, track, films, converged)
+      !> The problem
+      type(ehl_problem_t), intent(in) :: problem
+      !> Number of nodes and the like
+      type(ehl_options_t), intent(in) :: options
+      !> Grids and solutions
+      type(ehl_track_t), intent(inout) :: track
+      !> Film and friction on both grids
+      type(ehl_films_t), intent(out) :: films(2)
+      !> Were they found?
+      logical, intent(out) :: converged
+
+      type(ehl_options_t) :: half
+      type(ehl_films_t) :: unused
+      integer :: i
+
+      half = options
+      half%nodes = (options%nodes + 1)/2
+      track%expected_film = problem%expected_film
+      do i = 1, 2
+         call solve_on_grids(problem, half, track%grids(i), track%states(i), films(i), unused, converged)
+         if (.not. converged) return
+         half%nodes = options%nodes
+      end do
+   end subroutine start_track
+
+   !> Solution from nothing on a coarse grid and from it on finer ones, up to the number of nodes of the options.
+   pure subroutine solve_on_grids(problem, options, grid, state, films, coarse, converged)
+      !> The problem
+      type(ehl_problem_t), intent(in) :: problem
+      !> Number of nodes and the like
+      type(ehl_options_t), intent(in) :: options
+      !> The finest grid
+      type(ehl_grid_t), intent(out) :: grid
+      !> The solution on it
+      type(ehl_state_t), intent(out) :: state
+      !> Film and friction of the finest grid and of that with half its nodes
+      type(ehl_films_t), intent(out) :: films, coarse
+      !> Was it found?
+      logical, intent(out) :: converged
+
+      type(ehl_state_t) :: previous
+      integer :: nodes, iterations, factorisations, order
+
+      nodes = (options%nodes + 1)/2
+      do while (nodes > smallest_grid .and. mod(nodes, 2) == 1)
+         nodes = (nodes + 1)/2
+      end do
+      iterations = 0
+      factorisations = 0
+      call solve_on_grid(problem, options, nodes, grid, state, films, converged)
+      do while (nodes < options%nodes)
+         iterations = iterations + state%iterations
+         factorisations = factorisations + state%factorisations
+         coarse = films
+         nodes = 2*nodes - 1
+         if (converged) then
+            previous = state
+            call make_grid(problem, options, nodes, grid)
+            do order = 3, 1, -2
+               call refine(problem, grid, previous, options%tolerance, order, state, converged)
+               if (converged) exit
+            end do
+            if (converged) call get_films(problem, grid, state, films)
+         end if
+         if (.not. converged) call solve_on_grid(problem, options, nodes, grid, state, films, converged)
+      end do
+      films%iterations = iterations + state%iterations
+      films%factorisations = factorisations + state%factorisations
+   end subroutine solve_on_grids
+
+   !> Solution from that on the grid with half the nodes.
+   pure subroutine refine(problem, grid, coarse, tolerance, order, state, converged)
+      !> The problem
+      type(ehl_problem_t), intent(in) :: problem
+      !> The finer grid
+      type(ehl_grid_t), intent(in) :: grid
+      !> Solution on the grid with half the nodes
+      type(ehl_state_t), intent(in) :: coarse
+      !> What Newton's method may leave over [-]
+      real(wp), intent(in) :: tolerance
+      !> Degree of the interpolation between nodes, 3 or 1
+      integer, intent(in) :: order
+      !> The solution
+      type(ehl_state_t), intent(out) :: state
+      !> Was it found?
+      logical, intent(out) :: converged
+
+      ! Deformation [-]
+      real(wp) :: gap(grid%size)
+      integer :: i, n, middle
+
+      n = size(coarse%total)
+      call new_ehl_fields(state%fields, grid%size)
+      allocate (state%total(grid%size))
+      state%total(1::2) = coarse%total
+      state%total(2::2) = 0.5_wp*(coarse%total(:n - 1) + coarse%total(2:))
+      if (order == 3) then
+         do i = 2, n - 2
+            state%total(2*i) = (9.0_wp*(coarse%total(i) + coarse%total(i + 1)) - coarse%total(i - 1) - coarse%total(i + 2))/16.0_wp
+         end do
+      end if
+      state%total = max(state%total, 0.0_wp)
+      state%total = state%total*(problem%load/integral(grid, state%total))
+      gap = deformation(grid, state%total) + 0.5_wp*grid%x**2
+      middle = minloc(abs(grid%x(1::2)), dim=1)
+      state%level = coarse%fields%film(middle) - gap(2*middle - 1)
+      call solve_newton(problem, grid, state, tolerance, refining_iterations, converged)
+   end subroutine refine
+
+   !> Solution from nothing on one grid, and its films.
+   pure subroutine solve_on_grid(problem, options, nodes, grid, state, films, converged)
+      !> The problem
+      type(ehl_problem_t), intent(in) :: problem
+      !> Reach, tolerance and the like
+      type(ehl_options_t), intent(in) :: options
+      !> Number of nodes
+      integer, intent(in) :: nodes
+      !> The grid
+      type(ehl_grid_t), intent(out) :: grid
+      !> The solution
+      type(ehl_state_t), intent(out) :: state
+      !> Film and friction
+      type(ehl_films_t), intent(out) :: films
+      !> Was it found?
+      logical, intent(out) :: converged
+
+      call make_grid(problem, options, nodes, grid)
+      call solve_cold(problem, grid, options%tolerance, state, converged)
+      if (converged) call get_films(problem, grid, state, films)
+   end subroutine solve_on_grid
+
+   !> Grid that suits a problem.
+   pure subroutine make_grid(problem, options, nodes, grid)
+      !> The problem
+      type(ehl_problem_t), intent(in) :: problem
+      !> Reach, or zero
+      type(ehl_options_t), intent(in) :: options
+      !> Number of nodes
+      integer, intent(in) :: nodes
+      !> The grid
+      type(ehl_grid_t), intent(out) :: grid
+
+      ! Ends of the domain, width of the zones at the edges of the contact, length over which a parabola's gap doubles [half widths]
+      real(wp) :: reach(2), edge, parabola
+
+      parabola = sqrt(problem%expected_film)
+      reach = [max(least_inlet, inlet_part*parabola), 1.0_wp + max(0.5_wp, 1.5_wp*parabola)]
+      where (options%reach > 0.0_wp) reach = options%reach
+      edge = 0.5_wp*problem%expected_film**(2.0_wp/3.0_wp)
+      if (problem%expected_film > 1.0_wp) edge = parabola
+      if (options%is_uniform) then
+         call new_uniform_grid(grid, nodes, reach(1), reach(2))
+      else
+         call new_ehl_grid(grid, nodes, reach(1), reach(2), edge)
+      end if
+   end subroutine make_grid
+
+   !> Solution from nothing.
+   pure subroutine solve_cold(problem, grid, tolerance, state, converged)
+      !> The problem
+      type(ehl_problem_t), intent(in) :: problem
+      !> The grid
+      type(ehl_grid_t), intent(in) :: grid
+      !> What Newton's method may leave over [-]
+      real(wp), intent(in) :: tolerance
+      !> The solution
+      type(ehl_state_t), intent(out) :: state
+      !> Was it found?
+      logical, intent(out) :: converged
+
+      integer :: attempt
+      logical :: is_rigid
+
+      call new_ehl_fields(state%fields, grid%size)
+      do attempt = 1, 2
+         is_rigid = (problem%expected_film >= elastic_film) .eqv. attempt == 1
+         call start_state(problem, grid, is_rigid, state)
+         call solve_newton(problem, grid, state, tolerance, cold_iterations, converged)
+         if (converged) return
+      end do
+      do attempt = 1, size(first_speeds)
+         call solve_by_steps(problem, grid, tolerance, first_speeds(attempt), state, converged)
+         if (converged) return
+      end do
+   end subroutine solve_cold
+
+   !> Pressure of a dry or of a rigid contact, and the level of the gap that goes with the expected film.
+   pure subroutine start_state(problem, grid, is_rigid, state)
+      !> The problem
+      type(ehl_problem_t), intent(in) :: problem
+      !> The grid
+      type(ehl_grid_t), intent(in) :: grid
+      !> Is the pressure that of a rigid contact?
+      logical, intent(in) :: is_rigid
+      !> Total pressure and level
+      type(ehl_state_t), intent(inout) :: state
+
+      ! Angle whose tangent is the place over the length of the parabola [rad]
+      real(wp) :: angle(grid%size)
+      ! Deformation [-]
+      real(wp) :: gap(grid%size)
+
+      if (is_rigid) then
+         angle = atan(grid%x/sqrt(2.0_wp*problem%expected_film))
+         state%total = 0.5_wp*(angle + 0.5_wp*pi) + 0.25_wp*sin(2.0_wp*angle) - (0.375_wp*(angle + 0.5_wp*pi) &
+            & + 0.25_wp*sin(2.0_wp*angle) + sin(4.0_wp*angle)/32.0_wp)/cos(rigid_end)**2
+         where (angle > rigid_end) state%total = 0.0_wp
+         state%total = max(state%total, 0.0_wp)
+      else
+         state%total = sqrt(max((1.0_wp - grid%x)*(1.0_wp + grid%x), 0.0_wp))
+      end if
+      state%total(1) = 0.0_wp
+      state%total(grid%size) = 0.0_wp
+      if (is_rigid) state%total = state%total*(problem%load/integral(grid, state%total))
+      gap = deformation(grid, state%total)
+      state%level = problem%expected_film - gap(minloc(abs(grid%x), dim=1))
+      state%unknowns = 0
+   end subroutine start_state
+
+   !> Follow the solution from a faster contact with an oil that thickens less, where the film is thick and found at once.
+   pure subroutine solve_by_steps(problem, grid, tolerance, first_speed, state, converged)
+      !> The problem
+      type(ehl_problem_t), intent(in) :: problem
+      !> The grid
+      type(ehl_grid_t), intent(in) :: grid
+      !> What Newton's method may leave over [-]
+      real(wp), intent(in) :: tolerance
+      !> Speed to begin with, over that of the problem [-]
+      real(wp), intent(in) :: first_speed
+      !> The solution
+      type(ehl_state_t), intent(inout) :: state
+      !> Was it found?
+      logical, intent(out) :: converged
+
+      ! Part of the way that is done, next step [-]
+      real(wp) :: done, step
+      ! Last solution: pressure, level [-]
+      real(wp) :: total(grid%size), level
+      integer :: attempt
+
+      do attempt = 1, 2
+         call start_state(eased_problem(problem, first_speed, 0.0_wp), grid, attempt == 1, state)
+         call solve_newton(eased_problem(problem, first_speed, 0.0_wp), grid, state, tolerance, cold_iterations, converged)
+         if (converged) exit
+      end do
+      if (.not. converged) return
+      done = 0.0_wp
+      step = first_step
+      do while (done < 1.0_wp)
+         total = state%total
+         level = state%level
+         call solve_newton(eased_problem(problem, first_speed, min(1.0_wp, done + step)), grid, state, tolerance, &
+            & step_iterations, converged)
+         if (converged) then
+            done = min(1.0_wp, done + step)
+            step = 1.5_wp*step
+         else
+            state%total = total
+            state%level = level
+            state%unknowns = 0
+            step = 0.4_wp*step
+            if (step < smallest_step) return
+         end if
+      end do
+   end subroutine solve_by_steps
+
+   !> A problem on the way from an easy one to that asked for.
+   pure function eased_problem(problem, first_speed, done) result(eased)
+      !> The problem
+      type(ehl_problem_t), intent(in) :: problem
+      !> Speed to begin with, over that of the problem [-]
+      real(wp), intent(in) :: first_speed
+      !> Part of the way that is done [-]
+      real(wp), intent(in) :: done
+      !> The problem there
+      type(ehl_problem_t) :: eased
+
+      eased = problem
+      eased%thickening = first_part + (1.0_wp - first_part)*done
+      eased%speed = problem%speed*first_speed**(1.0_wp - done)
+      eased%expected_film = problem%expected_film*first_speed**(0.6_wp*(1.0_wp - done))
+   end function eased_problem
+
+end module camroller_ehl_solution
