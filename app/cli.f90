@@ -13,16 +13,17 @@ module camroller_cli
 
    !> Commands
    character(len=*), parameter :: command_names(*) = [character(len=8) :: &
-      & "run", "check", "study", "defaults", "export", "version", "help"]
+      & "run", "check", "study", "defaults", "export", "version", "help", "sweep", "merge", "rerun"]
    !> Options of each command, in the same order
-   character(len=*), parameter :: option_names(*) = [character(len=48) :: &
+   character(len=*), parameter :: option_names(*) = [character(len=80) :: &
       & "--output --set --quiet --help", "--set --help", &
       & "--output --set --repeats --quick --quiet --help", "--markdown --help", "--series --summary --case --output --help", &
-      & "--help", "--help"]
+      & "--help", "--help", "--output --set --threads --shard --resume --log-every --quiet --help", &
+      & "--output --set --partial --quiet --help", "--threads --log-every --quiet --help"]
    !> Most words beside options that each command takes
-   integer, parameter :: most_words(*) = [1, 1, 1, 1, 1, 0, 1]
+   integer, parameter :: most_words(*) = [1, 1, 1, 1, 1, 0, 1, 1, 1, 1]
    !> Does each command need a word?
-   logical, parameter :: needs_word(*) = [.true., .true., .true., .false., .true., .false., .false.]
+   logical, parameter :: needs_word(*) = [.true., .true., .true., .false., .true., .false., .false., .true., .true., .true.]
 
    !> What to do
    type :: config_t
@@ -48,6 +49,16 @@ module camroller_cli
       integer :: repeats = 5
       !> A study of a few trials only?
       logical :: is_quick = .false.
+      !> Threads of a sweep; 0 for as many as there are cores
+      integer :: threads = 0
+      !> This shard of a sweep, from 1, and the number of shards
+      integer :: shard = 1, shards = 1
+      !> Go on with a sweep that was stopped?
+      logical :: is_resumed = .false.
+      !> Put a sweep together that is not complete?
+      logical :: is_partial = .false.
+      !> Time between lines in a log [s]
+      integer :: log_interval = 60
    end type config_t
 
 contains
@@ -155,6 +166,7 @@ contains
       character(len=:), allocatable :: option, value
       integer :: equals
 
+      value = ""
       option = arguments(position)%text
       equals = index(option, "=")
       if (equals > 0 .and. index(option, "--") == 1) option = option(:equals - 1)
@@ -164,8 +176,7 @@ contains
             & see(config))
          return
       end if
-      if (option == "--output" .or. option == "--set" .or. option == "--case" .or. &
-         & option == "--repeats") then
+      if (index(" --output --set --case --repeats --threads --shard --log-every ", " "//option//" ") > 0) then
          if (equals > 0 .and. index(arguments(position)%text, "--") == 1) then
             value = arguments(position)%text(equals + 1:)
          else if (position < size(arguments)) then
@@ -199,8 +210,33 @@ contains
          config%is_summary = .true.
       case ("--help")
          config%is_help = .true.
+      case default
+         call set_option_of_many(option, value, config, error)
       end select
    end subroutine read_option
+
+   !> Options of the commands on many cases.
+   subroutine set_option_of_many(option, value, config, error)
+      !> The option, and its value where it has one
+      character(len=*), intent(in) :: option, value
+      !> What to do
+      type(config_t), intent(inout) :: config
+      !> Usage error
+      type(error_t), allocatable, intent(out) :: error
+
+      select case (option)
+      case ("--threads")
+         call read_whole_number(option, value, "a number of threads", see(config), config%threads, error)
+      case ("--log-every")
+         call read_whole_number(option, value, "a time in seconds", see(config), config%log_interval, error)
+      case ("--shard")
+         call read_shard(value, see(config), config, error)
+      case ("--resume")
+         config%is_resumed = .true.
+      case ("--partial")
+         config%is_partial = .true.
+      end select
+   end subroutine set_option_of_many
 
    !> A whole number, not negative.
    subroutine read_whole_number(option, value, meaning, advice, number, error)
@@ -219,6 +255,30 @@ contains
       call raise(error, kind_usage, "option '"//option//"' takes "//meaning//", not '"//value//"'"//advice)
    end subroutine read_whole_number
 
+   !> A part of a sweep, as `2/4`.
+   subroutine read_shard(value, advice, config, error)
+      !> The word
+      character(len=*), intent(in) :: value
+      !> Where to read more
+      character(len=*), intent(in) :: advice
+      !> Gets the part
+      type(config_t), intent(inout) :: config
+      !> Usage error
+      type(error_t), allocatable, intent(out) :: error
+
+      character(len=*), parameter :: meaning = "a shard and the number of shards, as 2/4"
+      integer :: slash
+
+      slash = index(value, "/")
+      call read_whole_number("--shard", value(:max(slash - 1, 0)), meaning, advice, config%shard, error)
+      if (.not. allocated(error)) then
+         call read_whole_number("--shard", value(slash + 1:), meaning, advice, config%shards, error)
+      end if
+      if (allocated(error)) return
+      if (config%shard >= 1 .and. config%shard <= config%shards) return
+      call raise(error, kind_usage, "option '--shard' takes "//meaning//", not '"//value//"'"//advice)
+   end subroutine read_shard
+
    !> Long name of an option.
    pure function long_form(option) result(long)
       !> The option as given
@@ -233,6 +293,8 @@ contains
          long = "--set"
       case ("-q")
          long = "--quiet"
+      case ("-j")
+         long = "--threads"
       case ("-h")
          long = "--help"
       case default

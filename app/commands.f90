@@ -9,7 +9,7 @@ module camroller_commands
    use camroller_deck, only : deck_t, read_deck, make_sweep_case
    use camroller_deck_document, only : write_defaults, write_page, write_resolved
    use camroller_deck_schema, only : group_effect
-   use camroller_deck_sweep, only : sweep_size, case_in_words
+   use camroller_deck_sweep, only : axis_size, case_in_words, sweep_size
    use camroller_export, only : export_csv, export_series, export_summary
    use camroller_help_text, only : help_for
    use camroller_mistakes, only : line_t
@@ -19,6 +19,8 @@ module camroller_commands
    use camroller_run, only : build_models
    use camroller_run_command, only : run_deck
    use camroller_study_command, only : study_deck
+   use camroller_sweep_command, only : merge_deck, sweep_deck
+   use camroller_team, only : team_t
    use camroller_version, only : version_text, build_commit, compiler_facts
    implicit none
    private
@@ -28,7 +30,9 @@ module camroller_commands
 contains
 
    !> Do what the command line says.
-   subroutine run_command_line(code)
+   subroutine run_command_line(team, code)
+      !> Processes that share the work of a sweep; the first one alone speaks
+      class(team_t), intent(inout) :: team
       !> Exit code: 0, or the kind of the error
       integer, intent(out) :: code
 
@@ -39,7 +43,7 @@ contains
       allocate (arguments(0))
       call get_arguments(arguments)
       call read_arguments(arguments, config, error)
-      if (.not. allocated(error)) call run_command(config, error)
+      if (.not. allocated(error)) call run_command(config, team, error)
       code = 0
       if (.not. allocated(error)) return
       write (error_unit, '(a)') "camroller: "//error%message
@@ -47,9 +51,11 @@ contains
    end subroutine run_command_line
 
    !> Do one command.
-   subroutine run_command(config, error)
+   subroutine run_command(config, team, error)
       !> What to do
       type(config_t), intent(in) :: config
+      !> Processes that share the work of a sweep
+      class(team_t), intent(inout) :: team
       !> What went wrong
       type(error_t), allocatable, intent(out) :: error
 
@@ -68,6 +74,10 @@ contains
          call show_help(config, error)
       case ("run")
          call run_deck(config, error)
+      case ("sweep")
+         call sweep_deck(config, team, error)
+      case ("merge")
+         call merge_deck(config, error)
       case ("study")
          call study_deck(config, error)
       case ("export")
@@ -170,9 +180,11 @@ contains
       words = "one case"
       if (size(deck%sweep%axes) == 0) return
       words = integer_text(sweep_size(deck%sweep))//" cases over"
+      if (deck%sweep%kind /= "grid") words = integer_text(sweep_size(deck%sweep))//" cases ("//trim(deck%sweep%kind)//") over"
       do i = 1, size(deck%sweep%axes)
          if (i > 1) words = words//" and"
-         words = words//" "//integer_text(size(deck%sweep%axes(i)%values))//" of "//deck%sweep%axes(i)%key
+         if (deck%sweep%kind == "grid") words = words//" "//integer_text(axis_size(deck%sweep%axes(i)))//" of"
+         words = words//" "//deck%sweep%axes(i)%key
       end do
    end function cases_in_words
 

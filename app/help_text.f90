@@ -42,6 +42,8 @@ contains
             & "  --quick                    a few trials of each method only"//n// &
             & "  -s, --set group.key=value  other value than the deck's; may be repeated"//n// &
             & "  -q, --quiet                say nothing but errors"
+      case ("sweep", "merge", "rerun")
+         text = help_for_many(command)
       case ("defaults")
          text = "camroller defaults [GROUP] [--markdown]"//n//n// &
             & "Print a complete deck with every key explained, or one group of it."//n//n// &
@@ -58,6 +60,9 @@ contains
       case default
          text = "camroller: friction, slip and drive torque of roller-finger-follower valve trains"//n//n// &
             & "  camroller run DECK         compute and write an HDF5 file"//n// &
+            & "  camroller sweep DECK       compute many cases in threads, restartable"//n// &
+            & "  camroller merge DECK       one file from the parts of a sweep"//n// &
+            & "  camroller rerun FILE.h5    compute a file again and compare every bit"//n// &
             & "  camroller check DECK       read and check a deck, print what it comes to"//n// &
             & "  camroller study DECK       measure what accuracy costs"//n// &
             & "  camroller defaults [GROUP] print a complete deck with every key explained"//n// &
@@ -65,8 +70,50 @@ contains
             & "  camroller version          version and build"//n// &
             & "  camroller help [COMMAND]   this, or more about a command"//n//n// &
             & "Exit codes: 0 fine, 2 command line, 3 deck or table, 4 impossible values or a law out of range,"//n// &
-            & "5 no convergence, 6 file, 70 mistake in the program."
+            & "5 no convergence, 6 file, 7 a rerun differs, 8 stopped before the end, 70 mistake in the program."
       end select
    end function help_for
+
+   !> Help for the commands on many cases.
+   pure function help_for_many(command) result(text)
+      !> Name of the command
+      character(len=*), intent(in) :: command
+      !> A few lines
+      character(len=:), allocatable :: text
+
+      select case (command)
+      case ("sweep")
+         text = "camroller sweep DECK [-o FILE] [--threads N] [--shard K/N] [--resume] [--log-every S] [--set ...] [--quiet]"// &
+            & n//n// &
+            & "Compute every case of a deck with a &sweep, in threads, and write one HDF5 file. While it runs, what is done is"// &
+            & n// &
+            & "in FILE.part-*; however it ends, --resume computes what is missing. The file does not depend on threads,"//n// &
+            & "shards and interruptions."//n//n// &
+            & "  -o, --output FILE          file to write: the deck's name with .h5 in the present folder where not given"//n// &
+            & "  -j, --threads N            threads; as many as there are cores where not given"//n// &
+            & "  --shard K/N                only the K-th of N equal parts of the cases; 'camroller merge' makes the file"//n// &
+            & "  --resume                   go on with what is there; begin where nothing is"//n// &
+            & "  --log-every S              seconds between lines in a log; 60 where not given"//n// &
+            & "  -s, --set group.key=value  other value than the deck's; may be repeated"//n// &
+            & "  -q, --quiet                say nothing but errors"
+      case ("merge")
+         text = "camroller merge DECK [-o FILE] [--partial] [--set group.key=value]... [--quiet]"//n//n// &
+            & "Make the one file of a sweep from its parts FILE.part-*, and remove them. Takes the deck, FILE and values that"// &
+            & n// &
+            & "the sweep was given."//n//n// &
+            & "  -o, --output FILE          file to write: the deck's name with .h5 in the present folder where not given"//n// &
+            & "  --partial                  also where cases are missing, with status -1; the parts stay"//n// &
+            & "  -s, --set group.key=value  other value than the deck's; may be repeated"//n// &
+            & "  -q, --quiet                say nothing but errors"
+      case default
+         text = "camroller rerun FILE.h5 [--threads N] [--log-every S] [--quiet]"//n//n// &
+            & "Compute the cases of a result file again, from the deck that is stored in it, and compare every bit. Where"// &
+            & n// &
+            & "something differs, says what and by how much, and which build made the file; the exit code is then 7."//n//n// &
+            & "  -j, --threads N            threads; as many as there are cores where not given"//n// &
+            & "  --log-every S              seconds between lines in a log; 60 where not given"//n// &
+            & "  -q, --quiet                say nothing but errors"
+      end select
+   end function help_for_many
 
 end module camroller_help_text

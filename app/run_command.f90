@@ -4,27 +4,23 @@
 !> others; the program still ends with its kind of error. Where no case has a result, there is no file.
 module camroller_run_command
    use, intrinsic :: iso_fortran_env, only : error_unit, output_unit
-   use camroller_kinds, only : wp
    use camroller_error, only : error_t, raise, add_context, kind_usage
    use camroller_case, only : case_t
    use camroller_result, only : result_t
    use camroller_run, only : run_case
    use camroller_cli, only : config_t
    use camroller_deck, only : deck_t, read_deck, make_sweep_case
-   use camroller_deck_document, only : echo_t, get_echo
-   use camroller_deck_sweep, only : sweep_size, sweep_numbers, sweep_words, case_in_words
-   use camroller_deck_values, only : longest_text
+   use camroller_deck_sweep, only : sweep_size, case_in_words
    use camroller_number_text, only : integer_text
    use camroller_output, only : output_t, output_options_t, open_output, write_case, write_failure, close_output, &
-      & abandon_output, write_deck, write_sweep, write_run
+      & abandon_output
    use camroller_progress, only : progress_t, start_progress, show_progress, end_progress, seconds_since
+   use camroller_run_facts, only : write_facts
    use camroller_settings, only : take
-   use camroller_system_file, only : utc_date
-   use camroller_version, only : version_text, build_commit, compiler_facts
    implicit none
    private
 
-   public :: run_deck, check_cases, write_facts, output_path
+   public :: run_deck, check_cases, options_of, output_path
 
    !> What happened to the cases
    type :: tally_t
@@ -151,65 +147,6 @@ contains
       tally%remarked = tally%remarked + 1
       if (tally%remarked == 1) tally%remarks = case_in_words(deck%sweep, case_number)//": "//result%warnings
    end subroutine note_remarks
-
-   !> Deck, sweep and build into the result file.
-   subroutine write_facts(writer, deck, error)
-      !> The result file
-      type(output_t), intent(inout) :: writer
-      !> The deck
-      type(deck_t), intent(in) :: deck
-      !> File error
-      type(error_t), allocatable, intent(out) :: error
-
-      character(len=longest_text), allocatable :: words(:)
-      !> Values of a key that varies [unit of the key]
-      real(wp), allocatable :: numbers(:)
-      type(echo_t) :: echo
-      integer :: i
-
-      call get_echo(deck, echo)
-      call write_deck(writer, deck%text, echo%keys, echo%values, echo%units, echo%origins, error)
-      do i = 1, size(deck%sweep%axes)
-         if (allocated(error)) return
-         associate (axis => deck%sweep%axes(i))
-            if (axis%is_numeric) then
-               call sweep_numbers(deck%sweep, i, numbers)
-               call write_sweep(writer, axis%key, axis%unit, numbers, error)
-            else
-               call sweep_words(deck%sweep, i, words)
-               call write_sweep(writer, axis%key, axis%unit, words, error)
-            end if
-         end associate
-      end do
-      if (.not. allocated(error)) call write_build(writer, error)
-   end subroutine write_facts
-
-   !> Program, build, date and command into the result file.
-   subroutine write_build(writer, error)
-      !> The result file
-      type(output_t), intent(inout) :: writer
-      !> File error
-      type(error_t), allocatable, intent(out) :: error
-
-      character(len=*), parameter :: names(*) = [character(len=8) :: "program", "version", "commit", "compiler", "options", &
-         & "date", "command"]
-      character(len=:), allocatable :: compiler, options, command, values(:)
-      integer :: length
-
-      call compiler_facts(compiler, options)
-      call get_command(length=length)
-      allocate (character(len=length) :: command)
-      call get_command(command)
-      allocate (character(len=max(len(compiler), len(options), length, len(build_commit), 20)) :: values(size(names)))
-      values(1) = "camroller"
-      values(2) = version_text
-      values(3) = build_commit
-      values(4) = compiler
-      values(5) = options
-      values(6) = utc_date()
-      values(7) = command
-      call write_run(writer, names, values, error)
-   end subroutine write_build
 
    !> Choices of the group &output.
    function options_of(deck) result(options)

@@ -12,7 +12,8 @@ module camroller_study_command
    use camroller_number_text, only : integer_text
    use camroller_output, only : output_t, output_options_t, open_output, abandon_output
    use camroller_progress, only : progress_t, start_progress, show_progress, end_progress, seconds_since
-   use camroller_run_command, only : check_cases, write_facts, output_path
+   use camroller_run_command, only : check_cases, output_path
+   use camroller_run_facts, only : write_facts
    use camroller_study, only : reference_t, make_reference, new_method_table, new_reference_table, study_methods, &
       & add_reference
    use camroller_study_accuracy, only : new_accuracy_table, study_accuracy

@@ -17,6 +17,8 @@ program main
    use test_quadrature, only : collect_quadrature
    use test_asperity, only : collect_asperity
    use test_deck, only : collect_deck
+   use test_part_file, only : collect_part_file
+   use test_samples, only : collect_samples
    use test_deck_sweep, only : collect_deck_sweep
    use test_hdf5_file, only : collect_hdf5_file
    use test_output, only : collect_output
@@ -114,6 +116,8 @@ contains
          new_testsuite("asperity", collect_asperity), &
          new_testsuite("deck", collect_deck), &
          new_testsuite("deck_sweep", collect_deck_sweep), &
+         new_testsuite("samples", collect_samples), &
+         new_testsuite("part_file", collect_part_file), &
          new_testsuite("hdf5_file", collect_hdf5_file), &
          new_testsuite("output", collect_output), &
          new_testsuite("export", collect_export), &

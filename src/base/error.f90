@@ -8,7 +8,7 @@ module camroller_error
    private
 
    public :: error_t, raise, add_context
-   public :: kind_usage, kind_deck, kind_domain, kind_convergence, kind_file, kind_internal
+   public :: kind_usage, kind_deck, kind_domain, kind_convergence, kind_file, kind_difference, kind_unfinished, kind_internal
 
    !> Wrong words on the command line
    integer, parameter :: kind_usage = 2
@@ -20,6 +20,10 @@ module camroller_error
    integer, parameter :: kind_convergence = 5
    !> A file that cannot be read or written
    integer, parameter :: kind_file = 6
+   !> A run that was repeated and came out differently
+   integer, parameter :: kind_difference = 7
+   !> A run that was stopped and can be continued
+   integer, parameter :: kind_unfinished = 8
    !> A broken promise inside the program
    integer, parameter :: kind_internal = 70
 

@@ -18,7 +18,8 @@ module camroller_deck
    use camroller_deck_relations, only : check_relations
    use camroller_deck_tables, only : deck_tables_t, obtain_tables
    use camroller_deck_case, only : fill_case
-   use camroller_deck_sweep, only : sweep_t, read_sweep, sweep_size, sweep_overrides, case_in_words
+   use camroller_deck_sweep_read, only : read_sweep
+   use camroller_deck_sweep, only : sweep_t, sweep_size, sweep_overrides, case_in_words
    implicit none
    private
 
@@ -40,8 +41,10 @@ module camroller_deck
       type(settings_t) :: settings
       !> Tables that it names
       type(deck_tables_t) :: tables
-      !> Its grid of cases
+      !> Its cases
       type(sweep_t) :: sweep
+      !> Values given beside it
+      type(override_t), allocatable :: overrides(:)
    end type deck_t
 
 contains
@@ -65,7 +68,7 @@ contains
    end subroutine read_deck
 
    !> Read a deck from a text.
-   subroutine parse_deck(deck, text, name, folder, overrides, error)
+   subroutine parse_deck(deck, text, name, folder, overrides, error, tables)
       !> The deck
       type(deck_t), intent(out) :: deck
       !> Its text
@@ -78,10 +81,14 @@ contains
       type(override_t), intent(in) :: overrides(:)
       !> Deck error with all mistakes
       type(error_t), allocatable, intent(out) :: error
+      !> Tables that are at hand; others are read from their files
+      type(deck_tables_t), intent(in), optional :: tables
 
       type(mistakes_t) :: mistakes
       integer :: i
 
+      if (present(tables)) deck%tables = tables
+      allocate (deck%overrides, source=overrides)
       deck%name = name
       deck%folder = folder
       deck%text = text
@@ -94,7 +101,7 @@ contains
       end do
       call demand_required(deck%schema, deck%settings, mistakes)
       call complete(deck%settings, deck%folder, deck%tables, mistakes)
-      call read_sweep(deck%schema, deck%settings, deck%sweep, mistakes)
+      call read_sweep(deck%schema, deck%settings, deck%folder, deck%sweep, mistakes)
       call raise_mistakes(mistakes, name, deck%shape%lines, error)
    end subroutine parse_deck
 

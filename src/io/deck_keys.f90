@@ -17,6 +17,7 @@ module camroller_deck_keys
    use camroller_needle, only : needle_bearing_t, roller_bearing_names
    use camroller_journal, only : cam_bearings_t, journal_law_names
    use camroller_roller, only : spin_names
+   use camroller_deck_sweep_keys, only : add_sweep_keys
    use camroller_output_file, only : output_options_t, compression_names
    use camroller_deck_schema, only : schema_t, add_group, add_number, add_integer, add_logical, add_name, add_text, &
       & add_numbers, add_integers, add_words, group_required, group_standard, group_effect, anything, positive, &
@@ -24,12 +25,10 @@ module camroller_deck_keys
    implicit none
    private
 
-   public :: new_schema, sweep_key_count
+   public :: new_schema
 
-   !> Keys that one sweep can vary
-   integer, parameter :: sweep_key_count = 4
    !> More groups and keys than there are
-   integer, parameter :: most_groups = 40, most_keys = 250
+   integer, parameter :: most_groups = 40, most_keys = 400
 
 contains
 
@@ -392,26 +391,5 @@ contains
       call add_name(schema, "compression", compression_names, options%compression, &
          & "when series are compressed; 'auto' does it where the file would be large")
    end subroutine add_output_keys
-
-   !> Grid of cases.
-   subroutine add_sweep_keys(schema)
-      !> Schema to add to
-      type(schema_t), intent(inout) :: schema
-
-      character(len=1) :: digit
-      integer :: i
-
-      call add_group(schema, "sweep", group_effect, &
-         & "grid of cases in one run, over up to four keys; the last one varies fastest")
-      do i = 1, sweep_key_count
-         write (digit, '(i1)') i
-         call add_text(schema, "key_"//digit, "key that is varied, as 'group.key'", is_optional=.true.)
-         call add_words(schema, "values_"//digit, "its values; or from, to and count")
-         call add_number(schema, "from_"//digit, anything, "its first value", is_optional=.true.)
-         call add_number(schema, "to_"//digit, anything, "its last value", is_optional=.true.)
-         call add_integer(schema, "count_"//digit, from_to(2.0_wp, 1.0e6_wp), "number of values at equal distances", &
-            & is_optional=.true.)
-      end do
-   end subroutine add_sweep_keys
 
 end module camroller_deck_keys

@@ -6,27 +6,29 @@
 !> `/case` (case) and `/series/cam_angle` (cam_angle) are dimensions;
 !> `/series/<name>` (case, cam_angle) and `/summary/<name>` (case) carry `units`, `long_name` and `source`;
 !> `/summary/status` (case) is 0 or the kind of the error, whose message is in `/run/messages` (case);
-!> `/deck/text` is the deck as given, `/deck/values/<group.key>` what came of it; `/sweep/<group.key>` (case) are the
-!> keys that vary;
+!> `/deck/text` is the deck as given, `/deck/overrides` the values given beside it, `/deck/values/<group.key>` what came of
+!> all of them, `/deck/table_<group>` (column, row) the tables that it names; `/sweep/<group.key>` (case) are the keys that vary;
 !> `/run` has attributes, and `/run/warnings` (case) where there are warnings.
 !> The root has `format`, `format_version`, `axes` and `complete`, which is set last.
 !>
 !> Cases are gathered in memory and written in blocks, so that the memory needed does not depend on their number.
 !> Whatever fails, the unfinished file is removed, and an earlier file of the same name stays as it was.
 module camroller_output
+   use camroller_kinds, only : wp
    use camroller_error, only : error_t, raise, kind_internal
+   use camroller_layout, only : layout_t
    use camroller_result, only : result_t
    use camroller_output_file, only : abandon_output, check_open, compression_names, finish_file, format_version, &
       & not_written, output_options_t, output_t, result_format, start_file
-   use camroller_output_cases, only : check_position, check_result, create_layout, gather, write_remark, &
-      & write_rows, write_status
-   use camroller_output_facts, only : write_deck, write_run, write_sweep
+   use camroller_output_cases, only : check_position, check_result, create_layout, gather, gather_row, &
+      & write_remark, write_rows, write_series_row, write_status
+   use camroller_output_facts, only : write_deck, write_deck_table, write_overrides, write_run, write_sweep
    implicit none
    private
 
    public :: output_t, output_options_t, compression_names, result_format, format_version
-   public :: open_output, write_case, write_failure, close_output, abandon_output
-   public :: write_deck, write_sweep, write_run
+   public :: open_output, write_case, write_failure, set_layout, write_outcome, close_output, abandon_output
+   public :: write_deck, write_deck_table, write_overrides, write_sweep, write_run
 
 contains
 
@@ -89,6 +91,60 @@ contains
          writer%status(position) = failure%kind
       end if
    end subroutine write_failure
+
+   !> Say what series and scalars the file has, before the first case.
+   subroutine set_layout(writer, layout, is_sparse, error)
+      !> The writer
+      type(output_t), intent(inout) :: writer
+      !> Series, scalars, cam angles
+      type(layout_t), intent(in) :: layout
+      !> Do only few cases have series?
+      logical, intent(in) :: is_sparse
+      !> File error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(result_t) :: example
+
+      example%summary = layout%summary
+      example%series = layout%series
+      example%angle = layout%angle
+      writer%is_sparse = is_sparse
+      call check_open(writer, error)
+      if (.not. allocated(error)) call create_layout(writer, example, error)
+      if (allocated(error)) call abandon_output(writer)
+   end subroutine set_layout
+
+   !> Write a case of any outcome into a file whose layout is set.
+   subroutine write_outcome(writer, position, status, text, summary, series, error)
+      !> The writer
+      type(output_t), intent(inout) :: writer
+      !> Position of the case, from 1; the file counts from 0
+      integer, intent(in) :: position
+      !> 0, or the kind of its error
+      integer, intent(in) :: status
+      !> Message of the error, or remarks; may be empty
+      character(len=*), intent(in) :: text
+      !> Scalars in the order of the layout [unit of the scalar]
+      real(wp), intent(in) :: summary(:)
+      !> Series in the order of the layout, shape (angle, series) [unit of the series]; empty where there are none
+      real(wp), intent(in) :: series(:, :)
+      !> File error
+      type(error_t), allocatable, intent(out) :: error
+
+      call check_position(writer, position, error)
+      if (.not. allocated(error) .and. text /= "") then
+         if (status == 0) then
+            call write_remark(writer, writer%warnings, "warnings", position, text, error)
+         else
+            call write_remark(writer, writer%messages, "messages", position, text, error)
+         end if
+      end if
+      if (.not. allocated(error) .and. writer%is_sparse .and. size(series) > 0) then
+         call write_series_row(writer, position, series, error)
+      end if
+      if (.not. allocated(error)) call gather_row(writer, position, status, summary, series, error)
+      if (allocated(error)) call abandon_output(writer)
+   end subroutine write_outcome
 
    !> Finish the file: the rest is written, `complete` set, the file closed and given its name.
    subroutine close_output(writer, error)

@@ -4,6 +4,7 @@
 !> contiguous block; larger ones are cut into chunks of as many cases as are gathered, so that each chunk is written
 !> once.
 module camroller_output_cases
+   use, intrinsic :: ieee_arithmetic, only : ieee_quiet_nan, ieee_value
    use camroller_kinds, only : wp
    use camroller_error, only : error_t, raise, kind_internal
    use camroller_result, only : quantity_t, result_t
@@ -15,7 +16,8 @@ module camroller_output_cases
    implicit none
    private
 
-   public :: check_position, create_layout, check_result, gather, write_rows, write_remark, write_status
+   public :: check_position, create_layout, check_result, gather, gather_row, write_series_row, write_rows, write_remark, &
+      & write_status
 
    !> Datasets up to this size are one contiguous block, larger ones are cut into chunks [byte]
    real(wp), parameter :: contiguous_size = 65536.0_wp
@@ -24,7 +26,9 @@ module camroller_output_cases
    !> Rows gathered in memory take about this much [byte]
    real(wp), parameter :: buffer_size = 4194304.0_wp
    !> Most cases in a block
-   integer, parameter :: largest_block = 1024
+   integer, parameter :: largest_block = 2048
+   !> Cases from which on a block is worth being compressed
+   integer, parameter :: compressed_block = 1024
    !> Cases in a chunk of a scalar
    integer, parameter :: scalar_chunk = 8192
    !> Deflate level: it saves near half of computed series; higher ones cost several times as much for a few per cent more
@@ -97,7 +101,47 @@ contains
       !> File error
       type(error_t), allocatable, intent(out) :: error
 
-      integer :: row, i
+      call start_row(writer, position, error)
+      if (allocated(error)) return
+      if (size(writer%series) > 0) writer%rows(:, writer%gathered, :) = result%series_values
+      writer%scalars(writer%gathered, :) = result%summary_values
+      writer%status(position) = 0
+      call end_row(writer, position, error)
+   end subroutine gather
+
+   !> Take a case into memory: its scalars, or not-a-number where it has none.
+   subroutine gather_row(writer, position, status, summary, series, error)
+      !> The writer
+      type(output_t), intent(inout) :: writer
+      !> Position of the case, from 1
+      integer, intent(in) :: position
+      !> 0, or the kind of its error
+      integer, intent(in) :: status
+      !> Scalars [unit of the scalar]
+      real(wp), intent(in) :: summary(:)
+      !> Series, shape (angle, series) [unit of the series]; empty where there are none
+      real(wp), intent(in) :: series(:, :)
+      !> File error
+      type(error_t), allocatable, intent(out) :: error
+
+      call start_row(writer, position, error)
+      if (allocated(error)) return
+      if (size(writer%rows) > 0) writer%rows(:, writer%gathered, :) = ieee_value(1.0_wp, ieee_quiet_nan)
+      if (size(writer%rows) > 0 .and. size(series) > 0) writer%rows(:, writer%gathered, :) = series
+      writer%scalars(writer%gathered, :) = ieee_value(1.0_wp, ieee_quiet_nan)
+      if (status == 0) writer%scalars(writer%gathered, :) = summary
+      writer%status(position) = status
+      call end_row(writer, position, error)
+   end subroutine gather_row
+
+   !> Begin a row.
+   subroutine start_row(writer, position, error)
+      !> The writer
+      type(output_t), intent(inout) :: writer
+      !> Position of the case, from 1
+      integer, intent(in) :: position
+      !> File error
+      type(error_t), allocatable, intent(out) :: error
 
       if (position /= writer%first + writer%gathered) then
          call write_rows(writer, error)
@@ -105,14 +149,39 @@ contains
          writer%first = position
       end if
       writer%gathered = writer%gathered + 1
-      row = writer%gathered
+   end subroutine start_row
+
+   !> End a row; a full block is written.
+   subroutine end_row(writer, position, error)
+      !> The writer
+      type(output_t), intent(inout) :: writer
+      !> Position of the case, from 1
+      integer, intent(in) :: position
+      !> File error
+      type(error_t), allocatable, intent(out) :: error
+
+      if (writer%gathered == writer%block .or. modulo(position, writer%block) == 0) call write_rows(writer, error)
+   end subroutine end_row
+
+   !> Write the series of one of few cases that have some.
+   subroutine write_series_row(writer, position, series, error)
+      !> The writer
+      type(output_t), intent(inout) :: writer
+      !> Position of the case, from 1
+      integer, intent(in) :: position
+      !> Series, shape (angle, series) [unit of the series]
+      real(wp), intent(in) :: series(:, :)
+      !> File error
+      type(error_t), allocatable, intent(out) :: error
+
+      integer :: i
+
+      call reserve_file(writer%file, number_size*size(series) + object_size*size(writer%series), error)
       do i = 1, size(writer%series)
-         writer%rows(:, row, i) = result%series_values(:, i)
+         if (allocated(error)) return
+         call write_numbers(writer%series_data(i), position - 1, series(:, i:i), error)
       end do
-      writer%scalars(row, :) = result%summary_values
-      writer%status(position) = 0
-      if (row == writer%block .or. modulo(position, writer%block) == 0) call write_rows(writer, error)
-   end subroutine gather
+   end subroutine write_series_row
 
    !> Write the gathered rows.
    subroutine write_rows(writer, error)
@@ -127,6 +196,7 @@ contains
       call reserve_file(writer%file, number_size*(size(writer%rows) + size(writer%scalars)), error)
       if (allocated(error)) return
       do i = 1, size(writer%series)
+         if (size(writer%rows) == 0) exit
          call write_numbers(writer%series_data(i), writer%first - 1, writer%rows(:, 1:writer%gathered, i), error)
          if (allocated(error)) return
       end do
@@ -204,9 +274,14 @@ contains
          angles = size(result%angle)
       end if
       numbers = real(angles, wp)*size(writer%series) + size(writer%summary)
+      if (writer%is_sparse) numbers = size(writer%summary)
       writer%block = int(min(buffer_size/(number_size*max(numbers, 1.0_wp)), real(largest_block, wp)))
       writer%block = min(max(writer%block, 1), size(writer%status))
-      allocate (writer%rows(angles, writer%block, size(writer%series)), source=0.0_wp)
+      if (writer%is_sparse) then
+         allocate (writer%rows(angles, 0, size(writer%series)))
+      else
+         allocate (writer%rows(angles, writer%block, size(writer%series)), source=0.0_wp)
+      end if
       allocate (writer%scalars(writer%block, size(writer%summary)), source=0.0_wp)
       allocate (writer%series_data(size(writer%series)), writer%summary_data(size(writer%summary)))
       space = object_size*(size(writer%series) + size(writer%summary) + 1) + number_size*angles
@@ -239,8 +314,9 @@ contains
 
       cases = size(writer%status)
       chunk = [size(angle), writer%block]
+      if (writer%is_sparse) chunk(2) = 1
       level = compression_level(writer, size(angle))
-      axes_in_chunk = merge(2, 0, level > 0 .or. is_large(cases, size(angle), contiguous_size))
+      axes_in_chunk = merge(2, 0, level > 0 .or. writer%is_sparse .or. is_large(cases, size(angle), contiguous_size))
       do i = 1, size(writer%series)
          if (allocated(error)) exit
          associate (series => writer%series(i), dataset => writer%series_data(i))
@@ -262,13 +338,18 @@ contains
       !> File error
       type(error_t), allocatable, intent(out) :: error
 
-      integer, parameter :: chunk(1) = [scalar_chunk]
-      integer :: axes_in_chunk, i
+      integer :: chunk(1), axes_in_chunk, level, i
 
+      chunk = scalar_chunk
       axes_in_chunk = merge(1, 0, size(writer%status) > scalar_chunk)
+      level = 0
+      if (are_scalars_compressed(writer)) then
+         chunk = writer%block
+         level = deflate_level
+      end if
       do i = 1, size(writer%summary)
          associate (scalar => writer%summary(i), dataset => writer%summary_data(i))
-            call create_numbers(writer%summary_group, scalar%name, shape(writer%status), chunk(:axes_in_chunk), 0, &
+            call create_numbers(writer%summary_group, scalar%name, shape(writer%status), chunk(:axes_in_chunk), level, &
                & dataset, error)
             if (.not. allocated(error)) call describe(dataset, scalar%unit, scalar%description, &
                & scalar%source, error)
@@ -277,6 +358,17 @@ contains
          if (allocated(error)) return
       end do
    end subroutine create_summary
+
+   !> Are scalars compressed? Only where each chunk is written once.
+   pure function are_scalars_compressed(writer) result(answer)
+      !> The writer
+      type(output_t), intent(in) :: writer
+      !> Are they?
+      logical :: answer
+
+      answer = writer%options%compression /= "off" .and. size(writer%status) > scalar_chunk .and. &
+         & writer%block >= compressed_block
+   end function are_scalars_compressed
 
    !> Deflate level of the series.
    pure function compression_level(writer, angles) result(level)

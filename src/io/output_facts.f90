@@ -13,7 +13,7 @@ module camroller_output_facts
    implicit none
    private
 
-   public :: write_deck, write_sweep, write_run
+   public :: write_deck, write_overrides, write_deck_table, write_sweep, write_run
 
    !> Values of a swept key: numbers or names
    interface write_sweep
@@ -60,6 +60,57 @@ contains
       call close_object(group)
       if (allocated(error)) call abandon_output(writer)
    end subroutine write_deck
+
+   !> Store values given beside the deck.
+   subroutine write_overrides(writer, overrides, error)
+      !> The writer
+      type(output_t), intent(inout) :: writer
+      !> The values, as `group.key=value`
+      character(len=*), intent(in) :: overrides(:)
+      !> File error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(hdf5_object_t) :: dataset
+      integer :: i
+
+      call check_open(writer, error)
+      if (allocated(error)) return
+      call reserve_file(writer%file, object_size + size(overrides)*(text_size + len(overrides)), error)
+      if (.not. allocated(error)) call create_texts(writer%deck, "overrides", shape(overrides), dataset, error)
+      do i = 1, size(overrides)
+         if (.not. allocated(error)) call write_text(dataset, [i - 1], overrides(i), error)
+      end do
+      call close_object(dataset)
+      if (allocated(error)) call abandon_output(writer)
+   end subroutine write_overrides
+
+   !> Store a table that the deck names.
+   subroutine write_deck_table(writer, group, path, x, y, error)
+      !> The writer
+      type(output_t), intent(inout) :: writer
+      !> Group of the deck that names it
+      character(len=*), intent(in) :: group
+      !> File it is from
+      character(len=*), intent(in) :: path
+      !> Its columns [units of the file]
+      real(wp), intent(in) :: x(:), y(:)
+      !> File error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(hdf5_object_t) :: dataset
+      real(wp), allocatable :: columns(:, :) ! [units of the file]
+
+      call check_open(writer, error)
+      if (allocated(error)) return
+      columns = reshape([x, y], [size(x), 2])
+      call reserve_file(writer%file, 2*object_size + number_size*size(columns), error)
+      if (.not. allocated(error)) call create_numbers(writer%deck, "table_"//group, shape(columns), [integer ::], 0, &
+         & dataset, error)
+      if (.not. allocated(error)) call write_numbers(dataset, 0, columns, error)
+      if (.not. allocated(error)) call put_attribute(dataset, "path", path, error)
+      call close_object(dataset)
+      if (allocated(error)) call abandon_output(writer)
+   end subroutine write_deck_table
 
    !> Store facts of the run (program, version, commit, compiler, options, date, command ...) as attributes of `/run`.
    subroutine write_run(writer, names, values, error)

@@ -38,8 +38,8 @@ module camroller_output_file
    !> Order of the axes, for readers in any language
    character(len=*), parameter :: axes_remark = "(case, cam_angle) as C and Python count them, the last axis "// &
       & "contiguous in memory; Fortran sees (cam_angle, case)"
-   !> Status of a case that has not come yet
-   integer, parameter :: not_written = -1
+   !> Status of a case that has not come yet; -1 is that of a case that was not computed
+   integer, parameter :: not_written = -2
 
    !> What goes into the file, and how
    type :: output_options_t
@@ -72,6 +72,8 @@ module camroller_output_file
       integer :: first = 1
       !> Rows gathered
       integer :: gathered = 0
+      !> Do only few cases have series?
+      logical :: is_sparse = .false.
    end type output_t
 
 contains

@@ -11,7 +11,7 @@ module camroller_system_file
 
    public :: process_number, is_folder, rename_file, remove_file
    public :: reserve_space, set_file_size, sync_descriptor, utc_date
-   public :: ignore_size_signal, restore_size_signal
+   public :: ignore_size_signal, restore_size_signal, system_words
 
    !> Signal that a file outgrew its limit; what `signal` takes for ignoring and gives for an error
    integer(c_int), parameter :: signal_file_size = 25_c_int

@@ -6,7 +6,6 @@ module test_deck_sweep
    use camroller_case, only : case_t
    use camroller_deck, only : deck_t, make_sweep_case
    use camroller_deck_sweep, only : sweep_size, sweep_position, sweep_numbers, sweep_words
-   use camroller_deck_values, only : longest_text
    use deck_samples, only : changed_deck, parse_sample, sample_deck, expect_mistake
    implicit none
    private
@@ -92,7 +91,7 @@ contains
       type(error_t), allocatable :: raised
       !> Speeds [rpm]
       real(wp), allocatable :: numbers(:)
-      character(len=longest_text), allocatable :: words(:)
+      character(len=:), allocatable :: words(:)
 
       call parse_sample(changed_deck("", grid), deck, raised)
       if (allocated(raised)) call test_failed(error, raised%message)

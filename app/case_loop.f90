@@ -1,0 +1,350 @@
+!> The loop over the cases of a sweep: threads take runs of cases and hand records of them to a sink.
+!>
+!> Layer: app. In: a deck, the cases to be computed, a team, a sink. Out: every case in the sink once, in runs whose length
+!> follows from the time that cases take; what ended the loop. Only one thread at a time takes cases, hands a record over, and
+!> says how far the loop is; a case itself shares nothing with others, so its numbers do not depend on any of this. Built
+!> without OpenMP, the loop runs in one thread.
+module camroller_case_loop
+   use, intrinsic :: iso_fortran_env, only : int64
+!$ use omp_lib, only : omp_get_num_procs, omp_get_max_threads
+   use camroller_kinds, only : wp
+   use camroller_error, only : error_t, add_context
+   use camroller_case, only : case_t
+   use camroller_case_record, only : begin_cases, case_words, end_cases, put_failure, put_result
+   use camroller_case_runs, only : piece_of, run_total, runs_t
+   use camroller_case_sink, only : find_layout, sink_t
+   use camroller_deck, only : deck_t, make_sweep_case
+   use camroller_deck_sweep, only : case_in_words
+   use camroller_progress, only : progress_t, show_progress
+   use camroller_record, only : record_t
+   use camroller_result, only : result_t
+   use camroller_run, only : run_case
+   use camroller_stop_signal, only : is_stop_wanted
+   use camroller_team, only : team_t
+   implicit none
+   private
+
+   public :: loop_t, compute_cases, number_of_cores
+   public :: ended_all, ended_by_signal, ended_by_time, ended_by_error
+
+   !> What ended the loop
+   integer, parameter :: ended_all = 0, ended_by_signal = 1, ended_by_time = 2, ended_by_error = 3
+   !> Time that a run of cases should take [s]: many times what handing it over takes, little to lose, little to wait for
+   real(wp), parameter :: time_of_run = 0.25_wp
+   !> Most cases of a run, and words after which it is handed over
+   integer, parameter :: longest_run = 256, largest_record = 524288
+   !> Runs that are left for each thread when the length of runs begins to fall
+   integer, parameter :: last_runs = 4
+
+   !> How the loop runs, and what it shares among its threads
+   type :: loop_t
+      !> Threads of this process
+      integer :: threads = 1
+      !> Series of which cases are kept: none, those listed, all
+      character(len=8) :: series = "none"
+      !> Cases whose series are kept, from 0
+      integer, allocatable :: series_cases(:)
+      !> Clock at which the loop has to end; 0 for no limit
+      integer(int64) :: deadline = 0
+      !> What ended it
+      integer :: ended = ended_all
+      !> Cases handed over by this process
+      integer :: done = 0
+      !> Cases to be computed by all processes
+      integer :: total = 0
+      !> The error that ended it
+      type(error_t), allocatable :: error
+      type(progress_t) :: progress
+   end type loop_t
+
+contains
+
+   !> Cores that this process may use.
+   function number_of_cores() result(cores)
+      !> How many
+      integer :: cores
+
+      cores = 1
+!$ cores = min(omp_get_num_procs(), omp_get_max_threads())
+   end function number_of_cores
+
+   !> Compute cases.
+   subroutine compute_cases(loop, deck, runs, team, sink, error)
+      !> How; gets what came of it
+      type(loop_t), intent(inout), target :: loop
+      !> The deck
+      type(deck_t), intent(in) :: deck
+      !> Cases to be computed
+      type(runs_t), intent(in) :: runs
+      !> Processes that share them
+      class(team_t), intent(inout), target :: team
+      !> Where they go
+      class(sink_t), intent(inout), target :: sink
+      !> Error of the sink
+      type(error_t), allocatable, intent(out) :: error
+
+      loop%total = run_total(runs)
+      loop%ended = ended_all
+      !$omp parallel num_threads(loop%threads) default(shared)
+      call work(loop, deck, runs, team, sink)
+      !$omp end parallel
+      if (allocated(loop%error)) call move_alloc(loop%error, error)
+   end subroutine compute_cases
+
+   !> What each thread does.
+   subroutine work(loop, deck, runs, team, sink)
+      !> Shared by all threads
+      type(loop_t), intent(inout), target :: loop
+      !> The deck
+      type(deck_t), intent(in) :: deck
+      !> Cases to be computed
+      type(runs_t), intent(in) :: runs
+      !> Processes that share them
+      class(team_t), intent(inout), target :: team
+      !> Where they go
+      class(sink_t), intent(inout), target :: sink
+
+      integer(int64) :: before, after, rate
+      integer :: wanted, position, first, count, left
+      logical :: is_over
+
+      wanted = 1
+      call system_clock(before, rate)
+      do
+         call take_cases(loop, team, wanted, position, left, is_over)
+         if (is_over) exit
+         do while (left > 0)
+            call piece_of(runs, position, left, first, count)
+            if (count == 0) exit
+            call compute_run(loop, deck, first, count, sink, is_over)
+            if (is_over) return
+            position = position + count
+            left = left - count
+         end do
+         call system_clock(after)
+         wanted = length_of_run(wanted, real(after - before, wp)/real(rate, wp))
+         before = after
+      end do
+   end subroutine work
+
+   !> Cases of the next run, from the time that the last one took.
+   pure function length_of_run(last, time) result(length)
+      !> Cases of the last run
+      integer, intent(in) :: last
+      !> Time it took [s]
+      real(wp), intent(in) :: time
+      !> Cases of the next one
+      integer :: length
+
+      length = min(longest_run, 8*last, int(1.0_wp + real(last, wp)*min(8.0_wp, time_of_run/max(time, 1.0e-9_wp))))
+   end function length_of_run
+
+   !> Take cases, fewer than wanted near the end, so that all threads end at the same time.
+   subroutine take_cases(loop, team, wanted, position, count, is_over)
+      !> Shared by all threads
+      type(loop_t), intent(inout), target :: loop
+      !> Processes that share the cases
+      class(team_t), intent(inout), target :: team
+      !> How many are wanted
+      integer, intent(in) :: wanted
+      !> Position of the first one among the cases to be computed, from 1
+      integer, intent(out) :: position
+      !> How many there are
+      integer, intent(out) :: count
+      !> Is there nothing more to do?
+      logical, intent(out) :: is_over
+
+      position = 0
+      count = 0
+      !$omp critical (camroller_desk)
+      call note_limits(loop)
+      is_over = loop%ended /= ended_all
+      if (.not. is_over) then
+         count = max(1, min(wanted, (loop%total - team%given)/(last_runs*loop%threads*team%ranks)))
+         call team%take(count, position)
+         is_over = position > loop%total
+         count = min(count, loop%total - position + 1)
+      end if
+      !$omp end critical (camroller_desk)
+   end subroutine take_cases
+
+   !> Has the time come to an end, or somebody asked for it?
+   subroutine note_limits(loop)
+      !> Shared by all threads
+      type(loop_t), intent(inout), target :: loop
+
+      if (loop%ended /= ended_all) return
+      if (is_stop_wanted()) then
+         loop%ended = ended_by_signal
+      else if (is_late(loop%deadline)) then
+         loop%ended = ended_by_time
+      end if
+   end subroutine note_limits
+
+   !> Is a time in the past?
+   function is_late(deadline) result(verdict)
+      !> Clock; 0 for no time
+      integer(int64), intent(in) :: deadline
+      !> Is it?
+      logical :: verdict
+
+      integer(int64) :: now
+
+      verdict = .false.
+      if (deadline == 0) return
+      call system_clock(now)
+      verdict = now > deadline
+   end function is_late
+
+   !> Compute a run of cases and hand it over; where the loop has to end, what is done of it.
+   subroutine compute_run(loop, deck, first, count, sink, is_over)
+      !> Shared by all threads
+      type(loop_t), intent(inout), target :: loop
+      !> The deck
+      type(deck_t), intent(in) :: deck
+      !> First case, from 1, and number of cases
+      integer, intent(in) :: first, count
+      !> Where they go
+      class(sink_t), intent(inout), target :: sink
+      !> Does the loop have to end?
+      logical, intent(out) :: is_over
+
+      type(record_t) :: record
+      type(case_t) :: case
+      type(result_t) :: result
+      type(error_t), allocatable :: failure
+      integer :: i, n, layout, of_case
+      logical :: with_series
+
+      call begin_cases(record, first)
+      n = 0
+      layout = 0
+      is_over = .false.
+      do i = first, first + count - 1
+         call compute_case(deck, i, case, result, failure)
+         if (allocated(failure)) then
+            call put_failure(record, failure)
+         else
+            call name_layout(loop, sink, result, of_case)
+            if (layout /= 0 .and. of_case /= layout) then
+               call hand_over(loop, sink, record, n, layout)
+               call begin_cases(record, i)
+               n = 0
+            end if
+            layout = of_case
+            with_series = keeps_series(loop, i - 1)
+            call put_result(record, result, with_series)
+         end if
+         n = n + 1
+         is_over = is_late(loop%deadline) .or. is_stop_wanted()
+         if (is_over) exit
+         if (record%length < largest_record .or. i == first + count - 1) cycle
+         call hand_over(loop, sink, record, n, layout)
+         call begin_cases(record, i + 1)
+         n = 0
+         layout = 0
+      end do
+      if (n > 0) call hand_over(loop, sink, record, n, layout)
+      if (is_ended(loop)) is_over = .true.
+   end subroutine compute_run
+
+   !> Compute one case.
+   subroutine compute_case(deck, number, case, result, failure)
+      !> The deck
+      type(deck_t), intent(in) :: deck
+      !> Number of the case, from 1
+      integer, intent(in) :: number
+      !> The case
+      type(case_t), intent(out) :: case
+      !> Its result
+      type(result_t), intent(out) :: result
+      !> What went wrong with it
+      type(error_t), allocatable, intent(out) :: failure
+
+      call make_sweep_case(deck, number, case, failure)
+      if (allocated(failure)) return
+      call run_case(case, result, failure)
+      if (size(deck%sweep%axes) > 0) call add_context(failure, case_in_words(deck%sweep, number))
+   end subroutine compute_case
+
+   !> Are the series of a case kept?
+   pure function keeps_series(loop, number) result(verdict)
+      !> How the loop runs
+      type(loop_t), intent(in) :: loop
+      !> Number of the case, from 0
+      integer, intent(in) :: number
+      !> Are they?
+      logical :: verdict
+
+      verdict = loop%series == "all"
+      if (loop%series == "chosen") verdict = any(loop%series_cases == number)
+   end function keeps_series
+
+   !> Number of the layout of a result.
+   subroutine name_layout(loop, sink, result, layout)
+      !> Shared by all threads
+      type(loop_t), intent(inout), target :: loop
+      !> Where the cases go
+      class(sink_t), intent(inout), target :: sink
+      !> The result
+      type(result_t), intent(in) :: result
+      !> The number
+      integer, intent(out) :: layout
+
+      type(error_t), allocatable :: error
+
+      !$omp critical (camroller_desk)
+      call find_layout(sink, result, layout, error)
+      if (allocated(error)) call note_error(loop, error)
+      !$omp end critical (camroller_desk)
+   end subroutine name_layout
+
+   !> Hand a record over.
+   subroutine hand_over(loop, sink, record, count, layout)
+      !> Shared by all threads
+      type(loop_t), intent(inout), target :: loop
+      !> Where it goes
+      class(sink_t), intent(inout), target :: sink
+      !> The record
+      type(record_t), intent(inout) :: record
+      !> Number of cases in it, and their layout
+      integer, intent(in) :: count, layout
+
+      type(error_t), allocatable :: error
+
+      call end_cases(record, count, layout)
+      !$omp critical (camroller_desk)
+      if (.not. allocated(loop%error)) then
+         call sink%keep(record, error)
+         if (allocated(error)) call note_error(loop, error)
+         if (.not. allocated(error)) loop%done = loop%done + count
+         call show_progress(loop%progress, loop%done, loop%total)
+      end if
+      !$omp end critical (camroller_desk)
+   end subroutine hand_over
+
+   !> Take note of an error: the loop ends.
+   subroutine note_error(loop, error)
+      !> Shared by all threads
+      type(loop_t), intent(inout), target :: loop
+      !> The error
+      type(error_t), intent(in) :: error
+
+      if (.not. allocated(loop%error)) loop%error = error
+      loop%ended = ended_by_error
+   end subroutine note_error
+
+   !> Has the loop come to an end?
+   function is_ended(loop) result(verdict)
+      !> Shared by all threads
+      type(loop_t), intent(inout), target :: loop
+      !> Has it?
+      logical :: verdict
+
+      !$omp critical (camroller_desk)
+      call note_limits(loop)
+      verdict = loop%ended /= ended_all
+      !$omp end critical (camroller_desk)
+   end function is_ended
+
+end module camroller_case_loop

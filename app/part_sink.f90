@@ -1,0 +1,74 @@
+!> Cases that go to a part file.
+!>
+!> Layer: app. In: records. Out: the same in a part file, kept by the device from time to time.
+module camroller_part_sink
+   use, intrinsic :: iso_fortran_env, only : int64
+   use camroller_kinds, only : wp
+   use camroller_error, only : error_t
+   use camroller_case_record, only : end_cases, take_header
+   use camroller_case_sink, only : sink_t
+   use camroller_layout, only : layout_t, put_layout
+   use camroller_part_file, only : append_record, kind_cases, kind_layout, part_t, sync_part
+   use camroller_record, only : clear_record, record_t
+   implicit none
+   private
+
+   public :: part_sink_t
+
+   !> The sink
+   type, extends(sink_t) :: part_sink_t
+      type(part_t) :: part
+      !> Time after which the device keeps what is written [s]
+      real(wp) :: interval = 30.0_wp
+      !> Clock when it did last
+      integer(int64) :: last = 0
+      !> Layouts that the file had when it was opened
+      integer :: layouts_before = -1
+   contains
+      procedure :: announce
+      procedure :: keep
+   end type part_sink_t
+
+contains
+
+   !> Write a layout.
+   subroutine announce(self, layout, error)
+      !> The sink
+      class(part_sink_t), intent(inout) :: self
+      !> The layout
+      type(layout_t), intent(in) :: layout
+      !> File error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(record_t) :: record
+
+      if (self%layouts_before < 0) self%layouts_before = self%part%layouts
+      call clear_record(record)
+      call put_layout(record, layout)
+      call append_record(self%part, kind_layout, record, error)
+   end subroutine announce
+
+   !> Write a run of cases; its layout is counted from the first one of the file.
+   subroutine keep(self, record, error)
+      !> The sink
+      class(part_sink_t), intent(inout) :: self
+      !> The cases
+      type(record_t), intent(inout) :: record
+      !> File error
+      type(error_t), allocatable, intent(out) :: error
+
+      integer(int64) :: now, rate
+      integer :: first, count, layout
+
+      call take_header(record, first, count, layout)
+      if (layout > 0) call end_cases(record, count, layout + max(0, self%layouts_before))
+      call append_record(self%part, kind_cases, record, error)
+      if (allocated(error)) return
+      call system_clock(now, rate)
+      if (self%last == 0) self%last = now
+      if (real(now - self%last, wp) < self%interval*real(rate, wp)) return
+      self%last = now
+      call sync_part(self%part, error)
+   end subroutine keep
+
+end module camroller_part_sink

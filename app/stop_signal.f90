@@ -1,0 +1,75 @@
+!> Signals that ask the program to stop: taken note of, so that it can be asked for them where stopping does no harm.
+!>
+!> Layer: app. In: nothing. Out: whether somebody wants the program to end. A handler can be given nothing to write to, hence
+!> the one saved variable of the program. Holding the signals back and asking what is pending would need none, but other
+!> libraries start threads of their own, to which the system then hands them.
+module camroller_stop_signal
+   use, intrinsic :: iso_c_binding, only : c_funloc, c_funptr, c_int, c_intptr_t
+   implicit none
+   private
+
+   public :: heed_stop_signals, is_stop_wanted, release_stop_signals
+
+   !> Interrupt from the terminal, first user signal, end
+   integer(c_int), parameter :: stop_signals(*) = [2_c_int, 10_c_int, 15_c_int]
+
+   interface
+      function c_signal(number, handler) bind(C, name="signal") result(former)
+         import :: c_funptr, c_int, c_intptr_t
+         integer(c_int), value :: number
+         type(c_funptr), value :: handler
+         integer(c_intptr_t) :: former
+      end function c_signal
+
+      function c_signal_default(number, handler) bind(C, name="signal") result(former)
+         import :: c_int, c_intptr_t
+         integer(c_int), value :: number
+         integer(c_intptr_t), value :: handler
+         integer(c_intptr_t) :: former
+      end function c_signal_default
+   end interface
+
+contains
+
+   !> Take note of the signals from now on.
+   subroutine heed_stop_signals()
+      integer(c_intptr_t) :: ignored
+      integer :: i
+
+      do i = 1, size(stop_signals)
+         ignored = c_signal(stop_signals(i), c_funloc(note_signal))
+      end do
+   end subroutine heed_stop_signals
+
+   !> Let the signals end the program again.
+   subroutine release_stop_signals()
+      integer(c_intptr_t) :: ignored
+      integer :: i
+
+      do i = 1, size(stop_signals)
+         ignored = c_signal_default(stop_signals(i), 0_c_intptr_t)
+      end do
+   end subroutine release_stop_signals
+
+   !> Has one of the signals come?
+   function is_stop_wanted() result(verdict)
+      !> Has it?
+      logical :: verdict
+
+      verdict = note_signal(0_c_int) /= 0
+   end function is_stop_wanted
+
+   !> Take note of a signal, as its handler, or ask for the last one.
+   function note_signal(number) bind(C) result(noted)
+      !> Number of the signal; 0 to ask
+      integer(c_int), value :: number
+      !> The last signal; 0 for none
+      integer(c_int) :: noted
+
+      integer(c_int), save, volatile :: last = 0_c_int
+
+      if (number /= 0) last = number
+      noted = last
+   end function note_signal
+
+end module camroller_stop_signal

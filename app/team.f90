@@ -1,0 +1,67 @@
+!> Processes that share a sweep: who takes which cases, and what all of them know.
+!>
+!> Layer: app. In: nothing. Out: `team_t`, a team of one process; the program for MPI extends it. The only thing that processes
+!> share while they compute is a counter of the cases given out.
+module camroller_team
+   implicit none
+   private
+
+   public :: team_t
+
+   !> A team of one
+   type :: team_t
+      !> This process, from 0, and the number of processes
+      integer :: rank = 0, ranks = 1
+      !> Cases given out
+      integer :: given = 0
+   contains
+      procedure :: reset => reset_alone
+      procedure :: take => take_alone
+      procedure :: share => share_alone
+      procedure :: largest => largest_alone
+   end type team_t
+
+contains
+
+   !> Begin to give cases out; all processes call it.
+   subroutine reset_alone(self)
+      !> The team
+      class(team_t), intent(inout) :: self
+
+      self%given = 0
+   end subroutine reset_alone
+
+   !> Take cases that nobody else has.
+   subroutine take_alone(self, wanted, position)
+      !> The team
+      class(team_t), intent(inout) :: self
+      !> How many
+      integer, intent(in) :: wanted
+      !> Position of the first of them among the cases to be computed, from 1; may be beyond the last
+      integer, intent(out) :: position
+
+      position = self%given + 1
+      if (self%given < huge(1) - 2*wanted) self%given = self%given + wanted
+   end subroutine take_alone
+
+   !> Give all processes what the first one has; all processes call it.
+   subroutine share_alone(self, numbers)
+      !> The team
+      class(team_t), intent(inout) :: self
+      !> Integers, those of the first process on return
+      integer, allocatable, intent(inout) :: numbers(:)
+
+      if (self%rank /= 0) deallocate (numbers)
+   end subroutine share_alone
+
+   !> Largest number of all processes; all of them call it and wait for each other.
+   subroutine largest_alone(self, number)
+      !> The team
+      class(team_t), intent(inout) :: self
+      !> A number, the largest one on return
+      integer, intent(inout) :: number
+
+      if (self%ranks < 1) number = 0
+   end subroutine largest_alone
+
+end module camroller_team

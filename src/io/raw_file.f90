@@ -1,0 +1,293 @@
+!> Files of bytes as the operating system has them: appended to, read at any place, cut, locked, put on the device.
+!>
+!> Layer: io. In: paths, 64-bit words. Out: words, errors in the system's words. Nothing is held back in the program: what was
+!> appended survives the end of the process, whatever ends it, and what is on the device survives the end of the machine.
+module camroller_raw_file
+   use, intrinsic :: iso_c_binding, only : c_associated, c_char, c_f_pointer, c_int, c_int64_t, c_loc, c_null_char, &
+      & c_null_ptr, c_ptr, c_size_t
+   use, intrinsic :: iso_fortran_env, only : int64
+   use camroller_error, only : error_t, raise, kind_file
+   use camroller_mistakes, only : line_t
+   use camroller_system_file, only : set_file_size, sync_descriptor, system_words
+   implicit none
+   private
+
+   public :: raw_file_t, open_raw, append_words, read_words, cut_raw, sync_raw, close_raw, find_files
+
+   !> Bytes of a word
+   integer(int64), parameter, public :: word_size = 8_int64
+   !> What `lseek` takes for the end of a file, `flock` for an exclusive lock without waiting
+   integer(c_int), parameter :: from_end = 2_c_int, lock_at_once = 6_c_int
+
+   !> An open file
+   type :: raw_file_t
+      !> Its path
+      character(len=:), allocatable :: path
+      !> Its stream in the C library; null where it is not open
+      type(c_ptr) :: stream = c_null_ptr
+      !> Its descriptor
+      integer(c_int) :: descriptor = -1
+      !> Bytes that are in it
+      integer(int64) :: bytes = 0
+   end type raw_file_t
+
+   !> Result of `glob`, as C libraries lay it out, with room for what follows
+   type, bind(C) :: glob_t
+      integer(c_size_t) :: count
+      type(c_ptr) :: paths
+      integer(c_size_t) :: rest(32)
+   end type glob_t
+
+   interface
+      function c_fopen(path, mode) bind(C, name="fopen") result(stream)
+         import :: c_char, c_ptr
+         character(kind=c_char), intent(in) :: path(*), mode(*)
+         type(c_ptr) :: stream
+      end function c_fopen
+
+      function c_fclose(stream) bind(C, name="fclose") result(status)
+         import :: c_int, c_ptr
+         type(c_ptr), value :: stream
+         integer(c_int) :: status
+      end function c_fclose
+
+      function c_fileno(stream) bind(C, name="fileno") result(descriptor)
+         import :: c_int, c_ptr
+         type(c_ptr), value :: stream
+         integer(c_int) :: descriptor
+      end function c_fileno
+
+      function c_write(descriptor, bytes, count) bind(C, name="write") result(written)
+         import :: c_int, c_int64_t, c_ptr, c_size_t
+         integer(c_int), value :: descriptor
+         type(c_ptr), value :: bytes
+         integer(c_size_t), value :: count
+         integer(c_int64_t) :: written
+      end function c_write
+
+      function c_pread(descriptor, bytes, count, offset) bind(C, name="pread") result(found)
+         import :: c_int, c_int64_t, c_ptr, c_size_t
+         integer(c_int), value :: descriptor
+         type(c_ptr), value :: bytes
+         integer(c_size_t), value :: count
+         integer(c_int64_t), value :: offset
+         integer(c_int64_t) :: found
+      end function c_pread
+
+      function c_lseek(descriptor, offset, whence) bind(C, name="lseek") result(position)
+         import :: c_int, c_int64_t
+         integer(c_int), value :: descriptor, whence
+         integer(c_int64_t), value :: offset
+         integer(c_int64_t) :: position
+      end function c_lseek
+
+      function c_flock(descriptor, operation) bind(C, name="flock") result(status)
+         import :: c_int
+         integer(c_int), value :: descriptor, operation
+         integer(c_int) :: status
+      end function c_flock
+
+      function c_errno() bind(C, name="__errno_location") result(address)
+         import :: c_ptr
+         type(c_ptr) :: address
+      end function c_errno
+
+      function c_glob(pattern, flags, on_error, found) bind(C, name="glob") result(status)
+         import :: c_char, c_int, c_ptr, glob_t
+         character(kind=c_char), intent(in) :: pattern(*)
+         integer(c_int), value :: flags
+         type(c_ptr), value :: on_error
+         type(glob_t), intent(inout) :: found
+         integer(c_int) :: status
+      end function c_glob
+
+      subroutine c_globfree(found) bind(C, name="globfree")
+         import :: glob_t
+         type(glob_t), intent(inout) :: found
+      end subroutine c_globfree
+
+      function c_strlen(text) bind(C, name="strlen") result(length)
+         import :: c_ptr, c_size_t
+         type(c_ptr), value :: text
+         integer(c_size_t) :: length
+      end function c_strlen
+   end interface
+
+contains
+
+   !> Open a file: to read, or to append to, with a lock that no other process has.
+   subroutine open_raw(file, path, is_writable, error)
+      !> The file
+      type(raw_file_t), intent(out) :: file
+      !> Its path; created where it is to be written and is not there
+      character(len=*), intent(in) :: path
+      !> Is it to be appended to?
+      logical, intent(in) :: is_writable
+      !> File error
+      type(error_t), allocatable, intent(out) :: error
+
+      file%path = path
+      if (is_writable) then
+         file%stream = c_fopen(path//c_null_char, "a+b"//c_null_char)
+      else
+         file%stream = c_fopen(path//c_null_char, "rb"//c_null_char)
+      end if
+      if (.not. c_associated(file%stream)) then
+         call raise(error, kind_file, "cannot open '"//path//"': "//last_words())
+         return
+      end if
+      file%descriptor = c_fileno(file%stream)
+      if (is_writable) then
+         if (c_flock(file%descriptor, lock_at_once) /= 0) then
+            call close_raw(file)
+            call raise(error, kind_file, "another process is writing '"//path//"'")
+            return
+         end if
+      end if
+      file%bytes = c_lseek(file%descriptor, 0_c_int64_t, from_end)
+   end subroutine open_raw
+
+   !> Append words in one piece; where that fails the file is as it was before.
+   subroutine append_words(file, words, error)
+      !> A file that is open for appending
+      type(raw_file_t), intent(inout) :: file
+      !> What to append
+      integer(int64), intent(in), target, contiguous :: words(:)
+      !> File error
+      type(error_t), allocatable, intent(out) :: error
+
+      character(len=:), allocatable :: reason
+      integer(int64) :: done, written
+      logical :: ignored
+
+      done = 0
+      do while (done < word_size*size(words))
+         written = c_write(file%descriptor, c_loc(words(1 + done/word_size)), &
+            & int(word_size*size(words) - done, c_size_t))
+         if (written > 0 .and. modulo(written, word_size) == 0) then
+            done = done + written
+            cycle
+         end if
+         reason = "not all of it was taken"
+         if (written < 0) reason = last_words()
+         call set_file_size(file%descriptor, file%bytes, ignored)
+         call raise(error, kind_file, "cannot write '"//file%path//"': "//reason)
+         return
+      end do
+      file%bytes = file%bytes + done
+   end subroutine append_words
+
+   !> Read words at a place.
+   subroutine read_words(file, offset, words, is_complete)
+      !> An open file
+      type(raw_file_t), intent(in) :: file
+      !> Where they start [byte]
+      integer(int64), intent(in) :: offset
+      !> What is there
+      integer(int64), intent(out), target, contiguous :: words(:)
+      !> Were there so many?
+      logical, intent(out) :: is_complete
+
+      integer(int64) :: done, found
+
+      done = 0
+      words = 0
+      is_complete = .true.
+      do while (done < word_size*size(words))
+         found = c_pread(file%descriptor, c_loc(words(1 + done/word_size)), &
+            & int(word_size*size(words) - done, c_size_t), offset + done)
+         is_complete = found > 0 .and. modulo(found, word_size) == 0
+         if (.not. is_complete) return
+         done = done + found
+      end do
+   end subroutine read_words
+
+   !> Cut a file.
+   subroutine cut_raw(file, bytes, error)
+      !> A file that is open for appending
+      type(raw_file_t), intent(inout) :: file
+      !> What is to be left of it [byte]
+      integer(int64), intent(in) :: bytes
+      !> File error
+      type(error_t), allocatable, intent(out) :: error
+
+      logical :: done
+
+      call set_file_size(file%descriptor, bytes, done)
+      if (done) then
+         file%bytes = bytes
+      else
+         call raise(error, kind_file, "cannot cut '"//file%path//"': "//last_words())
+      end if
+   end subroutine cut_raw
+
+   !> Have all that was appended put on the device.
+   subroutine sync_raw(file, error)
+      !> An open file
+      type(raw_file_t), intent(in) :: file
+      !> File error
+      type(error_t), allocatable, intent(out) :: error
+
+      logical :: done
+
+      call sync_descriptor(file%descriptor, done)
+      if (.not. done) call raise(error, kind_file, "cannot write '"//file%path//"': "//last_words())
+   end subroutine sync_raw
+
+   !> Close a file, open or not; its lock ends.
+   subroutine close_raw(file)
+      !> The file
+      type(raw_file_t), intent(inout) :: file
+
+      integer(c_int) :: ignored
+
+      if (c_associated(file%stream)) ignored = c_fclose(file%stream)
+      file%stream = c_null_ptr
+      file%descriptor = -1
+   end subroutine close_raw
+
+   !> Files whose path begins with a text, sorted.
+   subroutine find_files(beginning, paths)
+      !> Beginning of the paths
+      character(len=*), intent(in) :: beginning
+      !> The paths
+      type(line_t), allocatable, intent(out) :: paths(:)
+
+      type(glob_t) :: found
+      type(c_ptr), pointer :: addresses(:)
+      character(kind=c_char), pointer :: letters(:)
+      character(len=:), allocatable :: pattern
+      integer :: i, j
+
+      pattern = ""
+      do i = 1, len(beginning)
+         if (index("*?[]\", beginning(i:i)) > 0) pattern = pattern//"\"
+         pattern = pattern//beginning(i:i)
+      end do
+      found%count = 0
+      if (c_glob(pattern//"*"//c_null_char, 0_c_int, c_null_ptr, found) /= 0) found%count = 0
+      allocate (paths(found%count))
+      if (size(paths) == 0) return
+      call c_f_pointer(found%paths, addresses, [found%count])
+      do i = 1, size(paths)
+         call c_f_pointer(addresses(i), letters, [c_strlen(addresses(i))])
+         paths(i)%text = repeat(" ", size(letters))
+         do j = 1, size(letters)
+            paths(i)%text(j:j) = letters(j)
+         end do
+      end do
+      call c_globfree(found)
+   end subroutine find_files
+
+   !> The system's words for what went wrong last.
+   function last_words() result(words)
+      !> The words
+      character(len=:), allocatable :: words
+
+      integer(c_int), pointer :: number
+
+      call c_f_pointer(c_errno(), number)
+      words = system_words(number)
+   end function last_words
+
+end module camroller_raw_file

@@ -1,0 +1,61 @@
+"""Shared by the tests of sweeps: a deck that is quick to compute, runs of it, comparison of files bit by bit."""
+
+import pathlib
+import subprocess
+
+import h5py
+import numpy
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+THESIS = ROOT / "decks/thesis.nml"
+GRID = ("key_1 = 'operating_point.speed_rpm' from_1 = 400 to_1 = 900 count_1 = 6 "
+        "key_2 = 'operating_point.oil_temperature_degC' values_2 = 40, 60, 80, 100")
+# facts of the run itself, and references between objects, whose bits are addresses
+NOT_COMPARED = {"date", "command", "REFERENCE_LIST", "DIMENSION_LIST"}
+
+
+def write_deck(path, sweep=GRID):
+    """The reference deck with few output angles, a loose tolerance and another sweep."""
+    text = THESIS.read_text()
+    text = text[:text.index("&sweep")]
+    path.write_text(f"{text}&output angle_step_deg = 10 /\n&numerics tolerance = 1e-3 /\n&sweep\n   {sweep}\n/\n")
+    return path
+
+
+def run(program, *arguments, folder, **options):
+    """Run a command and wait for it."""
+    command = [*([program] if isinstance(program, str) else program), *map(str, arguments)]
+    return subprocess.run(command, cwd=folder, capture_output=True, text=True, stdin=subprocess.DEVNULL, timeout=300, **options)
+
+
+def done(program, *arguments, folder, **options):
+    """Run a command that must end well."""
+    result = run(program, *arguments, folder=folder, **options)
+    assert result.returncode == 0, result.stderr
+    return result
+
+
+def content(path):
+    """Every object of a file: bytes or texts of its values, and its attributes."""
+    found = {}
+
+    def note(name, thing):
+        values = None
+        if isinstance(thing, h5py.Dataset):
+            array = numpy.asarray(thing[()])
+            values = array.tolist() if array.dtype == object else array.tobytes()
+        found[name] = (values, {key: str(value) for key, value in thing.attrs.items() if key not in NOT_COMPARED})
+
+    with h5py.File(path) as file:
+        note("/", file)
+        file.visititems(note)
+    return found
+
+
+def same(one, other):
+    """Do two files hold the same, in the same order, to the last bit?"""
+    first, second = content(one), content(other)
+    assert list(first) == list(second)
+    for name, thing in first.items():
+        assert thing == second[name], name
+    return True

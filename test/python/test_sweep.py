@@ -1,0 +1,261 @@
+"""Sweeps: kinds of samples, the same file from threads and shards, stops and continuations, what is refused."""
+
+import os
+import signal
+import subprocess
+import time
+
+import h5py
+import numpy
+import pytest
+
+from sweeps import GRID, done, run, same, write_deck
+
+USAGE, DECK, DOMAIN, FILE, UNFINISHED = 2, 3, 4, 6, 8
+
+
+@pytest.fixture(scope="module")
+def deck(tmp_path_factory):
+    """A deck of 24 cases."""
+    return write_deck(tmp_path_factory.mktemp("sweep") / "deck.nml")
+
+
+@pytest.fixture(scope="module")
+def reference(camroller, deck):
+    """Its result in one thread."""
+    done(camroller, "sweep", deck, "--threads", 1, "--quiet", folder=deck.parent)
+    return deck.with_suffix(".h5")
+
+
+def parts(folder):
+    """Part files in a folder."""
+    return sorted(path.name for path in folder.glob("*.part-*"))
+
+
+def test_file_is_that_of_run(camroller, deck, reference, tmp_path):
+    done(camroller, "run", deck, "--set", "output.series=.false.", "--quiet", folder=tmp_path)
+    with h5py.File(reference) as sweep, h5py.File(tmp_path / "deck.h5") as single:
+        assert list(sweep["summary"]) == list(single["summary"])
+        for name in single["summary"]:
+            assert sweep["summary"][name][()].tobytes() == single["summary"][name][()].tobytes(), name
+        assert list(sweep["run/warnings"]) == list(single["run/warnings"])
+        assert len(sweep["series"]) == 0
+
+
+@pytest.mark.parametrize("threads", [2, 5])
+def test_threads_change_nothing(camroller, deck, reference, tmp_path, threads):
+    result = done(camroller, "sweep", deck, "--threads", threads, folder=tmp_path)
+    assert result.stdout.startswith("deck.h5: 24 cases in ")
+    assert parts(tmp_path) == []
+    assert same(reference, tmp_path / "deck.h5")
+
+
+def test_shards_change_nothing(camroller, deck, reference, tmp_path):
+    runs = [subprocess.Popen([camroller, "sweep", deck, "--shard", f"{i}/3", "--quiet"], cwd=tmp_path) for i in (3, 1, 2)]
+    assert [process.wait() for process in runs] == [0, 0, 0]
+    assert len(parts(tmp_path)) == 3
+    done(camroller, "merge", deck, "--quiet", folder=tmp_path)
+    assert parts(tmp_path) == []
+    assert same(reference, tmp_path / "deck.h5")
+
+
+def test_merge_of_what_is_there(camroller, deck, reference, tmp_path):
+    done(camroller, "sweep", deck, "--shard", "2/3", "--quiet", folder=tmp_path)
+    result = run(camroller, "merge", deck, folder=tmp_path)
+    assert result.returncode == UNFINISHED
+    assert "16 of 24 cases are missing, the first is case 0 (operating_point.speed_rpm=400, " in result.stderr
+    done(camroller, "merge", deck, "--partial", folder=tmp_path)
+    assert len(parts(tmp_path)) == 1
+    with h5py.File(tmp_path / "deck.h5") as file, h5py.File(reference) as whole:
+        assert list(file["summary/status"]) == [-1] * 8 + [0] * 8 + [-1] * 8
+        torque = file["summary/mean_torque_drive"][()]
+        assert numpy.isnan(torque[:8]).all()
+        assert torque[8:16].tobytes() == whole["summary/mean_torque_drive"][8:16].tobytes()
+
+
+def test_time_limit_and_resume(camroller, deck, reference, tmp_path):
+    result = run(camroller, "sweep", deck, "--set", "sweep.wall_time_limit_s=1e-3", folder=tmp_path)
+    assert result.returncode == UNFINISHED
+    assert "reached its time limit with " in result.stderr
+    assert "of 24 cases to do; go on with it by --resume" in result.stderr
+    assert not (tmp_path / "deck.h5").exists()
+    again = run(camroller, "sweep", deck, folder=tmp_path)
+    assert again.returncode == FILE
+    assert "go on with it by --resume, or remove" in again.stderr
+    done(camroller, "sweep", deck, "--resume", folder=tmp_path)
+    assert same(reference, tmp_path / "deck.h5")
+    finished = done(camroller, "sweep", deck, "--resume", folder=tmp_path)
+    assert finished.stdout == "deck.h5 is there with all cases\n"
+
+
+@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGINT, signal.SIGUSR1])
+def test_signals_end_it_cleanly(camroller, deck, reference, tmp_path, number):
+    process = subprocess.Popen([camroller, "sweep", deck, "--threads", "1"], cwd=tmp_path, stderr=subprocess.PIPE, text=True)
+    while not parts(tmp_path):
+        time.sleep(0.001)
+    process.send_signal(number)
+    words = process.communicate(timeout=60)[1]
+    assert process.returncode == UNFINISHED, words
+    assert "the sweep was stopped with " in words
+    done(camroller, "sweep", deck, "--resume", folder=tmp_path)
+    assert same(reference, tmp_path / "deck.h5")
+
+
+@pytest.mark.parametrize("change, words", [
+    ("operating_point.speed_rpm=350", "'operating_point.speed_rpm = 300' is now 'operating_point.speed_rpm = 350'"),
+    ("sweep.count_1=7", "'sweep.count_1 = 6' is now 'sweep.count_1 = 7'"),
+])
+def test_a_deck_that_changed_is_refused(camroller, deck, tmp_path, change, words):
+    assert run(camroller, "sweep", deck, "--set", "sweep.wall_time_limit_s=1e-3", folder=tmp_path).returncode == UNFINISHED
+    result = run(camroller, "sweep", deck, "--resume", "--set", change, folder=tmp_path)
+    assert result.returncode == FILE
+    assert "the deck has changed since 'deck.h5.part-rank-0' was begun: " + words in result.stderr
+
+
+def test_a_table_that_changed_is_refused(camroller, tmp_path):
+    table = tmp_path / "cases.csv"
+    table.write_text("operating_point.speed_rpm\n300\n400\n500\n")
+    deck = write_deck(tmp_path / "deck.nml", "kind = 'table' table = 'cases.csv' wall_time_limit_s = 1e-3")
+    assert run(camroller, "sweep", deck, folder=tmp_path).returncode == UNFINISHED
+    table.write_text("operating_point.speed_rpm\n300\n400\n501\n")
+    result = run(camroller, "sweep", deck, "--resume", folder=tmp_path)
+    assert result.returncode == FILE
+    assert "values of operating_point.speed_rpm 3 with checksum" in result.stderr
+
+
+def test_a_case_that_fails_is_recorded(camroller, tmp_path):
+    deck = write_deck(tmp_path / "deck.nml", "key_1 = 'mechanism.pivot_to_cam_mm' values_1 = 60, 31.5, 61, 31")
+    result = run(camroller, "sweep", deck, folder=tmp_path)
+    assert result.returncode == DOMAIN
+    assert "2 of 4 cases have no result; the first is case 0 (mechanism.pivot_to_cam_mm=60): " in result.stderr
+    with h5py.File(tmp_path / "deck.h5") as file:
+        assert list(file["summary/status"]) == [DOMAIN, 0, DOMAIN, 0]
+        assert b"no closed triangle" in file["run/messages"][2]
+        assert list(numpy.isnan(file["summary/mean_torque_drive"])) == [True, False, True, False]
+
+
+def test_all_cases_fail(camroller, tmp_path):
+    deck = write_deck(tmp_path / "deck.nml", "key_1 = 'mechanism.pivot_to_cam_mm' values_1 = 60, 61")
+    assert run(camroller, "sweep", deck, folder=tmp_path).returncode == DOMAIN
+    with h5py.File(tmp_path / "deck.h5") as file:
+        assert list(file["summary/status"]) == [DOMAIN, DOMAIN]
+
+
+def test_series_of_chosen_cases(camroller, deck, tmp_path):
+    done(camroller, "run", deck, "--quiet", folder=tmp_path)
+    done(camroller, "sweep", deck, "-o", "some.h5", "--set", "sweep.series=chosen", "--set", "sweep.series_cases=3, 17",
+         folder=tmp_path)
+    done(camroller, "sweep", deck, "-o", "all.h5", "--set", "sweep.series=all", folder=tmp_path)
+    with h5py.File(tmp_path / "deck.h5") as single, h5py.File(tmp_path / "some.h5") as some, h5py.File(tmp_path / "all.h5") as every:
+        assert list(some["series"]) == list(single["series"]) == list(every["series"])
+        for name in single["series"]:
+            values = single["series"][name][()]
+            assert every["series"][name][()].tobytes() == values.tobytes()
+            if name == "cam_angle":
+                continue
+            assert some["series"][name][3].tobytes() == values[3].tobytes()
+            assert some["series"][name][17].tobytes() == values[17].tobytes()
+            assert numpy.isnan(some["series"][name][4]).all()
+        assert some["series/contact_load"].chunks == (1, 36)
+
+
+def test_texts_and_names_vary(camroller, tmp_path):
+    deck = write_deck(tmp_path / "deck.nml", "key_1 = 'case.title' values_1 = 'a', 'b' key_2 = 'film.law' values_2 = 'moes', "
+                                             "'dowson_higginson'")
+    done(camroller, "sweep", deck, "--threads", 2, folder=tmp_path)
+    with h5py.File(tmp_path / "deck.h5") as file:
+        assert list(file["sweep/film.law"]) == [b"moes", b"dowson_higginson"] * 2
+        assert file["summary/mean_torque_drive"][0] == file["summary/mean_torque_drive"][2]
+
+
+def test_lists_side_by_side(camroller, tmp_path):
+    deck = write_deck(tmp_path / "deck.nml", "kind = 'zip' key_1 = 'operating_point.speed_rpm' values_1 = 300, 500 "
+                                             "key_2 = 'film.law' values_2 = 'moes', 'dowson_higginson'")
+    done(camroller, "sweep", deck, folder=tmp_path)
+    with h5py.File(tmp_path / "deck.h5") as file:
+        assert list(file["sweep/operating_point.speed_rpm"]) == [300, 500]
+        assert list(file["sweep/film.law"]) == [b"moes", b"dowson_higginson"]
+
+
+def test_samples_are_those_of_the_seed(camroller, tmp_path):
+    keys = ("key_1 = 'operating_point.speed_rpm' from_1 = 300 to_1 = 3000 scale_1 = 'logarithmic' "
+            "key_2 = 'operating_point.oil_temperature_degC' from_2 = 40 to_2 = 120 key_3 = 'film.law' "
+            "values_3 = 'moes', 'dowson_higginson'")
+    found = {}
+    for kind in ("latin_hypercube", "sobol", "random"):
+        for seed in (1, 2):
+            deck = write_deck(tmp_path / "deck.nml", f"kind = '{kind}' cases = 16 seed = {seed} {keys}")
+            done(camroller, "sweep", deck, "--quiet", folder=tmp_path)
+            with h5py.File(tmp_path / "deck.h5") as file:
+                speed = file["sweep/operating_point.speed_rpm"][()]
+                law = list(file["sweep/film.law"])
+            found[kind, seed] = tuple(speed)
+            assert speed.min() >= 300 and speed.max() <= 3000
+            if kind != "random":  # one point in each sixteenth, so eight with either law
+                place = numpy.log(speed / 300) / numpy.log(10)
+                assert sorted((16 * place).astype(int)) == list(range(16))
+                assert law.count(b"moes") == 8
+    assert len(set(found.values())) == 6
+
+
+def test_a_result_is_a_table_of_its_cases(camroller, deck, reference, tmp_path):
+    again = write_deck(tmp_path / "again.nml", f"kind = 'table' table = '{reference}'")
+    done(camroller, "sweep", again, folder=tmp_path)
+    with h5py.File(reference) as first, h5py.File(tmp_path / "again.h5") as second:
+        for name in first["summary"]:
+            assert first["summary"][name][()].tobytes() == second["summary"][name][()].tobytes(), name
+
+
+@pytest.mark.parametrize("sweep, words", [
+    ("kind = 'sobol' key_1 = 'operating_point.speed_rpm' from_1 = 300 to_1 = 900", "needs 'cases'"),
+    ("kind = 'zip' key_1 = 'operating_point.speed_rpm' values_1 = 1, 2 key_2 = 'roller.radius_mm' values_2 = 8", "one length"),
+    ("kind = 'table'", "kind = 'table' needs 'table'"),
+    ("kind = 'table' table = 'none.csv'", "there is no file"),
+    ("kind = 'table' table = 'bad.csv'", "bad.csv, line 3: a row has 2 columns, not 1"),
+    ("kind = 'table' table = 'wrong.csv'", "unknown key 'speed'"),
+    ("kind = 'grid' cases = 3 key_1 = 'operating_point.speed_rpm' values_1 = 1, 2", "'cases' is for samples"),
+    ("key_1 = 'film.law' from_1 = 1 to_1 = 2 count_1 = 2", "takes names, which have no range"),
+    ("key_1 = 'numerics.max_cycles' from_1 = 1 to_1 = 4 count_1 = 3", "takes whole numbers"),
+    ("key_1 = 'roller.mass_kg' from_1 = 0 to_1 = 4 count_1 = 3 scale_1 = 'logarithmic'", "needs ends above zero"),
+])
+def test_decks_that_make_no_sweep(camroller, tmp_path, sweep, words):
+    (tmp_path / "bad.csv").write_text("# two columns\noperating_point.speed_rpm, film.law\n300\n")
+    (tmp_path / "wrong.csv").write_text("operating_point.speed\n300\n")
+    result = run(camroller, "sweep", write_deck(tmp_path / "deck.nml", sweep), folder=tmp_path)
+    assert result.returncode == DECK
+    assert words in result.stderr
+
+
+@pytest.mark.parametrize("option", ["0/3", "4/3", "x/3", "2", "2/"])
+def test_shards_that_there_are_not(camroller, deck, tmp_path, option):
+    assert run(camroller, "sweep", deck, "--shard", option, folder=tmp_path).returncode == USAGE
+
+
+def test_a_log_has_plain_lines(camroller, tmp_path):
+    deck = write_deck(tmp_path / "deck.nml", GRID.replace("count_1 = 6", "count_1 = 60"))
+    result = done(camroller, "sweep", deck, "--log-every", 0, folder=tmp_path)
+    lines = [line for line in result.stderr.splitlines() if "left" in line]
+    assert lines
+    assert all(" of 240 cases, " in line and "/s, " in line and "\r" not in line for line in lines)
+
+
+def test_a_full_device_leaves_what_was_done(camroller, deck, reference, tmp_path):
+    """A limit on the size of files stands for the device."""
+    result = run("bash", "-c", f"ulimit -f 24; exec {camroller} sweep {deck} --threads 1", folder=tmp_path)
+    assert result.returncode == FILE, result.stderr
+    assert "cannot write 'deck.h5.part-rank-0'" in result.stderr
+    assert not (tmp_path / "deck.h5").exists()
+    done(camroller, "sweep", deck, "--resume", folder=tmp_path)
+    assert same(reference, tmp_path / "deck.h5")
+
+
+def test_two_processes_do_not_write_one_part(camroller, deck, tmp_path):
+    big = write_deck(tmp_path / "deck.nml", GRID.replace("count_1 = 6", "count_1 = 60"))
+    first = subprocess.Popen([camroller, "sweep", big, "--threads", "1", "--quiet"], cwd=tmp_path)
+    while not parts(tmp_path):
+        time.sleep(0.001)
+    second = run(camroller, "sweep", big, "--resume", folder=tmp_path)
+    os.kill(first.pid, signal.SIGKILL)
+    first.wait()
+    assert second.returncode == FILE
+    assert "another process is writing" in second.stderr

@@ -1,0 +1,242 @@
+!> Tests of part files: what is put in comes out, a torn end is cut off, another sweep is refused.
+module test_part_file
+   use, intrinsic :: iso_fortran_env, only : int64
+   use testdrive, only : unittest_type, new_unittest, error_type, check, test_failed
+   use camroller_kinds, only : wp
+   use camroller_error, only : error_t, kind_file
+   use camroller_case_record, only : begin_cases, end_cases, outcome_t, put_failure, take_case, take_header
+   use camroller_case_runs, only : missing_runs, piece_of, run_total, runs_t
+   use camroller_layout, only : layout_t
+   use camroller_part_file, only : append_record, close_part, entry_t, index_t, kind_cases, open_part, part_t, read_record, &
+      & scan_part, study_facts_t
+   use camroller_raw_file, only : append_words, close_raw, open_raw, raw_file_t
+   use camroller_record, only : checksum, clear_record, put_integer, put_numbers, put_text, record_t, take_integer, &
+      & take_numbers, take_text
+   use camroller_system_file, only : remove_file
+   implicit none
+   private
+
+   public :: collect_part_file
+
+   character(len=*), parameter :: path = "build/test_part_file.part"
+
+contains
+
+   !> All tests of this suite.
+   subroutine collect_part_file(testsuite)
+      !> The tests
+      type(unittest_type), allocatable, intent(out) :: testsuite(:)
+
+      testsuite = [ &
+         new_unittest("a record gives back every bit", record_keeps_bits), &
+         new_unittest("a checksum sees a bit that changed", checksum_sees_bits), &
+         new_unittest("what was appended is there again", part_is_read), &
+         new_unittest("a torn record is cut off and can be written again", torn_end), &
+         new_unittest("a part of another sweep is refused", other_sweep), &
+         new_unittest("one file has one writer", one_writer), &
+         new_unittest("missing cases are found between and behind records", missing_cases) &
+         ]
+   end subroutine collect_part_file
+
+   subroutine record_keeps_bits(error)
+      type(error_type), allocatable, intent(out) :: error
+
+      real(wp), parameter :: numbers(*) = [0.1_wp, -huge(1.0_wp), tiny(1.0_wp)*epsilon(1.0_wp), 0.0_wp]
+      type(record_t) :: record
+      character(len=:), allocatable :: text
+      real(wp) :: again(size(numbers))
+      integer :: number
+
+      call clear_record(record)
+      call put_text(record, "ninechars")
+      call put_integer(record, -7)
+      call put_numbers(record, numbers)
+      call put_text(record, "")
+      call take_text(record, text)
+      call check(error, text, "ninechars")
+      if (allocated(error)) return
+      call take_integer(record, number)
+      call take_numbers(record, again)
+      call check(error, number == -7 .and. all(transfer(again, [0_int64]) == transfer(numbers, [0_int64])))
+      if (allocated(error)) return
+      call take_text(record, text)
+      call check(error, text == "" .and. .not. record%is_short)
+      if (allocated(error)) return
+      call take_integer(record, number)
+      call check(error, record%is_short)
+   end subroutine record_keeps_bits
+
+   subroutine checksum_sees_bits(error)
+      type(error_type), allocatable, intent(out) :: error
+
+      integer(int64) :: words(20), changed(20)
+      integer :: i
+
+      words = [(i*1234567_int64, i=1, 20)]
+      do i = 0, 63
+         changed = words
+         changed(7) = ieor(words(7), shiftl(1_int64, i))
+         call check(error, checksum(changed, 0_int64) /= checksum(words, 0_int64))
+         if (allocated(error)) return
+      end do
+   end subroutine checksum_sees_bits
+
+   !> A part file with cases 1 to 3, all failed.
+   subroutine write_part(part, error)
+      !> The part file, open
+      type(part_t), intent(out) :: part
+      !> File error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(record_t) :: record
+
+      call open_part(part, path, facts("a"), error)
+      if (allocated(error)) return
+      call cases_from(1, record)
+      call append_record(part, kind_cases, record, error)
+   end subroutine write_part
+
+   !> A record of three failed cases.
+   subroutine cases_from(first, record)
+      !> First case, from 1
+      integer, intent(in) :: first
+      !> The record
+      type(record_t), intent(inout) :: record
+
+      type(error_t) :: failure
+      integer :: i
+
+      failure%kind = 4
+      failure%message = "no closed triangle"
+      call begin_cases(record, first)
+      do i = 1, 3
+         call put_failure(record, failure)
+      end do
+      call end_cases(record, 3, 0)
+   end subroutine cases_from
+
+   !> Facts of a sweep of ten cases.
+   function facts(deck)
+      !> What stands for the deck
+      character(len=*), intent(in) :: deck
+      !> The facts
+      type(study_facts_t) :: facts
+
+      facts%cases = 10
+      facts%deck = deck
+      facts%build = "b"
+   end function facts
+
+   subroutine part_is_read(error)
+      type(error_type), allocatable, intent(out) :: error
+
+      type(part_t) :: part
+      type(index_t) :: index
+      type(raw_file_t) :: file
+      type(record_t) :: record
+      type(layout_t) :: layout
+      type(outcome_t) :: outcome
+      type(error_t), allocatable :: raised
+      integer :: first, count, number
+
+      call remove_file(path)
+      call write_part(part, raised)
+      call close_part(part)
+      if (.not. allocated(raised)) call scan_part(path, facts("a"), index, raised)
+      if (.not. allocated(raised)) call open_raw(file, path, .false., raised)
+      if (.not. allocated(raised)) call read_record(file, index%entries(1), record, raised)
+      if (allocated(raised)) call test_failed(error, raised%message)
+      if (allocated(error)) return
+      call close_raw(file)
+      call take_header(record, first, count, number)
+      allocate (layout%summary(0), layout%series(0), layout%angle(0))
+      call take_case(record, layout, outcome)
+      call check(error, index%count == 1 .and. first == 1 .and. count == 3 .and. outcome%status == 4)
+      if (allocated(error)) return
+      call check(error, outcome%text, "no closed triangle")
+      call remove_file(path)
+   end subroutine part_is_read
+
+   subroutine torn_end(error)
+      type(error_type), allocatable, intent(out) :: error
+
+      type(part_t) :: part
+      type(index_t) :: index
+      type(raw_file_t) :: file
+      type(record_t) :: record
+      type(error_t), allocatable :: raised
+      integer(int64) :: whole
+
+      call remove_file(path)
+      call write_part(part, raised)
+      whole = part%file%bytes
+      call close_part(part)
+      if (.not. allocated(raised)) call open_raw(file, path, .true., raised)
+      ! the beginning of a record that would be 100 words long
+      if (.not. allocated(raised)) call append_words(file, [7017280452245743363_int64, 100_int64, 5_int64, 6_int64], raised)
+      call close_raw(file)
+      if (.not. allocated(raised)) call open_part(part, path, facts("a"), raised)
+      if (allocated(raised)) call test_failed(error, raised%message)
+      if (allocated(error)) return
+      call check(error, part%file%bytes == whole)
+      call cases_from(4, record)
+      call append_record(part, kind_cases, record, raised)
+      call close_part(part)
+      call scan_part(path, facts("a"), index, raised)
+      if (allocated(error)) return
+      call check(error, index%count, 2)
+      call remove_file(path)
+   end subroutine torn_end
+
+   subroutine other_sweep(error)
+      type(error_type), allocatable, intent(out) :: error
+
+      type(part_t) :: part
+      type(error_t), allocatable :: raised
+
+      call remove_file(path)
+      call write_part(part, raised)
+      call close_part(part)
+      call open_part(part, path, facts("other"), raised)
+      call check(error, allocated(raised))
+      if (allocated(error)) return
+      call check(error, raised%kind == kind_file .and. index(raised%message, "the deck has changed") > 0, raised%message)
+      call remove_file(path)
+   end subroutine other_sweep
+
+   subroutine one_writer(error)
+      type(error_type), allocatable, intent(out) :: error
+
+      type(part_t) :: part, other
+      type(error_t), allocatable :: raised
+
+      call remove_file(path)
+      call write_part(part, raised)
+      call open_part(other, path, facts("a"), raised)
+      call check(error, allocated(raised))
+      call close_part(part)
+      call remove_file(path)
+   end subroutine one_writer
+
+   subroutine missing_cases(error)
+      type(error_type), allocatable, intent(out) :: error
+
+      type(index_t) :: index
+      type(runs_t) :: runs
+      integer :: first, count
+
+      index%entries = [entry_t(first=7, count=2), entry_t(first=2, count=3), entry_t(first=3, count=1)]
+      index%count = 3
+      call missing_runs(index, 1, 10, runs)
+      call check(error, all(runs%first == [1, 5, 9]) .and. all(runs%count == [1, 2, 2]))
+      if (allocated(error)) return
+      call check(error, run_total(runs), 5)
+      if (allocated(error)) return
+      call piece_of(runs, 3, 9, first, count)
+      call check(error, first == 6 .and. count == 1)
+      if (allocated(error)) return
+      call piece_of(runs, 6, 1, first, count)
+      call check(error, count, 0)
+   end subroutine missing_cases
+
+end module test_part_file
