@@ -1,9 +1,10 @@
 !> The loop over the cases of a sweep: threads take runs of cases and hand records of them to a sink.
 !>
 !> Layer: app. In: a deck, the cases to be computed, a team, a sink. Out: every case in the sink once, in runs whose length
-!> follows from the time that cases take; what ended the loop. Only one thread at a time takes cases, hands a record over, and
-!> says how far the loop is; a case itself shares nothing with others, so its numbers do not depend on any of this. Built
-!> without OpenMP, the loop runs in one thread.
+!> follows from the time that cases take; what ended the loop. Only one thread at a time takes cases and hands records over; a
+!> case itself shares nothing with others, so its numbers do not depend on any of this. Texts are the exception: gfortran keeps
+!> the length of a text that a function returns in a static variable of the caller, so one thread at a time turns a deck into
+!> a case, and nothing below io has such functions. Built without OpenMP, the loop runs in one thread.
 module camroller_case_loop
    use, intrinsic :: iso_fortran_env, only : int64
 !$ use omp_lib, only : omp_get_num_procs, omp_get_max_threads
@@ -261,10 +262,15 @@ contains
       !> What went wrong with it
       type(error_t), allocatable, intent(out) :: failure
 
+      !$omp critical (camroller_texts)
       call make_sweep_case(deck, number, case, failure)
+      !$omp end critical (camroller_texts)
       if (allocated(failure)) return
       call run_case(case, result, failure)
-      if (size(deck%sweep%axes) > 0) call add_context(failure, case_in_words(deck%sweep, number))
+      if (.not. allocated(failure) .or. size(deck%sweep%axes) == 0) return
+      !$omp critical (camroller_texts)
+      call add_context(failure, case_in_words(deck%sweep, number))
+      !$omp end critical (camroller_texts)
    end subroutine compute_case
 
    !> Are the series of a case kept?
@@ -318,9 +324,11 @@ contains
          call sink%keep(record, error)
          if (allocated(error)) call note_error(loop, error)
          if (.not. allocated(error)) loop%done = loop%done + count
-         call show_progress(loop%progress, loop%done, loop%total)
       end if
       !$omp end critical (camroller_desk)
+      !$omp critical (camroller_texts)
+      call show_progress(loop%progress, loop%done, loop%total)
+      !$omp end critical (camroller_texts)
    end subroutine hand_over
 
    !> Take note of an error: the loop ends.

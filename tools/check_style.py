@@ -5,7 +5,8 @@ Usage: tools/check_style.py [--root DIR]
 
 Everywhere: no tabs, no trailing blanks, lines within 132 characters (the limit of the language), `only` in every use,
 `implicit none`, files within 500 lines, procedures within 60 lines of code. In src and app: one module a file, named after it
-with our prefix, `private` at its top, a unit in brackets on every real declaration. In src: no stop, no print.
+with our prefix, `private` at its top, a unit in brackets on every real declaration. In src: no stop, no print. In src below io, which threads run side by side: no
+function whose text has the length it finds, since gfortran keeps that length in a static variable of the caller.
 
 A rule is broken on purpose with a comment `style: <rule> because <reason>` on the line or the line above.
 """
@@ -123,6 +124,18 @@ def check_statements(report: Report, code: list[Statement], folder: str) -> None
             report.add(statement.line, "print", "the library prints")
 
 
+def check_lengths(report: Report, code: list[Statement]) -> None:
+    """No function with a text of any length as its result."""
+    result = ""
+    for statement in code:
+        if match := re.match(r"^(?!end).*\bfunction\s+(\w+)\s*\([^)]*\)(?:.*\bresult\s*\(\s*(\w+)\s*\))?", statement.text):
+            result = match[2] or match[1]
+        elif re.match(r"^end\s*function\b", statement.text):
+            result = ""
+        elif result and re.match(rf"^character\s*\(\s*len\s*=\s*:.*::.*\b{result}\b", statement.text):
+            report.add(statement.line, "text", "a function whose text has any length is not safe in threads")
+
+
 def check_units_of_program(report: Report, code: list[Statement], path: pathlib.Path, folder: str) -> None:
     """One program unit a file with the right name; `implicit none` and, in modules, `private`."""
     found = [(s.line, match[1], match[2]) for s in code if (match := PROGRAM_UNIT.match(s.text))]
@@ -151,6 +164,8 @@ def check_file(path: pathlib.Path, root: pathlib.Path) -> list[str]:
     check_units_of_program(report, code, path, folder)
     if folder in ("src", "app"):
         check_units(report, code)
+    if folder == "src" and len(short.parts) > 2 and short.parts[1] != "io":
+        check_lengths(report, code)
     return report.faults
 
 

@@ -3,7 +3,7 @@
 !> Stated in full in `test/reference/roller_problem_reference.py`. State: spin of the roller [rad/s] and energy lost [J].
 module bench_roller_problem
    use camroller_kinds, only : wp, pi, two_pi, degree
-   use camroller_ode_problem, only : problem_t
+   use camroller_ode_problem, only : problem_t, words_length
    use camroller_model, only : model_t, evaluate_geometry
    use camroller_kinematics, only : position_t
    use camroller_hertz, only : half_width, peak_pressure
@@ -118,7 +118,7 @@ contains
       !> Cam angle from full lift [rad]
       real(wp), intent(in) :: time
       !> It in words
-      character(len=:), allocatable :: text
+      character(len=words_length) :: text
 
       character(len=40) :: buffer
 

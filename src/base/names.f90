@@ -42,10 +42,12 @@ contains
       !> Deck error where the name is unknown
       type(error_t), allocatable, intent(out) :: error
 
+      character(len=:), allocatable :: names
+
       position = index_of_name(name, known)
-      if (position == 0) then
-         call raise(error, kind_deck, "unknown "//what//" '"//trim(name)//"'; known are "//list_names(known))
-      end if
+      if (position > 0) return
+      call write_names(known, names)
+      call raise(error, kind_deck, "unknown "//what//" '"//trim(name)//"'; known are "//names)
    end subroutine find_name
 
    !> The names of a list, quoted and separated by commas.
@@ -53,7 +55,18 @@ contains
       !> The known names
       character(len=*), intent(in) :: known(:)
       !> One line of text
+      ! style: text because decks are read by one thread at a time
       character(len=:), allocatable :: text
+
+      call write_names(known, text)
+   end function list_names
+
+   !> The names of a list, quoted and separated by commas.
+   pure subroutine write_names(known, text)
+      !> The known names
+      character(len=*), intent(in) :: known(:)
+      !> One line of text
+      character(len=:), allocatable, intent(out) :: text
 
       integer :: i
 
@@ -62,6 +75,6 @@ contains
          if (i > 1) text = text//", "
          text = text//"'"//trim(known(i))//"'"
       end do
-   end function list_names
+   end subroutine write_names
 
 end module camroller_names

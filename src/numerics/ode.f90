@@ -154,7 +154,7 @@ contains
          finish = stops(segment + 1) - margin
          call rate_here(problem, method, start, state, finish, rate, counters, status)
          if (status /= 0) then
-            call raise(error, kind_convergence, "the right-hand side has no value at "//problem%name_time(start))
+            call raise(error, kind_convergence, "the right-hand side has no value at "//trim(problem%name_time(start)))
             return
          end if
          call append_point(trajectory, start, state, rate)
@@ -242,7 +242,7 @@ contains
             & new_rate, scaled_error, counters, status)
          if (status /= 0) then
             call raise(error, kind_convergence, "the integration met a state that cannot be evaluated at "// &
-               & problem%name_time(time))
+               & trim(problem%name_time(time)))
          else if (scaled_error <= 1.0_wp) then
             counters%accepted = counters%accepted + 1
             time = new_time
@@ -486,11 +486,11 @@ contains
       type(error_t), allocatable, intent(out) :: error
 
       if (was_rejected .and. is_fixed(method, options)) then
-         call raise(error, kind_convergence, "a fixed step failed at "//problem%name_time(time))
+         call raise(error, kind_convergence, "a fixed step failed at "//trim(problem%name_time(time)))
       else if (counters%accepted + counters%rejected > options%max_steps) then
-         call raise(error, kind_convergence, "the number of steps is used up at "//problem%name_time(time))
+         call raise(error, kind_convergence, "the number of steps is used up at "//trim(problem%name_time(time)))
       else if (step <= 16.0_wp*spacing(abs(time))) then
-         call raise(error, kind_convergence, "the step has become too small at "//problem%name_time(time))
+         call raise(error, kind_convergence, "the step has become too small at "//trim(problem%name_time(time)))
       end if
    end subroutine check_progress
 

@@ -10,6 +10,10 @@ module camroller_ode_problem
    private
 
    public :: problem_t, linear_t, counters_t, new_linear, copy_linear, linearise_in_two, difference_jacobian, time_increment
+   public :: words_length
+
+   !> Length of a time in words
+   integer, parameter :: words_length = 48
 
    !> Right-hand side of `d state/d time = rate(time, state)`
    type, abstract :: problem_t
@@ -87,13 +91,13 @@ module camroller_ode_problem
 
       !> A time in the words of messages, e.g. `cam angle 214.5 deg`
       function words_interface(self, time) result(text)
-         import :: problem_t, wp
+         import :: problem_t, wp, words_length
          !> The problem; read only
          class(problem_t), intent(in) :: self
          !> Time [time]
          real(wp), intent(in) :: time
          !> It in words
-         character(len=:), allocatable :: text
+         character(len=words_length) :: text
       end function words_interface
    end interface
 

@@ -125,8 +125,8 @@ contains
          end if
       end do
       call raise(error, kind_convergence, "the cycle did not become periodic: after the cycles that max_cycles allows, its "// &
-         & "start at "//problem%name_time(cycle%start)//" is still further from the periodic one than periodicity; a spin that "// &
-         & "hardly anything damps does this, and explicit steps beyond the stability limit")
+         & "start at "//trim(problem%name_time(cycle%start))//" is still further from the periodic one than periodicity; a "// &
+         & "spin that hardly anything damps does this, and explicit steps beyond the stability limit")
    end subroutine integrate_cycle
 
    !> Is a cycle whose closure is known as close to the periodic one as it must be?

@@ -228,17 +228,17 @@ contains
          angle = scan(i)
          call evaluate_loading(model, angle, position, force, moments, status)
          if (status /= 0) then
-            call raise(error, kind_domain, "mechanism: the finger cannot reach the lift"//at_angle(angle))
+            call raise(error, kind_domain, "mechanism: the finger cannot reach the lift"//trim(at_angle(angle)))
          else if (position%normal_arm <= 0.0_wp) then
-            call raise(error, kind_domain, "mechanism: the roller passes the line from pivot to cam centre"//at_angle(angle))
+            call raise(error, kind_domain, "mechanism: the roller passes the line from pivot to cam centre"//trim(at_angle(angle)))
          else if (position%equivalent_radius <= 0.0_wp) then
             call raise(error, kind_domain, "cam undercut: the pitch curve's radius of curvature is smaller than the roller"// &
-               & at_angle(angle))
+               & trim(at_angle(angle)))
          else if (grinding_wheel_radius > 0.0_wp) then
             ! Hollow where the pitch curvature is negative: |R_c| = -1/kappa + r_R
             if (-position%pitch_curvature*(grinding_wheel_radius - model%roller_radius) > 1.0_wp) then
                call raise(error, kind_domain, "hollow flank: the grinding wheel is larger than the cam's radius of curvature"// &
-                  & at_angle(angle))
+                  & trim(at_angle(angle)))
             end if
          end if
          if (allocated(error)) return
@@ -250,12 +250,9 @@ contains
       !> Cam angle from full lift [rad]
       real(wp), intent(in) :: angle
       !> Text
-      character(len=:), allocatable :: text
+      character(len=32) :: text
 
-      character(len=12) :: buffer
-
-      write (buffer, "(f0.2)") 180.0_wp + angle/degree
-      text = " at cam angle "//trim(buffer)//" deg"
+      write (text, "(a, f0.2, a)") " at cam angle ", 180.0_wp + angle/degree, " deg"
    end function at_angle
 
    !> Smallest load of the event and the speed at which contact would first be lost, without friction.

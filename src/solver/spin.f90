@@ -5,7 +5,7 @@
 !> speeds. The source integrates the roller's surface speed `r_R omega_R` instead; its fixed step does so here too.
 module camroller_spin
    use camroller_kinds, only : wp, degree
-   use camroller_ode_problem, only : problem_t, linear_t, counters_t, time_increment, linearise_in_two
+   use camroller_ode_problem, only : problem_t, linear_t, counters_t, time_increment, linearise_in_two, words_length
    use camroller_model, only : model_t, evaluate_geometry
    use camroller_kinematics, only : position_t
    use camroller_dynamics, only : moments_t
@@ -173,13 +173,13 @@ contains
       !> Cam angle from full lift [rad]
       real(wp), intent(in) :: time
       !> It in words
-      character(len=:), allocatable :: text
+      character(len=words_length) :: text
 
       character(len=16) :: buffer
 
       write (buffer, "(f0.3)") modulo(180.0_wp + time/degree, 360.0_wp)
       text = "cam angle "//trim(buffer)//" deg"
-      if (self%has_surface_speed) text = text//" (fixed step)"
+      if (self%has_surface_speed) text = trim(text)//" (fixed step)"
    end function name_time
 
    !> Sliding speed that belongs to a state.

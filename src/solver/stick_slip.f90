@@ -96,7 +96,7 @@ contains
          if (allocated(error)) return
          if (size(phases) > max_phases) then
             call raise(error, kind_convergence, "the roller sticks and slides too many times up to "// &
-               & problem%name_time(walk%angle))
+               & trim(problem%name_time(walk%angle)))
             return
          end if
       end do
@@ -433,7 +433,7 @@ contains
 
       call rates_at_rest(problem%model, angle, rates, status)
       counters%evaluations = counters%evaluations + size(rates)
-      if (status /= 0) call raise(error, kind_convergence, "the right-hand side has no value at "//problem%name_time(angle))
+      if (status /= 0) call raise(error, kind_convergence, "the right-hand side has no value at "//trim(problem%name_time(angle)))
    end subroutine counted_rates
 
    !> Direction of sliding at a cam angle.

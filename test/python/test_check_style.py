@@ -58,6 +58,7 @@ def test_good_code_passes(tmp_path, capsys):
     ("   private\n", "", "private"),
     ("! [m]", "! m", "unit"),
     ("Half of it [m]", "Half of it", "unit"),
+    ("      !> Half of it [m]\n      real(wp) :: answer", "      !> Half of it\n      character(len=:), allocatable :: answer", "text"),
     ("      answer =", "      print *, length\n      answer =", "print"),
     ("      answer =", "      if (length < 0) write (*, *) length\n      answer =", "print"),
     ("      answer =", "      error stop 1\n      answer =", "stop"),

@@ -1,7 +1,7 @@
 !> Initial value problems with known solutions, for the tests of the integration methods.
 module ode_problems
    use camroller_kinds, only : wp
-   use camroller_ode_problem, only : problem_t, counters_t
+   use camroller_ode_problem, only : problem_t, counters_t, words_length
    implicit none
    private
 
@@ -114,7 +114,7 @@ contains
    function name_time(self, time) result(text)
       class(counted_t), intent(in) :: self
       real(wp), intent(in) :: time
-      character(len=:), allocatable :: text
+      character(len=words_length) :: text
 
       character(len=16) :: buffer
 

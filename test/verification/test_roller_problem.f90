@@ -18,6 +18,7 @@ module test_roller_problem
    use camroller_needle, only : bearing_torque
    use camroller_roller, only : spin_acceleration
    use camroller_ode, only : problem_t, options_t, counters_t, integrate
+   use camroller_ode_problem, only : words_length
    use camroller_ode_explicit, only : explicit_method_t, new_explicit_method
    use camroller_trajectory, only : trajectory_t
    use labelled_table, only : read_labelled_table, label_length
@@ -237,7 +238,7 @@ contains
    function name_time(self, time) result(text)
       class(roller_problem_t), intent(in) :: self
       real(wp), intent(in) :: time
-      character(len=:), allocatable :: text
+      character(len=words_length) :: text
       character(len=40) :: buffer
 
       write (buffer, "(a, f0.3, a, f0.1)") "angle ", time, " at ", self%model%speed
