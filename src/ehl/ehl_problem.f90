@@ -151,7 +151,7 @@ contains
       !> The status
       integer, intent(in) :: status
       !> Words
-      character(len=:), allocatable :: text
+      character(len=64) :: text
 
       select case (status)
       case (in_range)

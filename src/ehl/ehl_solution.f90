@@ -84,7 +84,7 @@ contains
 
       call new_ehl_problem(problem, contact, status)
       if (status /= in_range) then
-         call raise(error, kind_domain, "ehl: "//range_text(status))
+         call raise(error, kind_domain, "ehl: "//trim(range_text(status)))
          return
       end if
       call solve_on_grids(problem, options, grid, state, films, coarse, converged)
