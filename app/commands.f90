@@ -16,6 +16,7 @@ module camroller_commands
    use camroller_model, only : model_t
    use camroller_names, only : index_of_name
    use camroller_number_text, only : integer_text
+   use camroller_rerun_command, only : rerun_file
    use camroller_run, only : build_models
    use camroller_run_command, only : run_deck
    use camroller_study_command, only : study_deck
@@ -76,6 +77,8 @@ contains
          call run_deck(config, error)
       case ("sweep")
          call sweep_deck(config, team, error)
+      case ("rerun")
+         call rerun_file(config, team, error)
       case ("merge")
          call merge_deck(config, error)
       case ("study")

@@ -1,0 +1,247 @@
+!> Cases that are compared with those of a result file, bit by bit.
+!>
+!> Layer: app. In: records, a result file. Out: which quantities differ, in how many cases, by how much.
+module camroller_comparison_sink
+   use, intrinsic :: ieee_arithmetic, only : ieee_is_finite, ieee_is_nan
+   use, intrinsic :: iso_fortran_env, only : int64
+   use camroller_kinds, only : wp
+   use camroller_error, only : error_t, raise, kind_usage
+   use camroller_case_record, only : outcome_t, take_case, take_header
+   use camroller_case_sink, only : sink_t
+   use camroller_hdf5_object, only : hdf5_object_t
+   use camroller_hdf5_read, only : has_member, read_numbers
+   use camroller_layout, only : layout_t
+   use camroller_record, only : record_t
+   use camroller_result, only : quantity_t
+   implicit none
+   private
+
+   public :: comparison_sink_t, difference_t
+
+   !> Most quantities that differences are kept of
+   integer, parameter :: most_quantities = 2000
+
+   !> How a quantity differs
+   type :: difference_t
+      !> Its name in the file, e.g. `summary/mean_torque_drive`
+      character(len=:), allocatable :: name
+      !> Cases in which it does
+      integer :: cases = 0
+      !> Largest difference over the larger of both values [-]; infinite where one of them is no number
+      real(wp) :: largest = 0.0_wp
+      !> Case of the largest difference, from 0
+      integer :: case_number = 0
+   end type difference_t
+
+   !> The sink
+   type, extends(sink_t) :: comparison_sink_t
+      !> The result file
+      type(hdf5_object_t) :: file
+      !> Quantities that differ, and how many there are
+      type(difference_t) :: differences(most_quantities)
+      integer :: count = 0
+      !> Cases compared, cases that differ
+      integer :: cases = 0, differing = 0
+   contains
+      procedure :: announce
+      procedure :: keep
+   end type comparison_sink_t
+
+contains
+
+   !> Take a layout; its quantities have to be in the file.
+   subroutine announce(self, layout, error)
+      !> The sink
+      class(comparison_sink_t), intent(inout) :: self
+      !> The layout
+      type(layout_t), intent(in) :: layout
+      !> Usage error where the file has other quantities
+      type(error_t), allocatable, intent(out) :: error
+
+      integer :: i
+
+      do i = 1, size(layout%summary)
+         if (has_member(self%file, "/summary/"//layout%summary(i)%name)) cycle
+         call raise(error, kind_usage, "'"//self%file%file//"' has no '/summary/"//layout%summary(i)%name// &
+            & "': it is from another version, and its cases cannot be compared")
+         return
+      end do
+   end subroutine announce
+
+   !> Compare a run of cases.
+   subroutine keep(self, record, error)
+      !> The sink
+      class(comparison_sink_t), intent(inout) :: self
+      !> The cases
+      type(record_t), intent(inout) :: record
+      !> File error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(outcome_t), allocatable :: outcomes(:)
+      logical, allocatable :: differs(:)
+      integer :: first, count, layout, i
+
+      call take_header(record, first, count, layout)
+      allocate (outcomes(count), differs(count))
+      differs = .false.
+      do i = 1, count
+         call take_case(record, self%layouts(max(1, layout)), outcomes(i))
+      end do
+      call compare_statuses(self, first, outcomes, differs, error)
+      if (.not. allocated(error) .and. layout > 0) then
+         call compare_summaries(self, first, outcomes, self%layouts(layout)%summary, differs, error)
+         if (.not. allocated(error)) call compare_series(self, first, outcomes, self%layouts(layout), differs, error)
+      end if
+      self%cases = self%cases + size(outcomes)
+      self%differing = self%differing + count_true(differs)
+   end subroutine keep
+
+   !> Number of true values.
+   pure function count_true(values) result(number)
+      !> The values
+      logical, intent(in) :: values(:)
+      !> How many are true
+      integer :: number
+
+      number = count(values)
+   end function count_true
+
+   !> Compare what became of the cases.
+   subroutine compare_statuses(self, first, outcomes, differs, error)
+      !> The sink
+      class(comparison_sink_t), intent(inout) :: self
+      !> First case, from 1
+      integer, intent(in) :: first
+      !> The cases
+      type(outcome_t), intent(in) :: outcomes(:)
+      !> Cases that differ
+      logical, intent(inout) :: differs(:)
+      !> File error
+      type(error_t), allocatable, intent(out) :: error
+
+      real(wp), allocatable :: stored(:) ! [-]
+      integer :: i
+
+      call read_numbers(self%file, "/summary/status", [first - 1], shape(outcomes), stored, error)
+      if (allocated(error)) return
+      do i = 1, size(outcomes)
+         call compare(self, "summary/status", first + i - 2, stored(i), real(outcomes(i)%status, wp), differs(i))
+      end do
+   end subroutine compare_statuses
+
+   !> Compare scalars.
+   subroutine compare_summaries(self, first, outcomes, quantities, differs, error)
+      !> The sink
+      class(comparison_sink_t), intent(inout) :: self
+      !> First case, from 1
+      integer, intent(in) :: first
+      !> The cases
+      type(outcome_t), intent(in) :: outcomes(:)
+      !> Their scalars
+      type(quantity_t), intent(in) :: quantities(:)
+      !> Cases that differ
+      logical, intent(inout) :: differs(:)
+      !> File error
+      type(error_t), allocatable, intent(out) :: error
+
+      real(wp), allocatable :: stored(:) ! [unit of the scalar]
+      integer :: i, k
+
+      do k = 1, size(quantities)
+         call read_numbers(self%file, "/summary/"//quantities(k)%name, [first - 1], shape(outcomes), stored, error)
+         if (allocated(error)) return
+         do i = 1, size(outcomes)
+            if (outcomes(i)%status /= 0) cycle
+            call compare(self, "summary/"//quantities(k)%name, first + i - 2, stored(i), outcomes(i)%summary(k), differs(i))
+         end do
+      end do
+   end subroutine compare_summaries
+
+   !> Compare series, of cases that have some.
+   subroutine compare_series(self, first, outcomes, layout, differs, error)
+      !> The sink
+      class(comparison_sink_t), intent(inout) :: self
+      !> First case, from 1
+      integer, intent(in) :: first
+      !> The cases
+      type(outcome_t), intent(in) :: outcomes(:)
+      !> Their layout
+      type(layout_t), intent(in) :: layout
+      !> Cases that differ
+      logical, intent(inout) :: differs(:)
+      !> File error
+      type(error_t), allocatable, intent(out) :: error
+
+      real(wp), allocatable :: stored(:) ! [unit of the series]
+      integer :: i, j, k, worst
+      logical :: differs_here
+
+      do i = 1, size(outcomes)
+         if (.not. allocated(outcomes(i)%series)) cycle
+         do k = 1, size(layout%series)
+            call read_numbers(self%file, "/series/"//layout%series(k)%name, [0, first + i - 2], [size(layout%angle), 1], &
+               & stored, error)
+            if (allocated(error)) return
+            worst = 0
+            do j = 1, size(stored)
+               differs_here = transfer(stored(j), 0_int64) /= transfer(outcomes(i)%series(j, k), 0_int64)
+               if (.not. differs_here) cycle
+               if (worst == 0) worst = j
+               if (relative_difference(stored(j), outcomes(i)%series(j, k)) > &
+                  & relative_difference(stored(worst), outcomes(i)%series(worst, k))) worst = j
+            end do
+            if (worst == 0) cycle
+            call compare(self, "series/"//layout%series(k)%name, first + i - 2, stored(worst), outcomes(i)%series(worst, k), &
+               & differs(i))
+         end do
+      end do
+   end subroutine compare_series
+
+   !> Compare two numbers bit by bit.
+   subroutine compare(self, name, case_number, stored, computed, differs)
+      !> The sink
+      class(comparison_sink_t), intent(inout) :: self
+      !> Name of the quantity in the file
+      character(len=*), intent(in) :: name
+      !> Number of the case, from 0
+      integer, intent(in) :: case_number
+      !> The number in the file and the one computed now [unit of the quantity]
+      real(wp), intent(in) :: stored, computed
+      !> Does the case differ?
+      logical, intent(inout) :: differs
+
+      integer :: place
+
+      if (transfer(stored, 0_int64) == transfer(computed, 0_int64)) return
+      differs = .true.
+      do place = 1, self%count
+         if (self%differences(place)%name == name) exit
+      end do
+      if (place > most_quantities) return
+      if (place > self%count) then
+         self%count = place
+         self%differences(place)%name = name
+      end if
+      associate (difference => self%differences(place))
+         difference%cases = difference%cases + 1
+         if (difference%cases > 1 .and. relative_difference(stored, computed) <= difference%largest) return
+         difference%largest = relative_difference(stored, computed)
+         difference%case_number = case_number
+      end associate
+   end subroutine compare
+
+   !> Difference of two numbers over the larger one.
+   pure function relative_difference(some, other) result(difference)
+      !> Two numbers [any unit]
+      real(wp), intent(in) :: some, other
+      !> Their difference [-]; huge where one of them is no finite number
+      real(wp) :: difference
+
+      difference = 0.0_wp
+      if (ieee_is_nan(some) .and. ieee_is_nan(other)) return
+      difference = huge(1.0_wp)
+      if (.not. (ieee_is_finite(some) .and. ieee_is_finite(other))) return
+      difference = abs(some - other)/max(abs(some), abs(other), tiny(1.0_wp))
+   end function relative_difference
+
+end module camroller_comparison_sink

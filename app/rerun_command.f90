@@ -1,0 +1,264 @@
+!> The command `rerun`: a result file computed again from the deck that is stored in it, and compared bit by bit.
+!>
+!> Layer: app. In: the command line, a result file. Out: a line that says that nothing differs, or what does and which build made
+!> the file. The deck, the values given beside it and its tables are taken from the file, so that nothing else is needed.
+module camroller_rerun_command
+   use, intrinsic :: iso_fortran_env, only : output_unit
+   use camroller_kinds, only : wp
+   use camroller_error, only : error_t, raise, kind_difference, kind_file, kind_unfinished
+   use camroller_case_loop, only : compute_cases, ended_all, loop_t, number_of_cores
+   use camroller_case_runs, only : runs_t
+   use camroller_cli, only : config_t
+   use camroller_comparison_sink, only : comparison_sink_t
+   use camroller_deck, only : deck_t, override_t, parse_deck
+   use camroller_deck_sweep, only : sweep_size
+   use camroller_deck_tables, only : deck_tables_t
+   use camroller_hdf5_file, only : discard_file
+   use camroller_hdf5_object, only : hdf5_object_t
+   use camroller_hdf5_read, only : has_member, list_members, member_length, open_file, read_extents, read_numbers, read_text, &
+      & read_text_attribute
+   use camroller_number_text, only : integer_text, number_text
+   use camroller_output, only : result_format
+   use camroller_progress, only : end_progress, seconds_since, start_progress
+   use camroller_settings, only : get_word, take
+   use camroller_stop_signal, only : heed_stop_signals
+   use camroller_table_file, only : table_t
+   use camroller_team, only : team_t
+   use camroller_version, only : build_commit, compiler_facts, version_text
+   implicit none
+   private
+
+   public :: rerun_file
+
+contains
+
+   !> Compute a file again.
+   subroutine rerun_file(config, team, error)
+      !> What to do
+      type(config_t), intent(in) :: config
+      !> Processes; the first one alone works
+      class(team_t), intent(inout) :: team
+      !> File error, or what differs
+      type(error_t), allocatable, intent(out) :: error
+
+      type(comparison_sink_t), allocatable :: sink
+      type(deck_t) :: deck
+      type(loop_t) :: loop
+      type(runs_t) :: runs
+      character(len=:), allocatable :: facts
+
+      if (team%rank /= 0) return
+      allocate (sink)
+      call open_file(sink%file, config%subject, error)
+      if (allocated(error)) return
+      call read_stored_deck(sink%file, config%subject, deck, error)
+      if (.not. allocated(error)) call read_build(sink%file, facts, error)
+      if (.not. allocated(error)) then
+         call choose_series(sink%file, deck, loop, error)
+      end if
+      if (.not. allocated(error)) then
+         loop%threads = config%threads
+         if (loop%threads == 0) loop%threads = number_of_cores()
+         runs%first = [1]
+         runs%count = [sweep_size(deck%sweep)]
+         call heed_stop_signals()
+         call start_progress(loop%progress, config%is_quiet, real(config%log_interval, wp))
+         call compute_cases(loop, deck, runs, team, sink, error)
+         call end_progress(loop%progress)
+      end if
+      call discard_file(sink%file)
+      if (allocated(error)) return
+      call conclude(config, sink, loop, facts, error)
+   end subroutine rerun_file
+
+   !> The deck of a result file, with all that belongs to it.
+   subroutine read_stored_deck(file, path, deck, error)
+      !> The file, open
+      type(hdf5_object_t), intent(in) :: file
+      !> Its path
+      character(len=*), intent(in) :: path
+      !> The deck
+      type(deck_t), intent(out) :: deck
+      !> File or deck error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(deck_tables_t) :: tables
+      type(override_t), allocatable :: overrides(:)
+      character(len=:), allocatable :: text, format
+      integer, allocatable :: extents(:)
+
+      call read_text_attribute(file, "/", "format", format, error)
+      if (.not. allocated(error)) then
+         if (format /= result_format) call raise(error, kind_file, "'"//path//"' is no result file")
+      end if
+      if (.not. allocated(error)) call read_text(file, "/deck/text", [integer ::], text, error)
+      if (.not. allocated(error)) call read_overrides(file, path, overrides, error)
+      if (.not. allocated(error)) call read_table(file, "lift", tables%lift, error)
+      if (.not. allocated(error)) call read_table(file, "second_lift", tables%second_lift, error)
+      if (.not. allocated(error)) call read_table(file, "gas_force", tables%pressure, error)
+      if (.not. allocated(error)) call parse_deck(deck, text, path//":/deck/text", "", overrides, error, tables)
+      if (.not. allocated(error)) call read_extents(file, "/case", extents, error)
+      if (allocated(error)) return
+      if (extents(1) /= sweep_size(deck%sweep)) then
+         call raise(error, kind_file, "'"//path//"' has "//integer_text(extents(1))//" cases, its deck "// &
+            & integer_text(sweep_size(deck%sweep)))
+      end if
+   end subroutine read_stored_deck
+
+   !> Values that were given beside the deck; the file itself is the table of cases of a sweep that had one.
+   subroutine read_overrides(file, path, overrides, error)
+      !> The file, open
+      type(hdf5_object_t), intent(in) :: file
+      !> Its path
+      character(len=*), intent(in) :: path
+      !> The values
+      type(override_t), allocatable, intent(out) :: overrides(:)
+      !> File error
+      type(error_t), allocatable, intent(out) :: error
+
+      character(len=:), allocatable :: text
+      integer, allocatable :: extents(:)
+      integer :: i
+
+      allocate (overrides(0))
+      if (has_member(file, "/deck/overrides")) then
+         call read_extents(file, "/deck/overrides", extents, error)
+         if (allocated(error)) return
+         do i = 1, extents(1)
+            call read_text(file, "/deck/overrides", [i - 1], text, error)
+            if (allocated(error)) return
+            overrides = [overrides, override_t(text)]
+         end do
+      end if
+      if (has_member(file, "/deck/values/sweep.table")) overrides = [overrides, override_t("sweep.table="//path)]
+   end subroutine read_overrides
+
+   !> A table of the deck, where the file has it.
+   subroutine read_table(file, group, table, error)
+      !> The file, open
+      type(hdf5_object_t), intent(in) :: file
+      !> Group of the deck that names the table
+      character(len=*), intent(in) :: group
+      !> The table
+      type(table_t), intent(out) :: table
+      !> File error
+      type(error_t), allocatable, intent(out) :: error
+
+      character(len=:), allocatable :: name, folder
+      real(wp), allocatable :: numbers(:) ! [units of the table]
+      integer, allocatable :: extents(:)
+      integer :: rows, i
+
+      name = "/deck/table_"//group
+      if (.not. has_member(file, name)) return
+      call read_extents(file, name, extents, error)
+      if (.not. allocated(error)) call read_numbers(file, name, [0, 0], extents, numbers, error)
+      ! the path as the deck names it is what is looked for, the deck having no folder
+      if (.not. allocated(error)) call read_text(file, "/deck/values/"//group//".table", [integer ::], folder, error)
+      if (allocated(error)) return
+      rows = size(numbers)/2
+      table%path = folder
+      table%x = numbers(:rows)
+      table%y = numbers(rows + 1:)
+      table%line = [(i, i=1, rows)]
+   end subroutine read_table
+
+   !> Series of which cases are to be compared: those that the file has.
+   subroutine choose_series(file, deck, loop, error)
+      !> The file, open
+      type(hdf5_object_t), intent(in) :: file
+      !> Its deck
+      type(deck_t), intent(in) :: deck
+      !> Gets the choice
+      type(loop_t), intent(inout) :: loop
+      !> File error
+      type(error_t), allocatable, intent(out) :: error
+
+      character(len=member_length), allocatable :: names(:)
+
+      call list_members(file, "/series", names, error)
+      if (allocated(error)) return
+      allocate (loop%series_cases(0))
+      loop%series = "none"
+      if (size(names) == 0) return
+      loop%series = "all"
+      if (get_word(deck%settings, "sweep", "series") /= "chosen") return
+      loop%series = "chosen"
+      call take(deck%settings, "sweep", "series_cases", loop%series_cases)
+   end subroutine choose_series
+
+   !> What tells the build of a file from this one, one line each.
+   subroutine read_build(file, facts, error)
+      !> The file, open
+      type(hdf5_object_t), intent(in) :: file
+      !> Lines
+      character(len=:), allocatable, intent(out) :: facts
+      !> File error
+      type(error_t), allocatable, intent(out) :: error
+
+      character(len=:), allocatable :: compiler, options
+
+      facts = ""
+      call compiler_facts(compiler, options)
+      call compare_fact("version", version_text)
+      if (.not. allocated(error)) call compare_fact("commit", build_commit)
+      if (.not. allocated(error)) call compare_fact("compiler", compiler)
+      if (.not. allocated(error)) call compare_fact("options", options)
+
+   contains
+
+      !> Add a line where a fact differs.
+      subroutine compare_fact(name, present_value)
+         !> Name of the fact, and what it is for this program
+         character(len=*), intent(in) :: name, present_value
+
+         character(len=:), allocatable :: stored
+
+         call read_text_attribute(file, "/run", name, stored, error)
+         if (allocated(error)) return
+         if (stored == present_value) return
+         facts = facts//new_line("a")//"  "//name//": '"//stored//"' made the file, this is '"//present_value//"'"
+      end subroutine compare_fact
+
+   end subroutine read_build
+
+   !> Say what came of it.
+   subroutine conclude(config, sink, loop, facts, error)
+      !> What to do
+      type(config_t), intent(in) :: config
+      !> What differs
+      type(comparison_sink_t), intent(in) :: sink
+      !> How the loop ended
+      type(loop_t), intent(in) :: loop
+      !> What tells the builds apart
+      character(len=*), intent(in) :: facts
+      !> What differs
+      type(error_t), allocatable, intent(out) :: error
+
+      character(len=:), allocatable :: text
+      integer :: i
+
+      if (sink%differing == 0 .and. loop%ended == ended_all) then
+         if (.not. config%is_quiet) write (output_unit, '(a)') config%subject//": "//integer_text(sink%cases)// &
+            & " cases are the same to the last bit, in "//seconds_since(loop%progress)
+         return
+      else if (sink%differing == 0) then
+         call raise(error, kind_unfinished, "stopped after "//integer_text(sink%cases)//" cases, which are the same")
+         return
+      end if
+      text = config%subject//": "//integer_text(sink%differing)//" of "//integer_text(sink%cases)//" cases differ"
+      do i = 1, sink%count
+         associate (difference => sink%differences(i))
+            text = text//new_line("a")//"  "//difference%name//": in "//integer_text(difference%cases)//" cases, at most by "// &
+               & number_text(difference%largest, 2)//" of its value, in case "//integer_text(difference%case_number)
+         end associate
+      end do
+      if (facts == "") then
+         text = text//new_line("a")//"  the same version, commit, compiler and options made the file"
+      else
+         text = text//facts
+      end if
+      call raise(error, kind_difference, text)
+   end subroutine conclude
+
+end module camroller_rerun_command
