@@ -21,12 +21,16 @@ module camroller_commands
    use camroller_run_command, only : run_deck
    use camroller_study_command, only : study_deck
    use camroller_sweep_command, only : merge_deck, sweep_deck
+   use camroller_sweep_cost, only : case_to_try, cost_in_words
    use camroller_team, only : team_t
    use camroller_version, only : version_text, build_commit, compiler_facts
    implicit none
    private
 
    public :: run_command_line
+
+   !> Cases that `check` builds; of more it takes as many, evenly spread
+   integer, parameter :: most_checked = 10000
 
 contains
 
@@ -153,19 +157,27 @@ contains
       type(case_t) :: case
       type(model_t), allocatable :: models(:)
       character(len=:), allocatable :: text
-      integer :: i
+      integer :: i, checked, number
 
       call read_deck(deck, config%subject, config%overrides, error)
       if (allocated(error)) return
-      do i = 1, sweep_size(deck%sweep)
-         call make_sweep_case(deck, i, case, error)
+      checked = min(sweep_size(deck%sweep), most_checked)
+      do i = 1, checked
+         number = case_to_try(i, checked, sweep_size(deck%sweep))
+         call make_sweep_case(deck, number, case, error)
          if (allocated(error)) return
          call build_models(case, models, error)
-         if (size(deck%sweep%axes) > 0) call add_context(error, case_in_words(deck%sweep, i))
+         if (size(deck%sweep%axes) > 0) call add_context(error, case_in_words(deck%sweep, number))
          if (allocated(error)) return
       end do
+      text = "! "//config%subject//" is valid: "//cases_in_words(deck)
+      if (checked < sweep_size(deck%sweep)) text = text//", of which "//integer_text(checked)//" were checked"
+      write (output_unit, '(a)') text
+      if (size(deck%sweep%axes) > 0) then
+         call cost_in_words(deck, text)
+         write (output_unit, '(a)', advance="no") text
+      end if
       call write_resolved(deck, text)
-      write (output_unit, '(a)') "! "//config%subject//" is valid: "//cases_in_words(deck)
       write (output_unit, '(a)') "! effects in the case: "//effects_in_words(deck, .true.)
       write (output_unit, '(a)') "! effects not in the case: "//effects_in_words(deck, .false.)
       write (output_unit, '(a)', advance="no") text

@@ -29,7 +29,8 @@ contains
             & "  -q, --quiet                say nothing but errors"
       case ("check")
          text = "camroller check DECK [--set group.key=value]..."//n//n// &
-            & "Read a deck, check every case of it without running it, and print the values it comes to."//n//n// &
+            & "Read a deck, check every case of it, and print the values it comes to. Of many cases a few are run, to tell what"// &
+            & n//"all of them will cost in time, memory and space on the device."//n//n// &
             & "  -s, --set group.key=value  other value than the deck's; may be repeated"
       case ("study")
          text = "camroller study DECK [-o FILE] [--repeats N] [--quick] [--set group.key=value]..."//n//n// &

@@ -11,7 +11,7 @@ import pytest
 
 from sweeps import GRID, done, run, same, write_deck
 
-USAGE, DECK, DOMAIN, FILE, UNFINISHED = 2, 3, 4, 6, 8
+USAGE, DECK, DOMAIN, CONVERGENCE, FILE, UNFINISHED = 2, 3, 4, 5, 6, 8
 
 
 @pytest.fixture(scope="module")
@@ -48,6 +48,30 @@ def test_threads_change_nothing(camroller, deck, reference, tmp_path, threads):
     assert result.stdout.startswith("deck.h5: 24 cases in ")
     assert parts(tmp_path) == []
     assert same(reference, tmp_path / "deck.h5")
+
+
+def test_many_threads_on_short_and_failing_cases(camroller, tmp_path):
+    """Nothing that threads do at the same time may get into a result or a message."""
+    deck = write_deck(tmp_path / "deck.nml", "key_1 = 'mechanism.pivot_to_cam_mm' from_1 = 30 to_1 = 60 count_1 = 60 "
+                                             "key_2 = 'film.law' values_2 = 'moes', 'dowson_higginson', 'pan_hamrock'")
+    for name, threads in (("one.h5", 1), ("many.h5", 8)):
+        result = run(camroller, "sweep", deck, "-o", name, "--threads", threads, "--quiet", folder=tmp_path)
+        assert result.returncode in (DOMAIN, CONVERGENCE)
+    assert same(tmp_path / "one.h5", tmp_path / "many.h5")
+
+
+def test_check_tells_what_it_costs(camroller, deck):
+    lines = done(camroller, "check", deck, folder=deck.parent).stdout.splitlines()
+    assert lines[0].endswith("is valid: 24 cases over 6 of operating_point.speed_rpm and 4 of "
+                             "operating_point.oil_temperature_degC")
+    assert lines[1].startswith("! tried 9 of the cases: ") and " ms each, " in lines[1]
+    assert "memory about " in lines[2] and " MB in parts while it runs" in lines[2]
+
+
+def test_check_of_more_cases_than_it_can_build(camroller, deck):
+    result = done(camroller, "check", deck, "--set", "sweep.count_1=250000", folder=deck.parent)
+    assert "1000000 cases over 250000 of operating_point.speed_rpm" in result.stdout
+    assert ", of which 10000 were checked" in result.stdout
 
 
 def test_shards_change_nothing(camroller, deck, reference, tmp_path):

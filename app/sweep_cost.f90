@@ -1,0 +1,149 @@
+!> What a sweep will cost, from a few of its cases: time, memory, space on the device.
+!>
+!> Layer: app. In: a deck with many cases. Out: lines of text. The cases tried lie evenly between the first and the last.
+module camroller_sweep_cost
+   use, intrinsic :: iso_fortran_env, only : int64
+   use camroller_kinds, only : wp
+   use camroller_error, only : error_t
+   use camroller_case, only : case_t
+   use camroller_case_loop, only : number_of_cores
+   use camroller_case_record, only : case_words
+   use camroller_deck, only : deck_t, make_sweep_case
+   use camroller_deck_sweep, only : sweep_size
+   use camroller_number_text, only : integer_text, number_text
+   use camroller_progress, only : time_in_words
+   use camroller_result, only : result_t
+   use camroller_run, only : run_case
+   use camroller_settings, only : get_word, take
+   implicit none
+   private
+
+   public :: cost_in_words, case_to_try
+
+   !> Most cases that are tried
+   integer, parameter :: most_trials = 9
+   !> Time after which no further one is tried [s]
+   real(wp), parameter :: longest_trial = 1.0_wp
+   !> Number, megabyte, and what each thread keeps of cases that it has not handed over yet [byte]
+   real(wp), parameter :: number_size = 8.0_wp, megabyte = 1.0e6_wp, thread_size = 8.0e6_wp
+
+   !> Mean cost of a case
+   type :: cost_t
+      !> Cases tried, and those without a result
+      integer :: trials = 0, failures = 0
+      !> Processor time of a case [s]
+      real(wp) :: time = 0.0_wp
+      !> Numbers of a case with and without series
+      integer :: words_with_series = 0, words = 0
+   end type cost_t
+
+contains
+
+   !> Cost of all cases in words, each line a comment of a deck.
+   subroutine cost_in_words(deck, text)
+      !> The deck
+      type(deck_t), intent(in) :: deck
+      !> Lines
+      character(len=:), allocatable, intent(out) :: text
+
+      type(cost_t) :: cost
+      character(len=:), allocatable :: series
+      integer, allocatable :: chosen(:)
+      integer :: cases, cores
+      real(wp) :: space ! [byte]
+
+      call try_cases(deck, cost)
+      cases = sweep_size(deck%sweep)
+      cores = number_of_cores()
+      text = "! tried "//integer_text(cost%trials)//" of the cases"
+      if (cost%failures > 0) text = text//", "//integer_text(cost%failures)//" of them without a result"
+      text = text//": "//number_text(1.0e3_wp*cost%time, 3)//" ms each, "//time_in_words(cost%time*cases)// &
+         & " for all in one thread, "//time_in_words(cost%time*cases/cores)//" in "//integer_text(cores)//new_line("a")
+      series = get_word(deck%settings, "sweep", "series")
+      space = number_size*real(cost%words, wp)*cases
+      if (series == "all") space = number_size*real(cost%words_with_series, wp)*cases
+      if (series == "chosen") then
+         allocate (chosen(0))
+         call take(deck%settings, "sweep", "series_cases", chosen)
+         space = space + number_size*real(cost%words_with_series - cost%words, wp)*size(chosen)
+      end if
+      text = text//"! memory about "//megabytes(peak_memory() + cores*thread_size)//"; on the device at most "// &
+         & megabytes(space)//" in parts while it runs, and as much again for the file at its end"//new_line("a")
+   end subroutine cost_in_words
+
+   !> The so-manyth case of those that stand for all.
+   pure function case_to_try(position, trials, cases) result(number)
+      !> Position, from 1; how many are tried; number of cases
+      integer, intent(in) :: position, trials, cases
+      !> Number of the case, from 1
+      integer :: number
+
+      number = 1
+      if (trials > 1) number = 1 + int(int(position - 1, int64)*int(cases - 1, int64)/int(trials - 1, int64))
+   end function case_to_try
+
+   !> Run a few cases.
+   subroutine try_cases(deck, cost)
+      !> The deck
+      type(deck_t), intent(in) :: deck
+      !> What they cost
+      type(cost_t), intent(out) :: cost
+
+      type(case_t) :: case
+      type(result_t) :: result
+      type(error_t), allocatable :: error
+      real(wp) :: start, now ! [s]
+      integer :: i, trials
+
+      trials = min(most_trials, sweep_size(deck%sweep))
+      call cpu_time(start)
+      do i = 1, trials
+         call make_sweep_case(deck, case_to_try(i, trials, sweep_size(deck%sweep)), case, error)
+         if (.not. allocated(error)) call run_case(case, result, error)
+         cost%trials = i
+         if (allocated(error)) then
+            cost%failures = cost%failures + 1
+         else
+            cost%words = case_words(result, .false.)
+            cost%words_with_series = case_words(result, .true.)
+         end if
+         call cpu_time(now)
+         if (now - start > longest_trial) exit
+      end do
+      cost%time = (now - start)/cost%trials
+   end subroutine try_cases
+
+   !> Most memory that this process has had so far, where the system tells.
+   function peak_memory() result(bytes)
+      !> Memory [byte]
+      real(wp) :: bytes
+
+      character(len=200) :: line
+      integer :: unit, status
+
+      bytes = 0.0_wp
+      open (newunit=unit, file="/proc/self/status", action="read", status="old", iostat=status)
+      if (status /= 0) return
+      do
+         read (unit, '(a)', iostat=status) line
+         if (status /= 0) exit
+         if (line(:6) /= "VmHWM:") cycle
+         read (line(7:), *, iostat=status) bytes
+         if (status == 0) bytes = 1024.0_wp*bytes
+         exit
+      end do
+      close (unit)
+   end function peak_memory
+
+   !> Bytes in words.
+   function megabytes(bytes) result(words)
+      !> How many [byte]
+      real(wp), intent(in) :: bytes
+      !> The words
+      character(len=:), allocatable :: words
+
+      words = number_text(max(bytes/megabyte, 0.01_wp), 2)//" MB"
+      if (bytes > 1.0e3_wp*megabyte) words = number_text(bytes/megabyte/1.0e3_wp, 2)//" GB"
+   end function megabytes
+
+end module camroller_sweep_cost

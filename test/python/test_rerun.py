@@ -1,0 +1,66 @@
+"""Files computed again from what is stored in them."""
+
+import shutil
+
+import h5py
+import pytest
+
+from sweeps import ROOT, done, run, write_deck
+
+FILE, DIFFERENCE = 6, 7
+
+
+@pytest.fixture(scope="module")
+def folder(camroller, tmp_path_factory):
+    """A result of a sweep with values beside the deck, its deck gone."""
+    path = tmp_path_factory.mktemp("rerun")
+    deck = write_deck(path / "deck.nml", "key_1 = 'operating_point.speed_rpm' values_1 = 300, 400, 500, 600")
+    done(camroller, "sweep", deck, "--set", "operating_point.oil_temperature_degC=71", "--set", "sweep.series=chosen",
+         "--set", "sweep.series_cases=2", "--quiet", folder=path)
+    deck.unlink()
+    return path
+
+
+def test_same_to_the_last_bit(camroller, folder):
+    for threads in (1, 3):
+        result = done(camroller, "rerun", "deck.h5", "--threads", threads, folder=folder)
+        assert result.stdout.startswith("deck.h5: 4 cases are the same to the last bit, in ")
+
+
+def test_what_differs_is_told(camroller, folder, tmp_path):
+    shutil.copy(folder / "deck.h5", tmp_path / "changed.h5")
+    with h5py.File(tmp_path / "changed.h5", "r+") as file:
+        file["summary/mean_torque_drive"][3] *= 1 + 1e-15
+        file["series/contact_load"][2, 7] += 1
+        file["run"].attrs["commit"] = "another"
+    result = run(camroller, "rerun", "changed.h5", folder=tmp_path)
+    assert result.returncode == DIFFERENCE
+    assert "changed.h5: 2 of 4 cases differ\n" in result.stderr
+    assert "  summary/mean_torque_drive: in 1 cases, at most by " in result.stderr
+    assert "e-15 of its value, in case 3\n" in result.stderr or "e-16 of its value, in case 3\n" in result.stderr
+    assert "  series/contact_load: in 1 cases" in result.stderr
+    assert "  commit: 'another' made the file, this is '" in result.stderr
+
+
+@pytest.mark.parametrize("deck", ["tabulated_lift", "three_cam_head"])
+def test_tables_are_in_the_file(camroller, tmp_path, deck):
+    """Decks that name tables, computed again where there is neither deck nor table."""
+    done(camroller, "run", ROOT / f"decks/{deck}.nml", "--set", "output.angle_step_deg=10", "--set", "numerics.tolerance=1e-3",
+         "--quiet", folder=tmp_path)
+    assert "are the same to the last bit" in done(camroller, "rerun", f"{deck}.h5", folder=tmp_path).stdout
+
+
+def test_a_table_of_cases_is_in_the_file(camroller, tmp_path):
+    table = tmp_path / "cases.csv"
+    table.write_text("operating_point.speed_rpm, film.law\n312.3456789012345678, 'moes'\n0.1e3, 'dowson_higginson'\n")
+    deck = write_deck(tmp_path / "deck.nml", "kind = 'table' table = 'cases.csv'")
+    done(camroller, "sweep", deck, "--quiet", folder=tmp_path)
+    table.unlink()
+    assert "2 cases are the same to the last bit" in done(camroller, "rerun", "deck.h5", folder=tmp_path).stdout
+
+
+def test_what_is_no_result(camroller, tmp_path):
+    with h5py.File(tmp_path / "other.h5", "w") as file:
+        file["x"] = 1
+    assert run(camroller, "rerun", "other.h5", folder=tmp_path).returncode == FILE
+    assert run(camroller, "rerun", "none.h5", folder=tmp_path).returncode == FILE
