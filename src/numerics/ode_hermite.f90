@@ -59,6 +59,8 @@ module camroller_ode_hermite
    integer, parameter :: first_order = 4, later_order = 6
    !> Smallest denominator of Newton's step [-]; below it a smaller step is taken
    real(wp), parameter :: least_denominator = 0.1_wp
+   !> Decay exponent of a step from which on rates are the decay of rounding errors rather than the slope of the solution [-]
+   real(wp), parameter :: fast = 1.0e5_wp
    !> Factorials of 2 to 5 [-]
    real(wp), parameter :: factorials(0:3) = [2.0_wp, 6.0_wp, 24.0_wp, 120.0_wp]
 
@@ -169,6 +171,20 @@ contains
       self%start = point_t(time, state, rate, self%here%jacobian(1, 1), self%here%time_slope(1))
    end subroutine remember
 
+   !> Slope of the solution at a point: the rate, or where the decay is so fast that the rate is the decay of rounding errors, the slope
+   !> of the state at which the rate stays zero.
+   pure function motion_of(rate, slope, time_slope, step) result(motion)
+      !> Rate [state/time], its derivatives over state [1/time] and time [state/time^2]
+      real(wp), intent(in) :: rate, slope, time_slope
+      !> Size of the step [time]
+      real(wp), intent(in) :: step
+      !> Slope of the solution [state/time]
+      real(wp) :: motion
+
+      motion = rate
+      if (step*abs(slope) >= fast) motion = -time_slope/slope
+   end function motion_of
+
    !> What the step before says of the remainder of this one.
    pure subroutine look_back(start, before, step, s, past, past_slope)
       !> Start of this step, start of the one before
@@ -190,7 +206,8 @@ contains
       associate (back => before%time - start%time)
          s = back/step
          past = (before%rate - start%rate - start%slope*(before%state - start%state) - start%time_slope*back)/s**2
-         slope = step*(before%time_slope - start%time_slope + (before%slope - start%slope)*before%rate)/s
+         slope = step*(before%time_slope - start%time_slope + (before%slope - start%slope)*motion_of(before%rate, before%slope, &
+            & before%time_slope, step))/s
       end associate
       past_slope = (slope - 2.0_wp*past)/s
    end subroutine look_back
@@ -212,13 +229,15 @@ contains
       real(wp) :: change, slope, distance
 
       change = self%there%jacobian(1, 1) - self%start%slope
-      slope = step*(self%there%time_slope(1) - self%start%time_slope + change*self%there%rate(1))
+      slope = step*(self%there%time_slope(1) - self%start%time_slope + change*motion_of(self%there%rate(1), &
+         & self%there%jacobian(1, 1), self%there%time_slope(1), step))
       remainder%value = self%there%rate(1) - self%start%rate - self%start%slope*(predicted - self%start%state) &
          & - self%start%time_slope*step
       remainder%slope = slope - 2.0_wp*remainder%value
       ! The derivatives of J and v over the state are not known and left out
       follower%value = change
-      follower%slope = step*change*self%there%jacobian(1, 1) - 2.0_wp*change
+      follower%slope = -2.0_wp*change
+      if (step*abs(self%there%jacobian(1, 1)) < fast) follower%slope = follower%slope + step*change*self%there%jacobian(1, 1)
       if (s > 0.0_wp) return
       distance = 1.0_wp - s
       associate (secant => (remainder%value - past)/distance, follower_secant => follower%value/distance)
@@ -308,6 +327,8 @@ contains
 
       ! Exponent from which on the solution is taken apart [-]
       real(wp), parameter :: far = 2.0_wp
+      ! Height of a layer that counts, over the tolerance [-]
+      real(wp), parameter :: least_layer = 1.0e-3_wp
       ! Exponent, place on the step, functions [-]
       real(wp) :: z, place, phi(6)
       ! Factorials times the polynomial of the rate, and their sums over powers of the exponent [state/time]
@@ -329,8 +350,8 @@ contains
             b(3) = b(4) + step*sums(4)/24.0_wp
             b(2) = b(3) + step*sums(3)/6.0_wp
             b(1) = b(2) + step*sums(2)/2.0_wp
-            b(5) = step*sums(0)
-            b(6) = z
+            ! A layer that nobody can see is not worth its exponential function
+            if (abs(step*sums(0)) > least_layer*self%tolerance(1)) b(5:6) = [step*sums(0), z]
          else
             change = new_state - self%start%state
             b(1) = step*self%start%rate - change

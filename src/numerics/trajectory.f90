@@ -197,13 +197,16 @@ contains
       !> State there [state]
       real(wp) :: state(size(left))
 
+      ! Place on the layer, which must not be continued beyond its ends [-]
+      real(wp) :: inside
       integer :: i
 
+      inside = min(max(place, 0.0_wp), 1.0_wp)
       do i = 1, size(left)
          state(i) = left(i) + place*(right(i) - left(i)) + place*(1.0_wp - place)*(bends(i, 1) + place*(bends(i, 2) &
             & + place*(bends(i, 3) + place*bends(i, 4))))
-         if (abs(bends(i, 5)) > 0.0_wp) state(i) = state(i) + bends(i, 5)*(exp(bends(i, 6)*place) - 1.0_wp &
-            & - place*(exp(bends(i, 6)) - 1.0_wp))
+         if (abs(bends(i, 5)) > 0.0_wp) state(i) = state(i) + bends(i, 5)*(exp(bends(i, 6)*inside) - 1.0_wp &
+            & - inside*(exp(bends(i, 6)) - 1.0_wp))
       end do
    end function curve_state
 

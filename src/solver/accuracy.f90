@@ -12,7 +12,7 @@ module camroller_accuracy
    public :: resolve_numerics, is_checked, refine_tolerance, way_out, most_refinements
 
    !> Method with the least work for errors from 1e-2 to 1e-8, or near it
-   character(len=*), parameter :: chosen_method = "rodas5p"
+   character(len=*), parameter :: chosen_method = "hermite"
    !> Method without error control
    character(len=*), parameter :: fixed_method = "euler"
    !> Tolerance over accuracy: errors of the chosen method stay within twice the tolerance, estimates near ten times [-]

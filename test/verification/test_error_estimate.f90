@@ -139,7 +139,7 @@ contains
 
       numerics%accuracy = 1.0e-8_wp
       resolved = resolve_numerics(numerics)
-      call check(error, resolved%method == "rodas5p" .and. is_checked(numerics))
+      call check(error, resolved%method == "hermite" .and. is_checked(numerics))
       if (allocated(error)) return
       call check(error, resolved%tolerance > 0.0_wp .and. resolved%tolerance < 1.0e-8_wp .and. resolved%periodicity < 1.0e-8_wp)
       if (allocated(error)) return
