@@ -171,8 +171,8 @@ contains
       self%start = point_t(time, state, rate, self%here%jacobian(1, 1), self%here%time_slope(1))
    end subroutine remember
 
-   !> Slope of the solution at a point: the rate, or where the decay is so fast that the rate is the decay of rounding errors, the slope
-   !> of the state at which the rate stays zero.
+   !> Slope of the solution at a point: the rate, or where the decay is so fast that the rate is the decay of rounding errors,
+   !> the slope of the state at which the rate stays zero.
    pure function motion_of(rate, slope, time_slope, step) result(motion)
       !> Rate [state/time], its derivatives over state [1/time] and time [state/time^2]
       real(wp), intent(in) :: rate, slope, time_slope
