@@ -13,6 +13,7 @@ module camroller
    use camroller_materials, only : materials_t, surface_t
    use camroller_lubricant, only : lubricant_t
    use camroller_film, only : film_t
+   use camroller_ehl_table, only : ehl_t
    use camroller_asperity, only : asperity_t
    use camroller_traction, only : traction_t
    use camroller_needle, only : needle_bearing_t
@@ -29,7 +30,7 @@ module camroller
    public :: wp, pi, two_pi, degree, version_text, version_number
    public :: error_t, kind_usage, kind_deck, kind_domain, kind_convergence, kind_file, kind_internal
    public :: case_t, operating_point_t, numerics_t, lift_t, mechanism_t, masses_t, spring_t, gas_force_t, materials_t, surface_t, &
-      & lubricant_t, film_t, asperity_t, traction_t, needle_bearing_t, valve_guide_t, roller_t, cam_bearings_t
+      & lubricant_t, film_t, ehl_t, asperity_t, traction_t, needle_bearing_t, valve_guide_t, roller_t, cam_bearings_t
    public :: deck_t, override_t, read_deck, parse_deck, make_case
    public :: run_case, result_t, quantity_t, get_series, get_summary
    public :: simulation_t, outcome_t, start_simulation, advance

@@ -45,6 +45,7 @@ program main
    use test_load_share, only : collect_load_share
    use test_film, only : collect_film
    use test_ehl, only : collect_ehl
+   use test_ehl_law, only : collect_ehl_law
    use test_lubricant, only : collect_lubricant
    use test_hertz, only : collect_hertz
    use test_invariance, only : collect_invariance
@@ -104,6 +105,7 @@ contains
          new_testsuite("random_cases", collect_random_cases), &
          new_testsuite("effects", collect_effects), &
          new_testsuite("ehl", collect_ehl), &
+         new_testsuite("ehl_law", collect_ehl_law), &
          new_testsuite("ode", collect_ode), &
          new_testsuite("ode_rosenbrock", collect_ode_rosenbrock), &
          new_testsuite("ode_special", collect_ode_special), &

@@ -36,7 +36,7 @@ PHYSICS_FLOORS = [
     {"lift"},
     {"kinematics"},
     {"dynamics"},
-    {"hertz", "gas"},
+    {"hertz", "gas", "film_table"},
     {"film", "asperity"},
     {"load_share"},
     {"traction"},

@@ -15,8 +15,8 @@ module camroller_ehl_films
    type :: ehl_films_t
       !> Film at the middle of the dry contact, smallest film [m]
       real(wp) :: central = 0.0_wp, minimum = 0.0_wp
-      !> Estimated relative error of both [-]
-      real(wp) :: error = 0.0_wp
+      !> Estimated relative error of both on the finer grid; of the extrapolated films, taken as half of it [-]
+      real(wp) :: error = 0.0_wp, extrapolation_error = 0.0_wp
       !> Place of the smallest film, of the highest pressure, where the film ends [m]
       real(wp) :: minimum_place = 0.0_wp, peak_place = 0.0_wp, end_place = 0.0_wp
       !> Highest pressure [Pa]
@@ -47,6 +47,7 @@ contains
       type(ehl_films_t), intent(inout) :: films
 
       films%error = max(abs(films%central/coarse%central - 1.0_wp), abs(films%minimum/coarse%minimum - 1.0_wp))/3.0_wp
+      films%extrapolation_error = 0.5_wp*films%error
       films%central = films%central + (films%central - coarse%central)/3.0_wp
       films%minimum = films%minimum + (films%minimum - coarse%minimum)/3.0_wp
       films%rolling = films%rolling + (films%rolling - coarse%rolling)/3.0_wp

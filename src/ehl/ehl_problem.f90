@@ -16,7 +16,7 @@ module camroller_ehl_problem
    implicit none
    private
 
-   public :: ehl_contact_t, ehl_problem_t, new_ehl_problem, range_text, in_range
+   public :: ehl_contact_t, ehl_problem_t, new_ehl_problem, range_text, in_range, largest_pressure, speed_range, load_range
    public :: log_viscosity, relative_density, asperity_pressure, pressure_flow_factor
 
    !> What a problem may be: in range, or which quantity is out of it

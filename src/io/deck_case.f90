@@ -168,6 +168,11 @@ contains
 
       call take(settings, "film", "law", case%film%law)
       call take(settings, "film", "range_policy", case%film%range_policy)
+      if (has_group(settings, "ehl")) then
+         allocate (case%ehl)
+         call take(settings, "ehl", "accuracy", case%ehl%accuracy)
+         call take(settings, "ehl", "compressible", case%ehl%compressible)
+      end if
       call take(settings, "traction", "shear_law", case%traction%shear_law)
       call take(settings, "traction", "eyring_stress_MPa", case%traction%eyring_stress)
       call take(settings, "traction", "limiting_coefficient", case%traction%limiting_coefficient)

@@ -11,6 +11,7 @@ module camroller_deck_keys
    use camroller_kinematics, only : rotation_names
    use camroller_dynamics, only : seating_names, load_arm_names
    use camroller_lubricant, only : temperature_law_names, pressure_law_names
+   use camroller_ehl_table, only : ehl_t
    use camroller_film, only : film_law_names, range_policy_names
    use camroller_asperity, only : asperity_t, boundary_names, mobilisation_names
    use camroller_traction, only : shear_law_names, cap_names, rolling_law_names
@@ -257,6 +258,7 @@ contains
       call add_name(schema, "law", film_law_names, standard%film%law, "film-thickness law")
       call add_name(schema, "range_policy", range_policy_names, standard%film%range_policy, &
          & "what to do where a law is used outside its published range")
+      call add_ehl_keys(schema)
       call add_group(schema, "traction", group_standard, "friction of the film")
       call add_name(schema, "shear_law", shear_law_names, standard%traction%shear_law, "shear of the film")
       call add_number(schema, "eyring_stress_MPa", positive, "Eyring stress of the oil; shear law 'eyring'", &
@@ -268,6 +270,19 @@ contains
       call add_logical(schema, "in_roller_balance", standard%traction%in_roller_balance, &
          & "does rolling resistance act on the roller's spin?")
    end subroutine add_contact_keys
+
+   !> Numerical film.
+   subroutine add_ehl_keys(schema)
+      !> Schema to add to
+      type(schema_t), intent(inout) :: schema
+
+      type(ehl_t) :: standard
+
+      call add_group(schema, "ehl", group_effect, "film by numerical solution of the contact, in place of the film law")
+      call add_number(schema, "accuracy", proper_fraction, "largest relative error of the film", default=standard%accuracy)
+      call add_logical(schema, "compressible", standard%compressible, &
+         & "does the density of the oil grow with the pressure?")
+   end subroutine add_ehl_keys
 
    !> Asperities.
    subroutine add_asperity_keys(schema)

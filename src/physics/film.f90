@@ -14,12 +14,13 @@
 module camroller_film
    use camroller_kinds, only : wp
    use camroller_names, only : name_length
+   use camroller_film_table, only : film_table_t, film_series_t, table_series, series_films, is_in_table
    implicit none
    private
 
    public :: film_t, groups_t, film_shape_t, film_line_t, film_law_names, range_policy_names
    public :: film_shape, new_film_line, film_at_load, is_in_range, takes_whole_load
-   public :: law_dowson_higginson, law_pan_hamrock, law_masjedi_khonsari, law_masjedi_khonsari_rough, law_moes
+   public :: law_dowson_higginson, law_pan_hamrock, law_masjedi_khonsari, law_masjedi_khonsari_rough, law_moes, law_table
 
    !> Film-thickness laws
    character(len=*), parameter :: film_law_names(*) = [character(len=name_length) :: &
@@ -27,6 +28,8 @@ module camroller_film
    !> Positions in `film_law_names`
    integer, parameter :: law_dowson_higginson = 1, law_pan_hamrock = 2, law_masjedi_khonsari = 3, &
       & law_masjedi_khonsari_rough = 4, law_moes = 5
+   !> Law that has no name: a table of numerical solutions
+   integer, parameter :: law_table = 6
    !> What to do where a law is used outside its published range
    character(len=*), parameter :: range_policy_names(*) = [character(len=name_length) :: "warn", "stop"]
 
@@ -74,6 +77,8 @@ module camroller_film
       type(groups_t) :: groups
       !> Power laws: logarithm of the minimum and the central film at unit load [-]
       real(wp) :: unit_logs(2)
+      !> Table: films over the load
+      type(film_series_t) :: series
    end type film_line_t
 
    !> Power laws `H = factor U^speed G^material W*^load`, columns: factor, speed, material, load [-]
@@ -128,13 +133,15 @@ contains
    end subroutine film_shape
 
    !> Film over the load at the speed of the groups; at standstill there is no film to evaluate.
-   pure subroutine new_film_line(line, law, groups)
+   pure subroutine new_film_line(line, law, groups, table)
       !> Film over the load
       type(film_line_t), intent(out) :: line
       !> Position in `film_law_names`
       integer, intent(in) :: law
       !> Dimensionless groups
       type(groups_t), intent(in) :: groups
+      !> Films of numerical solutions, to go with `law_table`
+      type(film_table_t), intent(in), optional :: table
 
       ! Logarithms of U and G [-]
       real(wp) :: logs(2)
@@ -143,6 +150,7 @@ contains
       line%groups = groups
       line%is_power = law <= law_masjedi_khonsari
       line%unit_logs = 0.0_wp
+      if (present(table) .and. groups%speed > 0.0_wp) call table_series(table, log(groups%speed), line%series)
       if (.not. line%is_power .or. groups%speed <= 0.0_wp) return
       logs = [log(groups%speed), log(groups%material)]
       line%unit_logs = log_factors(:, law) + power_laws(2, :, law)*logs(1) + power_laws(3, :, law)*logs(2)
@@ -161,6 +169,8 @@ contains
 
       if (line%is_power) then
          call power_at_load(line, load, shape)
+      else if (line%law == law_table) then
+         call table_at_load(line, load, shape)
       else
          groups = line%groups
          groups%load = load
@@ -179,20 +189,49 @@ contains
    end function takes_whole_load
 
    !> Are the groups inside the published range of a law?
-   pure function is_in_range(law, groups) result(inside)
+   pure function is_in_range(law, groups, table) result(inside)
       !> Position in `film_law_names`
       integer, intent(in) :: law
       !> Dimensionless groups
       type(groups_t), intent(in) :: groups
+      !> Films of numerical solutions, to go with `law_table`
+      type(film_table_t), intent(in), optional :: table
       !> True inside
       logical :: inside
 
       ! The three groups [-]
       real(wp) :: values(3)
 
+      if (present(table)) then
+         inside = is_in_table(table, groups%speed, groups%load)
+         return
+      end if
       values = [groups%speed, groups%material, groups%load]
       inside = all(values >= ranges(1, :, law) .and. values <= ranges(2, :, law))
    end function is_in_range
+
+   !> Both films of a table.
+   pure subroutine table_at_load(line, load, shape)
+      !> Film over the load
+      type(film_line_t), intent(in) :: line
+      !> Load group W*, positive [-]
+      real(wp), intent(in) :: load
+      !> Film thickness and its slopes
+      type(film_shape_t), intent(out) :: shape
+
+      ! Logarithms of minimum and central film; their slopes over the logarithms of load and speed [-]
+      real(wp) :: films(2), load_slopes(2), speed_slopes(2)
+
+      call series_films(line%series, log(load), films, load_slopes, speed_slopes)
+      shape%minimum = exp(films(1))
+      shape%central = exp(films(2))
+      shape%minimum_load_slope = load_slopes(1)
+      shape%central_load_slope = load_slopes(2)
+      shape%minimum_speed_slope = speed_slopes(1)
+      shape%central_speed_slope = speed_slopes(2)
+      shape%minimum_roughness_slope = 0.0_wp
+      shape%central_roughness_slope = 0.0_wp
+   end subroutine table_at_load
 
    !> Both films of a pair of power laws.
    pure subroutine power_at_load(line, load, shape)

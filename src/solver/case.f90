@@ -11,6 +11,7 @@ module camroller_case
    use camroller_dynamics, only : masses_t, spring_t, gas_force_t
    use camroller_materials, only : materials_t, surface_t
    use camroller_lubricant, only : lubricant_t
+   use camroller_ehl_table, only : ehl_t
    use camroller_film, only : film_t
    use camroller_asperity, only : asperity_t
    use camroller_traction, only : traction_t
@@ -84,6 +85,8 @@ module camroller_case
       type(traction_t) :: traction
       type(asperity_t), allocatable :: asperity
       type(needle_bearing_t), allocatable :: needle_bearing
+      !> Numerical film in place of the film law
+      type(ehl_t), allocatable :: ehl
       type(valve_guide_t), allocatable :: valve_guide
       type(cam_bearings_t), allocatable :: cam_bearings
       type(numerics_t) :: numerics

@@ -141,7 +141,7 @@ contains
       real(wp), intent(in), optional :: mobilised
 
       setting%scale = model%modulus*position%equivalent_radius*model%contact_width
-      call new_film_line(setting%line, model%film_law, film_groups(model, position, contact))
+      call new_film_line(setting%line, model%film_law, film_groups(model, position, contact), model%film_table)
       setting%mobilised = 0.0_wp
       setting%mobilised_slope = 0.0_wp
       if (present(mobilised)) then

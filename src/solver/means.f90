@@ -232,7 +232,7 @@ contains
 
       inside = .true.
       if (state%contact%is_touching) then
-         inside = is_in_range(model%film_law, film_groups(model, state%position, state%contact))
+         inside = is_in_range(model%film_law, film_groups(model, state%position, state%contact), model%film_table)
       end if
    end function has_film_in_range
 

@@ -3,22 +3,25 @@
 !> Layer: solver. In: `case_t`. Out: `model_t`, read-only while a cycle is integrated; only `set_operating_point` changes it
 !> between cycles or between the steps of a host program. An effect of the case is an allocated component here as well.
 module camroller_model
-   use camroller_kinds, only : wp, pi
+   use camroller_kinds, only : wp, pi, degree
    use camroller_error, only : error_t, raise, add_context, kind_deck, kind_domain
    use camroller_names, only : name_length, find_name
    use camroller_case, only : case_t, energy_names
    use camroller_lift, only : lift_t, lift_law_t, new_lift_law, evaluate_lift, stop_angles
    use camroller_kinematics, only : linkage_t, position_t, new_linkage, evaluate_position
-   use camroller_dynamics, only : train_t, seating_names, load_arm_names
+   use camroller_dynamics, only : train_t, moments_t, evaluate_moments, seating_names, load_arm_names
    use camroller_materials, only : combined_modulus, combined_roughness
    use camroller_lubricant, only : lubricant_t, oil_t, get_oil
-   use camroller_film, only : film_law_names, range_policy_names, law_masjedi_khonsari_rough
+   use camroller_film, only : film_law_names, range_policy_names, law_masjedi_khonsari_rough, law_table
+   use camroller_film_table, only : film_table_t
+   use camroller_ehl_problem, only : largest_pressure, speed_range, load_range
+   use camroller_ehl_table, only : ehl_t, build_film_table
    use camroller_asperity, only : boundary_names, mobilisation_names, asperity_constants_t, new_asperity_constants
    use camroller_traction, only : traction_t, shear_law_names, cap_names, rolling_law_names
    use camroller_needle, only : friction_radius, roller_bearing_names
    use camroller_guide, only : guide_drag_coefficient
    use camroller_roller, only : spin_names, ring_inertia
-   use camroller_gas, only : gas_law_t, new_gas_law
+   use camroller_gas, only : gas_law_t, new_gas_law, gas_force
    implicit none
    private
 
@@ -76,6 +79,9 @@ module camroller_model
       type(oil_t) :: oil
       type(boundary_part_t), allocatable :: boundary
       type(bearing_part_t), allocatable :: bearing
+      !> Numerical film: how, and films over speed and load for the oil at its temperature
+      type(ehl_t), allocatable :: ehl
+      type(film_table_t), allocatable :: film_table
       !> Drag of the valve guide per valve speed [N s/m]; allocated where the case has a guide
       real(wp), allocatable :: guide_drag
       !> The same over the viscosity [m]
@@ -103,6 +109,10 @@ module camroller_model
       !> Cam angles from full lift, within one turn, where the lift's third derivative jumps [rad]
       real(wp), allocatable :: lift_stops(:)
    end type model_t
+
+   !> Numerical film: by how much slip and asperities may lower or raise speed and load of the film, and the smallest part of the
+   !> largest that is solved for; beyond them the film goes on as a power law [-]
+   real(wp), parameter :: table_margins(2) = [0.4_wp, 1.3_wp], smallest_part = 1.0e-3_wp
 
 contains
 
@@ -155,7 +165,46 @@ contains
       if (allocated(error)) return
       if (allocated(model%guide_drag)) model%guide_drag = model%guide_factor*model%oil%viscosity
       if (allocated(model%bearing)) model%bearing%reversal_spin = model%bearing%reversal_ratio*speed
+      if (allocated(model%ehl)) call set_film_table(model, error)
    end subroutine set_operating_point
+
+   !> Films for every speed and load that the cycle may have.
+   subroutine set_film_table(model, error)
+      !> The model
+      type(model_t), intent(inout) :: model
+      !> Domain error beyond the range of numerical solutions; convergence error where their accuracy is not reached
+      type(error_t), allocatable, intent(out) :: error
+
+      type(position_t) :: position
+      type(moments_t) :: moments
+      ! Groups U in pure rolling and W* without friction, smallest and largest [-]; gas force, load [N]; their scale [N]
+      real(wp) :: speeds(2), loads(2), force, load, scale
+      integer :: i, status
+
+      speeds = [huge(1.0_wp), 0.0_wp]
+      loads = [huge(1.0_wp), 0.0_wp]
+      force = 0.0_wp
+      do i = 1, 180
+         call evaluate_geometry(model, 2.0_wp*i*degree, position, status)
+         if (status /= 0) cycle
+         if (allocated(model%gas)) force = gas_force(model%gas, 2.0_wp*i*degree)
+         call evaluate_moments(model%train, position, model%speed, force, moments)
+         scale = model%modulus*position%equivalent_radius
+         load = model%oil%viscosity*model%speed*abs(position%surface_travel)/scale
+         speeds = [min(speeds(1), load), max(speeds(2), load)]
+         load = moments%total/position%normal_arm
+         if (model%takes_maximum_load) load = max(load, model%base_circle_load)
+         if (load <= 0.0_wp) cycle
+         load = load/(scale*model%contact_width)
+         loads = [min(loads(1), load), max(loads(2), load)]
+      end do
+      speeds = [max(speeds(1)*table_margins(1), speeds(2)*smallest_part, speed_range(1)), speeds(2)*table_margins(2)]
+      loads = [max(loads(1)*table_margins(1), loads(2)*smallest_part, load_range(1)), &
+         & max(loads(2), min(loads(2)*table_margins(2), 2.0_wp*pi*(largest_pressure/model%modulus)**2))]
+      if (allocated(model%film_table)) deallocate (model%film_table)
+      allocate (model%film_table)
+      call build_film_table(model%film_table, model%ehl, model%oil, model%modulus, speeds, loads, error)
+   end subroutine set_film_table
 
    !> Geometry at a cam angle.
    pure subroutine evaluate_geometry(model, angle, position, status)
@@ -203,6 +252,10 @@ contains
       model%stops_outside_range = choice == 2
       call find_name("film law", case%film%law, film_law_names, model%film_law, error)
       if (allocated(error)) return
+      if (allocated(case%ehl)) then
+         model%ehl = case%ehl
+         model%film_law = law_table
+      end if
       call find_name("shear law", case%traction%shear_law, shear_law_names, model%shear_law, error)
       if (allocated(error)) return
       call find_name("traction cap", case%traction%cap, cap_names, model%cap, error)

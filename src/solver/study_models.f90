@@ -55,7 +55,8 @@ contains
       variant = case
       if (number > size(plain_variants)) then
          variant%film%law = film_law_names(number - size(plain_variants))
-         is_different = variant%film%law /= case%film%law
+         is_different = variant%film%law /= case%film%law .or. allocated(case%ehl)
+         if (allocated(variant%ehl)) deallocate (variant%ehl)
          return
       end if
       if (number >= source_variant) then

@@ -240,6 +240,10 @@ contains
          & statistics%lost_share)
       call add(quantities, values, count, "outside_film_range_share", "1", &
          & "part of the cycle outside the film law's published range", "film", statistics%outside_share)
+      if (.not. allocated(model%film_table)) return
+      call add(quantities, values, count, "film_table_error", "1", &
+         & "largest difference of the film from numerical solutions between the points of its table", "film", &
+         & model%film_table%error)
    end subroutine add_margins
 
    !> Work done by the integration, all lobe shapes together.

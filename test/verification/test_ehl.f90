@@ -8,7 +8,8 @@ module test_ehl
    use camroller_ehl_problem, only : ehl_contact_t, ehl_problem_t, new_ehl_problem
    use camroller_ehl_reynolds, only : ehl_fields_t, storage_t, new_ehl_fields, evaluate_film, evaluate_flow
    use camroller_ehl_newton, only : ehl_state_t, solve_newton
-   use camroller_ehl_solution, only : ehl_films_t, ehl_options_t, solve_contact_film, solve_on_grids, solve_on_grid
+   use camroller_ehl_solution, only : ehl_options_t, solve_contact_film, solve_on_grids, solve_on_grid
+   use camroller_ehl_films, only : ehl_films_t
    use closeness, only : check_close, check_scaled, expect_success, expect_error
    use labelled_table, only : read_labelled_table, label_length
    use ehl_contacts, only : contact_of_groups, contact_of_row
