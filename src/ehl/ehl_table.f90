@@ -1,8 +1,8 @@
 !> Film of an oil between two bodies over speed and load, from numerical solutions.
 !>
-!> Layer: ehl. In: oil, modulus, ranges of the groups U and W*. Out: `film_table_t`. With oil and modulus given, the film over the
-!> radius depends on U and W* alone, so a few dozen solutions, each extrapolated from two grids, serve every contact of a cycle. Their
-!> number grows until solutions between the points agree with the table.
+!> Layer: ehl. In: oil, modulus, ranges of the groups U and W*. Out: `film_table_t`. With oil and modulus given, the film over
+!> the radius depends on U and W* alone, so some hundred solutions, each extrapolated from two grids, serve every contact of a
+!> cycle. Their number grows until solutions between the points agree with the table.
 module camroller_ehl_table
    use camroller_kinds, only : wp
    use camroller_error, only : error_t, raise, add_context, kind_convergence

@@ -286,7 +286,7 @@ contains
       call check(error, films%central > plain%central, "no hindrance")
    end subroutine test_thinning
 
-   !> Their fit has no spread stated. Solutions lie 1 to 11 % above it; what Barus and a parabolic inlet do to a fit is of that size.
+   !> Their fit has no spread stated. Solutions lie 1 to 11 % above it.
    subroutine test_rolling(error)
       type(error_type), allocatable, intent(out) :: error
       type(ehl_contact_t) :: contact
