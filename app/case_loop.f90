@@ -237,7 +237,8 @@ contains
             call put_result(record, result, with_series)
          end if
          n = n + 1
-         is_over = is_late(loop%deadline) .or. is_stop_wanted()
+         is_over = is_stop_wanted()
+         if (.not. is_over) is_over = is_late(loop%deadline)
          if (is_over) exit
          if (record%length < largest_record .or. i == first + count - 1) cycle
          call hand_over(loop, sink, record, n, layout)
