@@ -10,6 +10,9 @@ module camroller_commands
    use camroller_deck_document, only : write_defaults, write_page, write_resolved
    use camroller_deck_schema, only : group_effect
    use camroller_deck_sweep, only : axis_size, case_in_words, sweep_size
+   use camroller_effect_choice, only : wants_choice, choose_effects
+   use camroller_effect_list, only : choice_t
+   use camroller_effect_words, only : choice_in_words
    use camroller_export, only : export_csv, export_series, export_summary
    use camroller_help_text, only : help_for
    use camroller_mistakes, only : line_t
@@ -181,7 +184,49 @@ contains
       write (output_unit, '(a)') "! effects in the case: "//effects_in_words(deck, .true.)
       write (output_unit, '(a)') "! effects not in the case: "//effects_in_words(deck, .false.)
       write (output_unit, '(a)', advance="no") text
+      call check_effects(deck, error)
    end subroutine check_deck
+
+   !> Print which effects the cases need, where the deck leaves that to the program.
+   subroutine check_effects(deck, error)
+      !> The deck
+      type(deck_t), intent(in) :: deck
+      !> Deck error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(case_t) :: case, chosen
+      type(choice_t) :: choice
+      type(model_t), allocatable :: models(:)
+      integer :: i
+
+      do i = 1, sweep_size(deck%sweep)
+         call make_sweep_case(deck, i, case, error)
+         if (.not. allocated(error)) call build_models(case, models, error)
+         if (allocated(error)) return
+         if (.not. wants_choice(case)) cycle
+         call choose_effects(case, models, chosen, choice, error)
+         if (allocated(error)) return
+         write (output_unit, '(a)') "! effects that matter for "//trim(case%effects%quantity)//", and changes expected without them"
+         if (size(deck%sweep%axes) > 0) write (output_unit, '(a)') "! "//case_in_words(deck%sweep, i)
+         write (output_unit, '(a)') "!    "//indented(choice_in_words(choice))
+      end do
+   end subroutine check_effects
+
+   !> Lines as comments of a deck.
+   pure function indented(text)
+      !> The lines
+      character(len=*), intent(in) :: text
+      !> All but the first with a mark before them
+      character(len=:), allocatable :: indented
+
+      integer :: i
+
+      indented = ""
+      do i = 1, len(text)
+         indented = indented//text(i:i)
+         if (text(i:i) == new_line("a")) indented = indented//"!    "
+      end do
+   end function indented
 
    !> Number of cases, and the grid they make up.
    function cases_in_words(deck) result(words)

@@ -6,6 +6,7 @@ module camroller_run_command
    use, intrinsic :: iso_fortran_env, only : error_unit, output_unit
    use camroller_error, only : error_t, raise, add_context, kind_usage
    use camroller_case, only : case_t
+   use camroller_effect_report, only : complete_result
    use camroller_result, only : result_t
    use camroller_run, only : run_case
    use camroller_cli, only : config_t
@@ -116,6 +117,7 @@ contains
          call make_sweep_case(deck, i, case, failure)
          if (.not. allocated(failure)) then
             call run_case(case, result, failure)
+            if (sweep_size(deck%sweep) > 1 .and. .not. allocated(failure)) call complete_result(case, result)
             if (size(deck%sweep%axes) > 0) call add_context(failure, case_in_words(deck%sweep, i))
          end if
          if (allocated(failure)) then

@@ -61,6 +61,7 @@ program main
    use test_hard_cases, only : collect_hard_cases
    use test_random_cases, only : collect_random_cases
    use test_effects, only : collect_effects
+   use test_needed, only : collect_needed
    implicit none
 
    call run_command_line()
@@ -106,6 +107,7 @@ contains
          new_testsuite("effects", collect_effects), &
          new_testsuite("ehl", collect_ehl), &
          new_testsuite("ehl_law", collect_ehl_law), &
+         new_testsuite("needed", collect_needed), &
          new_testsuite("ode", collect_ode), &
          new_testsuite("ode_rosenbrock", collect_ode_rosenbrock), &
          new_testsuite("ode_special", collect_ode_special), &

@@ -237,13 +237,16 @@ contains
       end if
    end subroutine fill_bearings
 
-   !> Integration and report.
+   !> Choice of effects, integration and report.
    subroutine fill_numerics(settings, case)
       !> The settings
       type(settings_t), intent(in) :: settings
       !> The case
       type(case_t), intent(inout) :: case
 
+      call take(settings, "effects", "select", case%effects%select)
+      call take(settings, "effects", "negligible", case%effects%negligible)
+      call take(settings, "effects", "quantity", case%effects%quantity)
       call take(settings, "numerics", "accuracy", case%numerics%accuracy)
       call take(settings, "numerics", "method", case%numerics%method)
       call take(settings, "numerics", "tolerance", case%numerics%tolerance)

@@ -6,7 +6,7 @@
 module camroller_deck_keys
    use camroller_kinds, only : wp, pi
    use camroller_units, only : length_unit_names, pressure_unit_names
-   use camroller_case, only : case_t, energy_names, method_choices
+   use camroller_case, only : case_t, energy_names, method_choices, select_names, quantity_names
    use camroller_lift, only : lift_t, lift_law_names
    use camroller_kinematics, only : rotation_names
    use camroller_dynamics, only : seating_names, load_arm_names
@@ -58,6 +58,7 @@ contains
       call add_needle_keys(schema)
       call add_cam_bearing_keys(schema)
       call add_guide_keys(schema)
+      call add_selection_keys(schema, standard)
       call add_numerics_keys(schema, standard)
       call add_output_keys(schema, standard)
       call add_sweep_keys(schema)
@@ -361,6 +362,22 @@ contains
       call add_number(schema, "stem_diameter_mm", positive, "diameter of the valve stem", example="5")
       call add_number(schema, "radial_clearance_um", positive, "radial clearance", example="20")
    end subroutine add_guide_keys
+
+   !> Choice of effects.
+   subroutine add_selection_keys(schema, standard)
+      !> Schema to add to
+      type(schema_t), intent(inout) :: schema
+      !> Case with all its defaults
+      type(case_t), intent(in) :: standard
+
+      call add_group(schema, "effects", group_standard, "which of the listed effects take part")
+      call add_name(schema, "select", select_names, standard%effects%select, &
+         & "all that are listed, or those of them that a quick look round the cycle finds to matter")
+      call add_number(schema, "negligible", range_t(0.0_wp, 0.1_wp), &
+         & "relative change of the quantity that all effects left out may make together", default=standard%effects%negligible)
+      call add_name(schema, "quantity", quantity_names, standard%effects%quantity, &
+         & "what they have to matter for: mean torque for all losses, smallest film, or slip per revolution")
+   end subroutine add_selection_keys
 
    !> Integration.
    subroutine add_numerics_keys(schema, standard)

@@ -8,6 +8,7 @@
 !> `/summary/status` (case) is 0 or the kind of the error, whose message is in `/run/messages` (case);
 !> `/deck/text` is the deck as given, `/deck/overrides` the values given beside it, `/deck/values/<group.key>` what came of
 !> all of them, `/deck/table_<group>` (column, row) the tables that it names; `/sweep/<group.key>` (case) are the keys that vary;
+!> `/effects/<name>` (case) and `/effects/reasons` (case) tell which effects took part, where the deck leaves that to the program;
 !> `/run` has attributes, and `/run/warnings` (case) where there are warnings.
 !> The root has `format`, `format_version`, `axes` and `complete`, which is set last.
 !>
@@ -17,6 +18,7 @@ module camroller_output
    use camroller_kinds, only : wp
    use camroller_error, only : error_t, raise, kind_internal
    use camroller_layout, only : layout_t
+   use camroller_effect_words, only : choice_in_words
    use camroller_result, only : result_t
    use camroller_output_file, only : abandon_output, check_open, compression_names, finish_file, format_version, &
       & not_written, output_options_t, output_t, result_format, start_file
@@ -64,9 +66,11 @@ contains
       if (.not. allocated(error)) call check_result(writer, result, error)
       if (.not. allocated(error)) call gather(writer, position, result, error)
       if (.not. allocated(error) .and. allocated(result%warnings)) then
-         if (len_trim(result%warnings) > 0) call write_remark(writer, writer%warnings, "warnings", position, &
-            & result%warnings, error)
+         if (len_trim(result%warnings) > 0) call write_remark(writer, writer%run, writer%warnings, "warnings", &
+            & position, result%warnings, error)
       end if
+      if (.not. allocated(error) .and. allocated(result%choice)) call write_remark(writer, writer%effects, writer%reasons, &
+         & "reasons", position, choice_in_words(result%choice), error)
       if (allocated(error)) call abandon_output(writer)
    end subroutine write_case
 
@@ -83,7 +87,7 @@ contains
 
       call check_position(writer, position, error)
       if (.not. allocated(error)) then
-         call write_remark(writer, writer%messages, "messages", position, failure%message, error)
+         call write_remark(writer, writer%run, writer%messages, "messages", position, failure%message, error)
       end if
       if (allocated(error)) then
          call abandon_output(writer)
@@ -134,9 +138,9 @@ contains
       call check_position(writer, position, error)
       if (.not. allocated(error) .and. text /= "") then
          if (status == 0) then
-            call write_remark(writer, writer%warnings, "warnings", position, text, error)
+            call write_remark(writer, writer%run, writer%warnings, "warnings", position, text, error)
          else
-            call write_remark(writer, writer%messages, "messages", position, text, error)
+            call write_remark(writer, writer%run, writer%messages, "messages", position, text, error)
          end if
       end if
       if (.not. allocated(error) .and. writer%is_sparse .and. size(series) > 0) then

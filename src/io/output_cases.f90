@@ -7,9 +7,10 @@ module camroller_output_cases
    use, intrinsic :: ieee_arithmetic, only : ieee_quiet_nan, ieee_value
    use camroller_kinds, only : wp
    use camroller_error, only : error_t, raise, kind_internal
+   use camroller_effect_report, only : choice_source
    use camroller_result, only : quantity_t, result_t
    use camroller_hdf5_object, only : hdf5_object_t
-   use camroller_hdf5_file, only : close_object, create_integers, create_numbers, create_texts, reserve_file, &
+   use camroller_hdf5_file, only : close_object, create_group, create_integers, create_numbers, create_texts, reserve_file, &
       & write_integers, write_numbers, write_text
    use camroller_hdf5_attribute, only : attach_scale, make_scale, put_attribute
    use camroller_output_file, only : check_open, not_written, number_size, object_size, output_t, text_size
@@ -208,10 +209,12 @@ contains
       writer%gathered = 0
    end subroutine write_rows
 
-   !> Write a text about a case into a dataset of `/run` that appears with its first text.
-   subroutine write_remark(writer, remarks, name, position, text, error)
+   !> Write a text about a case into a dataset that appears with its first text.
+   subroutine write_remark(writer, group, remarks, name, position, text, error)
       !> The writer
       type(output_t), intent(inout) :: writer
+      !> Group that the dataset is in
+      type(hdf5_object_t), intent(in) :: group
       !> The dataset, open or not yet
       type(hdf5_object_t), intent(inout) :: remarks
       !> Its name
@@ -226,7 +229,7 @@ contains
       call reserve_file(writer%file, text_size*(1 + size(writer%status)) + len(text), error)
       if (allocated(error)) return
       if (remarks%id < 0) then
-         call create_texts(writer%run, name, shape(writer%status), remarks, error)
+         call create_texts(group, name, shape(writer%status), remarks, error)
          if (.not. allocated(error)) call put_attribute(remarks, "long_name", name//" of each case, or nothing", error)
          if (.not. allocated(error)) call attach_scale(remarks, writer%case_axis, 1, 1, error)
          if (allocated(error)) return
@@ -338,6 +341,7 @@ contains
       !> File error
       type(error_t), allocatable, intent(out) :: error
 
+      type(hdf5_object_t) :: group
       integer :: chunk(1), axes_in_chunk, level, i
 
       chunk = scalar_chunk
@@ -349,8 +353,9 @@ contains
       end if
       do i = 1, size(writer%summary)
          associate (scalar => writer%summary(i), dataset => writer%summary_data(i))
-            call create_numbers(writer%summary_group, scalar%name, shape(writer%status), chunk(:axes_in_chunk), level, &
-               & dataset, error)
+            call choose_group(writer, scalar%source, group, error)
+            if (.not. allocated(error)) call create_numbers(group, scalar%name, shape(writer%status), &
+               & chunk(:axes_in_chunk), level, dataset, error)
             if (.not. allocated(error)) call describe(dataset, scalar%unit, scalar%description, &
                & scalar%source, error)
             if (.not. allocated(error)) call attach_scale(dataset, writer%case_axis, 1, 1, error)
@@ -369,6 +374,23 @@ contains
       answer = writer%options%compression /= "off" .and. size(writer%status) > scalar_chunk .and. &
          & writer%block >= compressed_block
    end function are_scalars_compressed
+
+   !> Group for scalars of a source: what tells about the choice of effects has one of its own.
+   subroutine choose_group(writer, source, group, error)
+      !> The writer
+      type(output_t), intent(inout) :: writer
+      !> Part of the model that a scalar comes from
+      character(len=*), intent(in) :: source
+      !> The group
+      type(hdf5_object_t), intent(out) :: group
+      !> File error
+      type(error_t), allocatable, intent(out) :: error
+
+      group = writer%summary_group
+      if (source /= choice_source) return
+      if (writer%effects%id < 0) call create_group(writer%file, choice_source, writer%effects, error)
+      group = writer%effects
+   end subroutine choose_group
 
    !> Deflate level of the series.
    pure function compression_level(writer, angles) result(level)

@@ -56,7 +56,8 @@ module camroller_output_file
       character(len=:), allocatable :: path
       !> Path while it is not finished, in the same folder
       character(len=:), allocatable :: temporary
-      type(hdf5_object_t) :: file, case_axis, deck, run, series_group, summary_group, sweep, warnings, messages
+      type(hdf5_object_t) :: file, case_axis, deck, run, series_group, summary_group, sweep, warnings, messages, &
+         & effects, reasons
       !> Status of each case: 0, the kind of its error, or `not_written`
       integer, allocatable :: status(:)
       !> Series and scalars of the file, known from the first result on

@@ -22,7 +22,8 @@ module camroller_case
    implicit none
    private
 
-   public :: case_t, operating_point_t, numerics_t, energy_names, method_names, quasi_static, method_choices, automatic_method
+   public :: case_t, operating_point_t, numerics_t, selection_t, energy_names, method_names, quasi_static, method_choices, &
+      & automatic_method, select_names, select_needed, quantity_names, quantity_torque, quantity_film, quantity_slip
 
    !> Name of the model that takes the roller's spin from its algebraic balance
    character(len=name_length), parameter :: quasi_static = "quasi_static"
@@ -35,6 +36,25 @@ module camroller_case
    character(len=*), parameter :: automatic_method = "automatic"
    !> Methods that a case can name
    character(len=*), parameter :: method_choices(*) = [character(len=name_length) :: automatic_method, method_names]
+
+   !> Effects that take part: all that are listed, or those of them that matter
+   character(len=*), parameter :: select_names(*) = [character(len=name_length) :: "listed", "needed"]
+   !> Position in `select_names`
+   integer, parameter :: select_needed = 2
+   !> What an effect has to matter for: mean torque for all losses, smallest film of the cycle, slip per revolution
+   character(len=*), parameter :: quantity_names(*) = [character(len=name_length) :: "mean_torque", "minimum_film", "slip"]
+   !> Positions in `quantity_names`
+   integer, parameter :: quantity_torque = 1, quantity_film = 2, quantity_slip = 3
+
+   !> Which effects take part
+   type :: selection_t
+      !> One of `select_names`
+      character(len=name_length) :: select = "listed"
+      !> Relative change of the quantity that all effects left out may make together [-]
+      real(wp) :: negligible = 1.0e-3_wp
+      !> One of `quantity_names`
+      character(len=name_length) :: quantity = "mean_torque"
+   end type selection_t
 
    !> Speed and temperature
    type :: operating_point_t
@@ -89,6 +109,7 @@ module camroller_case
       type(ehl_t), allocatable :: ehl
       type(valve_guide_t), allocatable :: valve_guide
       type(cam_bearings_t), allocatable :: cam_bearings
+      type(selection_t) :: effects
       type(numerics_t) :: numerics
    end type case_t
 

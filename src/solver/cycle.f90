@@ -35,7 +35,7 @@ module camroller_cycle
       type(counters_t) :: counters
       !> Is the trajectory that of the roller's surface speed instead of the sliding speed?
       logical :: has_surface_speed = .false.
-      !> Is the solution no better than linear between its points?
+      !> Is nothing known about the solution between its points but that it may be taken as linear?
       logical :: is_linear = .false.
       !> Cam angle from full lift where the cycle starts [rad]
       real(wp) :: start = 0.0_wp
@@ -97,7 +97,6 @@ contains
          call check_mobilisation(model, error)
          if (allocated(error)) return
          cycle%stops = cycle_stops(stops, cycle%start)
-         cycle%is_linear = .true.
          cycle%cycles = 1
          call quasi_static_cycle(model, cycle%stops, resolved%tolerance*scale, cycle%trajectory, cycle%counters, error)
          return

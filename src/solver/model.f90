@@ -25,7 +25,7 @@ module camroller_model
    implicit none
    private
 
-   public :: model_t, bearing_part_t, boundary_part_t, new_model, set_operating_point, evaluate_geometry
+   public :: model_t, bearing_part_t, boundary_part_t, new_model, revise_model, set_operating_point, evaluate_geometry
 
    !> Needle bearing or pin, ready for evaluation
    type :: bearing_part_t
@@ -144,6 +144,28 @@ contains
       if (allocated(error)) return
       call set_operating_point(model, case%operating_point%speed, case%operating_point%oil_temperature, error)
    end subroutine new_model
+
+   !> Give a model the effects and laws of another case with the same geometry, masses and spring: no spline is fitted again.
+   subroutine revise_model(model, case, error)
+      !> The model of a case that differs in effects and laws alone
+      type(model_t), intent(inout) :: model
+      !> A case
+      type(case_t), intent(in) :: case
+      !> Deck or domain error
+      type(error_t), allocatable, intent(out) :: error
+
+      if (allocated(model%boundary)) deallocate (model%boundary)
+      if (allocated(model%bearing)) deallocate (model%bearing)
+      if (allocated(model%guide_drag)) deallocate (model%guide_drag)
+      if (allocated(model%gas)) deallocate (model%gas)
+      call choose_laws(model, case, error)
+      if (allocated(error)) return
+      call set_contact(model, case, error)
+      if (allocated(error)) return
+      call set_effects(model, case, error)
+      if (allocated(error)) return
+      call set_operating_point(model, case%operating_point%speed, case%operating_point%oil_temperature, error)
+   end subroutine revise_model
 
    !> Speed and temperature: everything that follows from them.
    subroutine set_operating_point(model, speed, oil_temperature, error)

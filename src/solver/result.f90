@@ -4,6 +4,7 @@
 module camroller_result
    use camroller_kinds, only : wp
    use camroller_error, only : error_t, raise, kind_usage
+   use camroller_effect_list, only : choice_t
    implicit none
    private
 
@@ -35,6 +36,8 @@ module camroller_result
       real(wp), allocatable :: summary_values(:)
       !> Remarks that do not make the result wrong, one per line; empty where there are none
       character(len=:), allocatable :: warnings
+      !> Which effects took part and why; allocated where the program chose them
+      type(choice_t), allocatable :: choice
    end type result_t
 
 contains

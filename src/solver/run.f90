@@ -7,6 +7,9 @@ module camroller_run
    use camroller_accuracy, only : is_checked, most_refinements, refine_tolerance, resolve_numerics, way_out
    use camroller_case, only : case_t, numerics_t
    use camroller_model, only : model_t, new_model
+   use camroller_effect_choice, only : wants_choice, choose_effects
+   use camroller_effect_list, only : choice_t
+   use camroller_effect_report, only : add_choice
    use camroller_events, only : check_geometry
    use camroller_cycle, only : cycle_t, integrate_cycle
    use camroller_report, only : make_result
@@ -18,11 +21,7 @@ module camroller_run
 
 contains
 
-   !> Run a case.
-   !>
-   !> Where the estimated error is above the accuracy asked for, the cycles are integrated again with a smaller tolerance; so they
-   !> are, once, with another one where they could not be integrated. What a later try cannot do leaves the result of an earlier
-   !> one, with a remark; without any figure that is right there is no result.
+   !> Run a case, with all its effects or with those that matter.
    subroutine run_case(case, result, error)
       !> The case
       type(case_t), intent(in) :: case
@@ -31,9 +30,40 @@ contains
       !> What went wrong, of any kind
       type(error_t), allocatable, intent(out) :: error
 
+      type(model_t), allocatable :: models(:)
+      type(case_t) :: chosen
+      type(choice_t) :: choice
+
+      call build_models(case, models, error)
+      if (allocated(error)) return
+      if (.not. wants_choice(case)) then
+         call run_listed(case, models, result, error)
+         return
+      end if
+      call choose_effects(case, models, chosen, choice, error)
+      if (.not. allocated(error)) call build_models(chosen, models, error)
+      if (.not. allocated(error)) call run_listed(chosen, models, result, error)
+      if (allocated(error)) return
+      call add_choice(result, choice)
+   end subroutine run_case
+
+   !> Run a case with all its effects.
+   !>
+   !> Where the estimated error is above the accuracy asked for, the cycles are integrated again with a smaller tolerance; so they
+   !> are, once, with another one where they could not be integrated. What a later try cannot do leaves the result of an earlier
+   !> one, with a remark; without any figure that is right there is no result.
+   subroutine run_listed(case, models, result, error)
+      !> The case
+      type(case_t), intent(in) :: case
+      !> Model of each lobe shape
+      type(model_t), intent(in) :: models(:)
+      !> Its result
+      type(result_t), intent(out) :: result
+      !> What went wrong, of any kind
+      type(error_t), allocatable, intent(out) :: error
+
       ! Distance from a tolerance that was too small [-]
       real(wp), parameter :: few = 10.0_wp
-      type(model_t), allocatable :: models(:)
       type(numerics_t) :: numerics
       type(result_t) :: latest
       ! Estimated error, tolerance of the next try, smallest tolerance that may work [-]
@@ -41,8 +71,6 @@ contains
       integer :: attempt
       logical :: has_result
 
-      call build_models(case, models, error)
-      if (allocated(error)) return
       numerics = resolve_numerics(case%numerics)
       if (.not. is_checked(case%numerics)) then
          call run_models(case, models, numerics, result, error)
@@ -70,7 +98,7 @@ contains
       if (.not. has_result) return
       if (allocated(error)) deallocate (error)
       call judge(result, estimate, error)
-   end subroutine run_case
+   end subroutine run_listed
 
    !> Integrate all lobe shapes and make the result.
    subroutine run_models(case, models, numerics, result, error)

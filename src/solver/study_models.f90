@@ -11,6 +11,7 @@ module camroller_study_models
    use camroller_asperity, only : boundary_names
    use camroller_case, only : case_t, energy_names
    use camroller_dynamics, only : load_arm_names, seating_names
+   use camroller_effect_list, only : effect_asperity, effect_guide, effect_needle, effect_rolling, has_effect, leave_out
    use camroller_film, only : film_law_names
    use camroller_result, only : quantity_t
    use camroller_roller, only : spin_names
@@ -66,11 +67,11 @@ contains
          call simplify_as_source(variant, variant_names(number), is_different)
          return
       end if
-      call leave_out(variant, variant_names(number), is_different)
+      call simplify(variant, variant_names(number), is_different)
    end subroutine make_variant
 
    !> Leave an effect out, or take a simpler law.
-   pure subroutine leave_out(variant, name, is_different)
+   pure subroutine simplify(variant, name, is_different)
       !> In: the case; out: the variant
       type(case_t), intent(inout) :: variant
       !> Name of the variant
@@ -80,11 +81,9 @@ contains
 
       select case (name)
       case ("no asperities")
-         is_different = allocated(variant%asperity)
-         if (is_different) deallocate (variant%asperity)
+         call without(variant, effect_asperity, is_different)
       case ("no rolling resistance")
-         is_different = variant%traction%rolling_law /= rolling_law_names(3)
-         variant%traction%rolling_law = rolling_law_names(3)
+         call without(variant, effect_rolling, is_different)
       case ("other rolling law")
          is_different = variant%traction%rolling_law /= rolling_law_names(2)
          variant%traction%rolling_law = rolling_law_names(2)
@@ -95,13 +94,24 @@ contains
          is_different = variant%traction%cap /= cap_names(2)
          variant%traction%cap = cap_names(2)
       case ("no needle friction")
-         is_different = allocated(variant%needle_bearing)
-         if (is_different) deallocate (variant%needle_bearing)
+         call without(variant, effect_needle, is_different)
       case ("no valve guide")
-         is_different = allocated(variant%valve_guide)
-         if (is_different) deallocate (variant%valve_guide)
+         call without(variant, effect_guide, is_different)
       end select
-   end subroutine leave_out
+   end subroutine simplify
+
+   !> Leave an effect out.
+   pure subroutine without(variant, effect, is_different)
+      !> In: the case; out: the variant
+      type(case_t), intent(inout) :: variant
+      !> Position in `effect_names`
+      integer, intent(in) :: effect
+      !> Did the case have it?
+      logical, intent(out) :: is_different
+
+      is_different = has_effect(variant, effect)
+      call leave_out(variant, effect)
+   end subroutine without
 
    !> Simplify as the source does.
    pure subroutine simplify_as_source(variant, name, is_different)

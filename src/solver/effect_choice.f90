@@ -1,0 +1,337 @@
+!> Which of the listed effects a case needs.
+!>
+!> Layer: solver. In: a case. Out: what leaving each effect out would change, at most, and the case without those that together
+!> change the quantity of interest by less than what is negligible.
+!>
+!> The estimates come from a look round the cycle (`camroller_effect_survey`) at a fraction of the work of a run. They are bounds by
+!> experience, not by proof: sizes of changes are added up round the cycle, with a margin, and where the look cannot follow
+!> what happens the effect stays.
+module camroller_effect_choice
+   use camroller_kinds, only : wp
+   use camroller_error, only : error_t
+   use camroller_names, only : find_name
+   use camroller_accuracy, only : resolve_numerics
+   use camroller_camshaft, only : bearing_loads
+   use camroller_case, only : case_t, numerics_t, select_names, select_needed, quantity_names, quantity_torque, quantity_film, &
+      & quantity_slip
+   use camroller_effect_list, only : choice_t, decision_t, effect_count, effect_bearings, effect_spin, has_effect, leave_out
+   use camroller_effect_reasons, only : find_reason
+   use camroller_effect_survey, only : survey_t, response_t, make_survey, respond, respond_at_once
+   use camroller_journal, only : journal_t, new_journal, journal_torque
+   use camroller_model, only : model_t, revise_model
+   use camroller_state, only : cam_force
+   implicit none
+   private
+
+   public :: wants_choice, choose_effects, remove_effect
+
+   !> Margin of the estimates over the changes that the look round the cycle finds [-]
+   real(wp), parameter :: margin = 3.0_wp
+   !> Changes beyond this are too large to be estimated from small ones [-]
+   real(wp), parameter :: largest_estimate = 1.0_wp
+   !> Tolerance of the quasi-static limit over what is negligible, by quantity [-]
+   real(wp), parameter :: tolerance_parts(size(quantity_names)) = [0.5_wp, 0.1_wp, 0.01_wp]
+
+contains
+
+   !> Does a case leave the choice to the program?
+   pure function wants_choice(case) result(wants)
+      !> The case
+      type(case_t), intent(in) :: case
+      !> True for `select = 'needed'`
+      logical :: wants
+
+      wants = case%effects%select == select_names(select_needed)
+   end function wants_choice
+
+   !> Leave out what a case does not need.
+   subroutine choose_effects(case, models, chosen, choice, error)
+      !> The case with all its effects
+      type(case_t), intent(in) :: case
+      !> Model of each lobe shape
+      type(model_t), intent(in) :: models(:)
+      !> The case with those that matter
+      type(case_t), intent(out) :: chosen
+      !> What was decided and why
+      type(choice_t), intent(out) :: choice
+      !> Deck error
+      type(error_t), allocatable, intent(out) :: error
+
+      ! Smallest estimate of what has not been looked at yet [-]
+      real(wp) :: least
+      integer :: i, next
+      logical, allocatable :: is_open(:)
+
+      chosen = case
+      call weigh_effects(case, models, choice, error)
+      if (allocated(error)) return
+      choice%bound = 0.0_wp
+      allocate (is_open(size(choice%decisions)), source=.true.)
+      do while (any(is_open))
+         least = huge(1.0_wp)
+         next = 0
+         do i = 1, size(choice%decisions)
+            if (.not. is_open(i)) cycle
+            if (next > 0 .and. choice%decisions(i)%estimates(choice%quantity) >= least) cycle
+            least = choice%decisions(i)%estimates(choice%quantity)
+            next = i
+         end do
+         is_open(next) = .false.
+         if (least > choice%negligible - choice%bound) cycle
+         choice%bound = choice%bound + least
+         choice%decisions(next)%is_used = .false.
+         call remove_effect(chosen, choice%decisions(next)%effect)
+      end do
+   end subroutine choose_effects
+
+   !> Leave an effect out; the quasi-static limit of the roller's equation is no more precise than need be.
+   subroutine remove_effect(case, effect)
+      !> In: a case; out: without the effect
+      type(case_t), intent(inout) :: case
+      !> Position in `effect_names`
+      integer, intent(in) :: effect
+
+      ! [-]
+      real(wp) :: tolerance
+
+      tolerance = quasi_static_tolerance(case)
+      call leave_out(case, effect)
+      if (effect == effect_spin) case%numerics%tolerance = tolerance
+   end subroutine remove_effect
+
+   !> Tolerance of the quasi-static limit where it takes the place of the roller's equation.
+   pure function quasi_static_tolerance(case) result(tolerance)
+      !> The case
+      type(case_t), intent(in) :: case
+      !> Error of the balance over the largest sliding speed [-]
+      real(wp) :: tolerance
+
+      type(numerics_t) :: resolved
+
+      resolved = resolve_numerics(case%numerics)
+      tolerance = max(resolved%tolerance, minval(tolerance_parts*case%effects%negligible, &
+         & mask=quantity_names == case%effects%quantity))
+   end function quasi_static_tolerance
+
+   !> What leaving each effect out would change.
+   subroutine weigh_effects(case, models, choice, error)
+      !> The case with all its effects
+      type(case_t), intent(in) :: case
+      !> Model of each lobe shape
+      type(model_t), intent(in) :: models(:)
+      !> Estimates and reasons; nothing is left out yet
+      type(choice_t), intent(out) :: choice
+      !> Deck error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(survey_t), allocatable :: surveys(:)
+      ! Mean torque of the followers, of the bearings [N m]
+      real(wp) :: torque, bearing_torque
+      integer :: lobe, effect
+
+      call find_name("quantity", case%effects%quantity, quantity_names, choice%quantity, error)
+      if (allocated(error)) return
+      choice%negligible = case%effects%negligible
+      choice%bound = 0.0_wp
+      choice%evaluations = 0
+      allocate (choice%decisions(0), surveys(size(models)))
+      torque = 0.0_wp
+      do lobe = 1, size(models)
+         call make_survey(models(lobe), surveys(lobe))
+         choice%evaluations = choice%evaluations + surveys(lobe)%evaluations
+         if (allocated(surveys(lobe)%trouble)) cycle
+         associate (torques => surveys(lobe)%states%torque_friction)
+            torque = torque + followers_of(case, lobe)*sum(torques)/size(torques)
+         end associate
+      end do
+      bearing_torque = 0.0_wp
+      if (has_single_bearings(case) .and. .not. allocated(surveys(1)%trouble)) then
+         call mean_bearing_torque(case, models(1), surveys(1), bearing_torque, error)
+         if (allocated(error)) return
+      end if
+      do effect = 1, effect_count
+         if (.not. has_effect(case, effect)) cycle
+         call weigh_effect(case, models, surveys, effect, torque, bearing_torque, choice, error)
+         if (allocated(error)) return
+      end do
+   end subroutine weigh_effects
+
+   !> What leaving one effect out would change.
+   subroutine weigh_effect(case, models, surveys, effect, torque, bearing_torque, choice, error)
+      !> The case with all its effects
+      type(case_t), intent(in) :: case
+      !> Model of each lobe shape
+      type(model_t), intent(in) :: models(:)
+      !> Cycle of each
+      type(survey_t), intent(in) :: surveys(:)
+      !> Position in `effect_names`
+      integer, intent(in) :: effect
+      !> Mean torque of the followers, of the bearings [N m]
+      real(wp), intent(in) :: torque, bearing_torque
+      !> Gets a decision
+      type(choice_t), intent(inout) :: choice
+      !> Deck error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(decision_t) :: decision
+      type(response_t), allocatable :: responses(:)
+      ! Change of the torque [N m]
+      real(wp) :: change
+      integer :: lobe
+
+      decision%effect = effect
+      decision%is_used = .true.
+      decision%estimates = huge(1.0_wp)
+      decision%reason = ""
+      if (effect == effect_bearings) call weigh_bearings(case, surveys, torque, bearing_torque, decision)
+      lobe = 1
+      do while (lobe < size(surveys) .and. .not. allocated(surveys(lobe)%trouble))
+         lobe = lobe + 1
+      end do
+      if (allocated(surveys(lobe)%trouble)) then
+         if (decision%reason == "") decision%reason = "not estimated: "//surveys(lobe)%trouble
+      else if (decision%reason == "") then
+         call find_reason(effect, models(1), surveys(1), bearing_torque/(torque + bearing_torque), decision%reason)
+         if (effect /= effect_bearings) then
+            call find_responses(case, models, surveys, effect, responses, error)
+            if (allocated(error)) return
+            choice%evaluations = choice%evaluations + sum(responses%evaluations)
+            if (all(responses%is_known)) then
+               change = 0.0_wp
+               do lobe = 1, size(responses)
+                  change = change + followers_of(case, lobe)*responses(lobe)%torque
+               end do
+               decision%estimates(quantity_torque) = relative(change, torque + bearing_torque)
+               decision%estimates(quantity_film) = margin*responses(1)%film
+               decision%estimates(quantity_slip) = relative(responses(1)%sliding, &
+                  & sum(surveys(1)%sliding)/size(surveys(1)%sliding))
+               where (decision%estimates > largest_estimate) decision%estimates = huge(1.0_wp)
+            end if
+         end if
+      end if
+      choice%decisions = [choice%decisions, decision]
+   end subroutine weigh_effect
+
+   !> How every lobe's cycle answers to a case without an effect.
+   subroutine find_responses(case, models, surveys, effect, responses, error)
+      !> The case with all its effects
+      type(case_t), intent(in) :: case
+      !> Model of each lobe shape
+      type(model_t), intent(in) :: models(:)
+      !> Cycle of each
+      type(survey_t), intent(in) :: surveys(:)
+      !> Position in `effect_names`
+      integer, intent(in) :: effect
+      !> The answers
+      type(response_t), allocatable, intent(out) :: responses(:)
+      !> Deck error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(case_t) :: variant
+      type(model_t) :: model
+      integer :: lobe
+
+      allocate (responses(size(models)))
+      variant = case
+      call leave_out(variant, effect)
+      do lobe = 1, size(models)
+         if (effect == effect_spin) then
+            call respond_at_once(surveys(lobe), models(lobe), quasi_static_tolerance(case), responses(lobe))
+            cycle
+         end if
+         model = models(lobe)
+         call revise_model(model, variant, error)
+         if (allocated(error)) return
+         call respond(surveys(lobe), models(lobe), model, responses(lobe))
+      end do
+   end subroutine find_responses
+
+   !> Camshaft bearings: they take torque and do nothing else, unless they carry several cams.
+   subroutine weigh_bearings(case, surveys, torque, bearing_torque, decision)
+      !> The case
+      type(case_t), intent(in) :: case
+      !> Cycle of each lobe shape
+      type(survey_t), intent(in) :: surveys(:)
+      !> Mean torque of the followers, of the bearings [N m]
+      real(wp), intent(in) :: torque, bearing_torque
+      !> The decision
+      type(decision_t), intent(inout) :: decision
+
+      if (.not. has_single_bearings(case)) then
+         decision%reason = "not estimated: without them there is one cam, here are several"
+         return
+      end if
+      decision%estimates([quantity_film, quantity_slip]) = 0.0_wp
+      if (.not. allocated(surveys(1)%trouble)) then
+         decision%estimates(quantity_torque) = relative(bearing_torque, torque + bearing_torque)
+      end if
+   end subroutine weigh_bearings
+
+   !> Are there camshaft bearings, and one cam between them?
+   pure function has_single_bearings(case) result(has)
+      !> The case
+      type(case_t), intent(in) :: case
+      !> True for one cam
+      logical :: has
+
+      has = .false.
+      if (allocated(case%cam_bearings)) has = size(case%cam_bearings%cam_positions) == 1
+   end function has_single_bearings
+
+   !> Mean torque of the bearings of a single cam.
+   subroutine mean_bearing_torque(case, model, survey, mean, error)
+      !> The case
+      type(case_t), intent(in) :: case
+      !> Its model
+      type(model_t), intent(in) :: model
+      !> The cycle
+      type(survey_t), intent(in) :: survey
+      !> Mean torque [N m]
+      real(wp), intent(out) :: mean
+      !> Deck or domain error of the bearings
+      type(error_t), allocatable, intent(out) :: error
+
+      type(journal_t) :: journal
+      ! Force on the cam, load of each bearing [N]; torque of one [N m]
+      real(wp) :: forces(2, 1), loads(2, size(case%cam_bearings%bearing_positions)), torque
+      integer :: i, bearing, status
+
+      mean = 0.0_wp
+      call new_journal(journal, case%cam_bearings, model%oil%viscosity, model%speed, error)
+      if (allocated(error)) return
+      do i = 1, size(survey%states)
+         forces(:, 1) = cam_force(model, survey%states(i))
+         call bearing_loads(case%cam_bearings, forces, loads)
+         do bearing = 1, size(loads, 2)
+            call journal_torque(journal, norm2(loads(:, bearing)), torque, status)
+            if (status == 0) mean = mean + torque/size(survey%states)
+         end do
+      end do
+   end subroutine mean_bearing_torque
+
+   !> Number of followers that a lobe shape drives.
+   pure function followers_of(case, lobe) result(followers)
+      !> The case
+      type(case_t), intent(in) :: case
+      !> Lobe shape
+      integer, intent(in) :: lobe
+      !> Their number
+      integer :: followers
+
+      followers = merge(1, 0, lobe == 1)
+      if (allocated(case%cam_bearings)) followers = count(case%cam_bearings%cam_lobes == lobe)
+   end function followers_of
+
+   !> Relative change with the margin; huge where there is nothing that it could be relative to.
+   pure function relative(change, whole)
+      !> Change and what it is relative to [any]
+      real(wp), intent(in) :: change, whole
+      !> The change, with its margin [-]
+      real(wp) :: relative
+
+      relative = huge(1.0_wp)
+      if (change <= 0.0_wp) relative = 0.0_wp
+      if (abs(whole) > margin*change*tiny(1.0_wp)**0.25_wp) relative = margin*change/abs(whole)
+   end function relative
+
+end module camroller_effect_choice
