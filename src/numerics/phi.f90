@@ -19,8 +19,8 @@ module camroller_phi
    integer :: counter
    !> Reciprocals of the numbers that the terms are divided by [-]
    real(wp), parameter :: reciprocals(terms + most_functions) = [(1.0_wp/counter, counter=1, terms + most_functions)]
-   !> Argument below which the exponential function is zero [-]
-   real(wp), parameter :: vanishing = -700.0_wp
+   !> Argument below which the exponential function is round-off beside one [-]
+   real(wp), parameter :: vanishing = -40.0_wp
 
 contains
 
@@ -50,7 +50,8 @@ contains
          end do
       else
          inverse = 1.0_wp/z
-         phi(1) = (exp(max(z, vanishing)) - 1.0_wp)*inverse
+         phi(1) = -inverse
+         if (z > vanishing) phi(1) = (exp(z) - 1.0_wp)*inverse
          do k = 1, n - 1
             phi(k + 1) = (phi(k) - parts(k))*inverse
          end do

@@ -19,7 +19,7 @@ module camroller_film
    private
 
    public :: film_t, groups_t, film_shape_t, film_line_t, film_law_names, range_policy_names
-   public :: film_shape, new_film_line, film_at_load, is_in_range, takes_whole_load
+   public :: film_shape, new_film_line, film_at_load, log_films_at_load, is_in_range, takes_whole_load
    public :: law_dowson_higginson, law_pan_hamrock, law_masjedi_khonsari, law_masjedi_khonsari_rough, law_moes, law_table
 
    !> Film-thickness laws
@@ -178,6 +178,26 @@ contains
       end if
    end subroutine film_at_load
 
+   !> Logarithms of both films at a load that the film carries, and the slopes; the films themselves are left to the caller.
+   pure subroutine log_films_at_load(line, load, logs, shape)
+      !> Film over the load
+      type(film_line_t), intent(in) :: line
+      !> Load group W*, positive [-]
+      real(wp), intent(in) :: load
+      !> Logarithms of minimum and central film [-]
+      real(wp), intent(out) :: logs(2)
+      !> Slopes
+      type(film_shape_t), intent(inout) :: shape
+
+      if (line%is_power) then
+         call power_slopes(line%law, shape)
+         logs = line%unit_logs + power_laws(4, :, line%law)*log(load)
+      else
+         call film_at_load(line, load, shape)
+         logs = log([shape%minimum, shape%central])
+      end if
+   end subroutine log_films_at_load
+
    !> Does the law take the whole load instead of the part that the film carries?
    elemental function takes_whole_load(law) result(whole)
       !> Position in `film_law_names`
@@ -246,15 +266,25 @@ contains
       real(wp) :: log_load
 
       log_load = log(load)
-      shape%minimum_load_slope = power_laws(4, 1, line%law)
-      shape%central_load_slope = power_laws(4, 2, line%law)
-      shape%minimum_speed_slope = power_laws(2, 1, line%law)
-      shape%central_speed_slope = power_laws(2, 2, line%law)
-      shape%minimum_roughness_slope = 0.0_wp
-      shape%central_roughness_slope = 0.0_wp
+      call power_slopes(line%law, shape)
       shape%minimum = exp(line%unit_logs(1) + shape%minimum_load_slope*log_load)
       shape%central = exp(line%unit_logs(2) + shape%central_load_slope*log_load)
    end subroutine power_at_load
+
+   !> Slopes of a pair of power laws.
+   pure subroutine power_slopes(law, shape)
+      !> Position in `film_law_names`
+      integer, intent(in) :: law
+      !> Its slopes are set
+      type(film_shape_t), intent(inout) :: shape
+
+      shape%minimum_load_slope = power_laws(4, 1, law)
+      shape%central_load_slope = power_laws(4, 2, law)
+      shape%minimum_speed_slope = power_laws(2, 1, law)
+      shape%central_speed_slope = power_laws(2, 2, law)
+      shape%minimum_roughness_slope = 0.0_wp
+      shape%central_roughness_slope = 0.0_wp
+   end subroutine power_slopes
 
    !> Multiply both films by the roughness factors of Masjedi and Khonsari.
    pure subroutine roughen(groups, shape)

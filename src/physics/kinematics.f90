@@ -53,8 +53,12 @@ module camroller_kinematics
       real(wp) :: roller_radius
       !> lambda - chi: added to gamma + chi it gives s [rad]
       real(wp) :: arm_offset
+      !> Its cosine and sine [-]
+      real(wp) :: offset_cosine, offset_sine
       !> chi [rad]
       real(wp) :: valve_axis_angle
+      !> Its cosine and sine [-]
+      real(wp) :: axis_cosine, axis_sine
       !> gamma on the base circle [rad]
       real(wp) :: base_angle
       !> cos(gamma_B + chi) [-]
@@ -139,6 +143,10 @@ contains
       linkage%roller_radius = mechanism%roller_radius
       linkage%valve_axis_angle = mechanism%valve_axis_angle
       linkage%arm_offset = mechanism%roller_arm_angle - mechanism%valve_axis_angle
+      linkage%offset_cosine = cos(linkage%arm_offset)
+      linkage%offset_sine = sin(linkage%arm_offset)
+      linkage%axis_cosine = cos(linkage%valve_axis_angle)
+      linkage%axis_sine = sin(linkage%valve_axis_angle)
       linkage%base_angle = 0.0_wp
       linkage%base_cosine = 0.0_wp
       if (min(linkage%a, linkage%b, linkage%d, mechanism%roller_radius, mechanism%base_radius) <= 0.0_wp) then
@@ -201,8 +209,8 @@ contains
       position%lift_curvature = lift(2)
       position%valve_arm = linkage%b*sin_pad
       position%arm_angle = acos(cos_pad) + linkage%arm_offset
-      cos_s = cos(position%arm_angle)
-      sin_s = sin(position%arm_angle)
+      cos_s = cos_pad*linkage%offset_cosine - sin_pad*linkage%offset_sine
+      sin_s = sin_pad*linkage%offset_cosine + cos_pad*linkage%offset_sine
 
       ! l' = b sin(gamma+chi) gamma' and its derivatives
       gamma_1 = lift(1)/position%valve_arm
@@ -227,7 +235,7 @@ contains
       position%surface_travel_slope = m_1 - linkage%roller_radius*(l2_1 - 2.0_wp*l2*m_1/m)/m**2
 
       position%normal_arm = ad_sin/m
-      position%parallel_arm = linkage%a*sin(position%arm_angle + linkage%valve_axis_angle)
+      position%parallel_arm = linkage%a*(sin_s*linkage%axis_cosine + cos_s*linkage%axis_sine)
       position%cam_arm = (linkage%d**2 + linkage%a**2*g - ad_cos*(1.0_wp + g))/m - linkage%roller_radius
       position%tangent_arm = (ad_cos - linkage%a**2*g)/m
 
@@ -239,7 +247,7 @@ contains
       position%finger_jerk = gamma_3
       position%valve_arm_slope = linkage%b*cos_pad*gamma_1
       position%normal_arm_slope = (ad_cos*gamma_1 - position%normal_arm*m_1)/m
-      position%parallel_arm_slope = linkage%a*gamma_1*cos(position%arm_angle + linkage%valve_axis_angle)
+      position%parallel_arm_slope = linkage%a*gamma_1*(cos_s*linkage%axis_cosine - sin_s*linkage%axis_sine)
       position%tangent_arm_slope = -(ad_sin*gamma_1 + linkage%a**2*g_1 + position%tangent_arm*m_1)/m
       position%radius_slope = -linkage%roller_radius**2*(l2_1 - 3.0_wp*l2*m_1/m)/m**3
       position%rolling_travel_curvature = (linkage%a**2*(g_1**2 + linkage%sense*g*gamma_3) - linkage%sense*ad_cos*gamma_3 &

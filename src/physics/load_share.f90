@@ -6,7 +6,7 @@
 !> zero the root tends to the dry gap, `w_a(h_dry) = W*`, or to zero where the asperities alone cannot carry the load.
 module camroller_load_share
    use camroller_kinds, only : wp
-   use camroller_film, only : film_line_t, film_shape_t, film_at_load, takes_whole_load
+   use camroller_film, only : film_line_t, film_shape_t, film_at_load, log_films_at_load, takes_whole_load
    use camroller_asperity, only : asperity_constants_t, asperity_load_function, asperity_area_function, largest_film_ratio
    implicit none
    private
@@ -54,8 +54,8 @@ module camroller_load_share
 
 contains
 
-   !> Share a load between film and asperities: converged to round-off.
-   pure subroutine share_load(line, load, share, asperity, area)
+   !> Share a load between film and asperities: converged to round-off, or to less where less is good enough.
+   pure subroutine share_load(line, load, share, asperity, area, coarse, change)
       !> Film over the load at the speed of the contact
       type(film_line_t), intent(in) :: line
       !> Whole load over E' R L, positive [-]
@@ -66,29 +66,36 @@ contains
       type(asperity_constants_t), intent(in), optional :: asperity
       !> Apparent area over E' R L, to go with `asperity` [1/Pa]
       real(wp), intent(in), optional :: area
+      !> Relative change of the film ratio that may be the last; absent: one whose square is round-off [-]
+      real(wp), intent(in), optional :: coarse
+      !> The last change that was made; its square is about the error left [-]
+      real(wp), intent(out), optional :: change
 
       type(film_shape_t) :: shape
-      ! Film ratio; asperity load over E' R L, its change with ln H [-]
-      real(wp) :: film_ratio, asperity_load, stiffness
+      ! Film ratio; asperity load over E' R L, its change with ln H; change that may be the last, the last change [-]
+      real(wp) :: film_ratio, asperity_load, stiffness, last_allowed, last
 
       shape = film_shape_t(0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp)
       if (line%groups%speed > 0.0_wp) call film_at_load(line, load, shape)
       film_ratio = shape%minimum/line%groups%roughness
-      if (present(asperity)) then
-         if (film_ratio < largest_film_ratio) then
-            call share_with_asperities(line, load, asperity%load_factor*area, film_ratio, asperity_load, stiffness, shape)
-            call complete_share(line, load, asperity, film_ratio, asperity_load, stiffness, shape, share)
-            return
-         end if
+      last_allowed = tolerance
+      if (present(coarse)) last_allowed = max(tolerance, coarse)
+      last = 0.0_wp
+      if (present(asperity) .and. film_ratio < largest_film_ratio) then
+         call share_with_asperities(line, load, asperity%load_factor*area, last_allowed, film_ratio, asperity_load, stiffness, &
+            & last, shape)
+         call complete_share(line, load, asperity, film_ratio, asperity_load, stiffness, shape, share)
+      else
+         call film_alone(shape, load, share)
       end if
-      call film_alone(shape, load, share)
+      if (present(change)) change = last
    end subroutine share_load
 
    !> One step of Newton's method from a film ratio nearby: as good as `share_load` to the square of the change it makes.
    !>
    !> For callers that iterate on the load as well and would throw a fully converged share away. Where the film ratio
    !> lies beyond the reach of asperities or a step cannot be made, the share is found by `share_load`.
-   pure subroutine improve_share(line, load, share, asperity, area, start, change)
+   pure subroutine improve_share(line, load, share, asperity, area, start, change, coarse)
       !> Film over the load at the speed of the contact
       type(film_line_t), intent(in) :: line
       !> Whole load over E' R L, positive [-]
@@ -103,10 +110,12 @@ contains
       real(wp), intent(in) :: start
       !> Relative change of the film ratio that was made; its square is about the error left [-]
       real(wp), intent(out) :: change
+      !> Relative change that may be the last where none is known; absent: one whose square is round-off [-]
+      real(wp), intent(in), optional :: coarse
 
       type(film_shape_t) :: shape
-      ! F_5/2, its derivative, film load over E' R L and its derivative over ln H [-]
-      real(wp) :: value, slope, film_load, film_load_slope
+      ! F_5/2, its derivative, film load over E' R L and its derivative over ln H; logarithms of the films [-]
+      real(wp) :: value, slope, film_load, film_load_slope, logs(2)
 
       change = 0.0_wp
       film_load = 0.0_wp
@@ -116,17 +125,15 @@ contains
          film_load = load - asperity%load_factor*area*value
       end if
       if (film_load > smallest_film_part*load) then
-         call film_at_load(line, film_load, shape)
+         call log_films_at_load(line, film_load, logs, shape)
          film_load_slope = -asperity%load_factor*area*slope*start
-         change = log(shape%minimum/(start*line%groups%roughness)) &
-            & /(1.0_wp - shape%minimum_load_slope*film_load_slope/film_load)
+         change = (logs(1) - log(start*line%groups%roughness))/(1.0_wp - shape%minimum_load_slope*film_load_slope/film_load)
       end if
       if (film_load <= smallest_film_part*load .or. abs(change) > largest_change) then
-         change = 0.0_wp
-         call share_load(line, load, share, asperity, area)
+         call share_load(line, load, share, asperity, area, coarse, change)
          return
       end if
-      shape%central = shape%central*(1.0_wp + shape%central_load_slope*film_load_slope/film_load*change)
+      shape%central = exp(logs(2))*(1.0_wp + shape%central_load_slope*film_load_slope/film_load*change)
       call complete_share(line, load, asperity, start*(1.0_wp + change), min(load - film_load - film_load_slope*change, load), &
          & -film_load_slope, shape, share)
    end subroutine improve_share
@@ -233,28 +240,33 @@ contains
    end function share_change
 
    !> Film ratio at which the asperities carry what the film does not, by Newton's method on logarithms inside a bracket.
-   pure subroutine share_with_asperities(line, load, capacity, film_ratio, asperity_load, stiffness, shape)
+   pure subroutine share_with_asperities(line, load, capacity, last_allowed, film_ratio, asperity_load, stiffness, change, shape)
       !> Film over the load at the speed of the contact
       type(film_line_t), intent(in) :: line
       !> Whole load over E' R L [-]
       real(wp), intent(in) :: load
       !> Asperity load over E' R L for F_5/2 = 1 [-]
       real(wp), intent(in) :: capacity
+      !> Relative change of the film ratio that may be the last [-]
+      real(wp), intent(in) :: last_allowed
       !> In: film ratio to start from, that with the film carrying everything for laws that take the whole load; out: film
       !> ratio [-]
       real(wp), intent(inout) :: film_ratio
       !> Asperity load over E' R L, and its change with ln H [-]
       real(wp), intent(out) :: asperity_load, stiffness
+      !> Last relative change of the film ratio [-]
+      real(wp), intent(out) :: change
       !> In: film that carries everything; out: film
       type(film_shape_t), intent(inout) :: shape
 
-      ! Bracket of the film ratio, its change relative [-]
-      real(wp) :: low, high, change
+      ! Bracket of the film ratio; logarithms of film ratio, films and roughness [-]
+      real(wp) :: low, high, log_ratio, logs(2), log_roughness
       ! F_5/2, d F_5/2/d H, load of the film over E' R L and its derivative over ln H [-]
       real(wp) :: value, slope, film_load, film_load_slope
       integer :: iteration
       logical :: has_film
 
+      change = 0.0_wp
       call asperity_load_function(film_ratio, value, slope)
       asperity_load = max(0.0_wp, min(capacity*value, load))
       stiffness = capacity*slope*film_ratio
@@ -263,21 +275,22 @@ contains
 
       low = 0.0_wp
       high = largest_film_ratio
+      log_ratio = log(max(film_ratio, tiny(film_ratio)))
+      log_roughness = log(line%groups%roughness)
       do iteration = 1, max_iterations
          film_load = load - capacity*value
          change = 0.0_wp
          has_film = film_load > 0.0_wp .and. line%groups%speed > 0.0_wp
          if (has_film) then
-            call film_at_load(line, film_load, shape)
+            call log_films_at_load(line, film_load, logs, shape)
             film_load_slope = -capacity*slope*film_ratio
             stiffness = -film_load_slope
-            change = log(shape%minimum/(film_ratio*line%groups%roughness)) &
-               & /(1.0_wp - shape%minimum_load_slope*film_load_slope/film_load)
-            if (abs(change) <= tolerance) then
+            change = (logs(1) - log_ratio - log_roughness)/(1.0_wp - shape%minimum_load_slope*film_load_slope/film_load)
+            if (abs(change) <= last_allowed) then
                film_ratio = film_ratio*(1.0_wp + change)
                ! A film that carries next to nothing must not come out as carrying less
                asperity_load = max(0.0_wp, min(load - film_load - film_load_slope*change, load))
-               shape%central = shape%central*(1.0_wp + shape%central_load_slope*film_load_slope/film_load*change)
+               shape%central = exp(logs(2))*(1.0_wp + shape%central_load_slope*film_load_slope/film_load*change)
                return
             end if
          end if
@@ -288,11 +301,17 @@ contains
             high = min(high, film_ratio)
          end if
          if (high - low <= 4.0_wp*epsilon(1.0_wp)*high) exit
-         if (has_film) film_ratio = film_ratio*exp(change)
-         if (.not. has_film .or. film_ratio <= low .or. film_ratio >= high) film_ratio = low + 0.5_wp*(high - low)
+         log_ratio = log_ratio + change
+         film_ratio = exp(log_ratio)
+         if (.not. has_film .or. film_ratio <= low .or. film_ratio >= high) then
+            film_ratio = low + 0.5_wp*(high - low)
+            log_ratio = log(film_ratio)
+         end if
          call asperity_load_function(film_ratio, value, slope)
       end do
+      change = 0.0_wp
       film_ratio = high
+      if (has_film) shape%central = exp(logs(2))
       call asperity_load_function(film_ratio, value, slope)
       asperity_load = max(0.0_wp, min(capacity*value, load))
    end subroutine share_with_asperities

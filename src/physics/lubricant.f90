@@ -265,16 +265,27 @@ contains
       integer :: i
       ! alpha p0; derivative of the mean over it; viscosity ratio at a point and its logarithmic slope [-]
       real(wp) :: exponent, derivative, ratio, point_slope
+      ! Square of alpha p0; polynomials of its even and odd powers, with each term times its power [-]
+      real(wp) :: square, even, odd, even_slope, odd_slope
 
       mean = 0.0_wp
       derivative = 0.0_wp
       if (oil%pressure_law == law_cameron) then
          exponent = oil%pressure_viscosity*peak
-         do i = cameron_power, 0, -1
-            derivative = derivative*exponent + mean
-            mean = mean*exponent + cameron_coefficients(i)
+         square = exponent**2
+         ! Even and odd powers apart, so that one need not wait for the other
+         even = cameron_coefficients(cameron_power)
+         even_slope = cameron_power*cameron_coefficients(cameron_power)
+         odd = 0.0_wp
+         odd_slope = 0.0_wp
+         do i = cameron_power - 1, 1, -2
+            odd = odd*square + cameron_coefficients(i)
+            odd_slope = odd_slope*square + powers(i)*cameron_coefficients(i)
+            even = even*square + cameron_coefficients(i - 1)
+            even_slope = even_slope*square + powers(i - 1)*cameron_coefficients(i - 1)
          end do
-         log_slope = derivative*exponent/mean
+         mean = even + exponent*odd
+         log_slope = (even_slope + exponent*odd_slope)/mean
          return
       end if
       do i = 1, size(rule_heights)

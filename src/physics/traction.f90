@@ -204,8 +204,10 @@ contains
 
       ! sqrt(2 U) [-]
       real(wp) :: root
-      ! M2 (1.4/1.45)^2; its power 5 or -5, the smaller of both [-]
+      ! M2 (1.4/1.45)^2; its power 5 or -5, the smaller of both, then what it multiplies the force by [-]
       real(wp) :: regime, blend
+      ! Blend whose fourth power is round-off [-]
+      real(wp), parameter :: small_blend = 1.0e-4_wp
 
       force = 0.0_wp
       log_slope = 0.0_wp
@@ -227,7 +229,13 @@ contains
             force = 1.45_wp*root*sqrt(root)
             log_slope = 0.5_wp*blend/(1.0_wp + blend)
          end if
-         force = force*(1.0_wp + blend)**(-0.1_wp)*modulus*radius*length
+         if (blend < small_blend) then
+            ! the first terms of the series, exact there
+            blend = 1.0_wp - 0.1_wp*blend*(1.0_wp - 0.55_wp*blend*(1.0_wp - 0.7_wp*blend))
+         else
+            blend = (1.0_wp + blend)**(-0.1_wp)
+         end if
+         force = force*blend*modulus*radius*length
       end select
    end subroutine rolling_resistance
 

@@ -92,11 +92,11 @@ contains
          return
       end if
       contact%load = load
-      call prepare_contact(model, position, contact, setting, mobilised)
+      enough = 0.0_wp
+      if (present(accuracy)) enough = accuracy
+      call prepare_contact(model, position, contact, enough, setting, mobilised)
       contact%film_ratio = 0.0_wp
       if (model%is_consistent) then
-         enough = 0.0_wp
-         if (present(accuracy)) enough = accuracy
          call balance_finger(model, position, setting, moment, enough, contact, parts, status)
       else
          call evaluate_contact(model, position, setting, load, contact, parts, change)

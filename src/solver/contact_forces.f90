@@ -66,7 +66,13 @@ module camroller_contact_forces
       real(wp) :: mobilised_slope
       !> Torque of the roller's bearing over the load [m]
       real(wp) :: bearing_arm
+      !> Relative change of the film ratio that may be the last where the load share is found anew [-]
+      real(wp) :: coarse
    end type setting_t
+
+   !> Change of the film ratio that may be the last, over the root of the relative error that is good enough: its square is the
+   !> error left, times a factor of a few [-]
+   real(wp), parameter :: coarse_part = 0.3_wp
 
    !> What the slopes of the forces are made of, kept from their evaluation
    type :: parts_t
@@ -128,19 +134,22 @@ contains
    end subroutine set_speeds
 
    !> What the speeds alone decide.
-   pure subroutine prepare_contact(model, position, contact, setting, mobilised)
+   pure subroutine prepare_contact(model, position, contact, enough, setting, mobilised)
       !> The model
       type(model_t), intent(in) :: model
       !> Geometry at this angle
       type(position_t), intent(in) :: position
       !> State of the contact; the speeds are set
       type(contact_t), intent(in) :: contact
+      !> Relative error of the forces that is good enough [-]
+      real(wp), intent(in) :: enough
       !> What does not change with the load
       type(setting_t), intent(out) :: setting
       !> Mobilised part of the boundary friction; absent: as the sliding speed has it [-]
       real(wp), intent(in), optional :: mobilised
 
       setting%scale = model%modulus*position%equivalent_radius*model%contact_width
+      setting%coarse = coarse_part*sqrt(enough)
       call new_film_line(setting%line, model%film_law, film_groups(model, position, contact), model%film_table)
       setting%mobilised = 0.0_wp
       setting%mobilised_slope = 0.0_wp
@@ -207,7 +216,7 @@ contains
       change = 0.0_wp
       if (allocated(model%boundary)) then
          call improve_share(setting%line, parts%load_group, parts%share, model%boundary%constants, &
-            & contact%apparent_area/setting%scale, contact%film_ratio, change)
+            & contact%apparent_area/setting%scale, contact%film_ratio, change, setting%coarse)
       else
          call share_load(setting%line, parts%load_group, parts%share)
       end if
