@@ -6,7 +6,7 @@ import dataclasses
 import math
 import pathlib
 
-THEIRS = ("cvode", "cvode_slope", "cvode_restart", "LSODA", "BDF", "Radau")
+THEIRS = ("cvode", "cvode_slope", "cvode_restart", "cvode_slope_restart", "LSODA", "BDF", "Radau")
 
 
 @dataclasses.dataclass(frozen=True)

@@ -36,7 +36,7 @@ contains
       do i = 1, size(tasks)
          if (.not. is_wanted(tasks(i)%name)) cycle
          call climb_ladder(tasks(i), [character(len=32) :: pack(method_facts%name, method_facts%companion_order > 0), &
-            & "cvode", "cvode_slope", "cvode_restart"])
+            & "cvode", "cvode_slope", "cvode_restart", "cvode_slope_restart"])
          flush (output_unit)
       end do
    end subroutine main

@@ -63,7 +63,7 @@ contains
    subroutine climb_ladder(task, names)
       !> Task
       type(task_t), intent(in) :: task
-      !> Solvers: our methods, `cvode`, `cvode_slope`, `cvode_restart`
+      !> Solvers: our methods, `cvode`, `cvode_slope`, `cvode_restart`, `cvode_slope_restart`
       character(len=*), intent(in) :: names(:)
 
       type(contestant_t), allocatable, target :: contestants(:)
@@ -114,7 +114,7 @@ contains
       contestant%is_cvode = index(name, "cvode") == 1
       allocate (contestant%rungs(per_decade*decades + 1))
       if (contestant%is_cvode) then
-         call new_cvode(contestant%cvode, task%problem, size(task%first_state), name == "cvode_slope", name == "cvode_restart")
+         call new_cvode(contestant%cvode, task%problem, size(task%first_state), index(name, "slope") > 0, index(name, "restart") > 0)
       else
          call new_own(contestant%own, name, size(task%first_state), error)
          if (allocated(error)) return
