@@ -114,7 +114,8 @@ contains
       contestant%is_cvode = index(name, "cvode") == 1
       allocate (contestant%rungs(per_decade*decades + 1))
       if (contestant%is_cvode) then
-         call new_cvode(contestant%cvode, task%problem, size(task%first_state), index(name, "slope") > 0, index(name, "restart") > 0)
+         call new_cvode(contestant%cvode, task%problem, size(task%first_state), index(name, "slope") > 0, &
+            & index(name, "restart") > 0)
       else
          call new_own(contestant%own, name, size(task%first_state), error)
          if (allocated(error)) return

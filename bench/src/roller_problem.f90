@@ -181,7 +181,8 @@ contains
 
       ! Changes of radius, load, speed group and films, logarithms [-]; of sliding speed and entrainment [m/s]
       real(wp) :: radius, load, speed_group, film_min, film_central, sliding, entrainment
-      ! Changes of half width, asperity load and shear slope, logarithms [-]; of traction, rolling [N], torque [N m], the cap's argument [-]
+      ! Changes of half width, asperity load and shear slope, logarithms [-]; of traction, rolling [N], torque [N m], the cap's
+      ! argument [-]
       real(wp) :: half, asperity, shear, traction, rolling, torque, argument
 
       radius = by_angle*forces%position%radius_slope/forces%position%equivalent_radius
@@ -302,7 +303,8 @@ contains
       !> Derivative [N/rad]
       real(wp) :: slope
 
-      ! Force at the valve [N], load of the event [N] and their derivatives [N/rad]; share of the event's load and its derivative [-]
+      ! Force at the valve [N], load of the event [N] and their derivatives [N/rad]; share of the event's load and its
+      ! derivative [-]
       real(wp) :: force, force_slope, event, event_slope, share, share_slope
 
       force = stiffness*(position%lift + precompression) + valve_mass*speed**2*position%lift_curvature
