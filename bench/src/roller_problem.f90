@@ -78,6 +78,7 @@ contains
       problem%speed = speed
       problem%cosines = cos(0.5_wp*pi*nodes)
       problem%weights = 0.5_wp*pi*weights*problem%cosines
+      problem%integrals = 1
       problem%small_state = [1.0e-3_wp*speed, 1.0e-3_wp]
    end subroutine new_roller_problem
 

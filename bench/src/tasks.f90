@@ -190,7 +190,7 @@ contains
       allocate (states(size(task%first_state), turns*outputs))
       tolerance = merge(reference_tolerance, spin_tolerance, turns == 1)
       call set_accuracy(task, 0.0_wp)
-      call new_own(solver, reference_method, size(task%first_state), error)
+      call new_own(solver, reference_method, size(task%first_state), task%problem%integrals, error)
       if (allocated(error)) return
       call run_own(solver, task%problem, task%stops, task%first_state, tolerance*task%scale, task%angles, states, error)
       if (allocated(error)) return

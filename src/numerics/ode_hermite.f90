@@ -1,9 +1,9 @@
 !> Exponential Hermite method of order 6, of order 4 in the first step: one evaluation of the rate with its derivatives a step.
 !>
-!> Layer: numerics. In: nothing. Out: a `method_t` for problems of one component. About the start of a step h the rate is
-!> `f + J (y - y_n) + v (t - t_n) + R(t)`. The linear part is solved exactly. R, which vanishes there with its slope, is taken
-!> as the polynomial of degree 5 through its values and slopes at the starts of this step and the one before and at the end of
-!> this one:
+!> Layer: numerics. In: nothing. Out: a `method_t` for problems of one component, which may be followed by integrals over it.
+!> About the start of a step h the rate is `f + J (y - y_n) + v (t - t_n) + R(t)`. The linear part is solved exactly. R, which
+!> vanishes there with its slope, is taken as the polynomial of degree 5 through its values and slopes at the starts of this
+!> step and the one before and at the end of this one:
 !>
 !>     y(t_n + x h) = y_n + x h (phi_1(x z) f + x h phi_2(x z) v + sum over k = 2 to 5 of k! phi_(k+1)(x z) x^k r_k),
 !>     R(t_n + x h) = r_2 x^2 + ... + r_5 x^5,    z = h J
@@ -13,6 +13,9 @@
 !> state and rate. The error estimate is what the formula loses without the slope at the earliest point (in the first step:
 !> without the slope at the end), at the end or in the middle of the step, whichever is larger. No state but y_n enters, so
 !> steps may change at will.
+!>
+!> Components on which no rate depends are integrals: their remainders are polynomials in the same way, and what the first
+!> component adds to them is integrated exactly, with the next function phi.
 !>
 !> The formula is ours; it joins the linearised exponential multistep methods of Hochbruck and Ostermann, BIT Numer. Math. 51
 !> (2011) 889, with second derivatives as in Enright, SIAM J. Numer. Anal. 11 (1974) 321.
@@ -38,10 +41,20 @@ module camroller_ode_hermite
       real(wp) :: slope = 0.0_wp, time_slope = 0.0_wp
    end type point_t
 
+   !> What a point says of the remainder of a step
+   type :: past_t
+      !> Place of the point, negative; positive where there is none [-]
+      real(wp) :: place = 1.0_wp
+      !> R/x^2 there, and its slope with the place [state/time]
+      real(wp) :: value = 0.0_wp, slope = 0.0_wp
+   end type past_t
+
    !> The method
    type, extends(method_t) :: hermite_method_t
       !> Start of the step before; start and end of the step tried last
       type(point_t) :: before, start, end
+      !> The same of the integrals at the first two of these points; their states do not enter
+      type(point_t), allocatable :: others_before(:), others(:)
    contains
       procedure :: try_step => try_hermite_step
    end type hermite_method_t
@@ -67,9 +80,11 @@ module camroller_ode_hermite
 contains
 
    !> Make the method.
-   subroutine new_hermite_method(method)
+   subroutine new_hermite_method(method, integrals)
       !> The method
       type(hermite_method_t), intent(out) :: method
+      !> Number of components that follow the first and are integrals over it
+      integer, intent(in) :: integrals
 
       method%error_order = first_order
       method%needs_jacobian = .true.
@@ -77,7 +92,7 @@ contains
       method%proportional = 1.0_wp
       method%integral = 0.0_wp
       method%has_curve = .true.
-      allocate (method%bends(1, curve_numbers))
+      allocate (method%bends(1 + integrals, curve_numbers), method%others_before(integrals), method%others(integrals))
    end subroutine new_hermite_method
 
    !> One step.
@@ -106,19 +121,18 @@ contains
       integer, intent(out) :: status
 
       type(remainder_t) :: remainder, follower
+      type(past_t) :: past
       ! Functions of h J; weights of x^2 to x^5 in the remainder [-]
       real(wp) :: phi(6), weights(0:3)
       ! Linear part of the new state; state predicted; correction [state]
       real(wp) :: linear, predicted, correction
-      ! Place of the point before [-]; R/x^2 there, and its slope [state/time]
-      real(wp) :: s, past, past_slope
       ! One minus the derivative of the formula over the state at the end [-]
       real(wp) :: denominator
 
       new_state = state
       new_rate = rate
       error_estimate = 0.0_wp
-      call remember(self, time, state(1), rate(1))
+      call remember(self, time, state(1), rate)
       status = 1
       if (step*self%start%slope > largest_growth) return
       phi = phi_functions(6, step*self%start%slope)
@@ -126,39 +140,40 @@ contains
       counters%factorisations = counters%factorisations + 1
       linear = state(1) + step*(phi(1)*rate(1) + step*phi(2)*self%start%time_slope)
 
-      call look_back(self%start, self%before, step, s, past, past_slope)
-      predicted = linear + step*((past - past_slope*s)*weights(0) + past_slope*weights(1))
+      past = look_back(self%start, self%before, self%before, self%start%state, step)
+      predicted = linear + step*((past%value - past%slope*past%place)*weights(0) + past%slope*weights(1))
       if (.not. abs(predicted) < huge(1.0_wp)) return
-      call problem%linearise(time + step, [predicted], self%horizon, self%there, counters, status)
+      new_state(1) = predicted
+      call problem%linearise(time + step, new_state, self%horizon, self%there, counters, status)
       if (status /= 0) return
 
-      call close_remainder(self, step, predicted, s, past, past_slope, remainder, follower)
-      denominator = 1.0_wp - step*integral_of(follower, s, weights)
+      call close_remainder(self, 1, self%start, step, predicted, past, remainder, follower)
+      denominator = 1.0_wp - step*integral_of(follower, past%place, weights)
       status = 1
       if (.not. denominator > least_denominator) return
       status = 0
-      correction = (linear + step*integral_of(remainder, s, weights) - predicted)/denominator
-      remainder%value = remainder%value + correction*follower%value
-      remainder%slope = remainder%slope + correction*follower%slope
-      remainder%bend = remainder%bend + correction*follower%bend
-      remainder%twist = remainder%twist + correction*follower%twist
-
+      correction = (linear + step*integral_of(remainder, past%place, weights) - predicted)/denominator
+      call correct_remainder(remainder, follower, correction)
       new_state(1) = predicted + correction
-      new_rate(1) = self%there%rate(1) + self%there%jacobian(1, 1)*correction
-      self%there%rate(1) = new_rate(1)
+      new_rate = self%there%rate + self%there%jacobian(:, 1)*correction
+      error_estimate(1) = step*abs(loss_of(self, step, remainder, past%place, weights))
+      call bend_curve(self, step, remainder, past%place, new_state(1))
+      if (size(state) > 1) then
+         call carry_integrals(self, step, predicted, correction, remainder, past%place, new_state, new_rate, error_estimate)
+      end if
+      self%there%rate(:) = new_rate
       self%end%time = time + step
       self%end%state = new_state(1)
-      error_estimate(1) = step*abs(loss_of(self, step, remainder, s, weights))
-      call bend_curve(self, step, remainder, s, new_state(1))
    end subroutine try_hermite_step
 
    !> Keep the start of the step, and with it the start of the one before where this one goes on from its end.
    pure subroutine remember(self, time, state, rate)
       !> The method and the derivatives at this point
       type(hermite_method_t), intent(inout) :: self
-      !> Time at the start of the step [time], state [state] and rate [state/time] there
-      real(wp), intent(in) :: time, state, rate
+      !> Time at the start of the step [time], state of the first component there [state], rates there [state/time]
+      real(wp), intent(in) :: time, state, rate(:)
 
+      integer :: i
       ! Is this another try at the same point, does it follow the step before?
       logical :: is_repeated, follows
 
@@ -168,7 +183,11 @@ contains
       self%before = point_t()
       if (follows) self%before = self%start
       self%error_order = merge(later_order, first_order, follows)
-      self%start = point_t(time, state, rate, self%here%jacobian(1, 1), self%here%time_slope(1))
+      self%start = point_t(time, state, rate(1), self%here%jacobian(1, 1), self%here%time_slope(1))
+      do i = 2, size(rate)
+         self%others_before(i - 1) = self%others(i - 1)
+         self%others(i - 1) = point_t(time, 0.0_wp, rate(i), self%here%jacobian(i, 1), self%here%time_slope(i))
+      end do
    end subroutine remember
 
    !> Slope of the solution at a point: the rate, or where the decay is so fast that the rate is the decay of rounding errors,
@@ -186,67 +205,149 @@ contains
    end function motion_of
 
    !> What the step before says of the remainder of this one.
-   pure subroutine look_back(start, before, step, s, past, past_slope)
-      !> Start of this step, start of the one before
+   pure function look_back(start, before, first, state, step) result(past)
+      !> Start of this step and of the one before
       type(point_t), intent(in) :: start, before
+      !> The first component at the start of the step before
+      type(point_t), intent(in) :: first
+      !> The first component at the start of this step [state]
+      real(wp), intent(in) :: state
       !> Size of this step [time]
       real(wp), intent(in) :: step
-      !> Place of the start of the step before, negative; positive where there is none [-]
-      real(wp), intent(out) :: s
-      !> R/x^2 there, and its slope with the place [state/time]
-      real(wp), intent(out) :: past, past_slope
+      !> What it says
+      type(past_t) :: past
 
       ! Slope of R with the place, over the place [state/time]
       real(wp) :: slope
 
-      s = 1.0_wp
-      past = 0.0_wp
-      past_slope = 0.0_wp
-      if (before%time > start%time) return
-      associate (back => before%time - start%time)
+      if (first%time > start%time) return
+      associate (back => first%time - start%time, s => past%place)
          s = back/step
-         past = (before%rate - start%rate - start%slope*(before%state - start%state) - start%time_slope*back)/s**2
-         slope = step*(before%time_slope - start%time_slope + (before%slope - start%slope)*motion_of(before%rate, before%slope, &
-            & before%time_slope, step))/s
+         past%value = (before%rate - start%rate - start%slope*(first%state - state) - start%time_slope*back)/s**2
+         slope = step*(before%time_slope - start%time_slope + (before%slope - start%slope)*motion_of(first%rate, first%slope, &
+            & first%time_slope, step))/s
+         past%slope = (slope - 2.0_wp*past%value)/s
       end associate
-      past_slope = (slope - 2.0_wp*past)/s
-   end subroutine look_back
+   end function look_back
 
-   !> The remainder with what the end says of it, and its derivative over the state at the end.
-   pure subroutine close_remainder(self, step, predicted, s, past, past_slope, remainder, follower)
+   !> The remainder with what the end says of it, and its derivative over the first component there.
+   pure subroutine close_remainder(self, component, start, step, predicted, past, remainder, follower)
       !> The method with the derivatives at the end
       type(hermite_method_t), intent(in) :: self
+      !> Which component
+      integer, intent(in) :: component
+      !> It at the start
+      type(point_t), intent(in) :: start
       !> Size of the step [time]
       real(wp), intent(in) :: step
-      !> State where rate and derivatives at the end have been evaluated [state]
+      !> First component where rate and derivatives at the end have been evaluated [state]
       real(wp), intent(in) :: predicted
-      !> Place of the start of the step before [-]; R/x^2 there and its slope [state/time]
-      real(wp), intent(in) :: s, past, past_slope
+      !> What the step before says
+      type(past_t), intent(in) :: past
       !> The remainder [state/time], its derivative [1/time]
       type(remainder_t), intent(out) :: remainder, follower
 
-      ! Change of the Jacobian [1/time], slope of R with the place [state/time], distance of the places [-]
-      real(wp) :: change, slope, distance
+      ! Change of the Jacobian, Jacobian of the first component [1/time]; slope of R with the place [state/time]
+      real(wp) :: change, decay, slope
+      ! Distance of the places [-]
+      real(wp) :: distance
 
-      change = self%there%jacobian(1, 1) - self%start%slope
-      slope = step*(self%there%time_slope(1) - self%start%time_slope + change*motion_of(self%there%rate(1), &
-         & self%there%jacobian(1, 1), self%there%time_slope(1), step))
-      remainder%value = self%there%rate(1) - self%start%rate - self%start%slope*(predicted - self%start%state) &
-         & - self%start%time_slope*step
+      decay = self%there%jacobian(1, 1)
+      change = self%there%jacobian(component, 1) - start%slope
+      slope = step*(self%there%time_slope(component) - start%time_slope &
+         & + change*motion_of(self%there%rate(1), decay, self%there%time_slope(1), step))
+      remainder%value = self%there%rate(component) - start%rate - start%slope*(predicted - self%start%state) &
+         & - start%time_slope*step
       remainder%slope = slope - 2.0_wp*remainder%value
       ! The derivatives of J and v over the state are not known and left out
       follower%value = change
       follower%slope = -2.0_wp*change
-      if (step*abs(self%there%jacobian(1, 1)) < fast) follower%slope = follower%slope + step*change*self%there%jacobian(1, 1)
-      if (s > 0.0_wp) return
-      distance = 1.0_wp - s
-      associate (secant => (remainder%value - past)/distance, follower_secant => follower%value/distance)
+      if (step*abs(decay) < fast) follower%slope = follower%slope + step*change*decay
+      if (past%place > 0.0_wp) return
+      distance = 1.0_wp - past%place
+      associate (secant => (remainder%value - past%value)/distance, follower_secant => follower%value/distance)
          remainder%bend = (remainder%slope - secant)/distance
-         remainder%twist = (remainder%bend - (secant - past_slope)/distance)/distance
+         remainder%twist = (remainder%bend - (secant - past%slope)/distance)/distance
          follower%bend = (follower%slope - follower_secant)/distance
          follower%twist = (follower%bend - follower_secant/distance)/distance
       end associate
    end subroutine close_remainder
+
+   !> Move a remainder with a correction of the first component at the end.
+   pure subroutine correct_remainder(remainder, follower, correction)
+      !> The remainder [state/time]
+      type(remainder_t), intent(inout) :: remainder
+      !> Its derivative [1/time]
+      type(remainder_t), intent(in) :: follower
+      !> Correction [state]
+      real(wp), intent(in) :: correction
+
+      remainder%value = remainder%value + correction*follower%value
+      remainder%slope = remainder%slope + correction*follower%slope
+      remainder%bend = remainder%bend + correction*follower%bend
+      remainder%twist = remainder%twist + correction*follower%twist
+   end subroutine correct_remainder
+
+   !> Components that are integrals over the first: states at the end, error estimates, curves.
+   pure subroutine carry_integrals(self, step, predicted, correction, first, s, new_state, new_rate, error_estimate)
+      !> The method
+      type(hermite_method_t), intent(inout) :: self
+      !> Size of the step [time]
+      real(wp), intent(in) :: step
+      !> First component at the end as predicted, its correction [state]
+      real(wp), intent(in) :: predicted, correction
+      !> Its remainder [state/time]
+      type(remainder_t), intent(in) :: first
+      !> Place of the start of the step before [-]
+      real(wp), intent(in) :: s
+      !> In: first component at the end; out: all of them [state]
+      real(wp), intent(inout) :: new_state(:)
+      !> Rates at the end [state/time]
+      real(wp), intent(in) :: new_rate(:)
+      !> In: estimate of the first component; out: of all [state]
+      real(wp), intent(inout) :: error_estimate(:)
+
+      ! Reciprocals of the powers that x^2 to x^5 are integrated to [-]
+      real(wp), parameter :: parts(0:3) = [1.0_wp/3.0_wp, 0.25_wp, 0.2_wp, 1.0_wp/6.0_wp]
+      type(remainder_t) :: remainder, follower, part
+      type(past_t) :: past
+      ! Functions, rates of the first component as factorials times a polynomial [state/time], its integral [state time]
+      real(wp) :: phi(7), rates(0:5), integrals(2)
+      ! Place [-]; change up to the middle and up to the end [state]; what the bends add [state]
+      real(wp) :: place, changes(2), middle, ends
+      integer :: i, k
+
+      rates = [self%start%rate, step*self%start%time_slope, factorials*coefficients_of(first, s)]
+      do k = 1, 2
+         place = 0.5_wp*k
+         phi = phi_functions(7, place*step*self%start%slope)
+         integrals(k) = (place*step)**2*sum(rates*phi(2:)*[1.0_wp, place, place**2, place**3, place**4, place**5])
+      end do
+      do i = 1, size(self%others)
+         past = look_back(self%others(i), self%others_before(i), self%before, self%start%state, step)
+         call close_remainder(self, i + 1, self%others(i), step, predicted, past, remainder, follower)
+         call correct_remainder(remainder, follower, correction)
+         do k = 1, 2
+            place = 0.5_wp*k
+            changes(k) = place*step*(self%others(i)%rate + place*step*self%others(i)%time_slope/2.0_wp &
+               & + place**2*sum(coefficients_of(remainder, s)*parts*[1.0_wp, place, place**2, place**3])) &
+               & + self%others(i)%slope*integrals(k)
+         end do
+         new_state(i + 1) = new_state(i + 1) + changes(2)
+         if (s > 0.0_wp) part%slope = remainder%slope
+         if (s <= 0.0_wp) part%twist = remainder%twist
+         error_estimate(i + 1) = step*(abs(integral_of(part, s, parts)) + abs(self%others(i)%slope)*error_estimate(1))
+         ! the quartic through slopes at both ends and the middle
+         associate (b => self%bends(i + 1, :))
+            b = 0.0_wp
+            b(1) = step*self%others(i)%rate - changes(2)
+            middle = 4.0_wp*changes(1) - 2.0_wp*changes(2) - b(1)
+            ends = changes(2) - step*new_rate(i + 1) - b(1)
+            b(2) = 4.0_wp*middle - ends
+            b(3) = ends - b(2)
+         end associate
+      end do
+   end subroutine carry_integrals
 
    !> Coefficients of x^2 to x^5 in a remainder.
    pure function coefficients_of(remainder, s) result(r)

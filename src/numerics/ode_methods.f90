@@ -28,6 +28,8 @@ module camroller_ode_methods
       integer :: max_components
       !> Where it is from
       character(len=80) :: source
+      !> May there be integrals beside these components?
+      logical :: takes_integrals = .false.
    end type method_facts_t
 
    !> No limit to the number of components
@@ -41,7 +43,8 @@ module camroller_ode_methods
       & method_facts_t("rodas5p", 5, 4, .true., unlimited, "Steinebach, BIT Numer. Math. 63 (2023) 27"), &
       & method_facts_t("radau5", 5, 3, .true., unlimited, "Hairer and Wanner, Solving ODEs II (1996), IV.8"), &
       & method_facts_t("exprb32", 3, 2, .true., 1, "Hochbruck and Ostermann, Acta Numerica 19 (2010) 209"), &
-      & method_facts_t("hermite", 6, 5, .true., 1, "ours; see Hochbruck and Ostermann, BIT Numer. Math. 51 (2011) 889"), &
+      & method_facts_t("hermite", 6, 5, .true., 1, "ours; see Hochbruck and Ostermann, BIT Numer. Math. 51 (2011) 889", &
+      & takes_integrals=.true.), &
       & method_facts_t("rkc", 2, 2, .false., unlimited, "Sommeijer et al., J. Comput. Appl. Math. 88 (1998) 315"), &
       & method_facts_t("bogacki_shampine", 3, 2, .false., unlimited, "Bogacki and Shampine, Appl. Math. Lett. 2 (1989) 321"), &
       & method_facts_t("dormand_prince", 5, 4, .false., unlimited, "Dormand and Prince, J. Comput. Appl. Math. 6 (1980) 19"), &
@@ -53,7 +56,7 @@ module camroller_ode_methods
 contains
 
    !> Make a method by its name.
-   subroutine new_method(method, name, components, error)
+   subroutine new_method(method, name, components, error, integrals)
       !> The method
       class(method_t), allocatable, intent(out) :: method
       !> One of `method_names`
@@ -62,6 +65,8 @@ contains
       integer, intent(in) :: components
       !> Deck error for an unknown name, with the list of the known ones; domain error for too many components
       type(error_t), allocatable, intent(out) :: error
+      !> How many of the components, the last ones, are integrals: no rate depends on them; absent: none is known to be
+      integer, intent(in), optional :: integrals
 
       type(explicit_method_t), allocatable :: explicit_method
       type(rosenbrock_method_t), allocatable :: rosenbrock_method
@@ -69,11 +74,13 @@ contains
       type(chebyshev_method_t), allocatable :: chebyshev_method
       type(exponential_method_t), allocatable :: exponential_method
       type(hermite_method_t), allocatable :: hermite_method
-      integer :: choice
+      integer :: choice, unknowns
 
       call find_name("integration method", name, method_names, choice, error)
       if (allocated(error)) return
-      if (components > method_facts(choice)%max_components) then
+      unknowns = components
+      if (present(integrals) .and. method_facts(choice)%takes_integrals) unknowns = components - integrals
+      if (unknowns > method_facts(choice)%max_components) then
          call raise(error, kind_domain, "integration method '"//trim(name)//"' is for a single unknown")
          return
       end if
@@ -92,7 +99,7 @@ contains
          call move_alloc(chebyshev_method, method)
       case ("hermite")
          allocate (hermite_method)
-         call new_hermite_method(hermite_method)
+         call new_hermite_method(hermite_method, components - 1)
          call move_alloc(hermite_method, method)
       case ("exprb32")
          allocate (exponential_method)

@@ -20,6 +20,8 @@ module camroller_ode_problem
       !> Size of each component below which differences between states stop to matter, for difference quotients; 1 where not
       !> allocated [state]
       real(wp), allocatable :: small_state(:)
+      !> Components at the end of the state that are integrals: no rate depends on them
+      integer :: integrals = 0
    contains
       procedure(rate_interface), deferred :: get_rate
       procedure(decay_interface), deferred :: get_decay_rate

@@ -10,9 +10,10 @@ module camroller_phi
    public :: phi_functions, most_functions
 
    !> Functions that can be asked for
-   integer, parameter :: most_functions = 6
-   !> Reciprocals of the factorials of 0 to 6 [-]
-   real(wp), parameter :: parts(0:most_functions) = 1.0_wp/[1.0_wp, 1.0_wp, 2.0_wp, 6.0_wp, 24.0_wp, 120.0_wp, 720.0_wp]
+   integer, parameter :: most_functions = 7
+   !> Reciprocals of the factorials of 0 to 7 [-]
+   real(wp), parameter :: parts(0:most_functions) = 1.0_wp/[1.0_wp, 1.0_wp, 2.0_wp, 6.0_wp, 24.0_wp, 120.0_wp, 720.0_wp, &
+      & 5040.0_wp]
    !> Below this argument the power series needs no more than its terms to be exact [-]
    real(wp), parameter :: near = 1.0_wp
    integer, parameter :: terms = 16
