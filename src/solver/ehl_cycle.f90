@@ -1,0 +1,307 @@
+!> The cam cycle with a film that remembers.
+!>
+!> Layer: solver. In: model, accuracy. Out: film, load share, sliding speed at every accepted angle, with profiles on request.
+!> Steps are as long as the error allows: the film and the sliding speed found are compared with those extrapolated from the
+!> steps before. Cycles are repeated until start and end agree. A contact that is lost forgets its film.
+module camroller_ehl_cycle
+   use camroller_kinds, only : wp, pi, two_pi, degree
+   use camroller_error, only : error_t, raise, kind_convergence, kind_domain
+   use camroller_model, only : model_t, evaluate_geometry
+   use camroller_kinematics, only : position_t
+   use camroller_dynamics, only : moments_t
+   use camroller_state, only : evaluate_loading
+   use camroller_ehl_grid, only : new_ehl_grid
+   use camroller_ehl_problem, only : ehl_problem_t, new_ehl_problem, in_range, range_text
+   use camroller_ehl_newton, only : ehl_state_t
+   use camroller_ehl_reynolds, only : new_ehl_fields
+   use camroller_ehl_step, only : moment_t, ehl_march_t, make_step, contact_at
+   implicit none
+   private
+
+   public :: ehl_cycle_t, ehl_cycle_options_t, integrate_ehl_cycle
+
+   !> How to integrate
+   type :: ehl_cycle_options_t
+      !> Nodes across the contact
+      integer :: nodes = 129
+      !> Error of a step, of the film over itself and of the sliding speed over that of rolling [-]
+      real(wp) :: step_error = 1.0e-3_wp
+      !> Longest step [rad]
+      real(wp) :: longest_step = degree
+      !> Does the film remember?
+      logical :: is_transient = .true.
+      !> Are profiles kept?
+      logical :: keeps_profiles = .false.
+   end type ehl_cycle_options_t
+
+   !> The cycle
+   type :: ehl_cycle_t
+      !> Accepted angles from full lift [rad], what was found there
+      real(wp), allocatable :: angle(:)
+      type(moment_t), allocatable :: moments(:)
+      !> Nodes [half widths]; pressure [Pa] and film [m] there at the accepted angles, where asked for
+      real(wp), allocatable :: nodes(:), pressure(:, :), film(:, :)
+      !> Work: steps refused, rounds of film and forces, factorisations, cycles
+      integer :: refused = 0, rounds = 0, factorisations = 0, turns = 1
+   end type ehl_cycle_t
+
+   !> First angle of the cycle and run-up before it [rad]
+   real(wp), parameter :: start = -pi, run_up = 20.0_wp*degree
+   !> First and shortest step, and that below which the error is the noise of the nodes that the end of the film passes [rad]
+   real(wp), parameter :: first_step = 0.1_wp*degree, shortest_step = 1.0e-6_wp*degree, smooth_step = 2.0e-3_wp*degree
+   !> Difference of start and end over the error of a step [-]; cycles to give up after
+   real(wp), parameter :: periodicity = 3.0_wp
+   integer, parameter :: most_turns = 10
+   !> Growth of a step: safety, most and least; what counts as error of a step with nothing to compare with [-]
+   real(wp), parameter :: safety = 0.85_wp, most_growth = 2.0_wp, least_growth = 0.2_wp, unknown_excess = 0.2_wp
+   !> More steps than a cycle takes
+   integer, parameter :: most_steps = 20000
+
+contains
+
+   !> Integrate one cycle.
+   subroutine integrate_ehl_cycle(cycle, model, options, error)
+      !> The cycle
+      type(ehl_cycle_t), intent(out) :: cycle
+      !> The model
+      type(model_t), intent(in) :: model
+      !> How
+      type(ehl_cycle_options_t), intent(in) :: options
+      !> Domain error beyond the range of solutions, convergence error where no step succeeds
+      type(error_t), allocatable, intent(out) :: error
+
+      type(ehl_march_t) :: march
+      type(ehl_state_t) :: state, saved
+      type(moment_t) :: history(3), now
+      ! Step, error of a step over what is allowed [rad], [-]
+      real(wp) :: step, excess
+      integer :: known, count, trial
+      logical :: converged
+
+      call prepare(march, model, options, error)
+      if (allocated(error)) return
+      call start_history(model, march, state, history(1), error)
+      if (allocated(error)) return
+      allocate (cycle%moments(0))
+      known = 1
+      step = first_step
+      count = 0
+      do trial = 1, most_steps
+         saved = state
+         if (history(1)%angle < start) step = min(step, start - history(1)%angle)
+         step = min(step, options%longest_step, start + two_pi - history(1)%angle)
+         call make_step(model, march, history(:min(known, 2)), history(1)%angle + step, state, now, converged)
+         excess = huge(1.0_wp)
+         if (converged) excess = step_excess(history(:known), now, options%step_error)
+         cycle%rounds = cycle%rounds + now%rounds
+         if (.not. converged .or. (excess > 1.0_wp .and. step > smooth_step)) then
+            cycle%refused = cycle%refused + 1
+            state = saved
+            step = step*merge(max(least_growth, safety*excess**(-1.0_wp/3.0_wp)), least_growth, converged)
+            if (step < shortest_step) exit
+            cycle
+         end if
+         if (.not. (now%has_film .eqv. history(1)%has_film)) then
+            known = 0
+            step = min(step, first_step)
+         end if
+         history(2:3) = history(1:2)
+         history(1) = now
+         known = min(known + 1, 3)
+         if (now%angle > start - 1.0e-12_wp) call keep(cycle, state, now, options%keeps_profiles)
+         if (now%angle >= start + two_pi - 1.0e-12_wp) then
+            if (is_periodic(cycle%moments, options%step_error) .or. cycle%turns >= most_turns) exit
+            cycle%turns = cycle%turns + 1
+            call begin_again(cycle)
+            history%angle = history%angle - two_pi
+            call keep(cycle, state, history(1), options%keeps_profiles)
+         end if
+         step = step*min(most_growth, safety*max(excess, 1.0e-6_wp)**(-1.0_wp/3.0_wp))
+      end do
+      cycle%angle = cycle%moments%angle
+      cycle%nodes = march%grid%x
+      cycle%factorisations = state%factorisations
+      call judge(cycle, history(1)%angle, now%angle, options%step_error, error)
+   end subroutine integrate_ehl_cycle
+
+   !> Is the cycle complete and periodic?
+   subroutine judge(cycle, reached, tried, allowed, error)
+      !> The cycle
+      type(ehl_cycle_t), intent(in) :: cycle
+      !> Last angle reached, last one tried [rad]
+      real(wp), intent(in) :: reached, tried
+      !> Error of a step [-]
+      real(wp), intent(in) :: allowed
+      !> Convergence error where it is not
+      type(error_t), allocatable, intent(out) :: error
+
+      character(len=16) :: text
+
+      if (tried < start + two_pi - 1.0e-12_wp) then
+         write (text, "(f0.3)") modulo(180.0_wp + reached/degree, 360.0_wp)
+         call raise(error, kind_convergence, "ehl: no step is short enough at cam angle "//trim(text)//" deg")
+      else if (.not. is_periodic(cycle%moments, allowed)) then
+         call raise(error, kind_convergence, "ehl: the cycle did not become periodic")
+      end if
+   end subroutine judge
+
+   !> Do start and end of a cycle agree as far as its steps are right? What differs decays within a part of the next cycle.
+   pure function is_periodic(moments, allowed) result(periodic)
+      !> Moments of the cycle
+      type(moment_t), intent(in) :: moments(:)
+      !> Error of a step [-]
+      real(wp), intent(in) :: allowed
+      !> True where they do
+      logical :: periodic
+
+      associate (first => moments(1), last => moments(size(moments)))
+         periodic = abs(last%films%minimum - first%films%minimum) <= periodicity*allowed*first%films%minimum .and. &
+            & abs(last%sliding_speed - first%sliding_speed) <= periodicity*allowed*maxval(abs(moments%sliding_speed))
+      end associate
+   end function is_periodic
+
+   !> Forget a cycle that was not periodic.
+   subroutine begin_again(cycle)
+      !> The cycle
+      type(ehl_cycle_t), intent(inout) :: cycle
+
+      deallocate (cycle%moments)
+      allocate (cycle%moments(0))
+      if (.not. allocated(cycle%pressure)) return
+      deallocate (cycle%pressure, cycle%film)
+   end subroutine begin_again
+
+   !> Nodes that serve every angle, and the largest load.
+   subroutine prepare(march, model, options, error)
+      !> What stays over the cycle
+      type(ehl_march_t), intent(out) :: march
+      !> The model
+      type(model_t), intent(in) :: model
+      !> How
+      type(ehl_cycle_options_t), intent(in) :: options
+      !> Domain error beyond the range of solutions
+      type(error_t), allocatable, intent(out) :: error
+
+      type(position_t) :: position
+      type(moments_t) :: moments
+      type(ehl_problem_t) :: problem
+      ! Load without friction [N], gas force [N]; thinnest and thickest expected film [-]; length in which a gap doubles
+      ! [half widths]
+      real(wp) :: load, force, films(2), parabola
+      integer :: i, status, pass
+
+      march%is_transient = options%is_transient
+      films = [huge(1.0_wp), 0.0_wp]
+      do pass = 1, 2
+         do i = 1, 180
+            call evaluate_loading(model, 2.0_wp*i*degree, position, force, moments, status)
+            if (status /= 0) cycle
+            load = moments%total/position%normal_arm
+            if (model%takes_maximum_load) load = max(load, model%base_circle_load)
+            if (pass == 1) march%largest_load = max(march%largest_load, load)
+            if (pass == 1) cycle
+            call new_ehl_problem(problem, contact_at(model, march, position, load, 0.0_wp), status)
+            if (status /= in_range) then
+               call raise(error, kind_domain, "ehl: "//range_text(status))
+               return
+            end if
+            films = [min(films(1), problem%expected_film), max(films(2), problem%expected_film)]
+         end do
+      end do
+      parabola = sqrt(films(2))
+      call new_ehl_grid(march%grid, options%nodes, max(16.0_wp, 24.0_wp*parabola), 1.0_wp + max(0.5_wp, 2.0_wp*parabola), &
+         & min(1.0_wp, 0.5_wp*films(1)**(2.0_wp/3.0_wp)))
+   end subroutine prepare
+
+   !> Steady contact at the start of the run-up.
+   subroutine start_history(model, march, state, first, error)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> What stays over the cycle
+      type(ehl_march_t), intent(in) :: march
+      !> Pressure
+      type(ehl_state_t), intent(out) :: state
+      !> First moment
+      type(moment_t), intent(out) :: first
+      !> Convergence error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(ehl_march_t) :: steady
+      type(moment_t) :: nothing(1)
+      logical :: converged
+
+      steady = march
+      steady%is_transient = .false.
+      call new_ehl_fields(state%fields, march%grid%size)
+      nothing%angle = start - run_up - first_step
+      call make_step(model, steady, nothing, start - run_up, state, first, converged)
+      if (.not. converged) call raise(error, kind_convergence, "ehl: no film at the start of the cycle")
+   end subroutine start_history
+
+   !> Error of a step over what is allowed: difference from what the moments before lead to expect.
+   pure function step_excess(before, now, allowed) result(excess)
+      !> Moments before, last first
+      type(moment_t), intent(in) :: before(:)
+      !> The step's end
+      type(moment_t), intent(in) :: now
+      !> Error allowed [-]
+      real(wp), intent(in) :: allowed
+      !> Error over it [-]
+      real(wp) :: excess
+
+      ! Weights of the moments before in the extrapolation [-]; films and sliding speeds [m], [m/s]
+      real(wp) :: weights(size(before)), errors(3)
+      integer :: i, k
+
+      excess = unknown_excess
+      if (size(before) < 2 .or. .not. (now%has_film .and. all(before%has_film))) return
+      do i = 1, size(before)
+         weights(i) = 1.0_wp
+         do k = 1, size(before)
+            if (k /= i) weights(i) = weights(i)*(now%angle - before(k)%angle)/(before(i)%angle - before(k)%angle)
+         end do
+      end do
+      errors(1) = 1.0_wp - dot_product(weights, before%films%minimum)/now%films%minimum
+      errors(2) = 1.0_wp - dot_product(weights, before%films%central)/now%films%central
+      errors(3) = (now%sliding_speed - dot_product(weights, before%sliding_speed)) &
+         & /max(abs(now%sliding_speed), abs(before(1)%sliding_speed), 1.0e-3_wp)
+      ! A backward difference of second order leaves less than a quarter of what its quadratic predictor is off
+      excess = 0.25_wp*maxval(abs(errors))/allowed
+   end function step_excess
+
+   !> Keep a moment of the cycle.
+   subroutine keep(cycle, state, now, keeps_profiles)
+      !> The cycle
+      type(ehl_cycle_t), intent(inout) :: cycle
+      !> The solution
+      type(ehl_state_t), intent(in) :: state
+      !> The moment
+      type(moment_t), intent(in) :: now
+      !> Are profiles kept?
+      logical, intent(in) :: keeps_profiles
+
+      type(moment_t) :: lean
+      ! Profiles with one more [Pa], [m]
+      real(wp), allocatable :: pressure(:, :), film(:, :)
+      integer :: count, nodes
+
+      lean = now
+      if (allocated(lean%mass)) deallocate (lean%mass)
+      cycle%moments = [cycle%moments, lean]
+      if (.not. keeps_profiles) return
+      nodes = size(state%total)
+      count = size(cycle%moments)
+      allocate (pressure(nodes, count), film(nodes, count), source=0.0_wp)
+      if (allocated(cycle%pressure)) then
+         pressure(:, :count - 1) = cycle%pressure
+         film(:, :count - 1) = cycle%film
+      end if
+      if (now%has_film) then
+         pressure(:, count) = state%total*now%pressure_scale
+         film(:, count) = state%fields%film*now%film_scale
+      end if
+      call move_alloc(pressure, cycle%pressure)
+      call move_alloc(film, cycle%film)
+   end subroutine keep
+
+end module camroller_ehl_cycle

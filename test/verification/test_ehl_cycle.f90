@@ -1,0 +1,211 @@
+!> The cycle with a film that remembers: steady where nothing changes, convergence in step and nodes, loss of contact, coupling.
+module test_ehl_cycle
+   use testdrive, only : unittest_type, new_unittest, error_type, check, test_failed
+   use camroller_kinds, only : wp, pi, degree
+   use camroller_error, only : error_t, kind_domain
+   use camroller_case, only : case_t
+   use camroller_model, only : model_t
+   use camroller_ehl_cycle, only : ehl_cycle_t, ehl_cycle_options_t, integrate_ehl_cycle
+   use closeness, only : check_close, check_scaled, expect_success, expect_error
+   use reference_cases, only : thesis_case, make_model, set_point, point_speeds, point_viscosities
+   implicit none
+   private
+
+   public :: collect_ehl_cycle
+
+contains
+
+   subroutine collect_ehl_cycle(testsuite)
+      type(unittest_type), allocatable, intent(out) :: testsuite(:)
+
+      testsuite = [ &
+         new_unittest("where nothing changes the film is the steady one", test_dwell), &
+         new_unittest("shorter steps and more nodes change film and slip as little as they should", test_convergence), &
+         new_unittest("squeeze delays the film", test_squeeze), &
+         new_unittest("the roller's equation holds over the cycle with film and slip found together", test_coupling), &
+         new_unittest("profiles carry the load", test_profiles), &
+         new_unittest("contact is lost and found again", test_loss), &
+         new_unittest("a contact too heavy is refused", test_too_heavy) &
+         ]
+   end subroutine collect_ehl_cycle
+
+   !> Cycle of a reference case.
+   subroutine make_ehl_cycle(cycle, speed, viscosity, options, error)
+      type(ehl_cycle_t), intent(out) :: cycle
+      real(wp), intent(in) :: speed, viscosity
+      type(ehl_cycle_options_t), intent(in) :: options
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: case
+      type(model_t) :: model
+      type(error_t), allocatable :: failure
+
+      case = thesis_case()
+      call set_point(case, speed, viscosity)
+      call make_model(case, model, error)
+      if (allocated(error)) return
+      call integrate_ehl_cycle(cycle, model, options, failure)
+      call expect_success(error, failure)
+   end subroutine make_ehl_cycle
+
+   !> Mean over the cycle of smallest film, central film, sliding speed, by the trapezoidal rule.
+   pure function means(cycle) result(mean)
+      type(ehl_cycle_t), intent(in) :: cycle
+      real(wp) :: mean(3)
+      real(wp) :: weights(size(cycle%angle))
+      integer :: n
+
+      n = size(cycle%angle)
+      weights = 0.0_wp
+      weights(:n - 1) = cycle%angle(2:) - cycle%angle(:n - 1)
+      weights(2:) = weights(2:) + cycle%angle(2:) - cycle%angle(:n - 1)
+      weights = weights/sum(weights)
+      mean = [dot_product(weights, cycle%moments%films%minimum), dot_product(weights, cycle%moments%films%central), &
+         & dot_product(weights, cycle%moments%sliding_speed)]
+   end function means
+
+   subroutine test_dwell(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(ehl_cycle_t) :: cycle(2)
+      type(ehl_cycle_options_t) :: options
+      integer :: i, first(2)
+
+      options%nodes = 65
+      do i = 1, 2
+         options%is_transient = i == 1
+         call make_ehl_cycle(cycle(i), point_speeds(1), point_viscosities(2), options, error)
+         if (allocated(error)) return
+         first(i) = minloc(abs(cycle(i)%angle + 120.0_wp*degree), dim=1)
+         ! After the event as before it: what is left of the event has decayed
+         call check_close(error, cycle(i)%moments(size(cycle(i)%moments))%films%minimum, &
+            & cycle(i)%moments(first(i))%films%minimum, 1.0e-5_wp, "film before and after the event")
+         if (allocated(error)) return
+      end do
+      call check_close(error, cycle(1)%moments(first(1))%films%central, cycle(2)%moments(first(2))%films%central, 1.0e-5_wp, &
+         & "film on the base circle")
+      if (allocated(error)) return
+      call check_close(error, cycle(1)%moments(first(1))%sliding_speed, cycle(2)%moments(first(2))%sliding_speed, 1.0e-4_wp, &
+         & "slip on the base circle")
+   end subroutine test_dwell
+
+   subroutine test_convergence(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(ehl_cycle_t) :: cycle
+      type(ehl_cycle_options_t) :: options
+      real(wp) :: mean(3, 3)
+      integer :: i
+
+      do i = 1, 3
+         options%nodes = merge(129, 65, i == 3)
+         options%step_error = merge(1.0e-4_wp, 3.0e-3_wp, i == 2)
+         call make_ehl_cycle(cycle, point_speeds(1), point_viscosities(2), options, error)
+         if (allocated(error)) return
+         mean(:, i) = means(cycle)
+      end do
+      call check(error, all(abs(mean(:, 2)/mean(:, 1) - 1.0_wp) < [1.0e-3_wp, 1.0e-3_wp, 3.0e-3_wp]), "steps")
+      if (allocated(error)) return
+      ! Film to 1 % on two grids; slip is in proportion to the film over a viscosity that the pressure carries
+      call check(error, all(abs(mean(:, 3)/mean(:, 1) - 1.0_wp) < [1.0e-2_wp, 1.0e-2_wp, 4.0e-2_wp]), "nodes")
+   end subroutine test_convergence
+
+   !> Behind the nose the entrainment grows, and a film that remembers is thinner than the steady one; before it thicker.
+   subroutine test_squeeze(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(ehl_cycle_t) :: cycle
+      type(ehl_cycle_options_t) :: options
+      real(wp) :: places(2)
+      integer :: i
+
+      options%nodes = 65
+      do i = 1, 2
+         options%is_transient = i == 1
+         call make_ehl_cycle(cycle, point_speeds(3), point_viscosities(2), options, error)
+         if (allocated(error)) return
+         associate (near => abs(cycle%angle) < 40.0_wp*degree)
+            places(i) = cycle%angle(minloc(cycle%moments%films%minimum, dim=1, mask=near))
+         end associate
+      end do
+      call check(error, places(1) > places(2) + 0.1_wp*degree .and. places(1) < places(2) + 5.0_wp*degree, "no delay")
+   end subroutine test_squeeze
+
+   subroutine test_coupling(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(ehl_cycle_t) :: cycle
+      type(ehl_cycle_options_t) :: options
+      type(case_t) :: case
+      real(wp) :: bound
+      integer :: i
+
+      options%nodes = 65
+      call make_ehl_cycle(cycle, point_speeds(1), point_viscosities(1), options, error)
+      if (allocated(error)) return
+      case = thesis_case()
+      do i = 1, size(cycle%moments)
+         associate (now => cycle%moments(i))
+            bound = case%traction%limiting_coefficient*now%load
+            if (allocated(case%asperity)) bound = bound + case%asperity%boundary_coefficient*now%films%asperity_share*now%load
+            call check(error, abs(now%traction) <= bound*(1.0_wp + 1.0e-12_wp), "traction above its limit")
+            if (allocated(error)) return
+            call check(error, now%films%load_lack < 1.0e-12_wp .or. .not. now%has_film, "load")
+            if (allocated(error)) return
+         end associate
+      end do
+      associate (first => cycle%moments(1), last => cycle%moments(size(cycle%moments)))
+         call check_scaled(error, last%sliding_speed, first%sliding_speed, maxval(abs(cycle%moments%sliding_speed)), 3.0e-3_wp, &
+            & "sliding speed at start and end")
+      end associate
+   end subroutine test_coupling
+
+   subroutine test_profiles(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(ehl_cycle_t) :: cycle
+      type(ehl_cycle_options_t) :: options
+      type(case_t) :: case
+      real(wp) :: load
+      integer :: i, n
+
+      options%nodes = 65
+      options%keeps_profiles = .true.
+      call make_ehl_cycle(cycle, point_speeds(1), point_viscosities(2), options, error)
+      if (allocated(error)) return
+      case = thesis_case()
+      n = size(cycle%nodes)
+      call check(error, all(shape(cycle%pressure) == [n, size(cycle%angle)]) .and. &
+         & all(shape(cycle%film) == shape(cycle%pressure)), "shape of the profiles")
+      if (allocated(error)) return
+      do i = 1, size(cycle%angle), 10
+         load = case%mechanism%contact_width*cycle%moments(i)%length_scale*0.5_wp*sum((cycle%pressure(2:, i) &
+            & + cycle%pressure(:n - 1, i))*(cycle%nodes(2:) - cycle%nodes(:n - 1)))
+         call check_close(error, load, cycle%moments(i)%load, 1.0e-5_wp, "load under the profile")
+         if (allocated(error)) return
+      end do
+   end subroutine test_profiles
+
+   subroutine test_loss(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(ehl_cycle_t) :: cycle
+      type(ehl_cycle_options_t) :: options
+
+      options%nodes = 65
+      call make_ehl_cycle(cycle, 3200.0_wp*pi/30.0_wp, point_viscosities(3), options, error)
+      if (allocated(error)) return
+      call check(error, any(.not. cycle%moments%has_film) .and. count(cycle%moments%has_film) > 100, "contact is not lost")
+      if (allocated(error)) return
+      call check(error, minval(cycle%moments%films%minimum, mask=cycle%moments%has_film) > 0.0_wp, "film")
+   end subroutine test_loss
+
+   subroutine test_too_heavy(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: case
+      type(model_t) :: model
+      type(ehl_cycle_t) :: cycle
+      type(error_t), allocatable :: failure
+
+      case = thesis_case()
+      case%mechanism%contact_width = 1.0e-3_wp
+      call make_model(case, model, error)
+      if (allocated(error)) return
+      call integrate_ehl_cycle(cycle, model, ehl_cycle_options_t(), failure)
+      call expect_error(error, failure, kind_domain, "1.5 GPa")
+   end subroutine test_too_heavy
+
+end module test_ehl_cycle
