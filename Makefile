@@ -2,7 +2,7 @@
 
 SHELL := /bin/bash
 .DEFAULT_GOAL := help
-.PHONY: help setup commit build debug run comparison test quick random needed study check check-layers check-style check-format check-lint \
+.PHONY: help setup commit build debug mpi run comparison test quick random needed study check check-layers check-style check-format check-lint \
   check-warnings format bench bench-effects clean distclean
 
 FPM := .venv/bin/fpm
@@ -34,6 +34,9 @@ build: commit ## the program: build/release/bin/camroller
 debug: commit ## the program with all run-time checks: build/debug/bin/camroller
 	@$(FPM) install --flag "$(DEBUG_FLAGS)" --prefix build/debug > build/debug.log 2>&1 || { cat build/debug.log; exit 1; }
 
+mpi: commit ## the program for many nodes, where Open MPI is there: build/mpi/bin/camroller-mpi
+	@tools/build_mpi.sh
+
 run: build ## run decks/thesis.nml and plot it: results/thesis.h5 and figures beside it
 	@mkdir -p results
 	build/release/bin/camroller run decks/thesis.nml -o results/thesis.h5
@@ -55,7 +58,7 @@ study: build ## what accuracy costs on decks/thesis.nml: tables and figures of d
 	cp results/thesis_study.txt doc/accuracy_tables.txt
 	$(PYTHON) post/plot_study.py results/thesis_study.h5 --output doc/figures
 
-test: build debug ## all tests, with run-time checks and optimised
+test: build debug mpi ## all tests, with run-time checks and optimised
 	@$(PYTHON) tools/run_tests.py
 
 random: commit ## cases drawn at random by two methods, optimised: CASES=20000 SEED=1; failures print a deck
@@ -94,7 +97,7 @@ bench-effects: build ## instructions that effects cost, and that absent ones do 
 	@bench/effects.sh
 
 clean: ## remove what was built; keep tools and results
-	rm -rf build/gfortran* build/debug build/release build/commit build/tests build/bench bench/build build/*.log build/compile_commands.json
+	rm -rf build/gfortran* build/debug build/release build/commit build/tests build/bench bench/build mpi/build build/mpi build/*.log build/compile_commands.json
 
 distclean: ## remove everything that is not in git, results too
-	rm -rf build bench/build .venv results
+	rm -rf build bench/build mpi/build .venv results

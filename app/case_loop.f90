@@ -49,8 +49,8 @@ module camroller_case_loop
       integer(int64) :: deadline = 0
       !> What ended it
       integer :: ended = ended_all
-      !> Cases handed over by this process
-      integer :: done = 0
+      !> Cases handed over by this process, cases given out to all where there are several
+      integer :: done = 0, given = 0
       !> Cases to be computed by all processes
       integer :: total = 0
       !> The error that ended it
@@ -165,6 +165,7 @@ contains
          call team%take(count, position)
          is_over = position > loop%total
          count = min(count, loop%total - position + 1)
+         if (team%ranks > 1) loop%given = min(team%given, loop%total)
       end if
       !$omp end critical (camroller_desk)
    end subroutine take_cases
@@ -328,7 +329,7 @@ contains
       end if
       !$omp end critical (camroller_desk)
       !$omp critical (camroller_texts)
-      call show_progress(loop%progress, loop%done, loop%total)
+      call show_progress(loop%progress, max(loop%done, loop%given), loop%total)
       !$omp end critical (camroller_texts)
    end subroutine hand_over
 

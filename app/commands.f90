@@ -3,7 +3,7 @@
 !> Layer: app. In: the command line. Out: files, text, an exit code.
 module camroller_commands
    use, intrinsic :: iso_fortran_env, only : error_unit, output_unit
-   use camroller_error, only : error_t, raise, add_context, kind_usage
+   use camroller_error, only : error_t, raise, add_context, kind_file, kind_usage
    use camroller_case, only : case_t
    use camroller_cli, only : config_t, command_names, get_arguments, read_arguments
    use camroller_deck, only : deck_t, read_deck, make_sweep_case
@@ -54,8 +54,9 @@ contains
       if (.not. allocated(error)) call run_command(config, team, error)
       code = 0
       if (.not. allocated(error)) return
-      write (error_unit, '(a)') "camroller: "//error%message
       code = error%kind
+      if (team%rank > 0 .and. code /= kind_file) return
+      write (error_unit, '(a)') "camroller: "//error%message
    end subroutine run_command_line
 
    !> Do one command.
@@ -67,6 +68,7 @@ contains
       !> What went wrong
       type(error_t), allocatable, intent(out) :: error
 
+      if (team%rank > 0 .and. config%command /= "sweep") return
       if (config%is_help) then
          write (output_unit, '(a)') help_for(config%command)
          return

@@ -20,6 +20,7 @@ module camroller_rerun_command
    use camroller_number_text, only : integer_text, number_text
    use camroller_output, only : result_format
    use camroller_progress, only : end_progress, seconds_since, start_progress
+   use camroller_run_facts, only : shorten_options
    use camroller_settings, only : get_word, take
    use camroller_stop_signal, only : heed_stop_signals
    use camroller_table_file, only : table_t
@@ -200,6 +201,7 @@ contains
 
       facts = ""
       call compiler_facts(compiler, options)
+      call shorten_options(options)
       call compare_fact("version", version_text)
       if (.not. allocated(error)) call compare_fact("commit", build_commit)
       if (.not. allocated(error)) call compare_fact("compiler", compiler)
@@ -216,6 +218,7 @@ contains
 
          call read_text_attribute(file, "/run", name, stored, error)
          if (allocated(error)) return
+         if (name == "options") call shorten_options(stored)
          if (stored == present_value) return
          facts = facts//new_line("a")//"  "//name//": '"//stored//"' made the file, this is '"//present_value//"'"
       end subroutine compare_fact

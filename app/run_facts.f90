@@ -19,7 +19,7 @@ module camroller_run_facts
    implicit none
    private
 
-   public :: write_facts, study_facts, study_digest
+   public :: write_facts, study_facts, study_digest, shorten_options
 
    !> Keys that say how a sweep is run and nothing about its cases
    character(len=*), parameter :: keys_of_running(*) = [character(len=23) :: "sweep.wall_time_limit_s", "sweep.checkpoint_s"]
@@ -160,9 +160,33 @@ contains
             & hexadecimal(checksum(text_words(deck%sweep%axes(i)%values%fields), 0_int64))//new_line("a")
       end do
       call compiler_facts(compiler, options)
+      call shorten_options(options)
       facts%build = "version "//version_text//new_line("a")//"commit "//build_commit//new_line("a")//compiler// &
          & new_line("a")//options
    end subroutine study_facts
+
+   !> Compiler options that may change a number: each once, without folders.
+   subroutine shorten_options(options)
+      !> The options
+      character(len=:), allocatable, intent(inout) :: options
+
+      character(len=*), parameter :: with_folder(*) = [character(len=2) :: "-I", "-J"]
+      character(len=:), allocatable :: short, word
+      integer :: first, length
+
+      short = ""
+      first = 1
+      do while (first <= len(options))
+         length = index(options(first:)//" ", " ") - 1
+         word = options(first:first + length - 1)
+         first = first + length + 1
+         if (length == 0) cycle
+         if (any(word == with_folder)) first = first + index(options(first:)//" ", " ")
+         if (any(word(:min(2, length)) == with_folder) .or. index(word, "-fpre-include") == 1) cycle
+         if (index(" "//short//" ", " "//word//" ") == 0) short = short//" "//word
+      end do
+      options = adjustl(short)
+   end subroutine shorten_options
 
    !> A few letters that two studies have in common only where all their facts agree.
    function study_digest(facts) result(digest)

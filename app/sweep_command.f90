@@ -107,7 +107,7 @@ contains
       integer, allocatable :: numbers(:)
 
       call begin(config, run, error)
-      if (allocated(error)) return
+      if (agreed_code(team, error) /= 0) return
       run%first = int((config%shard - 1)*int(run%facts%cases, int64)/config%shards) + 1
       run%last = int(config%shard*int(run%facts%cases, int64)/config%shards)
       if (run%first > run%last) then

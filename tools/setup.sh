@@ -40,9 +40,15 @@ serial_hdf5() {
     ln -sf "$folder/hdf5-serial.pc" build/pkgconfig/hdf5.pc
 }
 
+# For sweeps over many nodes. Where they cannot be had, the rest works without.
+packages_for_nodes() {
+    if ! command -v mpifort > /dev/null || ! command -v mpirun > /dev/null; then echo libopenmpi-dev openmpi-bin; fi
+}
+
 system_packages() {
     local missing
     missing=$(missing_packages | tr '\n' ' ')
+    if command -v apt-get > /dev/null && [ "$(id -u)" = 0 ]; then missing+=$(packages_for_nodes); fi
     [ -n "$missing" ] || return 0
     local install="apt-get install -y --no-install-recommends $missing"
     command -v apt-get > /dev/null || fail "missing on this system: $missing(names as in Debian 12); install them and repeat"
