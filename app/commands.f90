@@ -34,6 +34,8 @@ module camroller_commands
 
    !> Cases that `check` builds; of more it takes as many, evenly spread
    integer, parameter :: most_checked = 10000
+   !> Cases whose effects it shows
+   integer, parameter :: most_shown = 100
 
 contains
 
@@ -199,17 +201,19 @@ contains
       type(case_t) :: case, chosen
       type(choice_t) :: choice
       type(model_t), allocatable :: models(:)
-      integer :: i
+      integer :: i, shown, number
 
-      do i = 1, sweep_size(deck%sweep)
-         call make_sweep_case(deck, i, case, error)
+      shown = min(sweep_size(deck%sweep), most_shown)
+      do i = 1, shown
+         number = case_to_try(i, shown, sweep_size(deck%sweep))
+         call make_sweep_case(deck, number, case, error)
          if (.not. allocated(error)) call build_models(case, models, error)
          if (allocated(error)) return
          if (.not. wants_choice(case)) cycle
          call choose_effects(case, models, chosen, choice, error)
          if (allocated(error)) return
          write (output_unit, '(a)') "! effects that matter for "//trim(case%effects%quantity)//", and changes expected without them"
-         if (size(deck%sweep%axes) > 0) write (output_unit, '(a)') "! "//case_in_words(deck%sweep, i)
+         if (size(deck%sweep%axes) > 0) write (output_unit, '(a)') "! "//case_in_words(deck%sweep, number)
          write (output_unit, '(a)') "!    "//indented(choice_in_words(choice))
       end do
    end subroutine check_effects

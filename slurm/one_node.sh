@@ -159,8 +159,8 @@ say "array job $job with four shards, and job $last that merges them"
 check "the jobs end" wait_for_jobs 120
 check "the array job gives the file of one process" same_file "$folder/reference.h5" "$folder/array.h5"
 
-job=$(submit slurm/node.sh "$folder/deck.nml" "$folder/node.h5" --set sweep.wall_time_limit_s=0.2 --quiet)
-say "job $job, stopped after 0.2 s again and again"
+job=$(submit slurm/node.sh "$folder/deck.nml" "$folder/node.h5" --set sweep.wall_time_limit_s=0.05 --quiet)
+say "job $job, stopped after 0.05 s again and again"
 check "the job ends" wait_for_jobs 240
 check "it was queued again" requeued
 check "it gives the file of one process" same_file "$folder/reference.h5" "$folder/node.h5"

@@ -15,10 +15,10 @@ NOT_COMPARED = {"date", "command", "REFERENCE_LIST", "DIMENSION_LIST"}
 
 
 def write_deck(path, sweep=GRID):
-    """The reference deck with few output angles, a loose tolerance and another sweep."""
+    """The reference deck with few output angles, little accuracy and another sweep."""
     text = THESIS.read_text()
     text = text[:text.index("&sweep")]
-    path.write_text(f"{text}&output angle_step_deg = 10 /\n&numerics tolerance = 1e-3 /\n&sweep\n   {sweep}\n/\n")
+    path.write_text(f"{text}&output angle_step_deg = 10 /\n&numerics accuracy = 1e-3 /\n&sweep\n   {sweep}\n/\n")
     return path
 
 

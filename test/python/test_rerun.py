@@ -45,7 +45,7 @@ def test_what_differs_is_told(camroller, folder, tmp_path):
 @pytest.mark.parametrize("deck", ["tabulated_lift", "three_cam_head"])
 def test_tables_are_in_the_file(camroller, tmp_path, deck):
     """Decks that name tables, computed again where there is neither deck nor table."""
-    done(camroller, "run", ROOT / f"decks/{deck}.nml", "--set", "output.angle_step_deg=10", "--set", "numerics.tolerance=1e-3",
+    done(camroller, "run", ROOT / f"decks/{deck}.nml", "--set", "output.angle_step_deg=10", "--set", "numerics.accuracy=1e-3",
          "--quiet", folder=tmp_path)
     assert "are the same to the last bit" in done(camroller, "rerun", f"{deck}.h5", folder=tmp_path).stdout
 
