@@ -2,8 +2,8 @@
 
 SHELL := /bin/bash
 .DEFAULT_GOAL := help
-.PHONY: help setup commit build debug mpi run comparison test quick random needed study check check-layers check-style check-format check-lint \
-  check-warnings format bench bench-effects clean distclean
+.PHONY: help setup commit build debug mpi run comparison test quick random needed study audit check check-layers check-style \
+  check-format check-lint check-warnings format bench bench-effects clean distclean
 
 FPM := .venv/bin/fpm
 PYTHON := .venv/bin/python
@@ -57,6 +57,13 @@ study: build ## what accuracy costs on decks/thesis.nml: tables and figures of d
 	build/release/bin/camroller study decks/thesis.nml -o results/thesis_study.h5 > results/thesis_study.txt
 	cp results/thesis_study.txt doc/accuracy_tables.txt
 	$(PYTHON) post/plot_study.py results/thesis_study.h5 --output doc/figures
+
+audit: build ## what each effect of decks/thesis.nml is worth and costs: tables and figure of doc/effects.md, half a minute
+	@mkdir -p results
+	build/release/bin/camroller audit decks/thesis.nml -o results/thesis_audit.h5 --repeats 9 > results/thesis_audit.txt
+	cp results/thesis_audit.txt doc/effects_tables.txt
+	$(PYTHON) post/plot_audit.py results/thesis_audit.h5 --output doc/figures --name thesis_effects
+	$(PYTHON) post/plot_audit.py results/thesis_audit.h5 --table
 
 test: build debug mpi ## all tests, with run-time checks and optimised
 	@$(PYTHON) tools/run_tests.py

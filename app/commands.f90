@@ -4,6 +4,7 @@
 module camroller_commands
    use, intrinsic :: iso_fortran_env, only : error_unit, output_unit
    use camroller_error, only : error_t, raise, add_context, kind_file, kind_usage
+   use camroller_audit_command, only : audit_deck
    use camroller_case, only : case_t
    use camroller_cli, only : config_t, command_names, get_arguments, read_arguments
    use camroller_deck, only : deck_t, read_deck, make_sweep_case
@@ -94,6 +95,8 @@ contains
          call merge_deck(config, error)
       case ("study")
          call study_deck(config, error)
+      case ("audit")
+         call audit_deck(config, error)
       case ("export")
          call export_table(config, error)
       end select
@@ -210,7 +213,7 @@ contains
          if (.not. allocated(error)) call build_models(case, models, error)
          if (allocated(error)) return
          if (.not. wants_choice(case)) cycle
-         call choose_effects(case, models, chosen, choice, error)
+         call choose_effects(case, models, chosen, choice, .false., error)
          if (allocated(error)) return
          write (output_unit, '(a)') "! effects that matter for "//trim(case%effects%quantity)//", and changes expected without them"
          if (size(deck%sweep%axes) > 0) write (output_unit, '(a)') "! "//case_in_words(deck%sweep, number)

@@ -32,17 +32,8 @@ contains
             & "Read a deck, check every case of it, and print the values it comes to. Of many cases a few are run, to tell what"// &
             & n//"all of them will cost in time, memory and space on the device."//n//n// &
             & "  -s, --set group.key=value  other value than the deck's; may be repeated"
-      case ("study")
-         text = "camroller study DECK [-o FILE] [--repeats N] [--quick] [--set group.key=value]..."//n//n// &
-            & "Measure what accuracy costs: every method over a ladder of tolerances or steps, against a reference from two"// &
-            & n// &
-            & "unrelated methods, and what simpler models change and save. Prints tables and writes one HDF5 file: the"//n// &
-            & "deck's name with _study.h5 in the present folder, or FILE."//n//n// &
-            & "  -o, --output FILE          file to write"//n// &
-            & "  --repeats N                runs whose median time counts; 5 where not given"//n// &
-            & "  --quick                    a few trials of each method only"//n// &
-            & "  -s, --set group.key=value  other value than the deck's; may be repeated"//n// &
-            & "  -q, --quiet                say nothing but errors"
+      case ("audit", "study")
+         text = study_help(command)
       case ("sweep", "merge", "rerun")
          text = help_for_many(command)
       case ("defaults")
@@ -66,6 +57,7 @@ contains
             & "  camroller rerun FILE.h5    compute a file again and compare every bit"//n// &
             & "  camroller check DECK       read and check a deck, print what it comes to"//n// &
             & "  camroller study DECK       measure what accuracy costs"//n// &
+            & "  camroller audit DECK       measure what each effect is worth and costs"//n// &
             & "  camroller defaults [GROUP] print a complete deck with every key explained"//n// &
             & "  camroller export FILE.h5   print results as comma-separated values"//n// &
             & "  camroller version          version and build"//n// &
@@ -74,6 +66,39 @@ contains
             & "5 no convergence, 6 file, 7 a rerun differs, 8 stopped before the end, 70 mistake in the program."
       end select
    end function help_for
+
+   !> Help for commands that measure.
+   pure function study_help(command) result(text)
+      !> Name of the command
+      character(len=*), intent(in) :: command
+      !> A few lines
+      character(len=:), allocatable :: text
+
+      select case (command)
+      case ("audit")
+         text = "camroller audit DECK [-o FILE] [--repeats N] [--set group.key=value]..."//n//n// &
+            & "Run every case with all its effects, without each of them, with each alone and with those that it needs, and"//n// &
+            & "compare mean torque, smallest film, slip and time, and the changes with what is expected before a run."//n// &
+            & "Prints a table and writes one HDF5 file: the deck's name with _audit.h5 in the present folder, or FILE."//n//n// &
+            & "  -o, --output FILE          file to write"//n// &
+            & "  --repeats N                runs of which the quickest counts; 5 where not given"//n// &
+            & "  -s, --set group.key=value  other value than the deck's; may be repeated"//n// &
+            & "  -q, --quiet                say nothing but errors"
+      case ("study")
+         text = "camroller study DECK [-o FILE] [--repeats N] [--quick] [--set group.key=value]..."//n//n// &
+            & "Measure what accuracy costs: every method over a ladder of tolerances or steps, against a reference from two"// &
+            & n// &
+            & "unrelated methods, and what simpler models change and save. Prints tables and writes one HDF5 file: the"//n// &
+            & "deck's name with _study.h5 in the present folder, or FILE."//n//n// &
+            & "  -o, --output FILE          file to write"//n// &
+            & "  --repeats N                runs whose median time counts; 5 where not given"//n// &
+            & "  --quick                    a few trials of each method only"//n// &
+            & "  -s, --set group.key=value  other value than the deck's; may be repeated"//n// &
+            & "  -q, --quiet                say nothing but errors"
+      case default
+         text = ""
+      end select
+   end function study_help
 
    !> Help for the commands on many cases.
    pure function help_for_many(command) result(text)

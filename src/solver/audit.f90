@@ -4,7 +4,6 @@
 !> Layer: solver. In: a case. Out: rows of `study_table_t`. A variant that fails is a row with a message and no numbers.
 module camroller_audit
    use, intrinsic :: ieee_arithmetic, only : ieee_quiet_nan, ieee_value
-   use, intrinsic :: iso_fortran_env, only : int64
    use camroller_kinds, only : wp
    use camroller_error, only : error_t
    use camroller_case, only : case_t, select_names, quantity_names
@@ -14,7 +13,6 @@ module camroller_audit
    use camroller_model, only : model_t
    use camroller_result, only : result_t, quantity_t, find_quantity
    use camroller_run, only : run_case, build_models
-   use camroller_study_probe, only : median, seconds_since
    use camroller_study_table, only : study_table_t, word_length, new_table, add_row
    implicit none
    private
@@ -38,7 +36,7 @@ module camroller_audit
       character(len=:), allocatable :: message
       !> Mean torque for losses [N m], smallest film [m], slip per revolution [-]
       real(wp) :: values(quantity_count) = 0.0_wp
-      !> Median time of a run [s]
+      !> Shortest processor time of a run [s]
       real(wp) :: time = 0.0_wp
       !> Evaluations of the roller equation [-]
       real(wp) :: evaluations = 0.0_wp
@@ -68,7 +66,7 @@ contains
          & quantity_t("estimate_slip", "1", "largest change of the slip expected before the run", "audit"), &
          & quantity_t("is_left_out", "1", "1 where the choice of needed effects leaves it out", "audit"), &
          & quantity_t("evaluations", "1", "evaluations of the roller equation", "audit"), &
-         & quantity_t("time", "s", "median time of a run", "audit"), &
+         & quantity_t("time", "s", "shortest processor time of a run", "audit"), &
          & quantity_t("time_share", "1", "part of the time of the run with all effects that it saves", "audit")])
    end subroutine new_audit_table
 
@@ -80,7 +78,7 @@ contains
       integer, intent(in) :: position
       !> The case
       type(case_t), intent(in) :: case
-      !> Runs whose median time counts
+      !> Runs of which the quickest counts
       integer, intent(in) :: repeats
       !> Runs with one effect alone, too?
       logical, intent(in) :: with_alone
@@ -96,7 +94,7 @@ contains
       listed = case
       listed%effects%select = select_names(1)
       call build_models(listed, models, error)
-      if (.not. allocated(error)) call choose_effects(listed, models, variant, choice, error)
+      if (.not. allocated(error)) call choose_effects(listed, models, variant, choice, .true., error)
       if (allocated(error)) return
       call measure(listed, repeats, full)
       call add_outcome(table, position, run_listed, full, full, full)
@@ -128,32 +126,32 @@ contains
    subroutine measure(case, repeats, outcome)
       !> The case
       type(case_t), intent(in) :: case
-      !> Runs whose median time counts
+      !> Runs of which the quickest counts
       integer, intent(in) :: repeats
       !> What came of it
       type(outcome_t), intent(out) :: outcome
 
       type(result_t) :: result
       type(error_t), allocatable :: error
-      integer(int64) :: first, start
-      ! Time of each run [s]
-      real(wp) :: times(max(repeats, 1))
+      ! Processor time of each run, at the start of the first and of one [s]
+      real(wp) :: times(max(repeats, 1)), first, start, now
       integer :: run
 
       outcome%message = ""
-      call system_clock(first)
+      call cpu_time(first)
       do run = 1, size(times)
-         call system_clock(start)
+         call cpu_time(start)
          call run_case(case, result, error)
-         times(run) = seconds_since(start)
+         call cpu_time(now)
+         times(run) = now - start
          if (allocated(error)) then
             outcome%status = error%kind
             outcome%message = error%message
             return
          end if
-         if (seconds_since(first) > patience) exit
+         if (now - first > patience) exit
       end do
-      outcome%time = median(times(:min(run, size(times))))
+      outcome%time = minval(times(:min(run, size(times))))
       outcome%values(1) = result%summary_values(find_quantity(result%summary, "mean_torque_friction"))
       outcome%values(2) = minval(result%series_values(:, find_quantity(result%series, "film_thickness_min")))
       outcome%values(3) = result%summary_values(find_quantity(result%summary, "revolution_slip"))

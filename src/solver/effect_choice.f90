@@ -16,7 +16,7 @@ module camroller_effect_choice
       & quantity_slip
    use camroller_effect_list, only : choice_t, decision_t, effect_count, effect_bearings, effect_spin, has_effect, leave_out
    use camroller_effect_reasons, only : find_reason
-   use camroller_effect_survey, only : survey_t, response_t, make_survey, respond, respond_at_once
+   use camroller_effect_survey, only : survey_t, response_t, make_survey, respond, respond_roughly, respond_at_once
    use camroller_journal, only : journal_t, new_journal, journal_torque
    use camroller_model, only : model_t, revise_model
    use camroller_state, only : cam_force
@@ -25,8 +25,14 @@ module camroller_effect_choice
 
    public :: wants_choice, choose_effects, remove_effect
 
+   !> Method that may be far from the solution
+   character(len=*), parameter :: fixed_step = "euler"
    !> Margin of the estimates over the changes that the look round the cycle finds [-]
-   real(wp), parameter :: margin = 3.0_wp
+   real(wp), parameter :: margin = 5.0_wp
+   !> Margin of the quasi-static limit, which may hide what happens between the angles [-]
+   real(wp), parameter :: limit_margin = 50.0_wp
+   !> A rough look decides where it finds so many times what is negligible [-]
+   real(wp), parameter :: clearly = 10.0_wp
    !> Changes beyond this are too large to be estimated from small ones [-]
    real(wp), parameter :: largest_estimate = 1.0_wp
    !> Tolerance of the quasi-static limit over what is negligible, by quantity [-]
@@ -45,7 +51,7 @@ contains
    end function wants_choice
 
    !> Leave out what a case does not need.
-   subroutine choose_effects(case, models, chosen, choice, error)
+   subroutine choose_effects(case, models, chosen, choice, is_thorough, error)
       !> The case with all its effects
       type(case_t), intent(in) :: case
       !> Model of each lobe shape
@@ -54,6 +60,8 @@ contains
       type(case_t), intent(out) :: chosen
       !> What was decided and why
       type(choice_t), intent(out) :: choice
+      !> Is every effect looked at in full, even those that matter at first sight?
+      logical, intent(in) :: is_thorough
       !> Deck error
       type(error_t), allocatable, intent(out) :: error
 
@@ -63,7 +71,7 @@ contains
       logical, allocatable :: is_open(:)
 
       chosen = case
-      call weigh_effects(case, models, choice, error)
+      call weigh_effects(case, models, choice, is_thorough, error)
       if (allocated(error)) return
       choice%bound = 0.0_wp
       allocate (is_open(size(choice%decisions)), source=.true.)
@@ -77,6 +85,8 @@ contains
             next = i
          end do
          is_open(next) = .false.
+         ! The integration is as quick as its limit: there is nothing to be saved
+         if (choice%decisions(next)%effect == effect_spin) cycle
          if (least > choice%negligible - choice%bound) cycle
          choice%bound = choice%bound + least
          choice%decisions(next)%is_used = .false.
@@ -114,13 +124,15 @@ contains
    end function quasi_static_tolerance
 
    !> What leaving each effect out would change.
-   subroutine weigh_effects(case, models, choice, error)
+   subroutine weigh_effects(case, models, choice, is_thorough, error)
       !> The case with all its effects
       type(case_t), intent(in) :: case
       !> Model of each lobe shape
       type(model_t), intent(in) :: models(:)
       !> Estimates and reasons; nothing is left out yet
       type(choice_t), intent(out) :: choice
+      !> Is every effect looked at in full?
+      logical, intent(in) :: is_thorough
       !> Deck error
       type(error_t), allocatable, intent(out) :: error
 
@@ -138,6 +150,7 @@ contains
       torque = 0.0_wp
       do lobe = 1, size(models)
          call make_survey(models(lobe), surveys(lobe))
+         if (case%numerics%method == fixed_step) surveys(lobe)%trouble = "the fixed step may not resolve what happens"
          choice%evaluations = choice%evaluations + surveys(lobe)%evaluations
          if (allocated(surveys(lobe)%trouble)) cycle
          associate (torques => surveys(lobe)%states%torque_friction)
@@ -151,13 +164,13 @@ contains
       end if
       do effect = 1, effect_count
          if (.not. has_effect(case, effect)) cycle
-         call weigh_effect(case, models, surveys, effect, torque, bearing_torque, choice, error)
+         call weigh_effect(case, models, surveys, effect, torque, bearing_torque, is_thorough, choice, error)
          if (allocated(error)) return
       end do
    end subroutine weigh_effects
 
    !> What leaving one effect out would change.
-   subroutine weigh_effect(case, models, surveys, effect, torque, bearing_torque, choice, error)
+   subroutine weigh_effect(case, models, surveys, effect, torque, bearing_torque, is_thorough, choice, error)
       !> The case with all its effects
       type(case_t), intent(in) :: case
       !> Model of each lobe shape
@@ -168,6 +181,8 @@ contains
       integer, intent(in) :: effect
       !> Mean torque of the followers, of the bearings [N m]
       real(wp), intent(in) :: torque, bearing_torque
+      !> Is every effect looked at in full?
+      logical, intent(in) :: is_thorough
       !> Gets a decision
       type(choice_t), intent(inout) :: choice
       !> Deck error
@@ -175,9 +190,8 @@ contains
 
       type(decision_t) :: decision
       type(response_t), allocatable :: responses(:)
-      ! Change of the torque [N m]
-      real(wp) :: change
       integer :: lobe
+      logical :: is_rough
 
       decision%effect = effect
       decision%is_used = .true.
@@ -193,27 +207,57 @@ contains
       else if (decision%reason == "") then
          call find_reason(effect, models(1), surveys(1), bearing_torque/(torque + bearing_torque), decision%reason)
          if (effect /= effect_bearings) then
-            call find_responses(case, models, surveys, effect, responses, error)
+            is_rough = .not. is_thorough .and. effect /= effect_spin
+            call find_responses(case, models, surveys, effect, is_rough, responses, error)
             if (allocated(error)) return
-            choice%evaluations = choice%evaluations + sum(responses%evaluations)
-            if (all(responses%is_known)) then
-               change = 0.0_wp
-               do lobe = 1, size(responses)
-                  change = change + followers_of(case, lobe)*responses(lobe)%torque
-               end do
-               decision%estimates(quantity_torque) = relative(change, torque + bearing_torque)
-               decision%estimates(quantity_film) = margin*responses(1)%film
-               decision%estimates(quantity_slip) = relative(responses(1)%sliding, &
-                  & sum(surveys(1)%sliding)/size(surveys(1)%sliding))
-               where (decision%estimates > largest_estimate) decision%estimates = huge(1.0_wp)
+            call set_estimates(case, surveys(1), responses, torque + bearing_torque, choice, decision)
+            if (is_rough .and. decision%estimates(choice%quantity) < clearly*choice%negligible) then
+               call find_responses(case, models, surveys, effect, .false., responses, error)
+               if (allocated(error)) return
+               call set_estimates(case, surveys(1), responses, torque + bearing_torque, choice, decision)
             end if
          end if
       end if
       choice%decisions = [choice%decisions, decision]
    end subroutine weigh_effect
 
+   !> Estimates from how every lobe's cycle answers.
+   subroutine set_estimates(case, survey, responses, torque, choice, decision)
+      !> The case with all its effects
+      type(case_t), intent(in) :: case
+      !> Cycle of the first lobe
+      type(survey_t), intent(in) :: survey
+      !> The answers
+      type(response_t), intent(in) :: responses(:)
+      !> Mean torque for all losses [N m]
+      real(wp), intent(in) :: torque
+      !> Counts the work
+      type(choice_t), intent(inout) :: choice
+      !> Gets the estimates
+      type(decision_t), intent(inout) :: decision
+
+      ! Change of the torque [N m]
+      real(wp) :: change
+      integer :: lobe
+
+      choice%evaluations = choice%evaluations + sum(responses%evaluations)
+      decision%estimates = huge(1.0_wp)
+      if (.not. all(responses%is_known)) return
+      change = 0.0_wp
+      do lobe = 1, size(responses)
+         change = change + followers_of(case, lobe)*responses(lobe)%torque
+      end do
+      decision%estimates(quantity_torque) = relative(change, torque)
+      decision%estimates(quantity_film) = margin*responses(1)%film
+      decision%estimates(quantity_slip) = relative(responses(1)%sliding, sum(survey%sliding)/size(survey%sliding))
+      where (decision%estimates > largest_estimate) decision%estimates = huge(1.0_wp)
+      if (decision%effect /= effect_spin) return
+      where (decision%estimates > largest_estimate*(margin/limit_margin)**2) decision%estimates = huge(1.0_wp)
+      where (decision%estimates < largest_estimate) decision%estimates = decision%estimates*(limit_margin/margin)
+   end subroutine set_estimates
+
    !> How every lobe's cycle answers to a case without an effect.
-   subroutine find_responses(case, models, surveys, effect, responses, error)
+   subroutine find_responses(case, models, surveys, effect, is_rough, responses, error)
       !> The case with all its effects
       type(case_t), intent(in) :: case
       !> Model of each lobe shape
@@ -222,6 +266,8 @@ contains
       type(survey_t), intent(in) :: surveys(:)
       !> Position in `effect_names`
       integer, intent(in) :: effect
+      !> A rough look alone?
+      logical, intent(in) :: is_rough
       !> The answers
       type(response_t), allocatable, intent(out) :: responses(:)
       !> Deck error
@@ -242,7 +288,11 @@ contains
          model = models(lobe)
          call revise_model(model, variant, error)
          if (allocated(error)) return
-         call respond(surveys(lobe), models(lobe), model, responses(lobe))
+         if (is_rough) then
+            call respond_roughly(surveys(lobe), models(lobe), model, responses(lobe))
+         else
+            call respond(surveys(lobe), models(lobe), model, responses(lobe))
+         end if
       end do
    end subroutine find_responses
 

@@ -13,14 +13,15 @@ module camroller_effect_list
 
    public :: effect_names, effect_count, decision_t, choice_t, leave_out, leave_all_but, has_effect
    public :: effect_asperity, effect_needle, effect_guide, effect_bearings, effect_gas, effect_rolling, effect_film, &
-      & effect_pressure, effect_shear, effect_spin
+      & effect_pressure, effect_shear, effect_spin, effect_ehl
 
    !> Effects: groups of the deck, and laws that have a simpler one beside them
    character(len=*), parameter :: effect_names(*) = [character(len=name_length) :: "asperity", "needle_bearing", "valve_guide", &
-      & "cam_bearings", "gas_force", "rolling_resistance", "film_law", "pressure_law", "shear_law", "roller_equation"]
+      & "cam_bearings", "gas_force", "rolling_resistance", "film_law", "pressure_law", "shear_law", "roller_equation", &
+      & "ehl"]
    !> Positions in it
    integer, parameter :: effect_asperity = 1, effect_needle = 2, effect_guide = 3, effect_bearings = 4, effect_gas = 5, &
-      & effect_rolling = 6, effect_film = 7, effect_pressure = 8, effect_shear = 9, effect_spin = 10
+      & effect_rolling = 6, effect_film = 7, effect_pressure = 8, effect_shear = 9, effect_spin = 10, effect_ehl = 11
    !> Their number
    integer, parameter :: effect_count = size(effect_names)
    !> Words of a reason
@@ -84,6 +85,8 @@ contains
          variant%traction%shear_law = shear_law_names(law_newtonian)
       case (effect_spin)
          variant%numerics%method = quasi_static
+      case (effect_ehl)
+         if (allocated(variant%ehl)) deallocate (variant%ehl)
       end select
    end subroutine leave_out
 
@@ -126,12 +129,15 @@ contains
          has = case%traction%rolling_law /= rolling_law_names(rolling_none)
       case (effect_film)
          has = case%film%law == film_law_names(law_moes) .or. case%film%law == film_law_names(law_masjedi_khonsari_rough)
+         has = has .and. .not. allocated(case%ehl)
       case (effect_pressure)
          has = case%lubricant%pressure_law /= pressure_law_names(law_cameron)
       case (effect_shear)
          has = case%traction%shear_law /= shear_law_names(law_newtonian)
       case (effect_spin)
          has = case%numerics%method == automatic_method
+      case (effect_ehl)
+         has = allocated(case%ehl)
       end select
    end function has_effect
 

@@ -7,7 +7,7 @@ module camroller_effect_reasons
    use camroller_model, only : model_t
    use camroller_contact_forces, only : film_groups
    use camroller_effect_list, only : effect_asperity, effect_needle, effect_guide, effect_bearings, effect_gas, effect_rolling, &
-      & effect_film, effect_pressure, effect_shear, effect_spin
+      & effect_film, effect_pressure, effect_shear, effect_spin, effect_ehl
    use camroller_effect_survey, only : survey_t
    use camroller_film, only : groups_t
    use camroller_hertz, only : peak_pressure
@@ -56,7 +56,7 @@ contains
          case (effect_rolling)
             lost = sum(contact%rolling_resistance*(contact%cam_surface_speed + contact%roller_surface_speed))/model%speed
             reason = "takes "//trim(percent(lost/all_lost))//" of the follower's friction torque"
-         case (effect_film)
+         case (effect_film, effect_ehl)
             call find_moes_numbers(model, survey, reason)
          case (effect_pressure)
             reason = "peak pressure up to "//trim(text(maxval(peak_pressure(contact%load, states%position%equivalent_radius, &

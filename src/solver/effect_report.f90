@@ -24,8 +24,11 @@ module camroller_effect_report
    !> Beginning of the names of torques
    character(len=*), parameter :: torque = "torque_"
 
-   !> Quantities with their values, growing
+   !> Quantities with their values
    type :: list_t
+      !> Those so far
+      integer :: count = 0
+      !> Room for all that may come
       type(quantity_t), allocatable :: quantities(:)
       !> [unit of the quantity]
       real(wp), allocatable :: values(:)
@@ -44,8 +47,10 @@ contains
       character(len=:), allocatable :: name
       integer :: i, k
 
-      list%quantities = result%summary
-      list%values = result%summary_values
+      call start_list(list, size(result%summary) + (1 + size(quantity_names))*size(choice%decisions) + 2)
+      do i = 1, size(result%summary)
+         call copy_scalar(list, result, i)
+      end do
       do i = 1, size(choice%decisions)
          name = trim(effect_names(choice%decisions(i)%effect))
          associate (decision => choice%decisions(i))
@@ -62,8 +67,7 @@ contains
          & trim(quantity_names(choice%quantity)), choice_source, choice%bound)
       call append(list, "evaluations", "1", "evaluations of the contact for the estimates", choice_source, &
          & real(choice%evaluations, wp))
-      call move_alloc(list%quantities, result%summary)
-      call move_alloc(list%values, result%summary_values)
+      call end_list(list, result)
       result%choice = choice
    end subroutine add_choice
 
@@ -82,7 +86,8 @@ contains
 
       if (.not. allocated(result%choice)) return
       call list_series(listed, series)
-      allocate (values(size(result%angle), size(series)), list%quantities(0), list%values(0))
+      allocate (values(size(result%angle), size(series)))
+      call start_list(list, size(result%summary) + (size(statistics) + size(losses))*size(series))
       values = ieee_value(1.0_wp, ieee_quiet_nan)
       do i = 1, size(series)
          position = find_quantity(result%series, series(i)%name)
@@ -98,13 +103,12 @@ contains
          call take(list, result, trim(losses(2))//trim(loss_name(series(i))), "J", series(i)%source)
       end do
       do i = 1, size(result%summary)
-         if (find_quantity(list%quantities, result%summary(i)%name) > 0) cycle
+         if (find_quantity(list%quantities(:list%count), result%summary(i)%name) > 0) cycle
          call copy_scalar(list, result, i)
       end do
       call move_alloc(series, result%series)
       call move_alloc(values, result%series_values)
-      call move_alloc(list%quantities, result%summary)
-      call move_alloc(list%values, result%summary_values)
+      call end_list(list, result)
    end subroutine complete_result
 
    !> What follows the beginning of a torque's name.
@@ -136,6 +140,27 @@ contains
       end if
    end subroutine take
 
+   !> An empty list.
+   subroutine start_list(list, room)
+      !> The list
+      type(list_t), intent(out) :: list
+      !> Most quantities
+      integer, intent(in) :: room
+
+      allocate (list%quantities(room), list%values(room))
+   end subroutine start_list
+
+   !> Make a list the scalars of a result.
+   subroutine end_list(list, result)
+      !> The list
+      type(list_t), intent(inout) :: list
+      !> The result
+      type(result_t), intent(inout) :: result
+
+      result%summary = list%quantities(:list%count)
+      result%summary_values = list%values(:list%count)
+   end subroutine end_list
+
    !> Copy a scalar of a result into a list.
    subroutine copy_scalar(list, result, position)
       !> The list
@@ -159,18 +184,14 @@ contains
       !> Value [unit of the scalar]
       real(wp), intent(in) :: value
 
-      type(quantity_t), allocatable :: more(:)
-      integer :: n
-
-      n = size(list%quantities)
-      allocate (more(n + 1))
-      more(:n) = list%quantities
-      more(n + 1)%name = name
-      more(n + 1)%unit = unit
-      more(n + 1)%description = description
-      more(n + 1)%source = source
-      call move_alloc(more, list%quantities)
-      list%values = [list%values, value]
+      list%count = list%count + 1
+      list%values(list%count) = value
+      associate (quantity => list%quantities(list%count))
+         quantity%name = name
+         quantity%unit = unit
+         quantity%description = description
+         quantity%source = source
+      end associate
    end subroutine append
 
 end module camroller_effect_report

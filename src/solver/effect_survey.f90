@@ -13,21 +13,22 @@ module camroller_effect_survey
    use camroller_balance, only : follow_balance
    use camroller_spin, only : rolling_speed_at, decay_rate_of
    use camroller_stick, only : has_stick
+   use camroller_traction, only : cap_sharp
    implicit none
    private
 
-   public :: survey_t, response_t, make_survey, respond, respond_at_once
+   public :: survey_t, response_t, make_survey, respond, respond_roughly, respond_at_once
 
-   !> Angles looked at
-   integer, parameter :: points = 72
+   !> Angles looked at, and how many to the next one in a rough look
+   integer, parameter :: points = 48, stride = 4
    !> Distance between them [rad]
    real(wp), parameter :: spacing_angle = two_pi/points
    !> Accuracy of a balance over the speed of pure rolling on the base circle [-]
-   real(wp), parameter :: balance_accuracy = 1.0e-6_wp
+   real(wp), parameter :: balance_accuracy = 1.0e-4_wp
    !> Slowest decay that is told from none [1/rad]
    real(wp), parameter :: slowest_decay = 1.0e-6_wp
    !> Decay between two angles below which a delay may be more than what is seen of it at the angles [-]
-   real(wp), parameter :: slowest_resolved = 1.0_wp
+   real(wp), parameter :: slowest_resolved = 3.0_wp
    !> Smallest load over the largest one, below which contact may be lost between the angles [-]
    real(wp), parameter :: smallest_load = 1.0e-2_wp
    !> Part of a disturbance that its correction may be [-]
@@ -185,6 +186,41 @@ contains
       call sum_up(survey, model, second, change, correction, response)
    end subroutine respond
 
+   !> How the cycle answers to another model, seen at few angles before the sliding speed has changed: no bound, but enough to
+   !> tell that an effect matters.
+   subroutine respond_roughly(survey, model, other, response)
+      !> The cycle of a model
+      type(survey_t), intent(in) :: survey
+      !> That model
+      type(model_t), intent(in) :: model
+      !> Another model, of the same geometry
+      type(model_t), intent(in) :: other
+      !> What changes
+      type(response_t), intent(out) :: response
+
+      type(state_t) :: state
+      ! Disturbing rate [m/s/rad]
+      real(wp) :: rate
+      integer :: i, status
+
+      response%is_known = .true.
+      response%torque = 0.0_wp
+      response%film = 0.0_wp
+      response%sliding = 0.0_wp
+      response%evaluations = points/stride
+      do i = stride/2, points, stride
+         call evaluate_state(other, survey%angles(i), survey%sliding(i), state, status)
+         if (status /= 0) response%is_known = .false.
+         if (status /= 0) return
+         associate (base => survey%states(i))
+            rate = model%roller_radius/model%speed*(state%spin_acceleration - base%spin_acceleration)
+            response%torque = response%torque + abs(state%torque_friction - base%torque_friction)*stride/points
+            response%film = max(response%film, abs(state%contact%film_min/base%contact%film_min - 1.0_wp))
+            response%sliding = response%sliding + abs(rate)/max(survey%decay(i), slowest_decay)*stride/points
+         end associate
+      end do
+   end subroutine respond_roughly
+
    !> How the cycle answers to a roller that follows its balance without delay.
    subroutine respond_at_once(survey, model, tolerance, response)
       !> The cycle of a model
@@ -206,7 +242,8 @@ contains
       response%torque = 0.0_wp
       response%film = 0.0_wp
       response%sliding = 0.0_wp
-      if (minval(survey%decay)*spacing_angle < slowest_resolved) return
+      ! At a sharp limit of the traction there is no decay, if only between the angles
+      if (model%cap == cap_sharp .or. minval(survey%decay)*spacing_angle < slowest_resolved) return
       call look(survey, model, survey%balance, states, decay, is_fine)
       if (.not. is_fine) return
       change = survey%balance - survey%sliding

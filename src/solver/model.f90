@@ -145,7 +145,8 @@ contains
       call set_operating_point(model, case%operating_point%speed, case%operating_point%oil_temperature, error)
    end subroutine new_model
 
-   !> Give a model the effects and laws of another case with the same geometry, masses and spring: no spline is fitted again.
+   !> Give a model the effects and laws of another case with the same geometry, masses and spring: no spline is fitted again, and
+   !> films are not solved again where oil and solution stay as they are.
    subroutine revise_model(model, case, error)
       !> The model of a case that differs in effects and laws alone
       type(model_t), intent(inout) :: model
@@ -154,17 +155,29 @@ contains
       !> Deck or domain error
       type(error_t), allocatable, intent(out) :: error
 
+      type(ehl_t), allocatable :: ehl
+      logical :: has_same_films
+
+      has_same_films = allocated(model%film_table) .and. allocated(case%ehl) .and. &
+         & model%lubricant%pressure_law == case%lubricant%pressure_law
       if (allocated(model%boundary)) deallocate (model%boundary)
       if (allocated(model%bearing)) deallocate (model%bearing)
       if (allocated(model%guide_drag)) deallocate (model%guide_drag)
       if (allocated(model%gas)) deallocate (model%gas)
+      if (allocated(model%ehl)) deallocate (model%ehl)
       call choose_laws(model, case, error)
       if (allocated(error)) return
       call set_contact(model, case, error)
       if (allocated(error)) return
       call set_effects(model, case, error)
       if (allocated(error)) return
+      if (has_same_films) then
+         call move_alloc(model%ehl, ehl)
+      else if (allocated(model%film_table)) then
+         deallocate (model%film_table)
+      end if
       call set_operating_point(model, case%operating_point%speed, case%operating_point%oil_temperature, error)
+      if (allocated(ehl)) call move_alloc(ehl, model%ehl)
    end subroutine revise_model
 
    !> Speed and temperature: everything that follows from them.

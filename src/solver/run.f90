@@ -6,7 +6,7 @@ module camroller_run
    use camroller_error, only : error_t, raise, add_context, kind_convergence
    use camroller_accuracy, only : is_checked, most_refinements, refine_tolerance, resolve_numerics, way_out
    use camroller_case, only : case_t, numerics_t
-   use camroller_model, only : model_t, new_model
+   use camroller_model, only : model_t, new_model, revise_model
    use camroller_effect_choice, only : wants_choice, choose_effects
    use camroller_effect_list, only : choice_t
    use camroller_effect_report, only : add_choice
@@ -33,6 +33,7 @@ contains
       type(model_t), allocatable :: models(:)
       type(case_t) :: chosen
       type(choice_t) :: choice
+      integer :: lobe
 
       call build_models(case, models, error)
       if (allocated(error)) return
@@ -40,8 +41,10 @@ contains
          call run_listed(case, models, result, error)
          return
       end if
-      call choose_effects(case, models, chosen, choice, error)
-      if (.not. allocated(error)) call build_models(chosen, models, error)
+      call choose_effects(case, models, chosen, choice, .false., error)
+      do lobe = 1, size(models)
+         if (.not. allocated(error)) call revise_model(models(lobe), chosen, error)
+      end do
       if (.not. allocated(error)) call run_listed(chosen, models, result, error)
       if (allocated(error)) return
       call add_choice(result, choice)

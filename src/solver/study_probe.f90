@@ -21,7 +21,7 @@ module camroller_study_probe
    implicit none
    private
 
-   public :: probe_t, loss_names, loss_count, run_probe, sliding_speeds, median, seconds_since
+   public :: probe_t, loss_names, loss_count, run_probe, sliding_speeds, median
 
    !> Mean torques that a study compares; the last is their sum
    character(len=*), parameter :: loss_names(*) = [character(len=8) :: "contact", "needle", "guide", "bearings", "friction"]

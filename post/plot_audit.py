@@ -1,0 +1,136 @@
+"""Draw what `camroller audit` has measured, and print it as a table for a page.
+
+    python post/plot_audit.py results/thesis_audit.h5            <name>.png beside the file
+    python post/plot_audit.py FILE --output doc/figures --name thesis_effects
+    python post/plot_audit.py FILE --table                       a table in Markdown instead of a figure
+
+One panel each for mean torque, smallest film, slip and time: a bar from the smallest to the largest change without each effect over
+the cases, a dot for each case, and for the first three a cross for what was expected before the run. Needs no display. Exit code 2
+where the file is no audit.
+"""
+
+import argparse
+from pathlib import Path
+import sys
+
+import h5py
+import matplotlib
+
+matplotlib.use("Agg")
+matplotlib.rcParams.update({"font.size": 9.0, "axes.spines.top": False, "axes.spines.right": False})
+
+from matplotlib.figure import Figure  # noqa: E402
+import numpy as np  # noqa: E402
+
+QUANTITIES = {"mean_torque": "mean friction torque", "minimum_film": "smallest film", "slip": "slip per turn"}
+FLOOR = 1e-7  # changes below are drawn there: the accuracy of the runs
+UNKNOWN = 1e10  # estimates from here on mean that nothing can be said
+
+
+class AuditError(Exception):
+    """The file cannot be used; the text says why in one line."""
+
+
+def read_audit(path):
+    """Table of an audit as a dictionary of columns."""
+    try:
+        with h5py.File(path) as file:
+            return {name: _plain(data) for name, data in file["study/audit"].items()}
+    except (OSError, KeyError) as error:
+        raise AuditError(f"{path}: not an audit: {error}") from None
+
+
+def _plain(data):
+    if h5py.check_string_dtype(data.dtype):
+        return np.array([text.decode() for text in data[()]])
+    return data[()]
+
+
+def without(audit, effect):
+    """Rows of the runs without an effect that have a result."""
+    return (audit["run"] == "without") & (audit["effect"] == effect) & (audit["status"] == 0)
+
+
+def effects(audit):
+    """Effects in the order of the table."""
+    return list(dict.fromkeys(audit["effect"][audit["run"] == "without"]))
+
+
+def draw(audit):
+    """The figure."""
+    names = effects(audit)
+    figure = Figure(figsize=(11.0, 0.9 + 0.42 * len(names)), layout="constrained")
+    panels = figure.subplots(1, 4, sharey=True)
+    places = np.arange(len(names))[::-1]
+    for axes, (quantity, title) in zip(panels, QUANTITIES.items()):
+        for place, name in zip(places, names):
+            rows = without(audit, name)
+            change = np.maximum(np.abs(audit["change_" + quantity][rows]), FLOOR)
+            estimate = audit["estimate_" + quantity][rows]
+            known = estimate < UNKNOWN
+            axes.plot([change.min(), change.max()], [place, place], color="#6baed6", linewidth=5, solid_capstyle="butt")
+            axes.plot(change, np.full(change.size, place), "o", color="#08306b", markersize=3, label="change without it")
+            axes.plot(np.maximum(estimate[known], FLOOR), np.full(known.sum(), place + 0.25), "x", color="#d55e00", markersize=4,
+                      label="expected at most")
+        axes.set(xscale="log", title=title, xlabel="relative change [-]", xlim=(0.5 * FLOOR, None))
+        axes.grid(True, axis="x", which="major", linewidth=0.3)
+    for place, name in zip(places, names):
+        share = 100.0 * audit["time_share"][without(audit, name)]
+        panels[3].plot(share, np.full(share.size, place), "o", color="#08306b", markersize=3)
+        panels[3].plot([np.median(share)], [place], "|", color="#d55e00", markersize=14, markeredgewidth=2)
+    panels[3].axvline(0.0, color="black", linewidth=0.5)
+    panels[3].set(title="time that leaving it out saves", xlabel="part of the run [%]")
+    panels[3].grid(True, axis="x", which="major", linewidth=0.3)
+    panels[0].set_yticks(places, [name.replace("_", " ") for name in names])
+    handles, labels = panels[0].get_legend_handles_labels()
+    figure.legend(handles[:2], labels[:2], loc="outside lower center", ncols=2, frameon=False)
+    return figure
+
+
+def table(audit):
+    """The same in Markdown: smallest and largest change over the cases, median of the time."""
+    lines = ["| without | mean friction torque | smallest film | slip per turn | time saved | cases that need it |",
+             "|---|---|---|---|---|---|"]
+    for name in effects(audit):
+        rows = without(audit, name)
+        cells = [_span(audit["change_" + quantity][rows]) for quantity in QUANTITIES]
+        needed = int((audit["is_left_out"][rows] == 0).sum())
+        lines.append(f"| {name.replace('_', ' ')} | " + " | ".join(cells)
+                     + f" | {100 * np.median(audit['time_share'][rows]):.0f} % | {needed} of {rows.sum()} |")
+    return "\n".join(lines)
+
+
+def _span(values):
+    if not np.abs(values).max() > 0.0:
+        return "0"
+    return f"{100 * values.min():.2g} to {100 * values.max():.2g} %"
+
+
+def main(arguments=None):
+    """Command line; returns the exit code."""
+    made = argparse.ArgumentParser(prog="plot_audit.py", description=__doc__,
+                                   formatter_class=argparse.RawDescriptionHelpFormatter)
+    made.add_argument("file", metavar="FILE", help="file of an audit")
+    made.add_argument("--output", metavar="DIR", help="folder for the figure (default: that of the file)")
+    made.add_argument("--name", help="its name (default: that of the file)")
+    made.add_argument("--table", action="store_true", help="print a table in place of a figure")
+    options = made.parse_args(arguments)
+    path = Path(options.file)
+    folder = Path(options.output) if options.output else path.parent
+    try:
+        audit = read_audit(path)
+        if options.table:
+            print(table(audit))
+            return 0
+        folder.mkdir(parents=True, exist_ok=True)
+        target = folder / f"{options.name or path.stem}.png"
+        draw(audit).savefig(target, dpi=110)
+        print(target)
+    except (AuditError, OSError) as error:
+        print(f"plot_audit.py: {error}", file=sys.stderr)
+        return 2
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,45 @@
+"""Figure and table of an audit."""
+
+import h5py
+import numpy as np
+import pytest
+
+from plot_audit import effects, main, read_audit, table
+
+
+@pytest.fixture(name="path")
+def made_up(tmp_path):
+    """An audit of two cases and two effects, one run of which failed."""
+    with h5py.File(tmp_path / "made_audit.h5", "w") as file:
+        audit = file.create_group("study/audit")
+        audit["run"] = np.array(2 * ["listed", "without", "without"], dtype="S8")
+        audit["effect"] = np.array(2 * ["", "asperity", "valve_guide"], dtype="S20")
+        audit["status"] = np.array([0, 0, 0, 0, 0, 5.0])
+        for name in ("mean_torque", "minimum_film", "slip"):
+            audit["change_" + name] = np.array([0, -0.25, 0.01, 0, -0.5, np.nan])
+            audit["estimate_" + name] = np.array([np.nan, 0.5, 1e300, np.nan, 0.6, 1e300])
+        audit["time_share"] = np.array([0, 0.3, 0.0, 0, 0.5, np.nan])
+        audit["is_left_out"] = np.array([np.nan, 0, 1, np.nan, 0, 0])
+    return tmp_path / "made_audit.h5"
+
+
+def test_the_table_spans_the_cases_that_have_a_result(path):
+    audit = read_audit(path)
+    assert effects(audit) == ["asperity", "valve_guide"]
+    lines = table(audit).splitlines()
+    assert lines[2].startswith("| asperity | -50 to -25 % |") and lines[2].endswith("| 40 % | 2 of 2 |")
+    assert lines[3].endswith("| 0 % | 0 of 1 |")
+
+
+def test_a_figure_is_drawn(path, tmp_path, capsys):
+    assert main([str(path), "--output", str(tmp_path / "figures"), "--name", "drawn"]) == 0
+    assert (tmp_path / "figures/drawn.png").stat().st_size > 10000
+    assert main([str(path), "--table"]) == 0
+    assert "valve guide" in capsys.readouterr().out
+
+
+def test_what_is_no_audit_is_refused(tmp_path, capsys):
+    with h5py.File(tmp_path / "other.h5", "w"):
+        pass
+    assert main([str(tmp_path / "other.h5")]) == 2
+    assert "not an audit" in capsys.readouterr().err

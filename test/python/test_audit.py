@@ -1,0 +1,81 @@
+"""The command `audit` and the choice of effects from outside: table, file, decisions."""
+
+import pathlib
+import subprocess
+
+import h5py
+import numpy
+import pytest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+THESIS = (ROOT / "decks/thesis.nml").read_text()
+NAMES = ["asperity", "needle_bearing", "valve_guide", "cam_bearings", "rolling_resistance", "roller_equation"]
+
+
+def start(camroller, *arguments, folder):
+    """Run the program without a terminal."""
+    return subprocess.run([camroller, *map(str, arguments)], cwd=folder, capture_output=True, text=True,
+                          stdin=subprocess.DEVNULL, timeout=600)
+
+
+@pytest.fixture(scope="module", name="folder")
+def with_deck(tmp_path_factory):
+    """A folder with decks of one and of two cases: cold oil, where asperities hardly matter, and hot oil."""
+    folder = tmp_path_factory.mktemp("audit")
+    one = THESIS[:THESIS.index("&sweep")].replace("speed_rpm = 300", "speed_rpm = 900")
+    (folder / "one.nml").write_text(one)
+    (folder / "two.nml").write_text(one + "&sweep\n   key_1 = 'operating_point.oil_temperature_degC'\n   values_1 = 25, 95\n/\n")
+    return folder
+
+
+def words(dataset):
+    """Texts of a column."""
+    return [text.decode() for text in dataset]
+
+
+def test_an_audit_has_a_run_without_each_effect(camroller, folder):
+    result = start(camroller, "audit", "one.nml", "--repeats", "1", folder=folder)
+    assert result.returncode == 0, result.stderr
+    assert max(map(len, result.stdout.splitlines())) <= 132
+    assert "changes are within what was expected" in result.stdout
+    with h5py.File(folder / "one_audit.h5") as file:
+        table = file["study/audit"]
+        runs, effects = words(table["run"]), words(table["effect"])
+        assert [effect for run, effect in zip(runs, effects) if run == "without"] == NAMES
+        assert runs[0] == "listed" and runs[1] == "needed" and "none" in runs and "alone" in runs
+        assert (table["status"][()] == 0).all()
+        change = dict(zip(zip(runs, effects), table["change_mean_torque"][()]))
+        assert change["listed", ""] == 0.0
+        assert -0.9 < change["without", "cam_bearings"] < -0.3
+        left_out = dict(zip(zip(runs, effects), table["is_left_out"][()]))
+        assert left_out["without", "asperity"] == 1 and left_out["without", "needle_bearing"] == 0
+
+
+def test_decisions_are_in_the_file_and_left_out_cases_have_no_numbers(camroller, folder):
+    result = start(camroller, "run", "two.nml", "--set", "effects.select=needed", folder=folder)
+    assert result.returncode == 0, result.stderr
+    listed = start(camroller, "run", "two.nml", "-o", "listed.h5", folder=folder)
+    assert listed.returncode == 0, listed.stderr
+    with h5py.File(folder / "two.h5") as file, h5py.File(folder / "listed.h5") as other:
+        effects = file["effects"]
+        assert effects["asperity_used"][()].tolist() == [0, 1]
+        assert numpy.isnan(file["series/asperity_load"][0]).all() and (file["series/asperity_load"][1] > 0).any()
+        assert (effects["bound"][()] <= 1e-3).all()
+        assert words(effects["reasons"])[0].startswith("asperity            left out ")
+        assert set(file["summary"]) == set(other["summary"]) and "effects" not in other
+        torque = [data["summary/mean_torque_friction"][()] for data in (file, other)]
+        assert numpy.allclose(*torque, rtol=1e-3, atol=0)
+
+
+def test_a_single_case_has_no_dataset_for_what_is_left_out(camroller, folder):
+    assert start(camroller, "run", "one.nml", "--set", "effects.select=needed", folder=folder).returncode == 0
+    with h5py.File(folder / "one.h5") as file:
+        assert "asperity_load" not in file["series"] and "mean_asperity_load" not in file["summary"]
+
+
+def test_check_prints_decisions(camroller, folder):
+    result = start(camroller, "check", "two.nml", "--set", "effects.select=needed", folder=folder)
+    assert result.returncode == 0, result.stderr
+    assert result.stdout.count("asperity            left out") == 1 and result.stdout.count("asperity            kept") == 1
+    assert "film ratio from" in result.stdout
+    assert "left out" not in start(camroller, "check", "two.nml", folder=folder).stdout
