@@ -15,7 +15,7 @@ module camroller_lift
    private
 
    public :: lift_t, lift_law_t, lift_law_names
-   public :: new_lift_law, evaluate_lift, stop_angles
+   public :: new_lift_law, evaluate_lift, is_at_rest, stop_angles
 
    !> Lift laws that can be chosen by name
    character(len=*), parameter :: lift_law_names(*) = [character(len=name_length) :: &
@@ -152,6 +152,21 @@ contains
       end select
       values = law%max_lift*f*[1.0_wp, y_1, y_1**2, y_1**3]
    end subroutine evaluate_lift
+
+   !> Is the valve closed, with no lift on either side of the angle but at the ends of the event?
+   pure function is_at_rest(law, angle) result(at_rest)
+      !> The law
+      type(lift_law_t), intent(in) :: law
+      !> Cam angle from full lift, any turn [rad]
+      real(wp), intent(in) :: angle
+      !> True from the end of the event to its start
+      logical :: at_rest
+
+      at_rest = .false.
+      if (law%last < law%first + two_pi) then
+         at_rest = angle - two_pi*real(floor((angle - law%first)/two_pi), wp) >= law%last
+      end if
+   end function is_at_rest
 
    !> Angles where a derivative of the lift up to the third jumps: ends of the event, and the nose where its halves
    !> differ.

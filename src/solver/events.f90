@@ -7,6 +7,7 @@ module camroller_events
    use camroller_kinds, only : wp, pi, two_pi, degree
    use camroller_error, only : error_t, raise, kind_domain
    use camroller_model, only : model_t
+   use camroller_lift, only : is_at_rest
    use camroller_kinematics, only : position_t
    use camroller_dynamics, only : moments_t
    use camroller_state, only : evaluate_loading
@@ -126,11 +127,18 @@ contains
       ! Angles of the scan [rad]
       real(wp), allocatable :: scan(:)
       integer :: i, kind
+      ! Does the valve rest at the ends of the interval, where nothing changes unless a force acts on the closed valve?
+      logical :: rested, rests, rests_alike
 
       allocate (angles(0))
       scan = scan_angles(model, start, finish)
       before = switches(model, start)
+      rests_alike = .not. allocated(model%gas) .or. model%train%seat_lift > 0.0_wp
+      rests = is_at_rest(model%lift_law, start)
       do i = 2, size(scan)
+         rested = rests
+         rests = is_at_rest(model%lift_law, scan(i))
+         if (rested .and. rests .and. rests_alike) cycle
          after = switches(model, scan(i))
          do kind = 1, size(before)
             if ((before(kind) > 0.0_wp) .eqv. (after(kind) > 0.0_wp)) cycle

@@ -3,7 +3,7 @@ module test_lift
    use testdrive, only : unittest_type, new_unittest, error_type, check
    use camroller_kinds, only : wp, pi, two_pi, degree
    use camroller_error, only : error_t, kind_deck
-   use camroller_lift, only : lift_t, lift_law_t, lift_law_names, new_lift_law, evaluate_lift, stop_angles
+   use camroller_lift, only : lift_t, lift_law_t, lift_law_names, new_lift_law, evaluate_lift, is_at_rest, stop_angles
    implicit none
    private
 
@@ -78,6 +78,10 @@ contains
             call check(error, all(abs(f) <= 0.0_wp), "dwell of "//lift_law_names(i))
             if (allocated(error)) return
          end do
+         call check(error, is_at_rest(law, last) .and. is_at_rest(law, last + 1.0_wp - two_pi) .and. is_at_rest(law, pi) .and. &
+            & .not. any([is_at_rest(law, -opening), is_at_rest(law, 0.0_wp), is_at_rest(law, two_pi + 0.99_wp*last)]), &
+            & "rest of "//lift_law_names(i))
+         if (allocated(error)) return
       end do
    end subroutine test_peak_and_dwell
 
