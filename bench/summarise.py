@@ -22,12 +22,12 @@ def cost_table(rows: list[Row]) -> None:
     """Time and tolerance that each solver needs at each task."""
     solvers = names(rows, "solver")
     print(f"Time in us to reach an error of {ERROR:g} in sliding speed and mean loss (tolerance it takes)\n")
-    print(f"{'':20s}" + "".join(f"{solver:>18s}" for solver in solvers))
+    print(f"{'':20s}" + "".join(f"{solver:>20s}" for solver in solvers))
     for task in names(rows, "task"):
         line = f"{task:20s}"
         for solver in solvers:
             best = cheapest([row for row in rows if (row.task, row.solver) == (task, solver)], ERROR)
-            line += f"{f'{best.time:.0f} ({best.tolerance:.0e})':>18s}" if best else f"{'-':>18s}"
+            line += f"{f'{best.time:.0f} ({best.tolerance:.0e})':>20s}" if best else f"{'-':>20s}"
         print(line)
     print()
     for prefix, goal in GOALS.items():
@@ -49,14 +49,14 @@ def ratio_table(rows: list[Row]) -> None:
     for label, errors in RANGES.items():
         print(f"Their time over ours, geometric mean over errors reached from {label} (cases both reach, where not all);")
         print("CVODE: the fastest of its variants in each case; best: the fastest of ours\n")
-        print(f"{'':42s}" + "".join(f"{solver:>18s}" for solver in [*ours, "best"]))
+        print(f"{'':42s}" + "".join(f"{solver:>20s}" for solver in [*ours, "best"]))
         for group, prefix in (GROUPS | {"all": ""}).items():
             part = [row for row in rows if row.task.startswith(prefix)]
             for name, theirs in others.items():
                 line = f"{group:28s}{name:14s}"
                 for mine in [*((solver,) for solver in ours), tuple(ours)]:
                     ratio, counted, cases = mean_ratio(part, theirs, mine, errors)
-                    line += f"{f'{ratio:.2f}' + (f' ({counted}/{cases})' if counted < cases else ''):>18s}"
+                    line += f"{f'{ratio:.2f}' + (f' ({counted}/{cases})' if counted < cases else ''):>20s}"
                 print(line)
         print()
 

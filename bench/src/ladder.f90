@@ -200,7 +200,7 @@ contains
       !> What was measured
       type(rung_t), intent(in) :: rung
 
-      write (output_unit, "(a24, 1x, a16, 3es10.2, i9, i7, 2i8, 2f12.2)") task%name, name, rung%tolerance, rung%slip_error, &
+      write (output_unit, "(a24, 1x, a20, 3es10.2, i9, i7, 2i8, 2f12.2)") task%name, name, rung%tolerance, rung%slip_error, &
          & rung%loss_error, rung%counters%evaluations, rung%counters%jacobians, rung%counters%accepted, rung%counters%rejected, &
          & 1.0e6_wp*median(rung%seconds), 1.0e6_wp*minval(rung%seconds)
    end subroutine print_rung
