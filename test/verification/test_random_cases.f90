@@ -117,7 +117,7 @@ contains
       call take_sample(models(1), case%numerics, "rodas5p", tolerance, one)
       trouble = one%trouble
       has_ended = one%has_ended
-      if (trouble == "") call take_sample(models(1), case%numerics, "exprb32", tolerance, other)
+      if (trouble == "") call take_sample(models(1), case%numerics, "hermite", tolerance, other)
       if (trouble == "") then
          trouble = other%trouble
          has_ended = other%has_ended
