@@ -19,7 +19,8 @@ module camroller_case_loop
    use camroller_progress, only : progress_t, show_progress
    use camroller_record, only : record_t
    use camroller_result, only : result_t
-   use camroller_run, only : run_case
+   use camroller_run, only : run_next_case
+   use camroller_kept_models, only : kept_models_t
    use camroller_stop_signal, only : is_stop_wanted
    use camroller_team, only : team_t
    implicit none
@@ -212,6 +213,7 @@ contains
       logical, intent(out) :: is_over
 
       type(record_t) :: record
+      type(kept_models_t) :: kept
       type(case_t) :: case
       type(result_t) :: result
       type(error_t), allocatable :: failure
@@ -223,7 +225,7 @@ contains
       layout = 0
       is_over = .false.
       do i = first, first + count - 1
-         call compute_case(deck, i, case, result, failure)
+         call compute_case(deck, i, kept, case, result, failure)
          if (allocated(failure)) then
             call put_failure(record, failure)
          else
@@ -252,11 +254,13 @@ contains
    end subroutine compute_run
 
    !> Compute one case.
-   subroutine compute_case(deck, number, case, result, failure)
+   subroutine compute_case(deck, number, kept, case, result, failure)
       !> The deck
       type(deck_t), intent(in) :: deck
       !> Number of the case, from 1
       integer, intent(in) :: number
+      !> Models of the cases before
+      type(kept_models_t), intent(inout) :: kept
       !> The case
       type(case_t), intent(out) :: case
       !> Its result
@@ -268,7 +272,7 @@ contains
       call make_sweep_case(deck, number, case, failure)
       !$omp end critical (camroller_texts)
       if (allocated(failure)) return
-      call run_case(case, result, failure)
+      call run_next_case(kept, case, result, failure)
       if (.not. allocated(failure) .or. size(deck%sweep%axes) == 0) return
       !$omp critical (camroller_texts)
       call add_context(failure, case_in_words(deck%sweep, number))

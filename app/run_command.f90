@@ -8,7 +8,8 @@ module camroller_run_command
    use camroller_case, only : case_t
    use camroller_effect_report, only : complete_result
    use camroller_result, only : result_t
-   use camroller_run, only : run_case
+   use camroller_run, only : run_next_case
+   use camroller_kept_models, only : kept_models_t
    use camroller_cli, only : config_t
    use camroller_deck, only : deck_t, read_deck, make_sweep_case
    use camroller_deck_sweep, only : sweep_size, case_in_words
@@ -108,6 +109,7 @@ contains
       !> File error
       type(error_t), allocatable, intent(out) :: error
 
+      type(kept_models_t) :: kept
       type(case_t) :: case
       type(result_t) :: result
       type(error_t), allocatable :: failure
@@ -116,7 +118,7 @@ contains
       do i = 1, sweep_size(deck%sweep)
          call make_sweep_case(deck, i, case, failure)
          if (.not. allocated(failure)) then
-            call run_case(case, result, failure)
+            call run_next_case(kept, case, result, failure)
             if (sweep_size(deck%sweep) > 1 .and. .not. allocated(failure)) call complete_result(case, result)
             if (size(deck%sweep%axes) > 0) call add_context(failure, case_in_words(deck%sweep, i))
          end if

@@ -167,6 +167,8 @@ contains
       if (allocated(model%ehl)) deallocate (model%ehl)
       call choose_laws(model, case, error)
       if (allocated(error)) return
+      call check_bookkeeping(model, case, error)
+      if (allocated(error)) return
       call set_contact(model, case, error)
       if (allocated(error)) return
       call set_effects(model, case, error)

@@ -6,6 +6,7 @@ module camroller_run
    use camroller_error, only : error_t, raise, add_context, kind_convergence
    use camroller_accuracy, only : is_checked, most_refinements, refine_tolerance, resolve_numerics, way_out
    use camroller_case, only : case_t, numerics_t
+   use camroller_kept_models, only : kept_models_t, keep_models, recall_models
    use camroller_model, only : model_t, new_model, revise_model
    use camroller_effect_choice, only : wants_choice, choose_effects
    use camroller_effect_list, only : choice_t
@@ -17,7 +18,7 @@ module camroller_run
    implicit none
    private
 
-   public :: run_case, build_models
+   public :: run_case, run_next_case, build_models
 
 contains
 
@@ -31,12 +32,49 @@ contains
       type(error_t), allocatable, intent(out) :: error
 
       type(model_t), allocatable :: models(:)
+
+      call build_models(case, models, error)
+      if (.not. allocated(error)) call run_chosen(case, models, result, error)
+   end subroutine run_case
+
+   !> Run a case after others, whose models serve again where geometry, masses and spring are the same.
+   subroutine run_next_case(kept, case, result, error)
+      !> Models of the cases before
+      type(kept_models_t), intent(inout) :: kept
+      !> The case
+      type(case_t), intent(in) :: case
+      !> Its result
+      type(result_t), intent(out) :: result
+      !> What went wrong, of any kind
+      type(error_t), allocatable, intent(out) :: error
+
+      type(model_t), allocatable :: models(:)
+
+      call recall_models(kept, case, models, error)
+      if (allocated(error)) return
+      if (.not. allocated(models)) then
+         call build_models(case, models, error)
+         if (allocated(error)) return
+         call keep_models(kept, case, models)
+      end if
+      call run_chosen(case, models, result, error)
+   end subroutine run_next_case
+
+   !> Run a case whose models are there.
+   subroutine run_chosen(case, models, result, error)
+      !> The case
+      type(case_t), intent(in) :: case
+      !> Model of each lobe shape; without what is left out afterwards
+      type(model_t), intent(inout) :: models(:)
+      !> Its result
+      type(result_t), intent(out) :: result
+      !> What went wrong, of any kind
+      type(error_t), allocatable, intent(out) :: error
+
       type(case_t) :: chosen
       type(choice_t) :: choice
       integer :: lobe
 
-      call build_models(case, models, error)
-      if (allocated(error)) return
       if (.not. wants_choice(case)) then
          call run_listed(case, models, result, error)
          return
@@ -46,9 +84,8 @@ contains
          if (.not. allocated(error)) call revise_model(models(lobe), chosen, error)
       end do
       if (.not. allocated(error)) call run_listed(chosen, models, result, error)
-      if (allocated(error)) return
-      call add_choice(result, choice)
-   end subroutine run_case
+      if (.not. allocated(error)) call add_choice(result, choice)
+   end subroutine run_chosen
 
    !> Run a case with all its effects.
    !>

@@ -6,7 +6,8 @@ module test_effects
    use camroller_error, only : error_t
    use camroller_case, only : case_t
    use camroller_result, only : result_t, quantity_t, find_quantity
-   use camroller_run, only : run_case
+   use camroller_kept_models, only : kept_models_t
+   use camroller_run, only : run_case, run_next_case
    use reference_cases, only : thesis_case, source_case, set_point, point_speeds, point_viscosities
    implicit none
    private
@@ -22,7 +23,8 @@ contains
          new_unittest("camshaft bearings change no bit of anything else", test_bearings), &
          new_unittest("the guide changes no bit of anything else in the source's bookkeeping", test_guide), &
          new_unittest("the needle bearing changes no bit of the load in the source's bookkeeping", test_needle), &
-         new_unittest("an absent effect has no series and no scalar", test_absent) &
+         new_unittest("an absent effect has no series and no scalar", test_absent), &
+         new_unittest("a case after others gives the bits that it gives alone", test_kept) &
          ]
    end subroutine collect_effects
 
@@ -81,6 +83,46 @@ contains
       i = find_quantity(with%series, "sliding_speed")
       call check(error, .not. all(same_bits(with%series_values(:, i), without%series_values(:, i))), "the roller is not braked")
    end subroutine test_needle
+
+   subroutine test_kept(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(kept_models_t) :: kept
+      type(case_t) :: the_case
+      type(result_t) :: alone, after
+      type(error_t), allocatable :: failure
+      integer :: k
+
+      the_case = thesis_case()
+      the_case%numerics%method = "automatic"
+      do k = 1, 8
+         select case (k)
+         case (2)
+            call set_point(the_case, point_speeds(3), point_viscosities(1))
+         case (3)
+            deallocate (the_case%asperity, the_case%valve_guide)
+         case (4)
+            the_case%film%law = "moes"
+            the_case%lubricant%pressure_law = "roelands"
+         case (5)
+            the_case%lift%max_lift = 8.0e-3_wp
+         case (6)
+            the_case%spring%stiffness = 30.0e3_wp
+         case (7)
+            the_case%effects%select = "needed"
+         case (8)
+            the_case%mechanism%rotation = "towards_pivot"
+         end select
+         call run_case(the_case, alone, failure)
+         if (.not. allocated(failure)) call run_next_case(kept, the_case, after, failure)
+         if (allocated(failure)) then
+            call test_failed(error, failure%message)
+            return
+         end if
+         call check(error, all(same_bits(alone%series_values, after%series_values)) .and. &
+            all(same_bits(alone%summary_values, after%summary_values)), "a bit has changed")
+         if (allocated(error)) return
+      end do
+   end subroutine test_kept
 
    subroutine test_absent(error)
       type(error_type), allocatable, intent(out) :: error
