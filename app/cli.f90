@@ -13,19 +13,20 @@ module camroller_cli
 
    !> Commands
    character(len=*), parameter :: command_names(*) = [character(len=8) :: &
-      & "run", "check", "study", "defaults", "export", "version", "help", "sweep", "merge", "rerun", "audit"]
+      & "run", "check", "study", "defaults", "export", "version", "help", "sweep", "merge", "rerun", "audit", &
+      & "ehl"]
    !> Options of each command, in the same order
    character(len=*), parameter :: option_names(*) = [character(len=80) :: &
       & "--output --set --quiet --help", "--set --help", &
       & "--output --set --repeats --quick --quiet --help", "--markdown --help", "--series --summary --case --output --help", &
       & "--help", "--help", "--output --set --threads --shard --resume --log-every --quiet --help", &
       & "--output --set --partial --quiet --help", "--threads --log-every --quiet --help", &
-      & "--output --set --repeats --quiet --help"]
+      & "--output --set --repeats --quiet --help", "--output --set --quiet --help"]
    !> Most words beside options that each command takes
-   integer, parameter :: most_words(*) = [1, 1, 1, 1, 1, 0, 1, 1, 1, 1, 1]
+   integer, parameter :: most_words(*) = [1, 1, 1, 1, 1, 0, 1, 1, 1, 1, 1, 1]
    !> Does each command need a word?
    logical, parameter :: needs_word(*) = [.true., .true., .true., .false., .true., .false., .false., .true., .true., .true., &
-      & .true.]
+      & .true., .true.]
 
    !> What to do
    type :: config_t

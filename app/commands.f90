@@ -14,6 +14,7 @@ module camroller_commands
    use camroller_effect_choice, only : wants_choice, choose_effects
    use camroller_effect_list, only : choice_t
    use camroller_effect_words, only : choice_in_words
+   use camroller_ehl_command, only : ehl_deck
    use camroller_export, only : export_csv, export_series, export_summary
    use camroller_help_text, only : help_for
    use camroller_mistakes, only : line_t
@@ -97,6 +98,8 @@ contains
          call study_deck(config, error)
       case ("audit")
          call audit_deck(config, error)
+      case ("ehl")
+         call ehl_deck(config, error)
       case ("export")
          call export_table(config, error)
       end select

@@ -34,7 +34,7 @@ contains
             & "  -s, --set group.key=value  other value than the deck's; may be repeated"
       case ("audit", "study")
          text = study_help(command)
-      case ("sweep", "merge", "rerun")
+      case ("sweep", "merge", "rerun", "ehl")
          text = help_for_many(command)
       case ("defaults")
          text = "camroller defaults [GROUP] [--markdown]"//n//n// &
@@ -58,6 +58,7 @@ contains
             & "  camroller check DECK       read and check a deck, print what it comes to"//n// &
             & "  camroller study DECK       measure what accuracy costs"//n// &
             & "  camroller audit DECK       measure what each effect is worth and costs"//n// &
+            & "  camroller ehl DECK         solve the contact over the cycle, with squeeze"//n// &
             & "  camroller defaults [GROUP] print a complete deck with every key explained"//n// &
             & "  camroller export FILE.h5   print results as comma-separated values"//n// &
             & "  camroller version          version and build"//n// &
@@ -108,6 +109,14 @@ contains
       character(len=:), allocatable :: text
 
       select case (command)
+      case ("ehl")
+         text = "camroller ehl DECK [-o FILE] [--set group.key=value]..."//n//n// &
+            & "Solve the contact itself over the cycle, with a film that remembers, and find the roller's slip with it. Prints"// &
+            & n//"film and slip of every case, with what two grids and the steady film differ by, and writes one HDF5 file with"// &
+            & n//"pressure and film across the contact: the deck's name with _ehl.h5 in the present folder, or FILE."//n//n// &
+            & "  -o, --output FILE          file to write"//n// &
+            & "  -s, --set group.key=value  other value than the deck's; may be repeated"//n// &
+            & "  -q, --quiet                say nothing but errors"
       case ("sweep")
          text = "camroller sweep DECK [-o FILE] [--threads N] [--shard K/N] [--resume] [--log-every S] [--set ...] [--quiet]"// &
             & n//n// &

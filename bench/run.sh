@@ -46,6 +46,8 @@ measure() { # table, command
 }
 measure cycle_speed.txt "$target/bin/cycle_speed" decks
 measure ehl_speed.txt "$target/bin/ehl_speed"
+measure ehl_map.txt "$target/bin/ehl_map"
+"$python" post/ehl_map.py "$tables/ehl_map.txt" doc/figures/ehl_map.png
 measure against_cvode.txt "$target/bin/against_cvode" decks
 measure against_scipy.txt "$python" bench/against_scipy.py "$target/librhs.so" decks
 "$python" bench/summarise.py "$tables/against_cvode.txt" "$tables/against_scipy.txt" > "$tables/summary.txt"

@@ -28,11 +28,12 @@ module camroller_hdf5_file
    public :: create_numbers, create_integers, create_texts
    public :: write_numbers, write_integers, write_text
 
-   !> Write numbers: one, a run of a one-axis dataset, rows of a two-axis dataset
+   !> Write numbers: one, a run of a one-axis dataset, rows of a two-axis dataset, a plane of a three-axis dataset
    interface write_numbers
       module procedure write_number
       module procedure write_run_of_numbers
       module procedure write_rows_of_numbers
+      module procedure write_plane_of_numbers
    end interface write_numbers
 
    !> Space kept ready for the library's own records [byte]
@@ -314,6 +315,29 @@ contains
       if (size(rows) == 0) return
       call write_block(dataset, h5t_native_double, [0, first], shape(rows), c_loc(rows), error)
    end subroutine write_rows_of_numbers
+
+   !> Write a whole plane of a dataset with three axes.
+   subroutine write_plane_of_numbers(dataset, first, plane, axes, error)
+      !> A dataset whose first two axes are as long as those of the plane
+      type(hdf5_object_t), intent(in) :: dataset
+      !> Position of the plane on the third axis, from 0
+      integer, intent(in) :: first
+      !> The plane [unit of the dataset]
+      real(wp), intent(in), target, contiguous :: plane(:, :)
+      !> Number of axes, three
+      integer, intent(in) :: axes
+      !> File error
+      type(error_t), allocatable, intent(out) :: error
+
+      integer :: extents(axes), corner(axes)
+
+      if (size(plane) == 0) return
+      extents = 1
+      extents(:2) = shape(plane)
+      corner = 0
+      corner(axes) = first
+      call write_block(dataset, h5t_native_double, corner, extents, c_loc(plane), error)
+   end subroutine write_plane_of_numbers
 
    !> Write a run of integers.
    subroutine write_integers(dataset, first, numbers, error)

@@ -24,7 +24,7 @@ def refused(result, code):
     return result.stderr
 
 
-@pytest.mark.parametrize("command", ["run", "check", "study", "defaults", "export", "version"])
+@pytest.mark.parametrize("command", ["run", "check", "study", "ehl", "defaults", "export", "version"])
 def test_each_command_has_help(camroller, command):
     asked = run(camroller, "help", command)
     assert asked.returncode == 0
@@ -35,7 +35,7 @@ def test_each_command_has_help(camroller, command):
 def test_help_names_every_command(camroller):
     text = run(camroller, "--help").stdout
     assert text == run(camroller, "help").stdout
-    for command in ("run", "check", "study", "defaults", "export", "version", "help"):
+    for command in ("run", "check", "study", "ehl", "defaults", "export", "version", "help"):
         assert f"camroller {command} " in text
 
 

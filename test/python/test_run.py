@@ -173,3 +173,18 @@ def test_a_long_run_shows_progress_on_a_terminal_only(camroller, tmp_path):
     assert b" of 901 cases" in seen
     logged = run(camroller, "run", deck, *COARSE, folder=tmp_path)
     assert " of 901 cases" not in logged.stderr.split("remarks")[0]
+
+
+def test_contacts_are_solved_over_the_cycle(camroller, tmp_path):
+    """Pressure and film across the contact; the pressure carries the load at every angle."""
+    path = tmp_path / "ehl.h5"
+    arguments = ["ehl", "decks/numerical_film.nml", "-o", path, "--set", "sweep.values_1=300", "--set", "sweep.values_2=60"]
+    result = subprocess.run([camroller, *map(str, arguments)], cwd=ROOT, capture_output=True, text=True, check=False)
+    assert result.returncode == 0, result.stderr
+    with h5py.File(path) as file:
+        group = file["ehl"]
+        pressure, x, width = group["pressure"][0], group["x"][0], group["half_width"][0]
+        load = numpy.trapezoid(pressure, x, axis=1) * width * 13.7e-3
+        # between the steps of the cycle pressure, width and load are linear, and their product is not
+        assert numpy.abs(load / group["load"][0] - 1).max() < 0.02
+        assert (group["film"][0].min(axis=1) <= 1.01 * group["film_min"][0]).all()

@@ -1,0 +1,51 @@
+#!/usr/bin/env python3
+"""Draw where each film formula can be trusted: formula over numerical film, across speeds and loads.
+
+Usage: post/ehl_map.py bench/tables/ehl_map.txt FIGURE.png
+"""
+
+from __future__ import annotations
+
+import sys
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+import numpy
+
+LAWS = ["Dowson-Higginson", "Pan-Hamrock", "Masjedi-Khonsari", "Moes"]
+LEVELS = [-0.5, -0.2, -0.1, -0.05, 0.05, 0.1, 0.2, 0.5]
+
+
+def draw(table: numpy.ndarray, path: str) -> None:
+    """One panel for each law and film."""
+    figure, axes = plt.subplots(2, 4, figsize=(13, 6.4), sharex=True, sharey=True, layout="constrained")
+    for row, film in enumerate(["smallest film", "central film"]):
+        for column, law in enumerate(LAWS):
+            off = table[:, 4 + 2 * column + row] - 1
+            axis = axes[row, column]
+            levels = [-1.0, *LEVELS, 1.0]
+            image = axis.tricontourf(numpy.log10(table[:, 0]), numpy.log10(table[:, 1]), off, levels=levels, extend="both",
+                                     cmap="RdBu_r", norm=matplotlib.colors.BoundaryNorm(levels, 256, extend="both"))
+            axis.set_title(f"{law}, {film}", fontsize=10)
+            if row:
+                axis.set_xlabel("log10 U")
+            if not column:
+                axis.set_ylabel("log10 W*")
+    figure.colorbar(image, ax=axes, label="formula over numerical film, less one", ticks=levels)
+    figure.savefig(path, dpi=90)
+
+
+def main(arguments=None) -> int:
+    """Command line; returns the exit code."""
+    words = sys.argv[1:] if arguments is None else arguments
+    if len(words) != 2:
+        print(__doc__, file=sys.stderr)
+        return 2
+    draw(numpy.loadtxt(words[0]), words[1])
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
