@@ -1,0 +1,248 @@
+"""Draw how a result answers to what a sweep varies.
+
+    python post/plot_sweep.py results/sweep.h5                              the figure that suits the sweep
+    python post/plot_sweep.py FILE --quantity mean_slip_ratio,max_peak_pressure --figure scatter --output doc/figures
+
+`map`: two swept keys as axes, the quantity as colour. `curves`: one key along the axis, the others as curves. `scatter`: every
+swept key against every quantity. `parallel`: an axis for each key and quantity, a line for each case, coloured by the last one.
+Without --figure a grid of two long keys becomes a map, other grids curves, samples and tables a scatter. Only the summary is
+read, so a file of a hundred thousand cases is drawn as well. Needs no display. Exit code 2 where the file does not suit.
+"""
+
+import argparse
+from pathlib import Path
+import sys
+
+import h5py
+import matplotlib
+
+matplotlib.use("Agg")
+matplotlib.rcParams.update({"font.size": 9.0, "axes.spines.top": False, "axes.spines.right": False})
+
+from matplotlib.figure import Figure  # noqa: E402
+import numpy as np  # noqa: E402
+
+FIGURES = ("map", "curves", "scatter", "parallel")
+QUANTITY = "mean_torque_drive"
+MOST_CURVES = 8
+MOST_LINES = 2000  # of parallel coordinates; of more cases evenly spread ones are drawn
+MOST_WORDS = 24  # values of a key that the axis of a map can name
+
+
+class SweepError(Exception):
+    """The file does not suit; the text says why in one line."""
+
+
+class Sweep:
+    """What varies in a file and what came of it: columns of numbers, with names of their values where they are words."""
+
+    def __init__(self, path, quantities):
+        self.keys, self.quantities, self.words = {}, {}, {}
+        try:
+            with h5py.File(path) as file:
+                for key, data in file["sweep"].items():
+                    self._add(self.keys, key, key.split(".")[-1], data)
+                for name in quantities:
+                    if name not in file["summary"]:
+                        near = [other for other in file["summary"] if name in other][:5]
+                        raise SweepError(f"{path} has no summary '{name}'" + (f"; there is {', '.join(near)}" if near else ""))
+                    self._add(self.quantities, name, name, file["summary"][name])
+                self.status = file["summary/status"][()]
+        except (OSError, KeyError) as error:
+            raise SweepError(f"{path} is no result of a sweep: {error}") from None
+        if not self.keys:
+            raise SweepError(f"nothing varies in {path}")
+
+    def _add(self, columns, name, label, data):
+        values = data[()]
+        if h5py.check_string_dtype(data.dtype):
+            self.words[name], values = np.unique([text.decode() for text in values], return_inverse=True)
+        unit = data.attrs.get("units", "")
+        unit = unit.decode() if isinstance(unit, bytes) else str(unit)
+        label = label.removesuffix("_" + unit).replace("_", " ")
+        columns[name] = (np.asarray(values, dtype=float), label if unit in ("", "1") else f"{label} [{unit}]")
+
+    def lengths(self):
+        """Number of different values of each key."""
+        return {key: len(np.unique(values)) for key, (values, _) in self.keys.items()}
+
+    def is_grid(self):
+        """Is every value there with every other?"""
+        return int(np.prod([float(n) for n in self.lengths().values()])) == len(self.status)
+
+    def column(self, name):
+        """Values and label of a key or a quantity."""
+        return self.keys.get(name) or self.quantities[name]
+
+    def label_value(self, key, value):
+        """A value of a key in words."""
+        return str(self.words[key][int(value)]) if key in self.words else f"{value:.4g}"
+
+
+def suitable_figure(sweep):
+    """The figure that suits the sweep."""
+    if not sweep.is_grid():
+        return "scatter"
+    long = [n for n in sweep.lengths().values() if n > MOST_CURVES]
+    return "map" if len(long) >= 2 else "curves"
+
+
+def draw_map(sweep):
+    """One map for each quantity; where more than two keys vary, the others have their first value."""
+    lengths = sweep.lengths()
+    if len(lengths) < 2 or not sweep.is_grid():
+        raise SweepError("a map needs a grid over two keys; see --figure")
+    first, second = sorted(sorted(lengths, key=lengths.get, reverse=True)[:2], key=list(lengths).index)
+    chosen = _where_others_are_first(sweep, (first, second))
+    x, y = sweep.keys[first][0][chosen], sweep.keys[second][0][chosen]
+    figure = Figure(figsize=(5.2 * len(sweep.quantities), 4.0), layout="constrained")
+    for axes, name in zip(_row(figure, len(sweep.quantities)), sweep.quantities):
+        values, label = sweep.quantities[name]
+        columns, i = np.unique(x, return_inverse=True)
+        rows, j = np.unique(y, return_inverse=True)
+        table = np.full((len(rows), len(columns)), np.nan)
+        table[j, i] = values[chosen]
+        image = axes.pcolormesh(columns, rows, np.ma.masked_invalid(table), shading="nearest", cmap="viridis")
+        axes.set_facecolor("#dddddd")  # cases without a result
+        figure.colorbar(image, ax=axes, label=label)
+        if len(rows) > 1 and len(columns) > 1 and np.isfinite(table).all() and np.ptp(table) > 0:
+            lines = axes.contour(columns, rows, table, colors="white", linewidths=0.6)
+            axes.clabel(lines, fontsize=7)
+        _name_axis(sweep, axes, "x", first)
+        _name_axis(sweep, axes, "y", second)
+    _note(figure, sweep, (first, second))
+    return figure
+
+
+def draw_curves(sweep):
+    """The longest key along the axis, the next one as curves; the others have their first value."""
+    if not sweep.is_grid():
+        raise SweepError("curves need a grid; see --figure")
+    lengths = sweep.lengths()
+    order = sorted(lengths, key=lengths.get, reverse=True)
+    axis, curve = order[0], (order[1] if len(order) > 1 else None)
+    chosen = _where_others_are_first(sweep, order[:2])
+    figure = Figure(figsize=(5.2 * len(sweep.quantities), 4.0), layout="constrained")
+    for axes, name in zip(_row(figure, len(sweep.quantities)), sweep.quantities):
+        values, label = sweep.quantities[name]
+        steps = np.unique(sweep.keys[curve][0]) if curve else [None]
+        steps = [steps[i] for i in np.unique(np.linspace(0, len(steps) - 1, MOST_CURVES).round().astype(int))]
+        for number, step in enumerate(steps):
+            here = chosen if step is None else chosen & (sweep.keys[curve][0] == step)
+            order_here = np.argsort(sweep.keys[axis][0][here], kind="stable")
+            axes.plot(sweep.keys[axis][0][here][order_here], values[here][order_here], marker="o", markersize=3,
+                      color=matplotlib.colormaps["viridis"](0.9 * number / max(1, len(steps) - 1)),
+                      label=None if step is None else sweep.label_value(curve, step))
+        axes.set_ylabel(label)
+        _name_axis(sweep, axes, "x", axis)
+        if curve:
+            axes.legend(title=sweep.keys[curve][1], fontsize=7, title_fontsize=7, frameon=False)
+    _note(figure, sweep, order[:2])
+    return figure
+
+
+def draw_scatter(sweep):
+    """Every key against every quantity."""
+    rows, columns = len(sweep.quantities), len(sweep.keys)
+    figure = Figure(figsize=(2.7 * columns + 0.6, 2.4 * rows + 0.4), layout="constrained")
+    grid = figure.subplots(rows, columns, squeeze=False, sharey="row", sharex="col")
+    size = float(np.clip(3e3 / len(sweep.status), 0.3, 12.0))
+    for i, name in enumerate(sweep.quantities):
+        for j, key in enumerate(sweep.keys):
+            axes = grid[i][j]
+            axes.scatter(sweep.keys[key][0], sweep.quantities[name][0], s=size, color="#08306b", linewidths=0,
+                         alpha=0.6, rasterized=True)
+            if i == rows - 1:
+                _name_axis(sweep, axes, "x", key)
+            if j == 0:
+                axes.set_ylabel(sweep.quantities[name][1])
+    _note(figure, sweep, sweep.keys)
+    return figure
+
+
+def draw_parallel(sweep):
+    """An axis for each key and quantity, scaled to its own range; a line for each case."""
+    names = [*sweep.keys, *sweep.quantities]
+    cases = np.flatnonzero(np.all([np.isfinite(sweep.column(name)[0]) for name in names], axis=0))
+    if not len(cases):
+        raise SweepError("no case has a result")
+    cases = cases[np.unique(np.linspace(0, len(cases) - 1, MOST_LINES).round().astype(int))]
+    scaled, ends = [], []
+    for name in names:
+        values = sweep.column(name)[0][cases]
+        low, high = values.min(), values.max()
+        ends.append((low, high))
+        scaled.append((values - low) / (high - low) if high > low else np.full(len(values), 0.5))
+    scaled = np.array(scaled)
+    figure = Figure(figsize=(1.6 * len(names) + 1.0, 4.2), layout="constrained")
+    axes = figure.subplots()
+    for line in np.argsort(scaled[-1], kind="stable"):
+        axes.plot(scaled[:, line], color=matplotlib.colormaps["viridis"](scaled[-1, line]), linewidth=0.5, alpha=0.5)
+    for place, (name, (low, high)) in enumerate(zip(names, ends)):
+        axes.axvline(place, color="black", linewidth=0.8)
+        for height, value, side in ((-0.02, low, "top"), (1.02, high, "bottom")):
+            axes.text(place, height, sweep.label_value(name, value), ha="center", va=side, fontsize=7)
+    labels = [sweep.column(name)[1].replace(" [", "\n[") for name in names]
+    axes.set_xticks(range(len(names)), labels, fontsize=7)
+    axes.tick_params(axis="x", length=0, pad=14)
+    axes.set_yticks([])
+    axes.set_ylim(-0.08, 1.08)
+    axes.spines[:].set_visible(False)
+    _note(figure, sweep, names)
+    return figure
+
+
+def _row(figure, count):
+    return figure.subplots(1, count, squeeze=False)[0]
+
+
+def _where_others_are_first(sweep, names):
+    chosen = np.ones(len(sweep.status), dtype=bool)
+    for key, (values, _) in sweep.keys.items():
+        if key not in names:
+            chosen &= values == values[0]
+    return chosen
+
+
+def _name_axis(sweep, axes, side, key):
+    getattr(axes, f"set_{side}label")(sweep.keys[key][1])
+    if key in sweep.words and len(sweep.words[key]) <= MOST_WORDS:
+        getattr(axes, f"set_{side}ticks")(range(len(sweep.words[key])), sweep.words[key], fontsize=7,
+                                          **({"rotation": 20, "ha": "right"} if side == "x" else {}))
+
+
+def _note(figure, sweep, shown):
+    """Values of the keys that are not shown, and cases without a result."""
+    words = [f"{label} = {sweep.label_value(key, values[0])}" for key, (values, label) in sweep.keys.items() if key not in shown]
+    failed = int(np.count_nonzero(sweep.status))
+    if failed:
+        words.append(f"{failed} of {len(sweep.status)} cases have no result")
+    if words:
+        figure.suptitle(", ".join(words), fontsize=8)
+
+
+def main(arguments=None):
+    """Command line; returns the exit code."""
+    parser = argparse.ArgumentParser(description="draw how a result answers to what a sweep varies")
+    parser.add_argument("file", type=Path)
+    parser.add_argument("--quantity", default=QUANTITY, help="names in /summary, separated by commas")
+    parser.add_argument("--figure", choices=FIGURES, help="what is drawn; what suits the sweep where not given")
+    parser.add_argument("--output", type=Path, help="folder; that of the file where not given")
+    parser.add_argument("--dpi", type=int, default=150)
+    options = parser.parse_args(arguments)
+    try:
+        sweep = Sweep(options.file, options.quantity.split(","))
+        name = options.figure or suitable_figure(sweep)
+        figure = {"map": draw_map, "curves": draw_curves, "scatter": draw_scatter, "parallel": draw_parallel}[name](sweep)
+    except SweepError as error:
+        print(f"plot_sweep: {error}", file=sys.stderr)
+        return 2
+    target = (options.output or options.file.parent) / f"{options.file.stem}_{name}.png"
+    target.parent.mkdir(parents=True, exist_ok=True)
+    figure.savefig(target, dpi=options.dpi)
+    print(target)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

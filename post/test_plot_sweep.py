@@ -1,0 +1,96 @@
+"""Figures of a sweep: which one suits, what is drawn of many keys, what is refused."""
+
+import h5py
+import numpy as np
+import pytest
+
+from plot_sweep import FIGURES, Sweep, draw_curves, draw_map, draw_parallel, draw_scatter, main, suitable_figure
+
+
+def write(path, columns, torque, status=None):
+    """A file with these swept columns and this torque."""
+    with h5py.File(path, "w") as file:
+        sweep = file.create_group("sweep", track_order=True)
+        for key, (values, unit) in columns.items():
+            data = sweep.create_dataset(key, data=values)
+            data.attrs["units"] = unit
+        file["summary/mean_torque_drive"] = torque
+        file["summary/mean_torque_drive"].attrs["units"] = "N m"
+        file["summary/status"] = np.zeros(len(torque), int) if status is None else status
+    return path
+
+
+@pytest.fixture(name="grid")
+def a_grid(tmp_path):
+    """A grid over speed, temperature and two laws, one case without a result."""
+    speed, temperature, law = (a.ravel() for a in np.meshgrid(np.linspace(300, 900, 10), np.linspace(40, 120, 9), [0, 1],
+                                                              indexing="ij"))
+    torque = speed / temperature + 10 * law
+    torque[4] = np.nan
+    laws = np.array(["moes", "pan_hamrock"], dtype=h5py.string_dtype())[law]
+    columns = {"operating_point.speed_rpm": (speed, "rpm"), "operating_point.oil_temperature_degC": (temperature, "degC"),
+               "film.law": (laws.astype(object), "1")}
+    return write(tmp_path / "grid.h5", columns, torque, np.isnan(torque).astype(int))
+
+
+@pytest.fixture(name="sample")
+def a_sample(tmp_path):
+    """A sample over two keys."""
+    points = np.random.default_rng(1).random((50, 2))
+    return write(tmp_path / "sample.h5", {"a.x_mm": (points[:, 0], "mm"), "a.y": (points[:, 1], "1")}, points.sum(axis=1))
+
+
+def test_a_figure_suits_the_sweep(grid, sample, tmp_path):
+    assert suitable_figure(Sweep(grid, ["mean_torque_drive"])) == "map"
+    assert suitable_figure(Sweep(sample, ["mean_torque_drive"])) == "scatter"
+    one = write(tmp_path / "one.h5", {"a.x": ([1.0, 2.0, 3.0], "1")}, [1.0, 2.0, 3.0])
+    assert suitable_figure(Sweep(one, ["mean_torque_drive"])) == "curves"
+
+
+def test_a_map_shows_the_longest_keys(grid):
+    figure = draw_map(Sweep(grid, ["mean_torque_drive"]))
+    axes = figure.axes[0]
+    assert axes.get_xlabel() == "speed [rpm]" and axes.get_ylabel() == "oil temperature [degC]"
+    table = axes.collections[0].get_array()
+    assert table.shape == (9, 10) and np.ma.count_masked(table) == 1
+    assert np.isclose(table[0, 0], 300 / 40) and np.isclose(table[8, 9], 900 / 120)
+    assert figure.get_suptitle() == "law = moes, 1 of 180 cases have no result"
+
+
+def test_curves_have_the_values_of_the_file(grid):
+    axes = draw_curves(Sweep(grid, ["mean_torque_drive"])).axes[0]
+    assert len(axes.lines) == 8
+    x, y = axes.lines[-1].get_data()
+    assert np.allclose(x, np.linspace(300, 900, 10)) and np.allclose(y, x / 120)
+
+
+def test_scatter_and_parallel_show_every_case(sample):
+    sweep = Sweep(sample, ["mean_torque_drive"])
+    figure = draw_scatter(sweep)
+    assert [axes.get_xlabel() for axes in figure.axes] == ["x [mm]", "y"]
+    assert all(len(axes.collections[0].get_offsets()) == 50 for axes in figure.axes)
+    lines = [line for line in draw_parallel(sweep).axes[0].lines if len(line.get_xdata()) == 3]
+    assert len(lines) == 50
+
+
+@pytest.mark.parametrize("figure", FIGURES)
+def test_every_figure_becomes_a_file(grid, tmp_path, figure, capsys):
+    assert main([str(grid), "--figure", figure, "--output", str(tmp_path / "out"), "--dpi", "40"]) == 0
+    assert capsys.readouterr().out.strip().endswith(f"grid_{figure}.png")
+    assert (tmp_path / f"out/grid_{figure}.png").stat().st_size > 1000
+
+
+@pytest.mark.parametrize(("arguments", "words"), [
+    (["--quantity", "torque_drive"], "there is mean_torque_drive"),
+    (["--figure", "map"], "a map needs a grid"),
+])
+def test_what_does_not_suit_is_told(sample, capsys, arguments, words):
+    assert main([str(sample), *arguments]) == 2
+    assert words in capsys.readouterr().err
+
+
+def test_what_is_no_sweep(tmp_path, capsys):
+    with h5py.File(tmp_path / "other.h5", "w") as file:
+        file["x"] = 1
+    assert main([str(tmp_path / "other.h5")]) == 2
+    assert "is no result of a sweep" in capsys.readouterr().err
