@@ -96,33 +96,39 @@ def main() -> int:
             file = (folder / "out.h5").stat().st_size
             print(f"{size:8} {processor:14.2f} {1e3 * processor / size:14.3f} {memory / 1024:17.1f} {file / 1e6:10.2f} {file / size:11.0f}",
                   flush=True)
-        share = outside_share(deck, folder)
+        share = outside_share(folder)
         if share is not None:
-            print(f"\nShare of the instructions outside the solver, with summaries: {100 * share:.1f} %")
+            print(f"\nInstructions outside the solver, with summaries: {100 * share:.1f} % of those of a further case")
     finally:
         shutil.rmtree(folder)
     return 0
 
 
-def outside_share(deck: pathlib.Path, folder: pathlib.Path) -> float | None:
-    """Part of the instructions of a sweep in one thread that is not spent in running cases, counted by valgrind."""
+def outside_share(folder: pathlib.Path) -> float | None:
+    """Part of the instructions of a further case of a sweep that is not spent in running it, counted by valgrind."""
     if not shutil.which("valgrind"):
         return None
-    few = write_deck(folder, 64)
+    (total, solver), (few_total, few_solver) = (count_instructions(write_deck(folder, cases), folder) for cases in (48, 16))
+    return 1 - (solver - few_solver) / (total - few_total)
+
+
+def count_instructions(deck: pathlib.Path, folder: pathlib.Path) -> tuple[int, int]:
+    """Instructions of a sweep in one thread, and those of them spent in running cases."""
     output = folder / "callgrind.out"
-    subprocess.run(["valgrind", "--tool=callgrind", "--cache-sim=no", f"--callgrind-out-file={output}",
-                    "--toggle-collect=main", *sweep(few, 1)], cwd=folder, env=ENVIRONMENT, check=True,
-                   stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    for path in folder.glob("out.h5*"):
+        path.unlink()
+    subprocess.run(["valgrind", "--tool=callgrind", f"--callgrind-out-file={output}", *sweep(deck, 1)], cwd=folder,
+                   env=ENVIRONMENT, check=False, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     text = subprocess.run(["callgrind_annotate", "--inclusive=yes", "--threshold=100", str(output)], capture_output=True, text=True,
                           check=True).stdout
-    total = solver = None
+    total = solver = 0
     for line in text.splitlines():
         count = line.strip().split(" ")[0].replace(",", "")
         if "PROGRAM TOTALS" in line:
             total = int(count)
-        if "__camroller_run_MOD_run_case" in line and solver is None:
+        if "__camroller_run_MOD_run_case" in line and not solver:
             solver = int(count)
-    return None if not total or not solver else 1 - solver / total
+    return total, solver
 
 
 if __name__ == "__main__":
