@@ -29,6 +29,8 @@ module camroller_effect_choice
    character(len=*), parameter :: fixed_step = "euler"
    !> Margin of the estimates over the changes that the look round the cycle finds [-]
    real(wp), parameter :: margin = 5.0_wp
+   !> Margin of the mean sliding speed, in which forward and backward sliding may cancel, over that of the others [-]
+   real(wp), parameter :: slip_margin = 3.0_wp
    !> Margin of the quasi-static limit, which may hide what happens between the angles [-]
    real(wp), parameter :: limit_margin = 50.0_wp
    !> A rough look decides where it finds so many times what is negligible [-]
@@ -249,7 +251,7 @@ contains
       end do
       decision%estimates(quantity_torque) = relative(change, torque)
       decision%estimates(quantity_film) = margin*responses(1)%film
-      decision%estimates(quantity_slip) = relative(responses(1)%sliding, sum(survey%sliding)/size(survey%sliding))
+      decision%estimates(quantity_slip) = relative(slip_margin*responses(1)%sliding, sum(survey%sliding)/size(survey%sliding))
       where (decision%estimates > largest_estimate) decision%estimates = huge(1.0_wp)
       if (decision%effect /= effect_spin) return
       where (decision%estimates > largest_estimate*(margin/limit_margin)**2) decision%estimates = huge(1.0_wp)
