@@ -64,6 +64,9 @@ module camroller_cycle
    !> Steps after which a method that stiffness does not slow down is given up: several times what a lift table of thousands of rows
    !> takes
    integer, parameter :: most_implicit_steps = 100000
+   !> Scale over the largest sliding speed of a cycle, above which the cycle is integrated again with that as its scale: a balance
+   !> that the roller's inertia keeps it from may be far away [-]
+   real(wp), parameter :: scale_excess = 10.0_wp
    !> Largest step [rad]
    real(wp), parameter :: largest_step = 30.0_wp*degree
 
@@ -85,14 +88,14 @@ contains
       type(options_t) :: options
       ! Stops within one turn [rad]
       real(wp), allocatable :: stops(:)
-      ! Sliding speed or surface speed; at the start of the cycle; scale of the sliding speed [m/s]
-      real(wp) :: state(1), first(1), scale
+      ! Sliding speed or surface speed; at the start of the cycle; scale of the sliding speed, the least one, largest met [m/s]
+      real(wp) :: state(1), first(1), scale, least, largest
       type(numerics_t) :: resolved
       integer :: turn, most_steps
 
       resolved = resolve_numerics(numerics)
       call find_stops(model, stops)
-      call choose_start(model, cycle%start, state(1), scale, cycle%counters%evaluations)
+      call choose_start(model, cycle%start, state(1), scale, least, cycle%counters%evaluations)
       if (resolved%method == quasi_static) then
          call check_mobilisation(model, error)
          if (allocated(error)) return
@@ -116,9 +119,13 @@ contains
          options%max_steps = most_steps + cycle%counters%accepted + cycle%counters%rejected
          call integrate_spin(cycle, problem, method, options, cycle%stops, state, error)
          if (allocated(error)) return
-         if (.not. cycle%has_surface_speed) scale = max(scale, maxval(abs(cycle%trajectory%state(1, :cycle%trajectory%count))))
-         cycle%closure = abs(state(1) - first(1))/scale
-         if (is_periodic(cycle, problem, resolved%periodicity)) then
+         largest = scale
+         if (.not. cycle%has_surface_speed) largest = max(least, maxval(abs(cycle%trajectory%state(1, :cycle%trajectory%count))))
+         cycle%closure = abs(state(1) - first(1))/largest
+         if (scale > scale_excess*largest .and. turn < resolved%max_cycles) then
+            scale = largest
+            call take_scale(scale, resolved%tolerance, problem, options)
+         else if (is_periodic(cycle, problem, resolved%periodicity)) then
             if (allocated(cycle%phases)) cycle%stops = cycle_stops([cycle%stops, cycle%phases%start], cycle%start)
             return
          end if
@@ -216,15 +223,29 @@ contains
       cycle%trajectory%is_linear = cycle%is_linear
       problem%model => model
       problem%has_surface_speed = cycle%has_surface_speed
-      problem%small_state = [scale]
       problem%accuracy = contact_accuracy*resolved%tolerance
       if (cycle%is_linear) problem%accuracy = 0.0_wp
-      options%tolerance = [step_part*resolved%tolerance*scale]
+      call take_scale(scale, resolved%tolerance, problem, options)
       options%step = numerics%step
       if (.not. cycle%is_linear) options%step = min(numerics%step, first_step)
       options%max_step = largest_step
       if (method%needs_jacobian) options%max_steps = most_implicit_steps
    end subroutine choose_method
+
+   !> Make tolerances relative to a scale of the sliding speed.
+   pure subroutine take_scale(scale, tolerance, problem, options)
+      !> Scale of the sliding speed [m/s]
+      real(wp), intent(in) :: scale
+      !> Tolerance of the cycle [-]
+      real(wp), intent(in) :: tolerance
+      !> The roller's spin
+      type(spin_problem_t), intent(inout) :: problem
+      !> Tolerance of a step
+      type(options_t), intent(inout) :: options
+
+      problem%small_state = [scale]
+      options%tolerance = [step_part*tolerance*scale]
+   end subroutine take_scale
 
    !> Refuse sticking and sliding with a method that cannot tell them apart.
    subroutine check_mobilisation(model, error)
@@ -293,15 +314,15 @@ contains
    end function run_up_stops
 
    !> Angle of fastest decay with the algebraic balance there, and the scale of the sliding speed.
-   subroutine choose_start(model, start, sliding_speed, scale, evaluations)
+   subroutine choose_start(model, start, sliding_speed, scale, least_scale, evaluations)
       !> The model
       type(model_t), intent(in) :: model
       !> Cam angle from full lift [rad]
       real(wp), intent(out) :: start
       !> Sliding speed there [m/s]
       real(wp), intent(out) :: sliding_speed
-      !> Largest sliding speed of the algebraic balance [m/s]
-      real(wp), intent(out) :: scale
+      !> Largest sliding speed of the algebraic balance; sliding speed below which there is as good as none [m/s]
+      real(wp), intent(out) :: scale, least_scale
       !> Evaluations of the contact, counted on
       integer, intent(inout) :: evaluations
 
@@ -332,7 +353,8 @@ contains
             sliding_speed = balance
          end if
       end do
-      scale = max(scale, least_slip*largest_rolling)
+      least_scale = least_slip*largest_rolling
+      scale = max(scale, least_scale)
       if (.not. fastest >= 0.0_wp) return
       tolerance = start_tolerance*max(abs(rolling_speed_at_angle(model, start)), scale)
       call follow_balance(model, start, tolerance, position, sliding_speed, decay_rate, evaluations, is_found)

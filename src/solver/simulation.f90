@@ -66,8 +66,8 @@ contains
 
       type(model_t), allocatable :: models(:)
       type(position_t) :: position
-      ! Sliding speed [m/s]; decay rate [1/rad]; an angle that is not needed [rad]
-      real(wp) :: sliding_speed, decay_rate, unused
+      ! Sliding speed, least scale of it [m/s]; decay rate [1/rad]; an angle that is not needed [rad]
+      real(wp) :: sliding_speed, least_scale, decay_rate, unused
       integer :: evaluations
       logical :: is_found
 
@@ -77,7 +77,7 @@ contains
       simulation%numerics = case%numerics
       simulation%angle = cam_angle
       evaluations = 0
-      call choose_start(simulation%model, unused, sliding_speed, simulation%scale, evaluations)
+      call choose_start(simulation%model, unused, sliding_speed, simulation%scale, least_scale, evaluations)
       call find_balance(simulation%model, cam_angle - pi, balance_tolerance, position, sliding_speed, decay_rate, is_found)
       simulation%roller_spin = (rolling_speed_at(simulation%model, position) - sliding_speed)/simulation%model%roller_radius
    end subroutine start_simulation

@@ -245,7 +245,7 @@ contains
       type(cycle_t) :: cycle, piece
       ! Stops [rad], sliding speeds [m/s], their scale [m/s], spin [rad/s]
       real(wp), allocatable :: stops(:)
-      real(wp) :: periodic(1), reached(1), scale, spin, angle, sliding_speed
+      real(wp) :: periodic(1), reached(1), scale, least, spin, angle, sliding_speed
       integer :: i, hint
 
       call get_case("roller_started_backwards", case, error)
@@ -259,7 +259,7 @@ contains
          call integrate_cycle(cycle, models(1), case%numerics, failure)
          if (allocated(failure)) exit
          hint = 0
-         call choose_start(models(1), angle, sliding_speed, scale, hint)
+         call choose_start(models(1), angle, sliding_speed, scale, least, hint)
          spin = -models(1)%speed
          call integrate_between(piece, models(1), case%numerics, stops, scale, spin, failure)
          if (allocated(failure)) exit
