@@ -10,6 +10,7 @@ module camroller_ode
    use camroller_error, only : error_t, raise, kind_convergence
    use camroller_ode_problem, only : problem_t, linear_t, counters_t, new_linear, copy_linear
    use camroller_trajectory, only : trajectory_t, start_trajectory, append_point, append_curve
+   use camroller_step_checks, only : check_saturation, check_end
    implicit none
    private
 
@@ -95,8 +96,6 @@ module camroller_ode
    real(wp), parameter :: max_growth = 5.0_wp, max_shrinkage = 0.2_wp
    !> Error over tolerance below which smaller ones make no difference [-]
    real(wp), parameter :: least_error = 1.0e-4_wp
-   !> Departure from the linear rate over span and size of the rate, up to which a step is taken to have seen a saturation [-]
-   real(wp), parameter :: largest_departure = 0.5_wp
    !> Fewest steps, shared out evenly between the segments: what happens within a segment shows between its ends only, and a
    !> method may look at nothing but the ends of its steps
    integer, parameter :: fewest_steps = 32
@@ -389,47 +388,15 @@ contains
       end if
       if (status == 0 .and. scaled_error <= 1.0_wp .and. method%needs_jacobian) then
          if (method%here%span < huge(1.0_wp)) then
-            call check_saturation(method, this_step, state, rate, new_state, new_rate, estimate, scaled_error)
+            call check_saturation(method%here, method%there, method%error_order, this_step, rate, new_state - state, new_rate, &
+               & estimate, scaled_error)
+         end if
+         if (method%has_curve .and. new_time < finish) then
+            call check_end(method%there, method%bends, method%tolerance, this_step, new_state - state, new_rate, scaled_error)
          end if
       end if
       status = min(status, 0)
    end subroutine try_checked_step
-
-   !> Raise the error of a step that crosses a range of the state within which the rate saturates, without seeing it.
-   !>
-   !> Two signs: an error of the state that the Jacobian turns into more than the allowed error of the rate, and a rate at
-   !> the end that is far from the linear one. Without them a step may jump from one side of a narrow range to the other,
-   !> again and again.
-   pure subroutine check_saturation(method, step, state, rate, new_state, new_rate, estimate, scaled_error)
-      !> The method with the derivatives at both ends of the step
-      class(method_t), intent(in) :: method
-      !> Size of the step [time]
-      real(wp), intent(in) :: step
-      !> State and rate at the start [state, state/time]
-      real(wp), intent(in) :: state(:), rate(:)
-      !> State and rate at the end [state, state/time]
-      real(wp), intent(in) :: new_state(:), new_rate(:)
-      !> Error of the step [state]
-      real(wp), intent(in) :: estimate(:)
-      !> Error over tolerance [-]
-      real(wp), intent(inout) :: scaled_error
-
-      ! Departure from the linear rate, error of the rate, and size of the rates [state/time]
-      real(wp) :: departure, error, span
-      integer :: i
-
-      span = method%here%span
-      if (method%there%span < huge(1.0_wp)) span = max(span, method%there%span)
-      do i = 1, size(state)
-         associate (row => method%here%jacobian(i, :), size_of_rate => span + abs(rate(i)) + abs(new_rate(i)))
-            if (.not. size_of_rate > 0.0_wp) cycle
-            departure = new_rate(i) - rate(i) - sum(row*(new_state - state)) - method%here%time_slope(i)*step
-            error = sum(row*estimate)
-            scaled_error = max(scaled_error, abs(error)/(method%here%resolution*size_of_rate), &
-               & (abs(departure)/(largest_departure*size_of_rate))**method%error_order)
-         end associate
-      end do
-   end subroutine check_saturation
 
    !> Proposal for the next step after an accepted one: proportional-integral control.
    !>

@@ -290,7 +290,7 @@ contains
                film_ratio = film_ratio*(1.0_wp + change)
                ! A film that carries next to nothing must not come out as carrying less
                asperity_load = max(0.0_wp, min(load - film_load - film_load_slope*change, load))
-               shape%central = exp(logs(2))*(1.0_wp + shape%central_load_slope*film_load_slope/film_load*change)
+               shape%central = central_at(logs, log_ratio + change + log_roughness, shape)
                return
             end if
          end if
@@ -311,9 +311,28 @@ contains
       end do
       change = 0.0_wp
       film_ratio = high
-      if (has_film) shape%central = exp(logs(2))
+      if (has_film) shape%central = central_at(logs, log(film_ratio) + log_roughness, shape)
       call asperity_load_function(film_ratio, value, slope)
       asperity_load = max(0.0_wp, min(capacity*value, load))
    end subroutine share_with_asperities
+
+   !> Central film that goes with a minimum film.
+   !>
+   !> Where asperities carry nearly all, the load of the film is a difference of two large numbers and mostly rounding; the minimum
+   !> film is not, and it holds the same load.
+   pure function central_at(logs, log_minimum, shape) result(central)
+      !> Logarithms of minimum and central film at a load nearby, of the minimum film in question [-]
+      real(wp), intent(in) :: logs(2), log_minimum
+      !> Slopes at that load
+      type(film_shape_t), intent(in) :: shape
+      !> Central film over equivalent radius [-]
+      real(wp) :: central
+
+      central = logs(2)
+      if (abs(shape%minimum_load_slope) > 0.0_wp) then
+         central = central + shape%central_load_slope/shape%minimum_load_slope*(log_minimum - logs(1))
+      end if
+      central = exp(central)
+   end function central_at
 
 end module camroller_load_share

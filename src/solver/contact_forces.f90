@@ -223,7 +223,7 @@ contains
       contact%film_min = parts%share%film_min*position%equivalent_radius
       contact%film_central = parts%share%film_central*position%equivalent_radius
       contact%film_ratio = contact%film_min/model%roughness
-      contact%asperity_load = max(0.0_wp, parts%share%asperity_load)*setting%scale
+      contact%asperity_load = min(max(0.0_wp, parts%share%asperity_load)*setting%scale, load)
       contact%real_area = parts%share%real_area_ratio*contact%apparent_area
       call set_traction(model, setting, contact, parts)
 

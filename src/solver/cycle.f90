@@ -45,6 +45,8 @@ module camroller_cycle
       integer :: cycles = 0
       !> Difference of the sliding speed between end and start, relative to its largest value [-]
       real(wp) :: closure = 0.0_wp
+      !> Largest sliding speed, or what counts as none where that is less [m/s]
+      real(wp) :: scale = 0.0_wp
       !> Distance of the start from the periodic cycle, relative to the largest sliding speed [-]
       real(wp) :: distance = 0.0_wp
    end type cycle_t
@@ -121,6 +123,7 @@ contains
          if (allocated(error)) return
          largest = scale
          if (.not. cycle%has_surface_speed) largest = max(least, maxval(abs(cycle%trajectory%state(1, :cycle%trajectory%count))))
+         cycle%scale = largest
          cycle%closure = abs(state(1) - first(1))/largest
          if (scale > scale_excess*largest .and. turn < resolved%max_cycles) then
             scale = largest
@@ -381,6 +384,7 @@ contains
       real(wp) :: inside, value(1), force
       ! Mobilised part of the boundary friction [-]
       real(wp) :: share
+      character(len=16) :: buffer
       integer :: status
 
       inside = cycle%start + modulo(angle - cycle%start, two_pi)
@@ -400,7 +404,11 @@ contains
       else
          call evaluate_state(model, inside, value(1), state, status)
       end if
-      if (status /= 0) call raise(error, kind_convergence, "load and friction of the contact have no common solution")
+      if (status /= 0) then
+         write (buffer, "(f0.3)") modulo(180.0_wp + angle/degree, 360.0_wp)
+         call raise(error, kind_convergence, "load and friction of the contact have no common solution at cam angle "// &
+            & trim(buffer)//" deg")
+      end if
    end subroutine state_at
 
 end module camroller_cycle

@@ -15,10 +15,10 @@ module camroller_error_estimate
 
    !> Most points of a rule in an interval
    integer, parameter :: most_points = 3
-   !> Parts into which an interval is cut
-   integer, parameter :: parts = 4
-   !> The estimate is of first order; true errors were met at up to twice as much [-]
-   real(wp), parameter :: margin = 6.0_wp
+   !> Places that cut an interval into parts [-]: shorter ones at its ends, where the defect of a stiff method is largest
+   real(wp), parameter :: cuts(*) = [0.0_wp, 0.02_wp, 0.1_wp, 0.3_wp, 0.5_wp, 0.7_wp, 0.9_wp, 1.0_wp]
+   !> The estimate is of first order; true errors were met at up to 1.25 times as much [-]
+   real(wp), parameter :: margin = 2.0_wp
 
    !> The estimate on its way round the cycle
    type :: estimate_t
@@ -50,30 +50,45 @@ contains
 
    !> Carry the error over an interval.
    !>
-   !> Defect and decay rate are taken as the parabolas, or lines, through their points. Each part keeps the integral of the defect
-   !> where the decay is slow and the quotient of defect and decay rate where it is fast.
-   pure subroutine end_interval(estimate, nodes, length)
+   !> The defect is taken as the polynomial through its points, the decay rate as changing by the same factor over the same length
+   !> between them, since it may span decades. Each part keeps the integral of the defect where the decay is slow and the quotient
+   !> of defect and decay rate where it is fast.
+   pure subroutine end_interval(estimate, nodes, length, ends)
       !> The estimate; its points are used up
       type(estimate_t), intent(inout) :: estimate
       !> Places of the points in the interval, in order [-]
       real(wp), intent(in) :: nodes(:)
       !> Length of the interval [rad]
       real(wp), intent(in) :: length
+      !> Defects at its start and at its end [m/s/rad], where the points are inside and these are known
+      real(wp), intent(in), optional :: ends(2)
 
-      ! Defect at start, middle and end of a part [m/s/rad]; decay over it, what it leaves, its mean weight [-]
-      real(wp) :: defects(3), decay, left, weight
-      integer :: part, i
+      ! Places [-] and defects [m/s/rad] that are known
+      real(wp) :: places(size(nodes) + 2), values(size(nodes) + 2)
+      ! Defect at start, middle and end of a part [m/s/rad]; its length over the interval [-]; decay over it, what it leaves, its
+      ! mean weight [-]
+      real(wp) :: defects(3), part, decay, left, weight
+      integer :: i, j, known
 
+      known = size(nodes)
+      places(:known) = nodes
+      values(:known) = estimate%defects(:known)
+      if (present(ends)) then
+         places(known + 1:) = [0.0_wp, 1.0_wp]
+         values(known + 1:) = ends
+         known = known + 2
+      end if
       estimate%points = 0
-      do part = 1, parts
-         do i = 0, 2
-            defects(i + 1) = value_at(nodes, estimate%defects(:size(nodes)), (part - 1 + 0.5_wp*i)/parts)
+      do i = 1, size(cuts) - 1
+         part = cuts(i + 1) - cuts(i)
+         do j = 0, 2
+            defects(j + 1) = value_at(places(:known), values(:known), cuts(i) + 0.5_wp*j*part)
          end do
-         decay = max(0.0_wp, value_at(nodes, estimate%rates(:size(nodes)), (part - 0.5_wp)/parts))*length/parts
+         decay = rate_at(nodes, estimate%rates(:size(nodes)), cuts(i) + 0.5_wp*part)*length*part
          left = exp(-decay)
          weight = 1.0_wp
          if (decay > epsilon(1.0_wp)) weight = (1.0_wp - left)/decay
-         estimate%error = left*estimate%error + length/parts*(weight*defects(2) &
+         estimate%error = left*estimate%error + length*part*(weight*defects(2) &
             & + left*(defects(1) - 2.0_wp*defects(2) + defects(3))/6.0_wp)
          estimate%contraction = estimate%contraction*left
          estimate%largest = max(estimate%largest, abs(estimate%error))
@@ -91,7 +106,30 @@ contains
          & + abs(estimate%error)*estimate%contraction/max(1.0_wp - estimate%contraction, epsilon(1.0_wp)))
    end function estimated_error
 
-   !> Value of the polynomial through two or three points.
+   !> Decay rate between two or three points, constant beyond them.
+   pure function rate_at(nodes, rates, place) result(rate)
+      !> Places of the points, in order [-]
+      real(wp), intent(in) :: nodes(:)
+      !> Decay rates there, not negative [1/rad]
+      real(wp), intent(in) :: rates(:)
+      !> Place looked for [-]
+      real(wp), intent(in) :: place
+      !> Decay rate there [1/rad]
+      real(wp) :: rate
+
+      ! Place between two points [-]
+      real(wp) :: part
+      integer :: i
+
+      i = 1
+      do while (i < size(nodes) - 1 .and. place > nodes(i + 1))
+         i = i + 1
+      end do
+      part = min(1.0_wp, max(0.0_wp, (place - nodes(i))/(nodes(i + 1) - nodes(i))))
+      rate = max(rates(i), tiny(1.0_wp))**(1.0_wp - part)*max(rates(i + 1), tiny(1.0_wp))**part
+   end function rate_at
+
+   !> Value of the polynomial through some points.
    pure function value_at(nodes, values, place) result(value)
       !> Places of the points [-]
       real(wp), intent(in) :: nodes(:)

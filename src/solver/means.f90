@@ -8,8 +8,8 @@ module camroller_means
    use camroller_error, only : error_t
    use camroller_case, only : case_t
    use camroller_model, only : model_t
-   use camroller_state, only : state_t
-   use camroller_contact_forces, only : film_groups
+   use camroller_state, only : state_t, evaluate_spin
+   use camroller_contact_forces, only : contact_t, film_groups
    use camroller_film, only : is_in_range
    use camroller_cycle, only : cycle_t, state_at
    use camroller_catalogue, only : series_values, follower_torques, torque_count
@@ -87,13 +87,42 @@ contains
          if (allocated(error)) return
          if (estimate%points < size(nodes)) cycle
          associate (first => (point - 1)/size(nodes) + 1)
-            call end_interval(estimate, nodes, cycle%trajectory%time(first + 1) - cycle%trajectory%time(first))
+            call close_interval(cycle, first, nodes, estimate)
          end associate
       end do
       ! What start and end differ by comes again in every cycle that the periodic one is away
       statistics%error = cycle%closure/max(1.0_wp - estimate%contraction, epsilon(1.0_wp)) &
-         & + estimated_error(estimate)/max(statistics%largest_sliding, tiny(1.0_wp))
+         & + estimated_error(estimate)/max(statistics%largest_sliding, cycle%scale, tiny(1.0_wp))
    end subroutine integrate_lobe
+
+   !> Carry the estimate of the error over an interval, with the defects at its ends where the rates of the equation are kept there.
+   pure subroutine close_interval(cycle, interval, nodes, estimate)
+      !> Cycle of the lobe
+      type(cycle_t), intent(in) :: cycle
+      !> Interval of its trajectory
+      integer, intent(in) :: interval
+      !> Places of the points in it [-]
+      real(wp), intent(in) :: nodes(:)
+      !> The estimate
+      type(estimate_t), intent(inout) :: estimate
+
+      ! Slope at an end [m/s/rad], defects at both [m/s/rad]
+      real(wp) :: slope(1), ends(2)
+      integer :: i
+
+      associate (trajectory => cycle%trajectory, &
+         & length => cycle%trajectory%time(interval + 1) - cycle%trajectory%time(interval))
+         if (cycle%is_linear .or. allocated(cycle%phases) .or. .not. length > 0.0_wp) then
+            call end_interval(estimate, nodes, length)
+            return
+         end if
+         do i = 0, 1
+            call curve_slope(trajectory, trajectory%time(interval + i), interval, slope)
+            ends(i + 1) = slope(1) - trajectory%rate(1, interval + i)
+         end do
+         call end_interval(estimate, nodes, length, ends)
+      end associate
+   end subroutine close_interval
 
    !> Mean torques of a follower over a cycle or a piece of one.
    subroutine integrate_torques(model, cycle, torques, error)
@@ -177,8 +206,8 @@ contains
       type(error_t), allocatable, intent(out) :: error
 
       type(state_t) :: state
-      ! Values of the series [unit of the series]; torques [N m]
-      real(wp) :: values(size(statistics%mean)), torques(torque_count)
+      ! Values of the series [unit of the series]; torques [N m]; defect [m/s/rad]; decay rate [1/rad]
+      real(wp) :: values(size(statistics%mean)), torques(torque_count), defect, decay_rate
 
       call state_at(cycle, model, angle, hint, state, error)
       if (allocated(error)) return
@@ -189,7 +218,10 @@ contains
       statistics%highest = max(statistics%highest, values)
       statistics%torques = statistics%torques + weight*torques
       statistics%largest_sliding = max(statistics%largest_sliding, abs(state%contact%sliding_speed))
-      call add_defect(estimate, defect_at(model, cycle, angle, hint, state), decay_rate_of(model, state%contact))
+      defect = defect_at(model, cycle, angle, hint, state)
+      decay_rate = decay_rate_of(model, state%contact)
+      if (.not. (cycle%is_linear .or. allocated(cycle%phases))) call weaken_decay(model, state, defect, decay_rate)
+      call add_defect(estimate, defect, decay_rate)
       if (.not. state%contact%is_touching) statistics%lost_share = statistics%lost_share + weight
       if (.not. has_film_in_range(model, state)) then
          if (statistics%outside_share <= 0.0_wp) statistics%first_outside = angle
@@ -220,6 +252,47 @@ contains
       if (.not. cycle%has_surface_speed) rate = rolling_speed_slope(model, state%position) - rate
       defect = slope(1) - rate
    end function defect_at
+
+   !> Decay rate over the distance that a defect would move the sliding speed, where it is less than at the point itself.
+   !>
+   !> Traction saturates: what decays fast at the sliding speed of the curve may hardly decay at the right one, and a roller that
+   !> the curve takes as held by friction may have broken away.
+   pure subroutine weaken_decay(model, state, defect, decay_rate)
+      !> Model of the lobe
+      type(model_t), intent(in) :: model
+      !> State on the curve
+      type(state_t), intent(in) :: state
+      !> Defect there [m/s/rad]
+      real(wp), intent(in) :: defect
+      !> Decay rate, in: at the point; out: over the distance [1/rad]
+      real(wp), intent(inout) :: decay_rate
+
+      ! Part of a decay rate that is as good as all of it; evaluations at most
+      real(wp), parameter :: good_part = 0.5_wp
+      integer, parameter :: most = 12
+      ! Part of the traction that may be rounding [-]
+      real(wp), parameter :: rounding = 1.0e-9_wp
+      type(contact_t) :: contact
+      ! Distance [m/s]; acceleration of the roller [rad/s^2]; decay rate over the distance [1/rad]
+      real(wp) :: distance, acceleration, secant
+      integer :: i, status
+
+      if (.not. state%contact%is_touching) return
+      if (abs(defect) <= rounding*(abs(state%contact%shear) + state%contact%boundary_capacity)*model%roller_radius**2 &
+         & /(model%roller_inertia*model%speed)) return
+      do i = 1, most
+         if (.not. decay_rate > 0.0_wp) return
+         distance = -defect/decay_rate
+         if (.not. abs(distance) > 4.0_wp*spacing(state%contact%sliding_speed)) return
+         if (abs(distance) > abs(state%contact%rolling_speed)) return
+         call evaluate_spin(model, state%position, state%moments, state%contact%sliding_speed + distance, contact, &
+            & acceleration, status)
+         if (status /= 0) return
+         secant = model%roller_radius*(acceleration - state%spin_acceleration)/(model%speed*distance)
+         if (secant >= good_part*decay_rate) return
+         decay_rate = max(secant, 0.0_wp)
+      end do
+   end subroutine weaken_decay
 
    !> Is the film law inside its published range? True where there is no contact.
    pure function has_film_in_range(model, state) result(inside)

@@ -11,7 +11,7 @@ module cycle_checks
    implicit none
    private
 
-   public :: sample_t, take_sample, compare_samples, difference
+   public :: sample_t, take_sample, compare_samples, difference, few_changes, least_slip
 
    !> Points at which a cycle is looked at: every half degree, off the places where kinks are likely
    integer, parameter :: points = 720
@@ -21,7 +21,7 @@ module cycle_checks
    !> ten terms of which each has some roundings [-]
    real(wp), parameter :: energy_tolerance = 200.0_wp*epsilon(1.0_wp)
    !> Changes of sign of an error that is no chatter
-   real(wp), parameter :: few = 40.0_wp
+   real(wp), parameter :: few_changes = 40.0_wp
    !> Sliding speed that counts as none, over the speed of pure rolling [-]: what the integration takes as the least scale
    real(wp), parameter :: least_slip = 1.0e-5_wp
 
@@ -87,7 +87,6 @@ contains
       type(error_t), allocatable :: error
       ! Largest energy left over and largest sum of powers [W], smallest and largest numbers that must be possible
       real(wp) :: residual, power
-      character(len=12) :: buffer
       integer :: i, hint
 
       hint = 1
@@ -97,8 +96,7 @@ contains
       do i = 1, points
          call state_at(cycle, model, -pi + (i - offset)*two_pi/points, hint, state, error)
          if (allocated(error)) then
-            write (buffer, "(f0.2)") 180.0_wp + (-pi + (i - offset)*two_pi/points)*180.0_wp/pi
-            sample%trouble = error%message//" at cam angle "//trim(buffer)
+            sample%trouble = error%message
             return
          end if
          if (.not. is_possible(state)) sample%trouble = "a state has a number that cannot be"
@@ -159,7 +157,7 @@ contains
       if (.not. found <= allowed) then
          write (buffer, "(a, es9.2, a, es9.2)") "sliding speeds differ by", found, " of the largest, allowed are", allowed
          trouble = trim(buffer)
-      else if (.not. variation(one) <= variation(other)*(1.0_wp + found) + few*found) then
+      else if (.not. variation(one) <= variation(other)*(1.0_wp + found) + few_changes*found) then
          trouble = "the sliding speed chatters"
       end if
    end function compare_samples

@@ -1,30 +1,40 @@
-!> Cases drawn at random: whatever has a geometry has a cycle, and two unlike methods find the same one.
+!> Cases drawn at random: whatever has a geometry has a cycle, and two unlike methods find the same one, or an error or a remark
+!> says that it could not be found.
 !>
 !> The environment variables RANDOM_CASES and RANDOM_SEED choose how many and which; `make random` sets them.
 module test_random_cases
+   use, intrinsic :: iso_fortran_env, only : compiler_options, error_unit
    use testdrive, only : new_unittest, unittest_type, error_type, test_failed
    use camroller_kinds, only : wp
    use camroller_error, only : error_t, kind_domain, kind_deck
-   use camroller_case, only : case_t
+   use camroller_case, only : case_t, automatic_method
    use camroller_model, only : model_t
-   use camroller_run, only : build_models
+   use camroller_result, only : result_t, get_series, get_summary
+   use camroller_run, only : build_models, run_case
    use camroller_deck, only : deck_t, override_t, parse_deck, make_case
-   use cycle_checks, only : sample_t, take_sample, compare_samples
+   use cycle_checks, only : sample_t, take_sample, few_changes, least_slip
    use random_decks, only : random_t, start_random, random_deck
    implicit none
    private
 
    public :: collect_random_cases
 
-   !> Cases of a test run, and the seed of the first
-   integer, parameter :: usual_cases = 5, usual_seed = 1
-   !> Tolerance of both methods [-]
-   real(wp), parameter :: tolerance = 1.0e-4_wp
+   !> Cases of a test run with and without run-time checks, and the seed of the first
+   integer, parameter :: usual_cases = 500, few_cases = 40, usual_seed = 1
+   !> Accuracy asked for, tolerance of the cycle whose states are looked at [-]
+   real(wp), parameter :: accuracy = 1.0e-3_wp, tolerance = 1.0e-4_wp
    !> Part of the decks drawn that must have a geometry, lest nothing is tested [-]
    real(wp), parameter :: least_share = 0.2_wp
-   !> Part of the cases that may end with an error that names the cam angle: where a sharp limit of traction meets a slip below what
-   !> the smallest step can resolve [-]
-   real(wp), parameter :: ended_share = 0.02_wp
+   !> Part of the cases that may end with an error that names the cam angle, and that may have a remark on an accuracy that was not
+   !> reached: where a sharp limit of traction meets a slip below what the smallest step can resolve [-]
+   real(wp), parameter :: ended_share = 0.03_wp, remarked_share = 0.03_wp
+
+   !> What came of a case
+   type :: outcome_t
+      logical :: is_possible = .true., has_ended = .false., has_remark = .false.
+      !> What is wrong; blank where all is well
+      character(len=:), allocatable :: trouble
+   end type outcome_t
 
 contains
 
@@ -38,41 +48,52 @@ contains
 
    subroutine test_random(error)
       type(error_type), allocatable, intent(out) :: error
-      ! Failures that are shown
-      integer, parameter :: shown = 3
+      ! Failures that are shown; cases between two lines of progress
+      integer, parameter :: shown = 3, stride = 1000
       type(random_t) :: random
-      character(len=:), allocatable :: text, trouble, list
-      character(len=12) :: buffer
-      integer :: seed, last, tested, drawn, failures, ended
-      logical :: is_possible, has_ended
+      type(outcome_t) :: outcome
+      character(len=:), allocatable :: text, list
+      character(len=100) :: buffer
+      integer :: seed, last, tested, drawn, failures, ended, remarked
 
       seed = number_from("RANDOM_SEED", usual_seed)
-      last = number_from("RANDOM_CASES", usual_cases)
+      last = number_from("RANDOM_CASES", merge(few_cases, usual_cases, has_checks()))
       list = ""
       tested = 0
       drawn = 0
       failures = 0
       ended = 0
+      remarked = 0
       do while (tested < last .and. failures < shown)
          call start_random(random, seed + drawn)
          drawn = drawn + 1
          call random_deck(random, text)
-         call check_deck(text, is_possible, has_ended, trouble)
-         if (is_possible) tested = tested + 1
-         if (has_ended) then
-            ended = ended + 1
-            if (ended <= max(1, int(ended_share*last)) .and. index(trouble, "at cam angle") > 0) cycle
-         end if
-         if (trouble /= "") then
+         call check_deck(text, outcome)
+         if (outcome%is_possible) tested = tested + 1
+         if (outcome%has_remark) remarked = remarked + 1
+         if (outcome%has_ended) ended = ended + 1
+         if (outcome%trouble /= "") then
             failures = failures + 1
             write (buffer, "(i0)") seed + drawn - 1
-            list = list//new_line("a")//"RANDOM_SEED="//trim(buffer)//": "//trouble//new_line("a")//text
+            list = list//new_line("a")//"RANDOM_SEED="//trim(buffer)//": "//outcome%trouble//new_line("a")//text
          end if
+         write (buffer, "(4(i0, a))") tested, " cases of ", drawn, " decks: ", ended, " ended with an error, ", remarked, &
+            & " with a remark"
+         if (outcome%is_possible .and. modulo(tested, stride) == 0) write (error_unit, "(a)") trim(buffer)
          if (drawn > 100 .and. tested < least_share*drawn) list = list//"too few decks have a geometry"
          if (drawn > 100 .and. tested < least_share*drawn) exit
       end do
+      write (error_unit, "(2a)") "   ", trim(buffer)
+      if (ended > 1 + ended_share*tested .or. remarked > 1 + remarked_share*tested) list = list//trim(buffer)
       if (list /= "") call test_failed(error, list)
    end subroutine test_random
+
+   !> Is this a build with run-time checks, in which a case takes ten times as long? The compiler's options say so.
+   pure function has_checks()
+      logical :: has_checks
+
+      has_checks = index(compiler_options(), "-fcheck=all") > 0
+   end function has_checks
 
    !> A whole number from the environment, or the usual one.
    function number_from(variable, usual) result(number)
@@ -87,43 +108,81 @@ contains
       if (status /= 0) number = usual
    end function number_from
 
-   !> One deck: no geometry, or a cycle by two methods that agree.
-   subroutine check_deck(text, is_possible, has_ended, trouble)
+   !> One deck: no geometry, or a cycle by two methods that agree, or words that say why not.
+   subroutine check_deck(text, outcome)
       character(len=*), intent(in) :: text
-      logical, intent(out) :: is_possible, has_ended
-      character(len=:), allocatable, intent(out) :: trouble
+      type(outcome_t), intent(out) :: outcome
       type(deck_t) :: deck
       type(override_t) :: none(0)
       type(case_t) :: case
       type(model_t), allocatable :: models(:)
       type(error_t), allocatable :: error
-      type(sample_t) :: one, other
+      type(result_t) :: one, other
+      type(sample_t) :: sample
 
-      trouble = ""
-      is_possible = .true.
-      has_ended = .false.
+      outcome%trouble = ""
       call parse_deck(deck, text, "random deck", "", none, error)
       if (.not. allocated(error)) call make_case(deck, none, case, error)
       if (allocated(error)) then
-         trouble = error%message
+         outcome%trouble = error%message
          return
       end if
       call build_models(case, models, error)
       if (allocated(error)) then
-         is_possible = .false.
-         if (error%kind /= kind_domain .and. error%kind /= kind_deck) trouble = error%message
+         outcome%is_possible = .false.
+         if (error%kind /= kind_domain .and. error%kind /= kind_deck) outcome%trouble = error%message
          return
       end if
-      call take_sample(models(1), case%numerics, "rodas5p", tolerance, one)
-      trouble = one%trouble
-      has_ended = one%has_ended
-      if (trouble == "") call take_sample(models(1), case%numerics, "hermite", tolerance, other)
-      if (trouble == "") then
-         trouble = other%trouble
-         has_ended = other%has_ended
+      case%numerics%accuracy = accuracy
+      call run_case(case, one, error)
+      case%numerics%method = "rodas5p"
+      if (.not. allocated(error)) call run_case(case, other, error)
+      if (allocated(error)) then
+         outcome%has_ended = .true.
+         if (index(error%message, "at cam angle") == 0) outcome%trouble = error%message
+         return
       end if
-      if (trouble == "") trouble = compare_samples(one, other)
-      if (trouble == "") trouble = compare_samples(other, one)
+      call compare_results(one, other, outcome)
+      if (outcome%trouble /= "" .or. outcome%has_remark) return
+      call take_sample(models(1), case%numerics, automatic_method, tolerance, sample)
+      outcome%has_ended = sample%has_ended
+      if (.not. (sample%has_ended .and. index(sample%trouble, "at cam angle") > 0)) outcome%trouble = sample%trouble
    end subroutine check_deck
+
+   !> Do two results agree within what they promise, and does neither chatter?
+   subroutine compare_results(one, other, outcome)
+      type(result_t), intent(in) :: one, other
+      type(outcome_t), intent(inout) :: outcome
+      type(error_t), allocatable :: error
+      ! Sliding speeds and rolling speed [m/s]; errors estimated [-], scale [m/s], difference [-]
+      real(wp), allocatable :: first(:), second(:), rolling(:)
+      real(wp) :: estimates(2), scale, found
+      character(len=80) :: buffer
+
+      call get_series(one, "sliding_speed", first, error)
+      call get_series(other, "sliding_speed", second, error)
+      call get_series(one, "rolling_speed", rolling, error)
+      call get_summary(one, "estimated_error", estimates(1), error)
+      call get_summary(other, "estimated_error", estimates(2), error)
+      outcome%has_remark = index(one%warnings//other%warnings, "the accuracy asked for was not reached") > 0
+      if (outcome%has_remark .neqv. any(estimates > accuracy)) outcome%trouble = "remark and estimate do not agree"
+      scale = max(maxval(abs(first)), maxval(abs(second)), least_slip*maxval(abs(rolling)))
+      found = maxval(abs(first - second))/scale
+      if (.not. found <= sum(max(estimates, accuracy))) then
+         write (buffer, "(a, es9.2, a, 2es9.2)") "sliding speeds differ by", found, " of the largest, estimated are", estimates
+         outcome%trouble = trim(buffer)
+      else if (abs(variation(first) - variation(second)) > scale*few_changes*found) then
+         outcome%trouble = "the sliding speed chatters"
+      end if
+   end subroutine compare_results
+
+   !> Sum of all changes.
+   pure function variation(values)
+      ! [m/s]
+      real(wp), intent(in) :: values(:)
+      real(wp) :: variation
+
+      variation = sum(abs(values(2:) - values(:size(values) - 1)))
+   end function variation
 
 end module test_random_cases
