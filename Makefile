@@ -2,7 +2,7 @@
 
 SHELL := /bin/bash
 .DEFAULT_GOAL := help
-.PHONY: help setup commit build debug mpi run comparison test quick random needed study audit check check-layers check-style \
+.PHONY: help setup commit build debug mpi run comparison test quick bless random needed study audit check check-layers check-style \
   check-format check-lint check-warnings format bench bench-effects clean distclean
 
 FPM := .venv/bin/fpm
@@ -71,8 +71,8 @@ test: build debug mpi ## all tests, with run-time checks and optimised
 random: commit ## cases drawn at random by two methods, optimised: CASES=20000 SEED=1; failures print a deck
 	@RANDOM_CASES=$(or $(CASES),20000) RANDOM_SEED=$(or $(SEED),1) $(FPM) test --flag "$(RELEASE_FLAGS)" -- random_cases
 
-needed: commit ## effects that are left out against what they change, for random cases, optimised: CASES=300 SEED=1
-	@NEEDED_CASES=$(or $(CASES),300) NEEDED_SEED=$(or $(SEED),1) $(FPM) test --flag "$(RELEASE_FLAGS)" -- needed
+.PHONY: help setup commit build debug run comparison test quick bless random needed study check check-layers check-style check-format \
+  check-lint \
 
 quick: commit ## Fortran tests with run-time checks; choose with SUITE=film TEST="..."
 	@$(FPM) test --flag "$(DEBUG_FLAGS)" -- $(SUITE) $(if $(TEST),"$(TEST)")

@@ -391,7 +391,7 @@ contains
             call check_saturation(method%here, method%there, method%error_order, this_step, rate, new_state - state, new_rate, &
                & estimate, scaled_error)
          end if
-         if (method%has_curve .and. new_time < finish) then
+         if (method%has_curve .and. new_time < finish .and. .not. is_fixed(method, options)) then
             call check_end(method%there, method%bends, method%tolerance, this_step, new_state - state, new_rate, scaled_error)
          end if
       end if

@@ -267,7 +267,7 @@ contains
       !> Decay rate, in: at the point; out: over the distance [1/rad]
       real(wp), intent(inout) :: decay_rate
 
-      ! Part of a decay rate that is as good as all of it; evaluations at most
+      ! Part of a decay rate that is as good as all of it [-]; evaluations at most
       real(wp), parameter :: good_part = 0.5_wp
       integer, parameter :: most = 12
       ! Part of the traction that may be rounding [-]

@@ -48,8 +48,8 @@ contains
 
    subroutine test_random(error)
       type(error_type), allocatable, intent(out) :: error
-      ! Failures that are shown; cases between two lines of progress
-      integer, parameter :: shown = 3, stride = 1000
+      ! Failures that are shown; cases between two lines of progress; errors or remarks that are no large share
+      integer, parameter :: shown = 3, stride = 1000, few = 3
       type(random_t) :: random
       type(outcome_t) :: outcome
       character(len=:), allocatable :: text, list
@@ -84,7 +84,7 @@ contains
          if (drawn > 100 .and. tested < least_share*drawn) exit
       end do
       write (error_unit, "(2a)") "   ", trim(buffer)
-      if (ended > 1 + ended_share*tested .or. remarked > 1 + remarked_share*tested) list = list//trim(buffer)
+      if (ended > few + ended_share*tested .or. remarked > few + remarked_share*tested) list = list//trim(buffer)
       if (list /= "") call test_failed(error, list)
    end subroutine test_random
 
