@@ -25,7 +25,8 @@ def made_up(tmp_path):
                              "tolerance": 2 * [1e-2, 1e-4, nan, nan], "step": 2 * [nan, nan, 0.1, 1.0],
                              "error_sliding_speed": [1e-2, 1e-4, 1e-1, 9.0, 4e-2, 4e-4, 1e-1, nan],
                              "variation": [1.0, 1.0, 1.01, 7.0, 1.0, 1.0, 1.0, nan],
-                             "time": [1e-3, 4e-3, 1e-2, 1e-3, 1e-3, 4e-3, 1e-2, nan]}.items():
+                             "time": [1e-3, 4e-3, 1e-2, 1e-3, 1e-3, 4e-3, 1e-2, nan],
+                             "evaluations": [10.0, 40.0, 100.0, 10.0, 40.0, 40.0, 100.0, nan]}.items():
             methods[name] = np.array(values)
     return tmp_path / "made_study.h5"
 
@@ -33,7 +34,7 @@ def made_up(tmp_path):
 def test_curves_are_geometric_means_over_cases_that_are_all_fine(path):
     found = curves(read_study(path)["methods"])
     assert list(found) == ["rodas5p", "euler"]
-    assert np.allclose(found["rodas5p"], [[2e-2, 1e-3], [2e-4, 4e-3]])
+    assert np.allclose(found["rodas5p"], [[2e-2, 1e-3, 20.0], [2e-4, 4e-3, 40.0]])
     assert len(found["euler"]) == 1
     assert time_for(found["rodas5p"], 1e-3) == pytest.approx(4e-3)
     assert np.isnan(time_for(found["rodas5p"], 1e-6))

@@ -9,10 +9,12 @@ module camroller_accuracy
    implicit none
    private
 
-   public :: resolve_numerics, is_checked, refine_tolerance, way_out, most_refinements
+   public :: resolve_numerics, is_checked, refine_tolerance, way_out, most_refinements, second_method
 
    !> Method with the least work for errors from 1e-2 to 1e-8, or near it
    character(len=*), parameter :: chosen_method = "hermite"
+   !> Method that takes over where that one fails and none is named: slower, and hardly ever at a loss
+   character(len=*), parameter :: second_method = "rodas5p"
    !> Method without error control
    character(len=*), parameter :: fixed_method = "euler"
    !> Tolerance over accuracy: errors of the chosen method stay within twice the tolerance, estimates near ten times [-]

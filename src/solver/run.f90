@@ -4,8 +4,9 @@
 module camroller_run
    use camroller_kinds, only : wp
    use camroller_error, only : error_t, raise, add_context, kind_convergence
-   use camroller_accuracy, only : is_checked, most_refinements, refine_tolerance, resolve_numerics, way_out
-   use camroller_case, only : case_t, numerics_t
+   use camroller_accuracy, only : is_checked, most_refinements, refine_tolerance, resolve_numerics, &
+      & second_method, way_out
+   use camroller_case, only : case_t, numerics_t, automatic_method
    use camroller_kept_models, only : kept_models_t, keep_models, recall_models
    use camroller_model, only : model_t, new_model, revise_model
    use camroller_effect_choice, only : wants_choice, choose_effects
@@ -90,8 +91,8 @@ contains
    !> Run a case with all its effects.
    !>
    !> Where the estimated error is above the accuracy asked for, the cycles are integrated again with a smaller tolerance; so they
-   !> are, once, with another one where they could not be integrated. What a later try cannot do leaves the result of an earlier
-   !> one, with a remark; without any figure that is right there is no result.
+   !> are with another method and another tolerance where they could not be. What a later try cannot do leaves the result of an
+   !> earlier one, with a remark; without any figure that is right there is no result.
    subroutine run_listed(case, models, result, error)
       !> The case
       type(case_t), intent(in) :: case
@@ -109,7 +110,7 @@ contains
       ! Estimated error, tolerance of the next try, smallest tolerance that may work [-]
       real(wp) :: estimate, other, least
       integer :: attempt
-      logical :: has_result
+      logical :: has_result, has_way_out
 
       numerics = resolve_numerics(case%numerics)
       if (.not. is_checked(case%numerics)) then
@@ -117,14 +118,13 @@ contains
          return
       end if
       has_result = .false.
+      has_way_out = .false.
       least = 0.0_wp
       do attempt = 0, most_refinements
          call run_models(case, models, numerics, latest, error)
          if (allocated(error)) then
-            if (has_result .or. attempt > 0 .or. error%kind /= kind_convergence) exit
-            other = way_out(numerics%tolerance)
-            if (other > numerics%tolerance) least = few*numerics%tolerance
-            numerics%tolerance = other
+            if (has_result .or. has_way_out .or. error%kind /= kind_convergence) exit
+            call take_way_out(case%numerics, numerics, least, has_way_out)
             cycle
          end if
          result = latest
@@ -139,6 +139,32 @@ contains
       if (allocated(error)) deallocate (error)
       call judge(result, estimate, error)
    end subroutine run_listed
+
+   !> Numerics for another try where a cycle could not be integrated: another method, unless one is named, then another tolerance.
+   pure subroutine take_way_out(given, numerics, least, has_way_out)
+      !> Numerics as given
+      type(numerics_t), intent(in) :: given
+      !> Numerics of the try that failed; out: of the next
+      type(numerics_t), intent(inout) :: numerics
+      !> Smallest tolerance that may work [-]
+      real(wp), intent(inout) :: least
+      !> Is this the last resort?
+      logical, intent(out) :: has_way_out
+
+      ! Distance from a tolerance that was too small [-]
+      real(wp), parameter :: few = 10.0_wp
+      ! Tolerance of the next try [-]
+      real(wp) :: other
+
+      has_way_out = given%method /= automatic_method .or. numerics%method == second_method
+      if (.not. has_way_out) then
+         numerics%method = second_method
+         return
+      end if
+      other = way_out(numerics%tolerance)
+      if (other > numerics%tolerance) least = few*numerics%tolerance
+      numerics%tolerance = other
+   end subroutine take_way_out
 
    !> Integrate all lobe shapes and make the result.
    subroutine run_models(case, models, numerics, result, error)
