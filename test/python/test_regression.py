@@ -10,13 +10,14 @@ import pytest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 TABLE = ROOT / "test/data/regression.csv"
-DECKS = sorted(path.stem for path in (ROOT / "decks").glob("*.nml"))
+# A film by numerical solution takes as long as all others together and has tests of its own; as printed, the spring is too weak, and
+# rounding decides after how many cycles without contact the roller is periodic
+DECKS = sorted(path.stem for path in (ROOT / "decks").glob("*.nml") if path.stem not in ("numerical_film", "thesis_as_printed"))
 RESULTS = ("mean_torque_drive", "mean_torque_friction", "mean_torque_contact", "min_film_thickness_min",
            "max_hertz_pressure", "max_sliding_speed", "revolution_slip")
 COUNTERS = ("counter_evaluations", "counter_steps", "counter_rejected", "counter_cycles")
-# Five times what the build with run-time checks and the optimised one differ by: rounding alone for results that the solution
-# gives directly, and for the slip, a small difference that carries the error of the integration
-RELATIVE = 1e-7
+# Five times what the build with run-time checks and the optimised one differ by at most, in the largest sliding speed
+RELATIVE = 1.2e-6
 # Rounding can decide whether a step is taken
 COUNTS = 0.02
 HEADER = """# Key results and counters of the decks in `decks`, one row a quantity and case, in the units of result files.
