@@ -56,7 +56,7 @@ study: build ## what accuracy costs on decks/thesis.nml: tables and figures of d
 	@mkdir -p results
 	build/release/bin/camroller study decks/thesis.nml -o results/thesis_study.h5 > results/thesis_study.txt
 	cp results/thesis_study.txt doc/accuracy_tables.txt
-	$(PYTHON) post/plot_study.py results/thesis_study.h5 --output doc/figures
+	$(PYTHON) post/plot_study.py results/thesis_study.h5 --output doc/figures --name thesis
 
 audit: build ## what each effect of decks/thesis.nml is worth and costs: tables and figure of doc/effects.md, half a minute
 	@mkdir -p results
