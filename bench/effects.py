@@ -15,7 +15,7 @@ they replace. The number of calls of everything else follows the number of steps
 counts as much as one costs without the effect. What is left is the price of asking for the effect in shared procedures, and of
 the same procedure taking another path.
 
-Counted is the computation (`run_case`); reading the deck and writing the file are counted apart, and for the first claim too.
+Counted is the computation (`run_next_case`); reading the deck and writing the file are counted apart, and for the first claim too.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ import sys
 
 #: Modules of each effect, and procedures of shared modules that belong to it alone
 EFFECTS = {
-    "asperity": (["asperity", "greenwood_tripp"], ["load_share:improve_share", "load_share:share_with_asperities",
+    "asperity": (["asperity", "greenwood_tripp"], ["load_share:improve_share", "load_share:share_change", "load_share:share_with_asperities",
                                                    "load_share:complete_share", "traction:mobilised_share"]),
     "needle_bearing": (["needle"], []),
     "valve_guide": (["guide"], []),
@@ -40,7 +40,7 @@ EFFECTS = {
 #: Groups that are of no use without an effect
 USELESS_WITHOUT = {"cam_bearings": ["second_lift"]}
 #: The computation
-ROOT = "__camroller_run_MOD_run_case"
+ROOT = "__camroller_run_MOD_run_next_case"
 #: Part of the instructions that may be unaccounted for
 ALLOWED = 0.01
 
