@@ -399,7 +399,8 @@ contains
          & default=standard%numerics%step)
       call add_number(schema, "periodicity", up_to(1.0_wp), &
          & "largest difference between start and end of the reported "// &
-         & "cycle, relative to the largest sliding speed, beside a tolerance; without one it is 0.01 accuracy", &
+         & "cycle, relative to the largest sliding speed, beside a tolerance, a tenth of which is enough; "// &
+         & "without one it is 0.01 accuracy", &
          & default=standard%numerics%periodicity)
       call add_integer(schema, "max_cycles", one_or_more, &
          & "cycles after which a case that is not periodic is given up", &

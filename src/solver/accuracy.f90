@@ -27,6 +27,9 @@ module camroller_accuracy
    real(wp), parameter :: near_rounding = 1.0e-9_wp
    !> Periodicity over accuracy: where the spin is hardly damped, what is left comes again in each of many cycles [-]
    real(wp), parameter :: periodicity_share = 0.01_wp
+   !> Least periodicity over a tolerance given by hand: a cycle that is begun a little differently takes other steps, which moves
+   !> its end by some hundredths of the tolerance, so that no cycle need ever close more closely [-]
+   real(wp), parameter :: least_periodicity_share = 0.1_wp
    !> Times that a cycle is integrated again
    integer, parameter :: most_refinements = 4
 
@@ -42,7 +45,11 @@ contains
       resolved = numerics
       if (resolved%method == automatic_method) resolved%method = chosen_method
       if (.not. numerics%tolerance > 0.0_wp) resolved%tolerance = max(least_tolerance, tolerance_share*numerics%accuracy)
-      if (is_checked(numerics)) resolved%periodicity = max(least_tolerance, periodicity_share*numerics%accuracy)
+      if (is_checked(numerics)) then
+         resolved%periodicity = max(least_tolerance, periodicity_share*numerics%accuracy)
+      else
+         resolved%periodicity = max(numerics%periodicity, least_periodicity_share*numerics%tolerance)
+      end if
    end function resolve_numerics
 
    !> Is the error to be held below the accuracy? Not where tolerance or step are given by hand.

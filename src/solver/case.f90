@@ -74,8 +74,8 @@ module camroller_case
       real(wp) :: tolerance = 0.0_wp
       !> Cam angle of a step [rad]; method `euler`
       real(wp) :: step = degree
-      !> Largest difference between start and end of the reported cycle, relative to the largest sliding speed, beside a tolerance;
-      !> follows from the accuracy without one [-]
+      !> Largest difference between start and end of the reported cycle, relative to the largest sliding speed, beside a tolerance,
+      !> a tenth of which is enough; follows from the accuracy without one [-]
       real(wp) :: periodicity = 1.0e-6_wp
       !> Cycles after which a case that is not periodic is given up
       integer :: max_cycles = 20

@@ -39,6 +39,8 @@ module camroller_means
       real(wp) :: largest_sliding = 0.0_wp
       !> Estimate of the error of the sliding speed over its largest value [-]
       real(wp) :: error = 0.0_wp
+      !> Cam angle from full lift at the end of the interval where that error is largest [rad]
+      real(wp) :: error_angle = 0.0_wp
    end type statistics_t
 
    !> Three-point Gauss-Legendre quadrature on [0, 1]: nodes and weights [-]
@@ -72,6 +74,8 @@ contains
       ! Places of the rule in an interval [-]
       real(wp), allocatable :: nodes(:)
       type(estimate_t) :: estimate
+      ! Largest error so far [m/s]
+      real(wp) :: largest
       integer :: point, hint
 
       allocate (statistics%mean(series_count), statistics%lowest(series_count), statistics%highest(series_count))
@@ -87,7 +91,9 @@ contains
          if (allocated(error)) return
          if (estimate%points < size(nodes)) cycle
          associate (first => (point - 1)/size(nodes) + 1)
+            largest = estimate%largest
             call close_interval(cycle, first, nodes, estimate)
+            if (estimate%largest > largest) statistics%error_angle = angles(point)
          end associate
       end do
       ! What start and end differ by comes again in every cycle that the periodic one is away

@@ -199,12 +199,18 @@ contains
       !> Convergence error
       type(error_t), allocatable, intent(out) :: error
 
-      character(len=12) :: buffer
+      ! Cam angle where the estimate is largest [deg]
+      real(wp) :: angle
+      character(len=12) :: buffer, place
 
       write (buffer, "(es9.1e3)") estimate
       if (estimate >= 1.0_wp) then
-         call raise(error, kind_convergence, "the cycle did not become periodic: hardly anything damps the roller's spin, and "// &
-            & "the estimated error is "//trim(adjustl(buffer))//" of the sliding speed")
+         call get_summary(result, "estimated_error_angle", angle, error)
+         if (allocated(error)) return
+         write (place, "(f7.3)") angle
+         call raise(error, kind_convergence, "the cycle was not found: its estimated error is "//trim(adjustl(buffer))// &
+            & " of the sliding speed, largest at cam angle "//trim(adjustl(place))//" deg; the spin is hardly damped there, or "// &
+            & "friction gives way at once")
          return
       end if
       if (len(result%warnings) > 0) result%warnings = result%warnings//new_line("a")

@@ -2,7 +2,7 @@
 !>
 !> Layer: solver. In: statistics of the cycles. Out: the named scalars of `result_t`.
 module camroller_summary
-   use camroller_kinds, only : wp, two_pi
+   use camroller_kinds, only : wp, two_pi, degree
    use camroller_case, only : case_t, energy_names
    use camroller_model, only : model_t
    use camroller_state, only : state_t
@@ -18,7 +18,7 @@ module camroller_summary
    public :: make_summary
 
    !> Scalars that do not belong to a series: room for them
-   integer, parameter :: more_scalars = 40
+   integer, parameter :: more_scalars = 41
 
 contains
 
@@ -42,7 +42,7 @@ contains
       type(quantity_t), allocatable :: quantities(:)
       ! Values of the scalars [unit of the scalar]; means of the series [unit of the series]
       real(wp), allocatable :: values(:), means(:)
-      integer :: count
+      integer :: count, worst
 
       allocate (quantities(3*size(result%series) + more_scalars), values(3*size(result%series) + more_scalars))
       count = 0
@@ -53,6 +53,9 @@ contains
       call add_margins(models(1), statistics(1), result, quantities, values, count)
       call add(quantities, values, count, "estimated_error", "1", &
          & "estimate of the largest error of the sliding speed over its largest value", "numerics", maxval(statistics%error))
+      worst = maxloc(statistics%error, 1)
+      call add(quantities, values, count, "estimated_error_angle", "deg", "cam angle where the estimated error is largest", &
+         & "numerics", 180.0_wp + statistics(worst)%error_angle/degree)
       call add_counters(cycles, quantities, values, count)
       result%summary = quantities(:count)
       result%summary_values = values(:count)

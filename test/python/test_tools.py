@@ -42,13 +42,13 @@ def test_set_up_repeats_without_work():
 
 
 def run_set_up(folder, apt_get=None):
-    """Run the set-up on a machine without gfortran, with the given text as apt-get."""
+    """Run the set-up on a machine without gfortran but with MPI, with the given text as apt-get."""
     for name in ("bash", "dirname", "env", "tr", "sed", "head", "tail", "mkdir", "git", "make", "gcc", "pkg-config"):
         found = subprocess.run(["bash", "-c", f"command -v {name}"], capture_output=True, text=True, check=False).stdout
         if found.strip():
             (folder / name).symlink_to(pathlib.Path(found.strip()))
     (folder / "python3").symlink_to(pathlib.Path(sys.executable).resolve())
-    scripts = {"id": "echo 0", "apt-get": apt_get}
+    scripts = {"id": "echo 0", "apt-get": apt_get, "mpifort": "", "mpirun": ""}
     for name, text in scripts.items():
         if text is not None:
             (folder / name).write_text(f"#!{folder}/bash\n{text}\n", encoding="utf-8")

@@ -4,6 +4,7 @@ module cycle_checks
    use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
    use camroller_kinds, only : wp, pi, two_pi
    use camroller_error, only : error_t
+   use camroller_accuracy, only : resolve_numerics
    use camroller_case, only : numerics_t
    use camroller_model, only : model_t
    use camroller_cycle, only : cycle_t, integrate_cycle, state_at
@@ -54,7 +55,7 @@ contains
       !> The sample
       type(sample_t), intent(out) :: sample
 
-      type(numerics_t) :: changed
+      type(numerics_t) :: changed, wanted
       type(cycle_t) :: cycle
       type(error_t), allocatable :: error
 
@@ -69,7 +70,8 @@ contains
          return
       end if
       sample%error_bound = tolerance*cycle%counters%accepted
-      if (.not. cycle%closure <= changed%periodicity) sample%trouble = "the cycle is not periodic"
+      wanted = resolve_numerics(changed)
+      if (.not. cycle%closure <= wanted%periodicity) sample%trouble = "the cycle is not periodic"
       call look_at_states(model, cycle, sample)
       if (sample%trouble /= "") sample%trouble = trim(method)//": "//sample%trouble
    end subroutine take_sample
