@@ -103,8 +103,6 @@ contains
       !> What went wrong, of any kind
       type(error_t), allocatable, intent(out) :: error
 
-      ! Distance from a tolerance that was too small [-]
-      real(wp), parameter :: few = 10.0_wp
       type(numerics_t) :: numerics
       type(result_t) :: latest
       ! Estimated error, tolerance of the next try, smallest tolerance that may work [-]
