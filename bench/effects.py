@@ -29,7 +29,7 @@ import sys
 
 #: Modules of each effect, and procedures of shared modules that belong to it alone
 EFFECTS = {
-    "asperity": (["asperity", "greenwood_tripp"], ["load_share:improve_share", "load_share:share_change", "load_share:share_with_asperities",
+    "asperity": (["asperity", "greenwood_tripp"], ["load_share:improve_share", "load_share:share_with_asperities",
                                                    "load_share:complete_share", "traction:mobilised_share"]),
     "needle_bearing": (["needle"], []),
     "valve_guide": (["guide"], []),
