@@ -71,8 +71,11 @@ test: build debug mpi ## all tests, with run-time checks and optimised
 random: commit ## cases drawn at random by two methods, optimised: CASES=20000 SEED=1; failures print a deck
 	@RANDOM_CASES=$(or $(CASES),20000) RANDOM_SEED=$(or $(SEED),1) $(FPM) test --flag "$(RELEASE_FLAGS)" -- random_cases
 
-.PHONY: help setup commit build debug run comparison test quick bless random needed study check check-layers check-style check-format \
-  check-lint \
+needed: commit ## effects that are left out against what they change, for random cases, optimised: CASES=300 SEED=1
+	@NEEDED_CASES=$(or $(CASES),300) NEEDED_SEED=$(or $(SEED),1) $(FPM) test --flag "$(RELEASE_FLAGS)" -- needed
+
+bless: build ## take key results and counters of the decks as they are: the table that test_regression.py compares with
+	@BLESS=1 $(PYTHON) -m pytest -q test/python/test_regression.py
 
 quick: commit ## Fortran tests with run-time checks; choose with SUITE=film TEST="..."
 	@$(FPM) test --flag "$(DEBUG_FLAGS)" -- $(SUITE) $(if $(TEST),"$(TEST)")
