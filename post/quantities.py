@@ -31,13 +31,13 @@ CURVES = {
     "entrainment": Curve("entrainment speed", "entrainment_speed", "m/s"),
     "film": Curve("minimum film", "film_thickness_min", "um", scale="log"),
     "friction": Curve("contact friction", "friction_contact", "N"),
-    "asperity_share": Curve("asperity share", "asperity_friction_share", "%"),
+    "boundary_share": Curve("boundary part of friction", "asperity_friction_share", "%"),
     "rolling": Curve("rolling friction", "friction_rolling", "N", whole_cycle=True),
     "slip": Curve("slip ratio", "slip_ratio", "%", whole_cycle=True, scale="log"),
     "friction_torque": Curve("friction torque", "torque_friction", "N m"),
     "total_torque": Curve("drive torque", "torque_drive", "N m"),
 }
-OVERVIEW = ["load", "entrainment", "film", "friction", "asperity_share", "rolling", "slip", "total_torque"]
+OVERVIEW = ["load", "entrainment", "film", "friction", "boundary_share", "rolling", "slip", "total_torque"]
 # Summary name, words, colour, hatch
 SOURCES = [("mean_torque_contact", "cam/roller contact", "#08306b", ""),
            ("mean_torque_bearings", "cam bearings", "#d55e00", "///"),

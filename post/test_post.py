@@ -245,9 +245,9 @@ def test_each_format_is_written_and_the_same_twice(nine, tmp_path, kind, start):
 
 def test_figures_without_their_series_are_skipped_and_named(tmp_path, capsys, monkeypatch):
     path = write_result(tmp_path / "smooth.h5", without=("asperity_friction_share", "torque_guide"))
-    monkeypatch.setattr(plot, "FIGURES", ["overview", "asperity_share", "mean_torque"])
+    monkeypatch.setattr(plot, "FIGURES", ["overview", "boundary_share", "mean_torque"])
     assert main([str(path)]) == 0
-    assert "asperity_share: skipped, no asperity_friction_share in the file" in capsys.readouterr().out
+    assert "boundary_share: skipped, no asperity_friction_share in the file" in capsys.readouterr().out
     assert drawn_files(tmp_path) == ["smooth_mean_torque.png", "smooth_overview.png"]
 
 

@@ -3,7 +3,7 @@
 !> Layer: io. In: a path, names inside the file. Out: numbers, texts, names of members; errors as values that tell a
 !> missing file, a file of another format and a damaged file apart. Shapes are Fortran's, as in `camroller_hdf5_file`.
 module camroller_hdf5_read
-   use, intrinsic :: iso_c_binding, only : c_associated, c_char, c_f_pointer, c_loc, c_null_ptr, c_ptr, c_size_t
+   use, intrinsic :: iso_c_binding, only : c_associated, c_loc, c_null_ptr, c_ptr
    use hdf5, only : hid_t, hsize_t, h5aclose_f, h5aexists_f, h5aopen_f, h5aread_f, h5dclose_f, h5dget_space_f, &
       & h5dget_type_f, h5dopen_f, h5dread_f, h5dvlen_reclaim_f, h5fis_hdf5_f, h5fopen_f, h5gclose_f, h5gget_info_f, &
       & h5gopen_f, h5lexists_f, h5lget_name_by_idx_f, h5oclose_f, h5oopen_f, h5sclose_f, h5sget_simple_extent_dims_f, &
@@ -14,6 +14,7 @@ module camroller_hdf5_read
    use camroller_error, only : error_t, raise, kind_file
    use camroller_hdf5_status, only : raise_hdf5, start_hdf5
    use camroller_hdf5_object, only : hdf5_object_t, open_space, open_text_type
+   use camroller_system_file, only : text_at_address
    implicit none
    private
 
@@ -22,14 +23,6 @@ module camroller_hdf5_read
 
    !> Longest name of a member that can be listed
    integer, parameter :: member_length = 128
-
-   interface
-      function c_strlen(text) bind(C, name="strlen") result(length)
-         import :: c_ptr, c_size_t
-         type(c_ptr), value :: text
-         integer(c_size_t) :: length
-      end function c_strlen
-   end interface
 
 contains
 
@@ -346,18 +339,13 @@ contains
       !> The copy
       character(len=:), allocatable, intent(out) :: text
 
-      character(kind=c_char), pointer :: letters(:)
       type(c_ptr) :: buffer
       integer(hid_t) :: space
-      integer :: i, ignored
+      integer :: ignored
 
       text = ""
       if (.not. c_associated(address(1))) return
-      call c_f_pointer(address(1), letters, [c_strlen(address(1))])
-      text = repeat(" ", size(letters))
-      do i = 1, size(letters)
-         text(i:i) = letters(i)
-      end do
+      text = text_at_address(address(1))
       call open_space([1], space, ignored)
       buffer = c_loc(address)
       call h5dvlen_reclaim_f(text_type, space, h5p_default_f, buffer, ignored)

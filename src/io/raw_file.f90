@@ -8,7 +8,7 @@ module camroller_raw_file
    use, intrinsic :: iso_fortran_env, only : int64
    use camroller_error, only : error_t, raise, kind_file
    use camroller_mistakes, only : line_t
-   use camroller_system_file, only : set_file_size, sync_descriptor, system_words
+   use camroller_system_file, only : set_file_size, sync_descriptor, system_words, text_at_address
    implicit none
    private
 
@@ -105,12 +105,6 @@ module camroller_raw_file
          import :: glob_t
          type(glob_t), intent(inout) :: found
       end subroutine c_globfree
-
-      function c_strlen(text) bind(C, name="strlen") result(length)
-         import :: c_ptr, c_size_t
-         type(c_ptr), value :: text
-         integer(c_size_t) :: length
-      end function c_strlen
    end interface
 
 contains
@@ -255,9 +249,8 @@ contains
 
       type(glob_t) :: found
       type(c_ptr), pointer :: addresses(:)
-      character(kind=c_char), pointer :: letters(:)
       character(len=:), allocatable :: pattern
-      integer :: i, j
+      integer :: i
 
       pattern = ""
       do i = 1, len(beginning)
@@ -270,11 +263,7 @@ contains
       if (size(paths) == 0) return
       call c_f_pointer(found%paths, addresses, [found%count])
       do i = 1, size(paths)
-         call c_f_pointer(addresses(i), letters, [c_strlen(addresses(i))])
-         paths(i)%text = repeat(" ", size(letters))
-         do j = 1, size(letters)
-            paths(i)%text(j:j) = letters(j)
-         end do
+         paths(i)%text = text_at_address(addresses(i))
       end do
       call c_globfree(found)
    end subroutine find_files

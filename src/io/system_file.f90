@@ -11,7 +11,7 @@ module camroller_system_file
 
    public :: process_number, is_folder, rename_file, remove_file
    public :: reserve_space, set_file_size, sync_descriptor, utc_date
-   public :: ignore_size_signal, restore_size_signal, system_words
+   public :: ignore_size_signal, restore_size_signal, system_words, text_at_address
 
    !> Signal that a file outgrew its limit; what `signal` takes for ignoring and gives for an error
    integer(c_int), parameter :: signal_file_size = 25_c_int
@@ -216,17 +216,25 @@ contains
       !> The words
       character(len=:), allocatable :: words
 
+      words = text_at_address(c_strerror(number))
+   end function system_words
+
+   !> A text of the C library as one of Fortran.
+   function text_at_address(address) result(text)
+      !> Where it starts
+      type(c_ptr), intent(in) :: address
+      !> The text, as long as it is there
+      character(len=:), allocatable :: text
+
       character(kind=c_char), pointer :: letters(:)
-      type(c_ptr) :: text
       integer :: i
 
-      text = c_strerror(number)
-      call c_f_pointer(text, letters, [c_strlen(text)])
-      words = repeat(" ", size(letters))
+      call c_f_pointer(address, letters, [c_strlen(address)])
+      text = repeat(" ", size(letters))
       do i = 1, size(letters)
-         words(i:i) = letters(i)
+         text(i:i) = letters(i)
       end do
-   end function system_words
+   end function text_at_address
 
    !> Remove a file; nothing happens where there is none.
    subroutine remove_file(path)
