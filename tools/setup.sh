@@ -3,7 +3,7 @@
 #
 # Usage: tools/setup.sh          quick where there is nothing left to do
 # Called by the Makefile. Only installs system packages as root on a machine with apt-get; otherwise says which are
-# missing and ends with exit code 1.
+# missing and ends with exit code 1. Open MPI is the one package that is installed where it can be and done without elsewhere.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -40,25 +40,35 @@ serial_hdf5() {
     ln -sf "$folder/hdf5-serial.pc" build/pkgconfig/hdf5.pc
 }
 
-# For sweeps over many nodes. Where they cannot be had, the rest works without.
-packages_for_nodes() {
-    if ! command -v mpifort > /dev/null || ! command -v mpirun > /dev/null; then echo libopenmpi-dev openmpi-bin; fi
-}
-
 system_packages() {
     local missing
     missing=$(missing_packages | tr '\n' ' ')
-    if command -v apt-get > /dev/null && [ "$(id -u)" = 0 ]; then missing+=$(packages_for_nodes); fi
     [ -n "$missing" ] || return 0
-    local install="apt-get install -y --no-install-recommends $missing"
     command -v apt-get > /dev/null || fail "missing on this system: $missing(names as in Debian 12); install them and repeat"
-    [ "$(id -u)" = 0 ] || fail "missing on this system: $missing; type: sudo $install"
+    [ "$(id -u)" = 0 ] || fail "missing on this system: $missing; type: sudo apt-get install -y --no-install-recommends $missing"
     say "installing $missing"
     # shellcheck disable=SC2086  # the names are words
-    { apt-get update -qq && DEBIAN_FRONTEND=noninteractive $install < /dev/null; } > build/apt.log 2>&1 ||
-        { tail -n 20 build/apt.log >&2; fail "cannot install packages; type: apt-get update && $install"; }
+    install_packages $missing ||
+        { tail -n 20 build/apt.log >&2; fail "cannot install packages; type: apt-get update && apt-get install $missing"; }
     missing=$(missing_packages | tr '\n' ' ')
     [ -z "$missing" ] || fail "still missing after the installation: $missing"
+}
+
+install_packages() { # names
+    { apt-get update -qq && DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends "$@"; } \
+        > build/apt.log 2>&1 < /dev/null
+}
+
+# Open MPI is for sweeps over many nodes; where it cannot be had, that is said once and everything else works without.
+optional_packages() {
+    local note=build/without-open-mpi
+    if command -v mpifort > /dev/null && command -v mpirun > /dev/null; then return 0; fi
+    if ! command -v apt-get > /dev/null || [ "$(id -u)" != 0 ] || [ -f "$note" ]; then return 0; fi
+    say "installing libopenmpi-dev openmpi-bin"
+    if ! install_packages libopenmpi-dev openmpi-bin; then
+        tail -n 3 build/apt.log | tee "$note" >&2
+        say "cannot install Open MPI; goes on without the program for many nodes (remove $note to try again)"
+    fi
 }
 
 # ---- tools in Python ---------------------------------------------------------------------------------------------
@@ -114,6 +124,7 @@ unpack_test_drive() { # folder
 
 mkdir -p build
 system_packages
+optional_packages
 serial_hdf5
 python_tools
 test_drive

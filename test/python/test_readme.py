@@ -29,10 +29,3 @@ def test_table_is_what_the_reference_deck_gives(camroller, tmp_path):
         for a, b in zip(numbers(old), numbers(new)):
             # three figures are shown: one unit of the last may turn with the last bits of another machine
             assert abs(a - b) <= 1.01e-2 * abs(b), (old, new)
-
-
-def test_files_that_the_readme_names_are_there():
-    text = (ROOT / 'README.md').read_text()
-    names = set(re.findall(r'`((?:doc|decks|example|post)/[\w./]+)`', text)) | set(re.findall(r'\]\((doc/[^)]+)\)', text))
-    assert names
-    assert [name for name in sorted(names) if not (ROOT / name).exists()] == []

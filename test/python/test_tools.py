@@ -41,20 +41,27 @@ def test_set_up_repeats_without_work():
     assert (result.returncode, result.stdout, result.stderr) == (0, "", "")
 
 
-def run_set_up(folder, apt_get=None):
-    """Run the set-up on a machine without gfortran but with MPI, with the given text as apt-get."""
-    for name in ("bash", "dirname", "env", "tr", "sed", "head", "tail", "mkdir", "git", "make", "gcc", "pkg-config"):
+def run_set_up(top, apt_get=None, has_mpi=True, has_gfortran=False):
+    """Run the set-up in a folder of its own on a machine where only these are there, with the given text as apt-get."""
+    folder = top / "bin"
+    folder.mkdir()
+    (top / "tools").mkdir()
+    (top / "tools/setup.sh").write_bytes((ROOT / "tools/setup.sh").read_bytes())
+    (top / "tools/setup.sh").chmod(0o755)
+    for name in ("bash", "dirname", "env", "tr", "sed", "head", "tail", "tee", "mkdir", "ln", "cmp", "git", "make", "gcc", "pkg-config"):
         found = subprocess.run(["bash", "-c", f"command -v {name}"], capture_output=True, text=True, check=False).stdout
         if found.strip():
             (folder / name).symlink_to(pathlib.Path(found.strip()))
     (folder / "python3").symlink_to(pathlib.Path(sys.executable).resolve())
-    scripts = {"id": "echo 0", "apt-get": apt_get, "mpifort": "", "mpirun": ""}
+    scripts = {"id": "echo 0", "apt-get": apt_get}
+    scripts |= {"mpifort": "", "mpirun": ""} if has_mpi else {}
+    scripts |= {"gfortran": ""} if has_gfortran else {}
     for name, text in scripts.items():
         if text is not None:
             (folder / name).write_text(f"#!{folder}/bash\n{text}\n", encoding="utf-8")
             (folder / name).chmod(0o755)
     environment = {"PATH": str(folder), "HOME": str(folder)}
-    return subprocess.run([ROOT / "tools/setup.sh"], env=environment, capture_output=True, text=True, check=False,
+    return subprocess.run([top / "tools/setup.sh"], env=environment, capture_output=True, text=True, check=False,
                           stdin=subprocess.DEVNULL)
 
 
@@ -78,3 +85,43 @@ def test_set_up_shows_why_an_installation_failed(tmp_path):
     assert result.returncode == 1
     assert "no space left" in result.stderr
     assert "type: apt-get update && apt-get install" in result.stderr
+
+
+def test_set_up_goes_on_without_open_mpi(tmp_path):
+    """It is asked for once, apart from what has to be there; that it cannot be had is said and is no error."""
+    (tmp_path / "requirements.txt").touch()
+    (tmp_path / ".venv/bin").mkdir(parents=True)
+    (tmp_path / ".venv/bin/python").symlink_to(sys.executable)
+    (tmp_path / ".venv/requirements.done").touch()
+    (tmp_path / "build/dependencies/test-drive/src").mkdir(parents=True)
+    (tmp_path / "build/dependencies/test-drive/src/testdrive.F90").touch()
+    result = run_set_up(tmp_path, f'echo "$@" >> {tmp_path}/calls; echo no such package >&2; exit 100', has_mpi=False,
+                        has_gfortran=True)
+    assert result.returncode == 0, result.stderr
+    assert "goes on without the program for many nodes" in result.stdout and "no such package" in result.stderr
+    assert (tmp_path / "calls").read_text(encoding="utf-8") == "update -qq\n"
+    again = subprocess.run([tmp_path / "tools/setup.sh"], env={"PATH": str(tmp_path / "bin"), "HOME": str(tmp_path)},
+                           capture_output=True, text=True, check=False, stdin=subprocess.DEVNULL)
+    assert (again.returncode, again.stdout, again.stderr) == (0, "", "")
+
+
+@pytest.mark.parametrize(("node", "lines", "code"), [
+    ("echo 8 passed, 0 failed", ["12 passed, 0 failed"], 0),
+    ("echo 7 passed, 1 failed; exit 1", ["11 passed, 1 failed"], 1),
+    ("exit 1", ["4 passed, 1 failed"], 1),
+    ("sleep 0.1; kill -KILL $$", ["4 passed, 1 failed"], 1),
+    ("echo no root here; exit 77", ["skipped: timeout --kill-after=20 300 slurm/one_node.sh: no root here", "4 passed, 0 failed"], 0),
+])
+def test_all_checks_count_what_failed_and_name_what_cannot_run(tmp_path, node, lines, code):
+    """`.ci/run` over stand-ins: a set-up, two tests that pass, checks without counts, a Slurm that does as told."""
+    stand_ins = {"tools/setup.sh": "true", "slurm/one_node.sh": node}
+    for name, text in stand_ins.items():
+        (tmp_path / name).parent.mkdir()
+        (tmp_path / name).write_text(f"#!/usr/bin/env bash\n{text}\n", encoding="utf-8")
+        (tmp_path / name).chmod(0o755)
+    (tmp_path / "Makefile").write_text("test:\n\t@echo 2 passed, 0 failed\ncheck:\n\t@true\n", encoding="utf-8")
+    (tmp_path / ".ci").mkdir()
+    (tmp_path / ".ci/run").write_bytes((ROOT / ".ci/run").read_bytes())
+    result = subprocess.run(["bash", tmp_path / ".ci/run"], capture_output=True, text=True, check=False)
+    assert result.stdout.splitlines()[-len(lines):] == lines
+    assert result.returncode == code

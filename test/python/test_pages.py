@@ -1,0 +1,88 @@
+"""What the pages name is there: targets of make, files, folders, links."""
+
+import pathlib
+import re
+
+import pytest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "doc").glob("*.md")), *sorted((ROOT / "bench").glob("*.md"))]
+SPAN = re.compile(r"(?<!`)`([^`\n]+)`(?!`)")
+BLOCK = re.compile(r"^```[a-z]*[ \t]*\n(.*?)^```[ \t]*$", re.MULTILINE | re.DOTALL)
+FILE = re.compile(r"(?<![\w<*./-])[\w./-]+\.(?:f90|py|sh|md|nml|csv|txt|toml|png|h)(?![\w*.])")
+FOLDER = re.compile(r"(?<![\w/.-])((?:src|app|test|post|tools|bench|doc|decks|slurm|mpi|example|include)(?:/[\w-]+)*)/?$")
+# folders that git does not hold, and names that a page makes up for its reader
+MADE = re.compile(r"^(?:results|build|\.venv)/|^(?:a|FILE|DECK|hot|cases|earlier)\.\w+$")
+
+
+def code_of(text):
+    """What a page sets as code: words between single backquotes, lines of blocks."""
+    blocks = BLOCK.findall(text)
+    return [*SPAN.findall(BLOCK.sub("", text)), *(line for block in blocks for line in block.splitlines())]
+
+
+def targets_of(pieces):
+    """Targets of make in pieces of code that begin with make, and of those in brackets behind a word."""
+    found = set()
+    for piece in pieces:
+        if words := re.match(r"make((?: +[a-z][a-z-]*(?![\w=]))+)", piece.strip()):
+            found |= set(words[1].split())
+    return found
+
+
+def files_of(pieces):
+    """Files and folders in pieces of code."""
+    found = set()
+    for piece in pieces:
+        found |= {name for name in FILE.findall(piece) if not MADE.search(name)}
+        found |= {match[1] for match in [FOLDER.match(piece)] if match}
+    return found
+
+
+def links_of(text):
+    """Pages and figures that a page links to."""
+    return {link.split("#")[0] for link in re.findall(r"\]\(([^)\s]+)\)", text) if "://" not in link and not link.startswith("#")}
+
+
+def targets_of_make():
+    """Targets of the Makefile."""
+    return set(re.findall(r"^([a-z][a-z-]*):(?!=)", (ROOT / "Makefile").read_text(encoding="utf-8"), re.MULTILINE))
+
+
+@pytest.fixture(name="tree", scope="module")
+def a_tree():
+    """Every file and folder of the project, with / before each part of its path."""
+    tops = [top for top in ROOT.iterdir() if top.name not in ("build", "results", ".venv", ".git")]
+    files = [path for top in tops for path in (top, *top.rglob("*"))]
+    return {f"/{path.relative_to(ROOT)}" for path in files}
+
+
+def is_there(name, tree):
+    """Is it a path, or the end of one, as `io/deck.f90` is of `src/io/deck.f90`?"""
+    return any(path.endswith("/" + name.rstrip("/").removeprefix("./")) for path in tree)
+
+
+def test_what_a_page_names_is_found():
+    text = "`make run` and ```sh\n```\n\n```sh\nmake check-style  # so\nsrc/io/deck.f90\n```\n`results/a.md` [x](y.md#z) `doc/b.md`\n"
+    assert targets_of(code_of(text)) == {"run", "check-style"}
+    assert files_of(code_of(text)) == {"src/io/deck.f90", "doc/b.md"}
+    assert links_of(text) == {"y.md"}
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: str(page.relative_to(ROOT)))
+def test_everything_named_is_there(page, tree):
+    text = page.read_text(encoding="utf-8")
+    pieces = code_of(text)
+    missing = [f"make {target}" for target in sorted(targets_of(pieces) - targets_of_make())]
+    missing += [name for name in sorted(files_of(pieces)) if not is_there(name, tree)]
+    missing += [link for link in sorted(links_of(text)) if not (page.parent / link).exists()]
+    assert missing == []
+
+
+def test_every_target_for_users_is_named():
+    """`make help` lists them; CONTRIBUTING says when to use them."""
+    text = (ROOT / "Makefile").read_text(encoding="utf-8")
+    listed = set(re.findall(r"^([a-z][a-z-]*):.*## ", text, re.MULTILINE))
+    named = set().union(*(targets_of(code_of(page.read_text(encoding="utf-8"))) for page in PAGES))
+    own = {"help", "setup", "build", "debug", "clean", "distclean"}
+    assert sorted(listed - named - own) == []
