@@ -111,9 +111,10 @@ contains
       select case (command)
       case ("ehl")
          text = "camroller ehl DECK [-o FILE] [--set group.key=value]..."//n//n// &
-            & "Solve the contact itself over the cycle, with a film that remembers, and find the roller's slip with it. Prints"// &
-            & n//"film and slip of every case, with what two grids and the steady film differ by, and writes one HDF5 file with"// &
-            & n//"pressure and film across the contact: the deck's name with _ehl.h5 in the present folder, or FILE."//n//n// &
+            & "Solve the contact itself over the cycle, with a film that remembers, and find the roller's slip with it."//n// &
+            & "Prints film and slip of every case and lobe shape, with what two grids and steady films differ by, film and"//n// &
+            & "friction beside the closed formulas, and writes one HDF5 file with pressure and film across the contact:"//n// &
+            & "the deck's name with _ehl.h5 in the present folder, or FILE."//n//n// &
             & "  -o, --output FILE          file to write"//n// &
             & "  -s, --set group.key=value  other value than the deck's; may be repeated"//n// &
             & "  -q, --quiet                say nothing but errors"

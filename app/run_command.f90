@@ -16,6 +16,7 @@ module camroller_run_command
    use camroller_number_text, only : integer_text
    use camroller_output, only : output_t, output_options_t, open_output, write_case, write_failure, close_output, &
       & abandon_output
+   use camroller_profile_sink, only : profile_sink_t, find_profiles, put_profiles, close_profiles
    use camroller_progress, only : progress_t, start_progress, show_progress, end_progress, seconds_since
    use camroller_run_facts, only : write_facts
    use camroller_settings, only : take
@@ -112,6 +113,7 @@ contains
       type(kept_models_t) :: kept
       type(case_t) :: case
       type(result_t) :: result
+      type(profile_sink_t) :: profiles
       type(error_t), allocatable :: failure
       integer :: i
 
@@ -119,6 +121,7 @@ contains
          call make_sweep_case(deck, i, case, failure)
          if (.not. allocated(failure)) then
             call run_next_case(kept, case, result, failure)
+            if (.not. allocated(failure)) call find_profiles(profiles, case, result)
             if (sweep_size(deck%sweep) > 1 .and. .not. allocated(failure)) call complete_result(case, result)
             if (size(deck%sweep%axes) > 0) call add_context(failure, case_in_words(deck%sweep, i))
          end if
@@ -128,11 +131,13 @@ contains
             if (tally%failed == 1) tally%failure = failure
          else
             call write_case(writer, i, result, error)
+            if (.not. allocated(error)) call put_profiles(profiles, writer, i, result, error)
             call note_remarks(deck, i, result, tally)
          end if
-         if (allocated(error)) return
+         if (allocated(error)) exit
          call show_progress(progress, i, sweep_size(deck%sweep))
       end do
+      call close_profiles(profiles)
    end subroutine run_cases
 
    !> Take note of remarks.

@@ -1,66 +1,163 @@
 #!/usr/bin/env python3
-"""Draw a cycle of solved contacts: pressure and film at some angles, and the film over the cycle beside a formula's.
+"""Draw solved contacts: pressure and film across the contact, film and friction over the cycle beside the closed formulas.
 
-Usage: post/ehl.py FILE_ehl.h5 [FILE.h5] --output FIGURE.png [--case N] [--angles 125 150 180 205]
-       FILE_ehl.h5 comes from `camroller ehl`, FILE.h5 from `camroller run` on a deck with the same cases
+Usage: post/ehl.py FILE.h5 [RUN.h5] --output FIGURE.png [--map MAP.png] [--case N] [--angles 125 150 180 205]
+       FILE.h5 comes from `camroller ehl`, or from `camroller run` where the deck has `&ehl profiles = .true.`;
+       RUN.h5 from `camroller run` on the same cases: its sliding speed, and its film, are drawn beside.
+       A second lobe shape gets figures of its own, with `_second_lift` in their names.
 """
 
 from __future__ import annotations
 
 import argparse
+import pathlib
 import sys
 
 import h5py
 import matplotlib
 
 matplotlib.use("Agg")
-import matplotlib.pyplot as plt
-import numpy
+matplotlib.rcParams.update({"font.size": 9.0, "axes.spines.top": False, "axes.spines.right": False})
+
+from matplotlib.colors import LogNorm  # noqa: E402
+from matplotlib.figure import Figure  # noqa: E402
+import numpy  # noqa: E402
+
+DEGREE = "\N{DEGREE SIGN}"
+MICRO = "\N{MICRO SIGN}"
+REACH = 2.5  # half widths of the widest contact that are shown on both sides
+HEIGHT = 3.0  # largest film of the figures over the largest central film of the profiles
+ANGLE = f"cam angle, full lift at 180{DEGREE} [{DEGREE}]"
 
 
-def draw(path: str, formula: str | None, case: int, angles: list[float], output: str) -> None:
-    """Profiles on the left, the cycle on the right."""
-    figure, axes = plt.subplots(2, 2, figsize=(12, 7), layout="constrained")
+def read(path: str, case: int) -> dict[str, dict]:
+    """Lobe shapes by name, each with its quantities of one case; where there is no contact, numbers are NaN."""
+    lobes = {}
     with h5py.File(path) as file:
-        group = file["ehl"]
-        turn, x = group["angle"][:], group["x"][case]
-        for angle in angles:
-            i = int(numpy.argmin(numpy.abs(turn - angle)))
-            place = 1e6 * x * group["half_width"][case, i]
-            axes[0, 0].plot(place, group["pressure"][case, i] / 1e6, label=f"{turn[i]:.0f} deg")
-            axes[1, 0].plot(place, 1e6 * group["film"][case, i], label=f"{turn[i]:.0f} deg")
-        reach = 2.5e6 * group["half_width"][case].max()
-        axes[0, 1].plot(turn, 1e6 * group["film_min"][case], "k", label="numerical, smallest")
-        axes[0, 1].plot(turn, 1e6 * group["film_central"][case], "k--", label="numerical, central")
-        axes[1, 1].semilogy(turn, numpy.abs(group["sliding_speed"][case]), "k", label="numerical, with squeeze")
-        top = 3e6 * group["film_central"][case].max()
-    if formula:
-        with h5py.File(formula) as file:
-            degrees = numpy.degrees(file["series/cam_angle"][:]) if file["series/cam_angle"].attrs["units"] == "rad" \
-                else file["series/cam_angle"][:]
-            axes[0, 1].plot(degrees, 1e6 * file["series/film_thickness_min"][case], "C3", label="formula, smallest")
-            axes[0, 1].plot(degrees, 1e6 * file["series/film_thickness_central"][case], "C3--", label="formula, central")
-            axes[1, 1].semilogy(degrees, numpy.abs(file["series/sliding_speed"][case]), "C3", label="formula")
-    axes[0, 0].set(ylabel="pressure [MPa]", xlim=(-reach, reach))
-    axes[1, 0].set(ylabel="film [um]", xlabel="place across the contact, inlet on the left [um]", xlim=(-reach, reach), ylim=(0, top))
-    axes[0, 1].set(ylabel="film [um]")
-    axes[1, 1].set(ylabel="sliding speed [m/s]", xlabel="cam angle, full lift at 180 [deg]")
+        for name, group in (("", file["ehl"]), ("second_lift", file["ehl"].get("second_lift"))):
+            if group is None:
+                continue
+            if not 0 <= case < group["load"].shape[0]:
+                raise ValueError(f"{path}: there is no case {case}")
+            data = {key: item[case] if item.ndim > 1 else item[:] for key, item in group.items() if isinstance(item, h5py.Dataset)}
+            lost = ~(data["film_min"] > 0)
+            for key, values in data.items():
+                if values.shape[:1] == lost.shape and key not in ("angle", "load", "sliding_speed"):
+                    values[lost] = numpy.nan
+            lobes[name] = data
+    return lobes
+
+
+def shown(values: numpy.ndarray) -> numpy.ndarray:
+    """Numbers for a logarithmic axis."""
+    sizes = numpy.abs(values)
+    return numpy.where(sizes > 0, sizes, numpy.nan)
+
+
+def profiles(pressure, film, data: dict, angles: list[float]) -> None:
+    """Pressure and film across the contact at some angles."""
+    top = 0.0
+    for number, angle in enumerate(angles):
+        i = int(numpy.argmin(numpy.abs(data["angle"] - angle)))
+        label = f"{data['angle'][i]:.0f}{DEGREE}" + ("" if data["film_min"][i] > 0 else ", no contact")
+        place = 1e6 * data["x"] * data["half_width"][i]
+        pressure.plot(place, data["pressure"][i] / 1e6, color=f"C{number}", label=label)
+        film.plot(place, 1e6 * data["film"][i], color=f"C{number}", label=label)
+        top = numpy.nanmax([top, HEIGHT * 1e6 * data["film_central"][i]])
+    reach = REACH * 1e6 * numpy.nanmax(data["half_width"])
+    pressure.set(ylabel="pressure [MPa]", xlim=(-reach, reach))
+    pressure.set_ylim(bottom=0)
+    film.set(ylabel=f"film [{MICRO}m]", xlabel=f"place across the contact, inlet on the left [{MICRO}m]", xlim=(-reach, reach),
+             ylim=(0, top or None))
+    pressure.legend(frameon=False, loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=3)
+
+
+def draw(data: dict, run: dict | None, angles: list[float], title: str) -> Figure:
+    """Profiles on the left, film and slip in the middle, friction on the right."""
+    figure = Figure(figsize=(14, 7), layout="constrained")
+    axes = figure.subplots(2, 3)
+    profiles(axes[0, 0], axes[1, 0], data, angles)
+    turn = data["angle"]
+    for name, style, words in (("film_min", "-", "smallest"), ("film_central", "--", "central")):
+        axes[0, 1].plot(turn, 1e6 * data[name], "k" + style, label=f"{words}, solved")
+        axes[0, 1].plot(turn, 1e6 * data[name + "_formula"], "C3" + style, label=f"{words}, film law")
+    # A contact that is lost or regained has a thick film for a moment
+    usual = max(1e6 * numpy.nanpercentile(data[name], 98) for name in ("film_central", "film_central_formula"))
+    axes[0, 1].set(ylabel=f"film [{MICRO}m]", ylim=(0, 1.2 * usual))
+    # Profiles of a run have its sliding speed
+    is_own = bool(run) and numpy.array_equal(run["sliding_speed"], data["sliding_speed"])
+    axes[1, 1].plot(turn, shown(data["sliding_speed"]), "k", label="of the run" if is_own else "solved contact")
+    if run and not is_own:
+        axes[1, 1].plot(run["angle"], shown(run["sliding_speed"]), "C3", label="run with a film law")
+    axes[1, 1].set(ylabel="sliding speed, its size [m/s]", xlabel=ANGLE, yscale="log")
+    for axis, name, words in ((axes[0, 2], "rolling_resistance", "rolling resistance [N]"),
+                              (axes[1, 2], "shear", "shear of the film, its size [N]")):
+        axis.plot(turn, shown(data[name]), "k", label="integrated over the contact")
+        axis.plot(turn, shown(data[name + "_formula"]), "C3", label="closed formula, same load and slip")
+        axis.set(ylabel=words, yscale="log" if name == "shear" else "linear")
+    axes[0, 2].set_ylim(bottom=0)
+    axes[1, 2].set(xlabel=ANGLE)
+    for axis in axes[:, 1:].flat:
+        axis.set(xlim=(0, 360), xticks=range(0, 361, 60))
+        handles, labels = axis.get_legend_handles_labels()
+        axis.legend(handles, labels, frameon=False, loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=2)
     for axis in axes.flat:
-        axis.legend(fontsize=8)
         axis.grid(alpha=0.3)
-    figure.savefig(output, dpi=90)
+    figure.suptitle(title, fontsize="medium")
+    return figure
+
+
+def draw_map(data: dict, title: str) -> Figure:
+    """Pressure and film over cam angle and place."""
+    figure = Figure(figsize=(11, 4.5), layout="constrained")
+    panels = figure.subplots(1, 2, sharey=True)
+    reach = REACH * 1e6 * numpy.nanmax(data["half_width"])
+    place = numpy.linspace(-reach, reach, 401)
+    pressure, film = (numpy.array([numpy.interp(place, 1e6 * width * data["x"], row) for width, row in
+                                   zip(data["half_width"], data[name])]).T for name in ("pressure", "film"))
+    limits = LogNorm(1e6 * numpy.nanmin(data["film_min"]), HEIGHT * 1e6 * numpy.nanmax(data["film_central"]))
+    pictures = (panels[0].pcolormesh(data["angle"], place, pressure / 1e6, cmap="viridis", rasterized=True),
+                panels[1].pcolormesh(data["angle"], place, 1e6 * film, cmap="cividis", rasterized=True, norm=limits))
+    for panel, picture, words in zip(panels, pictures, ("pressure [MPa]", f"film [{MICRO}m]")):
+        figure.colorbar(picture, ax=panel, label=words, extend="max" if words.startswith("film") else "neither")
+        panel.set(xlabel=ANGLE, xlim=(0, 360), xticks=range(0, 361, 60))
+    panels[0].set_ylabel(f"place across the contact, inlet below [{MICRO}m]")
+    figure.suptitle(title, fontsize="medium")
+    return figure
+
+
+def read_run(path: str, case: int) -> dict:
+    """Cam angle and sliding speed of a run."""
+    with h5py.File(path) as file:
+        return {"angle": file["series/cam_angle"][:], "sliding_speed": file["series/sliding_speed"][case]}
 
 
 def main(arguments=None) -> int:
     """Command line; returns the exit code."""
-    parser = argparse.ArgumentParser(description="draw a cycle of solved contacts")
+    parser = argparse.ArgumentParser(description="draw solved contacts over the cycle")
     parser.add_argument("file")
-    parser.add_argument("formula", nargs="?")
+    parser.add_argument("run", nargs="?")
     parser.add_argument("--output", required=True)
+    parser.add_argument("--map", help="a second figure: pressure and film over cam angle and place")
     parser.add_argument("--case", type=int, default=0)
     parser.add_argument("--angles", type=float, nargs="+", default=[90.0, 125.0, 150.0, 180.0, 205.0])
     options = parser.parse_args(arguments)
-    draw(options.file, options.formula, options.case, options.angles, options.output)
+    try:
+        lobes = read(options.file, options.case)
+        run = read_run(options.run, options.case) if options.run else None
+    except (OSError, KeyError, ValueError) as error:
+        print(f"ehl.py: no solved contacts: {error}", file=sys.stderr)
+        return 2
+    for name, data in lobes.items():
+        if numpy.isnan(data["load"]).all():
+            print(f"ehl.py: case {options.case} has no solved contacts", file=sys.stderr)
+            return 2
+        title = f"case {options.case}" + (", second lobe shape" if name else "")
+        for target, make in ((options.output, lambda: draw(data, None if name else run, options.angles, title)),
+                             (options.map, lambda: draw_map(data, title))):
+            if target:
+                path = pathlib.Path(target)
+                make().savefig(path.with_stem(path.stem + ("_" + name if name else "")), dpi=90)
     return 0
 
 

@@ -47,6 +47,7 @@ program main
    use test_ehl, only : collect_ehl
    use test_ehl_law, only : collect_ehl_law
    use test_ehl_cycle, only : collect_ehl_cycle
+   use test_ehl_record, only : collect_ehl_record
    use test_lubricant, only : collect_lubricant
    use test_hertz, only : collect_hertz
    use test_invariance, only : collect_invariance
@@ -110,6 +111,7 @@ contains
          new_testsuite("ehl_law", collect_ehl_law), &
          new_testsuite("needed", collect_needed), &
          new_testsuite("ehl_cycle", collect_ehl_cycle), &
+         new_testsuite("ehl_record", collect_ehl_record), &
          new_testsuite("ode", collect_ode), &
          new_testsuite("ode_rosenbrock", collect_ode_rosenbrock), &
          new_testsuite("ode_special", collect_ode_special), &

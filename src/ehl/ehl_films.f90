@@ -4,7 +4,7 @@
 module camroller_ehl_films
    use camroller_kinds, only : wp, pi
    use camroller_ehl_grid, only : ehl_grid_t, integral
-   use camroller_ehl_problem, only : ehl_problem_t
+   use camroller_ehl_problem, only : ehl_problem_t, real_area_part
    use camroller_ehl_newton, only : ehl_state_t
    implicit none
    private
@@ -25,9 +25,12 @@ module camroller_ehl_films
       real(wp) :: second_moment = 0.0_wp
       !> Part of the load that asperities carry [-]
       real(wp) :: asperity_share = 0.0_wp
+      !> Area on which asperities touch, over length [m]
+      real(wp) :: real_area = 0.0_wp
       !> Rolling resistance of a surface over length, `int h/2 dp/dx dx` [N/m]
       real(wp) :: rolling = 0.0_wp
-      !> Shear of a full Newtonian film over length and sliding speed, `int eta/h dx` [Pa s/m]; over the Hertz zone alone
+      !> Shear of a full film over length and sliding speed, `int eta/h dx` where no asperities touch [Pa s/m]; over the Hertz zone
+      !> alone
       real(wp) :: shear_slope = 0.0_wp, shear_slope_inside = 0.0_wp
       !> Mass flow over density and speed, equal at all places of the full film [m]
       real(wp) :: flow = 0.0_wp
@@ -112,13 +115,17 @@ contains
 
       ! Viscosity over film where the film is full, else what a ruptured film of constant flow still has [-]
       real(wp) :: rate(grid%size)
+      ! Part of the surface on which asperities touch [-]
+      real(wp) :: touching(grid%size)
 
       associate (fields => state%fields, n => grid%size)
          films%rolling = 0.25_wp*sum((fields%film(2:) + fields%film(:n - 1))*(fields%pressure(2:) - fields%pressure(:n - 1))) &
             & + problem%speed/abs(grid%x(1))
          films%rolling = films%rolling*problem%pressure_scale*problem%film_scale
          rate = 0.0_wp
-         where (state%is_full) rate = exp(fields%log_viscosity)/fields%film
+         touching = real_area_part(problem, fields%film)
+         films%real_area = problem%length_scale*integral(grid, touching)
+         where (state%is_full) rate = (1.0_wp - touching)*exp(fields%log_viscosity)/fields%film
          films%shear_slope = integral(grid, rate)
          films%shear_slope_inside = integral(grid, merge(rate, 0.0_wp, abs(grid%x) <= 1.0_wp))
       end associate

@@ -12,12 +12,12 @@ module camroller_ehl_problem
    use camroller_lubricant, only : oil_t, relative_viscosity
    use camroller_hertz, only : half_width, peak_pressure
    use camroller_film, only : groups_t, film_shape_t, film_shape, law_moes
-   use camroller_asperity, only : asperity_constants_t, asperity_load_function
+   use camroller_asperity, only : asperity_constants_t, asperity_load_function, asperity_area_function
    implicit none
    private
 
    public :: ehl_contact_t, ehl_problem_t, new_ehl_problem, range_text, in_range, largest_pressure, speed_range, load_range
-   public :: log_viscosity, relative_density, asperity_pressure, pressure_flow_factor
+   public :: log_viscosity, relative_density, asperity_pressure, real_area_part, pressure_flow_factor
 
    !> What a problem may be: in range, or which quantity is out of it
    integer, parameter :: in_range = 0, pressure_out_of_range = 1, exponent_out_of_range = 2, speed_out_of_range = 3, &
@@ -76,8 +76,8 @@ module camroller_ehl_problem
       logical :: is_compressible
       !> Roughness over the film scale [-]
       real(wp) :: roughness = 0.0_wp
-      !> Asperity pressure for F_5/2 = 1 over the pressure scale [-]
-      real(wp) :: asperity_factor = 0.0_wp
+      !> Asperity pressure for F_5/2 = 1 over the pressure scale, real over apparent area for F_2 = 1 [-]
+      real(wp) :: asperity_factor = 0.0_wp, area_factor = 0.0_wp
       !> Does roughness hinder the flow?
       logical :: has_flow_factors = .false.
       !> Shear stress over tau_E in a film of the film scale at ambient viscosity [-]; zero: no thinning
@@ -116,7 +116,10 @@ contains
       problem%is_compressible = contact%is_compressible
       problem%has_flow_factors = contact%has_flow_factors
       problem%roughness = contact%roughness/problem%film_scale
-      if (contact%roughness > 0.0_wp) problem%asperity_factor = contact%asperity%load_factor/problem%pressure_scale
+      if (contact%roughness > 0.0_wp) then
+         problem%asperity_factor = contact%asperity%load_factor/problem%pressure_scale
+         problem%area_factor = contact%asperity%area_factor
+      end if
       if (contact%eyring_stress > 0.0_wp) problem%shear = contact%oil%viscosity*abs(contact%sliding_speed) &
          & /(problem%film_scale*contact%eyring_stress)
       call film_shape(law_moes, groups, shape)
@@ -227,6 +230,24 @@ contains
       value = problem%asperity_factor*value
       slope = problem%asperity_factor*slope/problem%roughness
    end subroutine asperity_pressure
+
+   !> Part of the surface on which asperities touch.
+   elemental function real_area_part(problem, film) result(part)
+      !> The problem
+      type(ehl_problem_t), intent(in) :: problem
+      !> Film over its scale [-]
+      real(wp), intent(in) :: film
+      !> Real over apparent area [-]
+      real(wp) :: part
+
+      ! Derivative that is not used [-]
+      real(wp) :: slope
+
+      part = 0.0_wp
+      if (problem%area_factor <= 0.0_wp) return
+      call asperity_area_function(max(film, 0.0_wp)/problem%roughness, part, slope)
+      part = problem%area_factor*part
+   end function real_area_part
 
    !> Part of the flow driven by pressure that isotropic roughness lets through, `1 - 0.9 exp(-0.56 h/sigma)`, and its slope.
    !>

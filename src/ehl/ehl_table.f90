@@ -23,6 +23,12 @@ module camroller_ehl_table
       real(wp) :: accuracy = 1.0e-2_wp
       !> Does the density of the oil grow with the pressure?
       logical :: compressible = .true.
+      !> Does sliding thin the oil of profiles and of contacts solved over the cycle, where the shear law is Eyring's?
+      logical :: shear_thinning = .true.
+      !> Does roughness hinder their flow?
+      logical :: flow_factors = .false.
+      !> Are pressure and film across the contact wanted of a run?
+      logical :: profiles = .false.
    end type ehl_t
 
    !> Polynomials over speed and load to begin with

@@ -172,6 +172,9 @@ contains
          allocate (case%ehl)
          call take(settings, "ehl", "accuracy", case%ehl%accuracy)
          call take(settings, "ehl", "compressible", case%ehl%compressible)
+         call take(settings, "ehl", "profiles", case%ehl%profiles)
+         call take(settings, "ehl", "shear_thinning", case%ehl%shear_thinning)
+         call take(settings, "ehl", "flow_factors", case%ehl%flow_factors)
       end if
       call take(settings, "traction", "shear_law", case%traction%shear_law)
       call take(settings, "traction", "eyring_stress_MPa", case%traction%eyring_stress)

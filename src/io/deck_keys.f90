@@ -283,6 +283,12 @@ contains
       call add_number(schema, "accuracy", proper_fraction, "largest relative error of the film", default=standard%accuracy)
       call add_logical(schema, "compressible", standard%compressible, &
          & "does the density of the oil grow with the pressure?")
+      call add_logical(schema, "profiles", standard%profiles, &
+         & "does 'run' also write pressure, film and friction across the contact, in /ehl?")
+      call add_logical(schema, "shear_thinning", standard%shear_thinning, &
+         & "does sliding thin the oil, where the shear law is 'eyring'? In profiles and with 'camroller ehl'")
+      call add_logical(schema, "flow_factors", standard%flow_factors, &
+         & "does roughness hinder the flow, by Patir and Cheng? In profiles and with 'camroller ehl'")
    end subroutine add_ehl_keys
 
    !> Asperities.

@@ -18,7 +18,7 @@ module camroller_ehl_cycle
    implicit none
    private
 
-   public :: ehl_cycle_t, ehl_cycle_options_t, integrate_ehl_cycle
+   public :: ehl_cycle_t, ehl_cycle_options_t, integrate_ehl_cycle, prepare_march
 
    !> How to integrate
    type :: ehl_cycle_options_t
@@ -78,7 +78,7 @@ contains
       integer :: known, count, trial
       logical :: converged
 
-      call prepare(march, model, options, error)
+      call prepare_march(march, model, options, error)
       if (allocated(error)) return
       call start_history(model, march, state, history(1), error)
       if (allocated(error)) return
@@ -172,7 +172,7 @@ contains
    end subroutine begin_again
 
    !> Nodes that serve every angle, and the largest load.
-   subroutine prepare(march, model, options, error)
+   subroutine prepare_march(march, model, options, error)
       !> What stays over the cycle
       type(ehl_march_t), intent(out) :: march
       !> The model
@@ -211,7 +211,7 @@ contains
       parabola = sqrt(films(2))
       call new_ehl_grid(march%grid, options%nodes, max(16.0_wp, 24.0_wp*parabola), 1.0_wp + max(0.5_wp, 2.0_wp*parabola), &
          & min(1.0_wp, 0.5_wp*films(1)**(2.0_wp/3.0_wp)))
-   end subroutine prepare
+   end subroutine prepare_march
 
    !> Steady contact at the start of the run-up.
    subroutine start_history(model, march, state, first, error)

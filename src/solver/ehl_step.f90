@@ -13,7 +13,7 @@ module camroller_ehl_step
    use camroller_spin, only : rolling_speed_at, rolling_speed_slope
    use camroller_roller, only : spin_acceleration
    use camroller_needle, only : bearing_torque
-   use camroller_traction, only : limit_shear, mobilised_share
+   use camroller_traction, only : law_eyring, limit_shear, mobilised_share
    use camroller_ehl_grid, only : ehl_grid_t
    use camroller_ehl_problem, only : ehl_contact_t, ehl_problem_t, new_ehl_problem, in_range
    use camroller_ehl_reynolds, only : storage_t
@@ -23,7 +23,7 @@ module camroller_ehl_step
    implicit none
    private
 
-   public :: moment_t, ehl_march_t, make_step, contact_at
+   public :: moment_t, ehl_march_t, make_step, contact_at, find_film, spin_excess, bearing_moment
 
    !> What a step leaves behind
    type :: moment_t
@@ -39,8 +39,8 @@ module camroller_ehl_step
       real(wp), allocatable :: mass(:)
       !> Film, friction, load share
       type(ehl_films_t) :: films
-      !> Traction, rolling resistance [N]
-      real(wp) :: traction = 0.0_wp, rolling_resistance = 0.0_wp
+      !> Traction and the part of it that is shear of the film, what asperities can bear, rolling resistance [N]
+      real(wp) :: traction = 0.0_wp, shear = 0.0_wp, boundary_capacity = 0.0_wp, rolling_resistance = 0.0_wp
       !> Times that film and forces were found anew
       integer :: rounds = 0
    end type moment_t
@@ -170,11 +170,14 @@ contains
       contact%entrainment_speed = max(abs(surface_speed - 0.5_wp*sliding_speed), least_entrainment*abs(surface_speed))
       contact%sliding_speed = sliding_speed
       contact%oil = model%oil
-      if (allocated(model%ehl)) contact%is_compressible = model%ehl%compressible
-      if (model%shear_law == 2) contact%eyring_stress = model%eyring_stress
-      if (.not. allocated(model%boundary)) return
-      contact%roughness = model%roughness
-      contact%asperity = model%boundary%constants
+      if (model%shear_law == law_eyring) contact%eyring_stress = model%eyring_stress
+      if (allocated(model%ehl)) then
+         contact%is_compressible = model%ehl%compressible
+         contact%has_flow_factors = model%ehl%flow_factors
+         if (.not. model%ehl%shear_thinning) contact%eyring_stress = 0.0_wp
+      end if
+      if (allocated(model%boundary) .or. contact%has_flow_factors) contact%roughness = model%roughness
+      if (allocated(model%boundary)) contact%asperity = model%boundary%constants
    end function contact_at
 
    !> Film at a load and a sliding speed.
@@ -290,10 +293,12 @@ contains
 
       ! Slopes of the limited over the free shear and over the limit [-]; slope of traction [N s/m]; torque of the bearing [N m]
       real(wp) :: by_shear, by_limit, traction_slope, torque
-      ! Friction that asperities can bear [N], mobilised part of it [-]
-      real(wp) :: capacity, part
+      ! Mobilised part of boundary friction [-]
+      real(wp) :: part
 
       now%traction = 0.0_wp
+      now%shear = 0.0_wp
+      now%boundary_capacity = 0.0_wp
       now%rolling_resistance = 0.0_wp
       traction_slope = 0.0_wp
       torque = bearing_moment(model, position, now%load, speed)
@@ -302,12 +307,15 @@ contains
          traction_slope = now%films%shear_slope*model%contact_width
          now%traction = traction_slope*speed
          call limit_shear(model%cap, model%limiting_coefficient*now%load, now%traction, by_shear, by_limit)
+         now%shear = now%traction
          traction_slope = traction_slope*by_shear
          if (allocated(model%boundary)) then
-            capacity = model%boundary%coefficient*now%films%asperity_share*now%load
+            now%boundary_capacity = model%boundary%film_shear_strength*now%films%real_area*model%contact_width &
+               & + model%boundary%coefficient*now%films%asperity_share*now%load
             part = mobilised_share(speed, model%boundary%mobilising_speed)
-            now%traction = now%traction + capacity*part
-            traction_slope = traction_slope + capacity*(1.0_wp - part)*(1.0_wp + part)/model%boundary%mobilising_speed
+            now%traction = now%traction + now%boundary_capacity*part
+            traction_slope = traction_slope + now%boundary_capacity*(1.0_wp - part)*(1.0_wp + part) &
+               & /model%boundary%mobilising_speed
          end if
       end if
       excess = rate - model%speed*rolling_speed_slope(model, position) + model%roller_radius*spin_acceleration(now%traction, &
@@ -360,10 +368,9 @@ contains
       if (model%is_consistent) then
          if (allocated(model%guide_drag)) moment = moment &
             & + model%guide_drag*model%speed*position%lift_slope*position%valve_arm
-         load = moment/arm
          tangential = traction + rolling*(2.0_wp*position%equivalent_radius/model%roller_radius - 1.0_wp)
-         moment = moment - model%linkage%sense*(tangential*position%tangent_arm &
-            & + bearing_moment(model, position, load, sliding_speed))
+         moment = moment - model%linkage%sense*tangential*position%tangent_arm
+         arm = arm + model%linkage%sense*bearing_moment(model, position, 1.0_wp, sliding_speed)
       end if
       load = moment/arm
       if (model%takes_maximum_load) load = max(load, model%base_circle_load)

@@ -14,7 +14,7 @@ module camroller_state
    implicit none
    private
 
-   public :: state_t, evaluate_state, evaluate_spin, evaluate_loading, cam_force
+   public :: state_t, evaluate_state, evaluate_spin, evaluate_loading, add_torques, cam_force
 
    !> State of one follower; torques are on the camshaft, from this follower alone
    type :: state_t
@@ -118,13 +118,23 @@ contains
       call evaluate_spin(model, state%position, state%moments, sliding_speed, state%contact, state%spin_acceleration, status, &
          & mobilised=mobilised)
       if (status /= 0) return
+      call add_torques(model, state)
+   end subroutine evaluate_state
+
+   !> Torques of a state whose contact is solved, with the friction that is reported and the energy residual.
+   pure subroutine add_torques(model, state)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> State with its contact solved
+      type(state_t), intent(inout) :: state
+
       call add_friction(model, state)
       if (model%is_consistent) then
          call add_consistent_torques(model, state)
       else
          call add_source_torques(model, state)
       end if
-   end subroutine evaluate_state
+   end subroutine add_torques
 
    !> Force of the follower on the cam, x from pivot to cam centre: what camshaft bearings ask for.
    pure function cam_force(model, state) result(force)

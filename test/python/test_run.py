@@ -10,6 +10,7 @@ import subprocess
 import h5py
 import numpy
 import pytest
+import xarray
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 THESIS = ROOT / "decks/thesis.nml"
@@ -188,3 +189,43 @@ def test_contacts_are_solved_over_the_cycle(camroller, tmp_path):
         # between the steps of the cycle pressure, width and load are linear, and their product is not
         assert numpy.abs(load / group["load"][0] - 1).max() < 0.02
         assert (group["film"][0].min(axis=1) <= 1.01 * group["film_min"][0]).all()
+
+
+SMALL = ["--set", "sweep.values_1=300", "--set", "sweep.values_2=60"]
+
+
+def test_every_lobe_shape_is_solved_and_opens_in_xarray(camroller, tmp_path):
+    """Both lobe shapes of a camshaft, in two tables and two groups."""
+    path = tmp_path / "ehl.h5"
+    text = (ROOT / "decks/three_cam_head.nml").read_text().replace("= 'tables/", f"= '{ROOT}/decks/tables/")
+    (tmp_path / "deck.nml").write_text(text[:text.index("&sweep")])
+    result = run(camroller, "ehl", "deck.nml", "-o", path, "--set", "operating_point.oil_temperature_degC=90", folder=tmp_path)
+    assert result.returncode == 0, result.stderr
+    assert [line.split()[:2] for line in result.stdout.splitlines() if line.startswith("   0 ")] == [["0", "1"], ["0", "2"]] * 2
+    with xarray.open_datatree(path, engine="h5netcdf", phony_dims="sort") as tree:
+        first, second = tree["ehl"], tree["ehl/second_lift"]
+        for lobe in (first, second):
+            assert lobe["pressure"].dims == lobe["film"].dims == ("case", "angle", "node")
+            assert lobe["x"].dims == ("case", "node")
+            assert all(lobe[name].dims == ("case", "angle") for name in ("film_min", "shear", "rolling_resistance_formula"))
+            assert float(abs(lobe["energy_residual"]).max()) < 1e-9
+        assert float(abs(first["load"] / second["load"] - 1).max()) > 0.05
+
+
+def test_a_run_writes_profiles_where_the_deck_asks(camroller, tmp_path):
+    """Pressure and film of a run, over its own angles, with its load and slip; a case beyond solutions keeps its result."""
+    path = tmp_path / "run.h5"
+    arguments = ["run", "decks/numerical_film.nml", "-o", path, *SMALL, "--set", "output.angle_step_deg=2"]
+    result = subprocess.run([camroller, *map(str, arguments)], cwd=ROOT, capture_output=True, text=True, check=False)
+    assert result.returncode == 0, result.stderr
+    with h5py.File(path) as file:
+        assert "ehl" not in file
+    result = subprocess.run([camroller, *map(str, arguments), "--set", "ehl.profiles=.true."], cwd=ROOT, capture_output=True,
+                            text=True, check=False)
+    assert result.returncode == 0, result.stderr
+    with h5py.File(path) as file:
+        assert file["ehl/pressure"].shape[:2] == file["series/contact_load"].shape == (1, 180)
+        for mine, run in (("load", "contact_load"), ("sliding_speed", "sliding_speed")):
+            assert numpy.allclose(file["ehl"][mine][0], file["series"][run][0], rtol=1e-12, atol=0)
+        # the table is within one per cent of solutions; asperities at each place take some of the film's load
+        assert numpy.allclose(file["ehl/film_min"][0], file["series/film_thickness_min"][0], rtol=0.03)

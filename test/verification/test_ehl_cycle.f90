@@ -112,16 +112,19 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(ehl_cycle_t) :: cycle
       type(ehl_cycle_options_t) :: options
-      real(wp) :: places(2)
-      integer :: i
+      real(wp) :: places(2), slopes(2)
+      integer :: i, k
 
       options%nodes = 65
       do i = 1, 2
          options%is_transient = i == 1
          call make_ehl_cycle(cycle, point_speeds(3), point_viscosities(2), options, error)
          if (allocated(error)) return
-         associate (near => abs(cycle%angle) < 40.0_wp*degree)
-            places(i) = cycle%angle(minloc(cycle%moments%films%minimum, dim=1, mask=near))
+         k = minloc(cycle%moments%films%minimum, dim=1, mask=abs(cycle%angle) < 40.0_wp*degree)
+         ! Steps are up to a degree long: the lowest point of the parabola through three of them
+         associate (x => cycle%angle(k - 1:k + 1), y => cycle%moments(k - 1:k + 1)%films%minimum)
+            slopes = (y(2:3) - y(1:2))/(x(2:3) - x(1:2))
+            places(i) = 0.5_wp*(x(1) + x(2) - slopes(1)*(x(3) - x(1))/(slopes(2) - slopes(1)))
          end associate
       end do
       call check(error, places(1) > places(2) + 0.1_wp*degree .and. places(1) < places(2) + 5.0_wp*degree, "no delay")

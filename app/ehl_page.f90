@@ -1,0 +1,143 @@
+!> The tables of the command `ehl` as text.
+!>
+!> Layer: app. In: solved cycles. Out: lines.
+module camroller_ehl_page
+   use camroller_kinds, only : wp, two_pi
+   use camroller_ehl_cycle, only : ehl_cycle_t
+   use camroller_ehl_record, only : ehl_record_t, column
+   implicit none
+   private
+
+   public :: line_t, summary_of, page_head, page_line, friction_page
+
+   character(len=*), parameter :: n = new_line("a")
+   !> Longest line
+   integer, parameter :: width = 128
+   !> What is compared with closed formulas
+   character(len=*), parameter :: compared(*) = [character(len=18) :: "film_min", "film_central", "rolling_resistance", "shear"]
+
+   !> What is printed of a cycle
+   type :: line_t
+      !> Number of the case from 0, of the lobe shape from 1, steps of the cycle
+      integer :: case_number = 0, lobe = 1, steps = 0
+      !> Smallest film, mean films [m], mean sliding speed [m/s]: on the coarser grid, on the finer one, with steady films
+      real(wp) :: coarse(4) = 0.0_wp, fine(4) = 0.0_wp, steady(4) = 0.0_wp
+      !> Is there a cycle with steady films?
+      logical :: has_steady = .false.
+      !> Time [s]
+      real(wp) :: time = 0.0_wp
+      !> Mean over the cycle of what `compared` names, integrated and by the closed formula [m], [m], [N], [N]
+      real(wp) :: friction(size(compared), 2) = 0.0_wp
+   contains
+      procedure :: set_friction
+   end type line_t
+
+contains
+
+   !> Smallest film, mean films [m], mean sliding speed [m/s] of a cycle.
+   pure function summary_of(cycle) result(numbers)
+      !> The cycle
+      type(ehl_cycle_t), intent(in) :: cycle
+      !> The four numbers [m], [m], [m], [m/s]
+      real(wp) :: numbers(4)
+
+      numbers = [minval(cycle%moments%films%minimum, mask=cycle%moments%has_film), &
+         & mean(cycle%angle, cycle%moments%films%minimum), mean(cycle%angle, cycle%moments%films%central), &
+         & mean(cycle%angle, cycle%moments%sliding_speed)]
+   end function summary_of
+
+   !> Mean over the cycle by the trapezoidal rule.
+   pure function mean(angles, values)
+      !> Angles [rad]
+      real(wp), intent(in) :: angles(:)
+      !> Values there [any]
+      real(wp), intent(in) :: values(:)
+      !> Their mean [any]
+      real(wp) :: mean
+
+      associate (last => size(angles))
+         mean = 0.5_wp*dot_product(values(2:) + values(:last - 1), angles(2:) - angles(:last - 1))/two_pi
+      end associate
+   end function mean
+
+   !> Film and friction beside the closed formulas.
+   subroutine set_friction(self, record)
+      !> The line
+      class(line_t), intent(inout) :: self
+      !> Record of the cycle
+      type(ehl_record_t), intent(in) :: record
+
+      integer :: i
+
+      do i = 1, size(compared)
+         self%friction(i, 1) = mean(record%angle, abs(column(record, trim(compared(i)))))
+         self%friction(i, 2) = mean(record%angle, abs(column(record, trim(compared(i))//"_formula")))
+      end do
+   end subroutine set_friction
+
+   !> Head of the table of cycles.
+   pure function page_head() result(text)
+      !> Three lines
+      character(len=:), allocatable :: text
+
+      text = "Contacts solved over the cycle, 129 nodes"//n// &
+         & "case lobe  smallest   mean of    mean of    mean slip  | 65 nodes differ by  | steady films  |  steps   time"//n// &
+         & "           film [um]  min. [um]  cent. [um] [m/s]      | film [%]   slip [%] | differ by [%] |          [s]"
+   end function page_head
+
+   !> Line of the table of cycles.
+   pure function page_line(line) result(text)
+      !> The cycle
+      type(line_t), intent(in) :: line
+      !> The line
+      character(len=:), allocatable :: text
+
+      character(len=width) :: buffer
+
+      write (buffer, "(i4, i5, 3f11.4, es12.3, f12.3, f11.3)") line%case_number, line%lobe, 1.0e6_wp*line%fine(:3), line%fine(4), &
+         & 100.0_wp*maxval(abs(line%coarse(:3)/line%fine(:3) - 1.0_wp)), 100.0_wp*abs(line%coarse(4)/line%fine(4) - 1.0_wp)
+      if (line%has_steady) then
+         write (buffer(79:), "(f14.3)") 100.0_wp*maxval(abs(line%steady(:3)/line%fine(:3) - 1.0_wp))
+      else
+         buffer(92:92) = "-"
+      end if
+      write (buffer(94:), "(i8, f8.2)") line%steps, line%time
+      text = trim(buffer)
+   end function page_line
+
+   !> Table of film and friction beside the closed formulas.
+   function friction_page(lines) result(text)
+      !> The cycles
+      type(line_t), intent(in) :: lines(:)
+      !> The page
+      character(len=:), allocatable :: text
+
+      character(len=width) :: buffer
+      integer :: i
+
+      text = n//"Means over the cycle, solved, and by how much the closed formulas differ at the same load and slip"//n// &
+         & "case lobe  smallest film        central film         rolling resistance   shear of the film"//n// &
+         & "           [um]      formula    [um]      formula    [N]       formula    [N]       formula"
+      do i = 1, size(lines)
+         associate (f => lines(i)%friction)
+            write (buffer, "(i4, i5, 4(f11.4, f8.1, ' %'))") lines(i)%case_number, lines(i)%lobe, &
+               & 1.0e6_wp*f(1, 1), change(f(1, :)), 1.0e6_wp*f(2, 1), change(f(2, :)), f(3, 1), change(f(3, :)), f(4, 1), &
+               & change(f(4, :))
+         end associate
+         text = text//n//trim(buffer)
+      end do
+      text = text//n
+   end function friction_page
+
+   !> Change from the first to the second number in percent.
+   pure function change(pair)
+      !> Both numbers [any]
+      real(wp), intent(in) :: pair(2)
+      !> The change [%]
+      real(wp) :: change
+
+      change = 0.0_wp
+      if (abs(pair(1)) > 0.0_wp) change = 100.0_wp*(pair(2)/pair(1) - 1.0_wp)
+   end function change
+
+end module camroller_ehl_page

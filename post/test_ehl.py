@@ -1,0 +1,53 @@
+"""Figures of solved contacts, on a small made-up file with two lobe shapes and a loss of contact."""
+
+import h5py
+import numpy as np
+import pytest
+
+import ehl
+
+SERIES = ("half_width", "load", "sliding_speed", "film_min", "film_min_formula", "film_central", "film_central_formula",
+          "shear", "shear_formula", "rolling_resistance", "rolling_resistance_formula")
+
+
+@pytest.fixture(name="path")
+def made_up(tmp_path):
+    """Two cases, the second of which has no solution; contact is lost at full lift."""
+    angle = np.arange(0.0, 360.0, 5.0)
+    x = np.linspace(-4.0, 2.0, 31)
+    with h5py.File(tmp_path / "made_ehl.h5", "w") as file:
+        for name in ("ehl", "ehl/second_lift"):
+            group = file.create_group(name)
+            group["angle"] = angle
+            group["node"] = np.arange(x.size)
+            group["x"] = np.array([x, np.full_like(x, np.nan)])
+            touching = np.abs(angle - 180.0) > 12.0
+            for key in SERIES:
+                row = np.where(touching, 5e-5 if key == "half_width" else 2e-7, 0.0)
+                group[key] = np.array([row, np.full_like(row, np.nan)])
+            pressure = 5e8 * np.sqrt(np.clip(1 - x**2, 0, None)) * touching[:, None]
+            film = (2e-7 + 1e-7 * x**2) * touching[:, None]
+            for key, plane in (("pressure", pressure), ("film", film)):
+                group[key] = np.array([plane, np.full_like(plane, np.nan)])
+    return tmp_path / "made_ehl.h5"
+
+
+def test_each_lobe_shape_has_its_figures(path, tmp_path):
+    assert ehl.main([str(path), "--output", str(tmp_path / "a.png"), "--map", str(tmp_path / "m.png")]) == 0
+    assert sorted(file.name for file in tmp_path.glob("*.png")) == ["a.png", "a_second_lift.png", "m.png", "m_second_lift.png"]
+
+
+def test_no_contact_is_no_film(path):
+    data = ehl.read(path, 0)[""]
+    assert np.isnan(data["film_min"][36]) and np.isnan(data["film"][36]).all()
+    assert np.nanmin(data["film_min"]) > 0
+
+
+def test_a_case_without_contacts_or_another_file_is_refused(path, tmp_path, capsys):
+    assert ehl.main([str(path), "--case", "1", "--output", str(tmp_path / "a.png")]) == 2
+    assert "has no solved contacts" in capsys.readouterr().err
+    assert ehl.main([str(path), "--case", "2", "--output", str(tmp_path / "a.png")]) == 2
+    with h5py.File(tmp_path / "other.h5", "w") as file:
+        file["x"] = 1
+    assert ehl.main([str(tmp_path / "other.h5"), "--output", str(tmp_path / "a.png")]) == 2
+    assert not list(tmp_path.glob("*.png"))
