@@ -102,7 +102,6 @@ contains
             call make_sweep_case(deck, i, case, trouble)
             if (.not. allocated(trouble)) call solve_case(case, lobe == 2, record, line, trouble)
             if (allocated(trouble)) then
-               if (lobe == 2) call add_context(trouble, "second lift")
                if (size(deck%sweep%axes) > 0) call add_context(trouble, case_in_words(deck%sweep, i))
                if (.not. is_quiet .and. sweep_size(deck%sweep) > 1) write (error_unit, "(a)") trouble%message
                if (.not. allocated(failure)) call move_alloc(trouble, failure)

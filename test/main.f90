@@ -60,6 +60,7 @@ program main
    use test_simulation, only : collect_simulation
    use test_quasi_static, only : collect_quasi_static
    use test_ode_special, only : collect_ode_special
+   use test_hard_ehl, only : collect_hard_ehl
    use test_hard_cases, only : collect_hard_cases
    use test_random_cases, only : collect_random_cases
    use test_effects, only : collect_effects
@@ -112,6 +113,7 @@ contains
          new_testsuite("needed", collect_needed), &
          new_testsuite("ehl_cycle", collect_ehl_cycle), &
          new_testsuite("ehl_record", collect_ehl_record), &
+         new_testsuite("hard_ehl", collect_hard_ehl), &
          new_testsuite("ode", collect_ode), &
          new_testsuite("ode_rosenbrock", collect_ode_rosenbrock), &
          new_testsuite("ode_special", collect_ode_special), &

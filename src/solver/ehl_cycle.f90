@@ -121,15 +121,17 @@ contains
       cycle%angle = cycle%moments%angle
       cycle%nodes = march%grid%x
       cycle%factorisations = state%factorisations
-      call judge(cycle, history(1)%angle, now%angle, options%step_error, error)
+      call judge(cycle, history(1)%angle, now, options%step_error, error)
    end subroutine integrate_ehl_cycle
 
    !> Is the cycle complete and periodic?
-   subroutine judge(cycle, reached, tried, allowed, error)
+   subroutine judge(cycle, reached, last, allowed, error)
       !> The cycle
       type(ehl_cycle_t), intent(in) :: cycle
-      !> Last angle reached, last one tried [rad]
-      real(wp), intent(in) :: reached, tried
+      !> Last angle reached [rad]
+      real(wp), intent(in) :: reached
+      !> Last contact tried
+      type(moment_t), intent(in) :: last
       !> Error of a step [-]
       real(wp), intent(in) :: allowed
       !> Convergence error where it is not
@@ -137,8 +139,10 @@ contains
 
       character(len=16) :: text
 
-      if (tried < start + two_pi - 1.0e-12_wp) then
-         write (text, "(f0.3)") modulo(180.0_wp + reached/degree, 360.0_wp)
+      write (text, "(f0.3)") modulo(180.0_wp + reached/degree, 360.0_wp)
+      if (last%status /= in_range) then
+         call raise(error, kind_domain, "ehl: "//trim(range_text(last%status))//" at cam angle "//trim(text)//" deg")
+      else if (last%angle < start + two_pi - 1.0e-12_wp) then
          call raise(error, kind_convergence, "ehl: no step is short enough at cam angle "//trim(text)//" deg")
       else if (.not. is_periodic(cycle%moments, allowed)) then
          call raise(error, kind_convergence, "ehl: the cycle did not become periodic")

@@ -4,7 +4,7 @@
 !> film law and the closed formulas of friction say at the same loads and speeds stands beside.
 module camroller_ehl_profiles
    use camroller_kinds, only : wp, pi, degree
-   use camroller_error, only : error_t, raise, kind_convergence
+   use camroller_error, only : error_t, raise, add_context, kind_convergence
    use camroller_case, only : case_t
    use camroller_dynamics, only : moments_t
    use camroller_ehl_cycle, only : ehl_cycle_t, ehl_cycle_options_t, prepare_march
@@ -13,6 +13,7 @@ module camroller_ehl_profiles
    use camroller_ehl_reynolds, only : new_ehl_fields
    use camroller_ehl_step, only : ehl_march_t, moment_t, find_film, spin_excess
    use camroller_ehl_table, only : ehl_t
+   use camroller_events, only : check_geometry
    use camroller_kinematics, only : position_t
    use camroller_model, only : model_t, new_model
    use camroller_result, only : result_t, find_quantity
@@ -69,6 +70,8 @@ contains
       else
          call new_model(model, plain, plain%lift, error)
       end if
+      if (.not. allocated(error)) call check_geometry(model, plain%mechanism%grinding_wheel_radius, error)
+      if (allocated(error) .and. is_second) call add_context(error, "second lift")
       if (allocated(setup)) call move_alloc(setup, model%ehl)
    end subroutine plain_model
 

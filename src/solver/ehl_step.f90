@@ -43,6 +43,8 @@ module camroller_ehl_step
       real(wp) :: traction = 0.0_wp, shear = 0.0_wp, boundary_capacity = 0.0_wp, rolling_resistance = 0.0_wp
       !> Times that film and forces were found anew
       integer :: rounds = 0
+      !> Is the contact one that solutions are given for? As `new_ehl_problem` has it
+      integer :: status = in_range
    end type moment_t
 
    !> What stays over the cycle
@@ -208,6 +210,7 @@ contains
 
       contact = contact_at(model, march, position, now%load, now%sliding_speed)
       call new_ehl_problem(problem, contact, status)
+      now%status = status
       converged = status == in_range
       if (.not. converged) return
       now%length_scale = problem%length_scale

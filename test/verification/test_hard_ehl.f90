@@ -1,0 +1,255 @@
+!> Every deck in `decks/hard` with a numerical film: as a film law and with contacts solved over the cycle, or the error that it has
+!> to end with.
+module test_hard_ehl
+   use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
+   use testdrive, only : new_unittest, unittest_type, error_type, test_failed
+   use camroller_kinds, only : wp, two_pi
+   use camroller_error, only : error_t
+   use camroller_case, only : case_t
+   use camroller_deck, only : deck_t, override_t, read_deck, make_case
+   use camroller_ehl_cycle, only : ehl_cycle_t, ehl_cycle_options_t, integrate_ehl_cycle
+   use camroller_ehl_profiles, only : plain_model
+   use camroller_ehl_record, only : ehl_record_t, column, make_ehl_record
+   use camroller_ehl_table, only : ehl_t
+   use camroller_model, only : model_t
+   use camroller_run, only : build_models
+   use cycle_checks, only : sample_t, take_sample, compare_samples
+   implicit none
+   private
+
+   public :: collect_hard_ehl
+
+   !> What a deck with `&ehl` comes to
+   type :: outcome_t
+      character(len=28) :: deck
+      !> What the error says with the numerical film as a law, and with contacts solved over the cycle; blank: none
+      character(len=24) :: law = "", cycle = ""
+   end type outcome_t
+
+   !> What two cycles of a deck have to agree in
+   type :: look_t
+      !> Harmonic mean of the smallest film where there is contact: of the thin films, not of what a short loss leaves [m]
+      real(wp) :: film = 0.0_wp
+      !> Mean, largest size and total variation of the sliding speed [m/s]
+      real(wp) :: slip = 0.0_wp, largest_slip = 0.0_wp, variation = 0.0_wp
+   end type look_t
+
+   character(len=*), parameter :: heavy = "above 1.5 GPa", fast = "U outside", light = "W* outside", undercut = "undercut"
+
+   !> All of them
+   type(outcome_t), parameter :: outcomes(*) = [ &
+      outcome_t("coarse_table"), outcome_t("cold_start_minus_20"), outcome_t("cold_start_minus_30"), &
+      outcome_t("contact_loss_3200_rpm"), outcome_t("contact_loss_5000_rpm"), outcome_t("cranking_1_rpm"), &
+      outcome_t("cranking_20_rpm_cold"), outcome_t("event_touches_cycle_end"), outcome_t("fine_table"), &
+      outcome_t("frictionless_contact", "did not become periodic", "no step is short enough"), &
+      outcome_t("heavy_roller"), outcome_t("hollow_flank", "", heavy), outcome_t("hot_thin_film"), &
+      outcome_t("large_fixed_steps"), outcome_t("light_base_circle_load"), outcome_t("light_roller"), &
+      outcome_t("load_touches_zero"), outcome_t("narrow_contact", heavy, heavy), &
+      outcome_t("near_standstill", fast, fast), outcome_t("nearly_undercut_nose", heavy, heavy), outcome_t("no_dwell"), &
+      outcome_t("no_needle_friction"), outcome_t("no_rolling_resistance"), outcome_t("noisy_table"), &
+      outcome_t("noisy_table_smoothed"), outcome_t("outside_film_law", fast, fast), outcome_t("outside_film_law_stop"), &
+      outcome_t("periodic_table"), outcome_t("pressure_1500_MPa_barus"), outcome_t("pressure_1500_MPa_roelands"), &
+      outcome_t("pressure_4000_MPa_barus", heavy, heavy), outcome_t("rigid_spring", heavy, heavy), &
+      outcome_t("roller_started_backwards"), outcome_t("rough_surfaces"), outcome_t("sharp_cap"), &
+      outcome_t("sharp_cap_eyring"), outcome_t("short_event"), outcome_t("short_undercut", undercut, undercut), &
+      outcome_t("smooth_surfaces"), outcome_t("soft_spring"), outcome_t("steep_ramp"), outcome_t("stick_slip_boundary"), &
+      outcome_t("stick_slip_boundary_reversal"), outcome_t("stick_slip_true"), outcome_t("straight_flank"), &
+      outcome_t("stuck_roller"), outcome_t("towards_pivot_flight"), outcome_t("unloaded_base_circle"), &
+      outcome_t("very_noisy_table", heavy, undercut), outcome_t("wide_contact", light, light)]
+   !> A table whose noise asks for 13 000 short steps: one cycle with the larger error
+   character(len=*), parameter :: noisy = "fine_table"
+
+   !> Accuracy of the film law [-]; tolerances of both integrations with it [-]; nodes; errors of a step [-]
+   real(wp), parameter :: film_accuracy = 5.0e-2_wp, tolerances(2) = [1.0e-6_wp, 1.0e-4_wp], &
+      & step_errors(2) = [1.0e-3_wp, 1.0e-2_wp]
+   integer, parameter :: nodes(2) = [65, 49]
+   !> Energy left over, over the largest power: a sum of ten terms of which each has some roundings [-]
+   real(wp), parameter :: energy_tolerance = 200.0_wp*epsilon(1.0_wp)
+   !> What two grids of 65 and 49 nodes may differ by: errors of second order of about 1 and 2 % of the film; growth of the total
+   !> variation of the slip with ten times smaller errors of a step, which is 0.95 to 1.13 here [-]
+   real(wp), parameter :: usual_difference = 0.05_wp, most_variation = 1.25_wp
+
+contains
+
+   subroutine collect_hard_ehl(testsuite)
+      type(unittest_type), allocatable, intent(out) :: testsuite(:)
+
+      testsuite = [ &
+         new_unittest("every hard deck with a numerical film as its law passes the checks of a cycle, or says why not", test_law), &
+         new_unittest("contacts solved over the cycle of every hard deck pass them, or say why not", test_cycle) &
+         ]
+   end subroutine collect_hard_ehl
+
+   !> Read a hard deck and give it a numerical film.
+   subroutine get_case(name, case, failure)
+      character(len=*), intent(in) :: name
+      type(case_t), intent(out) :: case
+      type(error_t), allocatable, intent(out) :: failure
+      type(deck_t) :: deck
+      type(override_t) :: none(0)
+
+      call read_deck(deck, "decks/hard/"//trim(name)//".nml", none, failure)
+      if (.not. allocated(failure)) call make_case(deck, none, case, failure)
+      if (.not. allocated(failure)) case%ehl = ehl_t(accuracy=film_accuracy)
+   end subroutine get_case
+
+   subroutine test_law(error)
+      type(error_type), allocatable, intent(out) :: error
+      character(len=:), allocatable :: list, trouble
+      integer :: i
+
+      list = ""
+      do i = 1, size(outcomes)
+         call run_law(outcomes(i)%deck, trouble)
+         call compare(outcomes(i)%deck, outcomes(i)%law, trouble, list)
+      end do
+      if (list /= "") call test_failed(error, list)
+   end subroutine test_law
+
+   !> Note where what happened is not what was expected.
+   subroutine compare(deck, expected, trouble, list)
+      character(len=*), intent(in) :: deck, expected, trouble
+      character(len=:), allocatable, intent(inout) :: list
+
+      if (trouble == "" .and. expected == "") return
+      if (expected /= "" .and. index(trouble, trim(expected)) > 0) return
+      list = list//new_line("a")//trim(deck)//": "//trim(trouble)
+      if (expected /= "") list = list//" (expected: "//trim(expected)//")"
+   end subroutine compare
+
+   !> The numerical film as a law: two methods with two tolerances agree on a cycle that passes every check.
+   subroutine run_law(name, trouble)
+      character(len=*), intent(in) :: name
+      character(len=:), allocatable, intent(out) :: trouble
+      type(case_t) :: case
+      type(model_t), allocatable :: models(:)
+      type(error_t), allocatable :: failure
+      type(sample_t) :: reference, sample
+
+      call get_case(name, case, failure)
+      if (.not. allocated(failure)) call build_models(case, models, failure)
+      if (allocated(failure)) then
+         trouble = failure%message
+         return
+      end if
+      call take_sample(models(1), case%numerics, "rodas5p", tolerances(1), reference)
+      trouble = reference%trouble
+      if (trouble /= "") return
+      call take_sample(models(1), case%numerics, "hermite", tolerances(2), sample)
+      trouble = sample%trouble
+      if (trouble == "") trouble = compare_samples(sample, reference)
+   end subroutine run_law
+
+   subroutine test_cycle(error)
+      type(error_type), allocatable, intent(out) :: error
+      character(len=:), allocatable :: list, trouble
+      integer :: i
+
+      list = ""
+      do i = 1, size(outcomes)
+         call run_cycle(outcomes(i)%deck, trouble)
+         call compare(outcomes(i)%deck, outcomes(i)%cycle, trouble, list)
+      end do
+      if (list /= "") call test_failed(error, list)
+   end subroutine test_cycle
+
+   !> Contacts solved over the cycle: two step errors and two grids agree on cycles that pass every check.
+   subroutine run_cycle(name, trouble)
+      character(len=*), intent(in) :: name
+      character(len=:), allocatable, intent(out) :: trouble
+      type(case_t) :: case
+      type(model_t) :: model
+      type(error_t), allocatable :: failure
+      type(look_t) :: looks(3)
+      integer :: i
+
+      trouble = ""
+      call get_case(name, case, failure)
+      if (.not. allocated(failure)) call plain_model(model, case, .false., failure)
+      do i = 1, merge(1, 3, name == noisy)
+         if (allocated(failure) .or. trouble /= "") exit
+         call look_at(model, nodes(merge(2, 1, i == 3)), step_errors(merge(1, 2, i == 1 .and. name /= noisy)), looks(i), &
+            & trouble, failure)
+      end do
+      if (allocated(failure)) trouble = failure%message
+      if (trouble /= "" .or. name == noisy) return
+      trouble = disagreement(looks, differences_of(name))
+   end subroutine run_cycle
+
+   !> What two grids may differ by: film, and slip over its largest size.
+   pure function differences_of(name) result(differences)
+      character(len=*), intent(in) :: name
+      real(wp) :: differences(2)
+
+      select case (name)
+      case ("cranking_1_rpm")
+         ! Asperities carry the load, and the inlet of a film of a nanometre is narrower than the steps of either grid
+         differences = [0.3_wp, usual_difference]
+      case ("pressure_1500_MPa_barus", "pressure_1500_MPa_roelands")
+         ! Viscosity grows up to 10^14-fold, and what holds the roller comes from the few nodes of the pressure spike
+         differences = [usual_difference, 0.6_wp]
+      case default
+         differences = usual_difference
+      end select
+   end function differences_of
+
+   !> Where the cycles of a deck do not agree: the second has longer steps than the first, the third fewer nodes than the second.
+   pure function disagreement(looks, differences) result(trouble)
+      type(look_t), intent(in) :: looks(3)
+      real(wp), intent(in) :: differences(2)
+      character(len=:), allocatable :: trouble
+
+      trouble = ""
+      if (.not. abs(looks(2)%film/looks(1)%film - 1.0_wp) <= step_errors(2)) trouble = "film by other steps"
+      if (.not. abs(looks(2)%slip - looks(1)%slip) <= 3.0_wp*step_errors(2)*looks(1)%largest_slip) trouble = "slip by other steps"
+      ! Steps that chatter chatter more the more there are of them
+      if (.not. looks(1)%variation <= most_variation*looks(2)%variation) trouble = "the slip chatters"
+      if (.not. abs(looks(3)%film/looks(2)%film - 1.0_wp) <= differences(1)) trouble = "film on another grid"
+      if (.not. abs(looks(3)%slip - looks(2)%slip) <= differences(2)*looks(1)%largest_slip) trouble = "slip on another grid"
+   end function disagreement
+
+   !> Solve a cycle and look at it.
+   subroutine look_at(model, node_count, step_error, look, trouble, failure)
+      type(model_t), intent(in) :: model
+      integer, intent(in) :: node_count
+      real(wp), intent(in) :: step_error
+      type(look_t), intent(out) :: look
+      character(len=:), allocatable, intent(inout) :: trouble
+      type(error_t), allocatable, intent(out) :: failure
+      type(ehl_cycle_t) :: cycle
+      type(ehl_record_t) :: record
+      real(wp), allocatable :: slip(:), film(:)
+      real(wp) :: power
+
+      call integrate_ehl_cycle(cycle, model, ehl_cycle_options_t(nodes=node_count, step_error=step_error), failure)
+      if (allocated(failure)) return
+      call make_ehl_record(record, model, cycle)
+      film = column(record, "film_min")
+      slip = column(record, "sliding_speed")
+      power = maxval(abs(column(record, "torque_drive")))*model%speed
+      look%largest_slip = maxval(abs(slip))
+      associate (last => size(slip), moments => cycle%moments)
+         if (.not. all(ieee_is_finite(record%values))) trouble = "a number that is none"
+         if (any(moments%has_film .and. .not. film > 0.0_wp)) trouble = "contact without a film"
+         if (maxval(abs(column(record, "energy_residual"))) > energy_tolerance*power) trouble = "energy does not close"
+         if (any(moments%films%load_lack > 1.0e-5_wp)) trouble = "pressure does not carry the load"
+         ! Three errors of a step are what the cycle itself asks for
+         if (abs(film(last) - film(1)) > 3.0_wp*step_error*film(1) .or. abs(slip(last) - slip(1)) > 3.0_wp*step_error &
+            & *look%largest_slip) trouble = "the cycle is not periodic"
+         look%variation = sum(abs(slip(2:) - slip(:last - 1)))
+         look%slip = mean(record%angle, slip)
+         look%film = 1.0_wp/mean(record%angle, merge(1.0_wp/max(film, tiny(1.0_wp)), 0.0_wp, moments%has_film))
+      end associate
+   end subroutine look_at
+
+   !> Mean over the cycle by the trapezoidal rule.
+   pure function mean(angles, values)
+      real(wp), intent(in) :: angles(:), values(:)
+      real(wp) :: mean
+
+      associate (last => size(angles))
+         mean = 0.5_wp*dot_product(values(2:) + values(:last - 1), angles(2:) - angles(:last - 1))/two_pi
+      end associate
+   end function mean
+
+end module test_hard_ehl
