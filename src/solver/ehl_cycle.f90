@@ -52,6 +52,8 @@ module camroller_ehl_cycle
    !> Difference of start and end over the error of a step [-]; cycles to give up after
    real(wp), parameter :: periodicity = 3.0_wp
    integer, parameter :: most_turns = 10
+   !> Damping at the end of a cycle over that at its start, below which the next cycle is another [-]
+   real(wp), parameter :: least_damping = 0.5_wp
    !> Growth of a step: safety, most and least; what counts as error of a step with nothing to compare with [-]
    real(wp), parameter :: safety = 0.85_wp, most_growth = 2.0_wp, least_growth = 0.2_wp, unknown_excess = 0.2_wp
    !> More steps than a cycle takes
@@ -149,7 +151,9 @@ contains
       end if
    end subroutine judge
 
-   !> Do start and end of a cycle agree as far as its steps are right? What differs decays within a part of the next cycle.
+   !> Do start and end of a cycle agree as far as its steps are right? Where a cycle leaves a part of what the sliding speed
+   !> was off, the change over the cycle is only the rest of it, and where it ends
+   !> with less damping than it began, friction being at its limit, what it leaves is not known yet.
    pure function is_periodic(moments, allowed) result(periodic)
       !> Moments of the cycle
       type(moment_t), intent(in) :: moments(:)
@@ -158,9 +162,15 @@ contains
       !> True where they do
       logical :: periodic
 
-      associate (first => moments(1), last => moments(size(moments)))
+      ! Part of a change of the sliding speed that a cycle leaves [-]
+      real(wp) :: left
+
+      associate (first => moments(1), last => moments(size(moments)), n => size(moments))
+         left = exp(-max(0.0_wp, 0.5_wp*dot_product(moments(2:)%damping + moments(:n - 1)%damping, &
+            & moments(2:)%angle - moments(:n - 1)%angle)))
          periodic = abs(last%films%minimum - first%films%minimum) <= periodicity*allowed*first%films%minimum .and. &
-            & abs(last%sliding_speed - first%sliding_speed) <= periodicity*allowed*maxval(abs(moments%sliding_speed))
+            & abs(last%sliding_speed - first%sliding_speed) <= periodicity*allowed*(1.0_wp - left) &
+            & *maxval(abs(moments%sliding_speed)) .and. last%damping >= least_damping*first%damping
       end associate
    end function is_periodic
 

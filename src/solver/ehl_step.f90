@@ -13,7 +13,7 @@ module camroller_ehl_step
    use camroller_spin, only : rolling_speed_at, rolling_speed_slope
    use camroller_roller, only : spin_acceleration
    use camroller_needle, only : bearing_torque
-   use camroller_traction, only : law_eyring, limit_shear, mobilised_share
+   use camroller_traction, only : law_eyring, rolling_none, limit_shear, mobilised_share
    use camroller_ehl_grid, only : ehl_grid_t
    use camroller_ehl_problem, only : ehl_contact_t, ehl_problem_t, new_ehl_problem, in_range
    use camroller_ehl_reynolds, only : storage_t
@@ -41,6 +41,8 @@ module camroller_ehl_step
       type(ehl_films_t) :: films
       !> Traction and the part of it that is shear of the film, what asperities can bear, rolling resistance [N]
       real(wp) :: traction = 0.0_wp, shear = 0.0_wp, boundary_capacity = 0.0_wp, rolling_resistance = 0.0_wp
+      !> Rate at which a change of the sliding speed decays, per radian of the cam [-]
+      real(wp) :: damping = 0.0_wp
       !> Times that film and forces were found anew
       integer :: rounds = 0
       !> Is the contact one that solutions are given for? As `new_ehl_problem` has it
@@ -275,6 +277,7 @@ contains
          if (speed <= low .or. speed >= high) speed = 0.5_wp*(low + high)
       end do
       now%sliding_speed = speed
+      now%damping = (slope - rates(0))/model%speed
    end subroutine find_sliding_speed
 
    !> Rate of the sliding speed over what the roller's equation says, and its slope.
@@ -306,7 +309,7 @@ contains
       traction_slope = 0.0_wp
       torque = bearing_moment(model, position, now%load, speed)
       if (now%has_film) then
-         now%rolling_resistance = now%films%rolling*model%contact_width
+         if (model%rolling_law /= rolling_none) now%rolling_resistance = now%films%rolling*model%contact_width
          traction_slope = now%films%shear_slope*model%contact_width
          now%traction = traction_slope*speed
          call limit_shear(model%cap, model%limiting_coefficient*now%load, now%traction, by_shear, by_limit)

@@ -39,3 +39,9 @@ def test_each_deck_is_valid_or_says_why_not(path, camroller):
         assert IMPOSSIBLE[path.name] in done.stderr and " at cam angle " in done.stderr
     else:
         assert done.returncode == 0, done.stderr
+
+
+def test_each_deck_is_in_the_lists_of_the_tests():
+    for name in ("test_hard_cases", "test_hard_ehl"):
+        text = (FOLDER.parents[1] / f"test/verification/{name}.f90").read_text(encoding="utf-8")
+        assert [path.stem for path in DECKS if f'"{path.stem}"' not in text] == []
