@@ -3,7 +3,7 @@
 SHELL := /bin/bash
 .DEFAULT_GOAL := help
 .PHONY: help setup commit build debug mpi run comparison test quick bless random needed study audit check check-layers check-style \
-  check-format check-lint check-warnings format bench bench-effects clean distclean
+  check-format check-lint check-warnings format bench bench-batch bench-effects clean distclean
 
 FPM := .venv/bin/fpm
 PYTHON := .venv/bin/python
@@ -102,6 +102,9 @@ format: setup ## set the blanks inside statements right
 
 bench: commit ## time cycles, also against SUNDIALS and scipy: tables and plots in bench/tables (ten minutes)
 	@bench/run.sh
+
+bench-batch: build mpi ## cases per second, scaling, cost as a study grows: bench/tables/throughput.txt (ten minutes, idle machine)
+	@$(PYTHON) bench/throughput.py
 
 bench-effects: build ## instructions that effects cost, and that absent ones do not: bench/tables/effects.txt (three minutes)
 	@bench/effects.sh

@@ -171,7 +171,8 @@ contains
       !$omp end critical (camroller_desk)
    end subroutine take_cases
 
-   !> Has the time come to an end, or somebody asked for it?
+   !> Has the time come to an end, or somebody asked for it? Time ends nothing before a case is done, so that a sweep that is
+   !> begun again and again gets to its end however short its time is.
    subroutine note_limits(loop)
       !> Shared by all threads
       type(loop_t), intent(inout), target :: loop
@@ -179,7 +180,7 @@ contains
       if (loop%ended /= ended_all) return
       if (is_stop_wanted()) then
          loop%ended = ended_by_signal
-      else if (is_late(loop%deadline)) then
+      else if (loop%done > 0 .and. is_late(loop%deadline)) then
          loop%ended = ended_by_time
       end if
    end subroutine note_limits

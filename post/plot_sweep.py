@@ -20,6 +20,8 @@ matplotlib.use("Agg")
 matplotlib.rcParams.update({"font.size": 9.0, "axes.spines.top": False, "axes.spines.right": False})
 
 from matplotlib.figure import Figure  # noqa: E402
+from matplotlib.patheffects import withStroke  # noqa: E402
+from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter  # noqa: E402
 import numpy as np  # noqa: E402
 
 FIGURES = ("map", "curves", "scatter", "parallel")
@@ -27,6 +29,8 @@ QUANTITY = "mean_torque_drive"
 MOST_CURVES = 8
 MOST_LINES = 2000  # of parallel coordinates; of more cases evenly spread ones are drawn
 MOST_WORDS = 24  # values of a key that the axis of a map can name
+SPREAD = 0.18  # of points of a scatter about the word they belong to
+UNITS = {"um": "µm", "degC": "°C", "deg": "°", "degree": "°"}
 
 
 class SweepError(Exception):
@@ -34,14 +38,19 @@ class SweepError(Exception):
 
 
 class Sweep:
-    """What varies in a file and what came of it: columns of numbers, with names of their values where they are words."""
+    """What varies in a file and what came of it: columns of numbers, with names of their values where they are words.
+
+    Keys whose range the deck divides by equal ratios are drawn on logarithmic axes.
+    """
 
     def __init__(self, path, quantities):
-        self.keys, self.quantities, self.words = {}, {}, {}
+        self.keys, self.quantities, self.words, self.logarithmic = {}, {}, {}, set()
         try:
             with h5py.File(path) as file:
                 for key, data in file["sweep"].items():
-                    self._add(self.keys, key, key.split(".")[-1], data)
+                    self._add(self.keys, key, _label_of(key), data)
+                    if _is_logarithmic(file, key) and (self.keys[key][0] > 0).all():
+                        self.logarithmic.add(key)
                 for name in quantities:
                     if name not in file["summary"]:
                         near = [other for other in file["summary"] if name in other][:5]
@@ -60,7 +69,7 @@ class Sweep:
         unit = data.attrs.get("units", "")
         unit = unit.decode() if isinstance(unit, bytes) else str(unit)
         label = label.removesuffix("_" + unit).replace("_", " ")
-        columns[name] = (np.asarray(values, dtype=float), label if unit in ("", "1") else f"{label} [{unit}]")
+        columns[name] = (np.asarray(values, dtype=float), label if unit in ("", "1") else f"{label} [{UNITS.get(unit, unit)}]")
 
     def lengths(self):
         """Number of different values of each key."""
@@ -76,7 +85,22 @@ class Sweep:
 
     def label_value(self, key, value):
         """A value of a key in words."""
-        return str(self.words[key][int(value)]) if key in self.words else f"{value:.4g}"
+        return str(self.words[key][int(value)]).replace("_", " ") if key in self.words else f"{value:.4g}"
+
+
+def _label_of(key):
+    """The last part of a key, with its group where it is too short a name to stand alone, as in film.law and roller.radius_mm."""
+    group, _, name = key.rpartition(".")
+    return name if group == "operating_point" or name.count("_") > 1 else f"{group}_{name}"
+
+
+def _is_logarithmic(file, key):
+    """Does the deck divide the range of a key by equal ratios?"""
+    values = file.get("deck/values", {})
+    for place in range(1, 9):
+        if f"sweep.key_{place}" in values and values[f"sweep.key_{place}"][()].decode() == key:
+            return f"sweep.scale_{place}" in values and values[f"sweep.scale_{place}"][()] == b"logarithmic"
+    return False
 
 
 def suitable_figure(sweep):
@@ -102,12 +126,16 @@ def draw_map(sweep):
         rows, j = np.unique(y, return_inverse=True)
         table = np.full((len(rows), len(columns)), np.nan)
         table[j, i] = values[chosen]
-        image = axes.pcolormesh(columns, rows, np.ma.masked_invalid(table), shading="nearest", cmap="viridis")
+        image = axes.pcolormesh(_edges(columns, first in sweep.logarithmic), _edges(rows, second in sweep.logarithmic),
+                                np.ma.masked_invalid(table), cmap="viridis")
         axes.set_facecolor("#dddddd")  # cases without a result
         figure.colorbar(image, ax=axes, label=label)
-        if len(rows) > 1 and len(columns) > 1 and np.isfinite(table).all() and np.ptp(table) > 0:
+        if min(table.shape) > 1 and not {first, second} & set(sweep.words) and np.isfinite(table).all() and np.ptp(table) > 0:
             lines = axes.contour(columns, rows, table, colors="white", linewidths=0.6)
-            axes.clabel(lines, fontsize=7)
+            shade = [withStroke(linewidth=1.4, foreground="#00000080")]
+            lines.set(path_effects=shade)
+            for label in axes.clabel(lines, fontsize=7):
+                label.set_path_effects(shade)
         _name_axis(sweep, axes, "x", first)
         _name_axis(sweep, axes, "y", second)
     _note(figure, sweep, (first, second))
@@ -115,11 +143,11 @@ def draw_map(sweep):
 
 
 def draw_curves(sweep):
-    """The longest key along the axis, the next one as curves; the others have their first value."""
+    """The longest key of numbers along the axis, the next key as curves; the others have their first value."""
     if not sweep.is_grid():
         raise SweepError("curves need a grid; see --figure")
     lengths = sweep.lengths()
-    order = sorted(lengths, key=lengths.get, reverse=True)
+    order = sorted(lengths, key=lambda key: (key not in sweep.words, lengths[key]), reverse=True)
     axis, curve = order[0], (order[1] if len(order) > 1 else None)
     chosen = _where_others_are_first(sweep, order[:2])
     figure = Figure(figsize=(5.2 * len(sweep.quantities), 4.0), layout="constrained")
@@ -131,6 +159,7 @@ def draw_curves(sweep):
             here = chosen if step is None else chosen & (sweep.keys[curve][0] == step)
             order_here = np.argsort(sweep.keys[axis][0][here], kind="stable")
             axes.plot(sweep.keys[axis][0][here][order_here], values[here][order_here], marker="o", markersize=3,
+                      linewidth=0.0 if axis in sweep.words else 1.3,
                       color=matplotlib.colormaps["viridis"](0.9 * number / max(1, len(steps) - 1)),
                       label=None if step is None else sweep.label_value(curve, step))
         axes.set_ylabel(label)
@@ -150,7 +179,7 @@ def draw_scatter(sweep):
     for i, name in enumerate(sweep.quantities):
         for j, key in enumerate(sweep.keys):
             axes = grid[i][j]
-            axes.scatter(sweep.keys[key][0], sweep.quantities[name][0], s=size, color="#08306b", linewidths=0,
+            axes.scatter(sweep.keys[key][0] + _sideways(sweep, key), sweep.quantities[name][0], s=size, color="#08306b", linewidths=0,
                          alpha=0.6, rasterized=True)
             if i == rows - 1:
                 _name_axis(sweep, axes, "x", key)
@@ -170,8 +199,9 @@ def draw_parallel(sweep):
     scaled, ends = [], []
     for name in names:
         values = sweep.column(name)[0][cases]
+        ends.append((values.min(), values.max()))
+        values = np.log(values) if name in sweep.logarithmic else values
         low, high = values.min(), values.max()
-        ends.append((low, high))
         scaled.append((values - low) / (high - low) if high > low else np.full(len(values), 0.5))
     scaled = np.array(scaled)
     figure = Figure(figsize=(1.6 * len(names) + 1.0, 4.2), layout="constrained")
@@ -179,12 +209,12 @@ def draw_parallel(sweep):
     for line in np.argsort(scaled[-1], kind="stable"):
         axes.plot(scaled[:, line], color=matplotlib.colormaps["viridis"](scaled[-1, line]), linewidth=0.5, alpha=0.5)
     for place, (name, (low, high)) in enumerate(zip(names, ends)):
-        axes.axvline(place, color="black", linewidth=0.8)
+        axes.plot([place, place], [0, 1], color="black", linewidth=0.8)
         for height, value, side in ((-0.02, low, "top"), (1.02, high, "bottom")):
             axes.text(place, height, sweep.label_value(name, value), ha="center", va=side, fontsize=7)
-    labels = [sweep.column(name)[1].replace(" [", "\n[") for name in names]
+    labels = [sweep.column(name)[1].replace(" [", "\n[") + "\nlogarithmic" * (name in sweep.logarithmic) for name in names]
     axes.set_xticks(range(len(names)), labels, fontsize=7)
-    axes.tick_params(axis="x", length=0, pad=14)
+    axes.tick_params(axis="x", length=0, pad=4)
     axes.set_yticks([])
     axes.set_ylim(-0.08, 1.08)
     axes.spines[:].set_visible(False)
@@ -204,11 +234,38 @@ def _where_others_are_first(sweep, names):
     return chosen
 
 
+def _edges(centres, is_logarithmic):
+    """Edges of cells about their centres, halfway in what the axis shows."""
+    places = np.log(centres) if is_logarithmic else centres
+    if len(places) == 1:
+        return centres * np.array([0.9, 1.1]) if is_logarithmic else centres + np.array([-0.5, 0.5])
+    inner = (places[1:] + places[:-1]) / 2
+    places = np.concatenate(([2 * places[0] - inner[0]], inner, [2 * places[-1] - inner[-1]]))
+    return np.exp(places) if is_logarithmic else places
+
+
+def _sideways(sweep, key):
+    """Points that share a word, spread evenly beside each other."""
+    if key not in sweep.words:
+        return 0.0
+    return SPREAD * (2 * ((np.arange(len(sweep.status)) * (5**0.5 - 1) / 2) % 1) - 1)
+
+
 def _name_axis(sweep, axes, side, key):
     getattr(axes, f"set_{side}label")(sweep.keys[key][1])
+    if key in sweep.logarithmic:
+        getattr(axes, f"set_{side}scale")("log")
+        ticks = getattr(axes, f"{side}axis")
+        few = sweep.keys[key][0].max() < 30 * sweep.keys[key][0].min()
+        ticks.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0) if few else (1.0,)))
+        ticks.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+        ticks.set_minor_formatter(NullFormatter())
     if key in sweep.words and len(sweep.words[key]) <= MOST_WORDS:
-        getattr(axes, f"set_{side}ticks")(range(len(sweep.words[key])), sweep.words[key], fontsize=7,
-                                          **({"rotation": 20, "ha": "right"} if side == "x" else {}))
+        words = [sweep.label_value(key, place) for place in range(len(sweep.words[key]))]
+        is_long = side == "x" and sum(map(len, words)) > 24
+        turn = {"rotation": 20, "ha": "right"} if is_long else {}
+        getattr(axes, f"set_{side}ticks")(range(len(words)), words, fontsize=7, **turn)
+        getattr(axes, f"set_{side}lim")(-0.5, len(words) - 0.5)
 
 
 def _note(figure, sweep, shown):

@@ -50,11 +50,11 @@ def test_a_figure_suits_the_sweep(grid, sample, tmp_path):
 def test_a_map_shows_the_longest_keys(grid):
     figure = draw_map(Sweep(grid, ["mean_torque_drive"]))
     axes = figure.axes[0]
-    assert axes.get_xlabel() == "speed [rpm]" and axes.get_ylabel() == "oil temperature [degC]"
+    assert axes.get_xlabel() == "speed [rpm]" and axes.get_ylabel() == "oil temperature [°C]"
     table = axes.collections[0].get_array()
     assert table.shape == (9, 10) and np.ma.count_masked(table) == 1
     assert np.isclose(table[0, 0], 300 / 40) and np.isclose(table[8, 9], 900 / 120)
-    assert figure.get_suptitle() == "law = moes, 1 of 180 cases have no result"
+    assert figure.get_suptitle() == "film law = moes, 1 of 180 cases have no result"
 
 
 def test_curves_have_the_values_of_the_file(grid):
@@ -67,10 +67,36 @@ def test_curves_have_the_values_of_the_file(grid):
 def test_scatter_and_parallel_show_every_case(sample):
     sweep = Sweep(sample, ["mean_torque_drive"])
     figure = draw_scatter(sweep)
-    assert [axes.get_xlabel() for axes in figure.axes] == ["x [mm]", "y"]
+    assert [axes.get_xlabel() for axes in figure.axes] == ["a x [mm]", "a y"]
     assert all(len(axes.collections[0].get_offsets()) == 50 for axes in figure.axes)
     lines = [line for line in draw_parallel(sweep).axes[0].lines if len(line.get_xdata()) == 3]
     assert len(lines) == 50
+
+
+def test_ranges_divided_by_equal_ratios_are_logarithmic(grid):
+    with h5py.File(grid, "r+") as file:
+        for place, key, scale in ((1, "film.law", "linear"), (2, "operating_point.speed_rpm", "logarithmic")):
+            file[f"deck/values/sweep.key_{place}"], file[f"deck/values/sweep.scale_{place}"] = key, scale
+    sweep = Sweep(grid, ["mean_torque_drive"])
+    assert sweep.logarithmic == {"operating_point.speed_rpm"}
+    axes = draw_map(sweep).axes[0]
+    assert (axes.get_xscale(), axes.get_yscale()) == ("log", "linear")
+    edges = axes.collections[0].get_coordinates()[0, :, 0]
+    assert np.allclose(edges[1:-1] ** 2, np.linspace(300, 900, 10)[1:] * np.linspace(300, 900, 10)[:-1])
+    assert draw_curves(sweep).axes[0].get_xscale() == "log"
+    assert "\nlogarithmic" in draw_parallel(sweep).axes[0].get_xticklabels()[0].get_text()
+
+
+def test_words_are_curves_or_stand_apart(tmp_path):
+    """No line joins words; points of a scatter are beside the word they belong to."""
+    laws = np.array(["b_b", "a"] * 4, dtype=h5py.string_dtype()).astype(object)
+    columns = {"film.law": (laws, "1"), "a.long_key": (np.repeat([1.0, 2.0, 3.0, 4.0], 2), "1")}
+    sweep = Sweep(write(tmp_path / "words.h5", columns, np.arange(8.0)), ["mean_torque_drive"])
+    axes = draw_curves(sweep).axes[0]
+    assert axes.get_xlabel() == "a long key"
+    assert [text.get_text() for text in axes.get_legend().get_texts()] == ["a", "b b"]
+    points = draw_scatter(sweep).axes[0].collections[0].get_offsets()[:, 0]
+    assert (np.abs(points - np.array([1, 0] * 4)) < 0.2).all() and len(set(points)) == 8
 
 
 @pytest.mark.parametrize("figure", FIGURES)

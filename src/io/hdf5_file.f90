@@ -9,11 +9,11 @@ module camroller_hdf5_file
    use, intrinsic :: ieee_arithmetic, only : ieee_quiet_nan, ieee_value
    use hdf5, only : hid_t, hsize_t, size_t, h5dcreate_f, h5dget_space_f, h5dwrite_f, h5fclose_f, h5fcreate_f, &
       & h5fflush_f, h5fget_filesize_f, h5gcreate_f, h5oclose_f, h5pclose_f, h5pcreate_f, h5pset_attr_creation_order_f, &
-      & h5pset_chunk_f, h5pset_chunk_cache_f, h5pset_deflate_f, h5pset_fclose_degree_f, h5pset_fill_value_f, &
+      & h5pset_buffer_f, h5pset_chunk_f, h5pset_chunk_cache_f, h5pset_deflate_f, h5pset_fclose_degree_f, h5pset_fill_value_f, &
       & h5pset_link_creation_order_f, h5pset_obj_track_times_f, h5pset_shuffle_f, h5sclose_f, h5sselect_hyperslab_f, &
       & h5tclose_f, h5f_acc_excl_f, h5f_close_strong_f, h5f_scope_global_f, h5p_crt_order_indexed_f, &
       & h5p_crt_order_tracked_f, h5p_dataset_access_f, h5p_dataset_create_f, h5p_file_access_f, h5p_file_create_f, &
-      & h5p_default_f, h5p_group_create_f, h5s_all_f, h5s_select_set_f, h5t_ieee_f64le, h5t_native_double, &
+      & h5p_dataset_xfer_f, h5p_default_f, h5p_group_create_f, h5s_all_f, h5s_select_set_f, h5t_ieee_f64le, h5t_native_double, &
       & h5t_native_integer, h5t_std_i32le
    use camroller_kinds, only : wp
    use camroller_error, only : error_t, raise, kind_file
@@ -38,6 +38,8 @@ module camroller_hdf5_file
 
    !> Space kept ready for the library's own records [byte]
    integer(c_int64_t), parameter :: spare_space = 524288_c_int64_t
+   !> Buffer for texts on their way to a file [byte]; the library's own is a megabyte, cleared for each text
+   integer(hsize_t), parameter :: conversion_size = 4096_hsize_t
 
    interface
       function c_get_handle(file, access, address) bind(C, name="H5Fget_vfd_handle") result(status)
@@ -440,22 +442,24 @@ contains
       !> File error
       type(error_t), allocatable, intent(out) :: error
 
-      integer(hid_t) :: file_space, memory_space
+      integer(hid_t) :: file_space, memory_space, transfer
       integer :: status, ignored
 
+      call h5pcreate_f(h5p_dataset_xfer_f, transfer, status)
+      if (status == 0) call h5pset_buffer_f(transfer, conversion_size, status)
       if (size(first) == 0) then
-         call h5dwrite_f(dataset%id, memory_type, address, status, h5s_all_f, h5s_all_f)
-         if (status /= 0) call raise_object(error, dataset)
-         return
+         if (status == 0) call h5dwrite_f(dataset%id, memory_type, address, status, h5s_all_f, h5s_all_f, transfer)
+      else
+         if (status == 0) call h5dget_space_f(dataset%id, file_space, status)
+         call open_space(extents, memory_space, ignored)
+         if (status == 0) call h5sselect_hyperslab_f(file_space, h5s_select_set_f, int(first, hsize_t), &
+            & int(extents, hsize_t), status)
+         if (status == 0) call h5dwrite_f(dataset%id, memory_type, address, status, memory_space, file_space, transfer)
+         call h5sclose_f(memory_space, ignored)
+         call h5sclose_f(file_space, ignored)
       end if
-      call h5dget_space_f(dataset%id, file_space, status)
-      call open_space(extents, memory_space, ignored)
-      if (status == 0) call h5sselect_hyperslab_f(file_space, h5s_select_set_f, int(first, hsize_t), &
-         & int(extents, hsize_t), status)
-      if (status == 0) call h5dwrite_f(dataset%id, memory_type, address, status, memory_space, file_space)
       if (status /= 0) call raise_object(error, dataset)
-      call h5sclose_f(memory_space, ignored)
-      call h5sclose_f(file_space, ignored)
+      call h5pclose_f(transfer, ignored)
    end subroutine write_block
 
    !> Creation properties without time stamps, with members (where the object has some) in order of creation.

@@ -86,3 +86,9 @@ def test_every_target_for_users_is_named():
     named = set().union(*(targets_of(code_of(page.read_text(encoding="utf-8"))) for page in PAGES))
     own = {"help", "setup", "build", "debug", "clean", "distclean"}
     assert sorted(listed - named - own) == []
+
+
+def test_the_table_of_throughput_is_the_one_that_was_measured():
+    text = (ROOT / "doc/batch.md").read_text(encoding="utf-8")
+    shown = re.search(r"<!-- table: (\S+) -->\n```\n(.*?)```\n<!-- end of table -->", text, re.DOTALL)
+    assert shown[2] == (ROOT / shown[1]).read_text(encoding="utf-8")

@@ -1,6 +1,7 @@
 """Sweeps: kinds of samples, the same file from threads and shards, stops and continuations, what is refused."""
 
 import os
+import re
 import signal
 import subprocess
 import time
@@ -30,6 +31,11 @@ def reference(camroller, deck):
 def parts(folder):
     """Part files in a folder."""
     return sorted(path.name for path in folder.glob("*.part-*"))
+
+
+def left(result):
+    """Cases to do, as a sweep that was stopped tells."""
+    return int(re.search(r"with (\d+) of \d+ cases to do", result.stderr)[1])
 
 
 def test_file_is_that_of_run(camroller, deck, reference, tmp_path):
@@ -103,6 +109,8 @@ def test_time_limit_and_resume(camroller, deck, reference, tmp_path):
     assert "reached its time limit with " in result.stderr
     assert "of 24 cases to do; go on with it by --resume" in result.stderr
     assert not (tmp_path / "deck.h5").exists()
+    further = run(camroller, "sweep", deck, "--resume", "--set", "sweep.wall_time_limit_s=1e-3", folder=tmp_path)
+    assert 0 < left(further) < left(result) < 24
     again = run(camroller, "sweep", deck, folder=tmp_path)
     assert again.returncode == FILE
     assert "go on with it by --resume, or remove" in again.stderr

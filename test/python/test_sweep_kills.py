@@ -1,6 +1,7 @@
 """A sweep that is killed again and again ends in the same file as one that is left alone."""
 
 import random
+import re
 import signal
 import subprocess
 import time
@@ -59,17 +60,22 @@ def test_ended_at_random_moments(camroller, deck, undisturbed, tmp_path):
     """The same with a signal that can be heeded: what is done is kept, and the exit code says that there is more to do."""
     reference, duration = undisturbed
     moments = random.Random(SEED + 1)
+    to_do = []
     for _ in range(10):
         process = subprocess.Popen([camroller, "sweep", deck, "--resume", "--quiet"], cwd=tmp_path, stderr=subprocess.PIPE)
         try:
             process.wait(timeout=moments.uniform(0.0, 0.4 * duration))
         except subprocess.TimeoutExpired:
             process.send_signal(signal.SIGTERM)
-        process.communicate()
+        words = process.communicate()[1].decode()
+        if process.returncode == UNFINISHED:
+            to_do.append(int(re.search(r"with (\d+) of 160 cases to do", words)[1]))
         # before it listens, and while it makes the file, the signal ends it at once
         assert process.returncode in (0, UNFINISHED, -signal.SIGTERM)
     done(camroller, "sweep", deck, "--resume", "--quiet", folder=tmp_path)
     assert same(reference, tmp_path / "deck.h5")
+    # what was done is not done again
+    assert to_do == sorted(to_do, reverse=True) and min(to_do) < 160
 
 
 def test_kill_of_a_shard(camroller, deck, undisturbed, tmp_path):
