@@ -120,6 +120,18 @@ def test_time_limit_and_resume(camroller, deck, reference, tmp_path):
     assert finished.stdout == "deck.h5 is there with all cases\n"
 
 
+def test_cases_with_other_quantities_after_a_stop(camroller, tmp_path):
+    """What a case has in its summary is numbered anew in each run, and must not be mixed up."""
+    deck = write_deck(tmp_path / "deck.nml", "key_1 = 'operating_point.speed_rpm' from_1 = 400 to_1 = 900 count_1 = 6 "
+                                             "key_2 = 'case.energy' values_2 = 'source', 'consistent'")
+    done(camroller, "sweep", deck, "-o", "reference.h5", "--quiet", folder=tmp_path)
+    for _ in range(3):
+        assert run(camroller, "sweep", deck, "--resume", "--threads", 1, "--set", "sweep.wall_time_limit_s=1e-3",
+                   folder=tmp_path).returncode == UNFINISHED
+    done(camroller, "sweep", deck, "--resume", folder=tmp_path)
+    assert same(tmp_path / "reference.h5", tmp_path / "deck.h5")
+
+
 @pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGINT, signal.SIGUSR1])
 def test_signals_end_it_cleanly(camroller, deck, reference, tmp_path, number):
     process = subprocess.Popen([camroller, "sweep", deck, "--threads", "1"], cwd=tmp_path, stderr=subprocess.PIPE, text=True)
@@ -269,6 +281,24 @@ def test_a_log_has_plain_lines(camroller, tmp_path):
     lines = [line for line in result.stderr.splitlines() if "left" in line]
     assert lines
     assert all(" of 240 cases, " in line and "/s, " in line and "\r" not in line for line in lines)
+
+
+def test_a_terminal_has_one_line(camroller, tmp_path):
+    """Written over again and again, from the first second on, and taken away at the end."""
+    deck = write_deck(tmp_path / "deck.nml", GRID.replace("count_1 = 6", "count_1 = 5000"))
+    ours, theirs = os.openpty()
+    process = subprocess.Popen([camroller, "sweep", deck, "--threads", "1"], cwd=tmp_path, stderr=theirs)
+    os.close(theirs)
+    shown = b""
+    while b" left" not in shown:
+        shown += os.read(ours, 4096)
+    process.send_signal(signal.SIGTERM)
+    while b"camroller: " not in shown:
+        shown += os.read(ours, 4096)
+    assert process.wait() == UNFINISHED
+    os.close(ours)
+    assert re.match(rb"\r\d+ of 20000 cases, [\d.]+/s, [\d.]+ (s|min|h) left *\r", shown), shown
+    assert re.search(rb"\r {72}\rcamroller: the sweep was stopped with ", shown), shown
 
 
 def test_a_full_device_leaves_what_was_done(camroller, deck, reference, tmp_path):
