@@ -23,7 +23,7 @@ module camroller_run_command
    implicit none
    private
 
-   public :: run_deck, check_cases, options_of, output_path
+   public :: run_deck, check_cases, options_of, output_path, tell_unused_values
 
    !> What happened to the cases
    type :: tally_t
@@ -53,6 +53,7 @@ contains
 
       call read_deck(deck, config%subject, config%overrides, error)
       if (allocated(error)) return
+      if (.not. config%is_quiet) call tell_unused_values(deck)
       call check_cases(deck, error)
       if (allocated(error)) return
       path = output_path(config, ".h5")
@@ -80,6 +81,23 @@ contains
       error%message = integer_text(tally%failed)//" of "//integer_text(cases)//" cases have no result; the first is "// &
          & error%message
    end subroutine run_deck
+
+   !> Say which values given beside the deck are not used, since the sweep varies their keys.
+   subroutine tell_unused_values(deck)
+      !> The deck
+      type(deck_t), intent(in) :: deck
+
+      integer :: i, j
+
+      do i = 1, size(deck%overrides)
+         do j = 1, size(deck%sweep%axes)
+            associate (key => deck%sweep%axes(j)%key, text => deck%overrides(i)%text)
+               if (trim(adjustl(text(:index(text, "=") - 1))) /= key) cycle
+               write (error_unit, '(a)') "remark: '"//text//"' is not used, since &sweep varies "//key
+            end associate
+         end do
+      end do
+   end subroutine tell_unused_values
 
    !> Do the values of every case go together?
    subroutine check_cases(deck, error)

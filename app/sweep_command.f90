@@ -24,7 +24,7 @@ module camroller_sweep_command
    use camroller_part_sink, only : part_sink_t
    use camroller_progress, only : end_progress, progress_t, seconds_since, start_progress
    use camroller_raw_file, only : find_files
-   use camroller_run_command, only : options_of, output_path
+   use camroller_run_command, only : options_of, output_path, tell_unused_values
    use camroller_run_facts, only : study_digest, study_facts, write_facts
    use camroller_settings, only : get_word, is_known, take
    use camroller_stop_signal, only : heed_stop_signals, release_stop_signals
@@ -108,6 +108,7 @@ contains
 
       call begin(config, run, error)
       if (agreed_code(team, error) /= 0) return
+      if (team%rank == 0 .and. .not. config%is_quiet) call tell_unused_values(run%deck)
       run%first = int((config%shard - 1)*int(run%facts%cases, int64)/config%shards) + 1
       run%last = int(config%shard*int(run%facts%cases, int64)/config%shards)
       if (run%first > run%last) then

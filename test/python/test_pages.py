@@ -12,7 +12,7 @@ BLOCK = re.compile(r"^```[a-z]*[ \t]*\n(.*?)^```[ \t]*$", re.MULTILINE | re.DOTA
 FILE = re.compile(r"(?<![\w<*./-])[\w./-]+\.(?:f90|py|sh|md|nml|csv|txt|toml|png|h)(?![\w*.])")
 FOLDER = re.compile(r"(?<![\w/.-])((?:src|app|test|post|tools|bench|doc|decks|slurm|mpi|example|include)(?:/[\w-]+)*)/?$")
 # folders that git does not hold, and names that a page makes up for its reader
-MADE = re.compile(r"^(?:results|build|\.venv)/|^(?:a|FILE|DECK|hot|cases|earlier)\.\w+$")
+MADE = re.compile(r"^(?:results|build|\.venv)/|^(?:a|FILE|DECK|cases|earlier)\.\w+$")
 
 
 def code_of(text):

@@ -80,6 +80,13 @@ def test_check_of_more_cases_than_it_can_build(camroller, deck):
     assert ", of which 10000 were checked" in result.stdout
 
 
+@pytest.mark.parametrize("command", ["run", "sweep"])
+def test_a_value_that_the_sweep_varies_is_not_taken_in_silence(camroller, deck, tmp_path, command):
+    result = done(camroller, command, deck, "--set", "operating_point.speed_rpm=350", "--set", "roller.mass_kg=0.009", folder=tmp_path)
+    assert [line for line in result.stderr.splitlines() if "is not used" in line] == [
+        "remark: 'operating_point.speed_rpm=350' is not used, since &sweep varies operating_point.speed_rpm"]
+
+
 def test_shards_change_nothing(camroller, deck, reference, tmp_path):
     runs = [subprocess.Popen([camroller, "sweep", deck, "--shard", f"{i}/3", "--quiet"], cwd=tmp_path) for i in (3, 1, 2)]
     assert [process.wait() for process in runs] == [0, 0, 0]
