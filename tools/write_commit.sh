@@ -15,4 +15,5 @@ text="character(len=*), parameter :: build_commit = \"$commit\""
 if [ -f "$target" ] && [ "$(cat "$target")" = "$text" ]; then exit 0; fi
 mkdir -p build/commit
 printf '%s\n' "$text" > "$target"
-rm -f build/gfortran_*/camroller/src_base_version.f90.o* mpi/build/*/camroller-mpi/*src_base_version.f90.o*
+# where the sources are in the folder above, fpm calls an object after it, with dots in front
+rm -f build/gfortran_*/camroller/src_base_version.f90.o* mpi/build/*/camroller-mpi/.*src_base_version.f90.o*
