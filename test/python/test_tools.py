@@ -125,3 +125,15 @@ def test_all_checks_count_what_failed_and_name_what_cannot_run(tmp_path, node, l
     result = subprocess.run(["bash", tmp_path / ".ci/run"], capture_output=True, text=True, check=False)
     assert result.stdout.splitlines()[-len(lines):] == lines
     assert result.returncode == code
+
+
+def test_what_knows_the_commit_is_compiled_again(tmp_path):
+    """Objects made from the former commit are removed, with the names that fpm gives them in both programs."""
+    objects = [tmp_path / "build/gfortran_1/camroller/src_base_version.f90.o",
+               tmp_path / "mpi/build/mpifort_1/camroller-mpi/.._src_base_version.f90.o"]
+    for path in [*objects, tmp_path / "tools/write_commit.sh"]:
+        path.parent.mkdir(parents=True)
+        path.touch()
+    (tmp_path / "tools/write_commit.sh").write_bytes((ROOT / "tools/write_commit.sh").read_bytes())
+    subprocess.run(["bash", tmp_path / "tools/write_commit.sh"], check=True, capture_output=True)
+    assert [path for path in objects if path.exists()] == []
