@@ -2,8 +2,8 @@
 
 SHELL := /bin/bash
 .DEFAULT_GOAL := help
-.PHONY: help setup commit build debug mpi run comparison test quick bless random needed study audit check check-layers check-style \
-  check-format check-lint check-warnings format bench bench-batch bench-effects clean distclean
+.PHONY: help setup commit build debug mpi run comparison test quick bless random needed study study-film audit check check-layers \
+  check-style check-format check-lint check-warnings format bench bench-batch bench-effects clean distclean
 
 FPM := .venv/bin/fpm
 PYTHON := .venv/bin/python
@@ -57,6 +57,13 @@ study: build ## what accuracy costs on decks/thesis.nml: tables and figures of d
 	build/release/bin/camroller study decks/thesis.nml -o results/thesis_study.h5 > results/thesis_study.txt
 	cp results/thesis_study.txt doc/accuracy_tables.txt
 	$(PYTHON) post/plot_study.py results/thesis_study.h5 --output doc/figures --name thesis
+
+study-film: build ## what the accuracy of a numerical film costs, at 300 rev/min: table and figure of doc/ehl.md, one minute
+	@mkdir -p results
+	OPENBLAS_NUM_THREADS=1 build/release/bin/camroller study decks/numerical_film.nml --film --set sweep.values_1=300 \
+	  -o results/film_study.h5 > results/film_study.txt
+	cp results/film_study.txt doc/film_tables.txt
+	$(PYTHON) post/plot_study.py results/film_study.h5 --output doc/figures --name film
 
 audit: build ## what each effect of decks/thesis.nml is worth and costs: tables and figure of doc/effects.md, half a minute
 	@mkdir -p results

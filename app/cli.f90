@@ -18,7 +18,8 @@ module camroller_cli
    !> Options of each command, in the same order
    character(len=*), parameter :: option_names(*) = [character(len=80) :: &
       & "--output --set --quiet --help", "--set --help", &
-      & "--output --set --repeats --quick --quiet --help", "--markdown --help", "--series --summary --case --output --help", &
+      & "--output --set --repeats --quick --film --quiet --help", "--markdown --help", &
+      & "--series --summary --case --output --help", &
       & "--help", "--help", "--output --set --threads --shard --resume --log-every --quiet --help", &
       & "--output --set --partial --quiet --help", "--threads --log-every --quiet --help", &
       & "--output --set --repeats --quiet --help", "--output --set --quiet --help"]
@@ -52,6 +53,8 @@ module camroller_cli
       integer :: repeats = 5
       !> A study of a few trials only?
       logical :: is_quick = .false.
+      !> A study of numerical films?
+      logical :: is_film = .false.
       !> Threads of a sweep; 0 for as many as there are cores
       integer :: threads = 0
       !> This shard of a sweep, from 1, and the number of shards
@@ -238,6 +241,8 @@ contains
          config%is_resumed = .true.
       case ("--partial")
          config%is_partial = .true.
+      case ("--film")
+         config%is_film = .true.
       end select
    end subroutine set_option_of_many
 

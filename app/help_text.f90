@@ -94,6 +94,9 @@ contains
             & "  -o, --output FILE          file to write"//n// &
             & "  --repeats N                runs whose median time counts; 5 where not given"//n// &
             & "  --quick                    a few trials of each method only"//n// &
+            & "  --film                     the numerical film instead: steady over nodes, as a law over its accuracy,"//n// &
+            & "                             and solved over the cycle over nodes and steps, beside the film law;"//n// &
+            & "                             into the deck's name with _film_study.h5"//n// &
             & "  -s, --set group.key=value  other value than the deck's; may be repeated"//n// &
             & "  -q, --quiet                say nothing but errors"
       case default

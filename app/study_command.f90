@@ -9,6 +9,7 @@ module camroller_study_command
    use camroller_cli, only : config_t
    use camroller_deck, only : deck_t, read_deck, make_sweep_case
    use camroller_deck_sweep, only : sweep_size, case_in_words
+   use camroller_film_study, only : study_films
    use camroller_number_text, only : integer_text
    use camroller_output, only : output_t, output_options_t, open_output, abandon_output
    use camroller_progress, only : progress_t, start_progress, show_progress, end_progress, seconds_since
@@ -52,7 +53,9 @@ contains
       call read_deck(deck, config%subject, config%overrides, error)
       if (.not. allocated(error)) call check_cases(deck, error)
       if (allocated(error)) return
-      path = output_path(config, "_study.h5")
+      path = "_study.h5"
+      if (config%is_film) path = "_film_study.h5"
+      path = output_path(config, path)
       if (path == config%subject) then
          call raise(error, kind_usage, "the result would replace the deck '"//path//"'")
          return
@@ -61,6 +64,10 @@ contains
       call open_output(writer, path, sweep_size(deck%sweep), output_options_t(), error)
       if (.not. allocated(error)) call write_facts(writer, deck, error)
       if (allocated(error)) return
+      if (config%is_film) then
+         call study_films(deck, config, path, writer, progress, error)
+         return
+      end if
       call study_cases(deck, config, progress, tables, failure)
       call end_progress(progress)
       if (count(tables(references)%numbers(:tables(references)%rows, 2) <= 0.0) == 0) then

@@ -3,6 +3,8 @@
     python post/plot_study.py results/thesis_study.h5            three figures beside the file
     python post/plot_study.py FILE --output doc/figures --name thesis
 
+A study with `--film` has one figure, `<name>_work_precision.png`: steady film over nodes and time, cycles over time.
+
 `<name>_work_precision.png`: error of the sliding speed against time, one curve a method, geometric means over the cases;
 `<name>_cheapest.png`: time of each method for a given error; `<name>_stability.png`: the fixed step of the source over fastest
 decay rate and step, with the theoretical limit. Needs no display. Exit code 2 where the file is no study.
@@ -146,6 +148,63 @@ def stability(study):
     return figure
 
 
+FILM_TABLES = ("contacts", "film_table", "film_cycle")
+
+
+def read_films(path):
+    """Tables of a study of films; none where the file has another study."""
+    try:
+        with h5py.File(path) as file:
+            if "film_cycle" not in file["study"]:
+                return None
+            return {name: {column: _plain(data) for column, data in file["study"][name].items()} for name in FILM_TABLES}
+    except (OSError, KeyError) as error:
+        raise StudyError(f"{path}: not a study: {error}") from None
+
+
+def film_points(table, rows, error, cost):
+    """Largest error and geometric mean of the cost over the cases, or nothing where none is fine."""
+    rows = rows & ~np.isnan(table[error]) & ~np.isnan(table[cost])
+    return (_mean(table[cost][rows]), table[error][rows].max()) if rows.any() else None
+
+
+def film_work_precision(study):
+    """Steady film against nodes and time; tables of films and solved cycles against time, beside the film law."""
+    figure = Figure(figsize=(14.0, 4.8), layout="constrained")
+    panels = figure.subplots(1, 3)
+    contacts, tables, cycles = (study[name] for name in FILM_TABLES)
+    for number, name in enumerate(word for word in dict.fromkeys(contacts["contact"]) if word):
+        rows = contacts["contact"] == name
+        for cost, style, words in (("cold_time", "-", "from nothing"), ("warm_time", "--", "from nearby")):
+            points = [film_points(contacts, rows & (contacts["nodes"] == nodes), "error_film_min", cost)
+                      for nodes in np.unique(contacts["nodes"][rows])]
+            points = np.array([point for point in points if point])
+            if points.size:
+                panels[0].plot(1e3 * points[:, 0], points[:, 1], "C" + str(number) + style, marker="o", markersize=4,
+                               label=f"{name}, {words}")
+    panels[0].set(xlabel="time [ms]", ylabel="error of the smallest film [-]", title="steady film, 33 to 513 nodes")
+    for axes, error, words in ((panels[1], "error_film_min", "largest error of the smallest film [-]"),
+                               (panels[2], "error_slip", "error of the mean sliding speed [-]")):
+        solved = cycles["model"] == "solved"
+        for number, nodes in enumerate(np.unique(cycles["nodes"][solved & ~np.isnan(cycles["nodes"])])):
+            rows = solved & (cycles["nodes"] == nodes)
+            points = [film_points(cycles, rows & (cycles["step_error"] == step), error, "time")
+                      for step in np.unique(cycles["step_error"][rows])]
+            points = np.array([point for point in points if point])
+            if points.size:
+                axes.plot(1e3 * points[:, 0], points[:, 1], f"C{number}o-", markersize=4, label=f"solved, {nodes:.0f} nodes" + (", as the reference" if nodes > 256 else ""))
+        for name, marker in zip((word for word in dict.fromkeys(cycles["model"]) if word and word != "solved"), "sD^"):
+            point = film_points(cycles, cycles["model"] == name, error, "time")
+            if point:
+                axes.plot(1e3 * point[0], point[1], "k" + marker, label="run, " + name)
+        axes.set(xlabel="time [ms]", ylabel=words, title="cycle, against 257 nodes")
+    for axes in panels:
+        axes.set(xscale="log", yscale="log")
+        axes.grid(True, which="major", linewidth=0.3)
+        axes.legend(frameon=False, fontsize=7.5)
+    return figure
+
+
 FIGURES = {"work_precision": work_precision, "cheapest": cheapest, "stability": stability}
 
 
@@ -160,9 +219,11 @@ def main(arguments=None):
     path = Path(options.file)
     folder = Path(options.output) if options.output else path.parent
     try:
-        study = read_study(path)
+        study, figures = read_films(path), {"work_precision": film_work_precision}
+        if study is None:
+            study, figures = read_study(path), FIGURES
         folder.mkdir(parents=True, exist_ok=True)
-        for name, draw in FIGURES.items():
+        for name, draw in figures.items():
             target = folder / f"{options.name or path.stem}_{name}.png"
             draw(study).savefig(target, dpi=110)
             print(f"{name}: {target}")

@@ -51,6 +51,23 @@ def test_three_figures_are_drawn(path, tmp_path):
         "x_cheapest.png", "x_stability.png", "x_work_precision.png"]
 
 
+def test_a_study_of_films_has_one_figure(tmp_path):
+    with h5py.File(tmp_path / "made_film_study.h5", "w") as file:
+        study, nan = file.create_group("study"), np.nan
+        contacts, cycles = study.create_group("contacts"), study.create_group("film_cycle")
+        study.create_group("film_table")
+        contacts["contact"] = np.array(["largest load", "largest load", ""], dtype="S20")
+        for name, values in {"nodes": [33.0, 65.0, nan], "error_film_min": [4e-2, 1e-2, nan], "cold_time": [1e-4, 4e-4, nan],
+                             "warm_time": [1e-5, nan, nan]}.items():
+            contacts[name] = np.array(values)
+        cycles["model"] = np.array(["solved", "solved", "moes", ""], dtype="S20")
+        for name, values in {"nodes": [33.0, 65.0, nan, nan], "step_error": [1e-2, 1e-2, nan, nan], "time": [0.1, 0.2, 0.01, nan],
+                             "error_film_min": [1e-1, 2e-2, 2e-1, nan], "error_slip": [1e-1, nan, 2e-1, nan]}.items():
+            cycles[name] = np.array(values)
+    assert main([str(tmp_path / "made_film_study.h5")]) == 0
+    assert [path.name for path in tmp_path.glob("*.png")] == ["made_film_study_work_precision.png"]
+
+
 def test_a_file_that_is_no_study_is_refused(tmp_path, capsys):
     with h5py.File(tmp_path / "other.h5", "w") as file:
         file["x"] = 1

@@ -85,3 +85,37 @@ def test_the_deck_is_not_replaced_and_wrong_words_are_refused(camroller, tmp_pat
         assert result.returncode == 2, result.stderr
         assert result.stdout == ""
     assert (tmp_path / "deck_study.h5").read_text() == THESIS
+
+
+def test_films_over_nodes_tables_and_steps(camroller, tmp_path):
+    """More nodes and more accuracy give smaller errors; solved cycles and runs stand in one table."""
+    text = (ROOT / "decks/numerical_film.nml").read_text()
+    (tmp_path / "one.nml").write_text(text[:text.index("&sweep")].replace("oil_temperature_degC = 25", "oil_temperature_degC = 60"))
+    result = study(camroller, "one.nml", "--film", *QUICK, folder=tmp_path)
+    assert result.returncode == 0, result.stderr
+    assert result.stdout.startswith("Steady films")
+    assert max(map(len, result.stdout.splitlines())) <= 132
+    with h5py.File(tmp_path / "one_film_study.h5") as file:
+        contacts, tables, cycles = (file["study"][name] for name in ("contacts", "film_table", "film_cycle"))
+        for name in set(words(contacts["contact"])):
+            rows = numpy.array(words(contacts["contact"])) == name
+            assert list(contacts["nodes"][rows]) == [33, 65, 129, 257, 513]
+            errors = contacts["error_film_min"][rows]
+            # second order: each doubling takes three quarters of the error, the reference's own a part of the last
+            assert (errors[1:] < errors[:-1] / 2.5).all() and errors[-1] < 1e-3
+        assert words(tables["film"]) == ["dowson_higginson", "numerical", "numerical"]
+        errors = tables["error_film_min"][:]
+        assert errors[0] > errors[1] > errors[2]
+        assert words(cycles["model"]) == 4 * ["solved"] + ["dowson_higginson", "numerical law"]
+        errors = cycles["error_mean_film"][:]
+        assert errors[2] < errors[0] / 2 and errors[3] < errors[1] / 2
+        assert (cycles["time"][:] > 0).all()
+
+
+def test_films_out_of_range_are_an_error(camroller, tmp_path):
+    text = (ROOT / "decks/hard/narrow_contact.nml").read_text()
+    (tmp_path / "deck.nml").write_text(text)
+    result = study(camroller, "deck.nml", "--film", *QUICK, folder=tmp_path)
+    assert result.returncode == 5
+    assert "above 1.5 GPa" in result.stderr
+    assert not list(tmp_path.glob("*.h5"))
