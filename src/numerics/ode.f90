@@ -1,94 +1,22 @@
-!> Initial value problems: what a method is, and the loop that drives it.
+!> Initial value problems: the loop that drives a method.
 !>
-!> Layer: numerics. In: a problem (`ode_problem`), a method, a tolerance or step, angles at which a step must end. Out: a
-!> trajectory and counters. Methods supply single steps; step-size control, stop times and the loop are here, so that a
+!> Layer: numerics. In: a problem (`ode_problem`), a method (`ode_method`), a tolerance or step, times at which a step must end.
+!> Out: a trajectory and counters. Methods supply single steps; step-size control, stop times and the loop are here, so that a
 !> method is added by adding a file and a line in `ode_methods`.
 !>
 !> Status of a step: 0 fine, positive "this trial state is impossible, try a smaller step", negative "give up".
 module camroller_ode
    use camroller_kinds, only : wp
    use camroller_error, only : error_t, raise, kind_convergence
-   use camroller_ode_problem, only : problem_t, linear_t, counters_t, new_linear, copy_linear
+   use camroller_ode_problem, only : problem_t, counters_t, new_linear, copy_linear
+   use camroller_ode_method, only : method_t, options_t
    use camroller_trajectory, only : trajectory_t, start_trajectory, append_point, append_curve
    use camroller_step_checks, only : check_saturation, check_end
+   use camroller_ode_bridge, only : footing_t, bridge_t, watch, is_stuck, try_bridge, note_bridge
    implicit none
    private
 
    public :: problem_t, counters_t, method_t, options_t, integrate
-
-   !> A way to make one step
-   type, abstract :: method_t
-      !> Order of the error estimate plus one: the local error grows with the step to this power; 0 for a fixed step
-      integer :: error_order = 0
-      !> Product of decay rate and step at which the method turns unstable; adaptive steps keep within it [-]
-      real(wp) :: stability_limit = huge(1.0_wp)
-      !> Exponents of a proportional-integral controller times the order of the error estimate: those of explicit methods
-      !> at their stability limit, after Gustafsson, ACM Trans. Math. Softw. 17 (1991) 533. One and zero make the plain
-      !> controller, which lets steps grow fast where stability does not limit them [-]
-      real(wp) :: proportional = 0.7_wp, integral = 0.4_wp
-      !> Does a step end with the rate at its end, and with its derivatives in `there` where it needs them at the start? Else
-      !> the loop evaluates them, once the step is accepted
-      logical :: gives_rate = .true.
-      !> Does a step need the Jacobian at its start?
-      logical :: needs_jacobian = .false.
-      !> Rate with its derivatives at the start of the step and at its end, where needed
-      type(linear_t) :: here, there
-      !> Time up to which the right-hand side is smooth; set by `integrate` [time]
-      real(wp) :: horizon = huge(1.0_wp)
-      !> Does a step leave its own curve in `bends`? Else the curve follows from the rates at both ends, which suits
-      !> methods whose steps are short against the decay: a rate carries the error of a state times the decay rate
-      logical :: has_curve = .false.
-      !> Curve of the last step, as `append_curve` takes it, shape (component, numbers given) [state]
-      real(wp), allocatable :: bends(:, :)
-      !> Error allowed per step, for methods that iterate; set by `integrate` [state]
-      real(wp), allocatable :: tolerance(:)
-   contains
-      procedure(step_interface), deferred :: try_step
-   end type method_t
-
-   !> How to integrate
-   type :: options_t
-      !> Error allowed per step, one value per component [state]; methods with an error estimate
-      real(wp), allocatable :: tolerance(:)
-      !> Step of a method without error estimate, first step of the others [time]
-      real(wp) :: step = 0.0_wp
-      !> Is every step of that size, whatever its error? So it is for methods without error estimate
-      logical :: is_fixed = .false.
-      !> Largest step [time]
-      real(wp) :: max_step = huge(1.0_wp)
-      !> Steps after which the integration is given up
-      integer :: max_steps = 1000000
-   end type options_t
-
-   abstract interface
-      !> One step from an accepted point, which it leaves untouched
-      subroutine step_interface(self, problem, time, state, rate, step, new_state, new_rate, error_estimate, &
-         counters, status)
-         import :: method_t, problem_t, counters_t, wp
-         !> The method with its work space
-         class(method_t), intent(inout) :: self
-         !> The problem
-         class(problem_t), intent(in) :: problem
-         !> Time at the start of the step [time]
-         real(wp), intent(in) :: time
-         !> State there [state]
-         real(wp), intent(in) :: state(:)
-         !> Rate there [state/time]
-         real(wp), intent(in) :: rate(:)
-         !> Size of the step [time]
-         real(wp), intent(in) :: step
-         !> State at the end [state]
-         real(wp), intent(out) :: new_state(:)
-         !> Rate at the end [state/time]
-         real(wp), intent(out) :: new_rate(:)
-         !> Estimate of the error made in this step [state]; zero where the method has none
-         real(wp), intent(out) :: error_estimate(:)
-         !> Work done so far
-         type(counters_t), intent(inout) :: counters
-         !> 0 fine, positive: try a smaller step, negative: give up
-         integer, intent(out) :: status
-      end subroutine step_interface
-   end interface
 
    !> Step-size control: part of the optimal step that is taken [-]
    real(wp), parameter :: safety = 0.9_wp
@@ -228,15 +156,23 @@ contains
       real(wp) :: new_state(size(state)), new_rate(size(state))
       ! Error over tolerance [-]
       real(wp) :: scaled_error
+      type(footing_t) :: footing
       integer :: status
-      logical :: is_last, was_rejected
+      logical :: is_last, is_over, was_rejected
 
       time = start
       method%horizon = finish
       was_rejected = .false.
       do
-         call choose_step(problem, method, options, time, finish, state, step, this_step, is_last, counters)
-         new_time = merge(finish, time + this_step, is_last)
+         call choose_step(problem, method, options, time, finish, state, step, this_step, new_time, is_last, counters)
+         call cross(problem, method, options, finish, this_step, footing, time, state, rate, is_last, trajectory, counters, is_over)
+         if (is_over) then
+            if (is_last) return
+            step = this_step
+            call check_progress(problem, method, options, time, step, .false., counters, error)
+            if (allocated(error)) return
+            cycle
+         end if
          call try_checked_step(problem, method, options, time, new_time, finish, this_step, state, rate, new_state, &
             & new_rate, scaled_error, counters, status)
          if (status /= 0) then
@@ -264,6 +200,75 @@ contains
          if (allocated(error)) return
       end do
    end subroutine integrate_segment
+
+   !> May bridges take the place of a method's steps?
+   pure function may_bridge(method, options) result(verdict)
+      !> The method
+      class(method_t), intent(in) :: method
+      !> Tolerance or step
+      type(options_t), intent(in) :: options
+      !> May they?
+      logical :: verdict
+
+      verdict = method%needs_jacobian .and. .not. is_fixed(method, options)
+   end function may_bridge
+
+   !> Go on by a bridge where the method gets nowhere, if there is one.
+   subroutine cross(problem, method, options, finish, step, footing, time, state, rate, is_last, trajectory, counters, was_crossed)
+      !> The problem
+      class(problem_t), intent(in) :: problem
+      !> The method
+      class(method_t), intent(inout) :: method
+      !> Tolerance or step
+      type(options_t), intent(in) :: options
+      !> End of the segment [time]
+      real(wp), intent(in) :: finish
+      !> Size of the step that is to be made; out: of the next, after a bridge [time]
+      real(wp), intent(inout) :: step
+      !> How the integration gets along
+      type(footing_t), intent(inout) :: footing
+      !> Time, from start to end [time]
+      real(wp), intent(inout) :: time
+      !> State, from start to end [state]
+      real(wp), intent(inout) :: state(:)
+      !> Rate, from start to end [state/time]
+      real(wp), intent(inout) :: rate(:)
+      !> Does the step end the segment?
+      logical, intent(inout) :: is_last
+      !> Accepted points
+      type(trajectory_t), intent(inout) :: trajectory
+      !> Work done
+      type(counters_t), intent(inout) :: counters
+      !> Was there one?
+      logical, intent(out) :: was_crossed
+
+      type(bridge_t) :: bridge
+      ! No bends [state]; end [time]
+      real(wp) :: straight(1, 1), new_time
+      integer :: status
+
+      was_crossed = .false.
+      if (.not. may_bridge(method, options)) return
+      call watch(footing, method%here, time)
+      if (.not. is_stuck(method%here, time, step, method%tolerance, footing)) return
+      straight = 0.0_wp
+      call try_bridge(problem, method%here, time, state(1), step, finish - time, method%tolerance(1), bridge, counters)
+      if (.not. bridge%is_found) return
+      is_last = .not. time + bridge%step*(1.0_wp + 1.0e-9_wp) < finish
+      new_time = merge(finish, time + bridge%step, is_last)
+      call problem%linearise(new_time, bridge%states(2:2), finish, method%there, counters, status)
+      if (status /= 0) return
+      was_crossed = .true.
+      counters%accepted = counters%accepted + 2
+      call append_curve(trajectory, time + 0.5_wp*bridge%step, bridge%states(1:1), bridge%rates(1:1), straight)
+      time = new_time
+      state = bridge%states(2)
+      rate = method%there%rate
+      step = bridge%next_step
+      call append_curve(trajectory, time, state, rate, straight)
+      call copy_linear(method%there, method%here)
+      call note_bridge(footing, time, rate(1))
+   end subroutine cross
 
    !> Are the steps fixed, by choice or for want of an error estimate?
    pure function is_fixed(method, options)
@@ -300,7 +305,7 @@ contains
    !> Step that tolerance, largest step, stability and the end of the segment allow.
    !>
    !> A step that would leave a short remainder is cut to half of what is left.
-   subroutine choose_step(problem, method, options, time, finish, state, step, this_step, is_last, counters)
+   subroutine choose_step(problem, method, options, time, finish, state, step, this_step, new_time, is_last, counters)
       !> The problem
       class(problem_t), intent(in) :: problem
       !> The method
@@ -315,8 +320,8 @@ contains
       real(wp), intent(in) :: state(:)
       !> Step proposed by the controller [time]
       real(wp), intent(in) :: step
-      !> Step to take [time]
-      real(wp), intent(out) :: this_step
+      !> Step to take, its end [time]
+      real(wp), intent(out) :: this_step, new_time
       !> Does it end the segment?
       logical, intent(out) :: is_last
       !> Work done
@@ -336,6 +341,7 @@ contains
       is_last = time + this_step*(1.0_wp + 1.0e-9_wp) >= finish
       if (is_last) this_step = finish - time
       if (.not. (is_last .or. is_fixed(method, options))) this_step = min(this_step, 0.5_wp*(finish - time))
+      new_time = merge(finish, time + this_step, is_last)
    end subroutine choose_step
 
    !> Try a step; a trial without a value, or with one that is no number, has an error far beyond its tolerance.

@@ -49,6 +49,9 @@ module camroller_load_share
    real(wp), parameter :: tolerance = 1.0e-9_wp
    !> A single step is trusted where the film carries at least this part of the load and its change is not larger [-]
    real(wp), parameter :: smallest_film_part = 0.05_wp, largest_change = 0.1_wp
+   !> Part of the load below which the load of the film is a small difference of large ones, and the film ratio has to be as much
+   !> more accurate [-]
+   real(wp), parameter :: ample_film_part = 0.1_wp
    !> Iterations: bisection from the widest bracket would need about 60
    integer, parameter :: max_iterations = 100
 
@@ -286,7 +289,7 @@ contains
             film_load_slope = -capacity*slope*film_ratio
             stiffness = -film_load_slope
             change = (logs(1) - log_ratio - log_roughness)/(1.0_wp - shape%minimum_load_slope*film_load_slope/film_load)
-            if (abs(change) <= last_allowed) then
+            if (abs(change) <= max(tolerance, last_allowed*min(1.0_wp, film_load/(ample_film_part*load)))) then
                film_ratio = film_ratio*(1.0_wp + change)
                ! A film that carries next to nothing must not come out as carrying less
                asperity_load = max(0.0_wp, min(load - film_load - film_load_slope*change, load))

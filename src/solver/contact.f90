@@ -24,6 +24,8 @@ module camroller_contact
    real(wp), parameter :: step_curvature = 5.0_wp
    !> Iterations that a bracketed search may take: bisection alone would need about 60
    integer, parameter :: max_iterations = 100
+   !> Iterations after which the share is found to round-off in each
+   integer, parameter :: usual_iterations = 8
    !> Loads below this part of the frictionless load count as lost contact [-]
    real(wp), parameter :: lost_load = 1.0e-12_wp
 
@@ -149,15 +151,19 @@ contains
       real(wp) :: excess, slope
       ! Relative change of the film ratio in the last step, of the load in the next [-]
       real(wp) :: change, shift
+      type(setting_t) :: in_use
       integer :: iteration
 
       status = 0
+      in_use = setting
       load = moment/position%normal_arm
       low = 0.0_wp
       high = huge(1.0_wp)
       do iteration = 1, max_iterations
-         call evaluate_contact(model, position, setting, load, contact, parts, change)
-         slopes = follow_contact(model, setting, contact, parts, motion_t(load=1.0_wp))
+         ! A share that is not quite found narrows no bracket: what has taken so long needs all of its figures
+         if (iteration > usual_iterations) in_use%coarse = 0.0_wp
+         call evaluate_contact(model, position, in_use, load, contact, parts, change)
+         slopes = follow_contact(model, in_use, contact, parts, motion_t(load=1.0_wp))
          excess = load*position%normal_arm - moment &
             & + model%linkage%sense*(contact%tangential_force*position%tangent_arm + contact%bearing_torque)
          slope = load*position%normal_arm &

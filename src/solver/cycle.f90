@@ -15,13 +15,14 @@ module camroller_cycle
    use camroller_events, only : find_stops, cycle_stops
    use camroller_spin, only : spin_problem_t, rolling_speed_at
    use camroller_balance, only : follow_balance, least_slip
+   use camroller_settled_slip, only : settle
    use camroller_quasi_static, only : quasi_static_cycle
    use camroller_contraction, only : largest_contraction
    use camroller_stick, only : has_stick, share_at_rest
    use camroller_stick_slip, only : phase_t, integrate_phases, direction_at
    use camroller_ode, only : method_t, options_t, counters_t, integrate
    use camroller_ode_methods, only : new_method
-   use camroller_trajectory, only : trajectory_t, interpolate_state
+   use camroller_trajectory, only : trajectory_t, interpolate_state, curve_slope
    implicit none
    private
 
@@ -49,6 +50,8 @@ module camroller_cycle
       real(wp) :: scale = 0.0_wp
       !> Distance of the start from the periodic cycle, relative to the largest sliding speed [-]
       real(wp) :: distance = 0.0_wp
+      !> Error allowed per step [m/s]; zero for methods without error control
+      real(wp) :: step_error = 0.0_wp
    end type cycle_t
 
    !> Angles at which the algebraic balance is tried
@@ -69,6 +72,10 @@ module camroller_cycle
    !> Scale over the largest sliding speed of a cycle, above which the cycle is integrated again with that as its scale: a balance
    !> that the roller's inertia keeps it from may be far away [-]
    real(wp), parameter :: scale_excess = 10.0_wp
+   !> Turns after which one that does not halve the closure is followed by one with a finer tolerance
+   integer, parameter :: patience = 4
+   !> The finer tolerance over the other; the finest [-]
+   real(wp), parameter :: finer = 0.1_wp, finest_tolerance = 1.0e-10_wp
    !> Largest step [rad]
    real(wp), parameter :: largest_step = 30.0_wp*degree
 
@@ -92,6 +99,8 @@ contains
       real(wp), allocatable :: stops(:)
       ! Sliding speed or surface speed; at the start of the cycle; scale of the sliding speed, the least one, largest met [m/s]
       real(wp) :: state(1), first(1), scale, least, largest
+      ! Start and end of the turn before [m/s]; smallest closure with this tolerance [-]
+      real(wp) :: last(2), best
       type(numerics_t) :: resolved
       integer :: turn, most_steps
 
@@ -115,6 +124,8 @@ contains
       ! The balance is not quite the periodic state: a short run up to the start lets the difference decay
       call integrate_spin(cycle, problem, method, options, run_up_stops(cycle%stops), state, error)
       if (allocated(error)) return
+      last = huge(1.0_wp)
+      best = huge(1.0_wp)
       do turn = 1, resolved%max_cycles
          cycle%cycles = turn
          first = state
@@ -130,13 +141,43 @@ contains
             call take_scale(scale, resolved%tolerance, problem, options)
          else if (is_periodic(cycle, problem, resolved%periodicity)) then
             if (allocated(cycle%phases)) cycle%stops = cycle_stops([cycle%stops, cycle%phases%start], cycle%start)
+            if (.not. cycle%is_linear) cycle%step_error = options%tolerance(1)
             return
          end if
+         call approach(last, [first(1), state(1)], resolved%tolerance*largest, state(1))
+         if (turn > patience .and. cycle%closure > 0.5_wp*best) call refine(scale, resolved%tolerance, problem, options, best)
+         best = min(best, cycle%closure)
       end do
       call raise(error, kind_convergence, "the cycle did not become periodic: after the cycles that max_cycles allows, its "// &
          & "start at "//trim(problem%name_time(cycle%start))//" is still further from the periodic one than periodicity; a "// &
          & "spin that hardly anything damps does this, and explicit steps beyond the stability limit")
    end subroutine integrate_cycle
+
+   !> Start of the next turn: the end of this one, or where two turns tell how fast starts and ends approach each other, the point
+   !> where they would meet.
+   !>
+   !> What a turn makes of its start is a function of one variable, which keeps the order of starts since solutions do not cross; so
+   !> the secant between two turns finds its fixed point within a few, also where the spin is hardly damped.
+   pure subroutine approach(last, this, noise, next)
+      !> Start and end of the turn before; out: of this one [m/s]
+      real(wp), intent(inout) :: last(2)
+      !> Start and end of this turn [m/s]
+      real(wp), intent(in) :: this(2)
+      !> Error of an end [m/s]
+      real(wp), intent(in) :: noise
+      !> Start of the next turn [m/s]
+      real(wp), intent(out) :: next
+
+      ! Change of the end with the start [-]
+      real(wp) :: contraction
+
+      next = this(2)
+      if (abs(last(1)) < huge(1.0_wp) .and. abs(this(1) - last(1)) > noise) then
+         contraction = (this(2) - last(2))/(this(1) - last(1))
+         if (contraction > 0.0_wp .and. contraction < 1.0_wp) next = this(1) + (this(2) - this(1))/(1.0_wp - contraction)
+      end if
+      last = this
+   end subroutine approach
 
    !> Is a cycle whose closure is known as close to the periodic one as it must be?
    function is_periodic(cycle, problem, periodicity) result(verdict)
@@ -249,6 +290,25 @@ contains
       problem%small_state = [scale]
       options%tolerance = [step_part*tolerance*scale]
    end subroutine take_scale
+
+   !> Integrate with a finer tolerance from now on: errors of the integration keep start and end of a cycle apart.
+   pure subroutine refine(scale, tolerance, problem, options, best)
+      !> Scale of the sliding speed [m/s]
+      real(wp), intent(in) :: scale
+      !> Tolerance of the cycle [-]
+      real(wp), intent(inout) :: tolerance
+      !> The roller's spin
+      type(spin_problem_t), intent(inout) :: problem
+      !> Tolerance of a step
+      type(options_t), intent(inout) :: options
+      !> Smallest closure so far; out: none [-]
+      real(wp), intent(out) :: best
+
+      best = huge(1.0_wp)
+      tolerance = max(min(tolerance, finest_tolerance), finer*tolerance)
+      problem%accuracy = min(problem%accuracy, contact_accuracy*tolerance)
+      call take_scale(scale, tolerance, problem, options)
+   end subroutine refine
 
    !> Refuse sticking and sliding with a method that cannot tell them apart.
    subroutine check_mobilisation(model, error)
@@ -368,7 +428,7 @@ contains
       !> The cycle
       type(cycle_t), intent(in) :: cycle
       !> The model it was integrated with
-      type(model_t), intent(in) :: model
+      type(model_t), intent(in), target :: model
       !> Cam angle from full lift, any turn [rad]
       real(wp), intent(in) :: angle
       !> Interval of the trajectory where the search starts
@@ -382,10 +442,13 @@ contains
       type(moments_t) :: moments
       ! Angle within the cycle [rad], sliding speed or surface speed [m/s], gas force [N]
       real(wp) :: inside, value(1), force
+      ! Slope of the curve [m/s/rad]
+      real(wp) :: slope(1)
       ! Mobilised part of the boundary friction [-]
       real(wp) :: share
       character(len=16) :: buffer
       integer :: status
+      logical :: is_moved
 
       inside = cycle%start + modulo(angle - cycle%start, two_pi)
       call interpolate_state(cycle%trajectory, inside, hint, value)
@@ -403,6 +466,11 @@ contains
          if (status == 0) call evaluate_state(model, inside, value(1), state, status, share)
       else
          call evaluate_state(model, inside, value(1), state, status)
+         if (status == 0 .and. cycle%step_error > 0.0_wp) then
+            call curve_slope(cycle%trajectory, inside, hint, slope)
+            call settle(model, inside, slope(1), cycle%step_error, state, value(1), is_moved)
+            if (is_moved) call evaluate_state(model, inside, value(1), state, status)
+         end if
       end if
       if (status /= 0) then
          write (buffer, "(f0.3)") modulo(180.0_wp + angle/degree, 360.0_wp)

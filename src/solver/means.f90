@@ -15,7 +15,7 @@ module camroller_means
    use camroller_catalogue, only : series_values, follower_torques, torque_count
    use camroller_error_estimate, only : estimate_t, add_defect, end_interval, estimated_error
    use camroller_shaft, only : shaft_t, shaft_torques
-   use camroller_spin, only : decay_rate_of, rolling_speed_slope
+   use camroller_spin, only : decay_rate_of, full_decay_rate, rolling_speed_slope
    use camroller_trajectory, only : curve_slope
    use camroller_events, only : cycle_stops
    implicit none
@@ -226,6 +226,7 @@ contains
       statistics%largest_sliding = max(statistics%largest_sliding, abs(state%contact%sliding_speed))
       defect = defect_at(model, cycle, angle, hint, state)
       decay_rate = decay_rate_of(model, state%contact)
+      if (.not. allocated(cycle%phases)) decay_rate = decay_rate_at(model, angle, state)
       if (.not. (cycle%is_linear .or. allocated(cycle%phases))) call weaken_decay(model, state, defect, decay_rate)
       call add_defect(estimate, defect, decay_rate)
       if (.not. state%contact%is_touching) statistics%lost_share = statistics%lost_share + weight
@@ -234,6 +235,36 @@ contains
          statistics%outside_share = statistics%outside_share + weight
       end if
    end subroutine add_point
+
+   !> Decay rate of a disturbance of the spin.
+   !>
+   !> Film and load follow the slip through the entrainment speed, which changes forces by about their size over that speed. Where
+   !> the slope of the traction at constant film is large against that, it is good enough; beyond a sharp limit of the traction it
+   !> is zero, and all decay there is comes from the film.
+   function decay_rate_at(model, angle, state) result(decay_rate)
+      !> Model of the lobe
+      type(model_t), intent(in) :: model
+      !> Cam angle from full lift [rad]
+      real(wp), intent(in) :: angle
+      !> State there
+      type(state_t), intent(in) :: state
+      !> Decay rate [1/rad]
+      real(wp) :: decay_rate
+
+      ! Slope at constant film over that of the film, from which on the first is good enough [-]; accuracy of the other [-]
+      real(wp), parameter :: large = 5.0_wp, accuracy = 1.0e-4_wp
+      ! Decay rate that the film may make, about [1/rad]
+      real(wp) :: by_film
+
+      decay_rate = decay_rate_of(model, state%contact)
+      associate (contact => state%contact)
+         if (.not. contact%is_touching) return
+         by_film = model%roller_radius**2*(abs(contact%traction) + abs(contact%rolling_resistance)) &
+            & /(model%roller_inertia*model%speed)
+         if (decay_rate*abs(contact%entrainment_speed) >= large*by_film) return
+         decay_rate = full_decay_rate(model, angle, state%position, state%moments, contact%sliding_speed, accuracy)
+      end associate
+   end function decay_rate_at
 
    !> Slope of the cycle's curve less the rate of the roller equation.
    pure function defect_at(model, cycle, angle, interval, state) result(defect)

@@ -10,12 +10,13 @@ module camroller_spin
    use camroller_kinematics, only : position_t
    use camroller_dynamics, only : moments_t
    use camroller_contact_forces, only : contact_t
+   use camroller_needle, only : bearing_torque_slope
    use camroller_state, only : evaluate_loading, evaluate_spin
    use camroller_spin_slopes, only : evaluate_spin_slopes
    implicit none
    private
 
-   public :: spin_problem_t, sliding_speed_of, rolling_speed_slope, rolling_speed_at, decay_rate_of
+   public :: spin_problem_t, sliding_speed_of, rolling_speed_slope, rolling_speed_at, decay_rate_of, full_decay_rate
 
    !> The roller's spin over the cam angle
    type, extends(problem_t) :: spin_problem_t
@@ -68,7 +69,7 @@ contains
       if (.not. self%has_surface_speed) rate(1) = rolling_speed_slope(self%model, position) - rate(1)
    end subroutine get_rate
 
-   !> Decay rate of a disturbance of the spin, `r_R^2 (dF_t/dV_s)/(I_R omega)` per radian.
+   !> Decay rate of a disturbance of the spin per radian, with film and load following the slip.
    subroutine get_decay_rate(self, time, state, decay_rate)
       !> The problem
       class(spin_problem_t), intent(in) :: self
@@ -81,20 +82,49 @@ contains
 
       type(position_t) :: position
       type(moments_t) :: moments
-      type(contact_t) :: contact
-      ! Gas force [N]; angular acceleration of the roller [rad/s^2]
-      real(wp) :: force, acceleration
+      ! Gas force [N]
+      real(wp) :: force
       integer :: status
 
       decay_rate = 0.0_wp
       call evaluate_loading(self%model, time, position, force, moments, status)
       if (status /= 0) return
-      call evaluate_spin(self%model, position, moments, sliding_speed_of(self, position, state(1)), contact, acceleration, &
-         & status, mobilised=self%mobilised)
-      decay_rate = decay_rate_of(self%model, contact)
+      decay_rate = full_decay_rate(self%model, time, position, moments, sliding_speed_of(self, position, state(1)), &
+         & self%accuracy, self%mobilised)
    end subroutine get_decay_rate
 
-   !> Decay rate of a disturbance of the spin with the contact as it is.
+   !> Decay rate of a disturbance of the spin with everything that follows the slip.
+   function full_decay_rate(model, angle, position, moments, sliding_speed, accuracy, mobilised) result(decay_rate)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> Cam angle from full lift [rad]
+      real(wp), intent(in) :: angle
+      !> Geometry at this angle
+      type(position_t), intent(in) :: position
+      !> Moments about the pivot
+      type(moments_t), intent(in) :: moments
+      !> Sliding speed [m/s]
+      real(wp), intent(in) :: sliding_speed
+      !> Relative error of load and forces that is good enough [-]
+      real(wp), intent(in) :: accuracy
+      !> Mobilised part of the boundary friction; absent: as the sliding speed has it [-]
+      real(wp), intent(in), optional :: mobilised
+      !> Decay rate; zero where the contact has no solution [1/rad]
+      real(wp) :: decay_rate
+
+      type(contact_t) :: contact
+      ! Angular acceleration of the roller [rad/s^2], its derivatives [rad/s/m, 1/s^2]
+      real(wp) :: acceleration, speed_slope, angle_slope
+      integer :: status
+
+      decay_rate = 0.0_wp
+      call evaluate_spin_slopes(model, angle, position, moments, 0.0_wp, sliding_speed, contact, acceleration, speed_slope, &
+         & angle_slope, status, accuracy, mobilised)
+      if (status == 0) decay_rate = model%roller_radius*speed_slope/model%speed
+   end function full_decay_rate
+
+   !> Decay rate of a disturbance of the spin with film and load as they are, `(r_R^2 dF_t/dV_s + dT_B/domega_R)/(I_R omega)`: of
+   !> the traction, and of a bearing that holds the roller.
    pure function decay_rate_of(model, contact) result(decay_rate)
       !> The model
       type(model_t), intent(in) :: model
@@ -104,6 +134,10 @@ contains
       real(wp) :: decay_rate
 
       decay_rate = model%roller_radius**2*contact%traction_slope/(model%roller_inertia*model%speed)
+      if (allocated(model%bearing)) then
+         decay_rate = decay_rate + bearing_torque_slope(model%bearing%friction_coefficient, contact%load, model%bearing%radius, &
+            & contact%relative_spin, model%bearing%reversal_spin)/(model%roller_inertia*model%speed)
+      end if
    end function decay_rate_of
 
    !> Rate with its derivatives over sliding speed and cam angle, all from one solution of the contact.

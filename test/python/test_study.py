@@ -70,7 +70,7 @@ def test_smaller_tolerances_give_smaller_errors_and_estimates_hold(done):
 
 def test_a_case_without_a_reference_is_recorded_and_ends_with_its_error(camroller, tmp_path):
     text = (ROOT / "decks/hard/frictionless_contact.nml").read_text(encoding="utf-8")
-    text += "&sweep key_1 = 'traction.limiting_coefficient', values_1 = 0.06, 1e-9 /\n"
+    text += "&sweep key_1 = 'traction.limiting_coefficient', values_1 = 0.06, 1e-9 /\n&numerics max_cycles = 2 /\n"
     (tmp_path / "deck.nml").write_text(text)
     result = study(camroller, "deck.nml", *QUICK, folder=tmp_path)
     assert result.returncode == 5, result.stderr

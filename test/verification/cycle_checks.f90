@@ -12,7 +12,7 @@ module cycle_checks
    implicit none
    private
 
-   public :: sample_t, take_sample, compare_samples, difference, few_changes, least_slip
+   public :: sample_t, take_sample, compare_samples, difference, least_slip
 
    !> Points at which a cycle is looked at: every half degree, off the places where kinks are likely
    integer, parameter :: points = 720
@@ -21,8 +21,6 @@ module cycle_checks
    !> Energy left over, over the largest power: the load is solved to 8 roundings of the largest moment, and the power is a sum of
    !> ten terms of which each has some roundings [-]
    real(wp), parameter :: energy_tolerance = 200.0_wp*epsilon(1.0_wp)
-   !> Changes of sign of an error that is no chatter
-   real(wp), parameter :: few_changes = 40.0_wp
    !> Sliding speed that counts as none, over the speed of pure rolling [-]: what the integration takes as the least scale
    real(wp), parameter :: least_slip = 1.0e-5_wp
 
@@ -141,8 +139,9 @@ contains
 
    !> Do two ways to integrate a case agree, and does the first one chatter?
    !>
-   !> Errors of an integration are smooth, so they add to the total variation a few times their size; chatter changes its sign at
-   !> every step.
+   !> Each step leaves an error within the tolerance, which appears and decays and so adds twice its size to the total variation at
+   !> most; a fifth of the tolerance is what steps are allowed. The sum of the tolerances over all steps therefore bounds both the
+   !> difference and what errors add to the variation; chatter at every step adds the slip itself as often.
    function compare_samples(one, other) result(trouble)
       !> Two samples of a case
       type(sample_t), intent(in) :: one, other
@@ -159,7 +158,7 @@ contains
       if (.not. found <= allowed) then
          write (buffer, "(a, es9.2, a, es9.2)") "sliding speeds differ by", found, " of the largest, allowed are", allowed
          trouble = trim(buffer)
-      else if (.not. variation(one) <= variation(other)*(1.0_wp + found) + few_changes*found) then
+      else if (.not. variation(one) <= variation(other) + allowed) then
          trouble = "the sliding speed chatters"
       end if
    end function compare_samples

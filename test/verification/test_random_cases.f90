@@ -12,7 +12,7 @@ module test_random_cases
    use camroller_result, only : result_t, get_series, get_summary
    use camroller_run, only : build_models, run_case
    use camroller_deck, only : deck_t, override_t, parse_deck, make_case
-   use cycle_checks, only : sample_t, take_sample, few_changes, least_slip
+   use cycle_checks, only : sample_t, take_sample, least_slip
    use random_decks, only : random_t, start_random, random_deck
    implicit none
    private
@@ -26,8 +26,8 @@ module test_random_cases
    !> Part of the decks drawn that must have a geometry, lest nothing is tested [-]
    real(wp), parameter :: least_share = 0.2_wp
    !> Part of the cases that may end with an error that names the cam angle, and that may have a remark on an accuracy that was not
-   !> reached: where a sharp limit of traction meets a slip below what the smallest step can resolve [-]
-   real(wp), parameter :: ended_share = 0.03_wp, remarked_share = 0.03_wp
+   !> reached. Of 2000 cases one ends, whose load and friction have several solutions at once, and four have a remark [-]
+   real(wp), parameter :: ended_share = 0.005_wp, remarked_share = 0.01_wp
 
    !> What came of a case
    type :: outcome_t
@@ -43,13 +43,17 @@ contains
       !> The tests
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
-      testsuite = [new_unittest("random cases have one cycle, by two unlike methods", test_random)]
+      testsuite = [ &
+         new_unittest("random cases have one cycle, by two unlike methods", test_random), &
+         new_unittest("cases with a slip of next to nothing, or hardly any damping, have a cycle", test_difficult) &
+         ]
    end subroutine collect_random_cases
 
    subroutine test_random(error)
       type(error_type), allocatable, intent(out) :: error
-      ! Failures that are shown; cases between two lines of progress; errors or remarks that are no large share
-      integer, parameter :: shown = 3, stride = 1000, few = 3
+      ! Failures after which a usual run ends, and after which any does; cases between two lines of progress; errors or remarks that
+      ! are no large share
+      integer, parameter :: shown = 3, most_shown = 100, stride = 500, few = 1
       type(random_t) :: random
       type(outcome_t) :: outcome
       character(len=:), allocatable :: text, list
@@ -64,7 +68,7 @@ contains
       failures = 0
       ended = 0
       remarked = 0
-      do while (tested < last .and. failures < shown)
+      do while (tested < last .and. failures < merge(shown, most_shown, last <= usual_cases))
          call start_random(random, seed + drawn)
          drawn = drawn + 1
          call random_deck(random, text)
@@ -87,6 +91,30 @@ contains
       if (ended > few + ended_share*tested .or. remarked > few + remarked_share*tested) list = list//trim(buffer)
       if (list /= "") call test_failed(error, list)
    end subroutine test_random
+
+   !> Decks by their seeds that are the hardest of thousands. In the first three the oil is so stiff that the slip is 1e-34, 1e-15
+   !> and 1e-9 m/s while friction gives way and catches the roller again; in the fourth the bearing holds the roller; in the last
+   !> two friction is at its limit all the way, and only the film damps.
+   subroutine test_difficult(error)
+      type(error_type), allocatable, intent(out) :: error
+      integer, parameter :: seeds(*) = [145, 168, 191, 100142, 494, 100217]
+      type(random_t) :: random
+      type(outcome_t) :: outcome
+      character(len=:), allocatable :: text
+      character(len=12) :: buffer
+      integer :: i
+
+      do i = 1, merge(2, size(seeds), has_checks())
+         call start_random(random, seeds(i))
+         call random_deck(random, text)
+         call check_deck(text, outcome)
+         write (buffer, "(i0)") seeds(i)
+         if (outcome%has_ended) outcome%trouble = "it ends with an error"
+         if (.not. outcome%is_possible) outcome%trouble = "it has no geometry"
+         if (outcome%trouble /= "") call test_failed(error, "RANDOM_SEED="//trim(buffer)//": "//outcome%trouble)
+         if (allocated(error)) return
+      end do
+   end subroutine test_difficult
 
    !> Is this a build with run-time checks, in which a case takes ten times as long? The compiler's options say so.
    pure function has_checks()
@@ -150,13 +178,16 @@ contains
    end subroutine check_deck
 
    !> Do two results agree within what they promise, and does neither chatter?
+   !>
+   !> Chatter shows in the sum of all changes. An error that comes and goes adds twice its size; so the sums may differ by twice
+   !> the accuracies that both promise. Among 1300 cases they differ by 0.6 of that at most.
    subroutine compare_results(one, other, outcome)
       type(result_t), intent(in) :: one, other
       type(outcome_t), intent(inout) :: outcome
       type(error_t), allocatable :: error
-      ! Sliding speeds and rolling speed [m/s]; errors estimated [-], scale [m/s], difference [-]
+      ! Sliding speeds and rolling speed [m/s]; errors estimated [-], scale [m/s], difference, the largest allowed [-]
       real(wp), allocatable :: first(:), second(:), rolling(:)
-      real(wp) :: estimates(2), scale, found
+      real(wp) :: estimates(2), scale, found, allowed
       character(len=80) :: buffer
 
       call get_series(one, "sliding_speed", first, error)
@@ -168,10 +199,11 @@ contains
       if (outcome%has_remark .neqv. any(estimates > accuracy)) outcome%trouble = "remark and estimate do not agree"
       scale = max(maxval(abs(first)), maxval(abs(second)), least_slip*maxval(abs(rolling)))
       found = maxval(abs(first - second))/scale
-      if (.not. found <= sum(max(estimates, accuracy))) then
+      allowed = sum(max(estimates, accuracy))
+      if (.not. found <= allowed) then
          write (buffer, "(a, es9.2, a, 2es9.2)") "sliding speeds differ by", found, " of the largest, estimated are", estimates
          outcome%trouble = trim(buffer)
-      else if (abs(variation(first) - variation(second)) > scale*few_changes*found) then
+      else if (abs(variation(first) - variation(second)) > 2.0_wp*scale*allowed) then
          outcome%trouble = "the sliding speed chatters"
       end if
    end subroutine compare_results
