@@ -17,6 +17,8 @@ module camroller_settled_slip
 
    !> Part of the largest traction by which the curve's own traction may be wrong [-]
    real(wp), parameter :: small_part = 1.0e-3_wp
+   !> What is left of a difference of slopes that has settled [-]
+   real(wp), parameter :: settled_part = 0.1_wp
 
 contains
 
@@ -54,7 +56,8 @@ contains
       problem%model => model
       step = reach/(span + abs(slope))
       call solve_euler(problem, span, angle, sliding_speed - step*slope, step, settled, new_rate, counters, status)
-      if (status /= 0 .or. .not. abs(new_rate - slope) < abs(rate - slope)) return
+      ! Where the traction does not saturate nearby, so short a step changes next to nothing
+      if (status /= 0 .or. .not. abs(new_rate - slope) < settled_part*abs(rate - slope)) return
       sliding_speed = settled
       is_moved = .true.
    end subroutine settle
