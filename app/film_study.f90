@@ -158,7 +158,7 @@ contains
          is_same = table%words(:table%rows, word) == table%words(row, word) .and. equal(first, first(row)) &
             & .and. equal(second, second(row))
          is_done = is_done .or. is_same
-         line = table%words(row, word) (:16)
+         write (line, "(a)") table%words(row, word) (:16)
          place = 17
          if (.not. ieee_is_nan(first(row))) write (line(place:), "(a)") short(first(row))
          if (other /= "") place = place + 7

@@ -23,8 +23,8 @@ module camroller_study_film
 
    public :: new_film_table_table, study_film_table, new_cycle_table, study_cycle
 
-   !> Accuracies of the table and of its reference [-]
-   real(wp), parameter :: accuracies(*) = [1.0e-1_wp, 3.0e-2_wp, 1.0e-2_wp, 3.0e-3_wp], table_reference = 1.0e-3_wp
+   !> Accuracies of the table, zero for the film law of the deck, and of its reference [-]
+   real(wp), parameter :: accuracies(*) = [0.0_wp, 1.0e-1_wp, 3.0e-2_wp, 1.0e-2_wp, 3.0e-3_wp], table_reference = 1.0e-3_wp
    !> Nodes of the cycles, and of their reference
    integer, parameter :: cycle_nodes(*) = [33, 65, 129], reference_nodes = 257
    !> Errors of a step of the cycles, and of their reference [-]
@@ -80,15 +80,15 @@ contains
 
       trial = case
       if (.not. allocated(trial%ehl)) allocate (trial%ehl)
-      trial%ehl%accuracy = merge(accuracies(quick_trials + 1), table_reference, is_quick)
+      trial%ehl%accuracy = merge(accuracies(quick_trials + 2), table_reference, is_quick)
       call time_run(trial, 1, right, time, error)
       if (allocated(error)) then
          call add_row(table, words_of("", "reference: "//error%message), [real(position - 1, wp), nothing(7)])
          return
       end if
-      do i = 0, merge(quick_trials, size(accuracies), is_quick)
+      do i = 1, merge(quick_trials + 1, size(accuracies), is_quick)
          accuracy = no_number()
-         if (i == 0) then
+         if (i == 1) then
             deallocate (trial%ehl)
             words(1) = case%film%law
          else
