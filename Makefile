@@ -79,7 +79,7 @@ random: commit ## cases drawn at random by two methods, optimised: CASES=20000 S
 	@RANDOM_CASES=$(or $(CASES),20000) RANDOM_SEED=$(or $(SEED),1) $(FPM) test --flag "$(RELEASE_FLAGS)" -- random_cases
 
 needed: commit ## effects that are left out against what they change, for random cases, optimised: CASES=300 SEED=1
-	@NEEDED_CASES=$(or $(CASES),300) NEEDED_SEED=$(or $(SEED),1) $(FPM) test --flag "$(RELEASE_FLAGS)" -- needed
+	@NEEDED_TABLE=1 NEEDED_CASES=$(or $(CASES),300) NEEDED_SEED=$(or $(SEED),1) $(FPM) test --flag "$(RELEASE_FLAGS)" -- needed
 
 bless: build ## take key results and counters of the decks as they are: the table that test_regression.py compares with
 	@BLESS=1 $(PYTHON) -m pytest -q test/python/test_regression.py

@@ -29,16 +29,18 @@ module camroller_effect_choice
    character(len=*), parameter :: fixed_step = "euler"
    !> Margin of the estimates over the changes that the look round the cycle finds [-]
    real(wp), parameter :: margin = 5.0_wp
-   !> Margin of the mean sliding speed, in which forward and backward sliding may cancel, over that of the others [-]
-   real(wp), parameter :: slip_margin = 3.0_wp
-   !> Margin of the quasi-static limit, which may hide what happens between the angles [-]
-   real(wp), parameter :: limit_margin = 50.0_wp
    !> A rough look decides where it finds so many times what is negligible [-]
    real(wp), parameter :: clearly = 10.0_wp
    !> Changes beyond this are too large to be estimated from small ones [-]
    real(wp), parameter :: largest_estimate = 1.0_wp
    !> Tolerance of the quasi-static limit over what is negligible, by quantity [-]
    real(wp), parameter :: tolerance_parts(size(quantity_names)) = [0.5_wp, 0.1_wp, 0.01_wp]
+
+   !> Mean torque for losses
+   type :: mean_torque_t
+      !> Of the followers, what that may be wrong by, of the bearings [N m]
+      real(wp) :: followers = 0.0_wp, error = 0.0_wp, bearings = 0.0_wp
+   end type mean_torque_t
 
 contains
 
@@ -139,8 +141,7 @@ contains
       type(error_t), allocatable, intent(out) :: error
 
       type(survey_t), allocatable :: surveys(:)
-      ! Mean torque of the followers, of the bearings [N m]
-      real(wp) :: torque, bearing_torque
+      type(mean_torque_t) :: torque
       integer :: lobe, effect
 
       call find_name("quantity", case%effects%quantity, quantity_names, choice%quantity, error)
@@ -149,30 +150,27 @@ contains
       choice%bound = 0.0_wp
       choice%evaluations = 0
       allocate (choice%decisions(0), surveys(size(models)))
-      torque = 0.0_wp
       do lobe = 1, size(models)
          call make_survey(models(lobe), surveys(lobe))
          if (case%numerics%method == fixed_step) surveys(lobe)%trouble = "the fixed step may not resolve what happens"
          choice%evaluations = choice%evaluations + surveys(lobe)%evaluations
          if (allocated(surveys(lobe)%trouble)) cycle
-         associate (torques => surveys(lobe)%states%torque_friction)
-            torque = torque + followers_of(case, lobe)*sum(torques)/size(torques)
-         end associate
+         torque%followers = torque%followers + followers_of(case, lobe)*surveys(lobe)%torque
+         torque%error = torque%error + followers_of(case, lobe)*surveys(lobe)%torque_error
       end do
-      bearing_torque = 0.0_wp
       if (has_single_bearings(case) .and. .not. allocated(surveys(1)%trouble)) then
-         call mean_bearing_torque(case, models(1), surveys(1), bearing_torque, error)
+         call mean_bearing_torque(case, models(1), surveys(1), torque%bearings, error)
          if (allocated(error)) return
       end if
       do effect = 1, effect_count
          if (.not. has_effect(case, effect)) cycle
-         call weigh_effect(case, models, surveys, effect, torque, bearing_torque, is_thorough, choice, error)
+         call weigh_effect(case, models, surveys, effect, torque, is_thorough, choice, error)
          if (allocated(error)) return
       end do
    end subroutine weigh_effects
 
    !> What leaving one effect out would change.
-   subroutine weigh_effect(case, models, surveys, effect, torque, bearing_torque, is_thorough, choice, error)
+   subroutine weigh_effect(case, models, surveys, effect, torque, is_thorough, choice, error)
       !> The case with all its effects
       type(case_t), intent(in) :: case
       !> Model of each lobe shape
@@ -181,8 +179,8 @@ contains
       type(survey_t), intent(in) :: surveys(:)
       !> Position in `effect_names`
       integer, intent(in) :: effect
-      !> Mean torque of the followers, of the bearings [N m]
-      real(wp), intent(in) :: torque, bearing_torque
+      !> Mean torque for losses
+      type(mean_torque_t), intent(in) :: torque
       !> Is every effect looked at in full?
       logical, intent(in) :: is_thorough
       !> Gets a decision
@@ -199,7 +197,7 @@ contains
       decision%is_used = .true.
       decision%estimates = huge(1.0_wp)
       decision%reason = ""
-      if (effect == effect_bearings) call weigh_bearings(case, surveys, torque, bearing_torque, decision)
+      if (effect == effect_bearings) call weigh_bearings(case, surveys, torque, decision)
       lobe = 1
       do while (lobe < size(surveys) .and. .not. allocated(surveys(lobe)%trouble))
          lobe = lobe + 1
@@ -207,16 +205,16 @@ contains
       if (allocated(surveys(lobe)%trouble)) then
          if (decision%reason == "") decision%reason = "not estimated: "//surveys(lobe)%trouble
       else if (decision%reason == "") then
-         call find_reason(effect, models(1), surveys(1), bearing_torque/(torque + bearing_torque), decision%reason)
+         call find_reason(effect, models(1), surveys(1), torque%bearings/(torque%followers + torque%bearings), decision%reason)
          if (effect /= effect_bearings) then
             is_rough = .not. is_thorough .and. effect /= effect_spin
             call find_responses(case, models, surveys, effect, is_rough, responses, error)
             if (allocated(error)) return
-            call set_estimates(case, surveys(1), responses, torque + bearing_torque, choice, decision)
+            call set_estimates(case, surveys(1), responses, torque, choice, decision)
             if (is_rough .and. decision%estimates(choice%quantity) < clearly*choice%negligible) then
                call find_responses(case, models, surveys, effect, .false., responses, error)
                if (allocated(error)) return
-               call set_estimates(case, surveys(1), responses, torque + bearing_torque, choice, decision)
+               call set_estimates(case, surveys(1), responses, torque, choice, decision)
             end if
          end if
       end if
@@ -231,8 +229,8 @@ contains
       type(survey_t), intent(in) :: survey
       !> The answers
       type(response_t), intent(in) :: responses(:)
-      !> Mean torque for all losses [N m]
-      real(wp), intent(in) :: torque
+      !> Mean torque for losses
+      type(mean_torque_t), intent(in) :: torque
       !> Counts the work
       type(choice_t), intent(inout) :: choice
       !> Gets the estimates
@@ -249,13 +247,10 @@ contains
       do lobe = 1, size(responses)
          change = change + followers_of(case, lobe)*responses(lobe)%torque
       end do
-      decision%estimates(quantity_torque) = relative(change, torque)
+      decision%estimates(quantity_torque) = relative(change, least_torque(torque))
       decision%estimates(quantity_film) = margin*responses(1)%film
-      decision%estimates(quantity_slip) = relative(slip_margin*responses(1)%sliding, sum(survey%sliding)/size(survey%sliding))
+      decision%estimates(quantity_slip) = relative(responses(1)%sliding, abs(survey%slip) - survey%slip_error)
       where (decision%estimates > largest_estimate) decision%estimates = huge(1.0_wp)
-      if (decision%effect /= effect_spin) return
-      where (decision%estimates > largest_estimate*(margin/limit_margin)**2) decision%estimates = huge(1.0_wp)
-      where (decision%estimates < largest_estimate) decision%estimates = decision%estimates*(limit_margin/margin)
    end subroutine set_estimates
 
    !> How every lobe's cycle answers to a case without an effect.
@@ -299,13 +294,13 @@ contains
    end subroutine find_responses
 
    !> Camshaft bearings: they take torque and do nothing else, unless they carry several cams.
-   subroutine weigh_bearings(case, surveys, torque, bearing_torque, decision)
+   subroutine weigh_bearings(case, surveys, torque, decision)
       !> The case
       type(case_t), intent(in) :: case
       !> Cycle of each lobe shape
       type(survey_t), intent(in) :: surveys(:)
-      !> Mean torque of the followers, of the bearings [N m]
-      real(wp), intent(in) :: torque, bearing_torque
+      !> Mean torque for losses
+      type(mean_torque_t), intent(in) :: torque
       !> The decision
       type(decision_t), intent(inout) :: decision
 
@@ -315,7 +310,7 @@ contains
       end if
       decision%estimates([quantity_film, quantity_slip]) = 0.0_wp
       if (.not. allocated(surveys(1)%trouble)) then
-         decision%estimates(quantity_torque) = relative(bearing_torque, torque + bearing_torque)
+         decision%estimates(quantity_torque) = relative(torque%bearings, least_torque(torque))
       end if
    end subroutine weigh_bearings
 
@@ -361,6 +356,16 @@ contains
       end do
    end subroutine mean_bearing_torque
 
+   !> Mean torque for all losses, less what it may be wrong by.
+   pure function least_torque(torque) result(least)
+      !> Mean torque for losses
+      type(mean_torque_t), intent(in) :: torque
+      !> It may be as little as this [N m]
+      real(wp) :: least
+
+      least = torque%followers - torque%error + torque%bearings
+   end function least_torque
+
    !> Number of followers that a lobe shape drives.
    pure function followers_of(case, lobe) result(followers)
       !> The case
@@ -374,16 +379,16 @@ contains
       if (allocated(case%cam_bearings)) followers = count(case%cam_bearings%cam_lobes == lobe)
    end function followers_of
 
-   !> Relative change with the margin; huge where there is nothing that it could be relative to.
+   !> Relative change with the margin; huge where there is nothing, or perhaps nothing, that it could be relative to.
    pure function relative(change, whole)
-      !> Change and what it is relative to [any]
+      !> Change, and the least that it may be relative to [any]
       real(wp), intent(in) :: change, whole
       !> The change, with its margin [-]
       real(wp) :: relative
 
       relative = huge(1.0_wp)
       if (change <= 0.0_wp) relative = 0.0_wp
-      if (abs(whole) > margin*change*tiny(1.0_wp)**0.25_wp) relative = margin*change/abs(whole)
+      if (whole > margin*change*tiny(1.0_wp)**0.25_wp) relative = margin*change/whole
    end function relative
 
 end module camroller_effect_choice

@@ -5,13 +5,17 @@
 !> The sliding speed follows the balance with the delay of its decay: between the angles looked at, `dy/dtheta = -lambda (y - q)`
 !> is solved with q linear. A change of the model disturbs it by `dv/dtheta = b - lambda v`, with b the difference of the rates at
 !> the same sliding speed; a second look at the disturbed state gives the changes to second order.
+!>
+!> What the look itself may be wrong by is found beside it, without another evaluation: how far the rates of the roller equation
+!> would move the sliding speed, what half the angles would have made of it, and by how much means differ between all angles and
+!> half of them.
 module camroller_effect_survey
    use camroller_kinds, only : wp, pi, two_pi
    use camroller_model, only : model_t
    use camroller_kinematics, only : position_t
    use camroller_state, only : state_t, evaluate_state
    use camroller_balance, only : follow_balance
-   use camroller_spin, only : rolling_speed_at, decay_rate_of
+   use camroller_spin, only : rolling_speed_slope, decay_rate_of
    use camroller_stick, only : has_stick
    use camroller_traction, only : cap_sharp
    implicit none
@@ -35,10 +39,14 @@ module camroller_effect_survey
    real(wp), parameter :: largest_correction = 0.5_wp
    !> Exponent of the speed in film laws, about [-]
    real(wp), parameter :: film_exponent = 0.7_wp
+   !> Largest exponent of the load in film laws: rigid surfaces, constant viscosity [-]
+   real(wp), parameter :: load_exponent = 1.0_wp
    !> Films up to this part above the smallest one may become the smallest [-]
    real(wp), parameter :: near_smallest = 1.5_wp
    !> Laps after which the delayed balance is periodic for all purposes
    integer, parameter :: laps = 3
+   !> Error of the sliding speed over the speed itself, means of sizes, above which nothing is said [-]
+   real(wp), parameter :: largest_error = 0.5_wp
 
    !> One lobe's cycle, looked at
    type :: survey_t
@@ -46,14 +54,18 @@ module camroller_effect_survey
       character(len=:), allocatable :: trouble
       !> Cam angles from full lift [rad]
       real(wp) :: angles(points)
-      !> Sliding speed of the balance, and delayed [m/s]
-      real(wp) :: balance(points), sliding(points)
+      !> Sliding speed of the balance, and delayed; error that the latter may have [m/s]
+      real(wp) :: balance(points), sliding(points), error(points)
       !> Largest sliding speed of the balance [m/s]
       real(wp) :: scale
       !> Decay rate [1/rad]
       real(wp) :: decay(points)
       !> State at the delayed sliding speed
       type(state_t) :: states(points)
+      !> Mean torque for losses, and what it may be wrong by [N m]
+      real(wp) :: torque, torque_error
+      !> Mean sliding speed, and what it may be wrong by [m/s]
+      real(wp) :: slip, slip_error
       !> Evaluations of the contact
       integer :: evaluations
    end type survey_t
@@ -84,8 +96,8 @@ contains
       type(position_t) :: position
       ! Accuracy of a balance [m/s]
       real(wp) :: tolerance
-      ! Sliding speed of a balance [m/s]
-      real(wp) :: sliding_speed
+      ! Sliding speed of a balance [m/s]; decay rates there [1/rad]
+      real(wp) :: sliding_speed, balance_decay(points)
       integer :: i, status
       logical :: is_found
 
@@ -109,6 +121,7 @@ contains
       survey%scale = maxval(abs(survey%balance))
       survey%sliding = survey%balance
       call delay(survey%decay, survey%balance, survey%sliding)
+      balance_decay = survey%decay
       do i = 1, points
          call evaluate_state(model, survey%angles(i), survey%sliding(i), survey%states(i), status)
          if (status /= 0) survey%trouble = "load and friction have no common solution"
@@ -116,13 +129,82 @@ contains
          survey%decay(i) = decay_rate_of(model, survey%states(i)%contact)
       end do
       survey%evaluations = survey%evaluations + points
-      associate (loads => survey%states%contact%load)
-         if (minval(loads) < smallest_load*maxval(loads)) survey%trouble = "contact is lost or nearly so"
-      end associate
+      if (is_nearly_lost(survey%states)) survey%trouble = "contact is lost or nearly so"
+      if (allocated(survey%trouble)) return
+      call doubt_survey(model, balance_decay, survey)
    end subroutine make_survey
+
+   !> What a look may be wrong by.
+   subroutine doubt_survey(model, balance_decay, survey)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> Decay rates at the balance, with which the sliding speed was delayed [1/rad]
+      real(wp), intent(in) :: balance_decay(points)
+      !> The look; its errors are set
+      type(survey_t), intent(inout) :: survey
+
+      ! Slope of the sliding speed by the roller equation less that of the delayed balance [m/s/rad]; what comes of it; sliding
+      ! speed from half the angles [m/s]
+      real(wp) :: defect(points), correction(points), coarse(points)
+      integer :: i
+
+      do i = 1, points
+         associate (state => survey%states(i))
+            defect(i) = rolling_speed_slope(model, state%position) - model%roller_radius/model%speed*state%spin_acceleration &
+               & + balance_decay(i)*(survey%sliding(i) - survey%balance(i))
+         end associate
+      end do
+      correction = 0.0_wp
+      call delay(survey%decay, defect/max(survey%decay, slowest_decay), correction)
+      coarse = survey%balance
+      call delay_every(2, 1, balance_decay, survey%balance, coarse)
+      call delay_every(2, 2, balance_decay, survey%balance, coarse)
+      survey%error = abs(correction) + abs(coarse - survey%sliding)
+      if (sum(survey%error) > largest_error*sum(abs(survey%sliding))) survey%trouble = "the look round the cycle misses the slip"
+      associate (torques => survey%states%torque_friction)
+         survey%torque = sum(torques)/points
+         survey%torque_error = sampling_error(torques) + sum(torque_slopes(model, survey%states)*survey%error)/points
+      end associate
+      survey%slip = sum(survey%sliding)/points
+      survey%slip_error = sampling_error(survey%sliding) + sum(survey%error)/points
+   end subroutine doubt_survey
+
+   !> Difference of a mean over all angles from that over half of them.
+   pure function sampling_error(values) result(error)
+      !> Values at the angles [any]
+      real(wp), intent(in) :: values(points)
+      !> The difference [any]
+      real(wp) :: error
+
+      error = abs(sum(values(1::2)) - sum(values(2::2)))/points
+   end function sampling_error
+
+   !> Is contact lost somewhere, or nearly so?
+   pure function is_nearly_lost(states) result(verdict)
+      !> States round the cycle
+      type(state_t), intent(in) :: states(points)
+      !> Is it?
+      logical :: verdict
+
+      verdict = minval(states%contact%load) < smallest_load*maxval(states%contact%load)
+   end function is_nearly_lost
 
    !> Let a quantity follow its balance with its decay, round the cycle until periodic.
    pure subroutine delay(decay, balance, values)
+      !> Decay rates [1/rad]
+      real(wp), intent(in) :: decay(points)
+      !> The balance [any]
+      real(wp), intent(in) :: balance(points)
+      !> The quantity [any]
+      real(wp), intent(inout) :: values(points)
+
+      call delay_every(1, 1, decay, balance, values)
+   end subroutine delay
+
+   !> The same at some of the angles.
+   pure subroutine delay_every(step, first, decay, balance, values)
+      !> Distance from one angle to the next, and the first
+      integer, intent(in) :: step, first
       !> Decay rates [1/rad]
       real(wp), intent(in) :: decay(points)
       !> The balance [any]
@@ -135,15 +217,15 @@ contains
       integer :: lap, i, next
 
       do lap = 1, laps
-         do i = 1, points
-            next = modulo(i, points) + 1
-            exponent = max(0.5_wp*(decay(i) + decay(next)), slowest_decay)*spacing_angle
+         do i = first, points, step
+            next = modulo(i + step - 1, points) + 1
+            exponent = max(0.5_wp*(decay(i) + decay(next)), slowest_decay)*step*spacing_angle
             left = exp(-min(exponent, 700.0_wp))
             weight = (1.0_wp - left)/exponent
             values(next) = balance(next) + left*(values(i) - balance(i)) - weight*(balance(next) - balance(i))
          end do
       end do
-   end subroutine delay
+   end subroutine delay_every
 
    !> How the cycle answers to another model.
    subroutine respond(survey, model, other, response)
@@ -247,7 +329,7 @@ contains
       call look(survey, model, survey%balance, states, decay, is_fine)
       if (.not. is_fine) return
       change = survey%balance - survey%sliding
-      error = tolerance*survey%scale
+      error = tolerance*survey%scale + survey%error
       call sum_up(survey, model, states, change, error, response)
    end subroutine respond_at_once
 
@@ -276,6 +358,7 @@ contains
          if (.not. is_fine) return
          decay(i) = decay_rate_of(model, states(i)%contact)
       end do
+      is_fine = .not. is_nearly_lost(states)
    end subroutine look
 
    !> Difference of the rates of the sliding speed between states.
@@ -303,21 +386,56 @@ contains
       !> What changes
       type(response_t), intent(inout) :: response
 
-      ! Changes of torque [N m] and film [m]; films [m]; change of the torque with the sliding speed [N s]
-      real(wp) :: torques(points), films(points), film(points), torque_slope(points)
+      ! Changes of torque [N m], film [m] and sliding speed [m/s]; films [m]; largest film that may become the smallest [m]
+      real(wp) :: torques(points), films(points), slips(points), film(points), reach
 
-      associate (contact => second%contact)
-         torque_slope = (abs(contact%traction) + contact%traction_slope*abs(contact%sliding_speed))/model%speed
-         if (.not. model%is_consistent) torque_slope = contact%traction_slope*abs(survey%states%position%cam_arm)
-         films = film_exponent*0.5_wp*contact%film_min/max(abs(contact%entrainment_speed), tiny(1.0_wp))
-      end associate
       film = survey%states%contact%film_min
-      films = abs(second%contact%film_min - film) + min(films*abs(correction), second%contact%film_min)
-      torques = abs(second%torque_friction - survey%states%torque_friction) + torque_slope*abs(correction)
-      response%torque = sum(torques)/points
-      response%sliding = sum(abs(change) + abs(correction))/points
-      response%film = maxval(films, mask=film - films <= near_smallest*minval(film))/minval(film)
+      films = abs(second%contact%film_min - film) + second%contact%film_min*min(film_slopes(model, second, abs(correction)), 1.0_wp)
+      torques = abs(second%torque_friction - survey%states%torque_friction) + torque_slopes(model, second)*abs(correction)
+      slips = abs(change) + abs(correction)
+      response%torque = sum(torques)/points + sampling_error(torques)
+      response%sliding = sum(slips)/points + sampling_error(slips)
+      reach = near_smallest*max(minval(film(1::2)), minval(film(2::2)))
+      response%film = maxval(films, mask=film - films <= reach)/minval(film)
       response%is_known = .true.
    end subroutine sum_up
+
+   !> Change of the torque with the sliding speed.
+   pure function torque_slopes(model, states) result(slopes)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> States round the cycle
+      type(state_t), intent(in) :: states(points)
+      !> The slopes, positive [N s]
+      real(wp) :: slopes(points)
+
+      associate (contact => states%contact)
+         slopes = (abs(contact%traction) + contact%traction_slope*abs(contact%sliding_speed))/model%speed
+         if (.not. model%is_consistent) slopes = contact%traction_slope*abs(states%position%cam_arm)
+      end associate
+   end function torque_slopes
+
+   !> Relative change of the film with the sliding speed: with the entrainment, and with the load, which traction changes.
+   pure function film_slopes(model, states, distance) result(changes)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> States round the cycle
+      type(state_t), intent(in) :: states(points)
+      !> Change of the sliding speed, positive [m/s]
+      real(wp), intent(in) :: distance(points)
+      !> Relative changes of the film, positive [-]
+      real(wp) :: changes(points)
+
+      ! Change of the traction: not more than from one limit to the other [N]
+      real(wp) :: traction(points)
+
+      associate (contact => states%contact, position => states%position)
+         changes = film_exponent*0.5_wp*distance/max(abs(contact%entrainment_speed), tiny(1.0_wp))
+         if (.not. model%is_consistent) return
+         traction = min(contact%traction_slope*distance, &
+            & 2.0_wp*(model%limiting_coefficient*contact%load + contact%boundary_capacity))
+         changes = changes + load_exponent*traction*abs(position%tangent_arm)/(position%normal_arm*contact%load)
+      end associate
+   end function film_slopes
 
 end module camroller_effect_survey
