@@ -351,7 +351,7 @@ contains
          call bearing_loads(case%cam_bearings, forces, loads)
          do bearing = 1, size(loads, 2)
             call journal_torque(journal, norm2(loads(:, bearing)), torque, status)
-            if (status == 0) mean = mean + torque/size(survey%states)
+            if (status == 0) mean = mean + survey%grid%weights(i)*torque
          end do
       end do
    end subroutine mean_bearing_torque

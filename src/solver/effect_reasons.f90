@@ -8,6 +8,7 @@ module camroller_effect_reasons
    use camroller_contact_forces, only : film_groups
    use camroller_effect_list, only : effect_asperity, effect_needle, effect_guide, effect_bearings, effect_gas, effect_rolling, &
       & effect_film, effect_pressure, effect_shear, effect_spin, effect_ehl
+   use camroller_effect_grid, only : mean_over
    use camroller_effect_survey, only : survey_t
    use camroller_film, only : groups_t
    use camroller_hertz, only : peak_pressure
@@ -36,25 +37,28 @@ contains
       !> A few words
       character(len=*), intent(out) :: reason
 
-      ! Loss as torque [N m], summed over the angles, or a part [-]; all losses
+      ! Mean of a loss as torque [N m], or a part [-]; all losses
       real(wp) :: lost, all_lost
 
       associate (states => survey%states, contact => survey%states%contact)
-         all_lost = sum(states%torque_friction)
+         all_lost = mean_over(survey%grid, states%torque_friction)
          select case (effect)
          case (effect_asperity)
             reason = "film ratio from "//trim(text(minval(contact%film_ratio)))//" to "//trim(text(maxval(contact%film_ratio))) &
                & //", asperities carry up to "//trim(percent(maxval(contact%asperity_load/contact%load)))//" of the load"
          case (effect_needle)
-            reason = "takes "//trim(percent(sum(states%torque_needle)/all_lost))//" of the follower's friction torque"
+            lost = mean_over(survey%grid, states%torque_needle)
+            reason = "takes "//trim(percent(lost/all_lost))//" of the follower's friction torque"
          case (effect_guide)
-            reason = "takes "//trim(percent(sum(states%torque_guide)/all_lost))//" of the follower's friction torque"
+            lost = mean_over(survey%grid, states%torque_guide)
+            reason = "takes "//trim(percent(lost/all_lost))//" of the follower's friction torque"
          case (effect_bearings)
             reason = "take "//trim(percent(share))//" of the friction torque; film and slip do not feel them"
          case (effect_gas)
             reason = "presses the valve with up to "//trim(text(maxval(abs(states%gas_force))))//" N"
          case (effect_rolling)
-            lost = sum(contact%rolling_resistance*(contact%cam_surface_speed + contact%roller_surface_speed))/model%speed
+            lost = mean_over(survey%grid, &
+               & contact%rolling_resistance*(contact%cam_surface_speed + contact%roller_surface_speed))/model%speed
             reason = "takes "//trim(percent(lost/all_lost))//" of the follower's friction torque"
          case (effect_film, effect_ehl)
             call find_moes_numbers(model, survey, reason)
@@ -83,7 +87,7 @@ contains
 
       type(groups_t) :: groups
       ! Load and material parameter, M and L [-]
-      real(wp) :: m(size(survey%angles)), l(size(survey%angles)), root
+      real(wp) :: m(size(survey%states)), l(size(survey%states)), root
       integer :: i
 
       do i = 1, size(m)

@@ -10,11 +10,14 @@
 !> would move the sliding speed, what half the angles would have made of it, and by how much means differ between all angles and
 !> half of them.
 module camroller_effect_survey
-   use camroller_kinds, only : wp, pi, two_pi
+   use camroller_kinds, only : wp, two_pi
+   use camroller_effect_grid, only : grid_t, points, slowest_decay, make_grid, delay, delay_from_half, delay_slowly, mean_over, &
+      & sampling_error, bend_of
    use camroller_model, only : model_t
    use camroller_kinematics, only : position_t
    use camroller_state, only : state_t, evaluate_state
    use camroller_balance, only : follow_balance
+   use camroller_quasi_static, only : longest_interval
    use camroller_spin, only : rolling_speed_slope, decay_rate_of
    use camroller_stick, only : has_stick
    use camroller_traction, only : cap_sharp
@@ -23,14 +26,12 @@ module camroller_effect_survey
 
    public :: survey_t, response_t, make_survey, respond, respond_roughly, respond_at_once
 
-   !> Angles looked at, and how many to the next one in a rough look
-   integer, parameter :: points = 48, stride = 4
-   !> Distance between them [rad]
+   !> Angles from one to the next in a rough look
+   integer, parameter :: stride = 4
+   !> Distance between the angles, about [rad]
    real(wp), parameter :: spacing_angle = two_pi/points
    !> Accuracy of a balance over the speed of pure rolling on the base circle [-]
    real(wp), parameter :: balance_accuracy = 1.0e-4_wp
-   !> Slowest decay that is told from none [1/rad]
-   real(wp), parameter :: slowest_decay = 1.0e-6_wp
    !> Decay between two angles below which a delay may be more than what is seen of it at the angles [-]
    real(wp), parameter :: slowest_resolved = 3.0_wp
    !> Smallest load over the largest one, below which contact may be lost between the angles [-]
@@ -43,8 +44,6 @@ module camroller_effect_survey
    real(wp), parameter :: load_exponent = 1.0_wp
    !> Films up to this part above the smallest one may become the smallest [-]
    real(wp), parameter :: near_smallest = 1.5_wp
-   !> Laps after which the delayed balance is periodic for all purposes
-   integer, parameter :: laps = 3
    !> Error of the sliding speed over the speed itself, means of sizes, above which nothing is said [-]
    real(wp), parameter :: largest_error = 0.5_wp
 
@@ -52,8 +51,8 @@ module camroller_effect_survey
    type :: survey_t
       !> Why nothing can be said; not allocated where something can
       character(len=:), allocatable :: trouble
-      !> Cam angles from full lift [rad]
-      real(wp) :: angles(points)
+      !> Angles looked at
+      type(grid_t) :: grid
       !> Sliding speed of the balance, and delayed; error that the latter may have [m/s]
       real(wp) :: balance(points), sliding(points), error(points)
       !> Largest sliding speed of the balance [m/s]
@@ -106,12 +105,12 @@ contains
          survey%trouble = "the roller sticks and slides"
          return
       end if
-      survey%angles = [(-pi + (i - 0.5_wp)*spacing_angle, i=1, points)]
+      call make_grid(model, survey%grid)
       sliding_speed = 0.0_wp
       tolerance = balance_accuracy*model%speed*model%roller_radius
       do i = 1, points
-         call follow_balance(model, survey%angles(i), tolerance, position, sliding_speed, survey%decay(i), survey%evaluations, &
-            & is_found)
+         call follow_balance(model, survey%grid%angles(i), tolerance, position, sliding_speed, survey%decay(i), &
+            & survey%evaluations, is_found)
          if (.not. is_found) then
             survey%trouble = "traction cannot keep the roller in balance, or contact is lost"
             return
@@ -120,10 +119,10 @@ contains
       end do
       survey%scale = maxval(abs(survey%balance))
       survey%sliding = survey%balance
-      call delay(survey%decay, survey%balance, survey%sliding)
+      call delay(survey%grid, survey%decay, survey%balance, survey%sliding)
       balance_decay = survey%decay
       do i = 1, points
-         call evaluate_state(model, survey%angles(i), survey%sliding(i), survey%states(i), status)
+         call evaluate_state(model, survey%grid%angles(i), survey%sliding(i), survey%states(i), status)
          if (status /= 0) survey%trouble = "load and friction have no common solution"
          if (status /= 0) return
          survey%decay(i) = decay_rate_of(model, survey%states(i)%contact)
@@ -144,8 +143,8 @@ contains
       type(survey_t), intent(inout) :: survey
 
       ! Slope of the sliding speed by the roller equation less that of the delayed balance [m/s/rad]; what comes of it; sliding
-      ! speed from half the angles [m/s]
-      real(wp) :: defect(points), correction(points), coarse(points)
+      ! speed from half the angles, and with slower decays [m/s]
+      real(wp) :: defect(points), correction(points), coarse(points), slow(points)
       integer :: i
 
       do i = 1, points
@@ -155,29 +154,22 @@ contains
          end associate
       end do
       correction = 0.0_wp
-      call delay(survey%decay, defect/max(survey%decay, slowest_decay), correction)
+      call delay(survey%grid, survey%decay, defect/max(survey%decay, slowest_decay), correction)
       coarse = survey%balance
-      call delay_every(2, 1, balance_decay, survey%balance, coarse)
-      call delay_every(2, 2, balance_decay, survey%balance, coarse)
-      survey%error = abs(correction) + abs(coarse - survey%sliding)
-      if (sum(survey%error) > largest_error*sum(abs(survey%sliding))) survey%trouble = "the look round the cycle misses the slip"
+      call delay_from_half(survey%grid, balance_decay, survey%balance, coarse)
+      slow = survey%balance
+      call delay_slowly(survey%grid, balance_decay, survey%balance, slow)
+      survey%error = abs(correction) + abs(coarse - survey%sliding) + abs(slow - survey%sliding)
+      if (mean_over(survey%grid, survey%error) > largest_error*mean_over(survey%grid, abs(survey%sliding))) &
+         & survey%trouble = "the look round the cycle misses the slip"
       associate (torques => survey%states%torque_friction)
-         survey%torque = sum(torques)/points
-         survey%torque_error = sampling_error(torques) + sum(torque_slopes(model, survey%states)*survey%error)/points
+         survey%torque = mean_over(survey%grid, torques)
+         survey%torque_error = sampling_error(survey%grid, torques) &
+            & + mean_over(survey%grid, torque_slopes(model, survey%states)*survey%error)
       end associate
-      survey%slip = sum(survey%sliding)/points
-      survey%slip_error = sampling_error(survey%sliding) + sum(survey%error)/points
+      survey%slip = mean_over(survey%grid, survey%sliding)
+      survey%slip_error = sampling_error(survey%grid, survey%sliding) + mean_over(survey%grid, survey%error)
    end subroutine doubt_survey
-
-   !> Difference of a mean over all angles from that over half of them.
-   pure function sampling_error(values) result(error)
-      !> Values at the angles [any]
-      real(wp), intent(in) :: values(points)
-      !> The difference [any]
-      real(wp) :: error
-
-      error = abs(sum(values(1::2)) - sum(values(2::2)))/points
-   end function sampling_error
 
    !> Is contact lost somewhere, or nearly so?
    pure function is_nearly_lost(states) result(verdict)
@@ -188,44 +180,6 @@ contains
 
       verdict = minval(states%contact%load) < smallest_load*maxval(states%contact%load)
    end function is_nearly_lost
-
-   !> Let a quantity follow its balance with its decay, round the cycle until periodic.
-   pure subroutine delay(decay, balance, values)
-      !> Decay rates [1/rad]
-      real(wp), intent(in) :: decay(points)
-      !> The balance [any]
-      real(wp), intent(in) :: balance(points)
-      !> The quantity [any]
-      real(wp), intent(inout) :: values(points)
-
-      call delay_every(1, 1, decay, balance, values)
-   end subroutine delay
-
-   !> The same at some of the angles.
-   pure subroutine delay_every(step, first, decay, balance, values)
-      !> Distance from one angle to the next, and the first
-      integer, intent(in) :: step, first
-      !> Decay rates [1/rad]
-      real(wp), intent(in) :: decay(points)
-      !> The balance [any]
-      real(wp), intent(in) :: balance(points)
-      !> The quantity [any]
-      real(wp), intent(inout) :: values(points)
-
-      ! Decay over an interval, what it leaves, its mean weight [-]
-      real(wp) :: exponent, left, weight
-      integer :: lap, i, next
-
-      do lap = 1, laps
-         do i = first, points, step
-            next = modulo(i + step - 1, points) + 1
-            exponent = max(0.5_wp*(decay(i) + decay(next)), slowest_decay)*step*spacing_angle
-            left = exp(-min(exponent, 700.0_wp))
-            weight = (1.0_wp - left)/exponent
-            values(next) = balance(next) + left*(values(i) - balance(i)) - weight*(balance(next) - balance(i))
-         end do
-      end do
-   end subroutine delay_every
 
    !> How the cycle answers to another model.
    subroutine respond(survey, model, other, response)
@@ -253,7 +207,7 @@ contains
       rates = rate_change(model, first, survey%states)
       decay = min(decay, survey%decay)
       change = 0.0_wp
-      call delay(decay, rates/max(decay, slowest_decay), change)
+      call delay(survey%grid, decay, rates/max(decay, slowest_decay), change)
       second = first
       correction = 0.0_wp
       if (maxval(abs(change)) > 0.0_wp) then
@@ -262,8 +216,8 @@ contains
          response%evaluations = response%evaluations + points
          if (.not. is_fine) return
          rates = rates + rate_change(model, second, first)
-         call delay(decay, rates/max(decay, slowest_decay), correction)
-         if (sum(abs(correction)) > largest_correction*sum(abs(change))) return
+         call delay(survey%grid, decay, rates/max(decay, slowest_decay), correction)
+         if (mean_over(survey%grid, abs(correction)) > largest_correction*mean_over(survey%grid, abs(change))) return
       end if
       call sum_up(survey, model, second, change, correction, response)
    end subroutine respond
@@ -291,14 +245,14 @@ contains
       response%sliding = 0.0_wp
       response%evaluations = points/stride
       do i = stride/2, points, stride
-         call evaluate_state(other, survey%angles(i), survey%sliding(i), state, status)
+         call evaluate_state(other, survey%grid%angles(i), survey%sliding(i), state, status)
          if (status /= 0) response%is_known = .false.
          if (status /= 0) return
-         associate (base => survey%states(i))
+         associate (base => survey%states(i), weight => sum(survey%grid%weights(i - stride/2 + 1:i + stride/2)))
             rate = model%roller_radius/model%speed*(state%spin_acceleration - base%spin_acceleration)
-            response%torque = response%torque + abs(state%torque_friction - base%torque_friction)*stride/points
+            response%torque = response%torque + weight*abs(state%torque_friction - base%torque_friction)
             response%film = max(response%film, abs(state%contact%film_min/base%contact%film_min - 1.0_wp))
-            response%sliding = response%sliding + abs(rate)/max(survey%decay(i), slowest_decay)*stride/points
+            response%sliding = response%sliding + weight*abs(rate)/max(survey%decay(i), slowest_decay)
          end associate
       end do
    end subroutine respond_roughly
@@ -331,6 +285,8 @@ contains
       change = survey%balance - survey%sliding
       error = tolerance*survey%scale + survey%error
       call sum_up(survey, model, states, change, error, response)
+      ! The limit is taken as linear between its points, and so is what follows from it
+      response%torque = response%torque + bend_of(survey%grid, states%torque_friction)*longest_interval**2/12.0_wp
    end subroutine respond_at_once
 
    !> States of a model round the cycle.
@@ -352,7 +308,7 @@ contains
 
       is_fine = .true.
       do i = 1, points
-         call evaluate_state(model, survey%angles(i), sliding(i), states(i), status)
+         call evaluate_state(model, survey%grid%angles(i), sliding(i), states(i), status)
          is_fine = status == 0
          if (is_fine) is_fine = states(i)%contact%is_touching
          if (.not. is_fine) return
@@ -393,8 +349,8 @@ contains
       films = abs(second%contact%film_min - film) + second%contact%film_min*min(film_slopes(model, second, abs(correction)), 1.0_wp)
       torques = abs(second%torque_friction - survey%states%torque_friction) + torque_slopes(model, second)*abs(correction)
       slips = abs(change) + abs(correction)
-      response%torque = sum(torques)/points + sampling_error(torques)
-      response%sliding = sum(slips)/points + sampling_error(slips)
+      response%torque = mean_over(survey%grid, torques) + sampling_error(survey%grid, torques)
+      response%sliding = mean_over(survey%grid, slips) + sampling_error(survey%grid, slips)
       reach = near_smallest*max(minval(film(1::2)), minval(film(2::2)))
       response%film = maxval(films, mask=film - films <= reach)/minval(film)
       response%is_known = .true.

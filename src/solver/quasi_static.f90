@@ -14,10 +14,10 @@ module camroller_quasi_static
    implicit none
    private
 
-   public :: quasi_static_cycle
+   public :: quasi_static_cycle, longest_interval
 
    !> Longest interval between points [rad]
-   real(wp), parameter :: longest = 2.0_wp*degree
+   real(wp), parameter :: longest_interval = 2.0_wp*degree
    !> Halvings of an interval before it is taken as it is
    integer, parameter :: max_depth = 14
    !> Accuracy of a balance over the error allowed between points [-]
@@ -53,7 +53,7 @@ contains
          left = stops(segment) + margin
          length = stops(segment + 1) - margin - left
          if (length <= 64.0_wp*margin) cycle
-         intervals = ceiling(length/longest)
+         intervals = ceiling(length/longest_interval)
          length = length/intervals
          call balance_at(model, left, tolerance, 0.0_wp, left_value, counters, error)
          if (allocated(error)) return

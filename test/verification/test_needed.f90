@@ -27,19 +27,25 @@ module test_needed
 
    !> Cases of a test run, and the seed of the first
    integer, parameter :: usual_cases = 4, usual_seed = 1
-   !> Accuracy of the runs that are compared [-], and what it leaves of a change: a few times as much
-   real(wp), parameter :: accuracy = 1.0e-5_wp, rest = 3.0_wp*accuracy
+   !> Accuracy of the runs that are compared; of those that decide where a change seems larger than its estimate, since a mean in
+   !> which much cancels is less accurate than what it is a mean of [-]
+   real(wp), parameter :: accuracy = 1.0e-5_wp, high_accuracy = 1.0e-8_wp
+   !> What an accuracy leaves of a change, over the accuracy [-]
+   real(wp), parameter :: rest_share = 3.0_wp
    !> Part of the estimates that must be below what is negligible by default, lest nothing is tested [-]
    real(wp), parameter :: least_share = 0.1_wp
    !> Random decks whose changes are hard to bound: friction near its limit hands a small change of slip on to load and film; a spin
-   !> that hardly anything damps, with a slip in which forward and backward sliding cancel; slip in a narrow stretch of the cycle
-   integer, parameter :: hard_seeds(*) = [7039, 7235, 1234]
+   !> that hardly anything damps, with a slip in which forward and backward sliding cancel; slip in a narrow stretch of the cycle;
+   !> another such stretch; a slow decay from the end of the event on; torque that bends between the points of the limit
+   integer, parameter :: hard_seeds(*) = [7039, 7235, 1234, 54107, 55268, 50894]
 
    !> What came of many audits, by effect and quantity; the last row is everything that a case does not need, left out at once
    type :: tally_t
       character(len=:), allocatable :: misses
       !> Changes; those with an estimate; those whose estimate is small
       integer, dimension(effect_count + 1, size(quantity_names)) :: changes = 0, known = 0, small = 0
+      !> Cases that took runs of high accuracy
+      integer :: repeated = 0
       !> Changes over their estimates, in the order met [-]
       real(wp), allocatable :: ratios(:)
       !> Largest of them, by effect and quantity [-]
@@ -118,8 +124,8 @@ contains
          case%numerics%tolerance = 0.0_wp
          case%effects%quantity = quantity_names(k)
          call set_point(case, point_speeds(k), point_viscosities(4 - k))
-         call audit(case, table)
-         call compare(table, trim(quantity_names(k)), tally)
+         call audit(case, accuracy, table)
+         call compare(table, trim(quantity_names(k)), accuracy, tally)
       end do
       if (tally%misses /= "") call test_failed(error, tally%misses)
    end subroutine test_thesis
@@ -217,14 +223,15 @@ contains
    end subroutine draw_case
 
    !> Audit a case once.
-   subroutine audit(case, table)
+   subroutine audit(case, run_accuracy, table)
       type(case_t), intent(in) :: case
+      real(wp), intent(in) :: run_accuracy
       type(study_table_t), intent(out) :: table
       type(case_t) :: precise
       type(error_t), allocatable :: failure
 
       precise = case
-      precise%numerics%accuracy = accuracy
+      precise%numerics%accuracy = run_accuracy
       call new_audit_table(table)
       call audit_case(table, 1, precise, 1, .false., failure)
    end subroutine audit
@@ -235,14 +242,29 @@ contains
       character(len=*), intent(in) :: text
       type(case_t), intent(in) :: case
       type(tally_t), intent(inout) :: tally
-      type(study_table_t) :: table
+      type(study_table_t) :: table, precise
+      type(tally_t) :: trial
       character(len=12) :: buffer
       integer :: before
+      logical :: is_precise
 
-      call audit(case, table)
+      call audit(case, accuracy, table)
       write (buffer, "(i0)") seed
+      call start_tally(trial)
+      call compare(table, "", accuracy, trial)
+      is_precise = .false.
+      if (trial%misses /= "") then
+         call audit(case, high_accuracy, precise)
+         ! A run that fails at the high accuracy proves nothing
+         is_precise = count(ieee_is_nan(precise%numbers(:precise%rows, 6:8))) <= count(ieee_is_nan(table%numbers(:table%rows, 6:8)))
+      end if
       before = len(tally%misses)
-      call compare(table, "NEEDED_SEED="//trim(buffer), tally)
+      if (is_precise) then
+         tally%repeated = tally%repeated + 1
+         call compare(precise, "NEEDED_SEED="//trim(buffer), high_accuracy, tally)
+      else
+         call compare(table, "NEEDED_SEED="//trim(buffer), accuracy, tally)
+      end if
       if (len(tally%misses) > before) tally%misses = tally%misses//new_line("a")//text
    end subroutine compare_seed
 
@@ -255,15 +277,17 @@ contains
    end subroutine start_tally
 
    !> Compare the changes of an audit with their estimates.
-   subroutine compare(table, what, tally)
+   subroutine compare(table, what, run_accuracy, tally)
       type(study_table_t), intent(in) :: table
       character(len=*), intent(in) :: what
+      real(wp), intent(in) :: run_accuracy
       type(tally_t), intent(inout) :: tally
       character(len=24) :: buffer
-      ! Change beyond what the runs leave of it, over its estimate [-]
-      real(wp) :: ratio
+      ! What the runs leave of a change; change beyond that, over its estimate [-]
+      real(wp) :: rest, ratio
       integer :: row, effect, k
 
+      rest = rest_share*run_accuracy
       do row = 1, table%rows
          effect = findloc(effect_names, table%words(row, 1), 1)
          if (effect == 0) effect = effect_count + 1
@@ -295,7 +319,8 @@ contains
       character(len=20) :: name
       integer :: effect, k
 
-      write (output_unit, "(i0, a, i0, a, i0)") cases, " cases, changes ", sum(tally%changes), ", next seed ", seed
+      write (output_unit, "(i0, a, i0, a, i0)") cases, " cases, ", tally%repeated, &
+         " of them run again with high accuracy, next seed ", seed
       write (output_unit, "(a21, a14, 3a9, a15)") "without", "quantity", "changes", "bounded", "small", "largest ratio"
       do effect = 1, effect_count + 1
          name = "all that is left out"
