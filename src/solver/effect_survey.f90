@@ -142,24 +142,21 @@ contains
       !> The look; its errors are set
       type(survey_t), intent(inout) :: survey
 
-      ! Slope of the sliding speed by the roller equation less that of the delayed balance [m/s/rad]; what comes of it; sliding
-      ! speed from half the angles, and with slower decays [m/s]
-      real(wp) :: defect(points), correction(points), coarse(points), slow(points)
+      ! Decay rates from the balance to the sliding speed [1/rad]; balances that go with them, sliding speed that follows from both,
+      ! from half the angles, and with slower decays [m/s]
+      real(wp) :: decay(points), balance(points), again(points), coarse(points), slow(points)
       integer :: i
 
       do i = 1, points
-         associate (state => survey%states(i))
-            defect(i) = rolling_speed_slope(model, state%position) - model%roller_radius/model%speed*state%spin_acceleration &
-               & + balance_decay(i)*(survey%sliding(i) - survey%balance(i))
-         end associate
+         call refine_decay(model, survey, i, balance_decay(i), decay(i), balance(i))
       end do
-      correction = 0.0_wp
-      call delay(survey%grid, survey%decay, defect/max(survey%decay, slowest_decay), correction)
+      again = survey%sliding
+      call delay(survey%grid, decay, balance, again)
       coarse = survey%balance
       call delay_from_half(survey%grid, balance_decay, survey%balance, coarse)
       slow = survey%balance
       call delay_slowly(survey%grid, balance_decay, survey%balance, slow)
-      survey%error = abs(correction) + abs(coarse - survey%sliding) + abs(slow - survey%sliding)
+      survey%error = max(abs(again - survey%sliding), abs(coarse - survey%sliding), abs(slow - survey%sliding))
       if (mean_over(survey%grid, survey%error) > largest_error*mean_over(survey%grid, abs(survey%sliding))) &
          & survey%trouble = "the look round the cycle misses the slip"
       associate (torques => survey%states%torque_friction)
@@ -170,6 +167,39 @@ contains
       survey%slip = mean_over(survey%grid, survey%sliding)
       survey%slip_error = sampling_error(survey%grid, survey%sliding) + mean_over(survey%grid, survey%error)
    end subroutine doubt_survey
+
+   !> Decay and balance with which the roller equation has the rate that it has at the delayed sliding speed.
+   subroutine refine_decay(model, survey, point, balance_decay, decay, balance)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> The look
+      type(survey_t), intent(in) :: survey
+      !> Which of its angles
+      integer, intent(in) :: point
+      !> Decay rate at the balance [1/rad]
+      real(wp), intent(in) :: balance_decay
+      !> Decay rate between balance and delayed sliding speed [1/rad]
+      real(wp), intent(out) :: decay
+      !> Balance, found anew where that of the look does not go with the rate [m/s]
+      real(wp), intent(out) :: balance
+
+      ! What a decay between two sliding speeds may be outside those at both [-]
+      real(wp), parameter :: leeway = 2.0_wp
+      ! dV_s/dtheta [m/s/rad]; distance from the balance [m/s]
+      real(wp) :: rate, distance
+
+      associate (state => survey%states(point), local => survey%decay(point))
+         rate = rolling_speed_slope(model, state%position) - model%roller_radius/model%speed*state%spin_acceleration
+         distance = survey%sliding(point) - survey%balance(point)
+         balance = survey%balance(point)
+         if (-rate*distance > 0.0_wp) then
+            decay = -rate/distance
+            if (decay >= min(local, balance_decay)/leeway .and. decay <= max(local, balance_decay)*leeway) return
+         end if
+         decay = max(local, slowest_decay)
+         balance = survey%sliding(point) + rate/decay
+      end associate
+   end subroutine refine_decay
 
    !> Is contact lost somewhere, or nearly so?
    pure function is_nearly_lost(states) result(verdict)
