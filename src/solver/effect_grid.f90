@@ -198,7 +198,7 @@ contains
       !> The angles
       type(grid_t), intent(in) :: grid
       !> Values at the angles [any]
-      real(wp), intent(in) :: values(points)
+      real(wp), intent(in) :: values(:)
       !> Their mean [any]
       real(wp) :: mean
 
@@ -210,7 +210,7 @@ contains
       !> The angles
       type(grid_t), intent(in) :: grid
       !> Values at the angles [any]
-      real(wp), intent(in) :: values(points)
+      real(wp), intent(in) :: values(:)
       !> The difference, the larger one of both halves [any]
       real(wp) :: error
 
@@ -226,7 +226,7 @@ contains
       !> The angles
       type(grid_t), intent(in) :: grid
       !> Values at the angles [any]
-      real(wp), intent(in) :: values(points)
+      real(wp), intent(in) :: values(:)
       !> The mean [any/rad^2]
       real(wp) :: bend
 

@@ -6,9 +6,9 @@
 !> is solved with q linear. A change of the model disturbs it by `dv/dtheta = b - lambda v`, with b the difference of the rates at
 !> the same sliding speed; a second look at the disturbed state gives the changes to second order.
 !>
-!> What the look itself may be wrong by is found beside it, without another evaluation: how far the rates of the roller equation
-!> would move the sliding speed, what half the angles would have made of it, and by how much means differ between all angles and
-!> half of them.
+!> What the look itself may be wrong by is found beside it, without another evaluation: what the sliding speed would be with the
+!> decay that the roller equation has between balance and delayed sliding speed, with half the angles, and with the slower decay of
+!> two angles; and by how much means differ between all angles and half of them.
 module camroller_effect_survey
    use camroller_kinds, only : wp, two_pi
    use camroller_effect_grid, only : grid_t, points, slowest_decay, make_grid, delay, delay_from_half, delay_slowly, mean_over, &
@@ -16,7 +16,7 @@ module camroller_effect_survey
    use camroller_model, only : model_t
    use camroller_kinematics, only : position_t
    use camroller_state, only : state_t, evaluate_state
-   use camroller_balance, only : follow_balance
+   use camroller_balance, only : follow_balance, least_slip
    use camroller_quasi_static, only : longest_interval
    use camroller_spin, only : rolling_speed_slope, decay_rate_of
    use camroller_stick, only : has_stick
@@ -55,7 +55,7 @@ module camroller_effect_survey
       type(grid_t) :: grid
       !> Sliding speed of the balance, and delayed; error that the latter may have [m/s]
       real(wp) :: balance(points), sliding(points), error(points)
-      !> Largest sliding speed of the balance [m/s]
+      !> Largest sliding speed of the balance, or what counts as none where that is less [m/s]
       real(wp) :: scale
       !> Decay rate [1/rad]
       real(wp) :: decay(points)
@@ -117,7 +117,6 @@ contains
          end if
          survey%balance(i) = sliding_speed
       end do
-      survey%scale = maxval(abs(survey%balance))
       survey%sliding = survey%balance
       call delay(survey%grid, survey%decay, survey%balance, survey%sliding)
       balance_decay = survey%decay
@@ -128,6 +127,7 @@ contains
          survey%decay(i) = decay_rate_of(model, survey%states(i)%contact)
       end do
       survey%evaluations = survey%evaluations + points
+      survey%scale = max(maxval(abs(survey%balance)), least_slip*maxval(abs(survey%states%contact%rolling_speed)))
       if (is_nearly_lost(survey%states)) survey%trouble = "contact is lost or nearly so"
       if (allocated(survey%trouble)) return
       call doubt_survey(model, balance_decay, survey)
@@ -157,8 +157,9 @@ contains
       slow = survey%balance
       call delay_slowly(survey%grid, balance_decay, survey%balance, slow)
       survey%error = max(abs(again - survey%sliding), abs(coarse - survey%sliding), abs(slow - survey%sliding))
-      if (mean_over(survey%grid, survey%error) > largest_error*mean_over(survey%grid, abs(survey%sliding))) &
-         & survey%trouble = "the look round the cycle misses the slip"
+      if (mean_over(survey%grid, survey%error) > largest_error*mean_over(survey%grid, abs(survey%sliding))) then
+         survey%trouble = "the look round the cycle misses the slip"
+      end if
       associate (torques => survey%states%torque_friction)
          survey%torque = mean_over(survey%grid, torques)
          survey%torque_error = sampling_error(survey%grid, torques) &
@@ -192,7 +193,7 @@ contains
          rate = rolling_speed_slope(model, state%position) - model%roller_radius/model%speed*state%spin_acceleration
          distance = survey%sliding(point) - survey%balance(point)
          balance = survey%balance(point)
-         if (-rate*distance > 0.0_wp) then
+         if (-rate*distance > 0.0_wp .and. abs(distance) > epsilon(1.0_wp)*abs(survey%sliding(point))) then
             decay = -rate/distance
             if (decay >= min(local, balance_decay)/leeway .and. decay <= max(local, balance_decay)*leeway) return
          end if
