@@ -8,7 +8,7 @@ module camroller_effect_reasons
    use camroller_contact_forces, only : film_groups
    use camroller_effect_list, only : effect_asperity, effect_needle, effect_guide, effect_bearings, effect_gas, effect_rolling, &
       & effect_film, effect_pressure, effect_shear, effect_spin, effect_ehl
-   use camroller_effect_grid, only : mean_over
+   use camroller_effect_grid, only : points, mean_over
    use camroller_effect_survey, only : survey_t
    use camroller_film, only : groups_t
    use camroller_hertz, only : peak_pressure
@@ -39,18 +39,23 @@ contains
 
       ! Mean of a loss as torque [N m], or a part [-]; all losses
       real(wp) :: lost, all_lost
+      ! Losses at the angles [N m]
+      real(wp) :: losses(points)
 
       associate (states => survey%states, contact => survey%states%contact)
-         all_lost = mean_over(survey%grid, states%torque_friction)
+         losses = states%torque_friction
+         all_lost = mean_over(survey%grid, losses)
          select case (effect)
          case (effect_asperity)
             reason = "film ratio from "//trim(text(minval(contact%film_ratio)))//" to "//trim(text(maxval(contact%film_ratio))) &
                & //", asperities carry up to "//trim(percent(maxval(contact%asperity_load/contact%load)))//" of the load"
          case (effect_needle)
-            lost = mean_over(survey%grid, states%torque_needle)
+            losses = states%torque_needle
+            lost = mean_over(survey%grid, losses)
             reason = "takes "//trim(percent(lost/all_lost))//" of the follower's friction torque"
          case (effect_guide)
-            lost = mean_over(survey%grid, states%torque_guide)
+            losses = states%torque_guide
+            lost = mean_over(survey%grid, losses)
             reason = "takes "//trim(percent(lost/all_lost))//" of the follower's friction torque"
          case (effect_bearings)
             reason = "take "//trim(percent(share))//" of the friction torque; film and slip do not feel them"

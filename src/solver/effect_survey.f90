@@ -143,8 +143,8 @@ contains
       type(survey_t), intent(inout) :: survey
 
       ! Decay rates from the balance to the sliding speed [1/rad]; balances that go with them, sliding speed that follows from both,
-      ! from half the angles, and with slower decays [m/s]
-      real(wp) :: decay(points), balance(points), again(points), coarse(points), slow(points)
+      ! from half the angles, and with slower decays [m/s]; torques for losses [N m]
+      real(wp) :: decay(points), balance(points), again(points), coarse(points), slow(points), torques(points)
       integer :: i
 
       do i = 1, points
@@ -160,11 +160,10 @@ contains
       if (mean_over(survey%grid, survey%error) > largest_error*mean_over(survey%grid, abs(survey%sliding))) then
          survey%trouble = "the look round the cycle misses the slip"
       end if
-      associate (torques => survey%states%torque_friction)
-         survey%torque = mean_over(survey%grid, torques)
-         survey%torque_error = sampling_error(survey%grid, torques) &
-            & + mean_over(survey%grid, torque_slopes(model, survey%states)*survey%error)
-      end associate
+      torques = survey%states%torque_friction
+      survey%torque = mean_over(survey%grid, torques)
+      survey%torque_error = sampling_error(survey%grid, torques) &
+         & + mean_over(survey%grid, torque_slopes(model, survey%states)*survey%error)
       survey%slip = mean_over(survey%grid, survey%sliding)
       survey%slip_error = sampling_error(survey%grid, survey%sliding) + mean_over(survey%grid, survey%error)
    end subroutine doubt_survey
@@ -300,8 +299,8 @@ contains
       type(response_t), intent(out) :: response
 
       type(state_t) :: states(points)
-      ! Decay rates [1/rad], change of the sliding speed and its error [m/s]
-      real(wp) :: decay(points), change(points), error(points)
+      ! Decay rates [1/rad], change of the sliding speed and its error [m/s], torques for losses [N m]
+      real(wp) :: decay(points), change(points), error(points), torques(points)
       logical :: is_fine
 
       response%is_known = .false.
@@ -316,8 +315,9 @@ contains
       change = survey%balance - survey%sliding
       error = tolerance*survey%scale + survey%error
       call sum_up(survey, model, states, change, error, response)
+      torques = states%torque_friction
       ! The limit is taken as linear between its points, and so is what follows from it
-      response%torque = response%torque + bend_of(survey%grid, states%torque_friction)*longest_interval**2/12.0_wp
+      response%torque = response%torque + bend_of(survey%grid, torques)*longest_interval**2/12.0_wp
    end subroutine respond_at_once
 
    !> States of a model round the cycle.
