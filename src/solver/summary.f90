@@ -55,7 +55,7 @@ contains
          & "estimate of the largest error of the sliding speed over its largest value", "numerics", maxval(statistics%error))
       worst = maxloc(statistics%error, 1)
       call add(quantities, values, count, "estimated_error_angle", "deg", "cam angle where the estimated error is largest", &
-         & "numerics", 180.0_wp + statistics(worst)%error_angle/degree)
+         & "numerics", modulo(180.0_wp + statistics(worst)%error_angle/degree, 360.0_wp))
       call add_counters(cycles, quantities, values, count)
       result%summary = quantities(:count)
       result%summary_values = values(:count)
