@@ -4,7 +4,7 @@
 module camroller_run
    use camroller_kinds, only : wp
    use camroller_error, only : error_t, raise, add_context, kind_convergence
-   use camroller_accuracy, only : is_checked, most_refinements, refine_tolerance, resolve_numerics, &
+   use camroller_accuracy, only : is_checked, has_tolerance, far_beyond, most_refinements, refine_tolerance, resolve_numerics, &
       & second_method, way_out
    use camroller_case, only : case_t, numerics_t, automatic_method
    use camroller_kept_models, only : kept_models_t, keep_models, recall_models
@@ -113,6 +113,7 @@ contains
       numerics = resolve_numerics(case%numerics)
       if (.not. is_checked(case%numerics)) then
          call run_models(case, models, numerics, result, error)
+         if (.not. allocated(error)) call judge_tolerance(case%numerics, result, error)
          return
       end if
       has_result = .false.
@@ -215,6 +216,31 @@ contains
       result%warnings = result%warnings//"the accuracy asked for was not reached; the estimated error is "// &
          & trim(adjustl(buffer))
    end subroutine judge
+
+   !> Remark on a tolerance given by hand that says nothing of the error: steps keep to it and the curve between them does not, or
+   !> errors of steps pile up where hardly anything damps.
+   subroutine judge_tolerance(numerics, result, error)
+      !> Numerics as given
+      type(numerics_t), intent(in) :: numerics
+      !> The result
+      type(result_t), intent(inout) :: result
+      !> Domain error where there is no estimate
+      type(error_t), allocatable, intent(out) :: error
+
+      ! Estimated error [-]
+      real(wp) :: estimate
+      character(len=12) :: buffer(2)
+
+      if (.not. has_tolerance(numerics)) return
+      call get_summary(result, "estimated_error", estimate, error)
+      if (allocated(error)) return
+      if (estimate <= numerics%tolerance*far_beyond) return
+      write (buffer(1), "(es9.1e3)") estimate
+      write (buffer(2), "(es9.1e3)") numerics%tolerance
+      if (len(result%warnings) > 0) result%warnings = result%warnings//new_line("a")
+      result%warnings = result%warnings//"the tolerance "//trim(adjustl(buffer(2)))//" does not hold the error: that is "// &
+         & "estimated as "//trim(adjustl(buffer(1)))//"; leave the tolerance out and give the accuracy wanted instead"
+   end subroutine judge_tolerance
 
    !> Models of the lobe shapes of a case, geometry checked over the whole cycle.
    subroutine build_models(case, models, error)

@@ -4,6 +4,7 @@ module test_error_estimate
    use camroller_kinds, only : wp, degree
    use camroller_accuracy, only : is_checked, refine_tolerance, resolve_numerics, way_out
    use camroller_case, only : case_t, numerics_t
+   use camroller_deck, only : deck_t, override_t, read_deck, make_case
    use camroller_error, only : error_t
    use camroller_result, only : result_t, get_series, get_summary
    use camroller_run, only : run_case
@@ -33,7 +34,8 @@ contains
          new_unittest("a cycle without decay has no finite error", test_no_decay), &
          new_unittest("the estimate holds up against the reference for every kind of method", test_methods), &
          new_unittest("method and tolerance follow from the accuracy unless they are given", test_resolved), &
-         new_unittest("an accuracy is kept, and one that cannot be is remarked on", test_kept) &
+         new_unittest("an accuracy is kept, and one that cannot be is remarked on", test_kept), &
+         new_unittest("a tolerance given by hand that does not hold the error is remarked on", test_far_beyond) &
          ]
    end subroutine collect_error_estimate
 
@@ -201,5 +203,30 @@ contains
       if (allocated(error)) return
       call check(error, index(result%warnings, "the accuracy asked for was not reached") > 0, result%warnings)
    end subroutine test_kept
+
+   !> A hard deck whose errors are a hundred tolerances, since contact comes back at a load of zero, and an ordinary case.
+   subroutine test_far_beyond(error)
+      type(error_type), allocatable, intent(out) :: error
+      character(len=*), parameter :: remark = "does not hold the error"
+      type(case_t) :: the_case
+      type(result_t) :: result
+      type(deck_t) :: deck
+      type(override_t) :: none(0)
+      type(error_t), allocatable :: failure
+
+      call read_deck(deck, "decks/hard/unloaded_base_circle.nml", none, failure)
+      if (.not. allocated(failure)) call make_case(deck, none, the_case, failure)
+      the_case%numerics%method = "rodas5p"
+      the_case%numerics%tolerance = 1.0e-6_wp
+      if (.not. allocated(failure)) call run_case(the_case, result, failure)
+      if (allocated(failure)) call test_failed(error, failure%message)
+      if (.not. allocated(error)) call check(error, index(result%warnings, remark) > 0, result%warnings)
+      if (allocated(error)) return
+      the_case = thesis_case()
+      the_case%numerics%tolerance = 1.0e-6_wp
+      call run_case(the_case, result, failure)
+      if (allocated(failure)) call test_failed(error, failure%message)
+      if (.not. allocated(error)) call check(error, index(result%warnings, remark) == 0, result%warnings)
+   end subroutine test_far_beyond
 
 end module test_error_estimate
