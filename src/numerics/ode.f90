@@ -11,7 +11,7 @@ module camroller_ode
    use camroller_ode_problem, only : problem_t, counters_t, new_linear, copy_linear
    use camroller_ode_method, only : method_t, options_t
    use camroller_trajectory, only : trajectory_t, start_trajectory, append_point, append_curve
-   use camroller_step_checks, only : check_saturation, check_end
+   use camroller_step_checks, only : check_saturation, check_end, check_middle
    use camroller_ode_bridge, only : footing_t, bridge_t, watch, is_stuck, try_bridge, note_bridge
    implicit none
    private
@@ -370,8 +370,8 @@ contains
       !> 0, or negative: give up
       integer, intent(out) :: status
 
-      ! Error over tolerance that stands for an impossible trial [-]
-      real(wp), parameter :: impossible = 1.0e3_wp
+      ! Error over tolerance that stands for an impossible trial; part of the largest step that is as good as all of it [-]
+      real(wp), parameter :: impossible = 1.0e3_wp, nearly = 0.999_wp
       ! Error of the step [state]
       real(wp) :: estimate(size(state))
 
@@ -399,6 +399,10 @@ contains
          end if
          if (method%has_curve .and. new_time < finish .and. .not. is_fixed(method, options)) then
             call check_end(method%there, method%bends, method%tolerance, this_step, new_state - state, new_rate, scaled_error)
+            if (scaled_error <= 1.0_wp .and. .not. method%gives_rate .and. this_step > nearly*options%max_step) then
+               call check_middle(problem, method%here, method%there, method%bends, method%tolerance, time, this_step, state, &
+                  & new_state, counters, scaled_error)
+            end if
          end if
       end if
       status = min(status, 0)

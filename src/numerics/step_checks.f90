@@ -4,17 +4,19 @@
 !> there is reason to.
 module camroller_step_checks
    use camroller_kinds, only : wp
-   use camroller_ode_problem, only : linear_t
-   use camroller_trajectory, only : curve_numbers, most_bends
+   use camroller_ode_problem, only : problem_t, linear_t, counters_t
+   use camroller_trajectory, only : curve_numbers, most_bends, curve_state
    implicit none
    private
 
-   public :: check_saturation, check_end
+   public :: check_saturation, check_end, check_middle
 
    !> Departure from the linear rate over span and size of the rate, up to which a step is taken to have seen a saturation [-]
    real(wp), parameter :: largest_departure = 0.5_wp
    !> Part of the error of a curve's slope at its end that counts: curves are of lower order than the states that they join [-]
    real(wp), parameter :: part_of_curve = 1.0e-2_wp
+   !> Part of the error of a curve in its middle that counts [-]
+   real(wp), parameter :: part_of_middle = 0.1_wp
 
 contains
 
@@ -85,5 +87,50 @@ contains
             & part_of_curve*abs(defect)/((abs(there%jacobian(i, i)) + 1.0_wp/step)*tolerance(i)))
       end do
    end subroutine check_end
+
+   !> Raise the error of a step whose curve does not satisfy the equation in its middle.
+   !>
+   !> Where the decay is fast, the state at the end is right whatever the step, and the error estimate, which is that of the end,
+   !> says nothing of the curve between. The middle is looked at where the size of the step is not the estimate's choice and the
+   !> decay is fast at both ends.
+   subroutine check_middle(problem, here, there, bends, tolerance, time, step, state, new_state, counters, scaled_error)
+      !> The problem
+      class(problem_t), intent(in) :: problem
+      !> Rate with its derivatives at both ends
+      type(linear_t), intent(in) :: here, there
+      !> Curve of the step, as a trajectory takes it, shape (component, numbers given) [state]; error allowed [state]
+      real(wp), intent(in) :: bends(:, :), tolerance(:)
+      !> Start and size of the step [time]
+      real(wp), intent(in) :: time, step
+      !> State at the start and at the end [state]
+      real(wp), intent(in) :: state(:), new_state(:)
+      !> Work done so far
+      type(counters_t), intent(inout) :: counters
+      !> Error over tolerance [-]
+      real(wp), intent(inout) :: scaled_error
+
+      ! Decay exponent of a step from which on the end forgets the start [-]
+      real(wp), parameter :: fast_decay = 10.0_wp
+      ! Places beside the middle between which a slope is taken [-]
+      real(wp), parameter :: left = 0.499_wp, right = 0.501_wp
+      ! The curve with all its numbers, those that are not given zero [state]
+      real(wp) :: curve(size(state), curve_numbers)
+      ! Rate in the middle [state/time], slope of the curve less that rate [state/time], decay rate [1/time]
+      real(wp) :: rate(size(state)), defect(size(state)), decay
+      integer :: i, status
+
+      if (any([(step*min(abs(here%jacobian(i, i)), abs(there%jacobian(i, i))) < fast_decay, i=1, size(state))])) return
+      curve = 0.0_wp
+      curve(:, :size(bends, 2)) = bends
+      call problem%get_rate(time + 0.5_wp*step, curve_state(state, new_state, curve, 0.5_wp), rate, status)
+      counters%evaluations = counters%evaluations + 1
+      if (status /= 0) return
+      defect = (curve_state(state, new_state, curve, right) - curve_state(state, new_state, curve, left)) &
+         & /((right - left)*step) - rate
+      do i = 1, size(state)
+         decay = max(abs(here%jacobian(i, i)), abs(there%jacobian(i, i))) + 1.0_wp/step
+         scaled_error = max(scaled_error, part_of_middle*abs(defect(i))/(decay*tolerance(i)))
+      end do
+   end subroutine check_middle
 
 end module camroller_step_checks

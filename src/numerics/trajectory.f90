@@ -12,7 +12,7 @@ module camroller_trajectory
    implicit none
    private
 
-   public :: trajectory_t, start_trajectory, append_point, append_curve, append_until, interpolate_state, curve_slope
+   public :: trajectory_t, start_trajectory, append_point, append_curve, append_until, interpolate_state, curve_state, curve_slope
 
    !> Accepted points, in order of time; at a kink of the rate two points share a time
    type :: trajectory_t
