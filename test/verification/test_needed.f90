@@ -327,13 +327,13 @@ contains
 
       write (output_unit, "(i0, a, i0, a, i0)") cases, " cases, ", tally%repeated, &
          " of them run again with high accuracy, next seed ", seed
-      write (output_unit, "(a21, a14, 3a9, a15)") "without", "quantity", "changes", "bounded", "small", "largest ratio"
+      write (output_unit, "(a20, a14, 3a9, a15)") "without", "quantity", "changes", "bounded", "small", "largest ratio"
       do effect = 1, effect_count + 1
-         name = "all that is left out"
+         name = "all left out"
          if (effect <= effect_count) name = effect_names(effect)
          do k = 1, size(quantity_names)
             if (tally%changes(effect, k) == 0) cycle
-            write (output_unit, "(a21, a14, 3i9, f15.3)") name, quantity_names(k), tally%changes(effect, k), &
+            write (output_unit, "(a20, a14, 3i9, f15.3)") name, quantity_names(k), tally%changes(effect, k), &
                tally%known(effect, k), tally%small(effect, k), tally%largest(effect, k)
          end do
       end do
