@@ -250,7 +250,10 @@ contains
       was_crossed = .false.
       if (.not. may_bridge(method, options)) return
       call watch(footing, method%here, time)
-      if (.not. is_stuck(method%here, time, step, method%tolerance, footing)) return
+      if (.not. is_stuck(method%here, time, step, method%tolerance, footing)) then
+         footing%is_fresh = .false.
+         return
+      end if
       straight = 0.0_wp
       call try_bridge(problem, method%here, time, state(1), step, finish - time, method%tolerance(1), bridge, counters)
       if (.not. bridge%is_found) return

@@ -32,6 +32,8 @@ module camroller_ode_bridge
       real(wp) :: turns = 0.0_wp
       !> Time of the last point [time], rate there [state/time]
       real(wp) :: time = -huge(1.0_wp), rate = 0.0_wp
+      !> Has a bridge just ended? Then the method is tried as if there had been none
+      logical :: is_fresh = .false.
    end type footing_t
 
    !> Change of the state that the largest rate makes in a step, over the error allowed, below which a method gets nowhere [-]
@@ -66,9 +68,13 @@ contains
       !> Does it? Never where nothing saturates
       logical :: verdict
 
+      ! Times the limits [-]
+      real(wp) :: reach
+
       verdict = size(tolerance) == 1 .and. here%span < huge(1.0_wp)
-      if (verdict) verdict = step*(here%span + abs(here%rate(1))) <= slow*footing%reach*tolerance(1) .or. &
-         & step <= short*footing%reach*spacing(abs(time)) .or. footing%turns >= restless
+      reach = merge(1.0_wp, footing%reach, footing%is_fresh)
+      if (verdict) verdict = step*(here%span + abs(here%rate(1))) <= slow*reach*tolerance(1) .or. &
+         & step <= short*reach*spacing(abs(time)) .or. footing%turns >= restless
    end function is_stuck
 
    !> Look at a point that an integration has reached by a step.
@@ -101,7 +107,7 @@ contains
       !> Time at its end [time], rate there [state/time]
       real(wp), intent(in) :: time, rate
 
-      footing = footing_t(min(farthest, wider*footing%reach), 0.0_wp, time, rate)
+      footing = footing_t(min(farthest, wider*footing%reach), 0.0_wp, time, rate, .true.)
    end subroutine note_bridge
 
    !> Find the largest step that is accurate enough, and make it.

@@ -322,25 +322,34 @@ contains
       integer, intent(in) :: cases, seed
       ! Ratios that are counted [-]
       real(wp), parameter :: steps(*) = [0.0_wp, 0.05_wp, 0.1_wp, 0.15_wp, 0.2_wp, 0.25_wp, 0.3_wp, 0.5_wp, 1.0_wp]
-      character(len=20) :: name
       integer :: effect, k
 
       write (output_unit, "(i0, a, i0, a, i0)") cases, " cases, ", tally%repeated, &
          " of them run again with high accuracy, next seed ", seed
       write (output_unit, "(a20, a14, 3a9, a15)") "without", "quantity", "changes", "bounded", "small", "largest ratio"
-      do effect = 1, effect_count + 1
-         name = "all left out"
-         if (effect <= effect_count) name = effect_names(effect)
-         do k = 1, size(quantity_names)
-            if (tally%changes(effect, k) == 0) cycle
-            write (output_unit, "(a20, a14, 3i9, f15.3)") name, quantity_names(k), tally%changes(effect, k), &
-               tally%known(effect, k), tally%small(effect, k), tally%largest(effect, k)
-         end do
+      do effect = 1, effect_count
+         call print_rows(trim(effect_names(effect)), effect)
       end do
+      call print_rows("all left out", effect_count + 1)
       do k = 1, size(steps)
          write (output_unit, "(a, f5.2, a, i0)") "ratio above", steps(k), ": ", count(tally%ratios > steps(k))
       end do
       write (output_unit, "(a, i0)") "all ratios: ", size(tally%ratios)
+
+   contains
+
+      subroutine print_rows(name, row)
+         character(len=*), intent(in) :: name
+         integer, intent(in) :: row
+         integer :: quantity
+
+         do quantity = 1, size(quantity_names)
+            if (tally%changes(row, quantity) == 0) cycle
+            write (output_unit, "(a20, a14, 3i9, f15.3)") name, quantity_names(quantity), tally%changes(row, quantity), &
+               tally%known(row, quantity), tally%small(row, quantity), tally%largest(row, quantity)
+         end do
+      end subroutine print_rows
+
    end subroutine print_tally
 
    !> A whole number from the environment, or the usual one.
