@@ -188,7 +188,7 @@ contains
       ! Sliding speeds and rolling speed [m/s]; errors estimated [-], scale [m/s], difference, the largest allowed [-]
       real(wp), allocatable :: first(:), second(:), rolling(:)
       real(wp) :: estimates(2), scale, found, allowed
-      character(len=80) :: buffer
+      character(len=100) :: buffer
 
       call get_series(one, "sliding_speed", first, error)
       call get_series(other, "sliding_speed", second, error)
