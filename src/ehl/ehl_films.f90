@@ -45,8 +45,8 @@ contains
 
    !> State the error of a film by what it differs by on a grid with half the nodes.
    !>
-   !> The error falls with the square of the number of nodes at least, so that the finer grid's is a third of the difference; half of
-   !> it is stated, since the smallest film lies between nodes and does not converge as evenly.
+   !> The error falls with the square of the number of nodes at least, so that the finer grid's is a third of the difference; half
+   !> of it is stated, since the smallest film lies between nodes and does not converge as evenly.
    pure subroutine compare_grids(coarse, films)
       !> Films of the grid with half the nodes
       type(ehl_films_t), intent(in) :: coarse
@@ -133,8 +133,8 @@ contains
 
    !> Integral of the film over the film's pressure.
    !>
-   !> Where oil is drawn in, the film between two nodes is a quadratic, and the pressure's slope grows exponentially; beyond, both are
-   !> straight lines, which a spike between two nodes does not disturb.
+   !> Where oil is drawn in, the film between two nodes is a quadratic, and the pressure's slope grows exponentially; beyond, both
+   !> are straight lines, which a spike between two nodes does not disturb.
    pure function rolling_integral(grid, state) result(rolling)
       !> The grid
       type(ehl_grid_t), intent(in) :: grid
@@ -198,8 +198,8 @@ contains
       end if
    end function mean_place
 
-   !> Integral of viscosity over film from each node to the next: exact where its logarithm is linear between both. Behind the end of
-   !> the film there is none.
+   !> Integral of viscosity over film from each node to the next: exact where its logarithm is linear between both. Behind the end
+   !> of the film there is none.
    pure function cell_shear(grid, state) result(shear)
       !> The grid
       type(ehl_grid_t), intent(in) :: grid
