@@ -29,8 +29,8 @@ module camroller_ehl_reynolds
       real(wp), allocatable :: density(:), log_viscosity(:)
       !> Slopes of density and ln(viscosity) with the film's pressure, and of ln(viscosity) with the film [-]
       real(wp), allocatable :: density_slope(:), viscosity_slope(:), thinning_slope(:)
-      !> Mass flow between neighbours [-]
-      real(wp), allocatable :: flow(:)
+      !> Mass flow between neighbours, and the part of it that the drop of pressure drives [-]
+      real(wp), allocatable :: flow(:), driven(:)
       !> Derivatives of the flow between i and i + 1 with respect to pressure of the film, then film, at i - 1, i, i + 1 [-]
       real(wp), allocatable :: by_pressure(:, :), by_film(:, :)
       !> Excess of what leaves a cell over what enters it, of inner nodes [-]
@@ -63,8 +63,8 @@ contains
 
       allocate (fields%film(nodes), fields%pressure(nodes), fields%asperity(nodes), fields%asperity_slope(nodes), &
          & fields%density(nodes), fields%log_viscosity(nodes), fields%density_slope(nodes), fields%viscosity_slope(nodes), &
-         & fields%thinning_slope(nodes), fields%flow(nodes - 1), fields%by_pressure(3, nodes - 1), fields%by_film(3, nodes - 1), &
-         & fields%excess(nodes), source=0.0_wp)
+         & fields%thinning_slope(nodes), fields%flow(nodes - 1), fields%driven(nodes - 1), fields%by_pressure(3, nodes - 1), &
+         & fields%by_film(3, nodes - 1), fields%excess(nodes), source=0.0_wp)
    end subroutine new_ehl_fields
 
    !> Film, share of the asperities, and the state of the oil.
@@ -155,7 +155,8 @@ contains
          by_pressure = (drop*fluidity_slopes*fields%viscosity_slope(i:i + 1) + fluidity*[-1.0_wp, 1.0_wp]) &
             & /(problem%speed*grid%step(i))
          by_film = drop*fluidity_slopes*fields%thinning_slope(i:i + 1)/(problem%speed*grid%step(i))
-         fields%flow(i) = (drag - driven)/resistance
+         fields%driven(i) = -driven/resistance
+         fields%flow(i) = drag/resistance + fields%driven(i)
          do k = 1, 3
             j = max(i - 2 + k, 1)
             fields%by_pressure(k, i) = ((drag_slopes(k, 1) - fields%flow(i)*resistance_slopes(k, 1))/resistance &
