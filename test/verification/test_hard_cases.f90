@@ -181,15 +181,19 @@ contains
          if (trouble == "") trouble = compare_samples(sample, reference)
          if (trouble /= "") exit
          errors(i) = max(difference(sample, reference), reference_tolerance)
-         if (i == 1) cycle
+      end do
+      do i = 2, size(ladder)
+         if (trouble /= "") exit
          write (buffer, "(a, es8.1, 2(a, es9.2))") "the tolerance", ladder(i), " takes the error from", errors(i - 1), " to", &
             & errors(i)
          if (.not. (errors(i) < errors(i - 1) .or. errors(i) <= scatter*ladder(i))) trouble = trim(buffer)
-         if (trouble /= "") exit
-         if (i < size(ladder)) cycle
-         if (.not. errors(i) <= max(progress*errors(i - 2), few*ladder(i))) trouble = trim(buffer)
       end do
-      if (trouble == "") gain = gain + log10(errors(1)/errors(size(ladder)))
+      if (trouble == "") then
+         associate (last => size(ladder))
+            if (.not. errors(last) <= max(progress*errors(last - 2), few*ladder(last))) trouble = trim(buffer)
+            gain = gain + log10(errors(1)/errors(last))
+         end associate
+      end if
       if (trouble /= "") trouble = method//": "//trouble
    end subroutine check_method
 
