@@ -180,15 +180,14 @@ contains
             if (grid%piece(next) /= grid%piece(i)) then
                left = exp(-min(decay(i)*grid%after(i) + decay(next)*grid%before(next), 700.0_wp))
                weight = exp(-min(decay(next)*grid%before(next), 700.0_wp))
-               values(next) = balance(next) + left*(values(i) - balance(i)) - weight*(balance(next) - balance(i))
             else
                rate = 0.5_wp*(decay(i) + decay(next))
                if (is_slow) rate = min(decay(i), decay(next))
                exponent = max(rate, slowest_decay)*modulo(grid%angles(next) - grid%angles(i), two_pi)
                left = exp(-min(exponent, 700.0_wp))
                weight = (1.0_wp - left)/exponent
-               values(next) = balance(next) + left*(values(i) - balance(i)) - weight*(balance(next) - balance(i))
             end if
+            values(next) = balance(next) + left*(values(i) - balance(i)) - weight*(balance(next) - balance(i))
          end do
       end do
    end subroutine follow
