@@ -79,7 +79,21 @@ contains
       end if
       value%is_wrong = allocated(reason)
       value%is_known = .not. value%is_wrong
+      if (value%is_wrong) call spend_read()
    end subroutine read_value
+
+   !> Read something that nobody wants.
+   !>
+   !> After some values that cannot be read (`3` for a logical, `1e` for a number) gfortran's library hands what it had of them to
+   !> the next read, which then finds nothing and says that all is well.
+   subroutine spend_read()
+      character(len=:), allocatable :: buffer
+      integer :: item, ignored
+      namelist /value_group/ item
+
+      buffer = "&value_group item=0 /"
+      read (buffer, nml=value_group, iostat=ignored)
+   end subroutine spend_read
 
    !> A text without blanks around it and without a comma at its end.
    pure function without_comma(text) result(trimmed)

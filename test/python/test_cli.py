@@ -111,6 +111,17 @@ def test_mistakes_are_deck_errors(camroller, tmp_path):
     assert "    mass_kg = heavy\n" in message.replace(" | ", " ")
 
 
+@pytest.mark.parametrize("line", ["accuracy = 1e", "accuracy = 1.d", "accuracy = abc", "shear_thinning = 3", "profiles = 'y'"])
+def test_a_value_that_cannot_be_read_does_not_spoil_the_next(camroller, tmp_path, line):
+    deck = tmp_path / "bad.nml"
+    text = (ROOT / "decks/numerical_film.nml").read_text()
+    assert "accuracy = 0.01" in text
+    deck.write_text(text.replace("accuracy = 0.01", line))
+    message = refused(run(camroller, "check", deck), DECK)
+    assert "mistakes" not in message
+    assert f"'{line.split()[0]}' takes" in message
+
+
 def test_table_is_found_beside_the_deck(camroller, tmp_path):
     result = run(camroller, "check", ROOT / "decks/tabulated_lift.nml", folder=tmp_path)
     assert result.returncode == 0, result.stderr
