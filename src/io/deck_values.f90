@@ -82,17 +82,22 @@ contains
       if (value%is_wrong) call spend_read()
    end subroutine read_value
 
-   !> Read something that nobody wants.
+   !> Read something that nobody wants, until it is read.
    !>
    !> After some values that cannot be read (`3` for a logical, `1e` for a number) gfortran's library hands what it had of them to
    !> the next read, which then finds nothing and says that all is well.
    subroutine spend_read()
+      integer, parameter :: most_reads = 3
       character(len=:), allocatable :: buffer
-      integer :: item, ignored
+      integer :: item, status, i
       namelist /value_group/ item
 
-      buffer = "&value_group item=0 /"
-      read (buffer, nml=value_group, iostat=ignored)
+      buffer = "&value_group item=1 /"
+      item = 0
+      do i = 1, most_reads
+         read (buffer, nml=value_group, iostat=status)
+         if (status == 0 .and. item == 1) return
+      end do
    end subroutine spend_read
 
    !> A text without blanks around it and without a comma at its end.
