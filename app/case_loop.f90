@@ -16,6 +16,8 @@ module camroller_case_loop
    use camroller_case_sink, only : find_layout, sink_t
    use camroller_deck, only : deck_t, make_sweep_case
    use camroller_deck_sweep, only : case_in_words
+   use camroller_ehl_profiles, only : find_profiles
+   use camroller_ehl_record, only : ehl_record_t
    use camroller_progress, only : progress_t, show_progress
    use camroller_record, only : record_t
    use camroller_result, only : result_t
@@ -44,7 +46,9 @@ module camroller_case_loop
       integer :: threads = 1
       !> Series of which cases are kept: none, those listed, all
       character(len=8) :: series = "none"
-      !> Cases whose series are kept, from 0
+      !> Profiles across the contact of which cases are kept, where they ask for them: none, those listed, all
+      character(len=8) :: profiles = "none"
+      !> Cases whose series and profiles are kept, from 0
       integer, allocatable :: series_cases(:)
       !> Clock at which the loop has to end; 0 for no limit
       integer(int64) :: deadline = 0
@@ -217,9 +221,9 @@ contains
       type(kept_models_t) :: kept
       type(case_t) :: case
       type(result_t) :: result
+      type(ehl_record_t), allocatable :: profiles
       type(error_t), allocatable :: failure
       integer :: i, n, layout, of_case
-      logical :: with_series
 
       call begin_cases(record, first)
       n = 0
@@ -227,6 +231,7 @@ contains
       is_over = .false.
       do i = first, first + count - 1
          call compute_case(deck, i, kept, case, result, failure)
+         if (allocated(profiles)) deallocate (profiles)
          if (allocated(failure)) then
             call put_failure(record, failure)
          else
@@ -237,8 +242,8 @@ contains
                n = 0
             end if
             layout = of_case
-            with_series = keeps_series(loop, i - 1)
-            call put_result(record, result, with_series)
+            if (is_kept(loop, loop%profiles, i - 1)) call find_profiles(profiles, case, result)
+            call put_result(record, result, is_kept(loop, loop%series, i - 1), profiles)
          end if
          n = n + 1
          is_over = is_stop_wanted()
@@ -280,18 +285,20 @@ contains
       !$omp end critical (camroller_texts)
    end subroutine compute_case
 
-   !> Are the series of a case kept?
-   pure function keeps_series(loop, number) result(verdict)
+   !> Are the series or the profiles of a case kept?
+   pure function is_kept(loop, choice, number) result(verdict)
       !> How the loop runs
       type(loop_t), intent(in) :: loop
+      !> Of which cases they are kept
+      character(len=*), intent(in) :: choice
       !> Number of the case, from 0
       integer, intent(in) :: number
       !> Are they?
       logical :: verdict
 
-      verdict = loop%series == "all"
-      if (loop%series == "chosen") verdict = any(loop%series_cases == number)
-   end function keeps_series
+      verdict = choice == "all"
+      if (choice == "chosen") verdict = any(loop%series_cases == number)
+   end function is_kept
 
    !> Number of the layout of a result.
    subroutine name_layout(loop, sink, result, layout)

@@ -2,12 +2,15 @@
 !>
 !> Layer: app. In: records, a result file. Out: which quantities differ, in how many cases, by how much.
 module camroller_comparison_sink
-   use, intrinsic :: ieee_arithmetic, only : ieee_is_finite, ieee_is_nan
+   use, intrinsic :: ieee_arithmetic, only : ieee_is_finite, ieee_is_nan, ieee_quiet_nan, ieee_value
    use, intrinsic :: iso_fortran_env, only : int64
    use camroller_kinds, only : wp
    use camroller_error, only : error_t, raise, kind_usage
    use camroller_case_record, only : outcome_t, take_case, take_header
    use camroller_case_sink, only : sink_t
+   use camroller_ehl_file, only : sample_record
+   use camroller_ehl_profiles, only : no_profiles
+   use camroller_ehl_record, only : ehl_record_t, list_ehl_quantities
    use camroller_hdf5_object, only : hdf5_object_t
    use camroller_hdf5_read, only : has_member, read_numbers
    use camroller_layout, only : layout_t
@@ -16,7 +19,7 @@ module camroller_comparison_sink
    implicit none
    private
 
-   public :: comparison_sink_t, difference_t
+   public :: comparison_sink_t, difference_t, compare_record, compare_missing
 
    !> Most quantities that differences are kept of
    integer, parameter :: most_quantities = 2000
@@ -27,7 +30,7 @@ module camroller_comparison_sink
       character(len=:), allocatable :: name
       !> Cases in which it does
       integer :: cases = 0
-      !> Largest difference over the larger of both values [-]; infinite where one of them is no number
+      !> Largest difference over the larger of both values [-]; huge where one of them is no number
       real(wp) :: largest = 0.0_wp
       !> Case of the largest difference, from 0
       integer :: case_number = 0
@@ -91,6 +94,7 @@ contains
       if (.not. allocated(error) .and. layout > 0) then
          call compare_summaries(self, first, outcomes, self%layouts(layout)%summary, differs, error)
          if (.not. allocated(error)) call compare_series(self, first, outcomes, self%layouts(layout), differs, error)
+         if (.not. allocated(error)) call compare_profiles(self, first, outcomes, differs, error)
       end if
       self%cases = self%cases + size(outcomes)
       self%differing = self%differing + count_true(differs)
@@ -173,8 +177,7 @@ contains
       type(error_t), allocatable, intent(out) :: error
 
       real(wp), allocatable :: stored(:) ! [unit of the series]
-      integer :: i, j, k, worst
-      logical :: differs_here
+      integer :: i, k
 
       do i = 1, size(outcomes)
          if (.not. allocated(outcomes(i)%series)) cycle
@@ -182,20 +185,121 @@ contains
             call read_numbers(self%file, "/series/"//layout%series(k)%name, [0, first + i - 2], [size(layout%angle), 1], &
                & stored, error)
             if (allocated(error)) return
-            worst = 0
-            do j = 1, size(stored)
-               differs_here = transfer(stored(j), 0_int64) /= transfer(outcomes(i)%series(j, k), 0_int64)
-               if (.not. differs_here) cycle
-               if (worst == 0) worst = j
-               if (relative_difference(stored(j), outcomes(i)%series(j, k)) > &
-                  & relative_difference(stored(worst), outcomes(i)%series(worst, k))) worst = j
-            end do
-            if (worst == 0) cycle
-            call compare(self, "series/"//layout%series(k)%name, first + i - 2, stored(worst), outcomes(i)%series(worst, k), &
-               & differs(i))
+            call compare_row(self, "series/"//layout%series(k)%name, first + i - 2, stored, outcomes(i)%series(:, k), differs(i))
          end do
       end do
    end subroutine compare_series
+
+   !> Compare profiles across the contact, of cases that have some or should have some.
+   subroutine compare_profiles(self, first, outcomes, differs, error)
+      !> The sink
+      class(comparison_sink_t), intent(inout) :: self
+      !> First case, from 1
+      integer, intent(in) :: first
+      !> The cases
+      type(outcome_t), intent(in) :: outcomes(:)
+      !> Cases that differ
+      logical, intent(inout) :: differs(:)
+      !> File error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(ehl_record_t) :: sampled
+      integer :: i, number
+
+      do i = 1, size(outcomes)
+         number = first + i - 2
+         if (allocated(outcomes(i)%profiles)) then
+            if (has_member(self%file, "/ehl")) then
+               call sample_record(outcomes(i)%profiles, size(outcomes(i)%profiles%angle), sampled)
+               call compare_record(self, "ehl", number, sampled, differs(i), error)
+            else
+               call compare(self, "ehl", number, not_a_number(), 1.0_wp, differs(i))
+            end if
+         else if (index(outcomes(i)%text, no_profiles) > 0 .and. has_member(self%file, "/ehl")) then
+            call compare_missing(self, "ehl", number, differs(i), error)
+         end if
+         if (allocated(error)) return
+      end do
+   end subroutine compare_profiles
+
+   !> Compare profiles that could not be solved: the file must have none.
+   subroutine compare_missing(self, group, number, differs, error)
+      !> The sink
+      class(comparison_sink_t), intent(inout) :: self
+      !> Group of the file that profiles are in
+      character(len=*), intent(in) :: group
+      !> Number of the case, from 0
+      integer, intent(in) :: number
+      !> Does the case differ?
+      logical, intent(inout) :: differs
+      !> File error
+      type(error_t), allocatable, intent(out) :: error
+
+      real(wp), allocatable :: stored(:) ! [m]
+
+      call read_numbers(self%file, "/"//group//"/half_width", [0, number], [1, 1], stored, error)
+      if (.not. allocated(error)) call compare(self, group, number, stored(1), not_a_number(), differs)
+   end subroutine compare_missing
+
+   !> Compare the profiles of a case.
+   subroutine compare_record(self, group, number, record, differs, error)
+      !> The sink
+      class(comparison_sink_t), intent(inout) :: self
+      !> Group of the file that they are in
+      character(len=*), intent(in) :: group
+      !> Number of the case, from 0
+      integer, intent(in) :: number
+      !> Its profiles, at the angles of the file
+      type(ehl_record_t), intent(in) :: record
+      !> Does the case differ?
+      logical, intent(inout) :: differs
+      !> File error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(quantity_t), allocatable :: list(:)
+      real(wp), allocatable :: stored(:) ! [unit of the dataset]
+      integer :: i
+
+      call list_ehl_quantities(list)
+      do i = 1, size(list)
+         call read_numbers(self%file, "/"//group//"/"//list(i)%name, [0, number], [size(record%angle), 1], stored, error)
+         if (allocated(error)) return
+         call compare_row(self, group//"/"//list(i)%name, number, stored, record%values(:, i), differs)
+      end do
+      call read_numbers(self%file, "/"//group//"/x", [0, number], [size(record%nodes), 1], stored, error)
+      if (allocated(error)) return
+      call compare_row(self, group//"/x", number, stored, record%nodes, differs)
+      call read_numbers(self%file, "/"//group//"/pressure", [0, 0, number], [shape(record%pressure), 1], stored, error)
+      if (allocated(error)) return
+      call compare_row(self, group//"/pressure", number, stored, reshape(record%pressure, [size(record%pressure)]), differs)
+      call read_numbers(self%file, "/"//group//"/film", [0, 0, number], [shape(record%film), 1], stored, error)
+      if (allocated(error)) return
+      call compare_row(self, group//"/film", number, stored, reshape(record%film, [size(record%film)]), differs)
+   end subroutine compare_record
+
+   !> Compare the numbers of a case; what is kept is the one that differs most.
+   subroutine compare_row(self, name, number, stored, computed, differs)
+      !> The sink
+      class(comparison_sink_t), intent(inout) :: self
+      !> Name of the quantity in the file
+      character(len=*), intent(in) :: name
+      !> Number of the case, from 0
+      integer, intent(in) :: number
+      !> The numbers in the file and those computed now [unit of the quantity]
+      real(wp), intent(in) :: stored(:), computed(:)
+      !> Does the case differ?
+      logical, intent(inout) :: differs
+
+      integer :: i, worst
+
+      worst = 0
+      do i = 1, size(stored)
+         if (transfer(stored(i), 0_int64) == transfer(computed(i), 0_int64)) cycle
+         if (worst == 0) worst = i
+         if (relative_difference(stored(i), computed(i)) > relative_difference(stored(worst), computed(worst))) worst = i
+      end do
+      if (worst > 0) call compare(self, name, number, stored(worst), computed(worst), differs)
+   end subroutine compare_row
 
    !> Compare two numbers bit by bit.
    subroutine compare(self, name, case_number, stored, computed, differs)
@@ -229,6 +333,14 @@ contains
          difference%case_number = case_number
       end associate
    end subroutine compare
+
+   !> Not-a-number.
+   pure function not_a_number() result(number)
+      !> The number [-]
+      real(wp) :: number
+
+      number = ieee_value(1.0_wp, ieee_quiet_nan)
+   end function not_a_number
 
    !> Difference of two numbers over the larger one.
    pure function relative_difference(some, other) result(difference)

@@ -23,7 +23,7 @@ module camroller_ehl_command
    implicit none
    private
 
-   public :: ehl_deck
+   public :: ehl_deck, solve_case, angle_count
 
    !> Nodes of both grids
    integer, parameter :: sizes(2) = [65, 129]
@@ -61,7 +61,7 @@ contains
       if (.not. allocated(error)) call open_ehl(file, writer, merge(2, 1, allocated(case%second_lift)), angle_count, sizes(2), &
          & error)
       if (allocated(error)) return
-      call solve_cases(deck, config%is_quiet, file, lines, failure, error)
+      call solve_cases(deck, config%is_quiet, writer, file, lines, failure, error)
       call close_ehl(file)
       if (.not. allocated(error) .and. size(lines) == 0) call move_alloc(failure, error)
       if (allocated(error)) then
@@ -75,11 +75,13 @@ contains
    end subroutine ehl_deck
 
    !> Solve, write and report every case.
-   subroutine solve_cases(deck, is_quiet, file, lines, failure, error)
+   subroutine solve_cases(deck, is_quiet, writer, file, lines, failure, error)
       !> The deck
       type(deck_t), intent(in) :: deck
       !> Print nothing?
       logical, intent(in) :: is_quiet
+      !> The result file
+      type(output_t), intent(inout) :: writer
       !> Where solved contacts go
       type(ehl_file_t), intent(in) :: file
       !> What is printed of each cycle that was solved
@@ -108,7 +110,7 @@ contains
                if (allocated(trouble)) deallocate (trouble)
                cycle
             end if
-            call write_ehl(file, i, lobe, record, error)
+            call write_ehl(file, writer, i, lobe, record, error)
             if (allocated(error)) return
             line%case_number = i - 1
             line%lobe = lobe

@@ -146,9 +146,11 @@ contains
             & "  -q, --quiet                say nothing but errors"
       case default
          text = "camroller rerun FILE.h5 [--threads N] [--log-every S] [--quiet]"//n//n// &
-            & "Compute the cases of a result file again, from the deck that is stored in it, and compare every bit. Where"// &
+            & "Compute the cases of a result file, also one of 'ehl', again, from the deck that is stored in it, and compare"// &
             & n// &
-            & "something differs, says what and by how much, and which build made the file; the exit code is then 7."//n//n// &
+            & "every bit. Where something differs, says what and by how much, and which build made the file; the exit code is"// &
+            & n// &
+            & "then 7."//n//n// &
             & "  -j, --threads N            threads; as many as there are cores where not given"//n// &
             & "  --log-every S              seconds between lines in a log; 60 where not given"//n// &
             & "  -q, --quiet                say nothing but errors"

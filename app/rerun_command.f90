@@ -1,4 +1,4 @@
-!> The command `rerun`: a result file computed again from the deck that is stored in it, and compared bit by bit.
+!> The command `rerun`: a result file, of `ehl` too, computed again from the deck that is stored in it, and compared bit by bit.
 !>
 !> Layer: app. In: the command line, a result file. Out: a line that says that nothing differs, or what does and which build made
 !> the file. The deck, the values given beside it and its tables are taken from the file, so that nothing else is needed.
@@ -13,6 +13,7 @@ module camroller_rerun_command
    use camroller_deck, only : deck_t, override_t, parse_deck
    use camroller_deck_sweep, only : sweep_size
    use camroller_deck_tables, only : deck_tables_t
+   use camroller_ehl_rerun, only : is_ehl_file, rerun_contacts
    use camroller_hdf5_file, only : discard_file
    use camroller_hdf5_object, only : hdf5_object_t
    use camroller_hdf5_read, only : has_member, list_members, member_length, open_file, read_extents, read_numbers, read_text, &
@@ -54,9 +55,7 @@ contains
       if (allocated(error)) return
       call read_stored_deck(sink%file, config%subject, deck, error)
       if (.not. allocated(error)) call read_build(sink%file, facts, error)
-      if (.not. allocated(error)) then
-         call choose_series(sink%file, deck, loop, error)
-      end if
+      if (.not. (allocated(error) .or. is_ehl_file(sink%file))) call choose_series(sink%file, deck, loop, error)
       if (.not. allocated(error)) then
          loop%threads = config%threads
          if (loop%threads == 0) loop%threads = number_of_cores()
@@ -64,7 +63,11 @@ contains
          runs%count = [sweep_size(deck%sweep)]
          call heed_stop_signals()
          call start_progress(loop%progress, config%is_quiet, real(config%log_interval, wp))
-         call compute_cases(loop, deck, runs, team, sink, error)
+         if (is_ehl_file(sink%file)) then
+            call rerun_contacts(sink, deck, loop%progress, error)
+         else
+            call compute_cases(loop, deck, runs, team, sink, error)
+         end if
          call end_progress(loop%progress)
       end if
       call discard_file(sink%file)
@@ -164,7 +167,7 @@ contains
       table%line = [(i, i=1, rows)]
    end subroutine read_table
 
-   !> Series of which cases are to be compared: those that the file has.
+   !> Series and profiles of which cases are to be compared: those that the file has.
    subroutine choose_series(file, deck, loop, error)
       !> The file, open
       type(hdf5_object_t), intent(in) :: file
@@ -176,16 +179,16 @@ contains
       type(error_t), allocatable, intent(out) :: error
 
       character(len=member_length), allocatable :: names(:)
+      character(len=:), allocatable :: choice
 
       call list_members(file, "/series", names, error)
       if (allocated(error)) return
       allocate (loop%series_cases(0))
-      loop%series = "none"
-      if (size(names) == 0) return
-      loop%series = "all"
-      if (get_word(deck%settings, "sweep", "series") /= "chosen") return
-      loop%series = "chosen"
+      choice = "all"
+      if (get_word(deck%settings, "sweep", "series") == "chosen") choice = "chosen"
       call take(deck%settings, "sweep", "series_cases", loop%series_cases)
+      if (size(names) > 0) loop%series = choice
+      loop%profiles = choice
    end subroutine choose_series
 
    !> What tells the build of a file from this one, one line each.
@@ -252,8 +255,13 @@ contains
       text = config%subject//": "//integer_text(sink%differing)//" of "//integer_text(sink%cases)//" cases differ"
       do i = 1, sink%count
          associate (difference => sink%differences(i))
-            text = text//new_line("a")//"  "//difference%name//": in "//integer_text(difference%cases)//" cases, at most by "// &
-               & number_text(difference%largest, 2)//" of its value, in case "//integer_text(difference%case_number)
+            text = text//new_line("a")//"  "//difference%name//": in "//integer_text(difference%cases)//" cases, "
+            if (difference%largest < huge(1.0_wp)) then
+               text = text//"at most by "//number_text(difference%largest, 2)//" of its value, in case "
+            else
+               text = text//"a number before or now only, in case "
+            end if
+            text = text//integer_text(difference%case_number)
          end associate
       end do
       if (facts == "") then

@@ -6,6 +6,8 @@ module camroller_run_command
    use, intrinsic :: iso_fortran_env, only : error_unit, output_unit
    use camroller_error, only : error_t, raise, add_context, kind_usage
    use camroller_case, only : case_t
+   use camroller_ehl_profiles, only : find_profiles
+   use camroller_ehl_record, only : ehl_record_t
    use camroller_effect_report, only : complete_result
    use camroller_result, only : result_t
    use camroller_run, only : run_next_case
@@ -16,7 +18,7 @@ module camroller_run_command
    use camroller_number_text, only : integer_text
    use camroller_output, only : output_t, output_options_t, open_output, write_case, write_failure, close_output, &
       & abandon_output
-   use camroller_profile_sink, only : profile_sink_t, find_profiles, put_profiles, close_profiles
+   use camroller_profile_file, only : profile_file_t, put_profiles, close_profiles
    use camroller_progress, only : progress_t, start_progress, show_progress, end_progress, seconds_since
    use camroller_run_facts, only : write_facts
    use camroller_settings, only : take
@@ -131,7 +133,8 @@ contains
       type(kept_models_t) :: kept
       type(case_t) :: case
       type(result_t) :: result
-      type(profile_sink_t) :: profiles
+      type(profile_file_t) :: profile_file
+      type(ehl_record_t), allocatable :: profiles
       type(error_t), allocatable :: failure
       integer :: i
 
@@ -149,13 +152,13 @@ contains
             if (tally%failed == 1) tally%failure = failure
          else
             call write_case(writer, i, result, error)
-            if (.not. allocated(error)) call put_profiles(profiles, writer, i, result, error)
+            if (.not. allocated(error)) call put_profiles(profile_file, writer, i, profiles, error)
             call note_remarks(deck, i, result, tally)
          end if
          if (allocated(error)) exit
          call show_progress(progress, i, sweep_size(deck%sweep))
       end do
-      call close_profiles(profiles)
+      call close_profiles(profile_file)
    end subroutine run_cases
 
    !> Take note of remarks.

@@ -10,6 +10,8 @@ module camroller_sweep_cost
    use camroller_case_record, only : case_words
    use camroller_deck, only : deck_t, make_sweep_case
    use camroller_deck_sweep, only : sweep_size
+   use camroller_ehl_profiles, only : find_profiles
+   use camroller_ehl_record, only : ehl_record_t
    use camroller_number_text, only : integer_text, number_text
    use camroller_progress, only : time_in_words
    use camroller_result, only : result_t
@@ -33,7 +35,7 @@ module camroller_sweep_cost
       integer :: trials = 0, failures = 0
       !> Processor time of a case [s]
       real(wp) :: time = 0.0_wp
-      !> Numbers of a case with and without series
+      !> Numbers of a case with and without series and profiles
       integer :: words_with_series = 0, words = 0
    end type cost_t
 
@@ -52,14 +54,14 @@ contains
       integer :: cases, cores
       real(wp) :: space ! [byte]
 
-      call try_cases(deck, cost)
+      series = get_word(deck%settings, "sweep", "series")
+      call try_cases(deck, series == "all" .or. series == "chosen", cost)
       cases = sweep_size(deck%sweep)
       cores = number_of_cores()
       text = "! tried "//integer_text(cost%trials)//" of the cases"
       if (cost%failures > 0) text = text//", "//integer_text(cost%failures)//" of them without a result"
       text = text//": "//number_text(1.0e3_wp*cost%time, 3)//" ms each, "//time_in_words(cost%time*cases)// &
          & " for all in one thread, "//time_in_words(cost%time*cases/cores)//" in "//integer_text(cores)//new_line("a")
-      series = get_word(deck%settings, "sweep", "series")
       space = number_size*real(cost%words, wp)*cases
       if (series == "all") space = number_size*real(cost%words_with_series, wp)*cases
       if (series == "chosen") then
@@ -83,14 +85,17 @@ contains
    end function case_to_try
 
    !> Run a few cases.
-   subroutine try_cases(deck, cost)
+   subroutine try_cases(deck, with_profiles, cost)
       !> The deck
       type(deck_t), intent(in) :: deck
+      !> Are profiles kept, where a case asks for them?
+      logical, intent(in) :: with_profiles
       !> What they cost
       type(cost_t), intent(out) :: cost
 
       type(case_t) :: case
       type(result_t) :: result
+      type(ehl_record_t), allocatable :: profiles
       type(error_t), allocatable :: error
       real(wp) :: start, now ! [s]
       integer :: i, trials
@@ -100,12 +105,13 @@ contains
       do i = 1, trials
          call make_sweep_case(deck, case_to_try(i, trials, sweep_size(deck%sweep)), case, error)
          if (.not. allocated(error)) call run_case(case, result, error)
+         if (with_profiles .and. .not. allocated(error)) call find_profiles(profiles, case, result)
          cost%trials = i
          if (allocated(error)) then
             cost%failures = cost%failures + 1
          else
             cost%words = case_words(result, .false.)
-            cost%words_with_series = case_words(result, .true.)
+            cost%words_with_series = case_words(result, .true., profiles)
          end if
          call cpu_time(now)
          if (now - start > longest_trial) exit

@@ -13,6 +13,7 @@ module camroller_assemble
    use camroller_mistakes, only : line_t
    use camroller_output, only : output_t, set_layout, write_outcome
    use camroller_part_file, only : entry_t, index_t, read_record
+   use camroller_profile_file, only : profile_file_t, put_profiles, close_profiles
    use camroller_raw_file, only : close_raw, open_raw, raw_file_t
    use camroller_record, only : record_t
    implicit none
@@ -54,6 +55,7 @@ contains
       type(error_t), allocatable, intent(out) :: error
 
       type(raw_file_t), allocatable :: files(:)
+      type(profile_file_t) :: profiles
       type(layout_t) :: joint
       integer :: i, next
 
@@ -70,12 +72,13 @@ contains
          if (allocated(error)) exit
          associate (entry => index%entries(i))
             if (entry%first + entry%count <= next) cycle
-            call write_missing(writer, joint, next, entry%first - 1, tally, error)
+            call write_missing(writer, profiles, joint, next, entry%first - 1, tally, error)
             if (allocated(error)) exit
-            call write_entry(index, entry, files(entry%part), joint, writer, next, tally, error)
+            call write_entry(index, entry, files(entry%part), joint, writer, profiles, next, tally, error)
          end associate
       end do
-      if (.not. allocated(error)) call write_missing(writer, joint, next, cases, tally, error)
+      if (.not. allocated(error)) call write_missing(writer, profiles, joint, next, cases, tally, error)
+      call close_profiles(profiles)
       do i = 1, size(files)
          call close_raw(files(i))
       end do
@@ -102,7 +105,7 @@ contains
    end subroutine find_joint
 
    !> Write the cases of a record, from the next one that is wanted on.
-   subroutine write_entry(index, entry, file, joint, writer, next, tally, error)
+   subroutine write_entry(index, entry, file, joint, writer, profiles, next, tally, error)
       !> What the files hold
       type(index_t), intent(in) :: index
       !> The record
@@ -111,8 +114,9 @@ contains
       type(raw_file_t), intent(in) :: file
       !> Layout of all cases
       type(layout_t), intent(in) :: joint
-      !> The result file
+      !> The result file, and profiles in it
       type(output_t), intent(inout) :: writer
+      type(profile_file_t), intent(inout) :: profiles
       !> Next case that is wanted, from 1
       integer, intent(inout) :: next
       !> What happened to the cases
@@ -137,7 +141,7 @@ contains
          call take_case(record, layout, outcome)
          if (i < next) cycle
          call count_case(i, outcome, tally)
-         call write_one(writer, i, outcome, joint, summary_places, series_places, error)
+         call write_one(writer, profiles, i, outcome, joint, summary_places, series_places, error)
          if (allocated(error)) return
       end do
       next = first + count
@@ -145,9 +149,10 @@ contains
    end subroutine write_entry
 
    !> Write one case, its quantities at their places among those of all cases.
-   subroutine write_one(writer, position, outcome, joint, summary_places, series_places, error)
-      !> The result file
+   subroutine write_one(writer, profiles, position, outcome, joint, summary_places, series_places, error)
+      !> The result file, and profiles in it
       type(output_t), intent(inout) :: writer
+      type(profile_file_t), intent(inout) :: profiles
       !> Position of the case, from 1
       integer, intent(in) :: position
       !> The case
@@ -171,12 +176,14 @@ contains
          allocate (series(0, 0))
       end if
       call write_outcome(writer, position, outcome%status, outcome%text, summary, series, error)
+      if (.not. allocated(error)) call put_profiles(profiles, writer, position, outcome%profiles, error)
    end subroutine write_one
 
    !> Write cases that no part file has.
-   subroutine write_missing(writer, joint, first, last, tally, error)
-      !> The result file
+   subroutine write_missing(writer, profiles, joint, first, last, tally, error)
+      !> The result file, and profiles in it
       type(output_t), intent(inout) :: writer
+      type(profile_file_t), intent(inout) :: profiles
       !> Layout of all cases
       type(layout_t), intent(in) :: joint
       !> First and last of them, from 1; none where the last comes before the first
@@ -193,7 +200,7 @@ contains
       outcome%text = ""
       do i = first, last
          tally%missing = tally%missing + 1
-         call write_one(writer, i, outcome, joint, [integer ::], [integer ::], error)
+         call write_one(writer, profiles, i, outcome, joint, [integer ::], [integer ::], error)
          if (allocated(error)) return
       end do
    end subroutine write_missing

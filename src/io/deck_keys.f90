@@ -284,7 +284,7 @@ contains
       call add_logical(schema, "compressible", standard%compressible, &
          & "does the density of the oil grow with the pressure?")
       call add_logical(schema, "profiles", standard%profiles, &
-         & "does 'run' also write pressure, film and friction across the contact, in /ehl?")
+         & "are pressure, film and friction across the contact written too, in /ehl? By 'sweep' for the cases of sweep.series")
       call add_logical(schema, "shear_thinning", standard%shear_thinning, &
          & "does sliding thin the oil, where the shear law is 'eyring'? In profiles and with 'camroller ehl'")
       call add_logical(schema, "flow_factors", standard%flow_factors, &

@@ -21,12 +21,35 @@ module camroller_ehl_profiles
    implicit none
    private
 
-   public :: make_profiles, profile_nodes, plain_model
+   public :: find_profiles, make_profiles, plain_model, no_profiles
 
    !> Nodes across a contact
    integer, parameter :: profile_nodes = 129
+   !> Beginning of the remark on a case whose profiles cannot be solved
+   character(len=*), parameter :: no_profiles = "no profiles: "
 
 contains
+
+   !> Profiles of a case, where it asks for them; a remark on the result where they cannot be solved.
+   subroutine find_profiles(record, case, result)
+      !> The record; not allocated where there is none
+      type(ehl_record_t), allocatable, intent(out) :: record
+      !> The case
+      type(case_t), intent(in) :: case
+      !> Its result
+      type(result_t), intent(inout) :: result
+
+      type(error_t), allocatable :: error
+
+      if (.not. allocated(case%ehl)) return
+      if (.not. case%ehl%profiles) return
+      allocate (record)
+      call make_profiles(record, case, result, error)
+      if (.not. allocated(error)) return
+      deallocate (record)
+      if (len(result%warnings) > 0) result%warnings = result%warnings//new_line("a")
+      result%warnings = result%warnings//no_profiles//error%message
+   end subroutine find_profiles
 
    !> Profiles of a result.
    subroutine make_profiles(record, case, result, error)

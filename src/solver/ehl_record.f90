@@ -15,7 +15,7 @@ module camroller_ehl_record
    implicit none
    private
 
-   public :: ehl_record_t, list_ehl_quantities, make_ehl_record, column
+   public :: ehl_record_t, list_ehl_quantities, make_ehl_record, column, quantity_count
 
    !> Pressure, film and quantities of a cycle
    type :: ehl_record_t

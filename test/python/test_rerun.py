@@ -59,6 +59,25 @@ def test_a_table_of_cases_is_in_the_file(camroller, tmp_path):
     assert "2 cases are the same to the last bit" in done(camroller, "rerun", "deck.h5", folder=tmp_path).stdout
 
 
+def test_profiles_are_compared(camroller, tmp_path):
+    """Pressure, film and friction across the contact; files without series too."""
+    done(camroller, "run", ROOT / "decks/numerical_film.nml", "-o", "run.h5", "--quiet", "--set", "ehl.profiles=.true.", "--set",
+         "ehl.accuracy=0.1", "--set", "output.angle_step_deg=40", "--set", "sweep.values_1=300", "--set", "sweep.values_2=60,90",
+         "--set", "output.series=.false.", folder=tmp_path)
+    assert "2 cases are the same to the last bit" in done(camroller, "rerun", "run.h5", folder=tmp_path).stdout
+    with h5py.File(tmp_path / "run.h5", "r+") as file:
+        file["ehl/pressure"][1, 3, 60] *= 1 + 1e-15
+        file["ehl/x"][1, 60] += 1
+    result = run(camroller, "rerun", "run.h5", folder=tmp_path)
+    assert result.returncode == DIFFERENCE
+    assert "run.h5: 1 of 2 cases differ\n" in result.stderr
+    assert "  ehl/pressure: in 1 cases, at most by " in result.stderr
+    assert "  ehl/x: in 1 cases, at most by " in result.stderr
+    with h5py.File(tmp_path / "run.h5", "r+") as file:
+        del file["ehl"]
+    assert "  ehl: in 2 cases, a number before or now only, in case " in run(camroller, "rerun", "run.h5", folder=tmp_path).stderr
+
+
 def test_what_is_no_result(camroller, tmp_path):
     with h5py.File(tmp_path / "other.h5", "w") as file:
         file["x"] = 1

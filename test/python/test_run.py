@@ -14,7 +14,7 @@ import xarray
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 THESIS = ROOT / "decks/thesis.nml"
-USAGE, DECK, DOMAIN, FILE = 2, 3, 4, 6
+USAGE, DECK, DOMAIN, FILE, DIFFERENCE = 2, 3, 4, 6, 7
 COARSE = ["--set", "output.angle_step_deg=5"]
 
 
@@ -189,6 +189,12 @@ def test_contacts_are_solved_over_the_cycle(camroller, tmp_path):
         # between the steps of the cycle pressure, width and load are linear, and their product is not
         assert numpy.abs(load / group["load"][0] - 1).max() < 0.02
         assert (group["film"][0].min(axis=1) <= 1.01 * group["film_min"][0]).all()
+    with h5py.File(path, "r+") as file:
+        file["ehl/traction"][0, 7] += 1
+    again = run(camroller, "rerun", path, folder=tmp_path)
+    assert again.returncode == DIFFERENCE
+    lines = [line for line in again.stderr.splitlines() if line.startswith("  ") and ":" in line]
+    assert lines[0].startswith("  ehl/traction: in 1 cases, at most by ") and "ehl/" not in "".join(lines[1:])
 
 
 SMALL = ["--set", "sweep.values_1=300", "--set", "sweep.values_2=60"]

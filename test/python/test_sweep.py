@@ -10,7 +10,7 @@ import h5py
 import numpy
 import pytest
 
-from sweeps import GRID, done, run, same, write_deck
+from sweeps import GRID, ROOT, done, run, same, write_deck
 
 USAGE, DECK, DOMAIN, CONVERGENCE, FILE, UNFINISHED = 2, 3, 4, 5, 6, 8
 
@@ -94,6 +94,32 @@ def test_shards_change_nothing(camroller, deck, reference, tmp_path):
     done(camroller, "merge", deck, "--quiet", folder=tmp_path)
     assert parts(tmp_path) == []
     assert same(reference, tmp_path / "deck.h5")
+
+
+def test_profiles_of_the_cases_whose_series_are_kept(camroller, tmp_path):
+    """The same from one thread, from shards, after a stop, and as `run` writes them; the other cases have none."""
+    study = [ROOT / "decks/numerical_film.nml", "--quiet", "--set", "ehl.profiles=.true.", "--set", "ehl.accuracy=0.1", "--set",
+             "output.angle_step_deg=40", "--set", "sweep.values_1=300,400", "--set", "sweep.values_2=60,90"]
+    refused = run(camroller, "sweep", *study, folder=tmp_path)
+    assert refused.returncode == DECK
+    assert "'ehl.profiles' has no cases" in refused.stderr
+    done(camroller, "run", *study, "-o", "run.h5", folder=tmp_path)
+    study += ["--set", "sweep.series=chosen", "--set", "sweep.series_cases=0,2"]
+    done(camroller, "sweep", *study, "-o", "one.h5", "--threads", 1, folder=tmp_path)
+    for shard in ("2/2", "1/2"):
+        done(camroller, "sweep", *study, "-o", "shards.h5", "--shard", shard, folder=tmp_path)
+    done(camroller, "merge", *study, "-o", "shards.h5", folder=tmp_path)
+    limit = ["--set", "sweep.wall_time_limit_s=1e-3"]
+    assert run(camroller, "sweep", *study, *limit, "-o", "stopped.h5", "--threads", 1, folder=tmp_path).returncode == UNFINISHED
+    done(camroller, "sweep", *study, "-o", "stopped.h5", "--resume", folder=tmp_path)
+    assert same(tmp_path / "one.h5", tmp_path / "shards.h5")
+    assert same(tmp_path / "one.h5", tmp_path / "stopped.h5")
+    with h5py.File(tmp_path / "one.h5") as sweep, h5py.File(tmp_path / "run.h5") as single:
+        assert sweep["ehl/pressure"].shape == (4, 9, 129)
+        for name in set(single["ehl"]) - {"angle", "node"}:
+            for case in (0, 2):
+                assert sweep["ehl"][name][case].tobytes() == single["ehl"][name][case].tobytes(), name
+            assert numpy.isnan(sweep["ehl"][name][1::2]).all(), name
 
 
 def test_merge_of_what_is_there(camroller, deck, reference, tmp_path):

@@ -1,0 +1,94 @@
+!> A file of the command `ehl` computed again and compared bit by bit.
+!>
+!> Layer: app. In: the file, its deck. Out: which quantities differ, in how many cases and lobe shapes.
+module camroller_ehl_rerun
+   use camroller_case, only : case_t
+   use camroller_comparison_sink, only : comparison_sink_t, compare_missing, compare_record
+   use camroller_deck, only : deck_t, make_sweep_case
+   use camroller_deck_sweep, only : sweep_size
+   use camroller_ehl_command, only : angle_count, solve_case
+   use camroller_ehl_file, only : sample_record
+   use camroller_ehl_page, only : line_t
+   use camroller_ehl_record, only : ehl_record_t
+   use camroller_error, only : error_t
+   use camroller_hdf5_object, only : hdf5_object_t
+   use camroller_hdf5_read, only : has_member
+   use camroller_progress, only : progress_t, show_progress
+   implicit none
+   private
+
+   public :: is_ehl_file, rerun_contacts
+
+contains
+
+   !> Does a file hold solved contacts alone?
+   function is_ehl_file(file) result(verdict)
+      !> The file, open
+      type(hdf5_object_t), intent(in) :: file
+      !> Does it?
+      logical :: verdict
+
+      verdict = has_member(file, "/ehl") .and. .not. has_member(file, "/summary/status")
+   end function is_ehl_file
+
+   !> Solve the contacts of a file again, and compare them.
+   subroutine rerun_contacts(sink, deck, progress, error)
+      !> The file and what differs
+      type(comparison_sink_t), intent(inout) :: sink
+      !> Its deck
+      type(deck_t), intent(in) :: deck
+      !> How far it is
+      type(progress_t), intent(inout) :: progress
+      !> File error
+      type(error_t), allocatable, intent(out) :: error
+
+      integer :: i
+      logical :: differs
+
+      do i = 1, sweep_size(deck%sweep)
+         differs = .false.
+         call compare_lobe(sink, deck, i, .false., differs, error)
+         if (.not. allocated(error) .and. has_member(sink%file, "/ehl/second_lift")) then
+            call compare_lobe(sink, deck, i, .true., differs, error)
+         end if
+         if (allocated(error)) return
+         sink%cases = sink%cases + 1
+         if (differs) sink%differing = sink%differing + 1
+         call show_progress(progress, i, sweep_size(deck%sweep))
+      end do
+   end subroutine rerun_contacts
+
+   !> Compare one case and lobe shape; one that cannot be solved has no numbers in the file.
+   subroutine compare_lobe(sink, deck, number, is_second, differs, error)
+      !> The file and what differs
+      type(comparison_sink_t), intent(inout) :: sink
+      !> Its deck
+      type(deck_t), intent(in) :: deck
+      !> Number of the case, from 1
+      integer, intent(in) :: number
+      !> The second lobe shape?
+      logical, intent(in) :: is_second
+      !> Does the case differ?
+      logical, intent(inout) :: differs
+      !> File error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(case_t) :: case
+      type(ehl_record_t) :: record, sampled
+      type(line_t) :: line
+      type(error_t), allocatable :: failure
+      character(len=:), allocatable :: group
+
+      group = "ehl"
+      if (is_second) group = "ehl/second_lift"
+      call make_sweep_case(deck, number, case, failure)
+      if (.not. allocated(failure)) call solve_case(case, is_second, record, line, failure)
+      if (allocated(failure)) then
+         call compare_missing(sink, group, number - 1, differs, error)
+      else
+         call sample_record(record, angle_count, sampled)
+         call compare_record(sink, group, number - 1, sampled, differs, error)
+      end if
+   end subroutine compare_lobe
+
+end module camroller_ehl_rerun
