@@ -12,6 +12,7 @@ module camroller_ehl_record
    use camroller_result, only : quantity_t, find_quantity
    use camroller_roller, only : spin_acceleration
    use camroller_state, only : state_t, add_torques, evaluate_loading
+   use camroller_stick, only : has_stick
    implicit none
    private
 
@@ -100,7 +101,7 @@ contains
       allocate (record%values(size(cycle%angle), quantity_count))
       do i = 1, size(cycle%angle)
          call solved_state(model, cycle%moments(i), state)
-         call closed_contact(model, state, closed)
+         call closed_contact(model, cycle%moments(i), state, closed)
          record%values(i, :) = [cycle%moments(i)%length_scale, state%contact%load, state%contact%sliding_speed, &
             & cycle%moments(i)%films%peak, state%contact%film_min, closed%film_min, state%contact%film_central, &
             & closed%film_central, cycle%moments(i)%films%asperity_share, closed%asperity_load/max(closed%load, tiny(1.0_wp)), &
@@ -148,10 +149,12 @@ contains
       call add_torques(model, state)
    end subroutine solved_state
 
-   !> Contact by the closed formulas at the load and the slip of a state.
-   pure subroutine closed_contact(model, state, contact)
+   !> Contact by the closed formulas at the load and the slip of a state; at rest with the same part of boundary friction.
+   pure subroutine closed_contact(model, now, state, contact)
       !> The model
       type(model_t), intent(in) :: model
+      !> The contact that was solved
+      type(moment_t), intent(in) :: now
       !> The state
       type(state_t), intent(in) :: state
       !> The contact
@@ -168,7 +171,12 @@ contains
       call set_speeds(model, state%position, state%contact%sliding_speed, contact)
       call release_contact(contact)
       if (.not. state%contact%film_min > 0.0_wp) return
-      call prepare_contact(model, state%position, contact, accuracy, setting)
+      if (has_stick(model)) then
+         call prepare_contact(model, state%position, contact, accuracy, setting, &
+            & (now%traction - now%shear)/max(now%boundary_capacity, tiny(1.0_wp)))
+      else
+         call prepare_contact(model, state%position, contact, accuracy, setting)
+      end if
       do round = 1, most_rounds
          call evaluate_contact(model, state%position, setting, state%contact%load, contact, parts, change)
          if (abs(change) <= accuracy) exit

@@ -11,9 +11,10 @@ module camroller_ehl_step
    use camroller_dynamics, only : moments_t
    use camroller_state, only : evaluate_loading
    use camroller_spin, only : rolling_speed_at, rolling_speed_slope
+   use camroller_stick, only : has_stick
    use camroller_roller, only : spin_acceleration
    use camroller_needle, only : bearing_torque
-   use camroller_traction, only : law_eyring, rolling_none, limit_shear, mobilised_share
+   use camroller_traction, only : law_eyring, rolling_none, limit_shear, mobilised_share, sliding_direction
    use camroller_ehl_grid, only : ehl_grid_t
    use camroller_ehl_problem, only : ehl_contact_t, ehl_problem_t, new_ehl_problem, in_range
    use camroller_ehl_reynolds, only : storage_t
@@ -246,7 +247,8 @@ contains
       now%mass = march%grid%weight*state%fields%density*state%fields%film*problem%film_scale*problem%length_scale
    end subroutine find_film
 
-   !> Sliding speed at which the roller's spin follows from film and load: Newton's method inside a bracket.
+   !> Sliding speed at which the roller's spin follows from film and load: rest where friction can hold the roller, else Newton's
+   !> method inside a bracket.
    pure subroutine find_sliding_speed(model, position, before, rates, now)
       !> The model
       type(model_t), intent(in) :: model
@@ -259,20 +261,25 @@ contains
       !> The contact; sliding speed and forces are set
       type(moment_t), intent(inout) :: now
 
-      ! Bracket, trial [m/s]; excess of the rate [m/s^2], its slope [1/s]; what the moments before add to the rate [m/s^2]
-      real(wp) :: low, high, speed, excess, slope, past
+      ! Bracket, its end away from rest, trial [m/s]; excess of the rate [m/s^2], its slope [1/s]; what the moments before add to
+      ! the rate [m/s^2]
+      real(wp) :: low, high, reach, speed, excess, slope, past
       integer :: iteration
 
       past = dot_product(rates(1:size(before)), before%sliding_speed)
       low = -10.0_wp*rolling_speed_at(model, position)
       high = -low
       speed = now%sliding_speed
+      ! With the law of rest in question the excess jumps there, so that rest is one end of the bracket unless it is the answer
+      if (has_stick(model)) speed = 0.0_wp
       do iteration = 1, speed_iterations
          call spin_excess(model, position, now, speed, rates(0)*speed + past, excess, slope)
          slope = slope + rates(0)
          if (excess > 0.0_wp) high = min(high, speed)
          if (excess < 0.0_wp) low = max(low, speed)
-         if (abs(excess) <= 1.0e-12_wp*abs(slope*high) .or. high - low <= 1.0e-13_wp*abs(high)) exit
+         reach = high
+         if (has_stick(model)) reach = max(high, -low)
+         if (abs(excess) <= 1.0e-12_wp*abs(slope*reach) .or. high - low <= 1.0e-13_wp*reach) exit
          speed = speed - excess/slope
          if (speed <= low .or. speed >= high) speed = 0.5_wp*(low + high)
       end do
@@ -280,7 +287,8 @@ contains
       now%damping = (slope - rates(0))/model%speed
    end subroutine find_sliding_speed
 
-   !> Rate of the sliding speed over what the roller's equation says, and its slope.
+   !> Rate of the sliding speed over what the roller's equation says, and its slope. Where friction may be anything up to a limit
+   !> at rest, it is what comes next to no excess there.
    pure subroutine spin_excess(model, position, now, speed, rate, excess, slope)
       !> The model
       type(model_t), intent(in) :: model
@@ -299,8 +307,8 @@ contains
 
       ! Slopes of the limited over the free shear and over the limit [-]; slope of traction [N s/m]; torque of the bearing [N m]
       real(wp) :: by_shear, by_limit, traction_slope, torque
-      ! Mobilised part of boundary friction [-]
-      real(wp) :: part
+      ! Mobilised part of boundary friction [-]; excess over traction [1/kg]; friction that leaves no excess [N]
+      real(wp) :: part, by_traction, holding
 
       now%traction = 0.0_wp
       now%shear = 0.0_wp
@@ -318,15 +326,24 @@ contains
          if (allocated(model%boundary)) then
             now%boundary_capacity = model%boundary%film_shear_strength*now%films%real_area*model%contact_width &
                & + model%boundary%coefficient*now%films%asperity_share*now%load
-            part = mobilised_share(speed, model%boundary%mobilising_speed)
+            if (has_stick(model)) then
+               part = sliding_direction(speed)
+            else
+               part = mobilised_share(speed, model%boundary%mobilising_speed)
+               traction_slope = traction_slope + now%boundary_capacity*(1.0_wp - part)*(1.0_wp + part) &
+                  & /model%boundary%mobilising_speed
+            end if
             now%traction = now%traction + now%boundary_capacity*part
-            traction_slope = traction_slope + now%boundary_capacity*(1.0_wp - part)*(1.0_wp + part) &
-               & /model%boundary%mobilising_speed
          end if
       end if
       excess = rate - model%speed*rolling_speed_slope(model, position) + model%roller_radius*spin_acceleration(now%traction, &
          & merge(now%rolling_resistance, 0.0_wp, model%has_rolling_in_balance), model%roller_radius, torque, model%roller_inertia)
-      slope = model%roller_radius**2*traction_slope/model%roller_inertia
+      by_traction = model%roller_radius**2/model%roller_inertia
+      slope = by_traction*traction_slope
+      if (abs(speed) > 0.0_wp .or. .not. has_stick(model)) return
+      holding = -excess/by_traction
+      now%traction = now%traction + sign(min(abs(holding), now%boundary_capacity), holding)
+      excess = sign(by_traction*max(0.0_wp, abs(holding) - now%boundary_capacity), excess)
    end subroutine spin_excess
 
    !> Torque of the roller's bearing.

@@ -24,6 +24,7 @@ contains
          new_unittest("squeeze delays the film", test_squeeze), &
          new_unittest("the roller's equation holds over the cycle with film and slip found together", test_coupling), &
          new_unittest("profiles carry the load", test_profiles), &
+         new_unittest("where friction can hold the roller it rests, else it slides against all of it", test_rest), &
          new_unittest("contact is lost and found again", test_loss), &
          new_unittest("a contact too heavy is refused", test_too_heavy) &
          ]
@@ -106,6 +107,70 @@ contains
       ! Film to 1 % on two grids; slip is in proportion to the film over a viscosity that the pressure carries
       call check(error, all(abs(mean(:, 3)/mean(:, 1) - 1.0_wp) < [1.0e-2_wp, 1.0e-2_wp, 4.0e-2_wp]), "nodes")
    end subroutine test_convergence
+
+   !> Boundary friction as a law of rest and sliding: at rest what is needed, up to the limit; in sliding the limit. With mobilising
+   !> speeds that fall, what is rest is slip in proportion to them.
+   subroutine test_rest(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(ehl_cycle_t) :: cycle
+      type(ehl_cycle_options_t) :: options
+      type(case_t) :: case
+      type(model_t) :: model
+      type(error_t), allocatable :: failure
+      ! Mobilising speeds, the first of no use; slip at full lift [m/s]
+      real(wp), parameter :: speeds(3) = [1.0_wp, 1.0e-5_wp, 1.0e-6_wp]
+      real(wp) :: slips(3)
+      integer :: i
+
+      options%nodes = 65
+      do i = 1, 3
+         case = thesis_case()
+         call set_point(case, point_speeds(3), point_viscosities(2))
+         if (i == 1) case%asperity%mobilisation = "stick_slip"
+         case%asperity%mobilising_speed = speeds(i)
+         call make_model(case, model, error)
+         if (allocated(error)) return
+         call integrate_ehl_cycle(cycle, model, options, failure)
+         call expect_success(error, failure)
+         if (allocated(error)) return
+         slips(i) = slip_at_full_lift(cycle)
+         if (i == 1) call check_rest(error, cycle)
+         if (allocated(error)) return
+      end do
+      call check(error, .not. abs(slips(1)) > 0.0_wp, "slip at full lift")
+      if (allocated(error)) return
+      ! The shear of the film is in proportion to the slip: some per cent of what holds the roller with the larger one
+      call check_close(error, slips(3), slips(2)*speeds(3)/speeds(2), 0.05_wp, "slip over mobilising speed")
+   end subroutine test_rest
+
+   !> Slip between the accepted angles next to full lift.
+   pure function slip_at_full_lift(cycle) result(slip)
+      type(ehl_cycle_t), intent(in) :: cycle
+      real(wp) :: slip
+      real(wp) :: part
+      integer :: i
+
+      i = count(cycle%angle <= 0.0_wp)
+      part = -cycle%angle(i)/(cycle%angle(i + 1) - cycle%angle(i))
+      slip = (1.0_wp - part)*cycle%moments(i)%sliding_speed + part*cycle%moments(i + 1)%sliding_speed
+   end function slip_at_full_lift
+
+   !> Rest and sliding of a cycle.
+   subroutine check_rest(error, cycle)
+      type(error_type), allocatable, intent(out) :: error
+      type(ehl_cycle_t), intent(in) :: cycle
+      real(wp), parameter :: round_off = 1.0e-12_wp
+
+      associate (friction => cycle%moments%traction - cycle%moments%shear, capacity => cycle%moments%boundary_capacity, &
+         & slip => cycle%moments%sliding_speed, n => size(cycle%moments))
+         call check(error, count(.not. abs(slip) > 0.0_wp) > n/50 .and. count(abs(slip) > 0.0_wp) > n/50, "rest and sliding")
+         if (allocated(error)) return
+         call check(error, all(abs(friction) <= capacity*(1.0_wp + round_off)), "friction above its limit")
+         if (allocated(error)) return
+         call check(error, all(abs(friction - sign(capacity, slip)) <= round_off*capacity .or. .not. abs(slip) > 0.0_wp), &
+            & "less than all of the friction in sliding")
+      end associate
+   end subroutine check_rest
 
    !> Behind the nose the entrainment grows, and a film that remembers is thinner than the steady one; before it thicker.
    subroutine test_squeeze(error)
