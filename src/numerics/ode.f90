@@ -249,7 +249,7 @@ contains
 
       was_crossed = .false.
       if (.not. may_bridge(method, options)) return
-      call watch(footing, method%here, time)
+      call watch(footing, method%here, time, step)
       if (.not. is_stuck(method%here, time, step, method%tolerance, footing)) then
          footing%is_fresh = .false.
          return

@@ -32,8 +32,8 @@ module camroller_ode_bridge
       real(wp) :: turns = 0.0_wp
       !> Time of the last point [time], rate there [state/time]
       real(wp) :: time = -huge(1.0_wp), rate = 0.0_wp
-      !> Has a bridge just ended? Then the method is tried as if there had been none
-      logical :: is_fresh = .false.
+      !> Is the step to be tried much larger than the one before, or does it follow a bridge? Then the method is given a try
+      logical :: is_fresh = .true.
    end type footing_t
 
    !> Change of the state that the largest rate makes in a step, over the error allowed, below which a method gets nowhere [-]
@@ -43,6 +43,8 @@ module camroller_ode_bridge
    !> Factors of the limits after a bridge and after a step without one; the largest product. Where bridges follow each other, with
    !> next to nothing between, they grow longer [-]
    real(wp), parameter :: wider = 4.0_wp, closer = 0.5_wp, farthest = 1.0e4_wp
+   !> Step over the one before from which on a method gets along well [-]
+   real(wp), parameter :: growing = 2.0_wp
    !> Part of the count of turns that a step leaves, count from which on a solution is restless: three turns in five steps, say [-]
    real(wp), parameter :: fading = 0.75_wp, restless = 2.0_wp
    !> Decay exponents of a step between which a turn is a sign of it; beyond, the rate is an error of the state times the decay [-]
@@ -56,6 +58,9 @@ contains
 
    !> Does a step change the state by little more than the error allowed, whatever happens in it, or has the rate changed its sign
    !> again and again, as it does where errors within the tolerance are thrown from one side of a solution to the other?
+   !>
+   !> Steps that grow are not stuck, however small. Where a load comes from zero, the largest rate at the start of a step is none,
+   !> and without a try of the method bridges would follow each other long after there is reason to.
    pure function is_stuck(here, time, step, tolerance, footing) result(verdict)
       !> Rate with its derivatives at the start
       type(linear_t), intent(in) :: here
@@ -73,24 +78,25 @@ contains
 
       verdict = size(tolerance) == 1 .and. here%span < huge(1.0_wp)
       reach = merge(1.0_wp, footing%reach, footing%is_fresh)
-      if (verdict) verdict = step*(here%span + abs(here%rate(1))) <= slow*reach*tolerance(1) .or. &
+      if (verdict) verdict = (step*(here%span + abs(here%rate(1))) <= slow*reach*tolerance(1) .and. .not. footing%is_fresh) .or. &
          & step <= short*reach*spacing(abs(time)) .or. footing%turns >= restless
    end function is_stuck
 
    !> Look at a point that an integration has reached by a step.
-   pure subroutine watch(footing, here, time)
+   pure subroutine watch(footing, here, time, step)
       !> How the integration gets along
       type(footing_t), intent(inout) :: footing
       !> Rate with its derivatives at the point
       type(linear_t), intent(in) :: here
-      !> Time of the point [time]
-      real(wp), intent(in) :: time
+      !> Time of the point, size of the step that is to follow [time]
+      real(wp), intent(in) :: time, step
 
       ! Decay exponent of the step [-]
       real(wp) :: exponent
 
       if (.not. time > footing%time) return
       footing%reach = max(1.0_wp, closer*footing%reach)
+      footing%is_fresh = footing%is_fresh .or. step/growing >= time - footing%time
       footing%turns = fading*footing%turns
       if ((here%rate(1) > 0.0_wp .and. footing%rate < 0.0_wp) .or. (here%rate(1) < 0.0_wp .and. footing%rate > 0.0_wp)) then
          exponent = (time - footing%time)*abs(here%jacobian(1, 1))

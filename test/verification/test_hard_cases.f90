@@ -99,8 +99,8 @@ contains
    end subroutine read_case
 
    !> On the way from one tolerance of the ladder to the next, a tenth of it, errors fall to a tenth where a cycle is right
-   !> to the order of its steps, and to the root of a tenth where contact comes back at a load of zero. The mean over all decks
-   !> must lie between; 0.82 to 1.01 decades were measured, with a standard deviation of 0.4 to 0.5 from one tolerance to the next.
+   !> to the order of its steps, and to the root of a tenth where each step is of first order. The mean over all decks must
+   !> lie between; 0.79 to 1.02 decades were measured, with a standard deviation of 0.39 to 0.45 from one tolerance to the next.
    subroutine test_solved(error)
       type(error_type), allocatable, intent(out) :: error
       ! Least mean gain of a method from one tolerance to the next [decades]
@@ -167,8 +167,8 @@ contains
       character(len=:), allocatable, intent(out) :: trouble
       ! Error over the tolerance up to which it need not fall: medians are up to 1.9, and two and a half standard deviations of half
       ! a decade make that thirty. Over two tolerances of the ladder, the error falls to half, unless a few times the tolerance is
-      ! left [-]
-      real(wp), parameter :: scatter = 30.0_wp, progress = 0.5_wp, few = 10.0_wp
+      ! left. It is nowhere above the median and three standard deviations; 44 was the largest of all [-]
+      real(wp), parameter :: scatter = 30.0_wp, progress = 0.5_wp, few = 10.0_wp, largest = 60.0_wp
       type(sample_t) :: sample
       ! Errors [-]
       real(wp) :: errors(size(ladder))
@@ -181,6 +181,10 @@ contains
          if (trouble == "") trouble = compare_samples(sample, reference)
          if (trouble /= "") exit
          errors(i) = max(difference(sample, reference), reference_tolerance)
+         if (errors(i) <= largest*ladder(i)) cycle
+         write (buffer, "(a, es8.1, a, es9.2)") "the tolerance", ladder(i), " leaves an error of", errors(i)
+         trouble = trim(buffer)
+         exit
       end do
       do i = 2, size(ladder)
          if (trouble /= "") exit
