@@ -2,7 +2,7 @@
 
 SHELL := /bin/bash
 .DEFAULT_GOAL := help
-.PHONY: help setup commit build debug mpi run comparison test quick bless random needed study study-film audit check check-layers \
+.PHONY: help setup commit build debug mpi run comparison test quick bless random needed rough-rows study study-film audit check check-layers \
   check-style check-format check-lint check-warnings format bench bench-batch bench-effects clean distclean
 
 FPM := .venv/bin/fpm
@@ -80,6 +80,9 @@ random: commit ## cases drawn at random by two methods, optimised: CASES=20000 S
 
 needed: commit ## effects that are left out against what they change, for random cases, optimised: CASES=300 SEED=1
 	@NEEDED_TABLE=1 NEEDED_CASES=$(or $(CASES),300) NEEDED_SEED=$(or $(SEED),1) $(FPM) test --flag "$(RELEASE_FLAGS)" -- needed
+
+rough-rows: commit ## rough contacts of Masjedi and Khonsari beside ours: bench/tables/ehl_rough.txt, for doc/ehl.md
+	@ROUGH_TABLE=bench/tables/ehl_rough.txt $(FPM) test --flag "$(RELEASE_FLAGS)" -- ehl_rough
 
 bless: build ## take key results and counters of the decks as they are: the table that test_regression.py compares with
 	@BLESS=1 $(PYTHON) -m pytest -q test/python/test_regression.py

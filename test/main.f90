@@ -45,6 +45,7 @@ program main
    use test_load_share, only : collect_load_share
    use test_film, only : collect_film
    use test_ehl, only : collect_ehl
+   use test_ehl_rough, only : collect_ehl_rough
    use test_ehl_law, only : collect_ehl_law
    use test_ehl_cycle, only : collect_ehl_cycle
    use test_ehl_record, only : collect_ehl_record
@@ -110,6 +111,7 @@ contains
          new_testsuite("random_cases", collect_random_cases), &
          new_testsuite("effects", collect_effects), &
          new_testsuite("ehl", collect_ehl), &
+         new_testsuite("ehl_rough", collect_ehl_rough), &
          new_testsuite("ehl_law", collect_ehl_law), &
          new_testsuite("needed", collect_needed), &
          new_testsuite("ehl_cycle", collect_ehl_cycle), &
