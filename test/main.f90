@@ -46,6 +46,7 @@ program main
    use test_film, only : collect_film
    use test_ehl, only : collect_ehl
    use test_ehl_rough, only : collect_ehl_rough
+   use test_ehl_map, only : collect_ehl_map
    use test_ehl_law, only : collect_ehl_law
    use test_ehl_cycle, only : collect_ehl_cycle
    use test_ehl_record, only : collect_ehl_record
@@ -112,6 +113,7 @@ contains
          new_testsuite("effects", collect_effects), &
          new_testsuite("ehl", collect_ehl), &
          new_testsuite("ehl_rough", collect_ehl_rough), &
+         new_testsuite("ehl_map", collect_ehl_map), &
          new_testsuite("ehl_law", collect_ehl_law), &
          new_testsuite("needed", collect_needed), &
          new_testsuite("ehl_cycle", collect_ehl_cycle), &
