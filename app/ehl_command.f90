@@ -94,7 +94,7 @@ contains
       type(case_t) :: case
       type(ehl_record_t) :: record
       type(line_t) :: line
-      type(error_t), allocatable :: trouble
+      type(error_t), allocatable :: trouble, without_steady
       integer :: i, lobe
 
       allocate (lines(0))
@@ -102,7 +102,9 @@ contains
       do i = 1, sweep_size(deck%sweep)
          do lobe = 1, size(file%lobes)
             call make_sweep_case(deck, i, case, trouble)
-            if (.not. allocated(trouble)) call solve_case(case, lobe == 2, record, line, trouble)
+            if (.not. allocated(trouble)) call solve_case(case, lobe == 2, record, line, trouble, without_steady)
+            if (allocated(without_steady) .and. .not. is_quiet) write (error_unit, "(a)") "remark: "// &
+               & case_in_words(deck%sweep, i)//" has no cycle with steady films to compare with: "//without_steady%message
             if (allocated(trouble)) then
                if (size(deck%sweep%axes) > 0) call add_context(trouble, case_in_words(deck%sweep, i))
                if (.not. is_quiet .and. sweep_size(deck%sweep) > 1) write (error_unit, "(a)") trouble%message
@@ -121,7 +123,7 @@ contains
    end subroutine solve_cases
 
    !> One case and lobe shape on both grids, and with steady films.
-   subroutine solve_case(case, is_second, record, line, error)
+   subroutine solve_case(case, is_second, record, line, error, without_steady)
       !> The case
       type(case_t), intent(in) :: case
       !> The second lobe shape?
@@ -130,13 +132,12 @@ contains
       type(ehl_record_t), intent(out) :: record
       !> What is printed of it
       type(line_t), intent(out) :: line
-      !> What went wrong
-      type(error_t), allocatable, intent(out) :: error
+      !> What went wrong; and with steady films, which the others are compared with
+      type(error_t), allocatable, intent(out) :: error, without_steady
 
       type(model_t) :: model
       type(ehl_cycle_t) :: cycle
       type(ehl_cycle_options_t) :: options
-      type(error_t), allocatable :: nothing
       ! Time [s]
       real(wp) :: start, finish
 
@@ -149,9 +150,8 @@ contains
       line%coarse = summary_of(cycle)
       options%nodes = sizes(2)
       options%is_transient = .false.
-      ! Steady films may jump where the spike is not resolved, and then no step is short enough: nothing to compare with
-      call integrate_ehl_cycle(cycle, model, options, nothing)
-      line%has_steady = .not. allocated(nothing)
+      call integrate_ehl_cycle(cycle, model, options, without_steady)
+      line%has_steady = .not. allocated(without_steady)
       if (line%has_steady) line%steady = summary_of(cycle)
       options%is_transient = .true.
       options%keeps_profiles = .true.

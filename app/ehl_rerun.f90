@@ -76,13 +76,13 @@ contains
       type(case_t) :: case
       type(ehl_record_t) :: record, sampled
       type(line_t) :: line
-      type(error_t), allocatable :: failure
+      type(error_t), allocatable :: failure, without_steady
       character(len=:), allocatable :: group
 
       group = "ehl"
       if (is_second) group = "ehl/second_lift"
       call make_sweep_case(deck, number, case, failure)
-      if (.not. allocated(failure)) call solve_case(case, is_second, record, line, failure)
+      if (.not. allocated(failure)) call solve_case(case, is_second, record, line, failure, without_steady)
       if (allocated(failure)) then
          call compare_missing(sink, group, number - 1, differs, error)
       else

@@ -14,7 +14,7 @@ module camroller_ehl_cycle
    use camroller_ehl_problem, only : ehl_problem_t, new_ehl_problem, in_range, range_text
    use camroller_ehl_newton, only : ehl_state_t
    use camroller_ehl_reynolds, only : new_ehl_fields
-   use camroller_ehl_step, only : moment_t, ehl_march_t, make_step, contact_at
+   use camroller_ehl_step, only : moment_t, ehl_march_t, make_step, contact_at, max_rounds
    implicit none
    private
 
@@ -123,30 +123,35 @@ contains
       cycle%angle = cycle%moments%angle
       cycle%nodes = march%grid%x
       cycle%factorisations = state%factorisations
-      call judge(cycle, history(1)%angle, now, options%step_error, error)
+      call judge(cycle, history(1)%angle, now, options, error)
    end subroutine integrate_ehl_cycle
 
    !> Is the cycle complete and periodic?
-   subroutine judge(cycle, reached, last, allowed, error)
+   subroutine judge(cycle, reached, last, options, error)
       !> The cycle
       type(ehl_cycle_t), intent(in) :: cycle
       !> Last angle reached [rad]
       real(wp), intent(in) :: reached
       !> Last contact tried
       type(moment_t), intent(in) :: last
-      !> Error of a step [-]
-      real(wp), intent(in) :: allowed
+      !> How it was integrated
+      type(ehl_cycle_options_t), intent(in) :: options
       !> Convergence error where it is not
       type(error_t), allocatable, intent(out) :: error
 
       character(len=16) :: text
+      character(len=:), allocatable :: reason
 
       write (text, "(f0.3)") modulo(180.0_wp + reached/degree, 360.0_wp)
       if (last%status /= in_range) then
          call raise(error, kind_domain, "ehl: "//trim(range_text(last%status))//" at cam angle "//trim(text)//" deg")
       else if (last%angle < start + two_pi - 1.0e-12_wp) then
-         call raise(error, kind_convergence, "ehl: no step is short enough at cam angle "//trim(text)//" deg")
-      else if (.not. is_periodic(cycle%moments, allowed)) then
+         reason = "no film is found"
+         if (last%rounds == max_rounds .and. options%is_transient) reason = "load and friction find no balance"
+         if (last%rounds == max_rounds .and. .not. options%is_transient) reason = "the balance of load and friction, "// &
+            & "where the spike of the pressure is narrower than the nodes, jumps with steady films (a film with squeeze does not)"
+         call raise(error, kind_convergence, "ehl: no step is short enough at cam angle "//trim(text)//" deg: "//reason)
+      else if (.not. is_periodic(cycle%moments, options%step_error)) then
          call raise(error, kind_convergence, "ehl: the cycle did not become periodic")
       end if
    end subroutine judge

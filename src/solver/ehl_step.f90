@@ -24,7 +24,7 @@ module camroller_ehl_step
    implicit none
    private
 
-   public :: moment_t, ehl_march_t, make_step, contact_at, find_film, spin_excess, bearing_moment
+   public :: moment_t, ehl_march_t, make_step, contact_at, find_film, spin_excess, bearing_moment, max_rounds
 
    !> What a step leaves behind
    type :: moment_t
@@ -127,6 +127,8 @@ contains
          converged = abs(now%sliding_speed - speed) <= march%tolerance*rolling_speed_at(model, position) &
             & .and. abs(now%load - load) <= march%tolerance*march%largest_load
          if (converged) exit
+         ! So may load and traction: with the shear of a pressure spike, either changes the other by more than its own change
+         if (round > free_rounds) now%load = 0.5_wp*(now%load + load)
       end do
    end subroutine make_step
 

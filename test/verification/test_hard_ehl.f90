@@ -81,7 +81,8 @@ contains
 
       testsuite = [ &
          new_unittest("every hard deck with a numerical film as its law passes the checks of a cycle, or says why not", test_law), &
-         new_unittest("contacts solved over the cycle of every hard deck pass them, or say why not", test_cycle) &
+         new_unittest("contacts solved over the cycle of every hard deck pass them, or say why not", test_cycle), &
+         new_unittest("cycles of steady films find their balance, or say that it jumps", test_steady) &
          ]
    end subroutine collect_hard_ehl
 
@@ -158,6 +159,32 @@ contains
       end do
       if (list /= "") call test_failed(error, list)
    end subroutine test_cycle
+
+   !> Steady films where a spike of the pressure, narrower than the nodes, holds the roller: friction and load change each other by
+   !> more than their own change.
+   subroutine test_steady(error)
+      type(error_type), allocatable, intent(out) :: error
+      character(len=*), parameter :: decks(2) = [character(len=24) :: "contact_loss_5000_rpm", "sharp_cap"]
+      integer, parameter :: sizes(2) = [65, 129]
+      type(case_t) :: case
+      type(model_t) :: model
+      type(ehl_cycle_t) :: solved
+      type(error_t), allocatable :: failure
+      integer :: i, k
+
+      do i = 1, size(decks)
+         call get_case(decks(i), case, failure)
+         if (.not. allocated(failure)) call plain_model(model, case, .false., failure)
+         do k = 1, size(sizes)
+            if (.not. allocated(failure)) call integrate_ehl_cycle(solved, model, &
+               & ehl_cycle_options_t(nodes=sizes(k), is_transient=.false.), failure)
+            if (.not. allocated(failure)) cycle
+            if (sizes(k) > 65 .and. index(failure%message, "the balance of load and friction") > 0) deallocate (failure)
+            if (allocated(failure)) call test_failed(error, trim(decks(i))//": "//failure%message)
+            if (allocated(error)) return
+         end do
+      end do
+   end subroutine test_steady
 
    !> Contacts solved over the cycle: two step errors and two grids agree on cycles that pass every check.
    subroutine run_cycle(name, trouble)
