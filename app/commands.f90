@@ -5,6 +5,7 @@ module camroller_commands
    use, intrinsic :: iso_fortran_env, only : error_unit, output_unit
    use camroller_error, only : error_t, raise, add_context, kind_file, kind_usage
    use camroller_audit_command, only : audit_deck
+   use camroller_blas_threads, only : use_one_blas_thread
    use camroller_case, only : case_t
    use camroller_cli, only : config_t, command_names, get_arguments, read_arguments
    use camroller_deck, only : deck_t, read_deck, make_sweep_case
@@ -52,6 +53,7 @@ contains
       type(config_t) :: config
       type(error_t), allocatable :: error
 
+      call use_one_blas_thread()
       allocate (arguments(0))
       call get_arguments(arguments)
       call read_arguments(arguments, config, error)

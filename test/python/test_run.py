@@ -218,6 +218,17 @@ def test_every_lobe_shape_is_solved_and_opens_in_xarray(camroller, tmp_path):
         assert float(abs(first["load"] / second["load"] - 1).max()) > 0.05
 
 
+def test_threads_of_the_linear_algebra_change_no_bit(camroller, tmp_path):
+    """With their number the library rounds otherwise, so that the program takes one."""
+    for threads in (1, 2):
+        subprocess.run([camroller, "run", "decks/numerical_film.nml", "-o", tmp_path / f"{threads}.h5", "--quiet", *SMALL, "--set",
+                        "output.angle_step_deg=40", "--set", "ehl.accuracy=0.1", "--set", "ehl.profiles=.true."], cwd=ROOT,
+                       check=True, stderr=subprocess.DEVNULL, env=os.environ | {"OPENBLAS_NUM_THREADS": str(threads)})
+    with h5py.File(tmp_path / "1.h5") as one, h5py.File(tmp_path / "2.h5") as two:
+        for name in ("ehl/pressure", "ehl/film", "series/sliding_speed"):
+            assert one[name][()].tobytes() == two[name][()].tobytes(), name
+
+
 def test_a_run_writes_profiles_where_the_deck_asks(camroller, tmp_path):
     """Pressure and film of a run, over its own angles, with its load and slip; a case beyond solutions keeps its result."""
     path = tmp_path / "run.h5"
