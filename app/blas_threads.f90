@@ -4,7 +4,8 @@
 !> be the same on every machine, and a sweep has its own threads. Where another library does the algebra, nothing is changed. The
 !> routine is looked up while the program runs, so that no library has to have it.
 module camroller_blas_threads
-   use, intrinsic :: iso_c_binding, only : c_associated, c_char, c_f_procpointer, c_funptr, c_int, c_null_char, c_null_ptr, c_ptr
+   use, intrinsic :: iso_c_binding, only : c_associated, c_char, c_f_procpointer, c_funptr, c_int, c_loc, c_null_char, c_null_ptr, &
+      & c_ptr
    implicit none
    private
 
@@ -20,10 +21,9 @@ module camroller_blas_threads
 
    interface
       function c_find_symbol(handle, name) bind(C, name="dlsym") result(address)
-         import :: c_char, c_funptr, c_ptr
+         import :: c_funptr, c_ptr
          implicit none
-         type(c_ptr), value :: handle
-         character(kind=c_char), intent(in) :: name(*)
+         type(c_ptr), value :: handle, name
          type(c_funptr) :: address
       end function c_find_symbol
    end interface
@@ -32,11 +32,13 @@ contains
 
    !> Let OpenBLAS use one thread, where it is OpenBLAS.
    subroutine use_one_blas_thread()
+      character(len=25, kind=c_char), target :: name
       procedure(c_set_threads), pointer :: set_threads
       type(c_funptr) :: address
 
       ! No handle stands for all libraries of the program
-      address = c_find_symbol(c_null_ptr, "openblas_set_num_threads"//c_null_char)
+      name = "openblas_set_num_threads"//c_null_char
+      address = c_find_symbol(c_null_ptr, c_loc(name))
       if (.not. c_associated(address)) return
       call c_f_procpointer(address, set_threads)
       call set_threads(1_c_int)
