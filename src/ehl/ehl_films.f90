@@ -6,17 +6,18 @@ module camroller_ehl_films
    use camroller_ehl_grid, only : ehl_grid_t, integral
    use camroller_ehl_problem, only : ehl_problem_t, real_area_part
    use camroller_ehl_newton, only : ehl_state_t
+   use camroller_ehl_reynolds, only : mean_fluidity
    implicit none
    private
 
-   public :: ehl_films_t, get_films, extrapolate
+   public :: ehl_films_t, get_films, compare_grids
 
    !> Film and friction of a solution
    type :: ehl_films_t
       !> Film at the middle of the dry contact, smallest film [m]
       real(wp) :: central = 0.0_wp, minimum = 0.0_wp
-      !> Estimated relative error of both on the finer grid; of the extrapolated films, taken as half of it [-]
-      real(wp) :: error = 0.0_wp, extrapolation_error = 0.0_wp
+      !> Estimated relative error of both [-]
+      real(wp) :: error = 0.0_wp
       !> Place of the smallest film, of the highest pressure, where the film ends [m]
       real(wp) :: minimum_place = 0.0_wp, peak_place = 0.0_wp, end_place = 0.0_wp
       !> Highest pressure [Pa]
@@ -42,19 +43,18 @@ module camroller_ehl_films
 
 contains
 
-   !> Films of two nested grids to the limit of no step, and the error of the finer one.
-   pure subroutine extrapolate(coarse, films)
+   !> State the error of a film by what it differs by on a grid with half the nodes.
+   !>
+   !> The error falls with the square of the number of nodes at least, so that the finer grid's is a third of the difference; half of
+   !> it is stated, since the smallest film lies between nodes and does not converge as evenly.
+   pure subroutine compare_grids(coarse, films)
       !> Films of the grid with half the nodes
       type(ehl_films_t), intent(in) :: coarse
-      !> In: films of the finer grid; out: extrapolated
+      !> Films of the finer grid; their error is set
       type(ehl_films_t), intent(inout) :: films
 
-      films%error = max(abs(films%central/coarse%central - 1.0_wp), abs(films%minimum/coarse%minimum - 1.0_wp))/3.0_wp
-      films%extrapolation_error = 0.5_wp*films%error
-      films%central = films%central + (films%central - coarse%central)/3.0_wp
-      films%minimum = films%minimum + (films%minimum - coarse%minimum)/3.0_wp
-      films%rolling = films%rolling + (films%rolling - coarse%rolling)/3.0_wp
-   end subroutine extrapolate
+      films%error = 0.5_wp*max(abs(films%central/coarse%central - 1.0_wp), abs(films%minimum/coarse%minimum - 1.0_wp))
+   end subroutine compare_grids
 
    !> Film and friction of a solution on one grid.
    pure subroutine get_films(problem, grid, state, films)
@@ -113,25 +113,113 @@ contains
       !> Film and friction
       type(ehl_films_t), intent(inout) :: films
 
-      ! Viscosity over film where the film is full, else what a ruptured film of constant flow still has [-]
-      real(wp) :: rate(grid%size)
+      ! Integrals of viscosity over film between the nodes [-]
+      real(wp) :: shear(grid%size - 1)
       ! Part of the surface on which asperities touch [-]
       real(wp) :: touching(grid%size)
 
       associate (fields => state%fields, n => grid%size)
-         films%rolling = 0.25_wp*sum((fields%film(2:) + fields%film(:n - 1))*(fields%pressure(2:) - fields%pressure(:n - 1))) &
-            & + problem%speed/abs(grid%x(1))
+         films%rolling = 0.5_wp*rolling_integral(grid, state) + problem%speed/abs(grid%x(1))
          films%rolling = films%rolling*problem%pressure_scale*problem%film_scale
-         rate = 0.0_wp
          touching = real_area_part(problem, fields%film)
          films%real_area = problem%length_scale*integral(grid, touching)
-         where (state%is_full) rate = (1.0_wp - touching)*exp(fields%log_viscosity)/fields%film
-         films%shear_slope = integral(grid, rate)
-         films%shear_slope_inside = integral(grid, merge(rate, 0.0_wp, abs(grid%x) <= 1.0_wp))
+         shear = cell_shear(grid, state)*(1.0_wp - 0.5_wp*(touching(:n - 1) + touching(2:)))
+         films%shear_slope = sum(shear)
+         films%shear_slope_inside = sum(shear, mask=abs(grid%x(:n - 1) + grid%x(2:)) <= 2.0_wp)
       end associate
       films%shear_slope = films%shear_slope*problem%oil%viscosity*problem%length_scale/problem%film_scale
       films%shear_slope_inside = films%shear_slope_inside*problem%oil%viscosity*problem%length_scale/problem%film_scale
    end subroutine get_friction
+
+   !> Integral of the film over the film's pressure.
+   !>
+   !> Where oil is drawn in, the film between two nodes is a quadratic, and the pressure's slope grows exponentially; beyond, both are
+   !> straight lines, which a spike between two nodes does not disturb.
+   pure function rolling_integral(grid, state) result(rolling)
+      !> The grid
+      type(ehl_grid_t), intent(in) :: grid
+      !> The solution
+      type(ehl_state_t), intent(in) :: state
+      !> The integral [-]
+      real(wp) :: rolling
+
+      ! Mean slopes of the pressure between nodes; slopes at both nodes of a cell [1/half widths]
+      real(wp) :: slope(grid%size - 1), ends(2)
+      ! Film in the middle between two nodes [-]
+      real(wp) :: middle
+      integer :: i
+
+      associate (film => state%fields%film, pressure => state%fields%pressure, n => grid%size)
+         slope = (pressure(2:) - pressure(:n - 1))/grid%step
+         rolling = 0.0_wp
+         do i = 2, n - 2
+            rolling = rolling + 0.5_wp*(film(i) + film(i + 1))*(pressure(i + 1) - pressure(i))
+            if (grid%x(i) >= 0.0_wp) cycle
+            middle = dot_product(grid%face(:, i), film(i - 1:i + 1))
+            ends(1) = slope_between(slope(i - 1:i), grid%step(i - 1:i))
+            ends(2) = slope_between(slope(i:i + 1), grid%step(i:i + 1))
+            if (minval(ends*slope(i)) <= 0.0_wp) cycle
+            rolling = rolling + ((film(i + 1) - film(i))*(mean_place(log(ends(2)/ends(1))) - 0.5_wp) &
+               & + (2.0_wp*middle - film(i) - film(i + 1))/3.0_wp)*(pressure(i + 1) - pressure(i))
+         end do
+         rolling = rolling + 0.5_wp*(film(1) + film(2))*(pressure(2) - pressure(1))
+      end associate
+   end function rolling_integral
+
+   !> Slope at a node from the mean slopes on either side: on a logarithmic scale where both have the same sign.
+   pure function slope_between(slopes, steps) result(slope)
+      !> Mean slopes [any], steps [half widths]
+      real(wp), intent(in) :: slopes(2), steps(2)
+      !> The slope [any]
+      real(wp) :: slope
+
+      ! Part of the second [-]
+      real(wp) :: part
+
+      part = steps(1)/sum(steps)
+      if (product(slopes) > 0.0_wp) then
+         slope = slopes(1)*(slopes(2)/slopes(1))**part
+      else
+         slope = slopes(1) + part*(slopes(2) - slopes(1))
+      end if
+   end function slope_between
+
+   !> Mean of s from 0 to 1 weighed with exp(L s).
+   pure function mean_place(growth) result(place)
+      !> L [-]
+      real(wp), intent(in) :: growth
+      !> The mean [-]
+      real(wp) :: place
+
+      if (abs(growth) < 0.1_wp) then
+         place = 0.5_wp + growth/12.0_wp*(1.0_wp - growth**2/60.0_wp)
+      else
+         place = 1.0_wp/(1.0_wp - exp(-min(max(growth, -50.0_wp), 50.0_wp))) - 1.0_wp/growth
+      end if
+   end function mean_place
+
+   !> Integral of viscosity over film from each node to the next: exact where its logarithm is linear between both. Behind the end of
+   !> the film there is none.
+   pure function cell_shear(grid, state) result(shear)
+      !> The grid
+      type(ehl_grid_t), intent(in) :: grid
+      !> The solution
+      type(ehl_state_t), intent(in) :: state
+      !> The integrals [-]
+      real(wp) :: shear(grid%size - 1)
+
+      ! Logarithm of film over viscosity; its derivatives, not used [-]
+      real(wp) :: fluidity(grid%size), slopes(2)
+      integer :: i
+
+      fluidity = log(state%fields%film) - state%fields%log_viscosity
+      shear = 0.0_wp
+      do i = 1, grid%size - 1
+         if (.not. state%is_full(i)) cycle
+         call mean_fluidity(fluidity(i), fluidity(i + 1), shear(i), slopes)
+         shear(i) = shear(i)*grid%step(i)
+      end do
+   end function cell_shear
 
    !> Value of the parabola through three points.
    pure function parabola_value(x, y, place) result(value)

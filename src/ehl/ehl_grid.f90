@@ -31,7 +31,7 @@ module camroller_ehl_grid
    end type ehl_grid_t
 
    !> Weight of the middle of the contact in the density of nodes [-]
-   real(wp), parameter :: middle_weight = 0.5_wp
+   real(wp), parameter :: middle_weight = 2.0_wp
    !> Iterations of Newton's method for a node, more than it takes
    integer, parameter :: max_iterations = 60
 

@@ -4,9 +4,10 @@
 !> derivatives. The total pressure P is that of film and asperities; the asperities' part follows from the film, so that
 !> `H = H0 + X^2/2 + K P` and the film's pressure is `P - P_a(H)`. Flow between two nodes:
 !>
-!>     rho H  at the middle, by the quadratic through three nodes    minus    (rho H^3/lambda) mean(1/eta) (P_(i+1) - P_i)/step
+!>     (mean(1/H^2) - mean(1/eta) (P_(i+1) - P_i)/(lambda step))/mean(1/(rho H^3))
 !>
-!> with `mean(1/eta)` exact where ln(eta) is linear between the nodes. What flows in and out of the cell of a node is in balance,
+!> which is Reynolds' equation integrated from node to node with a constant flow. The mean of 1/eta is exact where ln(eta) is linear
+!> between the nodes; the other two are by Simpson's rule, the middle by the quadratic through three nodes. What flows in and out of the cell of a node is in balance,
 !> where the film is full; where it has ruptured its pressure is zero.
 module camroller_ehl_reynolds
    use camroller_kinds, only : wp
@@ -15,7 +16,7 @@ module camroller_ehl_reynolds
    implicit none
    private
 
-   public :: ehl_fields_t, new_ehl_fields, evaluate_film, evaluate_flow, effective_viscosity, storage_t
+   public :: ehl_fields_t, new_ehl_fields, evaluate_film, evaluate_flow, effective_viscosity, mean_fluidity, storage_t
 
    !> Everything at the nodes and between them at a given pressure
    type :: ehl_fields_t
@@ -133,43 +134,90 @@ contains
       !> What was stored before; absent: nothing changes with time
       type(storage_t), intent(in), optional :: storage
 
-      ! Mean of 1/viscosity and its derivatives over ln(viscosity) at both nodes; conductance and its derivatives [-]
-      real(wp) :: fluidity, fluidity_slopes(2), conductance, by_pressure(2), by_film(2)
-      ! Film, density, flow factor and its slope between the nodes; drop of pressure [-]
-      real(wp) :: film, density, factor, factor_slope, drop
-      ! Share of the mean speed with which the oil passes between the nodes [-]
-      real(wp) :: carried
+      ! Mean of 1/viscosity and its derivatives over ln(viscosity) at both nodes [-]
+      real(wp) :: fluidity, fluidity_slopes(2)
+      ! Means over the cell of the resistance 1/(rho H^3) and of rho H times it; their derivatives over density and film [-]
+      real(wp) :: resistance, drag, resistance_slopes(3, 2), drag_slopes(3, 2)
+      ! Flow that the drop of pressure drives times the resistance, its derivatives over pressure and film at both nodes [-]
+      real(wp) :: driven, by_pressure(2), by_film(2)
+      ! Drop of pressure; share of the mean speed with which the oil passes between the nodes [-]
+      real(wp) :: drop, carried
       integer :: i, j, k
 
       do i = 1, grid%size - 1
          carried = 1.0_wp
          if (present(storage)) carried = 1.0_wp - 0.5_wp*(grid%x(i) + grid%x(i + 1))*storage%growth/storage%duration
          call mean_fluidity(fields%log_viscosity(i), fields%log_viscosity(i + 1), fluidity, fluidity_slopes)
-         film = max(0.5_wp*(fields%film(i) + fields%film(i + 1)), smallest_film)
-         density = 0.5_wp*(fields%density(i) + fields%density(i + 1))
-         call pressure_flow_factor(problem, film, factor, factor_slope)
-         conductance = film**3/(problem%speed*grid%step(i))
+         call mean_resistance(problem, grid%face(:, i), fields, i, resistance, drag, resistance_slopes, drag_slopes)
          drop = fields%pressure(i + 1) - fields%pressure(i)
-         by_pressure = conductance*factor*drop*(0.5_wp*fields%density_slope(i:i + 1)*fluidity &
-            & + density*fluidity_slopes*fields%viscosity_slope(i:i + 1))
-         by_film = conductance*density*drop*(fluidity*(1.5_wp*factor/film + 0.5_wp*factor_slope) &
-            & + factor*fluidity_slopes*fields%thinning_slope(i:i + 1))
-         conductance = conductance*density*factor*fluidity
-         fields%flow(i) = -conductance*drop
-         fields%by_pressure(:, i) = [0.0_wp, conductance - by_pressure(1), -conductance - by_pressure(2)]
-         fields%by_film(:, i) = [0.0_wp, -by_film(1), -by_film(2)]
+         driven = fluidity*drop/(problem%speed*grid%step(i))
+         by_pressure = (drop*fluidity_slopes*fields%viscosity_slope(i:i + 1) + fluidity*[-1.0_wp, 1.0_wp]) &
+            & /(problem%speed*grid%step(i))
+         by_film = drop*fluidity_slopes*fields%thinning_slope(i:i + 1)/(problem%speed*grid%step(i))
+         fields%flow(i) = (carried*drag - driven)/resistance
          do k = 1, 3
-            j = i - 2 + k
-            if (j < 1) cycle
-            fields%flow(i) = fields%flow(i) + carried*grid%face(k, i)*fields%density(j)*fields%film(j)
-            fields%by_pressure(k, i) = fields%by_pressure(k, i) + carried*grid%face(k, i)*fields%density_slope(j)*fields%film(j)
-            fields%by_film(k, i) = fields%by_film(k, i) + carried*grid%face(k, i)*fields%density(j)
+            j = max(i - 2 + k, 1)
+            fields%by_pressure(k, i) = (carried*drag_slopes(k, 1) - fields%flow(i)*resistance_slopes(k, 1)) &
+               & /resistance*fields%density_slope(j)
+            fields%by_film(k, i) = (carried*drag_slopes(k, 2) - fields%flow(i)*resistance_slopes(k, 2))/resistance
          end do
+         fields%by_pressure(2:, i) = fields%by_pressure(2:, i) - by_pressure/resistance
+         fields%by_film(2:, i) = fields%by_film(2:, i) - by_film/resistance
       end do
       fields%excess(2:grid%size - 1) = fields%flow(2:) - fields%flow(:grid%size - 2)
       if (.not. present(storage)) return
       fields%excess = fields%excess + (grid%weight*fields%density*fields%film - storage%mass)/storage%duration
    end subroutine evaluate_flow
+
+   !> Means of `1/(rho H^3)` and `1/H^2` between two nodes by Simpson's rule, the middle by the quadratic through three nodes.
+   pure subroutine mean_resistance(problem, face, fields, i, resistance, drag, resistance_slopes, drag_slopes)
+      !> The problem
+      type(ehl_problem_t), intent(in) :: problem
+      !> Weights of the nodes i - 1, i, i + 1 in the middle between the last two [-]
+      real(wp), intent(in) :: face(3)
+      !> Film and density at the nodes
+      type(ehl_fields_t), intent(in) :: fields
+      !> Number of the first of both nodes
+      integer, intent(in) :: i
+      !> The means, both over the part of the flow that roughness lets through [-]
+      real(wp), intent(out) :: resistance, drag
+      !> Their derivatives over density, then film, at the nodes i - 1, i, i + 1 [-]
+      real(wp), intent(out) :: resistance_slopes(3, 2), drag_slopes(3, 2)
+
+      ! Weights of the three nodes at a place of the rule, and of the place [-]
+      real(wp) :: weights(3), part
+      ! Film, density, flow factor and its slope there; resistance there and its derivative over the film [-]
+      real(wp) :: film, density, factor, factor_slope, value, slope
+      integer :: k, before
+
+      before = max(i - 1, 1)
+      resistance = 0.0_wp
+      drag = 0.0_wp
+      resistance_slopes = 0.0_wp
+      drag_slopes = 0.0_wp
+      do k = 1, 3
+         select case (k)
+         case (1)
+            weights = [0.0_wp, 1.0_wp, 0.0_wp]
+         case (2)
+            weights = face
+         case default
+            weights = [0.0_wp, 0.0_wp, 1.0_wp]
+         end select
+         part = merge(4.0_wp, 1.0_wp, k == 2)/6.0_wp
+         film = weights(1)*fields%film(before) + weights(2)*fields%film(i) + weights(3)*fields%film(i + 1)
+         density = weights(1)*fields%density(before) + weights(2)*fields%density(i) + weights(3)*fields%density(i + 1)
+         film = max(film, smallest_film)
+         call pressure_flow_factor(problem, film, factor, factor_slope)
+         value = part/(density*film**3*factor)
+         slope = -value*(3.0_wp/film + factor_slope/factor)
+         resistance = resistance + value
+         drag = drag + density*film*value
+         resistance_slopes(:, 1) = resistance_slopes(:, 1) - weights*value/density
+         resistance_slopes(:, 2) = resistance_slopes(:, 2) + weights*slope
+         drag_slopes(:, 2) = drag_slopes(:, 2) + weights*density*(value + film*slope)
+      end do
+   end subroutine mean_resistance
 
    !> Mean of exp(-g) where g is linear between two values, and its derivatives with respect to both.
    pure subroutine mean_fluidity(first, second, mean, slopes)

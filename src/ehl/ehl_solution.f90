@@ -10,7 +10,7 @@ module camroller_ehl_solution
    use camroller_ehl_problem, only : ehl_contact_t, ehl_problem_t, new_ehl_problem, range_text, in_range
    use camroller_ehl_reynolds, only : new_ehl_fields
    use camroller_ehl_newton, only : ehl_state_t, solve_newton
-   use camroller_ehl_films, only : ehl_films_t, get_films, extrapolate
+   use camroller_ehl_films, only : ehl_films_t, get_films, compare_grids
    implicit none
    private
 
@@ -53,17 +53,16 @@ module camroller_ehl_solution
    !> Nodes of the coarsest grid
    integer, parameter :: smallest_grid = 65
    !> Where no start serves: first part of the thickening, first speed over that of the problem; first and smallest step [-]
-   real(wp), parameter :: first_part = 0.25_wp, first_speeds(2) = [1.0_wp, 30.0_wp], &
+   real(wp), parameter :: first_part = 0.25_wp, first_speeds(4) = [1.0_wp, 30.0_wp, 3.0_wp, 300.0_wp], &
       & first_step = 0.25_wp, smallest_step = 1.0e-3_wp
    !> Cotangent-like constant of the rigid contact: angle at which its film ends, by Reynolds' condition [rad]
    real(wp), parameter :: rigid_end = 0.443_wp
 
 contains
 
-   !> Film and friction of a contact from nothing, on two grids; extrapolated to steps of no length.
+   !> Film and friction of a contact from nothing, on two grids.
    !>
-   !> Both grids are nested and the error falls with the square of the step, so that the difference of both is three times the
-   !> error of the finer one. The extrapolated film is better than that; the error stated is that of the finer grid.
+   !> Both grids are nested, and what they differ by is twice the error that is stated.
    subroutine solve_contact_film(contact, options, films, error)
       !> The contact
       type(ehl_contact_t), intent(in) :: contact
@@ -92,9 +91,9 @@ contains
          call raise(error, kind_convergence, "ehl: no solution found")
          return
       end if
-      call extrapolate(coarse, films)
-      if (3.0_wp*films%error <= options%largest_difference) return
-      write (text, "(f0.1, a)") 300.0_wp*films%error, " %"
+      call compare_grids(coarse, films)
+      if (2.0_wp*films%error <= options%largest_difference) return
+      write (text, "(f0.1, a)") 200.0_wp*films%error, " %"
       call raise(error, kind_convergence, "ehl: film on two grids differs by "//trim(text)//"; more nodes are needed")
    end subroutine solve_contact_film
 
@@ -134,7 +133,7 @@ contains
       if (.not. converged) call start_track(problem, options, track, both, converged)
       track%is_started = converged
       if (.not. converged) return
-      call extrapolate(both(1), both(2))
+      call compare_grids(both(1), both(2))
       films = both(2)
       films%iterations = sum(both%iterations)
       films%factorisations = sum(both%factorisations)

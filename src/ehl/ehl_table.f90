@@ -1,7 +1,7 @@
 !> Film of an oil between two bodies over speed and load, from numerical solutions.
 !>
 !> Layer: ehl. In: oil, modulus, ranges of the groups U and W*. Out: `film_table_t`. With oil and modulus given, the film over
-!> the radius depends on U and W* alone, so some hundred solutions, each extrapolated from two grids, serve every contact of a
+!> the radius depends on U and W* alone, so some hundred solutions, each compared on two grids, serve every contact of a
 !> cycle. Their number grows until solutions between the points agree with the table.
 module camroller_ehl_table
    use camroller_kinds, only : wp
@@ -160,7 +160,7 @@ contains
       options%nodes = fewest_nodes
       do
          call solve_contact_film(contact, options, solution, error)
-         if (.not. allocated(error) .and. solution%extrapolation_error <= 0.5_wp*setup%accuracy) exit
+         if (.not. allocated(error) .and. solution%error <= setup%accuracy) exit
          if (options%nodes >= most_nodes) exit
          if (allocated(error)) then
             if (error%kind /= kind_convergence) exit
@@ -173,7 +173,7 @@ contains
          return
       end if
       films = log([solution%minimum, solution%central]/radius)
-      grid_error = max(grid_error, solution%extrapolation_error)
+      grid_error = max(grid_error, solution%error)
    end subroutine solve_at
 
 end module camroller_ehl_table

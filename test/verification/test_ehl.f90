@@ -375,12 +375,16 @@ contains
             off = max(abs(films(i)%central/best%central - 1.0_wp), abs(films(i)%minimum/best%minimum - 1.0_wp))
             call check(error, off <= 2.0_wp*films(i)%error + best%error, "error larger than stated")
             if (allocated(error)) return
+            ! Second order or better; the smallest film of a heavy contact lies in a dip a few nodes wide
+            call check(error, abs(films(i)%central/best%central - 1.0_wp) < 2.0e-3_wp*4.0_wp**(1 - i), "central film")
+            if (allocated(error)) return
+            call check(error, abs(films(i)%minimum/best%minimum - 1.0_wp) < 2.0e-3_wp*2.0_wp**(1 - i), "smallest film")
+            if (allocated(error)) return
+            call check(error, abs(films(i)%rolling/best%rolling - 1.0_wp) < 4.0e-3_wp*2.0_wp**(1 - i), "rolling resistance")
+            if (allocated(error)) return
             call check(error, abs(films(i)%second_moment/best%second_moment - 1.0_wp) < 0.04_wp*4.0_wp**(1 - i), "second moment")
             if (allocated(error)) return
          end do
-         call check(error, films(2)%error < 0.4_wp*films(1)%error .and. films(3)%error < 0.4_wp*films(2)%error, &
-            & "order of the error")
-         if (allocated(error)) return
          call check_scaled(error, films(3)%end_place, best%end_place, sqrt(8.0_wp*contact%line_load*contact%radius &
             & /(pi*contact%modulus)), 0.05_wp*max(1.0_wp, 30.0_wp/10.0_wp**(k - 1)), "end of the film")
          if (allocated(error)) return

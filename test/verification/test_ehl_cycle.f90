@@ -104,8 +104,8 @@ contains
       end do
       call check(error, all(abs(mean(:, 2)/mean(:, 1) - 1.0_wp) < [1.0e-3_wp, 1.0e-3_wp, 3.0e-3_wp]), "steps")
       if (allocated(error)) return
-      ! Film to 1 % on two grids; slip is in proportion to the film over a viscosity that the pressure carries
-      call check(error, all(abs(mean(:, 3)/mean(:, 1) - 1.0_wp) < [1.0e-2_wp, 1.0e-2_wp, 4.0e-2_wp]), "nodes")
+      ! Far below 1 % on two grids; the slip is in proportion to the film over a viscosity that the spike raises between nodes
+      call check(error, all(abs(mean(:, 3)/mean(:, 1) - 1.0_wp) < [1.0e-3_wp, 1.0e-3_wp, 1.0e-2_wp]), "nodes")
    end subroutine test_convergence
 
    !> Boundary friction as a law of rest and sliding: at rest what is needed, up to the limit; in sliding the limit. With mobilising
