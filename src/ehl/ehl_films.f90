@@ -45,8 +45,8 @@ contains
 
    !> State the error of a film by what it differs by on a grid with half the nodes.
    !>
-   !> The error falls with the square of the number of nodes at least, so that the finer grid's is a third of the difference; half of
-   !> it is stated, since the smallest film lies between nodes and does not converge as evenly.
+   !> The error falls with the square of the number of nodes at least, so that the finer grid's is a third of the difference; half
+   !> of it is stated, since the smallest film lies between nodes and does not converge as evenly.
    pure subroutine compare_grids(coarse, films)
       !> Films of the grid with half the nodes
       type(ehl_films_t), intent(in) :: coarse
@@ -133,8 +133,8 @@ contains
 
    !> Integral of the film over the film's pressure.
    !>
-   !> Where oil is drawn in, the film between two nodes is a quadratic, and the pressure's slope grows exponentially; beyond, both are
-   !> straight lines, which a spike between two nodes does not disturb.
+   !> Where oil is drawn in, the film between two nodes is a quadratic, and the pressure's slope grows exponentially; beyond, both
+   !> are straight lines, which a spike between two nodes does not disturb.
    pure function rolling_integral(grid, state) result(rolling)
       !> The grid
       type(ehl_grid_t), intent(in) :: grid
@@ -198,8 +198,8 @@ contains
       end if
    end function mean_place
 
-   !> Integral of viscosity over film from each node to the next: exact where its logarithm is linear between both. Behind the end of
-   !> the film there is none.
+   !> Integral of viscosity over film from each node to the next, as far as the film is full: exact where its logarithm is linear
+   !> between both. Behind the end of the film there is none.
    pure function cell_shear(grid, state) result(shear)
       !> The grid
       type(ehl_grid_t), intent(in) :: grid
@@ -208,18 +208,49 @@ contains
       !> The integrals [-]
       real(wp) :: shear(grid%size - 1)
 
-      ! Logarithm of film over viscosity; its derivatives, not used [-]
-      real(wp) :: fluidity(grid%size), slopes(2)
+      ! Logarithm of film over viscosity; its derivatives, not used; part of a node's cell with a full film [-]
+      real(wp) :: fluidity(grid%size), slopes(2), filled(grid%size)
       integer :: i
 
       fluidity = log(state%fields%film) - state%fields%log_viscosity
+      filled = filled_part(grid, state)
       shear = 0.0_wp
       do i = 1, grid%size - 1
-         if (.not. state%is_full(i)) cycle
+         if (filled(i) + filled(i + 1) <= 0.0_wp) cycle
          call mean_fluidity(fluidity(i), fluidity(i + 1), shear(i), slopes)
-         shear(i) = shear(i)*grid%step(i)
+         shear(i) = shear(i)*grid%step(i)*0.5_wp*(filled(i) + filled(i + 1))
       end do
    end function cell_shear
+
+   !> Part of each node's cell in which the film is full.
+   !>
+   !> At a full node all of it. At the end of the film the flow is that of the place where it ends, and the gap between two nodes is
+   !> nearly straight, so that the end lies as far inside the cell of the first ruptured node as the pressure of its neighbour drives
+   !> of what more the cell could carry off. The part is one as the node becomes full and zero as its neighbour ruptures, so that
+   !> nothing jumps as the end passes a node.
+   pure function filled_part(grid, state) result(filled)
+      !> The grid
+      type(ehl_grid_t), intent(in) :: grid
+      !> The solution
+      type(ehl_state_t), intent(in) :: state
+      !> The parts [-]
+      real(wp) :: filled(grid%size)
+
+      ! Flow that the neighbours' pressure drives into a cell [-]
+      real(wp) :: driven
+      integer :: i
+
+      filled = 0.0_wp
+      filled(1) = merge(1.0_wp, 0.0_wp, state%is_full(2))
+      do i = 2, grid%size - 1
+         if (state%is_full(i)) then
+            filled(i) = 1.0_wp
+         else
+            driven = max(state%fields%driven(i - 1), 0.0_wp) + max(-state%fields%driven(i), 0.0_wp)
+            if (driven > 0.0_wp) filled(i) = driven/(driven + max(state%fields%excess(i), 0.0_wp))
+         end if
+      end do
+   end function filled_part
 
    !> Value of the parabola through three points.
    pure function parabola_value(x, y, place) result(value)

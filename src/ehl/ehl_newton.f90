@@ -75,7 +75,7 @@ contains
          call lift_pressure(problem, grid, state)
          call evaluate_film(problem, grid, state%total, state%level, state%fields)
          call evaluate_flow(problem, grid, state%fields, storage)
-         call choose_full_nodes(problem, grid, state, present(storage), iteration <= leaps, has_same_nodes)
+         call choose_full_nodes(problem, grid, state, iteration <= leaps, has_same_nodes, storage)
          is_new = .not. (has_same_nodes .and. state%unknowns > 0 .and. before < small_change)
          if (is_new) call factorise(grid, state, storage)
          if (state%unknowns == 0) return
@@ -120,29 +120,36 @@ contains
    end subroutine lift_pressure
 
    !> Nodes with a full film: where the flow is in balance rather than the pressure zero.
-   pure subroutine choose_full_nodes(problem, grid, state, is_transient, may_leap, has_same_nodes)
+   !>
+   !> A pressure weighs as much as the excess that it makes at its own node: what it drives to both neighbours, and in a short step
+   !> what its own deformation stores. Without the latter the rest that an iteration leaves, over the length of the step, would count
+   !> for more than the pressure, and nodes under full pressure would be taken for ruptured.
+   pure subroutine choose_full_nodes(problem, grid, state, may_leap, has_same_nodes, storage)
       !> The problem
       type(ehl_problem_t), intent(in) :: problem
       !> The grid
       type(ehl_grid_t), intent(in) :: grid
       !> State; its full nodes are chosen
       type(ehl_state_t), intent(inout) :: state
-      !> Does the contact change? Then its film may rupture in the inlet, too, and flows are not equal at all places
-      logical, intent(in) :: is_transient
       !> May the film of a steady contact grow by several nodes?
       logical, intent(in) :: may_leap
       !> Are they those of the factors?
       logical, intent(out) :: has_same_nodes
+      !> What was stored before; absent: nothing changes with time. Present: the film may rupture in the inlet, too, and flows are
+      !> not equal at all places
+      type(storage_t), intent(in), optional :: storage
 
-      ! Conductance to both neighbours, without thickening [-]
+      ! Conductance to both neighbours, without thickening, and storage by a node's own pressure [-]
       real(wp) :: conductance
-      logical :: is_full(grid%size)
+      logical :: is_full(grid%size), is_transient
       integer :: i, last
 
+      is_transient = present(storage)
       is_full = .false.
       last = 2
       do i = 2, grid%size - 1
          conductance = max(state%fields%film(i), 1.0e-9_wp)**3/problem%speed*(1.0_wp/grid%step(i - 1) + 1.0_wp/grid%step(i))
+         if (is_transient) conductance = conductance + grid%weight(i)*max(grid%kernel(i, i), 0.0_wp)/storage%duration
          is_full(i) = (grid%x(i) <= 0.0_wp .and. .not. is_transient) &
             & .or. state%fields%pressure(i)*conductance >= state%fields%excess(i)
          if (is_full(i)) last = i

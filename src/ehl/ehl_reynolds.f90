@@ -6,9 +6,10 @@
 !>
 !>     (mean(1/H^2) - mean(1/eta) (P_(i+1) - P_i)/(lambda step))/mean(1/(rho H^3))
 !>
-!> which is Reynolds' equation integrated from node to node with a constant flow. The mean of 1/eta is exact where ln(eta) is linear
-!> between the nodes; the other two are by Simpson's rule, the middle by the quadratic through three nodes. What flows in and out of the cell of a node is in balance,
-!> where the film is full; where it has ruptured its pressure is zero.
+!> which is Reynolds' equation integrated from node to node with a constant flow. The mean of 1/eta is exact where ln(eta) is
+!> linear between the nodes; the other two are by Simpson's rule, the middle by the quadratic through three nodes. Nodes that move
+!> take along what is at the middle. What flows in and out of the cell of a node is in balance, where the film is full; where it has
+!> ruptured its pressure is zero.
 module camroller_ehl_reynolds
    use camroller_kinds, only : wp
    use camroller_ehl_grid, only : ehl_grid_t, deformation
@@ -28,8 +29,8 @@ module camroller_ehl_reynolds
       real(wp), allocatable :: density(:), log_viscosity(:)
       !> Slopes of density and ln(viscosity) with the film's pressure, and of ln(viscosity) with the film [-]
       real(wp), allocatable :: density_slope(:), viscosity_slope(:), thinning_slope(:)
-      !> Mass flow between neighbours [-]
-      real(wp), allocatable :: flow(:)
+      !> Mass flow between neighbours, and the part of it that the drop of pressure drives [-]
+      real(wp), allocatable :: flow(:), driven(:)
       !> Derivatives of the flow between i and i + 1 with respect to pressure of the film, then film, at i - 1, i, i + 1 [-]
       real(wp), allocatable :: by_pressure(:, :), by_film(:, :)
       !> Excess of what leaves a cell over what enters it, of inner nodes [-]
@@ -62,8 +63,8 @@ contains
 
       allocate (fields%film(nodes), fields%pressure(nodes), fields%asperity(nodes), fields%asperity_slope(nodes), &
          & fields%density(nodes), fields%log_viscosity(nodes), fields%density_slope(nodes), fields%viscosity_slope(nodes), &
-         & fields%thinning_slope(nodes), fields%flow(nodes - 1), fields%by_pressure(3, nodes - 1), fields%by_film(3, nodes - 1), &
-         & fields%excess(nodes), source=0.0_wp)
+         & fields%thinning_slope(nodes), fields%flow(nodes - 1), fields%driven(nodes - 1), fields%by_pressure(3, nodes - 1), &
+         & fields%by_film(3, nodes - 1), fields%excess(nodes), source=0.0_wp)
    end subroutine new_ehl_fields
 
    !> Film, share of the asperities, and the state of the oil.
@@ -140,13 +141,13 @@ contains
       real(wp) :: resistance, drag, resistance_slopes(3, 2), drag_slopes(3, 2)
       ! Flow that the drop of pressure drives times the resistance, its derivatives over pressure and film at both nodes [-]
       real(wp) :: driven, by_pressure(2), by_film(2)
-      ! Drop of pressure; share of the mean speed with which the oil passes between the nodes [-]
-      real(wp) :: drop, carried
-      integer :: i, j, k
+      ! Drop of pressure; speed at which the middle between the nodes moves, over the mean speed of the surfaces [-]
+      real(wp) :: drop, moved
+      integer :: i, j, k, near(3)
 
       do i = 1, grid%size - 1
-         carried = 1.0_wp
-         if (present(storage)) carried = 1.0_wp - 0.5_wp*(grid%x(i) + grid%x(i + 1))*storage%growth/storage%duration
+         moved = 0.0_wp
+         if (present(storage)) moved = 0.5_wp*(grid%x(i) + grid%x(i + 1))*storage%growth/storage%duration
          call mean_fluidity(fields%log_viscosity(i), fields%log_viscosity(i + 1), fluidity, fluidity_slopes)
          call mean_resistance(problem, grid%face(:, i), fields, i, resistance, drag, resistance_slopes, drag_slopes)
          drop = fields%pressure(i + 1) - fields%pressure(i)
@@ -154,15 +155,19 @@ contains
          by_pressure = (drop*fluidity_slopes*fields%viscosity_slope(i:i + 1) + fluidity*[-1.0_wp, 1.0_wp]) &
             & /(problem%speed*grid%step(i))
          by_film = drop*fluidity_slopes*fields%thinning_slope(i:i + 1)/(problem%speed*grid%step(i))
-         fields%flow(i) = (carried*drag - driven)/resistance
+         fields%driven(i) = -driven/resistance
+         fields%flow(i) = drag/resistance + fields%driven(i)
          do k = 1, 3
             j = max(i - 2 + k, 1)
-            fields%by_pressure(k, i) = (carried*drag_slopes(k, 1) - fields%flow(i)*resistance_slopes(k, 1)) &
-               & /resistance*fields%density_slope(j)
-            fields%by_film(k, i) = (carried*drag_slopes(k, 2) - fields%flow(i)*resistance_slopes(k, 2))/resistance
+            fields%by_pressure(k, i) = ((drag_slopes(k, 1) - fields%flow(i)*resistance_slopes(k, 1))/resistance &
+               & - moved*grid%face(k, i)*fields%film(j))*fields%density_slope(j)
+            fields%by_film(k, i) = (drag_slopes(k, 2) - fields%flow(i)*resistance_slopes(k, 2))/resistance &
+               & - moved*grid%face(k, i)*fields%density(j)
          end do
          fields%by_pressure(2:, i) = fields%by_pressure(2:, i) - by_pressure/resistance
          fields%by_film(2:, i) = fields%by_film(2:, i) - by_film/resistance
+         near = [max(i - 1, 1), i, i + 1]
+         fields%flow(i) = fields%flow(i) - moved*dot_product(grid%face(:, i), fields%density(near)*fields%film(near))
       end do
       fields%excess(2:grid%size - 1) = fields%flow(2:) - fields%flow(:grid%size - 2)
       if (.not. present(storage)) return

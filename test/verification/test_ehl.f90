@@ -9,7 +9,7 @@ module test_ehl
    use camroller_ehl_reynolds, only : ehl_fields_t, storage_t, new_ehl_fields, evaluate_film, evaluate_flow
    use camroller_ehl_newton, only : ehl_state_t, solve_newton
    use camroller_ehl_solution, only : ehl_options_t, solve_contact_film, solve_on_grids, solve_on_grid
-   use camroller_ehl_films, only : ehl_films_t
+   use camroller_ehl_films, only : ehl_films_t, get_films
    use closeness, only : check_close, check_scaled, expect_success, expect_error
    use labelled_table, only : read_labelled_table, label_length
    use ehl_contacts, only : contact_of_groups, contact_of_row
@@ -35,6 +35,7 @@ contains
          new_unittest("an oil that cannot be compressed has the thicker film", test_incompressible), &
          new_unittest("load and mass flow are kept to round-off", test_conservation), &
          new_unittest("film, moment and place of the spike converge; the error stated is not too small", test_convergence), &
+         new_unittest("shear does not jump as the end of the film passes a node", test_end), &
          new_unittest("every corner of the range is solved from nothing", test_range), &
          new_unittest("beyond the range there is an error and no number", test_beyond), &
          new_unittest("where two grids differ by too much there is an error", test_difference) &
@@ -44,19 +45,20 @@ contains
    subroutine test_flat(error)
       type(error_type), allocatable, intent(out) :: error
       type(ehl_grid_t) :: grid
-      real(wp) :: gap(513), off(2)
-      logical :: inside(513)
+      real(wp) :: gap(2049), off(2)
+      logical :: inside(2049)
       integer :: i, nodes
 
       do i = 1, 2
-         nodes = 128*2**i + 1
+         nodes = 2**(5 + 3*i) + 1
          call new_ehl_grid(grid, nodes, 4.0_wp, 2.0_wp, 0.05_wp)
          gap(:nodes) = deformation(grid, sqrt(max((1.0_wp - grid%x)*(1.0_wp + grid%x), 0.0_wp))) + 0.5_wp*grid%x**2
          inside(:nodes) = abs(grid%x) < 0.9_wp
          off(i) = (maxval(gap(:nodes), inside(:nodes)) - minval(gap(:nodes), inside(:nodes)))
       end do
-      ! The root at the edges lies between two nodes, which leaves a part of the order 1.5 in front of that of the order 2
-      call check(error, off(1) < 2.0e-4_wp .and. off(2) < off(1)/2.5_wp, "gap of a dry contact is not flat")
+      ! The root at the edges lies between two nodes, which leaves a part of the order 1.5 in front of that of the order 2; how large
+      ! it is depends on where between them, which is elsewhere on each grid, so that the order shows over three doublings, not one
+      call check(error, off(1) < 1.0e-4_wp .and. off(2) < off(1)/2.5_wp**3, "gap of a dry contact is not flat")
    end subroutine test_flat
 
    subroutine test_slopes(error)
@@ -373,6 +375,7 @@ contains
             call expect_success(error, failure)
             if (allocated(error)) return
             off = max(abs(films(i)%central/best%central - 1.0_wp), abs(films(i)%minimum/best%minimum - 1.0_wp))
+            ! Half of what two grids differ by is stated; where a film converges with the first order only, all of it is left
             call check(error, off <= 2.0_wp*films(i)%error + best%error, "error larger than stated")
             if (allocated(error)) return
             ! Second order or better; the smallest film of a heavy contact lies in a dip a few nodes wide
@@ -385,6 +388,9 @@ contains
             call check(error, abs(films(i)%second_moment/best%second_moment - 1.0_wp) < 0.04_wp*4.0_wp**(1 - i), "second moment")
             if (allocated(error)) return
          end do
+         call check(error, films(2)%error < 0.4_wp*films(1)%error .and. films(3)%error < 0.4_wp*films(2)%error, &
+            & "order of the error")
+         if (allocated(error)) return
          call check_scaled(error, films(3)%end_place, best%end_place, sqrt(8.0_wp*contact%line_load*contact%radius &
             & /(pi*contact%modulus)), 0.05_wp*max(1.0_wp, 30.0_wp/10.0_wp**(k - 1)), "end of the film")
          if (allocated(error)) return
@@ -394,6 +400,45 @@ contains
          if (allocated(error)) return
       end do
    end subroutine test_convergence
+
+   !> A roller without inertia slips as the shear asks for: with a jump there are speeds at which it could not slip at all.
+   subroutine test_end(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(ehl_contact_t) :: contact
+      type(ehl_problem_t) :: problem
+      type(ehl_grid_t) :: grid
+      type(ehl_state_t) :: state
+      type(ehl_films_t) :: films
+      real(wp) :: before, largest
+      integer :: i, full, passed, status
+      logical :: converged
+
+      contact = contact_of_groups(1.0e-5_wp, 1.0e-11_wp, 4500.0_wp)
+      call new_ehl_problem(problem, contact, status)
+      call solve_on_grid(problem, ehl_options_t(), 65, grid, state, films, converged)
+      call check(error, converged, "no solution")
+      if (allocated(error)) return
+      full = count(state%is_full)
+      passed = 0
+      largest = 0.0_wp
+      before = films%shear_slope
+      do i = 1, 500
+         contact%entrainment_speed = contact%entrainment_speed*1.001_wp
+         call new_ehl_problem(problem, contact, status)
+         call solve_newton(problem, grid, state, 1.0e-10_wp, 25, converged)
+         call check(error, converged, "lost")
+         if (allocated(error)) return
+         call get_films(problem, grid, state, films)
+         passed = passed + abs(count(state%is_full) - full)
+         full = count(state%is_full)
+         largest = max(largest, abs(films%shear_slope/before - 1.0_wp))
+         before = films%shear_slope
+      end do
+      call check(error, passed > 0, "the end passes no node")
+      if (allocated(error)) return
+      ! The film grows with the speed to the power 0.7; a cell of the outlet has a hundredth of the shear
+      call check(error, largest < 2.0e-3_wp, "shear jumps")
+   end subroutine test_end
 
    subroutine test_range(error)
       type(error_type), allocatable, intent(out) :: error
