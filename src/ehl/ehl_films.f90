@@ -77,8 +77,9 @@ contains
          i = min(max(minloc(abs(x), dim=1), 2), n - 1)
          films%central = problem%film_scale*parabola_value(x(i - 1:i + 1), fields%film(i - 1:i + 1), 0.0_wp)
          i = min(max(minloc(fields%film, dim=1), 2), n - 1)
-         call vertex(x(i - 1:i + 1), fields%film(i - 1:i + 1), place, value)
-         films%minimum = problem%film_scale*value
+         ! By the logarithm, so that a dip narrower than the nodes has a film above zero still
+         call vertex(x(i - 1:i + 1), log(fields%film(i - 1:i + 1)), place, value)
+         films%minimum = problem%film_scale*exp(value)
          films%minimum_place = problem%length_scale*place
          i = min(max(maxloc(state%total, dim=1), 2), n - 1)
          films%peak = problem%pressure_scale*state%total(i)
@@ -224,10 +225,10 @@ contains
 
    !> Part of each node's cell in which the film is full.
    !>
-   !> At a full node all of it. At the end of the film the flow is that of the place where it ends, and the gap between two nodes is
-   !> nearly straight, so that the end lies as far inside the cell of the first ruptured node as the pressure of its neighbour drives
-   !> of what more the cell could carry off. The part is one as the node becomes full and zero as its neighbour ruptures, so that
-   !> nothing jumps as the end passes a node.
+   !> At a full node all of it. At the end of the film the flow is that of the place where it ends, and the gap between two nodes
+   !> is nearly straight, so that the end lies as far inside the cell of the first ruptured node as the pressure of its neighbour
+   !> drives of what more the cell could carry off. The part is one as the node becomes full and zero as its neighbour ruptures, so
+   !> that nothing jumps as the end passes a node.
    pure function filled_part(grid, state) result(filled)
       !> The grid
       type(ehl_grid_t), intent(in) :: grid

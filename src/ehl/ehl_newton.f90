@@ -121,9 +121,9 @@ contains
 
    !> Nodes with a full film: where the flow is in balance rather than the pressure zero.
    !>
-   !> A pressure weighs as much as the excess that it makes at its own node: what it drives to both neighbours, and in a short step
-   !> what its own deformation stores. Without the latter the rest that an iteration leaves, over the length of the step, would count
-   !> for more than the pressure, and nodes under full pressure would be taken for ruptured.
+   !> A pressure weighs as much as the excess that it makes at its own node: what it drives to both neighbours, and in a short
+   !> step what its own deformation stores. Without the latter the rest that an iteration leaves, over the length of the step,
+   !> would count for more than the pressure, and nodes under full pressure would be taken for ruptured.
    pure subroutine choose_full_nodes(problem, grid, state, may_leap, has_same_nodes, storage)
       !> The problem
       type(ehl_problem_t), intent(in) :: problem

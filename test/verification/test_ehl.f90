@@ -56,8 +56,8 @@ contains
          inside(:nodes) = abs(grid%x) < 0.9_wp
          off(i) = (maxval(gap(:nodes), inside(:nodes)) - minval(gap(:nodes), inside(:nodes)))
       end do
-      ! The root at the edges lies between two nodes, which leaves a part of the order 1.5 in front of that of the order 2; how large
-      ! it is depends on where between them, which is elsewhere on each grid, so that the order shows over three doublings, not one
+      ! The root at the edges lies between two nodes, elsewhere on each grid, which leaves a part of the order 1.5 that differs
+      ! from grid to grid, so that the order shows over three doublings
       call check(error, off(1) < 1.0e-4_wp .and. off(2) < off(1)/2.5_wp**3, "gap of a dry contact is not flat")
    end subroutine test_flat
 
@@ -378,12 +378,9 @@ contains
             ! Half of what two grids differ by is stated; where a film converges with the first order only, all of it is left
             call check(error, off <= 2.0_wp*films(i)%error + best%error, "error larger than stated")
             if (allocated(error)) return
-            ! Second order or better; the smallest film of a heavy contact lies in a dip a few nodes wide
-            call check(error, abs(films(i)%central/best%central - 1.0_wp) < 2.0e-3_wp*4.0_wp**(1 - i), "central film")
-            if (allocated(error)) return
-            call check(error, abs(films(i)%minimum/best%minimum - 1.0_wp) < 2.0e-3_wp*2.0_wp**(1 - i), "smallest film")
-            if (allocated(error)) return
-            call check(error, abs(films(i)%rolling/best%rolling - 1.0_wp) < 4.0e-3_wp*2.0_wp**(1 - i), "rolling resistance")
+            ! Second order or better; a heavy contact's smallest film lies in a dip a few nodes wide
+            call check(error, all(abs([films(i)%central/best%central, films(i)%minimum/best%minimum, films(i)%rolling/ &
+               & best%rolling] - 1.0_wp) < [2.0_wp*4.0_wp**(1 - i), 2.0_wp**(2 - i), 2.0_wp**(3 - i)]*1.0e-3_wp), "films")
             if (allocated(error)) return
             call check(error, abs(films(i)%second_moment/best%second_moment - 1.0_wp) < 0.04_wp*4.0_wp**(1 - i), "second moment")
             if (allocated(error)) return
@@ -413,16 +410,16 @@ contains
       integer :: i, full, passed, status
       logical :: converged
 
-      contact = contact_of_groups(1.0e-5_wp, 1.0e-11_wp, 4500.0_wp)
+      contact = contact_of_groups(5.0e-7_wp, 1.0e-11_wp, 4500.0_wp)
       call new_ehl_problem(problem, contact, status)
       call solve_on_grid(problem, ehl_options_t(), 65, grid, state, films, converged)
       call check(error, converged, "no solution")
       if (allocated(error)) return
-      full = count(state%is_full)
       passed = 0
       largest = 0.0_wp
-      before = films%shear_slope
-      do i = 1, 500
+      do i = 1, 1000
+         full = count(state%is_full)
+         before = films%shear_slope
          contact%entrainment_speed = contact%entrainment_speed*1.001_wp
          call new_ehl_problem(problem, contact, status)
          call solve_newton(problem, grid, state, 1.0e-10_wp, 25, converged)
@@ -430,14 +427,10 @@ contains
          if (allocated(error)) return
          call get_films(problem, grid, state, films)
          passed = passed + abs(count(state%is_full) - full)
-         full = count(state%is_full)
          largest = max(largest, abs(films%shear_slope/before - 1.0_wp))
-         before = films%shear_slope
       end do
-      call check(error, passed > 0, "the end passes no node")
-      if (allocated(error)) return
-      ! The film grows with the speed to the power 0.7; a cell of the outlet has a hundredth of the shear
-      call check(error, largest < 2.0e-3_wp, "shear jumps")
+      ! The film grows with the speed to the power 0.7; a cell of the outlet has 3 % of the shear
+      call check(error, passed > 0 .and. largest < 2.0e-3_wp, "shear jumps, or the end passes no node")
    end subroutine test_end
 
    subroutine test_range(error)
