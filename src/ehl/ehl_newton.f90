@@ -34,8 +34,9 @@ module camroller_ehl_newton
       integer :: iterations = 0, factorisations = 0
    end type ehl_state_t
 
-   !> Part of itself that the film may lose in one step [-]
-   real(wp), parameter :: largest_loss = 0.7_wp
+   !> Part of itself that the film may lose in one step; change of a pressure in one step, over the peak of the dry contact, without
+   !> which a spike between nodes runs to and fro: viscosity is its exponential [-]
+   real(wp), parameter :: largest_loss = 0.7_wp, largest_change = 1.0_wp
    !> Iterations in which the end of the film may move by more than one node
    integer, parameter :: leaps = 3
    !> Change below which the factors are kept, and the contraction that they must then bring [-]
@@ -290,7 +291,7 @@ contains
       level_change = side(n + 1)
    end subroutine find_change
 
-   !> Part of a change that leaves the film positive, and the size of the whole change.
+   !> Part of a change that leaves the film positive and the pressure of its size, and the size of the whole change.
    pure subroutine choose_part(grid, state, change, level_change, part, size_of_change)
       !> The grid
       type(ehl_grid_t), intent(in) :: grid
@@ -310,7 +311,8 @@ contains
       part = 1.0_wp
       if (.not. all(abs(change) < 1.0e100_wp) .or. .not. abs(level_change) < 1.0e100_wp) return
       relative = (deformation(grid, change) + level_change)/max(state%fields%film, 1.0e-12_wp)
-      part = min(1.0_wp, largest_loss/max(-minval(relative), largest_loss))
+      part = min(1.0_wp, largest_loss/max(-minval(relative), largest_loss), &
+         & largest_change/max(maxval(abs(change)), largest_change))
       size_of_change = max(maxval(abs(change)), maxval(abs(relative)))
    end subroutine choose_part
 
