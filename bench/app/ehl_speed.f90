@@ -37,8 +37,7 @@ contains
       call print_circumstances("Steady numerical film of a line contact, both of two nested grids; medians of repeated solutions")
       write (output_unit, "(3a)") "# LAPACK:   OpenBLAS, OPENBLAS_NUM_THREADS=", trim(threads), &
          & " (times are of the whole process, so more threads than one would show as more time)"
-      write (output_unit, "(a)") "# error: film against 2049 nodes; stated: what the solver says of it, half the "// &
-         & "difference of both grids"
+      write (output_unit, "(a)") "# error: film against 2049 nodes; stated: what the solver says of it"
       write (output_unit, "(a)") "# cold: from nothing; warm: load and speed changed by 1 %; counts: iterations and factorisations"
       write (output_unit, "(a8, a8, 4a12, 4a8)") "# case", "nodes", "error [%]", "stated [%]", "cold [ms]", "warm [ms]", "cold_i", &
          & "cold_f", "warm_i", "warm_f"

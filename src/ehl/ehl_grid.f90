@@ -4,7 +4,7 @@
 !> in half widths b, film in b^2/R, pressure in the peak pressure of the dry contact: then the gap of two parabolas is X^2/2 and
 !> the deformation `-(1/pi) int ln|X - X'| P(X') dX'`.
 !>
-!> Nodes lie at equal steps of `asinh((X + 1)/d) + asinh((X - 1)/d) + asinh(X)/2`: logarithmic on either side of both edges of the
+!> Nodes lie at equal steps of `asinh((X + 1)/d) + asinh((X - 1)/d) + 2 asinh(X)`: logarithmic on either side of both edges of the
 !> contact, so that a zone of width d there has as many nodes as the whole middle, and nested when their number is halved. The
 !> pressure is piecewise linear, its deformation exact: second divided differences of `X^2/2 (ln|X| - 3/2)`.
 module camroller_ehl_grid

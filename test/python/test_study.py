@@ -101,8 +101,9 @@ def test_films_over_nodes_tables_and_steps(camroller, tmp_path):
             rows = numpy.array(words(contacts["contact"])) == name
             assert list(contacts["nodes"][rows]) == [33, 65, 129, 257, 513]
             errors = contacts["error_film_min"][rows]
-            # second order: each doubling takes three quarters of the error, the reference's own a part of the last
-            assert (errors[1:] < errors[:-1] / 2.5).all() and errors[-1] < 1e-3
+            # second order, with a factor that depends on where between two nodes the film ends and is smallest: nine of ten
+            # contacts all over the range of solutions are below 7.9 to 10.4 on these grids; twice that
+            assert (errors * contacts["nodes"][rows] ** 2 < 20).all()
         assert words(tables["film"]) == ["dowson_higginson", "numerical", "numerical"]
         errors = tables["error_film_min"][:]
         assert errors[0] > errors[1] > errors[2]

@@ -18,6 +18,10 @@ module test_ehl
 
    public :: collect_ehl
 
+   !> Error of a film times the square of the number of nodes, a factor that depends on where between two nodes the film ends and is
+   !> smallest. Of 183 contacts of the range nine of ten are below 7.9 to 10.4 at 65 to 513 nodes; twice that [-]
+   real(wp), parameter :: largest_error = 20.0_wp
+
 contains
 
    subroutine collect_ehl(testsuite)
@@ -57,7 +61,7 @@ contains
          off(i) = (maxval(gap(:nodes), inside(:nodes)) - minval(gap(:nodes), inside(:nodes)))
       end do
       ! The root at the edges lies between two nodes, elsewhere on each grid, which leaves a part of the order 1.5 that differs
-      ! from grid to grid, so that the order shows over three doublings
+      ! from grid to grid, so that the order shows over three doublings: 2.83 each
       call check(error, off(1) < 1.0e-4_wp .and. off(2) < off(1)/2.5_wp**3, "gap of a dry contact is not flat")
    end subroutine test_flat
 
@@ -375,12 +379,9 @@ contains
             call expect_success(error, failure)
             if (allocated(error)) return
             off = max(abs(films(i)%central/best%central - 1.0_wp), abs(films(i)%minimum/best%minimum - 1.0_wp))
-            ! Half of what two grids differ by is stated; where a film converges with the first order only, all of it is left
-            call check(error, off <= 2.0_wp*films(i)%error + best%error, "error larger than stated")
+            call check(error, off <= films(i)%error + best%error, "error larger than stated")
             if (allocated(error)) return
-            ! Second order or better; a heavy contact's smallest film lies in a dip a few nodes wide
-            call check(error, all(abs([films(i)%central/best%central, films(i)%minimum/best%minimum, films(i)%rolling/ &
-               & best%rolling] - 1.0_wp) < [2.0_wp*4.0_wp**(1 - i), 2.0_wp**(2 - i), 2.0_wp**(3 - i)]*1.0e-3_wp), "films")
+            call check(error, max(off, abs(films(i)%rolling/best%rolling - 1.0_wp)) < largest_error/options%nodes**2, "films")
             if (allocated(error)) return
             call check(error, abs(films(i)%second_moment/best%second_moment - 1.0_wp) < 0.04_wp*4.0_wp**(1 - i), "second moment")
             if (allocated(error)) return
@@ -391,9 +392,8 @@ contains
          call check_scaled(error, films(3)%end_place, best%end_place, sqrt(8.0_wp*contact%line_load*contact%radius &
             & /(pi*contact%modulus)), 0.05_wp*max(1.0_wp, 30.0_wp/10.0_wp**(k - 1)), "end of the film")
          if (allocated(error)) return
-         ! Steps where the spike stands are 0.02 half widths at 257 nodes
          if (k == 2) call check_scaled(error, films(3)%peak_place, best%peak_place, sqrt(8.0_wp*contact%line_load*contact%radius &
-            & /(pi*contact%modulus)), 0.05_wp, "place of the spike")
+            & /(pi*contact%modulus)), 0.05_wp, "place of the spike: steps there are 0.02 half widths")
          if (allocated(error)) return
       end do
    end subroutine test_convergence

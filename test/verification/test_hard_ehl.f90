@@ -106,7 +106,7 @@ contains
 
       list = ""
       do i = 1, size(outcomes)
-         call run_law(outcomes(i)%deck, trouble)
+         call run_law(outcomes(i), trouble)
          if (trouble == "" .and. outcomes(i)%may_run) cycle
          call compare(outcomes(i)%deck, outcomes(i)%law, trouble, list)
       end do
@@ -125,15 +125,15 @@ contains
    end subroutine compare
 
    !> The numerical film as a law: two methods with two tolerances agree on a cycle that passes every check.
-   subroutine run_law(name, trouble)
-      character(len=*), intent(in) :: name
+   subroutine run_law(outcome, trouble)
+      type(outcome_t), intent(in) :: outcome
       character(len=:), allocatable, intent(out) :: trouble
       type(case_t) :: case
       type(model_t), allocatable :: models(:)
       type(error_t), allocatable :: failure
       type(sample_t) :: reference, sample
 
-      call get_case(name, case, failure)
+      call get_case(outcome%deck, case, failure)
       if (.not. allocated(failure)) call build_models(case, models, failure)
       if (allocated(failure)) then
          trouble = failure%message
@@ -142,7 +142,8 @@ contains
       call take_sample(models(1), case%numerics, "rodas5p", tolerances(1), reference)
       trouble = reference%trouble
       if (trouble /= "") return
-      call take_sample(models(1), case%numerics, "hermite", tolerances(2), sample)
+      ! Where a turn leaves nearly all of a disturbance, a start that closes to the larger tolerance may be far from the cycle's
+      call take_sample(models(1), case%numerics, "hermite", tolerances(merge(1, 2, outcome%may_run)), sample)
       trouble = sample%trouble
       if (trouble == "") trouble = compare_samples(sample, reference)
    end subroutine run_law
