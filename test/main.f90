@@ -43,6 +43,7 @@ program main
    use test_train, only : collect_train
    use test_traction, only : collect_traction
    use test_load_share, only : collect_load_share
+   use test_fold, only : collect_fold
    use test_film, only : collect_film
    use test_ehl, only : collect_ehl
    use test_ehl_rough, only : collect_ehl_rough
@@ -156,6 +157,7 @@ contains
          new_testsuite("train", collect_train), &
          new_testsuite("traction", collect_traction), &
          new_testsuite("load_share", collect_load_share), &
+         new_testsuite("fold", collect_fold), &
          new_testsuite("film", collect_film), &
          new_testsuite("lubricant", collect_lubricant), &
          new_testsuite("hertz", collect_hertz), &

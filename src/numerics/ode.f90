@@ -51,7 +51,7 @@ contains
       type(trajectory_t), intent(inout) :: trajectory
       !> Work done, added to what they hold
       type(counters_t), intent(inout) :: counters
-      !> Convergence error where a step would vanish or the number of steps is used up
+      !> Convergence error where a step would vanish or the number of steps or evaluations is used up
       type(error_t), allocatable, intent(out) :: error
 
       ! Rate at the present point [state/time]
@@ -469,6 +469,8 @@ contains
          call raise(error, kind_convergence, "a fixed step failed at "//trim(problem%name_time(time)))
       else if (counters%accepted + counters%rejected > options%max_steps) then
          call raise(error, kind_convergence, "the number of steps is used up at "//trim(problem%name_time(time)))
+      else if (counters%evaluations > options%max_evaluations) then
+         call raise(error, kind_convergence, "the number of evaluations is used up at "//trim(problem%name_time(time)))
       else if (step <= 16.0_wp*spacing(abs(time))) then
          call raise(error, kind_convergence, "the step has become too small at "//trim(problem%name_time(time)))
       end if

@@ -49,8 +49,8 @@ module camroller_ode_method
       logical :: is_fixed = .false.
       !> Largest step [time]
       real(wp) :: max_step = huge(1.0_wp)
-      !> Steps after which the integration is given up
-      integer :: max_steps = 1000000
+      !> Steps and evaluations after which the integration is given up
+      integer :: max_steps = 1000000, max_evaluations = huge(1)
    end type options_t
 
    abstract interface

@@ -52,6 +52,8 @@ module camroller_load_share
    !> Part of the load below which the load of the film is a small difference of large ones, and the film ratio has to be as much
    !> more accurate [-]
    real(wp), parameter :: ample_film_part = 0.1_wp
+   !> Part of the load below which that difference is mostly rounding, and the film ratio tells the load of the film better [-]
+   real(wp), parameter :: scant_film_part = 1.0e-4_wp
    !> Iterations: bisection from the widest bracket would need about 60
    integer, parameter :: max_iterations = 100
 
@@ -75,8 +77,10 @@ contains
       real(wp), intent(out), optional :: change
 
       type(film_shape_t) :: shape
-      ! Film ratio; asperity load over E' R L, its change with ln H; change that may be the last, the last change [-]
-      real(wp) :: film_ratio, asperity_load, stiffness, last_allowed, last
+      ! Film ratio; asperity load and film load over E' R L, change of the first with ln H [-]
+      real(wp) :: film_ratio, asperity_load, film_load, stiffness
+      ! Change that may be the last, the last change [-]
+      real(wp) :: last_allowed, last
 
       shape = film_shape_t(0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp)
       if (line%groups%speed > 0.0_wp) call film_at_load(line, load, shape)
@@ -85,9 +89,9 @@ contains
       if (present(coarse)) last_allowed = max(tolerance, coarse)
       last = 0.0_wp
       if (present(asperity) .and. film_ratio < largest_film_ratio) then
-         call share_with_asperities(line, load, asperity%load_factor*area, last_allowed, film_ratio, asperity_load, stiffness, &
-            & last, shape)
-         call complete_share(line, load, asperity, film_ratio, asperity_load, stiffness, shape, share)
+         call share_with_asperities(line, load, asperity%load_factor*area, last_allowed, film_ratio, asperity_load, film_load, &
+            & stiffness, last, shape)
+         call complete_share(line, asperity, film_ratio, asperity_load, film_load, stiffness, shape, share)
       else
          call film_alone(shape, load, share)
       end if
@@ -117,8 +121,8 @@ contains
       real(wp), intent(in), optional :: coarse
 
       type(film_shape_t) :: shape
-      ! F_5/2, its derivative, film load over E' R L and its derivative over ln H; logarithms of the films [-]
-      real(wp) :: value, slope, film_load, film_load_slope, logs(2)
+      ! F_5/2, its derivative, film load over E' R L and its derivative over ln H; asperity load; logarithms of the films [-]
+      real(wp) :: value, slope, film_load, film_load_slope, asperity_load, logs(2)
 
       change = 0.0_wp
       film_load = 0.0_wp
@@ -137,8 +141,9 @@ contains
          return
       end if
       shape%central = exp(logs(2))*(1.0_wp + shape%central_load_slope*film_load_slope/film_load*change)
-      call complete_share(line, load, asperity, start*(1.0_wp + change), min(load - film_load - film_load_slope*change, load), &
-         & -film_load_slope, shape, share)
+      asperity_load = min(load - film_load - film_load_slope*change, load)
+      call complete_share(line, asperity, start*(1.0_wp + change), asperity_load, load - asperity_load, -film_load_slope, shape, &
+         & share)
    end subroutine improve_share
 
    !> Load share without asperities within reach.
@@ -163,17 +168,15 @@ contains
    end subroutine film_alone
 
    !> Load share with asperities: real area and what the slopes need.
-   pure subroutine complete_share(line, load, asperity, film_ratio, asperity_load, stiffness, shape, share)
+   pure subroutine complete_share(line, asperity, film_ratio, asperity_load, film_load, stiffness, shape, share)
       !> Film over the load at the speed of the contact
       type(film_line_t), intent(in) :: line
-      !> Whole load over E' R L [-]
-      real(wp), intent(in) :: load
       !> Asperities
       type(asperity_constants_t), intent(in) :: asperity
       !> Film ratio [-]
       real(wp), intent(in) :: film_ratio
-      !> Asperity load over E' R L, and its change with ln H [-]
-      real(wp), intent(in) :: asperity_load, stiffness
+      !> Asperity load and film load over E' R L, change of the first with ln H [-]
+      real(wp), intent(in) :: asperity_load, film_load, stiffness
       !> Film there
       type(film_shape_t), intent(in) :: shape
       !> Film and load share
@@ -187,7 +190,7 @@ contains
       share%film_central = max(shape%central, share%film_min, smallest_film)
       share%asperity_load = asperity_load
       share%real_area_ratio = asperity%area_factor*area_value
-      share%film_load = load - asperity_load
+      share%film_load = film_load
       share%has_asperities = .true.
       share%has_own_central = shape%central >= max(share%film_min, smallest_film)
       share%stiffness = stiffness
@@ -243,7 +246,8 @@ contains
    end function share_change
 
    !> Film ratio at which the asperities carry what the film does not, by Newton's method on logarithms inside a bracket.
-   pure subroutine share_with_asperities(line, load, capacity, last_allowed, film_ratio, asperity_load, stiffness, change, shape)
+   pure subroutine share_with_asperities(line, load, capacity, last_allowed, film_ratio, asperity_load, film_load, stiffness, &
+      & change, shape)
       !> Film over the load at the speed of the contact
       type(film_line_t), intent(in) :: line
       !> Whole load over E' R L [-]
@@ -255,8 +259,8 @@ contains
       !> In: film ratio to start from, that with the film carrying everything for laws that take the whole load; out: film
       !> ratio [-]
       real(wp), intent(inout) :: film_ratio
-      !> Asperity load over E' R L, and its change with ln H [-]
-      real(wp), intent(out) :: asperity_load, stiffness
+      !> Asperity load and film load over E' R L, change of the first with ln H [-]
+      real(wp), intent(out) :: asperity_load, film_load, stiffness
       !> Last relative change of the film ratio [-]
       real(wp), intent(out) :: change
       !> In: film that carries everything; out: film
@@ -264,14 +268,15 @@ contains
 
       ! Bracket of the film ratio; logarithms of film ratio, films and roughness [-]
       real(wp) :: low, high, log_ratio, logs(2), log_roughness
-      ! F_5/2, d F_5/2/d H, load of the film over E' R L and its derivative over ln H [-]
-      real(wp) :: value, slope, film_load, film_load_slope
+      ! F_5/2, d F_5/2/d H, derivative of the film load over ln H [-]
+      real(wp) :: value, slope, film_load_slope
       integer :: iteration
       logical :: has_film
 
       change = 0.0_wp
       call asperity_load_function(film_ratio, value, slope)
       asperity_load = max(0.0_wp, min(capacity*value, load))
+      film_load = load - asperity_load
       stiffness = capacity*slope*film_ratio
       if (takes_whole_load(line%law)) return
       if (line%groups%speed <= 0.0_wp .and. asperity_load < load) return
@@ -291,8 +296,8 @@ contains
             change = (logs(1) - log_ratio - log_roughness)/(1.0_wp - shape%minimum_load_slope*film_load_slope/film_load)
             if (abs(change) <= max(tolerance, last_allowed*min(1.0_wp, film_load/(ample_film_part*load)))) then
                film_ratio = film_ratio*(1.0_wp + change)
-               ! A film that carries next to nothing must not come out as carrying less
-               asperity_load = max(0.0_wp, min(load - film_load - film_load_slope*change, load))
+               call split_load(load, film_load_slope*change, log_ratio + change + log_roughness - logs(1), shape, film_load, &
+                  & asperity_load)
                shape%central = central_at(logs, log_ratio + change + log_roughness, shape)
                return
             end if
@@ -317,7 +322,37 @@ contains
       if (has_film) shape%central = central_at(logs, log(film_ratio) + log_roughness, shape)
       call asperity_load_function(film_ratio, value, slope)
       asperity_load = max(0.0_wp, min(capacity*value, load))
+      film_load = load - asperity_load
    end subroutine share_with_asperities
+
+   !> Load of film and asperities after the last step of the film ratio.
+   !>
+   !> Where asperities carry nearly all, the load of the film as what they leave is mostly rounding, and rolling resistance with it;
+   !> the film itself is not, and tells by its law what it carries.
+   pure subroutine split_load(load, shift, log_shift, shape, film_load, asperity_load)
+      !> Whole load over E' R L, change of the film's load that goes with the step [-]
+      real(wp), intent(in) :: load, shift
+      !> Logarithm of the film after the step over that of the law at the film load before [-]
+      real(wp), intent(in) :: log_shift
+      !> Film at the film load before
+      type(film_shape_t), intent(in) :: shape
+      !> Load of the film, before and after the step [-]
+      real(wp), intent(inout) :: film_load
+      !> Load of the asperities after the step [-]
+      real(wp), intent(out) :: asperity_load
+
+      ! Logarithm of the growth of the film's load that is believed [-]
+      real(wp), parameter :: most = 30.0_wp
+
+      if (film_load < scant_film_part*load .and. abs(shape%minimum_load_slope) > 0.0_wp) then
+         film_load = min(film_load*exp(max(-most, min(most, log_shift/shape%minimum_load_slope))), load)
+         asperity_load = load - film_load
+      else
+         ! A film that carries next to nothing must not come out as carrying less
+         asperity_load = max(0.0_wp, min(load - film_load - shift, load))
+         film_load = load - asperity_load
+      end if
+   end subroutine split_load
 
    !> Central film that goes with a minimum film.
    !>

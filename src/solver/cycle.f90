@@ -13,6 +13,7 @@ module camroller_cycle
    use camroller_dynamics, only : moments_t
    use camroller_state, only : state_t, evaluate_state, evaluate_loading
    use camroller_events, only : find_stops, cycle_stops
+   use camroller_fold, only : explain_end
    use camroller_spin, only : spin_problem_t, rolling_speed_at
    use camroller_balance, only : follow_balance, least_slip
    use camroller_settled_slip, only : settle
@@ -69,6 +70,10 @@ module camroller_cycle
    !> Steps after which a method that stiffness does not slow down is given up: several times what a lift table of thousands of rows
    !> takes
    integer, parameter :: most_implicit_steps = 100000
+   !> Evaluations in a turn after which the same is given up, at this tolerance or a larger one [-]; exponent with which they grow as
+   !> the tolerance falls [-]. Hard decks take a tenth of that, a table of thousands of rows half of it
+   integer, parameter :: most_evaluations = 100000
+   real(wp), parameter :: usual_tolerance = 1.0e-4_wp, evaluations_exponent = 0.2_wp
    !> Scale over the largest sliding speed of a cycle, above which the cycle is integrated again with that as its scale: a balance
    !> that the roller's inertia keeps it from may be far away [-]
    real(wp), parameter :: scale_excess = 10.0_wp
@@ -102,7 +107,7 @@ contains
       ! Start and end of the turn before [m/s]; smallest closure with this tolerance [-]
       real(wp) :: last(2), best
       type(numerics_t) :: resolved
-      integer :: turn, most_steps
+      integer :: turn, most_steps, most_turn
 
       resolved = resolve_numerics(numerics)
       call find_stops(model, stops)
@@ -121,6 +126,7 @@ contains
       cycle%stops = cycle_stops(stops, cycle%start)
 
       most_steps = options%max_steps
+      most_turn = options%max_evaluations
       ! The balance is not quite the periodic state: a short run up to the start lets the difference decay
       call integrate_spin(cycle, problem, method, options, run_up_stops(cycle%stops), state, error)
       if (allocated(error)) return
@@ -130,6 +136,7 @@ contains
          cycle%cycles = turn
          first = state
          options%max_steps = most_steps + cycle%counters%accepted + cycle%counters%rejected
+         options%max_evaluations = min(most_turn, huge(1) - cycle%counters%evaluations) + cycle%counters%evaluations
          call integrate_spin(cycle, problem, method, options, cycle%stops, state, error)
          if (allocated(error)) return
          largest = scale
@@ -273,7 +280,10 @@ contains
       options%step = numerics%step
       if (.not. cycle%is_linear) options%step = min(numerics%step, first_step)
       options%max_step = largest_step
-      if (method%needs_jacobian) options%max_steps = most_implicit_steps
+      if (method%needs_jacobian) then
+         options%max_steps = most_implicit_steps
+         options%max_evaluations = int(most_evaluations*max(1.0_wp, (usual_tolerance/resolved%tolerance)**evaluations_exponent))
+      end if
    end subroutine choose_method
 
    !> Make tolerances relative to a scale of the sliding speed.
@@ -344,6 +354,11 @@ contains
          call integrate(problem, method, options, stops, state, cycle%trajectory, cycle%counters, error)
       end if
       call add_context(error, "integrating the roller's spin")
+      associate (path => cycle%trajectory)
+         if (allocated(error) .and. path%count > 0) then
+            call explain_end(problem%model, path%time(path%count), maxval(abs(path%state(1, :path%count))), error)
+         end if
+      end associate
    end subroutine integrate_spin
 
    !> Speed of the roller's surface in pure rolling at a cam angle.

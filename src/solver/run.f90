@@ -8,6 +8,7 @@ module camroller_run
       & second_method, way_out
    use camroller_case, only : case_t, numerics_t, automatic_method
    use camroller_kept_models, only : kept_models_t, keep_models, recall_models
+   use camroller_fold, only : is_explained
    use camroller_model, only : model_t, new_model, revise_model
    use camroller_effect_choice, only : wants_choice, choose_effects
    use camroller_effect_list, only : choice_t
@@ -124,6 +125,7 @@ contains
          if (allocated(error)) then
             if (has_result .or. has_way_out .or. error%kind /= kind_convergence) exit
             call take_way_out(case%numerics, numerics, least, has_way_out)
+            if (has_way_out .and. is_explained(error)) exit
             cycle
          end if
          result = latest

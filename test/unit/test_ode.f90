@@ -389,7 +389,11 @@ contains
       problem%last = huge(1.0_wp)
       options%max_steps = 3
       options%max_step = 0.1_wp
-      call expect(problem, options, "rodas4", "used up at time", error)
+      call expect(problem, options, "rodas4", "steps is used up at time", error)
+      if (allocated(error)) return
+      options%max_steps = huge(1)
+      options%max_evaluations = 3
+      call expect(problem, options, "rodas4", "evaluations is used up at time", error)
    end subroutine test_failures
 
    !> Integrate and expect words in the message of a convergence error.
