@@ -32,8 +32,8 @@ contains
       integer :: i, j, k
 
       call print_circumstances("Film formulas over numerical films: G 4500, E' 220 GPa, Roelands, 0.04 Pa s")
-      write (output_unit, "(a)") "# columns: U, W*, numerical minimum and central film over the radius, then minimum and central "// &
-         & "film of dowson_higginson, pan_hamrock, masjedi_khonsari, moes over the numerical ones"
+      write (output_unit, "(a)") "# columns: U, W*, numerical minimum and central film over the radius, then minimum and "// &
+         & "central film of dowson_higginson, pan_hamrock, masjedi_khonsari, moes over the numerical ones"
       do j = 0, 24
          do i = 0, 24
             groups = groups_t(10.0_wp**(-13.0_wp + 4.0_wp*i/24.0_wp), 4500.0_wp, 10.0_wp**(-6.0_wp + 2.4_wp*j/24.0_wp), 0.0_wp, &

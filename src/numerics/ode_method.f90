@@ -7,7 +7,7 @@ module camroller_ode_method
    implicit none
    private
 
-   public :: method_t, options_t
+   public :: method_t, options_t, allow_more
 
    !> A way to make one step
    type, abstract :: method_t
@@ -82,5 +82,21 @@ module camroller_ode_method
          integer, intent(out) :: status
       end subroutine step_interface
    end interface
+
+contains
+
+   !> Options of an integration that goes on from another: what it may take is on top of what has been taken.
+   pure subroutine allow_more(options, counters, further)
+      !> Options as for a single integration
+      type(options_t), intent(in) :: options
+      !> Work done so far
+      type(counters_t), intent(in) :: counters
+      !> Options of the next
+      type(options_t), intent(out) :: further
+
+      further = options
+      further%max_steps = options%max_steps + counters%accepted + counters%rejected
+      further%max_evaluations = min(options%max_evaluations, huge(1) - counters%evaluations) + counters%evaluations
+   end subroutine allow_more
 
 end module camroller_ode_method

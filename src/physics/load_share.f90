@@ -274,9 +274,7 @@ contains
       logical :: has_film
 
       change = 0.0_wp
-      call asperity_load_function(film_ratio, value, slope)
-      asperity_load = max(0.0_wp, min(capacity*value, load))
-      film_load = load - asperity_load
+      call carry_load(load, capacity, film_ratio, asperity_load, film_load, value, slope)
       stiffness = capacity*slope*film_ratio
       if (takes_whole_load(line%law)) return
       if (line%groups%speed <= 0.0_wp .and. asperity_load < load) return
@@ -320,10 +318,22 @@ contains
       change = 0.0_wp
       film_ratio = high
       if (has_film) shape%central = central_at(logs, log(film_ratio) + log_roughness, shape)
+      call carry_load(load, capacity, film_ratio, asperity_load, film_load, value, slope)
+   end subroutine share_with_asperities
+
+   !> Load of the asperities at a film ratio, no more than the whole, and what is left to the film.
+   pure subroutine carry_load(load, capacity, film_ratio, asperity_load, film_load, value, slope)
+      !> Whole load, asperity load for F_5/2 = 1, both over E' R L; film ratio [-]
+      real(wp), intent(in) :: load, capacity, film_ratio
+      !> Asperity load and film load over E' R L [-]
+      real(wp), intent(out) :: asperity_load, film_load
+      !> F_5/2, d F_5/2/d H [-]
+      real(wp), intent(out) :: value, slope
+
       call asperity_load_function(film_ratio, value, slope)
       asperity_load = max(0.0_wp, min(capacity*value, load))
       film_load = load - asperity_load
-   end subroutine share_with_asperities
+   end subroutine carry_load
 
    !> Load of film and asperities after the last step of the film ratio.
    !>

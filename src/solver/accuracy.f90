@@ -9,7 +9,8 @@ module camroller_accuracy
    implicit none
    private
 
-   public :: resolve_numerics, is_checked, has_tolerance, refine_tolerance, way_out, most_refinements, second_method, far_beyond
+   public :: resolve_numerics, is_checked, has_tolerance, refine_tolerance, way_out, most_refinements, second_method, far_beyond, &
+      & evaluations_allowed
 
    !> Method with the least work for errors from 1e-2 to 1e-8, or near it
    character(len=*), parameter :: chosen_method = "hermite"
@@ -33,6 +34,11 @@ module camroller_accuracy
    !> Estimated error over a tolerance given by hand, from which on the tolerance says nothing of the error: estimates stay within
    !> 25 tolerances on all ordinary decks at tolerances of 1e-3 to 1e-6 [-]
    real(wp), parameter :: far_beyond = 100.0_wp
+   !> Evaluations of a turn after which an implicit method is given up, at the tolerance below or a larger one. Hard decks take a
+   !> tenth of that, and a table of thousands of rows half of it
+   integer, parameter :: most_evaluations = 100000
+   !> That tolerance [-]; exponent with which evaluations grow as it falls [-]
+   real(wp), parameter :: usual_tolerance = 1.0e-4_wp, evaluations_exponent = 0.2_wp
    !> Times that a cycle is integrated again
    integer, parameter :: most_refinements = 4
 
@@ -75,6 +81,16 @@ contains
 
       verdict = numerics%tolerance > 0.0_wp .and. numerics%method /= fixed_method .and. numerics%method /= quasi_static
    end function has_tolerance
+
+   !> Evaluations that a turn may take with an implicit method.
+   pure function evaluations_allowed(tolerance) result(evaluations)
+      !> Tolerance, positive [-]
+      real(wp), intent(in) :: tolerance
+      !> So many
+      integer :: evaluations
+
+      evaluations = int(most_evaluations*max(1.0_wp, usual_tolerance/tolerance)**evaluations_exponent)
+   end function evaluations_allowed
 
    !> Smaller tolerance for a cycle whose estimated error is above the accuracy.
    pure function refine_tolerance(tolerance, accuracy, estimated_error, least) result(finer)

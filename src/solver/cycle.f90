@@ -6,7 +6,7 @@
 module camroller_cycle
    use camroller_kinds, only : wp, pi, two_pi, degree
    use camroller_error, only : error_t, raise, add_context, kind_convergence, kind_deck
-   use camroller_accuracy, only : resolve_numerics
+   use camroller_accuracy, only : resolve_numerics, evaluations_allowed
    use camroller_case, only : numerics_t, quasi_static
    use camroller_model, only : model_t, evaluate_geometry
    use camroller_kinematics, only : position_t
@@ -22,6 +22,7 @@ module camroller_cycle
    use camroller_stick, only : has_stick, share_at_rest
    use camroller_stick_slip, only : phase_t, integrate_phases, direction_at
    use camroller_ode, only : method_t, options_t, counters_t, integrate
+   use camroller_ode_method, only : allow_more
    use camroller_ode_methods, only : new_method
    use camroller_trajectory, only : trajectory_t, interpolate_state, curve_slope
    implicit none
@@ -70,10 +71,6 @@ module camroller_cycle
    !> Steps after which a method that stiffness does not slow down is given up: several times what a lift table of thousands of rows
    !> takes
    integer, parameter :: most_implicit_steps = 100000
-   !> Evaluations in a turn after which the same is given up, at this tolerance or a larger one [-]; exponent with which they grow as
-   !> the tolerance falls [-]. Hard decks take a tenth of that, a table of thousands of rows half of it
-   integer, parameter :: most_evaluations = 100000
-   real(wp), parameter :: usual_tolerance = 1.0e-4_wp, evaluations_exponent = 0.2_wp
    !> Scale over the largest sliding speed of a cycle, above which the cycle is integrated again with that as its scale: a balance
    !> that the roller's inertia keeps it from may be far away [-]
    real(wp), parameter :: scale_excess = 10.0_wp
@@ -107,7 +104,8 @@ contains
       ! Start and end of the turn before [m/s]; smallest closure with this tolerance [-]
       real(wp) :: last(2), best
       type(numerics_t) :: resolved
-      integer :: turn, most_steps, most_turn
+      type(options_t) :: turn_options
+      integer :: turn
 
       resolved = resolve_numerics(numerics)
       call find_stops(model, stops)
@@ -125,8 +123,6 @@ contains
       if (cycle%has_surface_speed) state(1) = rolling_speed_at_angle(model, cycle%start) - state(1)
       cycle%stops = cycle_stops(stops, cycle%start)
 
-      most_steps = options%max_steps
-      most_turn = options%max_evaluations
       ! The balance is not quite the periodic state: a short run up to the start lets the difference decay
       call integrate_spin(cycle, problem, method, options, run_up_stops(cycle%stops), state, error)
       if (allocated(error)) return
@@ -135,9 +131,8 @@ contains
       do turn = 1, resolved%max_cycles
          cycle%cycles = turn
          first = state
-         options%max_steps = most_steps + cycle%counters%accepted + cycle%counters%rejected
-         options%max_evaluations = min(most_turn, huge(1) - cycle%counters%evaluations) + cycle%counters%evaluations
-         call integrate_spin(cycle, problem, method, options, cycle%stops, state, error)
+         call allow_more(options, cycle%counters, turn_options)
+         call integrate_spin(cycle, problem, method, turn_options, cycle%stops, state, error)
          if (allocated(error)) return
          largest = scale
          if (.not. cycle%has_surface_speed) largest = max(least, maxval(abs(cycle%trajectory%state(1, :cycle%trajectory%count))))
@@ -282,7 +277,7 @@ contains
       options%max_step = largest_step
       if (method%needs_jacobian) then
          options%max_steps = most_implicit_steps
-         options%max_evaluations = int(most_evaluations*max(1.0_wp, (usual_tolerance/resolved%tolerance)**evaluations_exponent))
+         options%max_evaluations = evaluations_allowed(resolved%tolerance)
       end if
    end subroutine choose_method
 

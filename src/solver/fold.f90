@@ -20,11 +20,13 @@ module camroller_fold
 
    !> What a message says of it
    character(len=*), parameter :: words = "for one sliding speed the finger is in balance there at several loads"
-   !> Sliding speeds that are tried in each direction, ratio of one to the next [-]: down to 1e-36 of the largest
+   !> Sliding speeds that are tried in each direction: down to 1e-36 of the largest
    integer, parameter :: speeds = 120
+   !> Ratio of one to the next [-]
    real(wp), parameter :: speed_ratio = 0.5_wp
-   !> Loads that are tried, ratio of the largest to that without friction [-], and of the smallest: its inverse
+   !> Loads that are tried
    integer, parameter :: loads = 100
+   !> Ratio of the largest to that without friction, and of that to the smallest [-]
    real(wp), parameter :: load_range = 3.0_wp
    !> Fall of the moment between two loads over the moment to be balanced, below which it may be rounding [-]
    real(wp), parameter :: least_fall = 1.0e-6_wp

@@ -44,9 +44,9 @@ module test_hard_cases
       ending_t("very_noisy_table", "undercut"), ending_t("short_undercut", "undercut"), &
       ending_t("outside_film_law_stop", "outside its published range")]
 
-   !> Decks at which an error is as good as a cycle for some tolerance, if it names the angle. In the first, a method of low order uses
-   !> up its steps on the noise of the table; in the second, a cycle leaves all but a hundred thousandth of a disturbance, and errors of
-   !> a loose integration keep it open
+   !> Decks at which an error is as good as a cycle for some tolerance, if it names the angle. In the first, a method of low order
+   !> uses up its steps on the noise of the table; in the second, a cycle leaves all but a hundred thousandth of a disturbance, and
+   !> errors of a loose integration keep it open
    character(len=name_length), parameter :: beyond(*) = [character(len=name_length) :: "fine_table", "frictionless_contact"]
 
    !> A usual tolerance, that of the reference, and that of a tight integration [-]

@@ -95,7 +95,7 @@ contains
 
    !> Decks by their seeds that are the hardest of thousands. In the first three the oil is so stiff that the slip is 1e-34, 1e-15
    !> and 1e-9 m/s while friction gives way and catches the roller again; in the fourth the bearing holds the roller; in the next
-   !> two friction is at its limit all the way, and only the film damps; in the last asperities carry all but a billionth of the load.
+   !> two friction is at its limit all the way, and only the film damps; in the last the film carries a billionth of the load.
    subroutine test_difficult(error)
       type(error_type), allocatable, intent(out) :: error
       integer, parameter :: seeds(*) = [145, 168, 191, 100142, 494, 100217, 400505]
@@ -117,7 +117,7 @@ contains
       end do
    end subroutine test_difficult
 
-   !> Optimised only: it takes a second.
+   !> It takes a second, so it is run optimised only.
    subroutine test_folded(error)
       type(error_type), allocatable, intent(out) :: error
       integer, parameter :: seed = 300363
