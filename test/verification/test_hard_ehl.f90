@@ -70,9 +70,10 @@ module test_hard_ehl
    integer, parameter :: nodes(2) = [65, 49]
    !> Energy left over, over the largest power: a sum of ten terms of which each has some roundings [-]
    real(wp), parameter :: energy_tolerance = 200.0_wp*epsilon(1.0_wp)
-   !> What two grids of 65 and 49 nodes may differ by: errors of second order of about 1 and 2 % of the film; growth of the total
-   !> variation of the slip with ten times smaller errors of a step, which is 0.95 to 1.13 here [-]
-   real(wp), parameter :: usual_difference = 0.05_wp, most_variation = 1.25_wp
+   !> What two grids of 65 and 49 nodes may differ by: the film, whose error is a few tenths of a per cent, and the slip, which is
+   !> the film over a viscosity that the pressure raises; growth of the total variation of the slip with ten times smaller errors of
+   !> a step, which is 0.95 to 1.13 here [-]
+   real(wp), parameter :: usual_difference = 0.03_wp, most_variation = 1.25_wp
 
 contains
 
@@ -221,10 +222,10 @@ contains
       select case (name)
       case ("cranking_1_rpm")
          ! Asperities carry the load, and the inlet of a film of a nanometre is narrower than the steps of either grid
-         differences = [0.3_wp, usual_difference]
-      case ("pressure_1500_MPa_barus", "pressure_1500_MPa_roelands")
+         differences = [0.2_wp, usual_difference]
+      case ("pressure_1500_MPa_barus", "pressure_1500_MPa_roelands", "sharp_cap")
          ! Viscosity grows up to 10^14-fold, and what holds the roller comes from the few nodes of the pressure spike
-         differences = [usual_difference, 0.6_wp]
+         differences = [usual_difference, 0.06_wp]
       case default
          differences = usual_difference
       end select
