@@ -62,6 +62,7 @@ program main
    use test_spin_slopes, only : collect_spin_slopes
    use test_simulation, only : collect_simulation
    use test_quasi_static, only : collect_quasi_static
+   use test_ode_barrier, only : collect_ode_barrier
    use test_ode_bridge, only : collect_ode_bridge
    use test_ode_special, only : collect_ode_special
    use test_hard_ehl, only : collect_hard_ehl
@@ -122,6 +123,7 @@ contains
          new_testsuite("hard_ehl", collect_hard_ehl), &
          new_testsuite("ode", collect_ode), &
          new_testsuite("ode_rosenbrock", collect_ode_rosenbrock), &
+         new_testsuite("ode_barrier", collect_ode_barrier), &
          new_testsuite("ode_bridge", collect_ode_bridge), &
          new_testsuite("ode_special", collect_ode_special), &
          new_testsuite("names", collect_names), &

@@ -11,7 +11,7 @@ module camroller_ode
    use camroller_ode_problem, only : problem_t, counters_t, new_linear, copy_linear
    use camroller_ode_method, only : method_t, options_t
    use camroller_trajectory, only : trajectory_t, start_trajectory, append_point, append_curve
-   use camroller_step_checks, only : check_saturation, check_end, check_middle
+   use camroller_step_checks, only : check_step
    use camroller_ode_bridge, only : footing_t, bridge_t, watch, is_stuck, try_bridge, note_bridge
    implicit none
    private
@@ -118,6 +118,7 @@ contains
          rate = method%here%rate
       else
          call problem%get_rate(time, state, rate, status)
+         call problem%get_clearance(time, state, method%here%clearance)
          counters%evaluations = counters%evaluations + 1
       end if
    end subroutine rate_here
@@ -188,7 +189,7 @@ contains
                call adapt_step(method, this_step, is_last, was_rejected, scaled_error, last_error, step)
             end if
             if (is_last) return
-            if (method%needs_jacobian) call copy_linear(method%there, method%here)
+            call copy_linear(method%there, method%here)
             was_rejected = .false.
          else
             counters%rejected = counters%rejected + 1
@@ -395,18 +396,9 @@ contains
          end if
          if (status > 0) scaled_error = impossible
       end if
-      if (status == 0 .and. scaled_error <= 1.0_wp .and. method%needs_jacobian) then
-         if (method%here%span < huge(1.0_wp)) then
-            call check_saturation(method%here, method%there, method%error_order, this_step, rate, new_state - state, new_rate, &
-               & estimate, scaled_error)
-         end if
-         if (method%has_curve .and. new_time < finish .and. .not. is_fixed(method, options)) then
-            call check_end(method%there, method%bends, method%tolerance, this_step, new_state - state, new_rate, scaled_error)
-            if (scaled_error <= 1.0_wp .and. .not. method%gives_rate .and. this_step > nearly*options%max_step) then
-               call check_middle(problem, method%here, method%there, method%bends, method%tolerance, time, this_step, state, &
-                  & new_state, counters, scaled_error)
-            end if
-         end if
+      if (status == 0 .and. scaled_error <= 1.0_wp) then
+         call check_step(problem, method, is_fixed(method, options), time, new_time, finish, this_step, nearly*options%max_step, &
+            & state, rate, new_state, new_rate, estimate, counters, scaled_error)
       end if
       status = min(status, 0)
    end subroutine try_checked_step

@@ -185,9 +185,12 @@ contains
       ! Lower and upper end of the bracket, a state between [state]; rate there [state/time]; what is left of the equation, at both
       ! ends of the bracket and between [state]
       real(wp) :: lower, upper, trial(1), rates(1), rest, rest_lower, rest_upper
+      ! Barrier of the problem at the end [state]
+      real(wp) :: barrier
       integer :: i
+      logical :: is_below
 
-      trial = state
+      call look_for_barrier(problem, time, state, step, barrier, is_below, trial(1))
       lower = -huge(1.0_wp)
       upper = huge(1.0_wp)
       rest_lower = 0.0_wp
@@ -210,6 +213,8 @@ contains
          if (lower <= -huge(1.0_wp) .or. upper >= huge(1.0_wp)) then
             ! first to where the rate at the start leads, then further and further
             trial = trial - sign(max(2.0_wp*abs(rest), 8.0_wp*spacing(trial(1))), rest)
+            if (is_below .and. lower < barrier) trial = min(trial, barrier)
+            if (.not. is_below .and. upper > barrier) trial = max(trial, barrier)
          else
             trial = halfway(lower, upper)
             ! the secant and bisection take turns
@@ -221,6 +226,42 @@ contains
       end do
       status = 1
    end subroutine solve_euler
+
+   !> Where is the barrier of a problem at the end of a step, and on which side of it is the state at the start?
+   !>
+   !> A state is held at a barrier on its own side. So the search begins on that side, and goes beyond the barrier only after the
+   !> barrier itself has been tried.
+   subroutine look_for_barrier(problem, time, state, step, barrier, is_below, first)
+      !> The problem
+      class(problem_t), intent(in) :: problem
+      !> Time at the end [time]
+      real(wp), intent(in) :: time
+      !> State at the start [state]
+      real(wp), intent(in) :: state
+      !> Size of the step [time]
+      real(wp), intent(in) :: step
+      !> Barrier at the end; huge where there is none [state]
+      real(wp), intent(out) :: barrier
+      !> Is the state at the start below the barrier of that time?
+      logical, intent(out) :: is_below
+      !> State to try first [state]
+      real(wp), intent(out) :: first
+
+      ! Roundings of a state, by which the barrier is kept off: the rate may have no limit there [-]
+      real(wp), parameter :: roundings = 4.0_wp
+      ! Clearance at the start and at the end [state]
+      real(wp) :: before, after
+
+      call problem%get_clearance(time - step, [state], before)
+      call problem%get_clearance(time, [state], after)
+      is_below = before >= 0.0_wp
+      first = state
+      barrier = merge(huge(1.0_wp), -huge(1.0_wp), is_below)
+      if (abs(before) >= huge(1.0_wp) .or. abs(after) >= huge(1.0_wp)) return
+      barrier = state + after
+      barrier = barrier - sign(roundings*spacing(barrier), before)
+      if (is_below .neqv. after >= 0.0_wp) first = barrier
+   end subroutine look_for_barrier
 
    !> A point between two others that halves the number of digits between them while they are far apart.
    pure function halfway(lower, upper) result(middle)

@@ -22,12 +22,15 @@ module camroller_ode_problem
       real(wp), allocatable :: small_state(:)
       !> Components at the end of the state that are integrals: no rate depends on them
       integer :: integrals = 0
+      !> Barrier, see `get_clearance`: at time zero, huge where there is none [state]; its slope [state/time]
+      real(wp) :: barrier = huge(1.0_wp), barrier_slope = 0.0_wp
    contains
       procedure(rate_interface), deferred :: get_rate
       procedure(decay_interface), deferred :: get_decay_rate
       procedure(words_interface), deferred :: name_time
       procedure :: get_jacobian => difference_jacobian
       procedure :: linearise => linearise_in_two
+      procedure :: get_clearance => clearance_of_line
    end type problem_t
 
    !> Rate at a point with its first derivatives
@@ -44,6 +47,8 @@ module camroller_ode_problem
       real(wp) :: span = huge(1.0_wp)
       !> Error of the rate that is allowed for an error of the state, over the rate, where something saturates [-]
       real(wp) :: resolution = 1.0_wp
+      !> From the first component to the barrier, see `get_clearance` [state]
+      real(wp) :: clearance = huge(1.0_wp)
    end type linear_t
 
    !> Work done, comparable between machines
@@ -118,13 +123,15 @@ contains
       linear%time_slope = 0.0_wp
    end subroutine new_linear
 
-   !> Copy a rate and its derivatives.
+   !> Copy a rate and its derivatives, the clearance alone where there are none.
    pure subroutine copy_linear(source, target)
       !> From here
       type(linear_t), intent(in) :: source
       !> To here; has its room
       type(linear_t), intent(inout) :: target
 
+      target%clearance = source%clearance
+      if (.not. allocated(source%rate)) return
       target%rate(:) = source%rate
       target%jacobian(:, :) = source%jacobian
       target%time_slope(:) = source%time_slope
@@ -151,11 +158,29 @@ contains
       !> 0 fine, positive: try a smaller step, negative: give up
       integer, intent(out) :: status
 
+      call self%get_clearance(time, state, linear%clearance)
       call self%get_rate(time, state, linear%rate, status)
       counters%evaluations = counters%evaluations + 1
       if (status /= 0) return
       call self%get_jacobian(time, state, linear%rate, horizon, linear%jacobian, linear%time_slope, counters, status)
    end subroutine linearise_in_two
+
+   !> From the first component to its barrier: a place about which the rate may differ so much within so narrow a range that the
+   !> state is held there, and that a step may cross without a look at it.
+   !>
+   !> A barrier that is no straight line over time overrides this; `linearise` fills in `clearance` where it is overridden.
+   subroutine clearance_of_line(self, time, state, clearance)
+      !> The problem; read only
+      class(problem_t), intent(in) :: self
+      !> Time [time]
+      real(wp), intent(in) :: time
+      !> State [state]
+      real(wp), intent(in) :: state(:)
+      !> State at the barrier less the state; huge where there is none [state]
+      real(wp), intent(out) :: clearance
+
+      clearance = self%barrier + self%barrier_slope*time - state(1)
+   end subroutine clearance_of_line
 
    !> Jacobian and slope with time by forward differences.
    !>

@@ -32,6 +32,7 @@ module camroller_spin
       procedure :: get_rate
       procedure :: get_decay_rate
       procedure :: linearise
+      procedure :: get_clearance
       procedure :: name_time
    end type spin_problem_t
 
@@ -182,7 +183,29 @@ contains
       linear%time_slope(1) = rolling_speed_curvature(self%model, position, time, horizon) - factor*angle_slope
       linear%span = largest_traction(self%model, position, moments)*self%model%roller_radius*factor/self%model%roller_inertia
       linear%resolution = max(min(coarsest_resolution, accuracy_ratio*self%accuracy), finest_resolution)
+      linear%clearance = huge(1.0_wp)
+      if (contact%is_touching) linear%clearance = 2.0_wp*contact%entrainment_speed
    end subroutine linearise
+
+   !> From the sliding speed to that without entrainment, where the film collapses and friction may hold the roller.
+   subroutine get_clearance(self, time, state, clearance)
+      !> The problem
+      class(spin_problem_t), intent(in) :: self
+      !> Cam angle from full lift [rad]
+      real(wp), intent(in) :: time
+      !> Sliding speed or surface speed [m/s]
+      real(wp), intent(in) :: state(:)
+      !> `V_s` without entrainment less `V_s`; huge where the state is the surface speed [m/s]
+      real(wp), intent(out) :: clearance
+
+      type(position_t) :: position
+      integer :: status
+
+      clearance = huge(1.0_wp)
+      if (self%has_surface_speed) return
+      call evaluate_geometry(self%model, time, position, status)
+      if (status == 0) clearance = 2.0_wp*self%model%speed*position%surface_travel - state(1)
+   end subroutine get_clearance
 
    !> Largest traction that the contact can make up, friction in the load left out [N]; zero without contact.
    pure function largest_traction(model, position, moments) result(traction)
