@@ -74,6 +74,10 @@ module camroller_ode_hermite
    real(wp), parameter :: least_denominator = 0.1_wp
    !> Decay exponent of a step from which on rates are the decay of rounding errors rather than the slope of the solution [-]
    real(wp), parameter :: fast = 1.0e5_wp
+   !> Decay exponent of a step from which on the state follows the rate at once; ratio of two decay rates that are alike [-]
+   real(wp), parameter :: fast_enough = 1.0_wp, alike = 0.5_wp
+   !> Evaluations of a step
+   integer, parameter :: most_corrections = 4
    !> Factorials of 2 to 5 [-]
    real(wp), parameter :: factorials(0:3) = [2.0_wp, 6.0_wp, 24.0_wp, 120.0_wp]
 
@@ -128,6 +132,7 @@ contains
       real(wp) :: linear, predicted, correction
       ! One minus the derivative of the formula over the state at the end [-]
       real(wp) :: denominator
+      integer :: i
 
       new_state = state
       new_rate = rate
@@ -139,22 +144,25 @@ contains
       weights = factorials*phi(3:)
       counters%factorisations = counters%factorisations + 1
       linear = state(1) + step*(phi(1)*rate(1) + step*phi(2)*self%start%time_slope)
-
       past = look_back(self%start, self%before, self%before, self%start%state, step)
-      predicted = linear + step*((past%value - past%slope*past%place)*weights(0) + past%slope*weights(1))
-      if (.not. abs(predicted) < huge(1.0_wp)) return
-      new_state(1) = predicted
-      call problem%linearise(time + step, new_state, self%horizon, self%there, counters, status)
-      if (status /= 0) return
-
-      call close_remainder(self, 1, self%start, step, predicted, past, remainder, follower)
-      denominator = 1.0_wp - step*integral_of(follower, past%place, weights)
-      status = 1
-      if (.not. denominator > least_denominator) return
+      new_state(1) = linear + step*((past%value - past%slope*past%place)*weights(0) + past%slope*weights(1))
+      do i = 1, most_corrections
+         predicted = new_state(1)
+         status = 1
+         if (.not. abs(predicted) < huge(1.0_wp)) return
+         call problem%linearise(time + step, new_state, self%horizon, self%there, counters, status)
+         if (status /= 0) return
+         call close_remainder(self, 1, self%start, step, predicted, past, remainder, follower)
+         denominator = 1.0_wp - step*integral_of(follower, past%place, weights)
+         status = 1
+         if (.not. denominator > least_denominator) return
+         correction = (linear + step*integral_of(remainder, past%place, weights) - predicted)/denominator
+         new_state(1) = predicted + correction
+         if (has_settled(self, step, predicted, correction)) exit
+      end do
+      if (i > most_corrections) return
       status = 0
-      correction = (linear + step*integral_of(remainder, past%place, weights) - predicted)/denominator
       call correct_remainder(remainder, follower, correction)
-      new_state(1) = predicted + correction
       new_rate = self%there%rate + self%there%jacobian(:, 1)*correction
       error_estimate(1) = step*abs(loss_of(self, step, remainder, past%place, weights))
       call bend_curve(self, step, remainder, past%place, new_state(1))
@@ -162,9 +170,29 @@ contains
          call carry_integrals(self, step, predicted, correction, remainder, past%place, new_state, new_rate, error_estimate)
       end if
       self%there%rate(:) = new_rate
+      self%there%clearance = self%there%clearance - correction
       self%end%time = time + step
       self%end%state = new_state(1)
    end subroutine try_hermite_step
+
+   !> Is one step of Newton's method enough? Not where the rate saturates and the state follows it at once: derivatives then differ
+   !> between start and end, and so they do over the correction, as far as that is not small against the change of the state.
+   pure function has_settled(self, step, predicted, correction) result(verdict)
+      !> The method
+      type(hermite_method_t), intent(in) :: self
+      !> Size of the step [time], state predicted at its end, correction of it [state]
+      real(wp), intent(in) :: step, predicted, correction
+      !> Is it?
+      logical :: verdict
+      ! Decay rates at both ends [1/time], change of the state, no less than its correction [state]
+      real(wp) :: decays(2), moved
+      verdict = abs(correction) <= self%tolerance(1) .and. &
+         & abs(correction*self%there%jacobian(1, 1)) <= self%there%resolution*self%there%span
+      moved = max(abs(predicted + correction - self%start%state), abs(correction))
+      decays = -[self%start%slope, self%there%jacobian(1, 1)]
+      verdict = verdict .or. step*maxval(decays) <= fast_enough .or. (minval(decays) >= alike*maxval(decays) .and. &
+         & correction**2*(maxval(decays) - minval(decays)) <= 2.0_wp*self%tolerance(1)*maxval(decays)*moved)
+   end function has_settled
 
    !> Keep the start of the step, and with it the start of the one before where this one goes on from its end.
    pure subroutine remember(self, time, state, rate)
