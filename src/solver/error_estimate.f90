@@ -19,6 +19,10 @@ module camroller_error_estimate
    real(wp), parameter :: cuts(*) = [0.0_wp, 0.02_wp, 0.1_wp, 0.3_wp, 0.5_wp, 0.7_wp, 0.9_wp, 1.0_wp]
    !> The estimate is of first order; true errors were met at up to 1.25 times as much [-]
    real(wp), parameter :: margin = 2.0_wp
+   !> Exponent of the growth over a part of an interval beyond which more makes no difference [-]
+   real(wp), parameter :: largest_growth = 30.0_wp
+   !> Error, and growth over a cycle, beyond which more makes no difference [m/s] and [-]
+   real(wp), parameter :: lost = 1.0e30_wp
 
    !> The estimate on its way round the cycle
    type :: estimate_t
@@ -45,7 +49,7 @@ contains
 
       estimate%points = estimate%points + 1
       estimate%defects(estimate%points) = defect
-      estimate%rates(estimate%points) = max(decay_rate, 0.0_wp)
+      estimate%rates(estimate%points) = decay_rate
    end subroutine add_defect
 
    !> Carry the error over an interval.
@@ -84,13 +88,14 @@ contains
          do j = 0, 2
             defects(j + 1) = value_at(places(:known), values(:known), cuts(i) + 0.5_wp*j*part)
          end do
-         decay = rate_at(nodes, estimate%rates(:size(nodes)), cuts(i) + 0.5_wp*part)*length*part
+         decay = max(rate_at(nodes, estimate%rates(:size(nodes)), cuts(i) + 0.5_wp*part)*length*part, -largest_growth)
          left = exp(-decay)
          weight = 1.0_wp
-         if (decay > epsilon(1.0_wp)) weight = (1.0_wp - left)/decay
+         if (abs(decay) > epsilon(1.0_wp)) weight = (1.0_wp - left)/decay
          estimate%error = left*estimate%error + length*part*(weight*defects(2) &
             & + left*(defects(1) - 2.0_wp*defects(2) + defects(3))/6.0_wp)
-         estimate%contraction = estimate%contraction*left
+         estimate%error = sign(min(abs(estimate%error), lost), estimate%error)
+         estimate%contraction = min(estimate%contraction*left, lost)
          estimate%largest = max(estimate%largest, abs(estimate%error))
       end do
    end subroutine end_interval
@@ -126,7 +131,11 @@ contains
          i = i + 1
       end do
       part = min(1.0_wp, max(0.0_wp, (place - nodes(i))/(nodes(i + 1) - nodes(i))))
-      rate = max(rates(i), tiny(1.0_wp))**(1.0_wp - part)*max(rates(i + 1), tiny(1.0_wp))**part
+      if (min(rates(i), rates(i + 1)) < 0.0_wp) then
+         rate = merge(rates(i), rates(i + 1), part < 0.5_wp)
+      else
+         rate = max(rates(i), tiny(1.0_wp))**(1.0_wp - part)*max(rates(i + 1), tiny(1.0_wp))**part
+      end if
    end function rate_at
 
    !> Value of the polynomial through some points.

@@ -212,6 +212,8 @@ contains
       type(error_t), allocatable, intent(out) :: error
 
       type(state_t) :: state
+      ! Errors of steps that add up to one of the cycle [-]
+      real(wp), parameter :: few = 5.0_wp
       ! Values of the series [unit of the series]; torques [N m]; defect [m/s/rad]; decay rate [1/rad]
       real(wp) :: values(size(statistics%mean)), torques(torque_count), defect, decay_rate
 
@@ -228,6 +230,7 @@ contains
       decay_rate = decay_rate_of(model, state%contact)
       if (.not. allocated(cycle%phases)) decay_rate = decay_rate_at(model, angle, state)
       if (.not. (cycle%is_linear .or. allocated(cycle%phases))) call weaken_decay(model, state, defect, decay_rate)
+      if (decay_rate < 0.0_wp) call limit_growth(model, state, max(few*cycle%step_error, abs(estimate%error)), decay_rate)
       call add_defect(estimate, defect, decay_rate)
       if (.not. state%contact%is_touching) statistics%lost_share = statistics%lost_share + weight
       if (.not. has_film_in_range(model, state)) then
@@ -330,6 +333,36 @@ contains
          decay_rate = max(secant, 0.0_wp)
       end do
    end subroutine weaken_decay
+
+   !> Growth rate over the range that an error reaches, where a disturbance grows at the point itself.
+   !>
+   !> Near zero entrainment the traction falls with the sliding speed, within a range that may be far less than any error; beyond it
+   !> errors do not grow on.
+   pure subroutine limit_growth(model, state, reach, decay_rate)
+      !> Model of the lobe
+      type(model_t), intent(in) :: model
+      !> State on the curve
+      type(state_t), intent(in) :: state
+      !> Size of an error [m/s]
+      real(wp), intent(in) :: reach
+      !> Decay rate, in: at the point, negative; out: over the range, negative or zero [1/rad]
+      real(wp), intent(inout) :: decay_rate
+
+      type(contact_t) :: contact
+      ! Accelerations of the roller [rad/s^2]
+      real(wp) :: accelerations(2)
+      integer :: i, status
+
+      do i = 1, 2
+         status = 1
+         if (reach > 4.0_wp*spacing(state%contact%sliding_speed)) call evaluate_spin(model, state%position, state%moments, &
+            & state%contact%sliding_speed + (2*i - 3)*reach, contact, accelerations(i), status)
+         if (status /= 0) decay_rate = 0.0_wp
+         if (status /= 0) return
+      end do
+      decay_rate = max(decay_rate, min(0.0_wp, 0.5_wp*model%roller_radius*(accelerations(2) - accelerations(1)) &
+         & /(model%speed*reach)))
+   end subroutine limit_growth
 
    !> Is the film law inside its published range? True where there is no contact.
    pure function has_film_in_range(model, state) result(inside)

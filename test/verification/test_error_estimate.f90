@@ -32,6 +32,7 @@ contains
          new_unittest("without decay a defect adds up to its integral", test_integral), &
          new_unittest("under fast decay the error is the defect over the decay rate", test_stiff), &
          new_unittest("a cycle without decay has no finite error", test_no_decay), &
+         new_unittest("where disturbances grow the error grows with them", test_growth), &
          new_unittest("the estimate holds up against the reference for every kind of method", test_methods), &
          new_unittest("method and tolerance follow from the accuracy unless they are given", test_resolved), &
          new_unittest("an accuracy is kept, and one that cannot be is remarked on", test_kept), &
@@ -94,6 +95,16 @@ contains
       call carry([1.0_wp, 1.0_wp, 1.0_wp], 0.0_wp, 0.1_wp, 1, estimate)
       call check(error, estimated_error(estimate) > 1.0e10_wp)
    end subroutine test_no_decay
+
+   subroutine test_growth(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(estimate_t) :: estimate
+
+      call carry([0.5_wp, 0.5_wp, 0.5_wp], -2.0_wp, 0.1_wp, 10, estimate)
+      call check(error, estimate%error, 0.25_wp*(exp(2.0_wp) - 1.0_wp), thr=100.0_wp*epsilon(1.0_wp))
+      if (allocated(error)) return
+      call check(error, estimate%contraction, exp(2.0_wp), thr=1000.0_wp*epsilon(1.0_wp))
+   end subroutine test_growth
 
    subroutine test_methods(error)
       type(error_type), allocatable, intent(out) :: error
