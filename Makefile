@@ -3,7 +3,7 @@
 SHELL := /bin/bash
 .DEFAULT_GOAL := help
 .PHONY: help setup commit build debug mpi run comparison test quick bless random needed rough-rows study study-film audit check check-layers \
-  check-style check-format check-lint check-warnings format bench bench-batch bench-effects clean distclean
+  check-style check-format check-lint check-warnings format bench bench-ehl range-ehl bench-batch bench-effects clean distclean
 
 FPM := .venv/bin/fpm
 PYTHON := .venv/bin/python
@@ -112,6 +112,12 @@ format: setup ## set the blanks inside statements right
 
 bench: commit ## time cycles, also against SUNDIALS and scipy: tables and plots in bench/tables (ten minutes)
 	@bench/run.sh
+
+bench-ehl: commit ## how the cost of the numerical film grows with the nodes: bench/tables/ehl_cost.txt and a figure (two minutes)
+	@bench/run.sh ehl
+
+range-ehl: commit ## the whole range of steady contacts: NODES=1025, every STRIDE-th from FIRST on; what fails or differs is listed
+	@bench/run.sh range $(or $(NODES),1025) $(or $(FIRST),1) $(or $(STRIDE),1)
 
 bench-batch: build mpi ## cases per second, scaling, cost as a study grows: bench/tables/throughput.txt (ten minutes, idle machine)
 	@$(PYTHON) bench/throughput.py

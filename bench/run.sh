@@ -1,7 +1,9 @@
 #!/usr/bin/env bash
 # Build the benchmarks, run all of them, rewrite the tables and plots in bench/tables.
 #
-# Usage: make bench          less than ten minutes on an idle machine
+# Usage: make bench          ten minutes on an idle machine
+#        make bench-ehl      the numerical film alone: cost over nodes
+#        make range-ehl      its whole range: NODES=1025 FIRST=1 STRIDE=1
 # Times are processor times of one core, medians of repeated runs, solvers taking turns; only ratios carry over to other machines.
 # Needs SUNDIALS, which nothing else here does: installed as root on a machine with apt-get, otherwise named.
 set -euo pipefail
@@ -20,19 +22,13 @@ fi
 
 # As the release build, and fit for a shared library without giving up what knowing the callee allows
 flags="$RELEASE_FLAGS -I../build/commit -fPIC -fno-semantic-interposition"
+# LAPACK through a clock, bench/src/lapack_clock.f90
+wrapped="-Wl,--wrap=dgetrf_,--wrap=dgetrs_"
 fpm=$PWD/.venv/bin/fpm
 python=$PWD/.venv/bin/python
 target=$PWD/build/bench
 mkdir -p "$target" bench/tables
-(cd bench && "$fpm" install --flag "$flags" --prefix "$target") > "$target/build.log" 2>&1 || { cat "$target/build.log"; exit 1; }
-
-folder=$(pkg-config --libs-only-L hdf5)
-hdf5=()
-for name in hdf5hl_fortran hdf5_hl_fortran hdf5_fortran hdf5_hl hdf5; do
-    if gfortran -shared -o "$target/found.so" $folder "-l$name" 2> /dev/null; then hdf5+=("-l$name"); fi
-done
-gfortran -shared -o "$target/librhs.so" -Wl,-u,bench_open "$target/lib/libbench.a" $folder "${hdf5[@]}" \
-    -lsundials_cvode -lsundials_nvecserial -lopenblas
+(cd bench && "$fpm" install --flag "$flags" --link-flag "$wrapped" --prefix "$target") > "$target/build.log" 2>&1 || { cat "$target/build.log"; exit 1; }
 
 export OPENBLAS_NUM_THREADS=1
 core=()
@@ -44,6 +40,24 @@ measure() { # table, command
     printf 'bench: %s\n' "$table"
     "${core[@]}" "$@" > "$target/table.part" && mv "$target/table.part" "$tables/$table"
 }
+if [ "${1:-all}" = ehl ]; then
+    measure ehl_cost.txt "$target/bin/ehl_cost" decks
+    "$python" bench/plot_ehl.py "$tables/ehl_cost.txt" doc/figures/ehl_cost.png
+    exit 0
+fi
+if [ "${1:-all}" = range ]; then
+    "${core[@]}" "$target/bin/ehl_range" "${@:2}"
+    exit 0
+fi
+
+folder=$(pkg-config --libs-only-L hdf5)
+hdf5=()
+for name in hdf5hl_fortran hdf5_hl_fortran hdf5_fortran hdf5_hl hdf5; do
+    if gfortran -shared -o "$target/found.so" $folder "-l$name" 2> /dev/null; then hdf5+=("-l$name"); fi
+done
+gfortran -shared -o "$target/librhs.so" -Wl,-u,bench_open "$target/lib/libbench.a" $folder "${hdf5[@]}" \
+    -lsundials_cvode -lsundials_nvecserial -lopenblas
+
 measure cycle_speed.txt "$target/bin/cycle_speed" decks
 measure ehl_speed.txt "$target/bin/ehl_speed"
 measure ehl_map.txt "$target/bin/ehl_map"

@@ -18,6 +18,7 @@ contains
       use camroller_ehl_films, only : ehl_films_t
       use bench_circumstances, only : print_circumstances
       use bench_clock, only : seconds_used, median
+      use bench_contacts, only : contact_of_kind
 
       integer, parameter :: repeats = 15, sizes(5) = [65, 129, 257, 513, 1025]
       type(ehl_contact_t) :: contact
@@ -85,35 +86,5 @@ contains
       contact%line_load = contact%line_load*1.01_wp**direction
       contact%entrainment_speed = contact%entrainment_speed*1.01_wp**direction
    end subroutine move
-
-   !> A soft contact of large rollers, and the nose of a cam at 300 rev/min and 60 degC.
-   function contact_of_kind(kind) result(contact)
-      use camroller_kinds, only : wp
-      use camroller_lubricant, only : law_roelands
-      use camroller_ehl_problem, only : ehl_contact_t
-      !> 1 or 2
-      integer, intent(in) :: kind
-      !> The contact
-      type(ehl_contact_t) :: contact
-
-      if (kind == 1) then
-         contact%radius = 0.02_wp
-         contact%line_load = 5.0e4_wp
-         contact%entrainment_speed = 1.5_wp
-         contact%modulus = 2.21e11_wp
-         contact%oil%viscosity = 0.02_wp
-         contact%oil%roelands_index = 0.68_wp
-      else
-         contact%radius = 0.004116_wp
-         contact%line_load = 54073.0_wp
-         contact%entrainment_speed = 0.4884_wp
-         contact%modulus = 2.01798e11_wp
-         contact%oil%viscosity = 0.0305_wp
-         contact%oil%roelands_index = 0.69802_wp
-      end if
-      contact%oil%pressure_law = law_roelands
-      contact%oil%roelands_exponent = log(contact%oil%viscosity) + 9.67_wp
-      contact%oil%pressure_viscosity = contact%oil%roelands_index*contact%oil%roelands_exponent*5.1e-9_wp
-   end function contact_of_kind
 
 end program ehl_speed
