@@ -197,7 +197,10 @@ contains
 
       verdict = cycle%closure <= periodicity
       if (.not. verdict) return
-      call largest_contraction(problem, cycle%trajectory, cycle%phases, contraction, cycle%counters%evaluations)
+      associate (path => cycle%trajectory)
+         call largest_contraction(problem, path, cycle%phases, sign(periodicity*cycle%scale, path%state(1, path%count) &
+            & - path%state(1, 1)), contraction, cycle%counters%evaluations)
+      end associate
       cycle%distance = cycle%closure/max(1.0_wp - contraction, epsilon(1.0_wp))
       verdict = cycle%distance <= periodicity
    end function is_periodic
