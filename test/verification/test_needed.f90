@@ -31,7 +31,7 @@ module test_needed
    !> Accuracy of the runs that are compared; of those that decide where a change seems larger than its estimate, since a mean in
    !> which much cancels is less accurate than what it is a mean of [-]
    real(wp), parameter :: accuracy = 1.0e-5_wp, high_accuracy = 1.0e-10_wp
-   !> What an accuracy leaves of a change, over the accuracy; and at least, of a mean torque: runs of one deck to 1e-8, 1e-9 and
+   !> What an accuracy leaves of a change, over the accuracy; and at least, of a mean torque: runs of one deck to 1e-9 and to
    !> 1e-10 differ by up to 9e-8 [-]
    real(wp), parameter :: rest_share = 3.0_wp, least_rest = 1.0e-7_wp
    !> Part of the estimates that must be below what is negligible by default, lest nothing is tested [-]
