@@ -215,8 +215,8 @@ contains
             else
                call compare(self, "ehl", number, not_a_number(), 1.0_wp, differs(i))
             end if
-         else if (index(outcomes(i)%text, no_profiles) > 0 .and. has_member(self%file, "/ehl")) then
-            call compare_missing(self, "ehl", number, differs(i), error)
+         else if (index(outcomes(i)%text, no_profiles) > 0) then
+            if (has_member(self%file, "/ehl")) call compare_missing(self, "ehl", number, differs(i), error)
          end if
          if (allocated(error)) return
       end do

@@ -28,7 +28,8 @@ contains
       !> Does it?
       logical :: verdict
 
-      verdict = has_member(file, "/ehl") .and. .not. has_member(file, "/summary/status")
+      verdict = has_member(file, "/ehl")
+      if (verdict) verdict = .not. has_member(file, "/summary/status")
    end function is_ehl_file
 
    !> Solve the contacts of a file again, and compare them.
@@ -43,14 +44,14 @@ contains
       type(error_t), allocatable, intent(out) :: error
 
       integer :: i
-      logical :: differs
+      logical :: has_second, differs
 
+      has_second = has_member(sink%file, "/ehl/second_lift")
       do i = 1, sweep_size(deck%sweep)
          differs = .false.
          call compare_lobe(sink, deck, i, .false., differs, error)
-         if (.not. allocated(error) .and. has_member(sink%file, "/ehl/second_lift")) then
-            call compare_lobe(sink, deck, i, .true., differs, error)
-         end if
+         if (allocated(error)) return
+         if (has_second) call compare_lobe(sink, deck, i, .true., differs, error)
          if (allocated(error)) return
          sink%cases = sink%cases + 1
          if (differs) sink%differing = sink%differing + 1

@@ -48,6 +48,7 @@ contains
       type(loop_t) :: loop
       type(runs_t) :: runs
       character(len=:), allocatable :: facts
+      logical :: holds_contacts
 
       if (team%rank /= 0) return
       allocate (sink)
@@ -55,7 +56,8 @@ contains
       if (allocated(error)) return
       call read_stored_deck(sink%file, config%subject, deck, error)
       if (.not. allocated(error)) call read_build(sink%file, facts, error)
-      if (.not. (allocated(error) .or. is_ehl_file(sink%file))) call choose_series(sink%file, deck, loop, error)
+      holds_contacts = is_ehl_file(sink%file)
+      if (.not. (allocated(error) .or. holds_contacts)) call choose_series(sink%file, deck, loop, error)
       if (.not. allocated(error)) then
          loop%threads = config%threads
          if (loop%threads == 0) loop%threads = number_of_cores()
@@ -63,7 +65,7 @@ contains
          runs%count = [sweep_size(deck%sweep)]
          call heed_stop_signals()
          call start_progress(loop%progress, config%is_quiet, real(config%log_interval, wp))
-         if (is_ehl_file(sink%file)) then
+         if (holds_contacts) then
             call rerun_contacts(sink, deck, loop%progress, error)
          else
             call compute_cases(loop, deck, runs, team, sink, error)
