@@ -176,7 +176,8 @@ contains
    end subroutine try_hermite_step
 
    !> Is one step of Newton's method enough? Not where the rate saturates and the state follows it at once: derivatives then differ
-   !> between start and end, and so they do over the correction, as far as that is not small against the change of the state.
+   !> between start and end, and so they do over the correction, as far as that is not small against the change of the state. What
+   !> is left may be neither an error of the state that matters nor one of the rate.
    pure function has_settled(self, step, predicted, correction) result(verdict)
       !> The method
       type(hermite_method_t), intent(in) :: self
@@ -191,7 +192,8 @@ contains
       moved = max(abs(predicted + correction - self%start%state), abs(correction))
       decays = -[self%start%slope, self%there%jacobian(1, 1)]
       verdict = verdict .or. step*maxval(decays) <= fast_enough .or. (minval(decays) >= alike*maxval(decays) .and. &
-         & correction**2*(maxval(decays) - minval(decays)) <= 2.0_wp*self%tolerance(1)*maxval(decays)*moved)
+         & correction**2*(maxval(decays) - minval(decays)) <= &
+         & 2.0_wp*min(self%tolerance(1)*maxval(decays), self%there%resolution*self%there%span)*moved)
    end function has_settled
 
    !> Keep the start of the step, and with it the start of the one before where this one goes on from its end.

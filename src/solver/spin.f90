@@ -36,8 +36,9 @@ module camroller_spin
       procedure :: name_time
    end type spin_problem_t
 
-   !> Largest and smallest error of the traction over its limit, and the same over the accuracy of the contact [-]
-   real(wp), parameter :: coarsest_resolution = 1.0e-2_wp, finest_resolution = 1.0e-10_wp, accuracy_ratio = 1.0e5_wp
+   !> Largest and smallest error of the traction over its limit, and the same over the accuracy of the contact [-]. Where what the
+   !> roller needs exceeds the limit by less than that, friction that has given way still seems to hold
+   real(wp), parameter :: coarsest_resolution = 1.0e-4_wp, finest_resolution = 1.0e-10_wp, accuracy_ratio = 1.0e3_wp
 
 contains
 
