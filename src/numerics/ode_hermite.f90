@@ -175,9 +175,9 @@ contains
       self%end%state = new_state(1)
    end subroutine try_hermite_step
 
-   !> Is one step of Newton's method enough? Not where the rate saturates and the state follows it at once: derivatives then differ
-   !> between start and end, and so they do over the correction, as far as that is not small against the change of the state. What
-   !> is left may be neither an error of the state that matters nor one of the rate.
+   !> Is one step of Newton's method enough? Not where it changes the sign of the state, and with it of friction. Nor where the
+   !> rate saturates and the state follows it at once: derivatives then differ between start and end, and over the correction as
+   !> far as that is not small against the change of the state. No error that matters may be left, of the state or of the rate.
    pure function has_settled(self, step, predicted, correction) result(verdict)
       !> The method
       type(hermite_method_t), intent(in) :: self
@@ -185,15 +185,15 @@ contains
       real(wp), intent(in) :: step, predicted, correction
       !> Is it?
       logical :: verdict
-      ! Decay rates at both ends [1/time], change of the state, no less than its correction [state]
-      real(wp) :: decays(2), moved
-      verdict = abs(correction) <= self%tolerance(1) .and. &
-         & abs(correction*self%there%jacobian(1, 1)) <= self%there%resolution*self%there%span
-      moved = max(abs(predicted + correction - self%start%state), abs(correction))
+      ! Decay rates at both ends [1/time], change of the state, no less than its correction [state], errors allowed [state/time]
+      real(wp) :: decays(2), moved, allowed(2)
       decays = -[self%start%slope, self%there%jacobian(1, 1)]
-      verdict = verdict .or. step*maxval(decays) <= fast_enough .or. (minval(decays) >= alike*maxval(decays) .and. &
-         & correction**2*(maxval(decays) - minval(decays)) <= &
-         & 2.0_wp*min(self%tolerance(1)*maxval(decays), self%there%resolution*self%there%span)*moved)
+      allowed = [self%tolerance(1)*maxval(decays), self%there%resolution*self%there%span]
+      verdict = abs(correction) <= self%tolerance(1) .and. abs(correction*decays(2)) <= allowed(2)
+      if (verdict .or. predicted*(predicted + correction) < 0.0_wp) return
+      moved = max(abs(predicted + correction - self%start%state), abs(correction))
+      verdict = step*maxval(decays) <= fast_enough .or. (minval(decays) >= alike*maxval(decays) .and. &
+         & correction**2*(maxval(decays) - minval(decays)) <= 2.0_wp*minval(allowed)*moved)
    end function has_settled
 
    !> Keep the start of the step, and with it the start of the one before where this one goes on from its end.
@@ -456,10 +456,8 @@ contains
       !> State at the end [state]
       real(wp), intent(in) :: new_state
 
-      ! Exponent from which on the solution is taken apart [-]
-      real(wp), parameter :: far = 2.0_wp
-      ! Height of a layer that counts, over the tolerance [-]
-      real(wp), parameter :: least_layer = 1.0e-3_wp
+      ! Exponent from which on the solution is taken apart; height of a layer that counts, over the tolerance [-]
+      real(wp), parameter :: far = 2.0_wp, least_layer = 1.0e-3_wp
       ! Exponent, place on the step, functions [-]
       real(wp) :: z, place, phi(6)
       ! Factorials times the polynomial of the rate, and their sums over powers of the exponent [state/time]
