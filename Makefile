@@ -52,7 +52,7 @@ comparison: build ## compare with the source thesis: doc/thesis_comparison.md an
 	@$(PYTHON) post/plot.py results/comparison/thesis.h5 --figure mean_torque --dpi 90 --output doc/figures
 	@$(PYTHON) post/plot.py results/comparison/thesis.h5 --figure overview --dpi 72 --output doc/figures
 
-study: build ## what accuracy costs on decks/thesis.nml: tables and figures of doc/accuracy_and_cost.md, a quarter of an hour
+study: build ## what accuracy costs on decks/thesis.nml: tables and figures of doc/accuracy_and_cost.md, three minutes
 	@mkdir -p results
 	build/release/bin/camroller study decks/thesis.nml -o results/thesis_study.h5 > results/thesis_study.txt
 	cp results/thesis_study.txt doc/accuracy_tables.txt
@@ -110,7 +110,7 @@ check-warnings: commit
 format: setup ## set the blanks inside statements right
 	@$(PYTHON) tools/check_format.py --fix
 
-bench: commit ## time cycles, also against SUNDIALS and scipy: tables and plots in bench/tables (ten minutes)
+bench: commit ## time cycles, also against SUNDIALS and scipy: tables and plots in bench/tables (five minutes)
 	@bench/run.sh
 
 bench-ehl: commit ## how the cost of the numerical film grows with the nodes: bench/tables/ehl_cost.txt and a figure (two minutes)

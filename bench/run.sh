@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Build the benchmarks, run all of them, rewrite the tables and plots in bench/tables.
 #
-# Usage: make bench          ten minutes on an idle machine
+# Usage: make bench          five minutes on an idle machine
 #        make bench-ehl      the numerical film alone: cost over nodes
 #        make range-ehl      its whole range: NODES=1025 FIRST=1 STRIDE=1
 # Times are processor times of one core, medians of repeated runs, solvers taking turns; only ratios carry over to other machines.

@@ -1,4 +1,4 @@
-!> Exponential Hermite method of order 6, of order 4 in the first step: one evaluation of the rate with its derivatives a step.
+!> Exponential Hermite method of order 6, of order 4 in the first step: mostly one evaluation of the rate with derivatives a step.
 !>
 !> Layer: numerics. In: nothing. Out: a `method_t` for problems of one component, which may be followed by integrals over it.
 !> About the start of a step h the rate is `f + J (y - y_n) + v (t - t_n) + R(t)`. The linear part is solved exactly. R, which
@@ -9,10 +9,10 @@
 !>     R(t_n + x h) = r_2 x^2 + ... + r_5 x^5,    z = h J
 !>
 !> The end is predicted by the cubic through the two points that are known, in the first step after a stop by R = 0. Rate and
-!> derivatives are evaluated there once, and one step of Newton's method on the formula above, with these derivatives, corrects
-!> state and rate. The error estimate is what the formula loses without the slope at the earliest point (in the first step:
-!> without the slope at the end), at the end or in the middle of the step, whichever is larger. No state but y_n enters, so
-!> steps may change at will.
+!> derivatives are evaluated there, and one step of Newton's method on the formula above, with these derivatives, corrects state
+!> and rate; where the rate saturates, up to four. The error estimate is what the formula loses without the slope at the earliest
+!> point (in the first step: without the slope at the end), at the end or in the middle of the step, whichever is larger. No state
+!> but y_n enters, so steps may change at will.
 !>
 !> Components on which no rate depends are integrals: their remainders are polynomials in the same way, and what the first
 !> component adds to them is integrated exactly, with the next function phi.
