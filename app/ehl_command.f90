@@ -12,9 +12,10 @@ module camroller_ehl_command
    use camroller_deck_sweep, only : sweep_size, case_in_words
    use camroller_ehl_cycle, only : ehl_cycle_t, ehl_cycle_options_t, integrate_ehl_cycle
    use camroller_ehl_file, only : ehl_file_t, open_ehl, write_ehl, close_ehl
-   use camroller_ehl_page, only : line_t, summary_of, page_head, page_line, friction_page
+   use camroller_ehl_page, only : line_t, page_head, page_line, friction_page
    use camroller_ehl_profiles, only : plain_model
    use camroller_ehl_record, only : ehl_record_t, make_ehl_record
+   use camroller_ehl_summary, only : make_ehl_summary, compare_cycles
    use camroller_model, only : model_t
    use camroller_output, only : output_t, output_options_t, open_output, abandon_output
    use camroller_run_command, only : check_cases, output_path
@@ -122,7 +123,7 @@ contains
       end do
    end subroutine solve_cases
 
-   !> One case and lobe shape on both grids, and with steady films.
+   !> One case and lobe shape on both grids, which have to agree, and with steady films.
    subroutine solve_case(case, is_second, record, line, error, without_steady)
       !> The case
       type(case_t), intent(in) :: case
@@ -132,7 +133,7 @@ contains
       type(ehl_record_t), intent(out) :: record
       !> What is printed of it
       type(line_t), intent(out) :: line
-      !> What went wrong; and with steady films, which the others are compared with
+      !> What went wrong, also where both grids differ by too much; and with steady films, which the others are compared with
       type(error_t), allocatable, intent(out) :: error, without_steady
 
       type(model_t) :: model
@@ -147,18 +148,20 @@ contains
       options%nodes = sizes(1)
       call integrate_ehl_cycle(cycle, model, options, error)
       if (allocated(error)) return
-      line%coarse = summary_of(cycle)
+      line%coarse = make_ehl_summary(model, cycle)
       options%nodes = sizes(2)
       options%is_transient = .false.
       call integrate_ehl_cycle(cycle, model, options, without_steady)
       line%has_steady = .not. allocated(without_steady)
-      if (line%has_steady) line%steady = summary_of(cycle)
+      if (line%has_steady) line%steady = make_ehl_summary(model, cycle)
       options%is_transient = .true.
       options%keeps_profiles = .true.
       call integrate_ehl_cycle(cycle, model, options, error)
       if (allocated(error)) return
+      line%fine = make_ehl_summary(model, cycle)
+      call compare_cycles(model, line%coarse, line%fine, error)
+      if (allocated(error)) return
       call cpu_time(finish)
-      line%fine = summary_of(cycle)
       line%steps = size(cycle%angle)
       line%time = finish - start
       call make_ehl_record(record, model, cycle)

@@ -3,12 +3,12 @@
 !> Layer: app. In: solved cycles. Out: lines.
 module camroller_ehl_page
    use camroller_kinds, only : wp, two_pi
-   use camroller_ehl_cycle, only : ehl_cycle_t
    use camroller_ehl_record, only : ehl_record_t, column
+   use camroller_ehl_summary, only : ehl_summary_t, film_difference, slip_difference
    implicit none
    private
 
-   public :: line_t, summary_of, page_head, page_line, friction_page
+   public :: line_t, page_head, page_line, friction_page
 
    character(len=*), parameter :: n = new_line("a")
    !> Longest line
@@ -20,8 +20,8 @@ module camroller_ehl_page
    type :: line_t
       !> Number of the case from 0, of the lobe shape from 1, steps of the cycle
       integer :: case_number = 0, lobe = 1, steps = 0
-      !> Smallest film, mean films [m], mean sliding speed [m/s]: on the coarser grid, on the finer one, with steady films
-      real(wp) :: coarse(4) = 0.0_wp, fine(4) = 0.0_wp, steady(4) = 0.0_wp
+      !> The cycle on the coarser grid, on the finer one, with steady films
+      type(ehl_summary_t) :: coarse, fine, steady
       !> Is there a cycle with steady films?
       logical :: has_steady = .false.
       !> Time [s]
@@ -33,18 +33,6 @@ module camroller_ehl_page
    end type line_t
 
 contains
-
-   !> Smallest film, mean films [m], mean sliding speed [m/s] of a cycle.
-   pure function summary_of(cycle) result(numbers)
-      !> The cycle
-      type(ehl_cycle_t), intent(in) :: cycle
-      !> The four numbers [m], [m], [m], [m/s]
-      real(wp) :: numbers(4)
-
-      numbers = [minval(cycle%moments%films%minimum, mask=cycle%moments%has_film), &
-         & mean(cycle%angle, cycle%moments%films%minimum), mean(cycle%angle, cycle%moments%films%central), &
-         & mean(cycle%angle, cycle%moments%sliding_speed)]
-   end function summary_of
 
    !> Mean over the cycle by the trapezoidal rule.
    pure function mean(angles, values)
@@ -94,10 +82,13 @@ contains
 
       character(len=width) :: buffer
 
-      write (buffer, "(i4, i5, 3f11.4, es12.3, f12.3, f11.3)") line%case_number, line%lobe, 1.0e6_wp*line%fine(:3), line%fine(4), &
-         & 100.0_wp*maxval(abs(line%coarse(:3)/line%fine(:3) - 1.0_wp)), 100.0_wp*abs(line%coarse(4)/line%fine(4) - 1.0_wp)
+      associate (fine => line%fine)
+         write (buffer, "(i4, i5, 3f11.4, es12.3, f12.3, f11.3)") line%case_number, line%lobe, 1.0e6_wp*fine%smallest_film, &
+            & 1.0e6_wp*fine%mean_film, 1.0e6_wp*fine%mean_central, fine%mean_slip, 100.0_wp*film_difference(line%coarse, fine), &
+            & 100.0_wp*slip_difference(line%coarse, fine)
+      end associate
       if (line%has_steady) then
-         write (buffer(79:), "(f14.3)") 100.0_wp*maxval(abs(line%steady(:3)/line%fine(:3) - 1.0_wp))
+         write (buffer(79:), "(f14.3)") 100.0_wp*film_difference(line%steady, line%fine)
       else
          buffer(92:92) = "-"
       end if

@@ -2,13 +2,16 @@
 !>
 !> Layer: solver. In: model, accuracy. Out: film, load share, sliding speed at every accepted angle, with profiles on request.
 !> Steps are as long as the error allows: the film and the sliding speed found are compared with those extrapolated from the
-!> steps before. Cycles are repeated until start and end agree. A contact that is lost forgets its film.
+!> steps before, and they end where lift, valve or contact have a kink, so that no event is passed over. Cycles are repeated until
+!> start and end agree. A contact that is lost forgets its film.
 module camroller_ehl_cycle
    use camroller_kinds, only : wp, pi, two_pi, degree
    use camroller_error, only : error_t, raise, kind_convergence, kind_domain
    use camroller_model, only : model_t, evaluate_geometry
    use camroller_kinematics, only : position_t
    use camroller_dynamics, only : moments_t
+   use camroller_events, only : find_stops_between
+   use camroller_spin, only : rolling_speed_at
    use camroller_state, only : evaluate_loading
    use camroller_ehl_grid, only : new_ehl_grid
    use camroller_ehl_problem, only : ehl_problem_t, new_ehl_problem, in_range, range_text
@@ -49,6 +52,8 @@ module camroller_ehl_cycle
    real(wp), parameter :: start = -pi, run_up = 20.0_wp*degree
    !> First and shortest step, and that below which the error is the noise of the nodes that the end of the film passes [rad]
    real(wp), parameter :: first_step = 0.1_wp*degree, shortest_step = 1.0e-6_wp*degree, smooth_step = 2.0e-3_wp*degree
+   !> Two angles that are the same [rad]; part of a piece between two stops that its first step takes at most [-]
+   real(wp), parameter :: angle_tolerance = 1.0e-12_wp, least_part = 0.0625_wp
    !> Difference of start and end over the error of a step [-]; cycles to give up after
    real(wp), parameter :: periodicity = 3.0_wp
    integer, parameter :: most_turns = 10
@@ -56,6 +61,9 @@ module camroller_ehl_cycle
    real(wp), parameter :: least_damping = 0.5_wp
    !> Growth of a step: safety, most and least; what counts as error of a step with nothing to compare with [-]
    real(wp), parameter :: safety = 0.85_wp, most_growth = 2.0_wp, least_growth = 0.2_wp, unknown_excess = 0.2_wp
+   !> Sliding speed below which errors are measured by the largest of the cycle so far [m/s]; what counts as no sliding, over the
+   !> largest speed of pure rolling [-]
+   real(wp), parameter :: small_slip = 1.0e-3_wp, least_slip = 1.0e-5_wp
    !> More steps than a cycle takes
    integer, parameter :: most_steps = 20000
 
@@ -75,26 +83,29 @@ contains
       type(ehl_march_t) :: march
       type(ehl_state_t) :: state, saved
       type(moment_t) :: history(3), now
-      ! Step, error of a step over what is allowed [rad], [-]
-      real(wp) :: step, excess
-      integer :: known, count, trial
+      ! Step [rad]; its error over what is allowed [-]; what errors of the sliding speed are measured by [m/s]
+      real(wp) :: step, excess, scale
+      ! Angles that end a step [rad]
+      real(wp), allocatable :: stops(:)
+      integer :: known, trial
       logical :: converged
 
       call prepare_march(march, model, options, error)
       if (allocated(error)) return
+      call find_stops_between(model, start - run_up, start + two_pi, stops)
+      stops = [stops, start]
       call start_history(model, march, state, history(1), error)
       if (allocated(error)) return
       allocate (cycle%moments(0))
+      scale = max(abs(history(1)%sliding_speed), least_slip*march%largest_rolling)
       known = 1
       step = first_step
-      count = 0
       do trial = 1, most_steps
          saved = state
-         if (history(1)%angle < start) step = min(step, start - history(1)%angle)
-         step = min(step, options%longest_step, start + two_pi - history(1)%angle)
+         step = bounded_step(min(step, options%longest_step), history(1)%angle, stops)
          call make_step(model, march, history(:min(known, 2)), history(1)%angle + step, state, now, converged)
          excess = huge(1.0_wp)
-         if (converged) excess = step_excess(history(:known), now, options%step_error)
+         if (converged) excess = step_excess(history(:known), now, scale, options%step_error)
          cycle%rounds = cycle%rounds + now%rounds
          if (.not. converged .or. (excess > 1.0_wp .and. step > smooth_step)) then
             cycle%refused = cycle%refused + 1
@@ -109,9 +120,10 @@ contains
          end if
          history(2:3) = history(1:2)
          history(1) = now
+         scale = max(scale, abs(now%sliding_speed))
          known = min(known + 1, 3)
-         if (now%angle > start - 1.0e-12_wp) call keep(cycle, state, now, options%keeps_profiles)
-         if (now%angle >= start + two_pi - 1.0e-12_wp) then
+         if (now%angle > start - angle_tolerance) call keep(cycle, state, now, options%keeps_profiles)
+         if (now%angle >= start + two_pi - angle_tolerance) then
             if (is_periodic(cycle%moments, options%step_error) .or. cycle%turns >= most_turns) exit
             cycle%turns = cycle%turns + 1
             call begin_again(cycle)
@@ -119,12 +131,44 @@ contains
             call keep(cycle, state, history(1), options%keeps_profiles)
          end if
          step = step*min(most_growth, safety*max(excess, 1.0e-6_wp)**(-1.0_wp/3.0_wp))
+         if (any(abs(stops - now%angle) <= angle_tolerance)) step = min(step, step_after(now%angle, stops))
       end do
       cycle%angle = cycle%moments%angle
       cycle%nodes = march%grid%x
       cycle%factorisations = state%factorisations
       call judge(cycle, history(1)%angle, now, options, error)
    end subroutine integrate_ehl_cycle
+
+   !> A step that ends at the next stop where it would pass it, and half-way where it would leave a short piece.
+   pure function bounded_step(wanted, angle, stops) result(step)
+      !> The step wanted, its start [rad]
+      real(wp), intent(in) :: wanted, angle
+      !> Angles that end a step, in any order [rad]
+      real(wp), intent(in) :: stops(:)
+      !> The step [rad]
+      real(wp) :: step
+
+      ! What is left to the next stop [rad]
+      real(wp) :: room
+
+      room = minval(stops, mask=stops > angle + angle_tolerance) - angle
+      step = wanted
+      if (step > 0.5_wp*room) step = merge(room, 0.5_wp*room, step >= room)
+   end function bounded_step
+
+   !> Longest step after a stop, short enough for what lasts until the next one to be seen.
+   pure function step_after(angle, stops) result(step)
+      !> Where it starts, at a stop [rad]
+      real(wp), intent(in) :: angle
+      !> Angles that end a step, in any order [rad]
+      real(wp), intent(in) :: stops(:)
+      !> The step [rad]
+      real(wp) :: step
+
+      step = first_step
+      if (any(stops > angle + angle_tolerance)) step = min(step, least_part*(minval(stops, mask=stops > angle + angle_tolerance) &
+         & - angle))
+   end function step_after
 
    !> Is the cycle complete and periodic?
    subroutine judge(cycle, reached, last, options, error)
@@ -139,22 +183,30 @@ contains
       !> Convergence error where it is not
       type(error_t), allocatable, intent(out) :: error
 
-      character(len=16) :: text
       character(len=:), allocatable :: reason
 
-      write (text, "(f0.3)") modulo(180.0_wp + reached/degree, 360.0_wp)
       if (last%status /= in_range) then
-         call raise(error, kind_domain, "ehl: "//trim(range_text(last%status))//" at cam angle "//trim(text)//" deg")
-      else if (last%angle < start + two_pi - 1.0e-12_wp) then
+         call raise(error, kind_domain, "ehl: "//trim(range_text(last%status))//" at cam angle "//trim(angle_text(reached)))
+      else if (last%angle < start + two_pi - angle_tolerance) then
          reason = "no film is found"
          if (last%rounds == max_rounds .and. options%is_transient) reason = "load and friction find no balance"
          if (last%rounds == max_rounds .and. .not. options%is_transient) reason = "the balance of load and friction, "// &
             & "where the spike of the pressure is narrower than the nodes, jumps with steady films (a film with squeeze does not)"
-         call raise(error, kind_convergence, "ehl: no step is short enough at cam angle "//trim(text)//" deg: "//reason)
+         call raise(error, kind_convergence, "ehl: no step is short enough at cam angle "//trim(angle_text(reached))//": "//reason)
       else if (.not. is_periodic(cycle%moments, options%step_error)) then
          call raise(error, kind_convergence, "ehl: the cycle did not become periodic")
       end if
    end subroutine judge
+
+   !> A cam angle in words.
+   pure function angle_text(angle) result(text)
+      !> Cam angle from full lift [rad]
+      real(wp), intent(in) :: angle
+      !> The angle with full lift at 180 deg
+      character(len=12) :: text
+
+      write (text, "(f0.3, a)") modulo(180.0_wp + angle/degree, 360.0_wp), " deg"
+   end function angle_text
 
    !> Do start and end of a cycle agree as far as its steps are right? Where a cycle leaves a part of what the sliding speed
    !> was off, the change over the cycle is only the rest of it, and where it ends
@@ -217,11 +269,13 @@ contains
             if (status /= 0) cycle
             load = moments%total/position%normal_arm
             if (model%takes_maximum_load) load = max(load, model%base_circle_load)
+            if (pass == 1) march%largest_rolling = max(march%largest_rolling, abs(rolling_speed_at(model, position)))
             if (pass == 1) march%largest_load = max(march%largest_load, load)
             if (pass == 1) cycle
             call new_ehl_problem(problem, contact_at(model, march, position, load, 0.0_wp), status)
             if (status /= in_range) then
-               call raise(error, kind_domain, "ehl: "//range_text(status))
+               call raise(error, kind_domain, "ehl: "//trim(range_text(status))//" at cam angle "// &
+                  & trim(angle_text(2.0_wp*i*degree)))
                return
             end if
             films = [min(films(1), problem%expected_film), max(films(2), problem%expected_film)]
@@ -258,11 +312,13 @@ contains
    end subroutine start_history
 
    !> Error of a step over what is allowed: difference from what the moments before lead to expect.
-   pure function step_excess(before, now, allowed) result(excess)
+   pure function step_excess(before, now, scale, allowed) result(excess)
       !> Moments before, last first
       type(moment_t), intent(in) :: before(:)
       !> The step's end
       type(moment_t), intent(in) :: now
+      !> Largest sliding speed so far, or what counts as none [m/s]
+      real(wp), intent(in) :: scale
       !> Error allowed [-]
       real(wp), intent(in) :: allowed
       !> Error over it [-]
@@ -283,7 +339,7 @@ contains
       errors(1) = 1.0_wp - dot_product(weights, before%films%minimum)/now%films%minimum
       errors(2) = 1.0_wp - dot_product(weights, before%films%central)/now%films%central
       errors(3) = (now%sliding_speed - dot_product(weights, before%sliding_speed)) &
-         & /max(abs(now%sliding_speed), abs(before(1)%sliding_speed), 1.0e-3_wp)
+         & /max(abs(now%sliding_speed), abs(before(1)%sliding_speed), min(scale, small_slip))
       ! A backward difference of second order leaves less than a quarter of what its quadratic predictor is off
       excess = 0.25_wp*maxval(abs(errors))/allowed
    end function step_excess

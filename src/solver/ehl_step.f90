@@ -54,8 +54,8 @@ module camroller_ehl_step
    type :: ehl_march_t
       !> Nodes
       type(ehl_grid_t) :: grid
-      !> Largest load of the cycle without friction [N]
-      real(wp) :: largest_load = 0.0_wp
+      !> Largest load of the cycle without friction [N]; largest speed of pure rolling [m/s]
+      real(wp) :: largest_load = 0.0_wp, largest_rolling = 0.0_wp
       !> Does the film remember? If not, each angle is a steady contact
       logical :: is_transient = .true.
       !> What may be left of film and forces [-]

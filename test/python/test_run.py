@@ -14,7 +14,7 @@ import xarray
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 THESIS = ROOT / "decks/thesis.nml"
-USAGE, DECK, DOMAIN, FILE, DIFFERENCE = 2, 3, 4, 6, 7
+USAGE, DECK, DOMAIN, CONVERGENCE, FILE, DIFFERENCE = 2, 3, 4, 5, 6, 7
 COARSE = ["--set", "output.angle_step_deg=5"]
 
 
@@ -198,6 +198,34 @@ def test_contacts_are_solved_over_the_cycle(camroller, tmp_path):
 
 
 SMALL = ["--set", "sweep.values_1=300", "--set", "sweep.values_2=60"]
+
+
+@pytest.mark.parametrize(("command", "change", "code", "words"), [
+    ("ehl", "ehl.accuracy=1e-4", CONVERGENCE, "65 and 129 nodes differ by"),
+    ("ehl", "mechanism.contact_width_mm=1", DOMAIN, "above 1.5 GPa at cam angle "),
+    ("run", "mechanism.contact_width_mm=1", DOMAIN, "above 1.5 GPa"),
+    ("ehl", "lubricant.pressure_viscosity_coefficient_per_GPa=80", DOMAIN, "times peak pressure above 35 at cam angle "),
+    ("run", "lubricant.pressure_viscosity_coefficient_per_GPa=80", DOMAIN, "times peak pressure above 35")])
+def test_beyond_what_numerical_films_are_good_for_there_is_an_error_and_no_file(camroller, tmp_path, command, change, code, words):
+    """Two grids that differ, a contact too heavy, an oil too stiff."""
+    path = tmp_path / "beyond.h5"
+    result = run(camroller, command, ROOT / "decks/numerical_film.nml", "-o", path, *SMALL, "--set", change, folder=tmp_path)
+    assert result.returncode == code, result.stderr
+    assert words in result.stderr
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_contact_that_cannot_be_solved_leaves_no_number_beside_those_that_can(camroller, tmp_path):
+    path = tmp_path / "two.h5"
+    result = run(camroller, "ehl", ROOT / "decks/numerical_film.nml", "-o", path, "--set", "sweep.values_1=300", "--set",
+                 "sweep.key_2=mechanism.contact_width_mm", "--set", "sweep.values_2=13.7, 1", "--set",
+                 "operating_point.oil_temperature_degC=60", folder=tmp_path)
+    assert result.returncode == DOMAIN, result.stderr
+    with h5py.File(path) as file:
+        for name in set(file["ehl"]) - {"angle", "node"}:
+            values = file["ehl"][name][()]
+            assert numpy.isfinite(values[0]).all(), name
+            assert numpy.isnan(values[1]).all(), name
 
 
 def test_every_lobe_shape_is_solved_and_opens_in_xarray(camroller, tmp_path):

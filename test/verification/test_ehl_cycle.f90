@@ -2,10 +2,11 @@
 module test_ehl_cycle
    use testdrive, only : unittest_type, new_unittest, error_type, check, test_failed
    use camroller_kinds, only : wp, pi, degree
-   use camroller_error, only : error_t, kind_domain
+   use camroller_error, only : error_t, kind_convergence, kind_domain
    use camroller_case, only : case_t
    use camroller_model, only : model_t
    use camroller_ehl_cycle, only : ehl_cycle_t, ehl_cycle_options_t, integrate_ehl_cycle
+   use camroller_ehl_summary, only : ehl_summary_t, compare_cycles
    use closeness, only : check_close, check_scaled, expect_success, expect_error
    use reference_cases, only : thesis_case, make_model, set_point, point_speeds, point_viscosities
    implicit none
@@ -26,6 +27,8 @@ contains
          new_unittest("profiles carry the load", test_profiles), &
          new_unittest("where friction can hold the roller it rests, else it slides against all of it", test_rest), &
          new_unittest("contact is lost and found again", test_loss), &
+         new_unittest("no step passes over an event of one degree", test_short_event), &
+         new_unittest("two grids that differ by too much are an error, in film and in slip", test_grids), &
          new_unittest("a contact too heavy is refused", test_too_heavy) &
          ]
    end subroutine collect_ehl_cycle
@@ -260,6 +263,63 @@ contains
       if (allocated(error)) return
       call check(error, minval(cycle%moments%films%minimum, mask=cycle%moments%has_film) > 0.0_wp, "film")
    end subroutine test_loss
+
+   !> A long dwell, in which steps are as long as they may be, and an event as long as one of them.
+   subroutine test_short_event(error)
+      type(error_type), allocatable, intent(out) :: error
+      real(wp), parameter :: step_errors(2) = [1.0e-3_wp, 1.0e-2_wp]
+      type(ehl_cycle_t) :: cycle
+      type(case_t) :: case
+      type(model_t) :: model
+      type(error_t), allocatable :: failure
+      ! Smallest films [m]
+      real(wp) :: films(2)
+      integer :: i
+
+      case = thesis_case()
+      case%lift%law = "polynomial_4567"
+      case%lift%max_lift = 2.0e-7_wp
+      case%lift%opening_half_angle = 0.5_wp*degree
+      case%lift%closing_half_angle = 0.5_wp*degree
+      call make_model(case, model, error)
+      if (allocated(error)) return
+      do i = 1, 2
+         call integrate_ehl_cycle(cycle, model, ehl_cycle_options_t(nodes=65, step_error=step_errors(i)), failure)
+         call expect_success(error, failure)
+         if (allocated(error)) return
+         films(i) = minval(cycle%moments%films%minimum)
+      end do
+      ! The event makes the film thinner by a fifth; its lowest point lies between two steps
+      call check_close(error, films(2), films(1), 3.0_wp*step_errors(2), "smallest film by long steps")
+   end subroutine test_short_event
+
+   subroutine test_grids(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(ehl_summary_t) :: coarse, fine
+      type(model_t) :: model
+      type(error_t), allocatable :: failure
+
+      fine = ehl_summary_t(129, 1.0e-7_wp, 2.0e-7_wp, 3.0e-7_wp, -1.0e-4_wp, 1.0e-3_wp, 1.0_wp)
+      coarse = fine
+      coarse%mean_central = 1.009_wp*fine%mean_central
+      coarse%mean_slip = fine%mean_slip + 0.009_wp*fine%mean_size
+      call compare_cycles(model, coarse, fine, failure)
+      call expect_success(error, failure)
+      if (allocated(error)) return
+      coarse%smallest_film = 0.98_wp*fine%smallest_film
+      call compare_cycles(model, coarse, fine, failure)
+      call expect_error(error, failure, kind_convergence, "2.0E-02 in the film")
+      if (allocated(error)) return
+      coarse%smallest_film = fine%smallest_film
+      coarse%mean_slip = -fine%mean_slip
+      call compare_cycles(model, coarse, fine, failure)
+      call expect_error(error, failure, kind_convergence, "2.0E-01 in the mean slip")
+      if (allocated(error)) return
+      allocate (model%ehl)
+      model%ehl%accuracy = 0.3_wp
+      call compare_cycles(model, coarse, fine, failure)
+      call expect_success(error, failure)
+   end subroutine test_grids
 
    subroutine test_too_heavy(error)
       type(error_type), allocatable, intent(out) :: error
