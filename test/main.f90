@@ -16,6 +16,7 @@ program main
    use test_lift, only : collect_lift
    use test_quadrature, only : collect_quadrature
    use test_asperity, only : collect_asperity
+   use test_zhao_maietta_chang, only : collect_zhao_maietta_chang
    use test_deck, only : collect_deck
    use test_part_file, only : collect_part_file
    use test_samples, only : collect_samples
@@ -133,6 +134,7 @@ contains
          new_testsuite("lift", collect_lift), &
          new_testsuite("quadrature", collect_quadrature), &
          new_testsuite("asperity", collect_asperity), &
+         new_testsuite("zhao_maietta_chang", collect_zhao_maietta_chang), &
          new_testsuite("deck", collect_deck), &
          new_testsuite("deck_sweep", collect_deck_sweep), &
          new_testsuite("samples", collect_samples), &

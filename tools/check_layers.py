@@ -32,7 +32,7 @@ MAY_USE = {
 PHYSICS_FLOORS = [
     {"contact_rule", "materials"},
     {"lubricant"},
-    {"lift_table", "greenwood_tripp"},
+    {"lift_table", "greenwood_tripp", "zhao_maietta_chang"},
     {"lift"},
     {"kinematics"},
     {"dynamics"},

@@ -252,8 +252,8 @@ contains
             by_film(1:3, i) = by_film(1:3, i) - state%fields%by_film(:, i - 1)
             if (present(storage)) then
                rate = grid%weight(i)/storage%duration
-               by_pressure(3, i) = by_pressure(3, i) + rate*state%fields%density_slope(i)*state%fields%film(i)
-               by_film(3, i) = by_film(3, i) + rate*state%fields%density(i)
+               by_pressure(3, i) = by_pressure(3, i) + rate*state%fields%density_slope(i)*state%fields%gap(i)
+               by_film(3, i) = by_film(3, i) + rate*state%fields%density(i)*state%fields%gap_slope(i)
             end if
          else
             by_pressure(3, i) = 1.0_wp

@@ -17,7 +17,7 @@ module camroller_ehl_problem
    private
 
    public :: ehl_contact_t, ehl_problem_t, new_ehl_problem, range_text, in_range, largest_pressure, speed_range, load_range
-   public :: log_viscosity, relative_density, asperity_pressure, real_area_part, pressure_flow_factor
+   public :: log_viscosity, relative_density, asperity_pressure, real_area_part, pressure_flow_factor, mean_gap
 
    !> What a problem may be: in range, or which quantity is out of it
    integer, parameter :: in_range = 0, pressure_out_of_range = 1, exponent_out_of_range = 2, speed_out_of_range = 3, &
@@ -76,8 +76,10 @@ module camroller_ehl_problem
       logical :: is_compressible
       !> Roughness over the film scale [-]
       real(wp) :: roughness = 0.0_wp
-      !> Asperity pressure for F_5/2 = 1 over the pressure scale, real over apparent area for F_2 = 1 [-]
-      real(wp) :: asperity_factor = 0.0_wp, area_factor = 0.0_wp
+      !> Constants of the asperities
+      type(asperity_constants_t) :: asperity
+      !> Their load factor over the pressure scale; zero: they do not touch [-]
+      real(wp) :: asperity_factor = 0.0_wp
       !> Does roughness hinder the flow?
       logical :: has_flow_factors = .false.
       !> Shear stress over tau_E in a film of the film scale at ambient viscosity [-]; zero: no thinning
@@ -118,7 +120,7 @@ contains
       problem%roughness = contact%roughness/problem%film_scale
       if (contact%roughness > 0.0_wp) then
          problem%asperity_factor = contact%asperity%load_factor/problem%pressure_scale
-         problem%area_factor = contact%asperity%area_factor
+         problem%asperity = contact%asperity
       end if
       if (contact%eyring_stress > 0.0_wp) problem%shear = contact%oil%viscosity*abs(contact%sliding_speed) &
          & /(problem%film_scale*contact%eyring_stress)
@@ -213,7 +215,7 @@ contains
       slope = (density_limit - 1.0_wp)*reference/(reference + max(pressure, 0.0_wp))**2
    end subroutine relative_density
 
-   !> Pressure of touching asperities by Greenwood and Tripp's law, and its slope; a straight line below zero film.
+   !> Pressure of touching asperities and its slope; a straight line below zero film.
    pure subroutine asperity_pressure(problem, film, value, slope)
       !> The problem
       type(ehl_problem_t), intent(in) :: problem
@@ -225,7 +227,7 @@ contains
       value = 0.0_wp
       slope = 0.0_wp
       if (problem%asperity_factor <= 0.0_wp) return
-      call asperity_load_function(max(film, 0.0_wp)/problem%roughness, value, slope)
+      call asperity_load_function(problem%asperity, max(film, 0.0_wp)/problem%roughness, value, slope)
       if (film < 0.0_wp) value = value + slope*film/problem%roughness
       value = problem%asperity_factor*value
       slope = problem%asperity_factor*slope/problem%roughness
@@ -244,9 +246,9 @@ contains
       real(wp) :: slope
 
       part = 0.0_wp
-      if (problem%area_factor <= 0.0_wp) return
-      call asperity_area_function(max(film, 0.0_wp)/problem%roughness, part, slope)
-      part = problem%area_factor*part
+      if (problem%asperity_factor <= 0.0_wp) return
+      call asperity_area_function(problem%asperity, max(film, 0.0_wp)/problem%roughness, part, slope)
+      part = problem%asperity%area_factor*part
    end function real_area_part
 
    !> Part of the flow driven by pressure that isotropic roughness lets through, `1 - 0.9 exp(-0.56 h/sigma)`, and its slope.
@@ -272,5 +274,37 @@ contains
       value = 1.0_wp - part
       if (film_ratio > smallest_film_ratio) slope = 0.56_wp*part/problem%roughness
    end subroutine pressure_flow_factor
+
+   !> Room that rough surfaces leave to the oil over their area, `int_-h^inf (h + s) phi(s) ds`, and its slope; the film without
+   !> flow factors.
+   !>
+   !> Summits that would reach into the other surface are flattened, so the room is larger than the distance of the mean planes: by
+   !> 8 % at h = sigma. Source: Patir and Cheng, J. Lubr. Technol. 100 (1978) 12, the mean gap of their equation.
+   pure subroutine mean_gap(problem, film, value, slope)
+      !> The problem
+      type(ehl_problem_t), intent(in) :: problem
+      !> Film over its scale [-]
+      real(wp), intent(in) :: film
+      !> Mean gap over the scale of the film, and its derivative with respect to the film over its scale [-]
+      real(wp), intent(out) :: value, slope
+
+      ! Film ratio from which on nothing touches: double precision has no more figures [-]
+      real(wp), parameter :: untouched = 8.5_wp
+      ! Film ratio [-]
+      real(wp) :: film_ratio
+
+      value = film
+      slope = 1.0_wp
+      if (.not. problem%has_flow_factors .or. problem%roughness <= 0.0_wp) return
+      film_ratio = film/problem%roughness
+      if (abs(film_ratio) > untouched) then
+         if (film_ratio > 0.0_wp) return
+         value = 0.0_wp
+         slope = 0.0_wp
+         return
+      end if
+      slope = 0.5_wp*erfc(-film_ratio*sqrt(0.5_wp))
+      value = film*slope + problem%roughness*exp(-0.5_wp*film_ratio**2)/sqrt(2.0_wp*pi)
+   end subroutine mean_gap
 
 end module camroller_ehl_problem

@@ -6,6 +6,7 @@
 !>
 !>     (mean(1/H^2) - mean(1/eta) (P_(i+1) - P_i)/(lambda step))/mean(1/(rho H^3))
 !>
+!> (with flow factors, `H_T/(phi H^3)` and `1/(rho phi H^3)`: H_T is the mean gap of rough surfaces, phi what they hinder the flow,)
 !> which is Reynolds' equation integrated from node to node with a constant flow. The mean of 1/eta is exact where ln(eta) is
 !> linear between the nodes; the other two are by Simpson's rule, the middle by the quadratic through three nodes. Nodes that move
 !> take along what is at the middle. What flows in and out of the cell of a node is in balance, where the film is full; where it has
@@ -13,7 +14,8 @@
 module camroller_ehl_reynolds
    use camroller_kinds, only : wp
    use camroller_ehl_grid, only : ehl_grid_t, deformation
-   use camroller_ehl_problem, only : ehl_problem_t, log_viscosity, relative_density, asperity_pressure, pressure_flow_factor
+   use camroller_ehl_problem, only : ehl_problem_t, log_viscosity, relative_density, asperity_pressure, pressure_flow_factor, &
+      & mean_gap
    implicit none
    private
 
@@ -25,6 +27,8 @@ module camroller_ehl_reynolds
       real(wp), allocatable :: film(:), pressure(:), asperity(:)
       !> Derivative of the asperities' pressure with respect to the film [-]
       real(wp), allocatable :: asperity_slope(:)
+      !> Room for the oil over b^2/R, the film or the mean gap of rough surfaces, and its derivative with respect to the film [-]
+      real(wp), allocatable :: gap(:), gap_slope(:)
       !> Density and viscosity ratios; the latter as its logarithm [-]
       real(wp), allocatable :: density(:), log_viscosity(:)
       !> Slopes of density and ln(viscosity) with the film's pressure, and of ln(viscosity) with the film [-]
@@ -64,7 +68,7 @@ contains
       allocate (fields%film(nodes), fields%pressure(nodes), fields%asperity(nodes), fields%asperity_slope(nodes), &
          & fields%density(nodes), fields%log_viscosity(nodes), fields%density_slope(nodes), fields%viscosity_slope(nodes), &
          & fields%thinning_slope(nodes), fields%flow(nodes - 1), fields%driven(nodes - 1), fields%by_pressure(3, nodes - 1), &
-         & fields%by_film(3, nodes - 1), fields%excess(nodes), source=0.0_wp)
+         & fields%by_film(3, nodes - 1), fields%excess(nodes), fields%gap(nodes), fields%gap_slope(nodes), source=0.0_wp)
    end subroutine new_ehl_fields
 
    !> Film, share of the asperities, and the state of the oil.
@@ -86,6 +90,7 @@ contains
       do i = 1, grid%size
          call asperity_pressure(problem, fields%film(i), fields%asperity(i), fields%asperity_slope(i))
          fields%pressure(i) = total(i) - fields%asperity(i)
+         call mean_gap(problem, fields%film(i), fields%gap(i), fields%gap_slope(i))
          call relative_density(problem, fields%pressure(i), fields%density(i), fields%density_slope(i))
          call effective_viscosity(problem, fields%pressure(i), fields%film(i), fields%log_viscosity(i), &
             & fields%viscosity_slope(i), fields%thinning_slope(i))
@@ -160,18 +165,18 @@ contains
          do k = 1, 3
             j = max(i - 2 + k, 1)
             fields%by_pressure(k, i) = ((drag_slopes(k, 1) - fields%flow(i)*resistance_slopes(k, 1))/resistance &
-               & - moved*grid%face(k, i)*fields%film(j))*fields%density_slope(j)
+               & - moved*grid%face(k, i)*fields%gap(j))*fields%density_slope(j)
             fields%by_film(k, i) = (drag_slopes(k, 2) - fields%flow(i)*resistance_slopes(k, 2))/resistance &
-               & - moved*grid%face(k, i)*fields%density(j)
+               & - moved*grid%face(k, i)*fields%density(j)*fields%gap_slope(j)
          end do
          fields%by_pressure(2:, i) = fields%by_pressure(2:, i) - by_pressure/resistance
          fields%by_film(2:, i) = fields%by_film(2:, i) - by_film/resistance
          near = [max(i - 1, 1), i, i + 1]
-         fields%flow(i) = fields%flow(i) - moved*dot_product(grid%face(:, i), fields%density(near)*fields%film(near))
+         fields%flow(i) = fields%flow(i) - moved*dot_product(grid%face(:, i), fields%density(near)*fields%gap(near))
       end do
       fields%excess(2:grid%size - 1) = fields%flow(2:) - fields%flow(:grid%size - 2)
       if (.not. present(storage)) return
-      fields%excess = fields%excess + (grid%weight*fields%density*fields%film - storage%mass)/storage%duration
+      fields%excess = fields%excess + (grid%weight*fields%density*fields%gap - storage%mass)/storage%duration
    end subroutine evaluate_flow
 
    !> Means of `1/(rho H^3)` and `1/H^2` between two nodes by Simpson's rule, the middle by the quadratic through three nodes.
@@ -191,8 +196,8 @@ contains
 
       ! Weights of the three nodes at a place of the rule, and of the place [-]
       real(wp) :: weights(3), part
-      ! Film, density, flow factor and its slope there; resistance there and its derivative over the film [-]
-      real(wp) :: film, density, factor, factor_slope, value, slope
+      ! Film, density, flow factor and its slope, mean gap and its slope there; resistance and its derivative over the film [-]
+      real(wp) :: film, density, factor, factor_slope, gap, gap_slope, value, slope
       integer :: k, before
 
       before = max(i - 1, 1)
@@ -217,10 +222,11 @@ contains
          value = part/(density*film**3*factor)
          slope = -value*(3.0_wp/film + factor_slope/factor)
          resistance = resistance + value
-         drag = drag + density*film*value
+         call mean_gap(problem, film, gap, gap_slope)
+         drag = drag + density*gap*value
          resistance_slopes(:, 1) = resistance_slopes(:, 1) - weights*value/density
          resistance_slopes(:, 2) = resistance_slopes(:, 2) + weights*slope
-         drag_slopes(:, 2) = drag_slopes(:, 2) + weights*density*(value + film*slope)
+         drag_slopes(:, 2) = drag_slopes(:, 2) + weights*density*(gap_slope*value + gap*slope)
       end do
    end subroutine mean_resistance
 

@@ -194,6 +194,7 @@ contains
       if (.not. has_group(settings, "asperity")) return
       allocate (case%asperity)
       associate (asperity => case%asperity)
+         call take(settings, "asperity", "law", asperity%law)
          call take(settings, "asperity", "roughness_product", asperity%roughness_product)
          call take(settings, "asperity", "roughness_over_tip_radius", asperity%roughness_over_tip_radius)
          call take(settings, "asperity", "boundary_coefficient", asperity%boundary_coefficient)

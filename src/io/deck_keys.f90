@@ -13,7 +13,7 @@ module camroller_deck_keys
    use camroller_lubricant, only : temperature_law_names, pressure_law_names
    use camroller_ehl_table, only : ehl_t
    use camroller_film, only : film_law_names, range_policy_names
-   use camroller_asperity, only : asperity_t, boundary_names, mobilisation_names
+   use camroller_asperity, only : asperity_t, asperity_law_names, boundary_names, mobilisation_names
    use camroller_traction, only : shear_law_names, cap_names, rolling_law_names
    use camroller_needle, only : needle_bearing_t, roller_bearing_names
    use camroller_journal, only : cam_bearings_t, journal_law_names
@@ -212,7 +212,8 @@ contains
       call add_number(schema, "roller_poisson_ratio", range_t(0.0_wp, 0.5_wp), "Poisson's ratio of the roller", &
          & example="0.29")
       call add_number(schema, "hardness_GPa", positive, &
-         & "hardness of the softer body; for film law 'masjedi_khonsari_rough' alone", is_optional=.true.)
+         & "hardness of the softer body; for film law 'masjedi_khonsari_rough' and asperity law 'zhao_maietta_chang'", &
+         & is_optional=.true.)
       call add_group(schema, "surface", group_required, "finish of cam and roller")
       call add_number(schema, "cam_roughness_um", not_negative, "root mean square roughness of the cam", example="0.1")
       call add_number(schema, "roller_roughness_um", not_negative, "root mean square roughness of the roller", &
@@ -300,6 +301,8 @@ contains
       type(asperity_t) :: standard
 
       call add_group(schema, "asperity", group_effect, "asperities that carry load and rub")
+      call add_name(schema, "law", asperity_law_names, standard%law, &
+         & "elastic asperities of both surfaces, or asperities of one that yield; the latter needs materials.hardness_GPa")
       call add_number(schema, "roughness_product", positive, "asperity density times tip radius times roughness", &
          & default=standard%roughness_product)
       call add_number(schema, "roughness_over_tip_radius", positive, "roughness over tip radius", &

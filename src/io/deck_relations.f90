@@ -5,6 +5,7 @@
 !> rule is silent where one of its values is wrong already. What needs the geometry worked out is checked by the model.
 module camroller_deck_relations
    use camroller_kinds, only : wp
+   use camroller_asperity, only : asperity_law_names, law_zhao_maietta_chang, smallest_product
    use camroller_number_text, only : integer_text
    use camroller_mistakes, only : mistakes_t
    use camroller_settings, only : settings_t, take, find_value, is_known, is_wrong, get_word, has_group
@@ -305,7 +306,10 @@ contains
          call demand(settings, "traction", "eyring_stress_MPa", "shear law 'eyring'", mistakes)
       end if
       needer = ""
-      if (has_group(settings, "asperity")) needer = "&asperity"
+      if (has_group(settings, "asperity")) then
+         needer = "&asperity"
+         call asperities_have_what_they_need(settings, mistakes)
+      end if
       if (get_word(settings, "film", "law") == "masjedi_khonsari_rough") then
          call demand(settings, "materials", "hardness_GPa", "film law 'masjedi_khonsari_rough'", mistakes)
          needer = "film law 'masjedi_khonsari_rough'"
@@ -318,6 +322,26 @@ contains
       call complain(mistakes, settings, "surface", "cam_roughness_um", needer// &
          & " needs a roughness of cam or roller above 0")
    end subroutine contact_has_what_its_laws_need
+
+   !> Asperities that yield have a hardness, and their summits a scatter.
+   subroutine asperities_have_what_they_need(settings, mistakes)
+      !> The settings
+      type(settings_t), intent(in) :: settings
+      !> Mistakes so far
+      type(mistakes_t), intent(inout) :: mistakes
+
+      !> Product of density, tip radius and roughness [-]
+      real(wp) :: product
+      character(len=*), parameter :: law = asperity_law_names(law_zhao_maietta_chang)
+
+      if (get_word(settings, "asperity", "law") /= law) return
+      call demand(settings, "materials", "hardness_GPa", "asperity law '"//trim(law)//"'", mistakes)
+      if (is_wrong(settings, "asperity", "roughness_product")) return
+      product = smallest_product
+      call take(settings, "asperity", "roughness_product", product)
+      if (product < smallest_product) call complain(mistakes, settings, "asperity", "roughness_product", &
+         & "asperity law '"//trim(law)//"' needs a 'roughness_product' of 0.025 or more")
+   end subroutine asperities_have_what_they_need
 
    !> Bearings are in order, each cam stands between two of them, and each list has an entry for every cam.
    subroutine cams_stand_between_bearings(settings, mistakes)

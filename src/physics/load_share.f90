@@ -7,7 +7,7 @@
 module camroller_load_share
    use camroller_kinds, only : wp
    use camroller_film, only : film_line_t, film_shape_t, film_at_load, log_films_at_load, takes_whole_load
-   use camroller_asperity, only : asperity_constants_t, asperity_load_function, asperity_area_function, largest_film_ratio
+   use camroller_asperity, only : asperity_constants_t, asperity_load_function, asperity_area_function
    implicit none
    private
 
@@ -81,6 +81,7 @@ contains
       real(wp) :: film_ratio, asperity_load, film_load, stiffness
       ! Change that may be the last, the last change [-]
       real(wp) :: last_allowed, last
+      logical :: touches
 
       shape = film_shape_t(0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp)
       if (line%groups%speed > 0.0_wp) call film_at_load(line, load, shape)
@@ -88,9 +89,14 @@ contains
       last_allowed = tolerance
       if (present(coarse)) last_allowed = max(tolerance, coarse)
       last = 0.0_wp
-      if (present(asperity) .and. film_ratio < largest_film_ratio) then
-         call share_with_asperities(line, load, asperity%load_factor*area, last_allowed, film_ratio, asperity_load, film_load, &
-            & stiffness, last, shape)
+      if (present(asperity)) then
+         touches = film_ratio < asperity%reach
+      else
+         touches = .false.
+      end if
+      if (touches) then
+         call share_with_asperities(line, load, asperity, area, last_allowed, film_ratio, asperity_load, film_load, stiffness, &
+            & last, shape)
          call complete_share(line, asperity, film_ratio, asperity_load, film_load, stiffness, shape, share)
       else
          call film_alone(shape, load, share)
@@ -121,14 +127,15 @@ contains
       real(wp), intent(in), optional :: coarse
 
       type(film_shape_t) :: shape
-      ! F_5/2, its derivative, film load over E' R L and its derivative over ln H; asperity load; logarithms of the films [-]
+      ! The asperities' function of the film ratio, its derivative; film load over E' R L and its derivative over ln H; asperity
+      ! load; logarithms of the films [-]
       real(wp) :: value, slope, film_load, film_load_slope, asperity_load, logs(2)
 
       change = 0.0_wp
       film_load = 0.0_wp
-      if (start > 0.0_wp .and. start < largest_film_ratio .and. line%groups%speed > 0.0_wp &
+      if (start > 0.0_wp .and. start < asperity%reach .and. line%groups%speed > 0.0_wp &
          & .and. .not. takes_whole_load(line%law)) then
-         call asperity_load_function(start, value, slope)
+         call asperity_load_function(asperity, start, value, slope)
          film_load = load - asperity%load_factor*area*value
       end if
       if (film_load > smallest_film_part*load) then
@@ -182,10 +189,10 @@ contains
       !> Film and load share
       type(share_t), intent(out) :: share
 
-      ! F_2 with its derivative [-]
+      ! The area's function of the film ratio with its derivative [-]
       real(wp) :: area_value, area_slope
 
-      call asperity_area_function(film_ratio, area_value, area_slope)
+      call asperity_area_function(asperity, film_ratio, area_value, area_slope)
       share%film_min = film_ratio*line%groups%roughness
       share%film_central = max(shape%central, share%film_min, smallest_film)
       share%asperity_load = asperity_load
@@ -246,16 +253,16 @@ contains
    end function share_change
 
    !> Film ratio at which the asperities carry what the film does not, by Newton's method on logarithms inside a bracket.
-   pure subroutine share_with_asperities(line, load, capacity, last_allowed, film_ratio, asperity_load, film_load, stiffness, &
-      & change, shape)
+   pure subroutine share_with_asperities(line, load, asperity, area, last_allowed, film_ratio, asperity_load, film_load, &
+      & stiffness, change, shape)
       !> Film over the load at the speed of the contact
       type(film_line_t), intent(in) :: line
-      !> Whole load over E' R L [-]
-      real(wp), intent(in) :: load
-      !> Asperity load over E' R L for F_5/2 = 1 [-]
-      real(wp), intent(in) :: capacity
-      !> Relative change of the film ratio that may be the last [-]
-      real(wp), intent(in) :: last_allowed
+      !> Whole load over E' R L, relative change of the film ratio that may be the last [-]
+      real(wp), intent(in) :: load, last_allowed
+      !> Asperities
+      type(asperity_constants_t), intent(in) :: asperity
+      !> Apparent area over E' R L [1/Pa]
+      real(wp), intent(in) :: area
       !> In: film ratio to start from, that with the film carrying everything for laws that take the whole load; out: film
       !> ratio [-]
       real(wp), intent(inout) :: film_ratio
@@ -268,19 +275,21 @@ contains
 
       ! Bracket of the film ratio; logarithms of film ratio, films and roughness [-]
       real(wp) :: low, high, log_ratio, logs(2), log_roughness
-      ! F_5/2, d F_5/2/d H, derivative of the film load over ln H [-]
-      real(wp) :: value, slope, film_load_slope
+      ! Asperity load over E' R L and over the law's function of the film ratio; that function, its derivative; derivative of the
+      ! film load over ln H [-]
+      real(wp) :: capacity, value, slope, film_load_slope
       integer :: iteration
       logical :: has_film
 
       change = 0.0_wp
-      call carry_load(load, capacity, film_ratio, asperity_load, film_load, value, slope)
+      capacity = asperity%load_factor*area
+      call carry_load(load, asperity, area, film_ratio, asperity_load, film_load, value, slope)
       stiffness = capacity*slope*film_ratio
       if (takes_whole_load(line%law)) return
       if (line%groups%speed <= 0.0_wp .and. asperity_load < load) return
 
       low = 0.0_wp
-      high = largest_film_ratio
+      high = asperity%reach
       log_ratio = log(max(film_ratio, tiny(film_ratio)))
       log_roughness = log(line%groups%roughness)
       do iteration = 1, max_iterations
@@ -313,25 +322,29 @@ contains
             film_ratio = low + 0.5_wp*(high - low)
             log_ratio = log(film_ratio)
          end if
-         call asperity_load_function(film_ratio, value, slope)
+         call asperity_load_function(asperity, film_ratio, value, slope)
       end do
       change = 0.0_wp
       film_ratio = high
       if (has_film) shape%central = central_at(logs, log(film_ratio) + log_roughness, shape)
-      call carry_load(load, capacity, film_ratio, asperity_load, film_load, value, slope)
+      call carry_load(load, asperity, area, film_ratio, asperity_load, film_load, value, slope)
    end subroutine share_with_asperities
 
    !> Load of the asperities at a film ratio, no more than the whole, and what is left to the film.
-   pure subroutine carry_load(load, capacity, film_ratio, asperity_load, film_load, value, slope)
-      !> Whole load, asperity load for F_5/2 = 1, both over E' R L; film ratio [-]
-      real(wp), intent(in) :: load, capacity, film_ratio
+   pure subroutine carry_load(load, asperity, area, film_ratio, asperity_load, film_load, value, slope)
+      !> Whole load over E' R L; film ratio [-]
+      real(wp), intent(in) :: load, film_ratio
+      !> Asperities
+      type(asperity_constants_t), intent(in) :: asperity
+      !> Apparent area over E' R L [1/Pa]
+      real(wp), intent(in) :: area
       !> Asperity load and film load over E' R L [-]
       real(wp), intent(out) :: asperity_load, film_load
-      !> F_5/2, d F_5/2/d H [-]
+      !> The law's function of the film ratio, and its derivative [-]
       real(wp), intent(out) :: value, slope
 
-      call asperity_load_function(film_ratio, value, slope)
-      asperity_load = max(0.0_wp, min(capacity*value, load))
+      call asperity_load_function(asperity, film_ratio, value, slope)
+      asperity_load = max(0.0_wp, min(asperity%load_factor*area*value, load))
       film_load = load - asperity_load
    end subroutine carry_load
 

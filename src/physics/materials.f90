@@ -18,7 +18,7 @@ module camroller_materials
       real(wp) :: cam_poisson_ratio = 0.0_wp
       !> Poisson's ratio of the roller [-]
       real(wp) :: roller_poisson_ratio = 0.0_wp
-      !> Hardness of the softer body [Pa]; zero where not given (needed by the rough film law alone)
+      !> Hardness of the softer body [Pa]; zero where not given (needed by the rough film law and by asperities that yield)
       real(wp) :: hardness = 0.0_wp
    end type materials_t
 

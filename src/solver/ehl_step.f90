@@ -246,7 +246,7 @@ contains
       end if
       if (.not. converged) return
       call get_films(problem, march%grid, state, now%films)
-      now%mass = march%grid%weight*state%fields%density*state%fields%film*problem%film_scale*problem%length_scale
+      now%mass = march%grid%weight*state%fields%density*state%fields%gap*problem%film_scale*problem%length_scale
    end subroutine find_film
 
    !> Sliding speed at which the roller's spin follows from film and load: rest where friction can hold the roller, else Newton's

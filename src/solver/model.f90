@@ -16,7 +16,8 @@ module camroller_model
    use camroller_film_table, only : film_table_t
    use camroller_ehl_problem, only : largest_pressure, speed_range, load_range
    use camroller_ehl_table, only : ehl_t, build_film_table
-   use camroller_asperity, only : boundary_names, mobilisation_names, asperity_constants_t, new_asperity_constants
+   use camroller_asperity, only : asperity_law_names, law_zhao_maietta_chang, smallest_product, boundary_names, &
+      & mobilisation_names, asperity_constants_t, new_asperity_constants
    use camroller_traction, only : traction_t, shear_law_names, cap_names, rolling_law_names
    use camroller_needle, only : friction_radius, roller_bearing_names
    use camroller_guide, only : guide_drag_coefficient
@@ -424,7 +425,15 @@ contains
          model%boundary%coefficient = case%asperity%boundary_coefficient
          model%boundary%film_shear_strength = case%asperity%film_shear_strength
          model%boundary%mobilising_speed = case%asperity%mobilising_speed
-         call new_asperity_constants(model%boundary%constants, case%asperity, model%modulus)
+         call find_name("asperity law", case%asperity%law, asperity_law_names, choice, error)
+         if (allocated(error)) return
+         if (choice == law_zhao_maietta_chang .and. .not. model%hardness > 0.0_wp) then
+            call raise(error, kind_deck, "materials: the asperity law 'zhao_maietta_chang' needs the hardness")
+         else if (choice == law_zhao_maietta_chang .and. .not. case%asperity%roughness_product >= smallest_product) then
+            call raise(error, kind_deck, "asperity: the law 'zhao_maietta_chang' needs a roughness product of 0.025 or more")
+         end if
+         if (allocated(error)) return
+         call new_asperity_constants(model%boundary%constants, case%asperity, model%modulus, model%hardness)
       end if
       if (allocated(case%needle_bearing)) then
          call find_name("roller bearing", case%needle_bearing%kind, roller_bearing_names, choice, error)

@@ -74,20 +74,22 @@ contains
       type(error_type), allocatable, intent(out) :: error
       real(wp), allocatable :: rows(:, :)
       real(wp) :: value, slope
+      ! Greenwood and Tripp, whose functions have no constants
+      type(asperity_constants_t) :: constants
       integer :: i
 
       call read_table("greenwood_tripp_quadrature.csv", 3, rows, error)
       if (allocated(error)) return
       do i = 1, size(rows, 2)
          ! six digits are given: half a unit of the last one is at most 5e-6 of the value
-         call asperity_area_function(rows(1, i), value, slope)
+         call asperity_area_function(constants, rows(1, i), value, slope)
          call check(error, abs(value/rows(2, i) - 1.0_wp) < 5.0e-6_wp, "F_2")
          if (allocated(error)) return
-         call asperity_load_function(rows(1, i), value, slope)
+         call asperity_load_function(constants, rows(1, i), value, slope)
          call check(error, abs(value/rows(3, i) - 1.0_wp) < 5.0e-6_wp, "F_5/2")
          if (allocated(error)) return
       end do
-      call asperity_load_function(0.0_wp, value, slope)
+      call asperity_load_function(constants, 0.0_wp, value, slope)
       call check(error, abs(value - 0.6166342190_wp) < 0.5e-10_wp, "F_5/2(0)")
    end subroutine test_table
 
@@ -174,12 +176,12 @@ contains
       call new_asperity_constants(constants, asperity_t(0.05_wp, 0.02_wp), modulus)
       call asperity_load(film_ratio, 0.05_wp, 0.02_wp, modulus, apparent, load, load_slope)
       call asperity_area(film_ratio, 0.05_wp, apparent, area, area_slope)
-      call asperity_load_function(film_ratio, value, slope)
+      call asperity_load_function(constants, film_ratio, value, slope)
       call check(error, load, constants%load_factor*apparent*value, thr=100.0_wp*epsilon(1.0_wp), rel=.true.)
       if (allocated(error)) return
       call check(error, load_slope, constants%load_factor*apparent*slope, thr=100.0_wp*epsilon(1.0_wp), rel=.true.)
       if (allocated(error)) return
-      call asperity_area_function(film_ratio, value, slope)
+      call asperity_area_function(constants, film_ratio, value, slope)
       call check(error, area, constants%area_factor*apparent*value, &
          thr=100.0_wp*epsilon(1.0_wp), rel=.true.)
       if (allocated(error)) return

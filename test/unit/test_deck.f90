@@ -270,6 +270,11 @@ contains
          & "11:1: shear law 'eyring' needs 'eyring_stress_MPa'")
       call expect_mistake(error, "", "&film law = 'masjedi_khonsari_rough' /", &
          & "8:1: film law 'masjedi_khonsari_rough' needs")
+      call expect_mistake(error, "", "&asperity boundary_coefficient = 0.1 law = 'zhao_maietta_chang' /", &
+         & "8:1: asperity law 'zhao_maietta_chang' needs 'hardness_GPa'")
+      call expect_mistake(error, "ratio = 0.29 /", "ratio = 0.29 hardness_GPa = 8 / "// &
+         & "&asperity boundary_coefficient = 0.1 law = 'zhao_maietta_chang' roughness_product = 0.02 /", &
+         & "8:215: asperity law 'zhao_maietta_chang' needs a 'roughness_product' of 0.025 or more")
       call expect_mistake(error, "finger_kg = 0.0418", "", "6:1: &masses needs 'finger_kg' or 'finger_inertia_kg_m2'")
       call expect_mistake(error, "= 0.0418", "= 0.0418 finger_inertia_kg_m2 = 5e-5", "6:39: give 'finger_kg' or")
    end subroutine law_relations

@@ -6,6 +6,7 @@ module test_spin_slopes
    use camroller_model, only : model_t
    use camroller_kinematics, only : rotation_names
    use camroller_film, only : film_law_names
+   use camroller_asperity, only : asperity_law_names, law_zhao_maietta_chang
    use camroller_lubricant, only : pressure_law_names
    use camroller_spin, only : spin_problem_t
    use camroller_ode_problem, only : linear_t, counters_t, new_linear
@@ -34,7 +35,7 @@ contains
          new_unittest("closed balance: every film law, either sense of rotation", test_film_laws), &
          new_unittest("closed balance: every viscosity and shear law", test_shear_laws), &
          new_unittest("the source's bookkeeping", test_source), &
-         new_unittest("without asperities, bearing and guide; with gas force", test_effects), &
+         new_unittest("with gas force; with asperities that yield; without any, nor bearing and guide", test_effects), &
          new_unittest("with a given part of the boundary friction, as sliding and sticking have it", test_given_share), &
          new_unittest("without contact only the kinematics is left", test_no_contact) &
          ]
@@ -155,6 +156,12 @@ contains
       call make_model(case, model, error)
       if (allocated(error)) return
       call compare(error, model, "gas force")
+      if (allocated(error)) return
+      case%asperity%law = asperity_law_names(law_zhao_maietta_chang)
+      case%materials%hardness = 8.0e9_wp
+      call make_model(case, model, error)
+      if (allocated(error)) return
+      call compare(error, model, "asperities that yield")
       if (allocated(error)) return
       deallocate (case%asperity, case%needle_bearing, case%valve_guide)
       call make_model(case, model, error)
