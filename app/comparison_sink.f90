@@ -9,7 +9,6 @@ module camroller_comparison_sink
    use camroller_case_record, only : outcome_t, take_case, take_header
    use camroller_case_sink, only : sink_t
    use camroller_ehl_file, only : sample_record
-   use camroller_ehl_profiles, only : no_profiles
    use camroller_ehl_record, only : ehl_record_t, list_ehl_quantities
    use camroller_hdf5_object, only : hdf5_object_t
    use camroller_hdf5_read, only : has_member, read_numbers
@@ -215,7 +214,7 @@ contains
             else
                call compare(self, "ehl", number, not_a_number(), 1.0_wp, differs(i))
             end if
-         else if (index(outcomes(i)%text, no_profiles) > 0) then
+         else if (outcomes(i)%lacks_profiles) then
             if (has_member(self%file, "/ehl")) call compare_missing(self, "ehl", number, differs(i), error)
          end if
          if (allocated(error)) return

@@ -8,6 +8,7 @@ module camroller_error
    private
 
    public :: error_t, raise, add_context
+   public :: cause_unknown, cause_several_balances
    public :: kind_usage, kind_deck, kind_domain, kind_convergence, kind_file, kind_difference, kind_unfinished, kind_internal
 
    !> Wrong words on the command line
@@ -27,10 +28,17 @@ module camroller_error
    !> A broken promise inside the program
    integer, parameter :: kind_internal = 70
 
+   !> Nothing that a caller acts upon
+   integer, parameter :: cause_unknown = 0
+   !> A cycle passes a place where the finger is in balance at several loads for one sliding speed
+   integer, parameter :: cause_several_balances = 1
+
    !> One error: allocated only where something went wrong
    type :: error_t
       !> One of the kinds above
       integer :: kind = kind_internal
+      !> One of the causes above, for callers that act upon it
+      integer :: cause = cause_unknown
       !> What went wrong, in one sentence or one line per mistake
       character(len=:), allocatable :: message
    end type error_t

@@ -18,6 +18,8 @@ module camroller_case_record
 
    !> Where count and layout stand among the words
    integer, parameter :: count_place = 2, layout_place = 3
+   !> In the place of the number of nodes: profiles were asked for and could not be solved
+   integer, parameter :: unsolved = -1
    !> Words of a case besides its numbers, with a remark of the usual length
    integer, parameter :: words_of_case = 24
 
@@ -33,6 +35,8 @@ module camroller_case_record
       real(wp), allocatable :: series(:, :)
       !> Profiles across the contact; none where they are not kept
       type(ehl_record_t), allocatable :: profiles
+      !> Were they asked for, and could not be solved?
+      logical :: lacks_profiles = .false.
    end type outcome_t
 
 contains
@@ -68,7 +72,7 @@ contains
       if (present(profiles)) then
          call put_integer(record, size(profiles%nodes))
       else
-         call put_integer(record, 0)
+         call put_integer(record, merge(unsolved, 0, result%lacks_profiles))
       end if
       if (allocated(result%warnings)) then
          call put_text(record, result%warnings)
@@ -160,6 +164,7 @@ contains
       call take_text(record, outcome%text)
       if (allocated(outcome%series)) deallocate (outcome%series)
       if (allocated(outcome%profiles)) deallocate (outcome%profiles)
+      outcome%lacks_profiles = nodes == unsolved
       if (outcome%status /= 0) return
       if (allocated(outcome%summary)) then
          if (size(outcome%summary) /= size(layout%summary)) deallocate (outcome%summary)
@@ -172,7 +177,7 @@ contains
             call take_numbers(record, outcome%series(:, i))
          end do
       end if
-      if (nodes == 0) return
+      if (nodes <= 0) return
       allocate (outcome%profiles)
       call take_profiles(record, nodes, size(layout%angle), outcome%profiles)
    end subroutine take_case

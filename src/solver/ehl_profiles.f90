@@ -21,12 +21,10 @@ module camroller_ehl_profiles
    implicit none
    private
 
-   public :: find_profiles, make_profiles, plain_model, no_profiles
+   public :: find_profiles, make_profiles, plain_model
 
    !> Nodes across a contact
    integer, parameter :: profile_nodes = 129
-   !> Beginning of the remark on a case whose profiles cannot be solved
-   character(len=*), parameter :: no_profiles = "no profiles: "
 
 contains
 
@@ -48,7 +46,8 @@ contains
       if (.not. allocated(error)) return
       deallocate (record)
       if (len(result%warnings) > 0) result%warnings = result%warnings//new_line("a")
-      result%warnings = result%warnings//no_profiles//error%message
+      result%warnings = result%warnings//"no profiles: "//error%message
+      result%lacks_profiles = .true.
    end subroutine find_profiles
 
    !> Profiles of a result.

@@ -6,7 +6,7 @@
 !> could follow.
 module camroller_fold
    use camroller_kinds, only : wp
-   use camroller_error, only : error_t, kind_convergence
+   use camroller_error, only : error_t, kind_convergence, cause_several_balances
    use camroller_model, only : model_t
    use camroller_kinematics, only : position_t
    use camroller_dynamics, only : moments_t
@@ -16,10 +16,8 @@ module camroller_fold
    implicit none
    private
 
-   public :: has_fold, explain_end, is_explained
+   public :: has_fold, explain_end
 
-   !> What a message says of it
-   character(len=*), parameter :: words = "for one sliding speed the finger is in balance there at several loads"
    !> Sliding speeds that are tried in each direction: down to 1e-36 of the largest
    integer, parameter :: speeds = 120
    !> Ratio of one to the next [-]
@@ -47,18 +45,10 @@ contains
       if (.not. allocated(error)) return
       if (error%kind /= kind_convergence) return
       if (.not. has_fold(model, angle, largest)) return
-      error%message = error%message//"; "//words//": friction raises the load, the load the oil's viscosity, and that the friction"
+      error%cause = cause_several_balances
+      error%message = error%message//"; for one sliding speed the finger is in balance there at several loads: friction raises "// &
+         & "the load, the load the oil's viscosity, and that the friction"
    end subroutine explain_end
-
-   !> Does an error name such a place, so that no other tolerance helps?
-   pure function is_explained(error) result(verdict)
-      !> The error
-      type(error_t), intent(in) :: error
-      !> Does it?
-      logical :: verdict
-
-      verdict = index(error%message, words) > 0
-   end function is_explained
 
    !> Is there a sliding speed at which the finger is in balance at several loads?
    function has_fold(model, angle, largest) result(verdict)

@@ -36,6 +36,8 @@ module camroller_result
       real(wp), allocatable :: summary_values(:)
       !> Remarks that do not make the result wrong, one per line; empty where there are none
       character(len=:), allocatable :: warnings
+      !> Were profiles across the contact asked for that could not be solved? The reason is among the remarks
+      logical :: lacks_profiles = .false.
       !> Which effects took part and why; allocated where the program chose them
       type(choice_t), allocatable :: choice
    end type result_t

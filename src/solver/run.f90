@@ -3,12 +3,11 @@
 !> Layer: solver. In: `case_t`. Out: `result_t`. No files, no printing, no state left behind.
 module camroller_run
    use camroller_kinds, only : wp
-   use camroller_error, only : error_t, raise, add_context, kind_convergence
+   use camroller_error, only : error_t, raise, add_context, kind_convergence, cause_several_balances
    use camroller_accuracy, only : is_checked, has_tolerance, far_beyond, most_refinements, refine_tolerance, resolve_numerics, &
       & second_method, way_out
    use camroller_case, only : case_t, numerics_t, automatic_method
    use camroller_kept_models, only : kept_models_t, keep_models, recall_models
-   use camroller_fold, only : is_explained
    use camroller_model, only : model_t, new_model, revise_model
    use camroller_effect_choice, only : wants_choice, choose_effects
    use camroller_effect_list, only : choice_t
@@ -125,7 +124,7 @@ contains
          if (allocated(error)) then
             if (has_result .or. has_way_out .or. error%kind /= kind_convergence) exit
             call take_way_out(case%numerics, numerics, least, has_way_out)
-            if (has_way_out .and. is_explained(error)) exit
+            if (has_way_out .and. error%cause == cause_several_balances) exit
             cycle
          end if
          result = latest

@@ -4,7 +4,7 @@ module test_part_file
    use testdrive, only : unittest_type, new_unittest, error_type, check, test_failed
    use camroller_kinds, only : wp
    use camroller_error, only : error_t, kind_file
-   use camroller_case_record, only : begin_cases, end_cases, outcome_t, put_failure, take_case, take_header
+   use camroller_case_record, only : begin_cases, end_cases, outcome_t, put_failure, put_result, take_case, take_header
    use camroller_case_runs, only : missing_runs, piece_of, run_total, runs_t
    use camroller_layout, only : layout_t
    use camroller_part_file, only : append_record, close_part, entry_t, index_t, kind_cases, open_part, part_t, read_record, &
@@ -13,6 +13,8 @@ module test_part_file
    use camroller_record, only : checksum, clear_record, put_integer, put_numbers, put_text, record_t, take_integer, &
       & take_numbers, take_text
    use camroller_system_file, only : remove_file
+   use camroller_result, only : result_t
+   use sample_result, only : new_sample
    implicit none
    private
 
@@ -29,6 +31,7 @@ contains
 
       testsuite = [ &
          new_unittest("a record gives back every bit", record_keeps_bits), &
+         new_unittest("a case without profiles says whether they were asked for", case_without_profiles), &
          new_unittest("a checksum sees a bit that changed", checksum_sees_bits), &
          new_unittest("what was appended is there again", part_is_read), &
          new_unittest("a torn record is cut off and can be written again", torn_end), &
@@ -65,6 +68,36 @@ contains
       call take_integer(record, number)
       call check(error, record%is_short)
    end subroutine record_keeps_bits
+
+   subroutine case_without_profiles(error)
+      type(error_type), allocatable, intent(out) :: error
+
+      integer, parameter :: angles = 4
+      type(record_t) :: record
+      type(result_t) :: result
+      type(layout_t) :: layout
+      type(outcome_t) :: outcome
+      integer :: i, first, count, place
+
+      call new_sample(result, 1, angles)
+      layout%angle = result%angle
+      layout%series = result%series
+      layout%summary = result%summary
+      call begin_cases(record, 1)
+      do i = 1, 2
+         result%lacks_profiles = i == 1
+         call put_result(record, result, .true.)
+      end do
+      call end_cases(record, 2, 1)
+      call take_header(record, first, count, place)
+      do i = 1, 2
+         call take_case(record, layout, outcome)
+         call check(error, (outcome%lacks_profiles .eqv. i == 1) .and. .not. allocated(outcome%profiles), "profiles")
+         if (allocated(error)) return
+         call check(error, size(outcome%series, 2) == size(result%series) .and. .not. record%is_short, "what comes behind")
+         if (allocated(error)) return
+      end do
+   end subroutine case_without_profiles
 
    subroutine checksum_sees_bits(error)
       type(error_type), allocatable, intent(out) :: error

@@ -2,7 +2,7 @@
 module test_fold
    use testdrive, only : new_unittest, unittest_type, error_type, check, test_failed
    use camroller_kinds, only : wp, degree
-   use camroller_error, only : error_t, raise, kind_convergence, kind_deck
+   use camroller_error, only : error_t, raise, add_context, kind_convergence, kind_deck, cause_unknown, cause_several_balances
    use camroller_case, only : case_t
    use camroller_model, only : model_t
    use camroller_run, only : build_models
@@ -84,9 +84,12 @@ contains
       call explain_end(models(1), -30.0_wp*degree, large, failure)
       call check(error, index(failure%message, words) > 0, failure%message)
       if (allocated(error)) return
+      call add_context(failure, "case 7")
+      call check(error, failure%cause, cause_several_balances, "the mark")
+      if (allocated(error)) return
       call raise(failure, kind_convergence, "no end")
       call explain_end(models(1), 150.0_wp*degree, large, failure)
-      call check(error, failure%message == "no end", failure%message)
+      call check(error, failure%message == "no end" .and. failure%cause == cause_unknown, failure%message)
       if (allocated(error)) return
       call raise(failure, kind_deck, "no deck")
       call explain_end(models(1), -30.0_wp*degree, large, failure)
