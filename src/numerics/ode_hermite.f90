@@ -22,32 +22,14 @@
 module camroller_ode_hermite
    use camroller_kinds, only : wp
    use camroller_ode, only : problem_t, method_t, counters_t
+   use camroller_ode_remainder, only : point_t, past_t, remainder_t, look_back, close_remainder, correct_remainder, &
+      & coefficients_of, integral_of
    use camroller_phi, only : phi_functions
    use camroller_trajectory, only : curve_numbers
    implicit none
    private
 
    public :: hermite_method_t, new_hermite_method
-
-   !> A point with its rate and derivatives
-   type :: point_t
-      !> Time [time]
-      real(wp) :: time = huge(1.0_wp)
-      !> State [state]
-      real(wp) :: state = 0.0_wp
-      !> Rate [state/time]
-      real(wp) :: rate = 0.0_wp
-      !> Derivatives of the rate over state [1/time] and time [state/time^2]
-      real(wp) :: slope = 0.0_wp, time_slope = 0.0_wp
-   end type point_t
-
-   !> What a point says of the remainder of a step
-   type :: past_t
-      !> Place of the point, negative; positive where there is none [-]
-      real(wp) :: place = 1.0_wp
-      !> R/x^2 there, and its slope with the place [state/time]
-      real(wp) :: value = 0.0_wp, slope = 0.0_wp
-   end type past_t
 
    !> The method
    type, extends(method_t) :: hermite_method_t
@@ -59,21 +41,12 @@ module camroller_ode_hermite
       procedure :: try_step => try_hermite_step
    end type hermite_method_t
 
-   !> The remainder over the square of the place, R/x^2, as a cubic in Newton's form on the places 1, 1, s, s:
-   !> `value + (x - 1) (slope + (x - 1) (bend + (x - s) twist))`
-   type :: remainder_t
-      !> Coefficients, which are divided differences [state/time]
-      real(wp) :: value = 0.0_wp, slope = 0.0_wp, bend = 0.0_wp, twist = 0.0_wp
-   end type remainder_t
-
    !> Largest growth exponent of a step [-]; beyond it a smaller step is taken
    real(wp), parameter :: largest_growth = 10.0_wp
    !> Powers of the step that the estimates grow with, in the first step and later
    integer, parameter :: first_order = 4, later_order = 6
    !> Smallest denominator of Newton's step [-]; below it a smaller step is taken
    real(wp), parameter :: least_denominator = 0.1_wp
-   !> Decay exponent of a step from which on rates are the decay of rounding errors rather than the slope of the solution [-]
-   real(wp), parameter :: fast = 1.0e5_wp
    !> Decay exponent of a step from which on the state follows the rate at once; ratio of two decay rates that are alike [-]
    real(wp), parameter :: fast_enough = 1.0_wp, alike = 0.5_wp
    !> Evaluations of a step
@@ -152,7 +125,7 @@ contains
          if (.not. abs(predicted) < huge(1.0_wp)) return
          call problem%linearise(time + step, new_state, self%horizon, self%there, counters, status)
          if (status /= 0) return
-         call close_remainder(self, 1, self%start, step, predicted, past, remainder, follower)
+         call close_remainder(self%there, 1, self%start, self%start%state, step, predicted, past, remainder, follower)
          denominator = 1.0_wp - step*integral_of(follower, past%place, weights)
          status = 1
          if (.not. denominator > least_denominator) return
@@ -220,104 +193,6 @@ contains
       end do
    end subroutine remember
 
-   !> Slope of the solution at a point: the rate, or where the decay is so fast that the rate is the decay of rounding errors,
-   !> the slope of the state at which the rate stays zero.
-   pure function motion_of(rate, slope, time_slope, step) result(motion)
-      !> Rate [state/time], its derivatives over state [1/time] and time [state/time^2]
-      real(wp), intent(in) :: rate, slope, time_slope
-      !> Size of the step [time]
-      real(wp), intent(in) :: step
-      !> Slope of the solution [state/time]
-      real(wp) :: motion
-
-      motion = rate
-      if (step*abs(slope) >= fast) motion = -time_slope/slope
-   end function motion_of
-
-   !> What the step before says of the remainder of this one.
-   pure function look_back(start, before, first, state, step) result(past)
-      !> Start of this step and of the one before
-      type(point_t), intent(in) :: start, before
-      !> The first component at the start of the step before
-      type(point_t), intent(in) :: first
-      !> The first component at the start of this step [state]
-      real(wp), intent(in) :: state
-      !> Size of this step [time]
-      real(wp), intent(in) :: step
-      !> What it says
-      type(past_t) :: past
-
-      ! Slope of R with the place, over the place [state/time]
-      real(wp) :: slope
-
-      if (first%time > start%time) return
-      associate (back => first%time - start%time, s => past%place)
-         s = back/step
-         past%value = (before%rate - start%rate - start%slope*(first%state - state) - start%time_slope*back)/s**2
-         slope = step*(before%time_slope - start%time_slope + (before%slope - start%slope)*motion_of(first%rate, first%slope, &
-            & first%time_slope, step))/s
-         past%slope = (slope - 2.0_wp*past%value)/s
-      end associate
-   end function look_back
-
-   !> The remainder with what the end says of it, and its derivative over the first component there.
-   pure subroutine close_remainder(self, component, start, step, predicted, past, remainder, follower)
-      !> The method with the derivatives at the end
-      type(hermite_method_t), intent(in) :: self
-      !> Which component
-      integer, intent(in) :: component
-      !> It at the start
-      type(point_t), intent(in) :: start
-      !> Size of the step [time]
-      real(wp), intent(in) :: step
-      !> First component where rate and derivatives at the end have been evaluated [state]
-      real(wp), intent(in) :: predicted
-      !> What the step before says
-      type(past_t), intent(in) :: past
-      !> The remainder [state/time], its derivative [1/time]
-      type(remainder_t), intent(out) :: remainder, follower
-
-      ! Change of the Jacobian, Jacobian of the first component [1/time]; slope of R with the place [state/time]
-      real(wp) :: change, decay, slope
-      ! Distance of the places [-]
-      real(wp) :: distance
-
-      decay = self%there%jacobian(1, 1)
-      change = self%there%jacobian(component, 1) - start%slope
-      slope = step*(self%there%time_slope(component) - start%time_slope &
-         & + change*motion_of(self%there%rate(1), decay, self%there%time_slope(1), step))
-      remainder%value = self%there%rate(component) - start%rate - start%slope*(predicted - self%start%state) &
-         & - start%time_slope*step
-      remainder%slope = slope - 2.0_wp*remainder%value
-      ! The derivatives of J and v over the state are not known and left out
-      follower%value = change
-      follower%slope = -2.0_wp*change
-      if (step*abs(decay) < fast) follower%slope = follower%slope + step*change*decay
-      if (past%place > 0.0_wp) return
-      distance = 1.0_wp - past%place
-      associate (secant => (remainder%value - past%value)/distance, follower_secant => follower%value/distance)
-         remainder%bend = (remainder%slope - secant)/distance
-         remainder%twist = (remainder%bend - (secant - past%slope)/distance)/distance
-         follower%bend = (follower%slope - follower_secant)/distance
-         follower%twist = (follower%bend - follower_secant/distance)/distance
-      end associate
-   end subroutine close_remainder
-
-   !> Move a remainder with a correction of the first component at the end.
-   pure subroutine correct_remainder(remainder, follower, correction)
-      !> The remainder [state/time]
-      type(remainder_t), intent(inout) :: remainder
-      !> Its derivative [1/time]
-      type(remainder_t), intent(in) :: follower
-      !> Correction [state]
-      real(wp), intent(in) :: correction
-
-      remainder%value = remainder%value + correction*follower%value
-      remainder%slope = remainder%slope + correction*follower%slope
-      remainder%bend = remainder%bend + correction*follower%bend
-      remainder%twist = remainder%twist + correction*follower%twist
-   end subroutine correct_remainder
-
    !> Components that are integrals over the first: states at the end, error estimates, curves.
    pure subroutine carry_integrals(self, step, predicted, correction, first, s, new_state, new_rate, error_estimate)
       !> The method
@@ -355,7 +230,7 @@ contains
       end do
       do i = 1, size(self%others)
          past = look_back(self%others(i), self%others_before(i), self%before, self%start%state, step)
-         call close_remainder(self, i + 1, self%others(i), step, predicted, past, remainder, follower)
+         call close_remainder(self%there, i + 1, self%others(i), self%start%state, step, predicted, past, remainder, follower)
          call correct_remainder(remainder, follower, correction)
          do k = 1, 2
             place = 0.5_wp*k
@@ -378,35 +253,6 @@ contains
          end associate
       end do
    end subroutine carry_integrals
-
-   !> Coefficients of x^2 to x^5 in a remainder.
-   pure function coefficients_of(remainder, s) result(r)
-      !> The remainder [state/time]
-      type(remainder_t), intent(in) :: remainder
-      !> Place of the start of the step before [-]
-      real(wp), intent(in) :: s
-      !> Coefficients [state/time]
-      real(wp) :: r(0:3)
-
-      r(0) = remainder%value - remainder%slope + remainder%bend - s*remainder%twist
-      r(1) = remainder%slope - 2.0_wp*remainder%bend + (1.0_wp + 2.0_wp*s)*remainder%twist
-      r(2) = remainder%bend - (2.0_wp + s)*remainder%twist
-      r(3) = remainder%twist
-   end function coefficients_of
-
-   !> Integral of a remainder with weights for x^2 to x^5.
-   pure function integral_of(remainder, s, weights) result(integral)
-      !> The remainder [state/time]
-      type(remainder_t), intent(in) :: remainder
-      !> Place of the start of the step before [-]
-      real(wp), intent(in) :: s
-      !> Weights [-]
-      real(wp), intent(in) :: weights(0:3)
-      !> Integral [state/time]
-      real(wp) :: integral
-
-      integral = sum(coefficients_of(remainder, s)*weights)
-   end function integral_of
 
    !> What the formula of the next lower order leaves out, at the end or in the middle of the step.
    !>

@@ -15,7 +15,7 @@ module camroller_cycle
    use camroller_events, only : find_stops, cycle_stops
    use camroller_fold, only : explain_end
    use camroller_spin, only : spin_problem_t, rolling_speed_at
-   use camroller_balance, only : follow_balance, least_slip
+   use camroller_cycle_start, only : choose_start, run_up_stops, rolling_speed_at_angle
    use camroller_settled_slip, only : settle
    use camroller_quasi_static, only : quasi_static_cycle
    use camroller_contraction, only : largest_contraction
@@ -28,7 +28,7 @@ module camroller_cycle
    implicit none
    private
 
-   public :: cycle_t, integrate_cycle, integrate_between, choose_start, state_at
+   public :: cycle_t, integrate_cycle, integrate_between, state_at
 
    !> One periodic cycle
    type :: cycle_t
@@ -56,12 +56,6 @@ module camroller_cycle
       real(wp) :: step_error = 0.0_wp
    end type cycle_t
 
-   !> Angles at which the algebraic balance is tried
-   integer, parameter :: balance_points = 36
-   !> Accuracy of the balance over the speed of pure rolling: for a scale, and for the start of the run-up [-]
-   real(wp), parameter :: scan_tolerance = 1.0e-5_wp, start_tolerance = 1.0e-10_wp
-   !> Cam angle over which the difference between algebraic balance and periodic state decays before the cycle [rad]
-   real(wp), parameter :: run_up_angle = 5.0_wp*degree
    !> Part of the integration's tolerance to which the contact is solved at each evaluation [-]
    real(wp), parameter :: contact_accuracy = 1.0e-3_wp
    !> Error allowed per step over the error allowed in the cycle: errors of a few steps add up before they decay [-]
@@ -358,83 +352,6 @@ contains
          end if
       end associate
    end subroutine integrate_spin
-
-   !> Speed of the roller's surface in pure rolling at a cam angle.
-   function rolling_speed_at_angle(model, angle) result(speed)
-      !> The model
-      type(model_t), intent(in) :: model
-      !> Cam angle from full lift [rad]
-      real(wp), intent(in) :: angle
-      !> V_roll [m/s]
-      real(wp) :: speed
-
-      type(position_t) :: position
-      integer :: status
-
-      call evaluate_geometry(model, angle, position, status)
-      speed = rolling_speed_at(model, position)
-   end function rolling_speed_at_angle
-
-   !> Stops of the run-up to a cycle: the last degrees before its start.
-   pure function run_up_stops(stops) result(run_up)
-      !> Stops of the cycle, with start and end [rad]
-      real(wp), intent(in) :: stops(:)
-      !> Stops of the run-up, with start and end [rad]
-      real(wp), allocatable :: run_up(:)
-
-      ! Stops one turn earlier [rad]
-      real(wp) :: earlier(size(stops))
-
-      earlier = stops - two_pi
-      run_up = [stops(1) - run_up_angle, pack(earlier, earlier > stops(1) - run_up_angle)]
-   end function run_up_stops
-
-   !> Angle of fastest decay with the algebraic balance there, and the scale of the sliding speed.
-   subroutine choose_start(model, start, sliding_speed, scale, least_scale, evaluations)
-      !> The model
-      type(model_t), intent(in) :: model
-      !> Cam angle from full lift [rad]
-      real(wp), intent(out) :: start
-      !> Sliding speed there [m/s]
-      real(wp), intent(out) :: sliding_speed
-      !> Largest sliding speed of the algebraic balance; sliding speed below which there is as good as none [m/s]
-      real(wp), intent(out) :: scale, least_scale
-      !> Evaluations of the contact, counted on
-      integer, intent(inout) :: evaluations
-
-      type(position_t) :: position
-      ! Angle [rad], sliding speed of the balance [m/s], decay rate [1/rad], fastest of them
-      real(wp) :: angle, balance, decay_rate, fastest
-      ! Largest speed of pure rolling, accuracy of the scan [m/s]
-      real(wp) :: largest_rolling, tolerance
-      integer :: i
-      logical :: is_found
-
-      start = 0.0_wp
-      sliding_speed = 0.0_wp
-      scale = 0.0_wp
-      fastest = -1.0_wp
-      largest_rolling = 0.0_wp
-      balance = 0.0_wp
-      tolerance = scan_tolerance*abs(rolling_speed_at_angle(model, -pi))
-      do i = 0, balance_points - 1
-         angle = -pi + (i + 0.5_wp)*two_pi/balance_points
-         call follow_balance(model, angle, tolerance, position, balance, decay_rate, evaluations, is_found)
-         largest_rolling = max(largest_rolling, abs(rolling_speed_at(model, position)))
-         if (.not. is_found) cycle
-         scale = max(scale, abs(balance))
-         if (decay_rate > fastest) then
-            fastest = decay_rate
-            start = angle
-            sliding_speed = balance
-         end if
-      end do
-      least_scale = least_slip*largest_rolling
-      scale = max(scale, least_scale)
-      if (.not. fastest >= 0.0_wp) return
-      tolerance = start_tolerance*max(abs(rolling_speed_at_angle(model, start)), scale)
-      call follow_balance(model, start, tolerance, position, sliding_speed, decay_rate, evaluations, is_found)
-   end subroutine choose_start
 
    !> State of the follower at any cam angle.
    subroutine state_at(cycle, model, angle, hint, state, error)

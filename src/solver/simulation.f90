@@ -15,7 +15,8 @@ module camroller_simulation
    use camroller_events, only : find_stops_between
    use camroller_spin, only : rolling_speed_at
    use camroller_stick, only : has_stick, share_at_rest, rest_speed
-   use camroller_cycle, only : cycle_t, integrate_between, choose_start
+   use camroller_cycle, only : cycle_t, integrate_between
+   use camroller_cycle_start, only : choose_start
    use camroller_means, only : integrate_torques
    use camroller_run, only : build_models
    implicit none

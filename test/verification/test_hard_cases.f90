@@ -8,7 +8,8 @@ module test_hard_cases
    use camroller_run, only : build_models, run_case
    use camroller_result, only : result_t
    use camroller_deck, only : deck_t, override_t, read_deck, make_case
-   use camroller_cycle, only : cycle_t, integrate_cycle, integrate_between, choose_start
+   use camroller_cycle, only : cycle_t, integrate_cycle, integrate_between
+   use camroller_cycle_start, only : choose_start
    use camroller_events, only : find_stops_between
    use camroller_ode_methods, only : method_facts
    use camroller_trajectory, only : interpolate_state
@@ -166,8 +167,9 @@ contains
       character(len=:), allocatable, intent(out) :: trouble
       ! Error over the tolerance up to which it need not fall: medians are up to 1.9, and two and a half standard deviations of half
       ! a decade make that thirty. Over two tolerances of the ladder, the error falls to half, unless a few times the tolerance is
-      ! left. It is nowhere above the median and three standard deviations; 44 was the largest met [-]
-      real(wp), parameter :: scatter = 30.0_wp, progress = 0.5_wp, few = 10.0_wp, largest = 60.0_wp
+      ! left. It is nowhere above one and a half times the largest met among 1232 cycles, 33: two sequences of steps differ by a
+      ! factor of 2.7, one standard deviation, and the largest is that of an unlucky one already [-]
+      real(wp), parameter :: scatter = 30.0_wp, progress = 0.5_wp, few = 10.0_wp, largest = 50.0_wp
       type(sample_t) :: sample
       ! Errors [-]
       real(wp) :: errors(size(ladder))
