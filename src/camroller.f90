@@ -1,9 +1,11 @@
 !> Everything public, under one name: no code.
 !>
 !> A program that links the library needs this module alone: a deck or the components of a case, `run_case`, and the series and
-!> scalars of the result by name; or `start_simulation` and `advance` to drive a follower from outside, angle by angle.
+!> scalars of the result by name; or `start_simulation` and `advance` to drive a follower from outside, angle by angle. Where cases
+!> have a numerical film, it calls `use_one_blas_thread` first, or its last digits depend on how many threads OpenBLAS takes.
 module camroller
    use camroller_kinds, only : wp, pi, two_pi, degree
+   use camroller_blas_threads, only : use_one_blas_thread
    use camroller_error, only : error_t, kind_usage, kind_deck, kind_domain, kind_convergence, kind_file, kind_internal
    use camroller_version, only : version_text, version_number
    use camroller_case, only : case_t, operating_point_t, numerics_t
@@ -32,7 +34,7 @@ module camroller
    public :: case_t, operating_point_t, numerics_t, lift_t, mechanism_t, masses_t, spring_t, gas_force_t, materials_t, surface_t, &
       & lubricant_t, film_t, ehl_t, asperity_t, traction_t, needle_bearing_t, valve_guide_t, roller_t, cam_bearings_t
    public :: deck_t, override_t, read_deck, parse_deck, make_case
-   public :: run_case, result_t, quantity_t, get_series, get_summary
+   public :: run_case, result_t, quantity_t, get_series, get_summary, use_one_blas_thread
    public :: simulation_t, outcome_t, start_simulation, advance
 
 end module camroller

@@ -11,6 +11,7 @@ program main
    use test_error, only : collect_error
    use test_names, only : collect_names
    use test_version, only : collect_version
+   use test_blas_threads, only : collect_blas_threads
    use test_roots, only : collect_roots
    use test_spline, only : collect_spline
    use test_lift, only : collect_lift
@@ -129,6 +130,7 @@ contains
          new_testsuite("ode_special", collect_ode_special), &
          new_testsuite("names", collect_names), &
          new_testsuite("version", collect_version), &
+         new_testsuite("blas_threads", collect_blas_threads), &
          new_testsuite("roots", collect_roots), &
          new_testsuite("spline", collect_spline), &
          new_testsuite("lift", collect_lift), &

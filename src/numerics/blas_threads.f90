@@ -1,8 +1,10 @@
 !> One thread for the linear algebra.
 !>
-!> Layer: app. OpenBLAS would take as many threads as there are cores, and round otherwise with each number of them: results have to
-!> be the same on every machine, and a sweep has its own threads. Where another library does the algebra, nothing is changed. The
-!> routine is looked up while the program runs, so that no library has to have it.
+!> Layer: numerics. OpenBLAS would take as many threads as there are cores, and round otherwise with each number of them: results
+!> have to be the same on every machine, and a sweep has its own threads. Where another library does the algebra, nothing is
+!> changed. The routine is looked up while the program runs, so that no library has to have it; where OpenBLAS is linked statically
+!> it may not be found, and the environment variable OPENBLAS_NUM_THREADS is left. The setting holds for the whole process, so the
+!> library does not make it by itself: a program decides.
 module camroller_blas_threads
    use, intrinsic :: iso_c_binding, only : c_associated, c_char, c_f_procpointer, c_funptr, c_int, c_loc, c_null_char, c_null_ptr, &
       & c_ptr
@@ -30,7 +32,7 @@ module camroller_blas_threads
 
 contains
 
-   !> Let OpenBLAS use one thread, where it is OpenBLAS.
+   !> Let OpenBLAS use one thread, where it is OpenBLAS: for all of the process, before the first case is run.
    subroutine use_one_blas_thread()
       character(len=25, kind=c_char), target :: name
       procedure(c_set_threads), pointer :: set_threads
