@@ -51,6 +51,7 @@ program main
    use test_ehl_rough, only : collect_ehl_rough
    use test_ehl_map, only : collect_ehl_map
    use test_ehl_law, only : collect_ehl_law
+   use test_ehl_settling, only : collect_ehl_settling
    use test_ehl_cycle, only : collect_ehl_cycle
    use test_ehl_record, only : collect_ehl_record
    use test_lubricant, only : collect_lubricant
@@ -119,6 +120,7 @@ contains
          new_testsuite("ehl_rough", collect_ehl_rough), &
          new_testsuite("ehl_map", collect_ehl_map), &
          new_testsuite("ehl_law", collect_ehl_law), &
+         new_testsuite("ehl_settling", collect_ehl_settling), &
          new_testsuite("needed", collect_needed), &
          new_testsuite("ehl_cycle", collect_ehl_cycle), &
          new_testsuite("ehl_record", collect_ehl_record), &

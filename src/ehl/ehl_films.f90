@@ -44,6 +44,9 @@ module camroller_ehl_films
    !> Error of a film times the square of the number of nodes, below which half of the contacts of the range of solutions
    !> are: 3.2 to 3.4 at 65 to 513 nodes [-]
    real(wp), parameter :: usual_error = 4.0_wp
+   !> Logarithm of viscosity over film at which it is held: far above any shear that a limiting traction lets through, below
+   !> overflow [-]
+   real(wp), parameter :: largest_exponent = 600.0_wp
 
 contains
 
@@ -225,7 +228,7 @@ contains
       real(wp) :: fluidity(grid%size), slopes(2), filled(grid%size)
       integer :: i
 
-      fluidity = log(state%fields%film) - state%fields%log_viscosity
+      fluidity = max(log(state%fields%film) - state%fields%log_viscosity, -largest_exponent)
       filled = filled_part(grid, state)
       shear = 0.0_wp
       do i = 1, grid%size - 1

@@ -9,7 +9,7 @@
 !> Sources: Dowson and Higginson, Elasto-Hydrodynamic Lubrication (1966); density `(5.9e8 Pa + 1.34 p)/(5.9e8 Pa + p)` there.
 module camroller_ehl_problem
    use camroller_kinds, only : wp, pi
-   use camroller_lubricant, only : oil_t, relative_viscosity
+   use camroller_lubricant, only : oil_t, log_relative_viscosity
    use camroller_hertz, only : half_width, peak_pressure
    use camroller_film, only : groups_t, film_shape_t, film_shape, law_moes
    use camroller_asperity, only : asperity_constants_t, asperity_load_function, asperity_area_function
@@ -70,8 +70,6 @@ module camroller_ehl_problem
       real(wp) :: load = 0.5_wp*pi
       !> The oil
       type(oil_t) :: oil
-      !> Part of the logarithm of the viscosity ratio that acts: one, but less on the way to a solution [-]
-      real(wp) :: thickening = 1.0_wp
       !> Does the density grow with the pressure?
       logical :: is_compressible
       !> Roughness over the film scale [-]
@@ -181,18 +179,10 @@ contains
       !> ln(eta/eta0) and its derivative with respect to the pressure over its scale [-]
       real(wp), intent(out) :: value, slope
 
-      ! Viscosity ratio and its logarithmic slope [-]
-      real(wp) :: ratio, log_slope
-
       value = 0.0_wp
-      slope = problem%oil%pressure_viscosity*problem%pressure_scale
-      if (pressure > smallest_pressure) then
-         call relative_viscosity(problem%oil, pressure*problem%pressure_scale, ratio, log_slope)
-         value = log(ratio)
-         slope = log_slope/pressure
-      end if
-      value = value*problem%thickening
-      slope = slope*problem%thickening
+      slope = problem%oil%pressure_viscosity
+      if (pressure > smallest_pressure) call log_relative_viscosity(problem%oil, pressure*problem%pressure_scale, value, slope)
+      slope = slope*problem%pressure_scale
    end subroutine log_viscosity
 
    !> Density over that at ambient pressure, and its slope.

@@ -53,8 +53,6 @@ module camroller_ehl_reynolds
 
    !> Film over its scale below which a film between nodes does not count as thinner: trial states may overlap [-]
    real(wp), parameter :: smallest_film = 1.0e-12_wp
-   !> Half the difference of ln(viscosity) between neighbours at which it is held, far beyond what any solution has [-]
-   real(wp), parameter :: largest_half = 300.0_wp
 
 contains
 
@@ -237,21 +235,43 @@ contains
       !> The mean, and its derivatives [-]
       real(wp), intent(out) :: mean, slopes(2)
 
-      ! Half the difference; sinh(x)/x and its derivative there; mean in the middle [-]
-      real(wp) :: half, ratio, ratio_slope, middle
+      ! Difference of both; mean over exp(-smaller), its derivative over the difference, exp(-smaller) [-]
+      real(wp) :: difference, part, part_slope, largest
 
-      half = 0.5_wp*(second - first)
-      if (abs(half) > largest_half) half = sign(largest_half, half)
-      if (abs(half) < 1.0e-2_wp) then
-         ratio = 1.0_wp + half**2/6.0_wp*(1.0_wp + half**2/20.0_wp)
-         ratio_slope = half/3.0_wp*(1.0_wp + half**2/10.0_wp)
+      difference = abs(second - first)
+      largest = exp(-min(first, second))
+      if (difference < 5.0e-2_wp) then
+         part = mean_series(difference)
+         part_slope = mean_series_slope(difference)
       else
-         ratio = sinh(half)/half
-         ratio_slope = (cosh(half) - ratio)/half
+         part = (1.0_wp - exp(-difference))/difference
+         part_slope = (exp(-difference) - part)/difference
       end if
-      middle = exp(-0.5_wp*(first + second))
-      mean = middle*ratio
-      slopes = 0.5_wp*middle*[-ratio - ratio_slope, -ratio + ratio_slope]
+      mean = largest*part
+      slopes = largest*part_slope
+      if (first <= second) slopes(1) = -mean - slopes(2)
+      if (first > second) slopes(2) = -mean - slopes(1)
    end subroutine mean_fluidity
+
+   !> `(1 - exp(-d))/d` for small d.
+   pure function mean_series(d) result(mean)
+      !> d [-]
+      real(wp), intent(in) :: d
+      !> The mean [-]
+      real(wp) :: mean
+
+      mean = 1.0_wp - d/2.0_wp*(1.0_wp - d/3.0_wp*(1.0_wp - d/4.0_wp*(1.0_wp - d/5.0_wp*(1.0_wp - d/6.0_wp*(1.0_wp - d/7.0_wp)))))
+   end function mean_series
+
+   !> Derivative of `(1 - exp(-d))/d` for small d.
+   pure function mean_series_slope(d) result(slope)
+      !> d [-]
+      real(wp), intent(in) :: d
+      !> The derivative [-]
+      real(wp) :: slope
+
+      slope = -0.5_wp + d*(1.0_wp/3.0_wp - d*(1.0_wp/8.0_wp - d*(1.0_wp/30.0_wp - d*(1.0_wp/144.0_wp - d*(1.0_wp/840.0_wp &
+         & - d/5760.0_wp)))))
+   end function mean_series_slope
 
 end module camroller_ehl_reynolds

@@ -2,7 +2,7 @@
 !>
 !> Layer: ehl. In: contact, number of nodes. Out: films, friction, and the difference of two grids; or a status.
 !> From nothing: the pressure of a dry contact, or that of a rigid one, whichever the expected film calls for; where Newton's method
-!> finds no solution from either, it is followed from a faster contact with an oil that thickens less. No setting is asked for.
+!> finds no solution from it, the film is left alone until nothing changes. No setting is asked for.
 module camroller_ehl_solution
    use camroller_kinds, only : wp, pi
    use camroller_error, only : error_t, raise, kind_domain, kind_convergence
@@ -10,6 +10,7 @@ module camroller_ehl_solution
    use camroller_ehl_problem, only : ehl_contact_t, ehl_problem_t, new_ehl_problem, range_text, in_range
    use camroller_ehl_reynolds, only : new_ehl_fields
    use camroller_ehl_newton, only : ehl_state_t, solve_newton
+   use camroller_ehl_settling, only : settle
    use camroller_ehl_films, only : ehl_films_t, get_films, compare_grids
    implicit none
    private
@@ -49,12 +50,9 @@ module camroller_ehl_solution
    !> [-]
    real(wp), parameter :: least_inlet = 16.0_wp, inlet_part = 24.0_wp
    !> Iterations from nothing, and from a solution nearby, before another way is tried
-   integer, parameter :: cold_iterations = 30, step_iterations = 30, refining_iterations = 60
+   integer, parameter :: cold_iterations = 20, step_iterations = 30, refining_iterations = 15
    !> Nodes of the coarsest grid
    integer, parameter :: smallest_grid = 33
-   !> Where no start serves: first part of the thickening, first speed over that of the problem; first and smallest step [-]
-   real(wp), parameter :: first_part = 0.25_wp, first_speeds(4) = [1.0_wp, 30.0_wp, 3.0_wp, 300.0_wp], &
-      & first_step = 0.25_wp, smallest_step = 1.0e-3_wp
    !> Cotangent-like constant of the rigid contact: angle at which its film ends, by Reynolds' condition [rad]
    real(wp), parameter :: rigid_end = 0.443_wp
 
@@ -200,10 +198,7 @@ contains
          if (converged) then
             previous = state
             call make_grid(problem, options, nodes, grid)
-            do order = 3, 1, -2
-               call refine(problem, grid, previous, options%tolerance, order, state, converged)
-               if (converged) exit
-            end do
+            call refine(problem, grid, previous, options%tolerance, state, converged)
             if (converged) call get_films(problem, grid, state, films)
          end if
          if (.not. converged) call solve_on_grid(problem, options, nodes, grid, state, films, converged)
@@ -214,7 +209,7 @@ contains
    end subroutine solve_on_grids
 
    !> Solution from that on the grid with half the nodes.
-   pure subroutine refine(problem, grid, coarse, tolerance, order, state, converged)
+   pure subroutine refine(problem, grid, coarse, tolerance, state, converged)
       !> The problem
       type(ehl_problem_t), intent(in) :: problem
       !> The finer grid
@@ -223,23 +218,41 @@ contains
       type(ehl_state_t), intent(in) :: coarse
       !> What Newton's method may leave over [-]
       real(wp), intent(in) :: tolerance
-      !> Degree of the interpolation between nodes, 3 or 1
-      integer, intent(in) :: order
       !> The solution
       type(ehl_state_t), intent(out) :: state
       !> Was it found?
       logical, intent(out) :: converged
+
+      call new_ehl_fields(state%fields, grid%size)
+      call interpolate(problem, grid, coarse, .true., state)
+      call solve_newton(problem, grid, state, tolerance, refining_iterations, converged)
+      if (converged) return
+      call interpolate(problem, grid, coarse, .false., state)
+      call settle(problem, grid, state, tolerance, converged)
+   end subroutine refine
+
+   !> Pressure and level from the grid with half the nodes.
+   pure subroutine interpolate(problem, grid, coarse, is_cubic, state)
+      !> The problem
+      type(ehl_problem_t), intent(in) :: problem
+      !> The finer grid
+      type(ehl_grid_t), intent(in) :: grid
+      !> Solution on the grid with half the nodes
+      type(ehl_state_t), intent(in) :: coarse
+      !> By cubics? By straight lines otherwise
+      logical, intent(in) :: is_cubic
+      !> Total pressure and level
+      type(ehl_state_t), intent(inout) :: state
 
       ! Deformation [-]
       real(wp) :: gap(grid%size)
       integer :: i, n, middle
 
       n = size(coarse%total)
-      call new_ehl_fields(state%fields, grid%size)
-      allocate (state%total(grid%size))
+      if (.not. allocated(state%total)) allocate (state%total(grid%size))
       state%total(1::2) = coarse%total
       state%total(2::2) = 0.5_wp*(coarse%total(:n - 1) + coarse%total(2:))
-      if (order == 3) then
+      if (is_cubic) then
          do i = 2, n - 2
             state%total(2*i) = (9.0_wp*(coarse%total(i) + coarse%total(i + 1)) - coarse%total(i - 1) - coarse%total(i + 2))/16.0_wp
          end do
@@ -249,8 +262,8 @@ contains
       gap = deformation(grid, state%total) + 0.5_wp*grid%x**2
       middle = minloc(abs(grid%x(1::2)), dim=1)
       state%level = coarse%fields%film(middle) - gap(2*middle - 1)
-      call solve_newton(problem, grid, state, tolerance, refining_iterations, converged)
-   end subroutine refine
+      state%unknowns = 0
+   end subroutine interpolate
 
    !> Solution from nothing on one grid, and its films.
    pure subroutine solve_on_grid(problem, options, nodes, grid, state, films, converged)
@@ -317,14 +330,11 @@ contains
       logical :: is_rigid
 
       call new_ehl_fields(state%fields, grid%size)
-      do attempt = 1, 2
-         is_rigid = (problem%expected_film >= elastic_film) .eqv. attempt == 1
+      do attempt = 1, 3
+         is_rigid = (problem%expected_film >= elastic_film) .eqv. attempt < 3
          call start_state(problem, grid, is_rigid, state)
-         call solve_newton(problem, grid, state, tolerance, cold_iterations, converged)
-         if (converged) return
-      end do
-      do attempt = 1, size(first_speeds)
-         call solve_by_steps(problem, grid, tolerance, first_speeds(attempt), state, converged)
+         if (attempt == 1) call solve_newton(problem, grid, state, tolerance, cold_iterations, converged)
+         if (attempt > 1) call settle(problem, grid, state, tolerance, converged)
          if (converged) return
       end do
    end subroutine solve_cold
@@ -361,69 +371,5 @@ contains
       state%level = problem%expected_film - gap(minloc(abs(grid%x), dim=1))
       state%unknowns = 0
    end subroutine start_state
-
-   !> Follow the solution from a faster contact with an oil that thickens less, where the film is thick and found at once.
-   pure subroutine solve_by_steps(problem, grid, tolerance, first_speed, state, converged)
-      !> The problem
-      type(ehl_problem_t), intent(in) :: problem
-      !> The grid
-      type(ehl_grid_t), intent(in) :: grid
-      !> What Newton's method may leave over [-]
-      real(wp), intent(in) :: tolerance
-      !> Speed to begin with, over that of the problem [-]
-      real(wp), intent(in) :: first_speed
-      !> The solution
-      type(ehl_state_t), intent(inout) :: state
-      !> Was it found?
-      logical, intent(out) :: converged
-
-      ! Part of the way that is done, next step [-]
-      real(wp) :: done, step
-      ! Last solution: pressure, level [-]
-      real(wp) :: total(grid%size), level
-      integer :: attempt
-
-      do attempt = 1, 2
-         call start_state(eased_problem(problem, first_speed, 0.0_wp), grid, attempt == 1, state)
-         call solve_newton(eased_problem(problem, first_speed, 0.0_wp), grid, state, tolerance, cold_iterations, converged)
-         if (converged) exit
-      end do
-      if (.not. converged) return
-      done = 0.0_wp
-      step = first_step
-      do while (done < 1.0_wp)
-         total = state%total
-         level = state%level
-         call solve_newton(eased_problem(problem, first_speed, min(1.0_wp, done + step)), grid, state, tolerance, &
-            & step_iterations, converged)
-         if (converged) then
-            done = min(1.0_wp, done + step)
-            step = 1.5_wp*step
-         else
-            state%total = total
-            state%level = level
-            state%unknowns = 0
-            step = 0.4_wp*step
-            if (step < smallest_step) return
-         end if
-      end do
-   end subroutine solve_by_steps
-
-   !> A problem on the way from an easy one to that asked for.
-   pure function eased_problem(problem, first_speed, done) result(eased)
-      !> The problem
-      type(ehl_problem_t), intent(in) :: problem
-      !> Speed to begin with, over that of the problem [-]
-      real(wp), intent(in) :: first_speed
-      !> Part of the way that is done [-]
-      real(wp), intent(in) :: done
-      !> The problem there
-      type(ehl_problem_t) :: eased
-
-      eased = problem
-      eased%thickening = first_part + (1.0_wp - first_part)*done
-      eased%speed = problem%speed*first_speed**(1.0_wp - done)
-      eased%expected_film = problem%expected_film*first_speed**(0.6_wp*(1.0_wp - done))
-   end function eased_problem
 
 end module camroller_ehl_solution

@@ -12,7 +12,7 @@ module camroller_lubricant
    private
 
    public :: lubricant_t, oil_t, temperature_law_names, pressure_law_names
-   public :: get_oil, relative_viscosity, mean_relative_viscosity
+   public :: get_oil, relative_viscosity, log_relative_viscosity, mean_relative_viscosity
    public :: law_barus, law_cameron, law_roelands
 
    !> Viscosity over temperature
@@ -328,5 +328,37 @@ contains
          log_slope = oil%roelands_exponent*oil%roelands_index*power*(1.0_wp - 1.0_wp/base)
       end select
    end subroutine relative_viscosity
+
+   !> Logarithm of the viscosity at a pressure over that at ambient pressure, however large, and its slope.
+   !>
+   !> Sources: as for `relative_viscosity`.
+   pure subroutine log_relative_viscosity(oil, pressure, value, slope)
+      !> Oil at its temperature
+      type(oil_t), intent(in) :: oil
+      !> Pressure above ambient [Pa]
+      real(wp), intent(in) :: pressure
+      !> ln of the viscosity ratio [-]
+      real(wp), intent(out) :: value
+      !> Its derivative over the pressure [1/Pa]
+      real(wp), intent(out) :: slope
+
+      ! Base of the power in Cameron's and in Roelands' law; the latter's power [-]
+      real(wp) :: base, power
+
+      select case (oil%pressure_law)
+      case (law_barus)
+         value = oil%pressure_viscosity*pressure
+         slope = oil%pressure_viscosity
+      case (law_cameron)
+         base = 1.0_wp + oil%pressure_viscosity*pressure/cameron_power
+         value = cameron_power*log(base)
+         slope = oil%pressure_viscosity/base
+      case default
+         base = 1.0_wp + pressure/roelands_pressure
+         power = base**oil%roelands_index
+         value = oil%roelands_exponent*(power - 1.0_wp)
+         slope = oil%roelands_exponent*oil%roelands_index*power/(base*roelands_pressure)
+      end select
+   end subroutine log_relative_viscosity
 
 end module camroller_lubricant
