@@ -181,7 +181,7 @@ contains
       logical, intent(out) :: converged
 
       type(ehl_state_t) :: previous
-      integer :: nodes, iterations, factorisations, order
+      integer :: nodes, iterations, factorisations
 
       nodes = (options%nodes + 1)/2
       do while (nodes > smallest_grid .and. mod(nodes, 2) == 1)
