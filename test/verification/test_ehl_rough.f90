@@ -7,7 +7,7 @@ module test_ehl_rough
    use camroller_error, only : error_t, kind_domain
    use camroller_asperity, only : asperity_t, asperity_law_names, law_zhao_maietta_chang, new_asperity_constants
    use camroller_ehl_films, only : ehl_films_t
-   use camroller_ehl_problem, only : ehl_contact_t
+   use camroller_ehl_problem, only : ehl_contact_t, ehl_problem_t, new_ehl_problem, mean_gap
    use camroller_ehl_solution, only : ehl_options_t, solve_contact_film
    use closeness, only : check_close, expect_success
    use ehl_contacts, only : contact_of_groups
@@ -33,7 +33,8 @@ contains
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
       testsuite = [ &
-         new_unittest("rough rows of Masjedi and Khonsari: films within 5 %, shares within 9 % of theirs", test_rows) &
+         new_unittest("rough rows of Masjedi and Khonsari: films within 5 %, shares within 9 % of theirs", test_rows), &
+         new_unittest("rough surfaces leave more room than the distance of their mean planes, where they nearly touch", test_gap) &
          ]
    end subroutine collect_ehl_rough
 
@@ -72,6 +73,40 @@ contains
       end do
       if (unit /= 0) close (unit)
    end subroutine test_rows
+
+   !> The room is the distance where that is 8.5 roughnesses or more, 1/sqrt(2 pi) of the roughness where it is zero, 1.0833 of
+   !> it at one roughness; its slope is the part of the surface that is below the other.
+   subroutine test_gap(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(ehl_contact_t) :: contact
+      type(ehl_problem_t) :: problem
+      real(wp), parameter :: ratios(3) = [0.0_wp, 1.0_wp, 8.6_wp], rooms(3) = [0.398942280401433_wp, 1.083315470587686_wp, 8.6_wp]
+      ! Step of the difference quotients over the roughness [-]
+      real(wp), parameter :: h = 1.0e-5_wp
+      real(wp) :: gap, slope, low, high, unused
+      integer :: i, status
+
+      contact = contact_of_groups(1.0e-4_wp, 1.0e-11_wp, 4500.0_wp)
+      contact%roughness = 2.0e-5_wp*contact%radius
+      contact%has_flow_factors = .true.
+      call new_ehl_problem(problem, contact, status)
+      call check(error, status, 0)
+      do i = 1, 3
+         if (allocated(error)) return
+         call mean_gap(problem, ratios(i)*problem%roughness, gap, slope)
+         call check_close(error, gap/problem%roughness, rooms(i), 1.0e-14_wp, "room")
+      end do
+      do i = -20, 90
+         if (allocated(error)) return
+         call mean_gap(problem, 0.1_wp*i*problem%roughness, gap, slope)
+         call mean_gap(problem, (0.1_wp*i - h)*problem%roughness, low, unused)
+         call mean_gap(problem, (0.1_wp*i + h)*problem%roughness, high, unused)
+         call check(error, (high - low)/(2.0_wp*h*problem%roughness), slope, thr=10.0_wp*sqrt(epsilon(h)))
+      end do
+      problem%has_flow_factors = .false.
+      call mean_gap(problem, 0.5_wp*problem%roughness, gap, slope)
+      if (.not. allocated(error)) call check_close(error, gap, 0.5_wp*problem%roughness, epsilon(h), "without flow factors")
+   end subroutine test_gap
 
    !> Films and share near theirs.
    subroutine check_row(label, row, films, error)
