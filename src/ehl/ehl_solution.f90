@@ -26,6 +26,8 @@ module camroller_ehl_solution
       real(wp) :: largest_difference = 0.1_wp
       !> What Newton's method may leave over [-]
       real(wp) :: tolerance = 1.0e-9_wp
+      !> Stated error of a film at which no finer grid is taken [-]; zero: all of them are
+      real(wp) :: accuracy = 0.0_wp
       !> Ends of the domain, inlet and outlet [half widths]; zero: as the film calls for
       real(wp) :: reach(2) = 0.0_wp
       !> Equal steps instead of steps that follow the pressure?
@@ -53,6 +55,8 @@ module camroller_ehl_solution
    integer, parameter :: cold_iterations = 20, step_iterations = 30, refining_iterations = 15
    !> Nodes of the coarsest grid
    integer, parameter :: smallest_grid = 33
+   !> Nodes from which on the stated error says enough to stop at
+   integer, parameter :: judged_grid = 65
    !> Cotangent-like constant of the rigid contact: angle at which its film ends, by Reynolds' condition [rad]
    real(wp), parameter :: rigid_end = 0.443_wp
 
@@ -203,6 +207,7 @@ contains
          end if
          if (.not. converged) call solve_on_grid(problem, options, nodes, grid, state, films, converged)
          if (converged) call compare_grids(coarse, nodes, films)
+         if (converged .and. nodes >= judged_grid .and. films%error <= options%accuracy) exit
       end do
       films%iterations = iterations + state%iterations
       films%factorisations = factorisations + state%factorisations

@@ -245,7 +245,7 @@ contains
          & "part of the cycle outside the film law's published range", "film", statistics%outside_share)
       if (.not. allocated(model%film_table)) return
       call add(quantities, values, count, "film_table_error", "1", &
-         & "largest difference of the film from numerical solutions between the points of its table", "film", &
+         & "largest error of the film: of the polynomials of its table, and of the solutions at its points", "film", &
          & model%film_table%error)
    end subroutine add_margins
 
