@@ -11,7 +11,7 @@ module camroller_ehl_solution
    use camroller_ehl_reynolds, only : new_ehl_fields
    use camroller_ehl_newton, only : ehl_state_t, solve_newton
    use camroller_ehl_settling, only : settle
-   use camroller_ehl_films, only : ehl_films_t, get_films, compare_grids
+   use camroller_ehl_films, only : ehl_films_t, get_films, compare_grids, chance_error
    implicit none
    private
 
@@ -26,7 +26,8 @@ module camroller_ehl_solution
       real(wp) :: largest_difference = 0.1_wp
       !> What Newton's method may leave over [-]
       real(wp) :: tolerance = 1.0e-9_wp
-      !> Stated error of a film at which no finer grid is taken [-]; zero: all of them are
+      !> Stated error of a film, and that of films whose grids agree by chance, at which no finer grid is taken [-]; zero: the
+      !> finest one is taken
       real(wp) :: accuracy = 0.0_wp
       !> Ends of the domain, inlet and outlet [half widths]; zero: as the film calls for
       real(wp) :: reach(2) = 0.0_wp
@@ -207,7 +208,7 @@ contains
          end if
          if (.not. converged) call solve_on_grid(problem, options, nodes, grid, state, films, converged)
          if (converged) call compare_grids(coarse, nodes, films)
-         if (converged .and. nodes >= judged_grid .and. films%error <= options%accuracy) exit
+         if (converged .and. nodes >= judged_grid .and. max(films%error, chance_error/real(nodes, wp)**2) <= options%accuracy) exit
       end do
       films%iterations = iterations + state%iterations
       films%factorisations = factorisations + state%factorisations

@@ -11,7 +11,7 @@ module camroller_ehl_table
    use camroller_film_table, only : film_table_t, most_terms, speed_points, load_points, new_film_table, halving_changes
    use camroller_ehl_problem, only : ehl_contact_t
    use camroller_ehl_solution, only : ehl_options_t, solve_contact_film
-   use camroller_ehl_films, only : ehl_films_t
+   use camroller_ehl_films, only : ehl_films_t, chance_error
    implicit none
    private
 
@@ -207,7 +207,7 @@ contains
          return
       end if
       films = log([solution%minimum, solution%central]/radius)
-      task%grid_error = max(task%grid_error, solution%error)
+      task%grid_error = max(task%grid_error, solution%error, chance_error/real(solution%nodes, wp)**2)
    end subroutine solve_at
 
 end module camroller_ehl_table

@@ -22,7 +22,7 @@ module camroller_film_table
    !> after it, in numerical solutions with U from 1e-12 to 1e-8 and G from 3000 to 6000; a few per cent more or less do no harm
    real(wp), parameter :: hump_factor = 0.46_wp, hump_exponent = 0.435_wp
    !> Width of the hump in ln W*, and how densely points lie far from it over how they lie a width away [-]
-   real(wp), parameter :: hump_width = 0.15_wp, far_density = 0.25_wp
+   real(wp), parameter :: hump_width = 0.12_wp, far_density = 0.25_wp
 
    !> Films over speed and load
    type :: film_table_t
