@@ -6,8 +6,8 @@
 !>
 !> Over the load, ln W* is stretched about the line where the pressure spike passes the middle of the contact, since the central
 !> film has a hump there that no formula has. With z the distance from that line the place is `a z + asinh(z/d)`, made to run
-!> from -1 to 1 over the box at each speed. The points are those where Chebyshev polynomials of the highest degree are largest; those of
-!> twice the degree have them among theirs, so that a table grows without solving a point again.
+!> from -1 to 1 over the box at each speed. The points are those where the Chebyshev polynomial of highest degree is largest;
+!> those of twice the degree have them among theirs, so that a table grows without solving a point again.
 module camroller_film_table
    use camroller_kinds, only : wp, pi
    implicit none
