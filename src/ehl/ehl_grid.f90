@@ -9,6 +9,7 @@
 !> pressure is piecewise linear, its deformation exact: second divided differences of `X^2/2 (ln|X| - 3/2)`.
 module camroller_ehl_grid
    use camroller_kinds, only : wp, pi
+   use camroller_lapack, only : dgemv
    implicit none
    private
 
@@ -103,7 +104,13 @@ contains
       !> Deformation at the nodes [-]
       real(wp) :: gap(size(pressure))
 
-      gap = matmul(grid%kernel, pressure)
+      integer :: last
+
+      do last = grid%size, 2, -1
+         if (abs(pressure(last)) > 0.0_wp) exit
+      end do
+      gap = 0.0_wp
+      call dgemv("N", grid%size, last, 1.0_wp, grid%kernel, grid%size, pressure, 1, 0.0_wp, gap, 1)
    end function deformation
 
    !> Integral over the nodes by the trapezoidal rule, exact for a piecewise linear function.

@@ -19,7 +19,7 @@ module camroller_ehl_reynolds
    implicit none
    private
 
-   public :: ehl_fields_t, new_ehl_fields, evaluate_film, evaluate_flow, effective_viscosity, mean_fluidity, storage_t
+   public :: ehl_fields_t, new_ehl_fields, evaluate_film, evaluate_oil, evaluate_flow, effective_viscosity, mean_fluidity, storage_t
 
    !> Everything at the nodes and between them at a given pressure
    type :: ehl_fields_t
@@ -82,9 +82,23 @@ contains
       !> Film and state of the oil
       type(ehl_fields_t), intent(inout) :: fields
 
+      fields%film = level + 0.5_wp*grid%x**2 + deformation(grid, total)
+      call evaluate_oil(problem, grid, total, fields)
+   end subroutine evaluate_film
+
+   !> Share of the asperities and the state of the oil where the film is known.
+   pure subroutine evaluate_oil(problem, grid, total, fields)
+      !> The problem
+      type(ehl_problem_t), intent(in) :: problem
+      !> The grid
+      type(ehl_grid_t), intent(in) :: grid
+      !> Pressure of film and asperities at the nodes [-]
+      real(wp), intent(in) :: total(:)
+      !> In: film; out: state of the oil
+      type(ehl_fields_t), intent(inout) :: fields
+
       integer :: i
 
-      fields%film = level + 0.5_wp*grid%x**2 + deformation(grid, total)
       do i = 1, grid%size
          call asperity_pressure(problem, fields%film(i), fields%asperity(i), fields%asperity_slope(i))
          fields%pressure(i) = total(i) - fields%asperity(i)
@@ -93,7 +107,7 @@ contains
          call effective_viscosity(problem, fields%pressure(i), fields%film(i), fields%log_viscosity(i), &
             & fields%viscosity_slope(i), fields%thinning_slope(i))
       end do
-   end subroutine evaluate_film
+   end subroutine evaluate_oil
 
    !> Logarithm of the viscosity ratio that acts on the flow: thinned by sliding as Eyring's law has it.
    !>

@@ -9,7 +9,7 @@ module camroller_ehl_settling
    use camroller_ehl_grid, only : ehl_grid_t
    use camroller_ehl_problem, only : ehl_problem_t
    use camroller_ehl_reynolds, only : storage_t, evaluate_film
-   use camroller_ehl_newton, only : ehl_state_t, solve_newton
+   use camroller_ehl_newton, only : ehl_state_t, solve_newton, forget, contraction
    implicit none
    private
 
@@ -52,6 +52,7 @@ contains
          call evaluate_film(problem, grid, total, level, state%fields)
          film = state%fields%film
          storage%mass = grid%weight*state%fields%density*film
+         state%factors%rate = contraction
          call solve_newton(problem, grid, state, step_tolerance, iterations, converged, storage)
          if (.not. converged) then
             call put_back(total, level, state)
@@ -81,7 +82,7 @@ contains
 
       state%total = total
       state%level = level
-      state%unknowns = 0
+      call forget(state)
    end subroutine put_back
 
 end module camroller_ehl_settling

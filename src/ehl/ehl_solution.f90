@@ -9,7 +9,7 @@ module camroller_ehl_solution
    use camroller_ehl_grid, only : ehl_grid_t, new_ehl_grid, new_uniform_grid, deformation, integral
    use camroller_ehl_problem, only : ehl_contact_t, ehl_problem_t, new_ehl_problem, range_text, in_range
    use camroller_ehl_reynolds, only : new_ehl_fields
-   use camroller_ehl_newton, only : ehl_state_t, solve_newton
+   use camroller_ehl_newton, only : ehl_state_t, solve_newton, forget
    use camroller_ehl_settling, only : settle
    use camroller_ehl_films, only : ehl_films_t, get_films, compare_grids, chance_error
    implicit none
@@ -268,7 +268,7 @@ contains
       gap = deformation(grid, state%total) + 0.5_wp*grid%x**2
       middle = minloc(abs(grid%x(1::2)), dim=1)
       state%level = coarse%fields%film(middle) - gap(2*middle - 1)
-      state%unknowns = 0
+      call forget(state)
    end subroutine interpolate
 
    !> Solution from nothing on one grid, and its films.
@@ -375,7 +375,7 @@ contains
       if (is_rigid) state%total = state%total*(problem%load/integral(grid, state%total))
       gap = deformation(grid, state%total)
       state%level = problem%expected_film - gap(minloc(abs(grid%x), dim=1))
-      state%unknowns = 0
+      call forget(state)
    end subroutine start_state
 
 end module camroller_ehl_solution

@@ -1,4 +1,4 @@
-!> Interfaces of the LAPACK routines in use, so that the compiler checks every call.
+!> Interfaces of the LAPACK and BLAS routines in use, so that the compiler checks every call.
 !>
 !> Layer: numerics. The routines have no state, so they are declared pure; a positive `info` is the only way they fail.
 module camroller_lapack
@@ -6,9 +6,24 @@ module camroller_lapack
    implicit none
    private
 
-   public :: dgbsv, dpbsv, dgetrf, dgetrs
+   public :: dgemv, dgbsv, dpbsv, dgesv, dgetrf, dgetrs
 
    interface
+
+      !> Product of a general matrix and a vector, `y = alpha a x + beta y`.
+      pure subroutine dgemv(trans, m, n, alpha, a, lda, x, incx, beta, y, incy)
+         import :: wp
+         !> `N`: the matrix itself, not its transpose
+         character(len=1), intent(in) :: trans
+         !> Rows, columns, leading dimension of `a`, distances of neighbours in both vectors
+         integer, intent(in) :: m, n, lda, incx, incy
+         !> Factors of the product and of what `y` was [any]
+         real(wp), intent(in) :: alpha, beta
+         !> The matrix and the vector [any]
+         real(wp), intent(in) :: a(lda, *), x(*)
+         !> The product [any]
+         real(wp), intent(inout) :: y(*)
+      end subroutine dgemv
 
       !> Solve a general banded system; `ab` holds the band from row kl + 1 on and is overwritten by its factors.
       pure subroutine dgbsv(n, kl, ku, nrhs, ab, ldab, ipiv, b, ldb, info)
@@ -39,6 +54,21 @@ module camroller_lapack
          !> 0, or the order of the minor that is not positive definite
          integer, intent(out) :: info
       end subroutine dpbsv
+
+      !> Solve a general system; `a` is overwritten by its factors.
+      pure subroutine dgesv(n, nrhs, a, lda, ipiv, b, ldb, info)
+         import :: wp
+         !> Unknowns, right-hand sides, leading dimensions of `a` and `b`
+         integer, intent(in) :: n, nrhs, lda, ldb
+         !> The matrix, then its factors [any]
+         real(wp), intent(inout) :: a(lda, *)
+         !> Pivots
+         integer, intent(out) :: ipiv(*)
+         !> Right-hand sides, then solutions [any]
+         real(wp), intent(inout) :: b(ldb, *)
+         !> 0, or the column of a zero pivot
+         integer, intent(out) :: info
+      end subroutine dgesv
 
       !> Factors of a general matrix, which they overwrite.
       pure subroutine dgetrf(m, n, a, lda, ipiv, info)

@@ -18,7 +18,7 @@ module camroller_ehl_step
    use camroller_ehl_grid, only : ehl_grid_t
    use camroller_ehl_problem, only : ehl_contact_t, ehl_problem_t, new_ehl_problem, in_range
    use camroller_ehl_reynolds, only : storage_t
-   use camroller_ehl_newton, only : ehl_state_t, solve_newton
+   use camroller_ehl_newton, only : ehl_state_t, solve_newton, contraction
    use camroller_ehl_films, only : ehl_films_t, get_films
    use camroller_ehl_solution, only : solve_cold
    implicit none
@@ -113,6 +113,7 @@ contains
       rates = rate_weights(model%speed, angle, before)
       now%angle = angle
       now%sliding_speed = before(1)%sliding_speed
+      state%factors%rate = contraction
       now%load = balanced_load(model, position, moments, before(1)%traction, before(1)%rolling_resistance, 0.0_wp)
       do round = 1, max_rounds
          now%rounds = round

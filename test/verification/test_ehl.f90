@@ -152,7 +152,7 @@ contains
          call new_ehl_fields(state%fields, nodes)
          state%total = 0.9_wp*max((1.0_wp - grid%x)*(1.0_wp + grid%x), 0.0_wp)
          state%level = level + 0.1_wp
-         state%unknowns = 0
+         state%factors%unknowns = 0
          if (allocated(state%is_full)) deallocate (state%is_full)
          call solve_newton(problem, grid, state, 1.0e-12_wp, 30, converged, storage)
          call check(error, converged, "no solution")
