@@ -53,6 +53,7 @@ program main
    use test_ehl_law, only : collect_ehl_law
    use test_ehl_settling, only : collect_ehl_settling
    use test_ehl_cycle, only : collect_ehl_cycle
+   use test_ehl_factors, only : collect_ehl_factors
    use test_ehl_record, only : collect_ehl_record
    use test_lubricant, only : collect_lubricant
    use test_hertz, only : collect_hertz
@@ -123,6 +124,7 @@ contains
          new_testsuite("ehl_settling", collect_ehl_settling), &
          new_testsuite("needed", collect_needed), &
          new_testsuite("ehl_cycle", collect_ehl_cycle), &
+         new_testsuite("ehl_factors", collect_ehl_factors), &
          new_testsuite("ehl_record", collect_ehl_record), &
          new_testsuite("hard_ehl", collect_hard_ehl), &
          new_testsuite("ode", collect_ode), &
