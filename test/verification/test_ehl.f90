@@ -7,7 +7,7 @@ module test_ehl
    use camroller_ehl_grid, only : ehl_grid_t, new_ehl_grid, new_uniform_grid, deformation
    use camroller_ehl_problem, only : ehl_contact_t, ehl_problem_t, new_ehl_problem
    use camroller_ehl_reynolds, only : ehl_fields_t, storage_t, new_ehl_fields, evaluate_film, evaluate_flow
-   use camroller_ehl_newton, only : ehl_state_t, solve_newton
+   use camroller_ehl_newton, only : ehl_state_t, solve_newton, forget
    use camroller_ehl_solution, only : ehl_options_t, solve_contact_film, solve_on_grids, solve_on_grid
    use camroller_ehl_films, only : ehl_films_t, get_films
    use closeness, only : check_close, check_scaled, expect_success, expect_error
@@ -152,8 +152,7 @@ contains
          call new_ehl_fields(state%fields, nodes)
          state%total = 0.9_wp*max((1.0_wp - grid%x)*(1.0_wp + grid%x), 0.0_wp)
          state%level = level + 0.1_wp
-         state%factors%unknowns = 0
-         if (allocated(state%is_full)) deallocate (state%is_full)
+         call forget(state)
          call solve_newton(problem, grid, state, 1.0e-12_wp, 30, converged, storage)
          call check(error, converged, "no solution")
          if (allocated(error)) return
