@@ -10,12 +10,13 @@ module camroller_ehl_command
    use camroller_cli, only : config_t
    use camroller_deck, only : deck_t, read_deck, make_sweep_case
    use camroller_deck_sweep, only : sweep_size, case_in_words
+   use camroller_ehl_converged, only : fewest_nodes, integrate_converged
    use camroller_ehl_cycle, only : ehl_cycle_t, ehl_cycle_options_t, integrate_ehl_cycle
    use camroller_ehl_file, only : ehl_file_t, open_ehl, write_ehl, close_ehl
    use camroller_ehl_page, only : line_t, page_head, page_line, friction_page
    use camroller_ehl_profiles, only : plain_model
-   use camroller_ehl_record, only : ehl_record_t, make_ehl_record
-   use camroller_ehl_summary, only : make_ehl_summary, compare_cycles
+   use camroller_ehl_record, only : ehl_record_t, keep_nodes, make_ehl_record
+   use camroller_ehl_summary, only : make_ehl_summary
    use camroller_model, only : model_t
    use camroller_output, only : output_t, output_options_t, open_output, abandon_output
    use camroller_run_command, only : check_cases, output_path
@@ -26,8 +27,6 @@ module camroller_ehl_command
 
    public :: ehl_deck, solve_case, angle_count
 
-   !> Nodes of both grids
-   integer, parameter :: sizes(2) = [65, 129]
    !> Cam angles in the file
    integer, parameter :: angle_count = 720
 
@@ -59,8 +58,8 @@ contains
       call make_sweep_case(deck, 1, case, error)
       if (.not. allocated(error)) call open_output(writer, path, sweep_size(deck%sweep), output_options_t(), error)
       if (.not. allocated(error)) call write_facts(writer, deck, error)
-      if (.not. allocated(error)) call open_ehl(file, writer, merge(2, 1, allocated(case%second_lift)), angle_count, sizes(2), &
-         & error)
+      if (.not. allocated(error)) call open_ehl(file, writer, merge(2, 1, allocated(case%second_lift)), angle_count, &
+         & fewest_nodes, error)
       if (allocated(error)) return
       call solve_cases(deck, config%is_quiet, writer, file, lines, failure, error)
       call close_ehl(file)
@@ -123,17 +122,17 @@ contains
       end do
    end subroutine solve_cases
 
-   !> One case and lobe shape on both grids, which have to agree, and with steady films.
+   !> One case and lobe shape on two grids that agree, and with steady films.
    subroutine solve_case(case, is_second, record, line, error, without_steady)
       !> The case
       type(case_t), intent(in) :: case
       !> The second lobe shape?
       logical, intent(in) :: is_second
-      !> Cycle on the finer grid
+      !> Cycle on the finer grid, its profiles at the nodes of the file
       type(ehl_record_t), intent(out) :: record
       !> What is printed of it
       type(line_t), intent(out) :: line
-      !> What went wrong, also where both grids differ by too much; and with steady films, which the others are compared with
+      !> What went wrong, also where no two grids agree; and with steady films, which the others are compared with
       type(error_t), allocatable, intent(out) :: error, without_steady
 
       type(model_t) :: model
@@ -145,27 +144,19 @@ contains
       call cpu_time(start)
       call plain_model(model, case, is_second, error)
       if (allocated(error)) return
-      options%nodes = sizes(1)
-      call integrate_ehl_cycle(cycle, model, options, error)
+      call integrate_converged(cycle, model, line%coarse, line%fine, options, error)
       if (allocated(error)) return
-      line%coarse = make_ehl_summary(model, cycle)
-      options%nodes = sizes(2)
+      line%steps = size(cycle%angle)
+      call make_ehl_record(record, model, cycle)
+      call keep_nodes(record, fewest_nodes)
+      call line%set_friction(record)
       options%is_transient = .false.
+      options%keeps_profiles = .false.
       call integrate_ehl_cycle(cycle, model, options, without_steady)
       line%has_steady = .not. allocated(without_steady)
       if (line%has_steady) line%steady = make_ehl_summary(model, cycle)
-      options%is_transient = .true.
-      options%keeps_profiles = .true.
-      call integrate_ehl_cycle(cycle, model, options, error)
-      if (allocated(error)) return
-      line%fine = make_ehl_summary(model, cycle)
-      call compare_cycles(model, line%coarse, line%fine, error)
-      if (allocated(error)) return
       call cpu_time(finish)
-      line%steps = size(cycle%angle)
       line%time = finish - start
-      call make_ehl_record(record, model, cycle)
-      call line%set_friction(record)
    end subroutine solve_case
 
 end module camroller_ehl_command

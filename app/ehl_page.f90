@@ -68,9 +68,11 @@ contains
       !> Three lines
       character(len=:), allocatable :: text
 
-      text = "Contacts solved over the cycle, 129 nodes"//n// &
-         & "case lobe  smallest   mean of    mean of    mean slip  | 65 nodes differ by  | steady films  |  steps   time"//n// &
-         & "           film [um]  min. [um]  cent. [um] [m/s]      | film [%]   slip [%] | differ by [%] |          [s]"
+      text = "Contacts solved over the cycle, on as many nodes as it takes"//n// &
+         & "case lobe  smallest   mean of    mean of    mean slip  | half of the nodes   "// &
+         & "| steady films  | nodes   steps    time"//n// &
+         & "           film [um]  min. [um]  cent. [um] [m/s]      | film [%]   slip [%] "// &
+         & "| differ by [%] |                  [s]"
    end function page_head
 
    !> Line of the table of cycles.
@@ -92,7 +94,7 @@ contains
       else
          buffer(92:92) = "-"
       end if
-      write (buffer(94:), "(i8, f8.2)") line%steps, line%time
+      write (buffer(94:), "(i7, i8, f8.2)") line%fine%nodes, line%steps, line%time
       text = trim(buffer)
    end function page_line
 

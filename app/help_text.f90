@@ -117,8 +117,9 @@ contains
             & "Solve the contact itself over the cycle, with a film that remembers, and find the roller's slip with it."//n// &
             & "Prints film and slip of every case and lobe shape, with what two grids and steady films differ by, film and"//n// &
             & "friction beside the closed formulas, and writes one HDF5 file with pressure and film across the contact:"//n// &
-            & "the deck's name with _ehl.h5 in the present folder, or FILE. A case whose film or mean slip on two grids differs"// &
-            & n//"by more than ehl.accuracy is an error, without numbers."//n//n// &
+            & "the deck's name with _ehl.h5 in the present folder, or FILE. 129 to 513 nodes are taken,"// &
+            & n//"until film and mean slip on two grids differ by less than ehl.accuracy; a case where they do not is an error,"// &
+            & n//"without numbers."//n//n// &
             & "  -o, --output FILE          file to write"//n// &
             & "  -s, --set group.key=value  other value than the deck's; may be repeated"//n// &
             & "  -q, --quiet                say nothing but errors"

@@ -282,7 +282,7 @@ contains
 
       call add_group(schema, "ehl", group_effect, "film by numerical solution of the contact, in place of the film law")
       call add_number(schema, "accuracy", proper_fraction, "largest relative error of the film; "// &
-         & "with 'camroller ehl' what two grids may differ by in films and mean slip", default=standard%accuracy)
+         & "with 'camroller ehl' what the last two grids may differ by in films and mean slip", default=standard%accuracy)
       call add_logical(schema, "compressible", standard%compressible, &
          & "does the density of the oil grow with the pressure?")
       call add_logical(schema, "profiles", standard%profiles, &

@@ -16,7 +16,7 @@ module camroller_ehl_record
    implicit none
    private
 
-   public :: ehl_record_t, list_ehl_quantities, make_ehl_record, column, quantity_count
+   public :: ehl_record_t, list_ehl_quantities, make_ehl_record, keep_nodes, column, quantity_count
 
    !> Pressure, film and quantities of a cycle
    type :: ehl_record_t
@@ -110,6 +110,21 @@ contains
             & state%torque_friction, state%torque_drive, state%energy_residual]
       end do
    end subroutine make_ehl_record
+
+   !> Keep some of the nodes only: those of a coarser grid that the record's is nested in.
+   pure subroutine keep_nodes(record, nodes)
+      !> The record, with profiles
+      type(ehl_record_t), intent(inout) :: record
+      !> Number of nodes of the coarser grid; one less divides one less than the number of those of the record
+      integer, intent(in) :: nodes
+
+      integer :: step
+
+      step = (size(record%nodes) - 1)/(nodes - 1)
+      record%nodes = record%nodes(1::step)
+      record%pressure = record%pressure(1::step, :)
+      record%film = record%film(1::step, :)
+   end subroutine keep_nodes
 
    !> State of the follower with the contact that was solved.
    pure subroutine solved_state(model, now, state)

@@ -5,7 +5,6 @@ module camroller_ehl_summary
    use camroller_kinds, only : wp, two_pi
    use camroller_error, only : error_t, raise, kind_convergence
    use camroller_ehl_cycle, only : ehl_cycle_t
-   use camroller_ehl_table, only : ehl_t
    use camroller_kinematics, only : position_t
    use camroller_model, only : model_t, evaluate_geometry
    use camroller_spin, only : rolling_speed_at
@@ -94,22 +93,20 @@ contains
    end function slip_difference
 
    !> No result where two grids differ by more than is allowed.
-   subroutine compare_cycles(model, coarse, fine, error)
-      !> The model: what its group `&ehl` allows, or what is usual
-      type(model_t), intent(in) :: model
+   subroutine compare_cycles(coarse, fine, accuracy, error)
       !> Cycles on a coarser and a finer grid
       type(ehl_summary_t), intent(in) :: coarse, fine
+      !> Largest difference of films and mean slip [-]
+      real(wp), intent(in) :: accuracy
       !> Convergence error that says by how much they differ
       type(error_t), allocatable, intent(out) :: error
 
-      type(ehl_t) :: setup
       character(len=160) :: text
 
-      if (allocated(model%ehl)) setup = model%ehl
-      if (max(film_difference(coarse, fine), slip_difference(coarse, fine)) <= setup%accuracy) return
+      if (max(film_difference(coarse, fine), slip_difference(coarse, fine)) <= accuracy) return
       write (text, "(2(i0, a), 2(es8.1, a), es8.1)") coarse%nodes, " and ", fine%nodes, " nodes differ by", &
          & film_difference(coarse, fine), " in the film and by", slip_difference(coarse, fine), &
-         & " in the mean slip; the largest allowed (ehl.accuracy) is", setup%accuracy
+         & " in the mean slip; the largest allowed (ehl.accuracy) is", accuracy
       call raise(error, kind_convergence, "ehl: "//trim(text))
    end subroutine compare_cycles
 

@@ -5,6 +5,7 @@ module test_ehl_cycle
    use camroller_error, only : error_t, kind_convergence, kind_domain
    use camroller_case, only : case_t
    use camroller_model, only : model_t
+   use camroller_ehl_converged, only : integrate_converged
    use camroller_ehl_cycle, only : ehl_cycle_t, ehl_cycle_options_t, integrate_ehl_cycle
    use camroller_ehl_summary, only : ehl_summary_t, compare_cycles
    use closeness, only : check_close, check_scaled, expect_success, expect_error
@@ -29,6 +30,8 @@ contains
          new_unittest("contact is lost and found again", test_loss), &
          new_unittest("no step passes over an event of one degree", test_short_event), &
          new_unittest("two grids that differ by too much are an error, in film and in slip", test_grids), &
+         new_unittest("where two grids do not agree within the accuracy, finer ones are taken, or there is an error", &
+         & test_accuracy), &
          new_unittest("a contact too heavy is refused", test_too_heavy) &
          ]
    end subroutine collect_ehl_cycle
@@ -296,30 +299,53 @@ contains
    subroutine test_grids(error)
       type(error_type), allocatable, intent(out) :: error
       type(ehl_summary_t) :: coarse, fine
-      type(model_t) :: model
       type(error_t), allocatable :: failure
 
       fine = ehl_summary_t(129, 1.0e-7_wp, 2.0e-7_wp, 3.0e-7_wp, -1.0e-4_wp, 1.0e-3_wp, 1.0_wp)
       coarse = fine
       coarse%mean_central = 1.009_wp*fine%mean_central
       coarse%mean_slip = fine%mean_slip + 0.009_wp*fine%mean_size
-      call compare_cycles(model, coarse, fine, failure)
+      call compare_cycles(coarse, fine, 0.01_wp, failure)
       call expect_success(error, failure)
       if (allocated(error)) return
       coarse%smallest_film = 0.98_wp*fine%smallest_film
-      call compare_cycles(model, coarse, fine, failure)
+      call compare_cycles(coarse, fine, 0.01_wp, failure)
       call expect_error(error, failure, kind_convergence, "2.0E-02 in the film")
       if (allocated(error)) return
       coarse%smallest_film = fine%smallest_film
       coarse%mean_slip = -fine%mean_slip
-      call compare_cycles(model, coarse, fine, failure)
+      call compare_cycles(coarse, fine, 0.01_wp, failure)
       call expect_error(error, failure, kind_convergence, "2.0E-01 in the mean slip")
       if (allocated(error)) return
-      allocate (model%ehl)
-      model%ehl%accuracy = 0.3_wp
-      call compare_cycles(model, coarse, fine, failure)
+      call compare_cycles(coarse, fine, 0.3_wp, failure)
       call expect_success(error, failure)
    end subroutine test_grids
+
+   !> At 300 rev/min and 60 degC 65 and 129 nodes differ by 0.2 % in the slip.
+   subroutine test_accuracy(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(ehl_cycle_t) :: cycle
+      type(ehl_cycle_options_t) :: options
+      type(ehl_summary_t) :: coarse, fine
+      type(case_t) :: case
+      type(model_t) :: model
+      type(error_t), allocatable :: failure
+
+      case = thesis_case()
+      call set_point(case, point_speeds(1), point_viscosities(2))
+      call make_model(case, model, error)
+      if (allocated(error)) return
+      allocate (model%ehl)
+      model%ehl%accuracy = 3.0e-2_wp
+      call integrate_converged(cycle, model, coarse, fine, options, failure, most=129)
+      call expect_success(error, failure)
+      if (allocated(error)) return
+      call check(error, coarse%nodes == 65 .and. fine%nodes == 129 .and. size(cycle%nodes) == 129, "nodes")
+      if (allocated(error)) return
+      model%ehl%accuracy = 1.0e-3_wp
+      call integrate_converged(cycle, model, coarse, fine, options, failure, most=129)
+      call expect_error(error, failure, kind_convergence, "65 and 129 nodes differ by")
+   end subroutine test_accuracy
 
    subroutine test_too_heavy(error)
       type(error_type), allocatable, intent(out) :: error
