@@ -111,7 +111,7 @@ contains
       end do
    end subroutine make_ehl_record
 
-   !> Keep some of the nodes only: those of a coarser grid that the record's is nested in.
+   !> Keep some of the nodes only, those of a coarser grid that the record's is nested in.
    pure subroutine keep_nodes(record, nodes)
       !> The record, with profiles
       type(ehl_record_t), intent(inout) :: record

@@ -215,13 +215,13 @@ def test_beyond_what_numerical_films_are_good_for_there_is_an_error_and_no_file(
 
 
 def test_a_higher_accuracy_takes_more_nodes(camroller, tmp_path):
-    """65 and 129 nodes differ by 1.9e-3 there; the file keeps every other node of 257."""
+    """65 and 129 nodes differ by 2.9e-3 in the slip there, 129 and 257 by 1.2e-3; the file keeps every other node of 257."""
     path = tmp_path / "ehl.h5"
-    result = run(camroller, "ehl", ROOT / "decks/numerical_film.nml", "-o", path, *SMALL, "--set", "ehl.accuracy=1e-3",
-                 folder=tmp_path)
+    result = run(camroller, "ehl", ROOT / "decks/numerical_film.nml", "-o", path, "--set", "sweep.values_1=900", "--set",
+                 "sweep.values_2=95", "--set", "ehl.accuracy=2.5e-3", folder=tmp_path)
     assert result.returncode == 0, result.stderr
     line = next(line.split() for line in result.stdout.splitlines() if line.startswith("   0 "))
-    assert float(line[6]) <= 0.1 and float(line[7]) <= 0.1 and line[9] == "257"
+    assert float(line[6]) <= 0.25 and float(line[7]) <= 0.25 and line[9] == "257"
     with h5py.File(path) as file:
         assert file["ehl/pressure"].shape == (1, 720, 129)
         load = numpy.trapezoid(file["ehl/pressure"][0], file["ehl/x"][0], axis=1) * file["ehl/half_width"][0] * 13.7e-3
