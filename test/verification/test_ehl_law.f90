@@ -6,6 +6,7 @@ module test_ehl_law
    use camroller_case, only : case_t
    use camroller_model, only : model_t
    use camroller_state, only : state_t, evaluate_state
+   use camroller_deck, only : deck_t, override_t, read_deck, make_case
    use camroller_lubricant, only : law_barus, mean_relative_viscosity
    use camroller_hertz, only : half_width, peak_pressure
    use camroller_film, only : groups_t, film_shape_t, film_line_t, new_film_line, film_at_load, film_shape, law_table, law_moes
@@ -36,6 +37,7 @@ contains
       testsuite = [ &
          new_unittest("a table gives the films of solutions between its points", test_table), &
          new_unittest("films anywhere in a table differ from solutions by no more than it states", test_stated), &
+         new_unittest("nor in the tables of cold, hot, fast, slow and heavy decks", test_stated_of_decks), &
          new_unittest("slopes of the table are those of its difference quotients, inside and beyond", test_slopes), &
          new_unittest("a contact too heavy for solutions is refused with the place", test_too_heavy), &
          new_unittest("a case with a numerical film closes its energy balance", test_case), &
@@ -135,6 +137,60 @@ contains
       end do
       call check(error, all(off <= tables%error), "films differ by more than a table states")
    end subroutine test_stated
+
+   !> Solutions on 129 nodes where spikes are narrower than the nodes are off by up to 0.8 %, a third of what is stated there.
+   subroutine test_stated_of_decks(error)
+      type(error_type), allocatable, intent(out) :: error
+      character(len=*), parameter :: decks(*) = [character(len=36) :: "thesis", "hard/cold_start_minus_20", "hard/hot_thin_film", &
+         & "hard/contact_loss_5000_rpm", "hard/cranking_1_rpm", "hard/pressure_1500_MPa_barus", "hard/soft_spring"]
+      real(wp), parameter :: accuracy = 3.0e-2_wp
+      type(deck_t) :: deck
+      type(override_t) :: none(0)
+      type(case_t) :: case
+      type(model_t) :: model
+      type(ehl_contact_t) :: contact
+      type(film_line_t) :: line
+      type(film_shape_t) :: shape
+      type(ehl_films_t) :: films
+      type(error_t), allocatable :: failure
+      type(groups_t) :: groups
+      real(wp) :: draws(2), off
+      integer :: seed_size, i, k
+
+      call random_seed(size=seed_size)
+      do i = 1, size(decks)
+         call read_deck(deck, "decks/"//trim(decks(i))//".nml", none, failure)
+         if (.not. allocated(failure)) call make_case(deck, none, case, failure)
+         call expect_success(error, failure)
+         if (allocated(error)) return
+         case%ehl = ehl_t(accuracy=accuracy)
+         call make_model(case, model, error)
+         if (allocated(error)) return
+         call random_seed(put=[(1000*k + i, k=1, seed_size)])
+         contact%radius = 0.01_wp
+         contact%modulus = model%modulus
+         contact%oil = model%oil
+         off = 0.0_wp
+         do k = 1, 20
+            call random_number(draws)
+            associate (ends => model%film_table%ends)
+               groups = groups_t(exp(ends(1, 1) + draws(1)*(ends(2, 1) - ends(1, 1))), 0.0_wp, &
+                  & exp(ends(1, 2) + draws(2)*(ends(2, 2) - ends(1, 2))), 0.0_wp, 0.0_wp)
+            end associate
+            contact%line_load = groups%load*contact%modulus*contact%radius
+            contact%entrainment_speed = groups%speed*contact%modulus*contact%radius/contact%oil%viscosity
+            call solve_contact_film(contact, ehl_options_t(), films, failure)
+            call expect_success(error, failure)
+            if (allocated(error)) return
+            call new_film_line(line, law_table, groups, model%film_table)
+            call film_at_load(line, groups%load, shape)
+            off = max(off, abs(log(shape%minimum*contact%radius/films%minimum)), &
+               & abs(log(shape%central*contact%radius/films%central)))
+         end do
+         call check(error, off <= model%film_table%error, trim(decks(i))//": films differ by more than the table states")
+         if (allocated(error)) return
+      end do
+   end subroutine test_stated_of_decks
 
    subroutine test_slopes(error)
       type(error_type), allocatable, intent(out) :: error
