@@ -39,7 +39,7 @@ def draw(rows: dict[str, list[list[float]]], path: str) -> None:
         nodes = [line[0] for line in lines]
         time.loglog(nodes, [line[1] for line in lines], "o-", label=WORDS.get(name, name))
         part.semilogx(nodes, [line[2] for line in lines], "o-")
-        part.semilogx(nodes, [line[2] + line[3] for line in lines], "--", color=part.lines[-1].get_color())
+        part.semilogx(nodes, [sum(line[2:5]) for line in lines], "--", color=part.lines[-1].get_color())
     first = rows["cold"][0]
     nodes = [line[0] for line in rows["cold"]]
     for power in (2, 3):
@@ -47,7 +47,7 @@ def draw(rows: dict[str, list[list[float]]], path: str) -> None:
         time.text(nodes[-1], first[1] * 0.4 * (nodes[-1] / first[0]) ** power, f" n^{power}", color="grey", fontsize=9)
     time.set(xlabel="nodes", ylabel="processor time [ms]", ylim=(0.05, 1e6))
     time.legend(fontsize=8, loc="upper left")
-    part.set(xlabel="nodes", ylabel="LAPACK's part [%]: factors, dashed with solutions", ylim=(0, 100))
+    part.set(xlabel="nodes", ylabel="part [%]: dgetrf; dashed: + dgetrs, dgemv", ylim=(0, 100))
     for axis in (time, part):
         axis.set_xticks(nodes, [f"{n:.0f}" for n in nodes])
         axis.minorticks_off()

@@ -22,8 +22,8 @@ fi
 
 # As the release build, and fit for a shared library without giving up what knowing the callee allows
 flags="$RELEASE_FLAGS -I../build/commit -fPIC -fno-semantic-interposition"
-# LAPACK through a clock, bench/src/lapack_clock.f90
-wrapped="-Wl,--wrap=dgetrf_,--wrap=dgetrs_"
+# LAPACK and BLAS through a clock, bench/src/lapack_clock.f90
+wrapped="-Wl,--wrap=dgetrf_,--wrap=dgetrs_,--wrap=dgemv_"
 fpm=$PWD/.venv/bin/fpm
 python=$PWD/.venv/bin/python
 target=$PWD/build/bench

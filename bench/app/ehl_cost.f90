@@ -15,10 +15,10 @@ contains
       use camroller_kinds, only : wp
       use bench_circumstances, only : print_circumstances
 
-      integer, parameter :: sizes(5) = [65, 129, 257, 513, 1025], tasks = 4, largest_cycle = 4
+      integer, parameter :: sizes(5) = [65, 129, 257, 513, 1025], tasks = 4
       character(len=12), parameter :: names(tasks) = [character(len=12) :: "cold", "warm", "cycle_300_60", "cycle_300_25"]
-      ! Seconds, and LAPACK's part of them: factors, solutions [-]
-      real(wp) :: seconds(size(sizes), tasks), parts(2, size(sizes), tasks)
+      ! Seconds, and LAPACK's part of them: factors, solutions, products [-]
+      real(wp) :: seconds(size(sizes), tasks), parts(3, size(sizes), tasks)
       ! Steps of a cycle or iterations of a solution; factorisations
       integer :: counts(2, size(sizes), tasks), i, task
       character(len=32) :: threads
@@ -28,24 +28,24 @@ contains
       write (output_unit, "(3a)") "# LAPACK:   OpenBLAS, OPENBLAS_NUM_THREADS=", trim(threads)
       write (output_unit, "(a)") "# cold: a steady contact from nothing on nested grids; warm: load and speed changed by 1 %; "// &
          & "both: geometric mean of LC1 and LC2", "# cycle: the coupled cycle of decks/thesis.nml at rev/min and degC", &
-         & "# factors, solutions: LAPACK's part of the time, dgetrf and dgetrs; count: iterations, or steps of a cycle"
-      write (output_unit, "(a12, a8, a14, 2a12, a8, a12)") "# task", "nodes", "time [ms]", "factors [%]", "solve [%]", "count", &
-         & "factorised"
+         & "# factors, solve, products: part of the time in dgetrf, dgetrs, dgemv; count: iterations, or steps of a cycle"
+      write (output_unit, "(a12, a8, a14, 3a13, a8, a12)") "# task", "nodes", "time [ms]", "factors [%]", "solve [%]", &
+         & "products [%]", "count", "factorised"
       do task = 1, tasks
-         do i = 1, merge(5, largest_cycle, task <= 2)
+         do i = 1, size(sizes)
             if (task <= 2) then
                call measure_steady(sizes(i), task == 2, seconds(i, task), parts(:, i, task), counts(:, i, task))
             else
                call measure_cycle(sizes(i), merge(2, 1, task == 3), seconds(i, task), parts(:, i, task), counts(:, i, task))
             end if
-            write (output_unit, "(a12, i8, f14.3, 2f12.1, i8, i12)") names(task), sizes(i), 1.0e3_wp*seconds(i, task), &
+            write (output_unit, "(a12, i8, f14.3, 3f13.1, i8, i12)") names(task), sizes(i), 1.0e3_wp*seconds(i, task), &
                & 100.0_wp*parts(:, i, task), counts(:, i, task)
             flush (output_unit)
          end do
       end do
       write (output_unit, "(a)") "# power of the number of nodes with which the time grows, between neighbours; first to last"
       do task = 1, tasks
-         associate (log_time => log(seconds(:, task)), log_size => log(real(sizes, wp)), n => merge(5, largest_cycle, task <= 2))
+         associate (log_time => log(seconds(:, task)), log_size => log(real(sizes, wp)), n => size(sizes))
             write (output_unit, "(2a, 5f8.2)") "# power ", names(task), (log_time(2:n) - log_time(:n - 1))/(log_size(2:n) &
                & - log_size(:n - 1)), (log_time(n) - log_time(1))/(log_size(n) - log_size(1))
          end associate
@@ -67,7 +67,7 @@ contains
       !> Followed?
       logical, intent(in) :: is_followed
       !> Time [s], LAPACK's part [-]
-      real(wp), intent(out) :: seconds, parts(2)
+      real(wp), intent(out) :: seconds, parts(3)
       !> Iterations, factorisations of the last solution of both contacts
       integer, intent(out) :: counts(2)
 
@@ -107,7 +107,7 @@ contains
          lapack = read_lapack_clock()
          all_time = sum(times)
          seconds = seconds*sqrt(median(times))
-         parts = parts + 0.5_wp*[lapack%factors, lapack%solutions]/all_time
+         parts = parts + 0.5_wp*[lapack%factors, lapack%solutions, lapack%products]/all_time
          counts = counts + [films%iterations, films%factorisations]
       end do
    end subroutine measure_steady
@@ -127,7 +127,7 @@ contains
       !> Nodes; case of the deck
       integer, intent(in) :: nodes, number
       !> Least time [s], LAPACK's part of it [-]
-      real(wp), intent(out) :: seconds, parts(2)
+      real(wp), intent(out) :: seconds, parts(3)
       !> Steps, factorisations
       integer, intent(out) :: counts(2)
 
@@ -158,7 +158,7 @@ contains
          if (allocated(error)) error stop 1
          if (time >= seconds) cycle
          seconds = time
-         parts = [lapack%factors, lapack%solutions]/time
+         parts = [lapack%factors, lapack%solutions, lapack%products]/time
          counts = [size(turn%angle), lapack%factors_made]
       end do
    end subroutine measure_cycle

@@ -1,7 +1,8 @@
-!> Time that LAPACK's dense factors and the solutions with them take: every call in a program passes here.
+!> Time that LAPACK's dense factors, the solutions with them and BLAS' products with a matrix take: every call in a program passes
+!> here.
 !>
-!> The linker puts these procedures in the place of LAPACK's, `-Wl,--wrap=dgetrf_,--wrap=dgetrs_`. Nothing is timed unless asked
-!> for.
+!> The linker puts these procedures in the place of LAPACK's, `-Wl,--wrap=dgetrf_,--wrap=dgetrs_,--wrap=dgemv_`. Nothing is timed
+!> unless asked for.
 module bench_lapack_clock
    use, intrinsic :: iso_c_binding, only : c_int, c_double, c_char, c_size_t
    use camroller_kinds, only : wp
@@ -11,12 +12,12 @@ module bench_lapack_clock
 
    public :: lapack_t, start_lapack_clock, read_lapack_clock
 
-   !> Seconds and calls since the start: factors; solutions
+   !> Seconds and calls since the start: factors; solutions; products
    type :: lapack_t
       !> [s]
-      real(wp) :: factors = 0.0_wp, solutions = 0.0_wp
+      real(wp) :: factors = 0.0_wp, solutions = 0.0_wp, products = 0.0_wp
       !> Calls
-      integer :: factors_made = 0, solutions_made = 0
+      integer :: factors_made = 0, solutions_made = 0, products_made = 0
    end type lapack_t
 
    ! style: module because the procedures are called by LAPACK's names and have nowhere else to put what they count
@@ -55,6 +56,21 @@ module bench_lapack_clock
          !> Length of `trans`
          integer(c_size_t), value :: length
       end subroutine real_dgetrs
+
+      !> BLAS' own dgemv
+      subroutine real_dgemv(trans, m, n, alpha, a, lda, x, incx, beta, y, incy, length) bind(c, name="__real_dgemv_")
+         import :: c_int, c_double, c_char, c_size_t
+         !> Transposed or not
+         character(kind=c_char), intent(in) :: trans(*)
+         !> Rows, columns, leading dimension, distances of neighbours
+         integer(c_int), intent(in) :: m, n, lda, incx, incy
+         !> Factors of the product and of what y was; the matrix; the vector [any]
+         real(c_double), intent(in) :: alpha, beta, a(*), x(*)
+         !> The product [any]
+         real(c_double), intent(inout) :: y(*)
+         !> Length of `trans`
+         integer(c_size_t), value :: length
+      end subroutine real_dgemv
    end interface
 
 contains
@@ -109,5 +125,23 @@ contains
       clock%solutions = clock%solutions + seconds_used() - start
       clock%solutions_made = clock%solutions_made + 1
    end subroutine wrapped_dgetrs
+
+   !> In the place of dgemv.
+   subroutine wrapped_dgemv(trans, m, n, alpha, a, lda, x, incx, beta, y, incy, length) bind(c, name="__wrap_dgemv_")
+      !> As BLAS has it
+      character(kind=c_char), intent(in) :: trans(*)
+      integer(c_int), intent(in) :: m, n, lda, incx, incy
+      real(c_double), intent(in) :: alpha, beta, a(*), x(*)
+      real(c_double), intent(inout) :: y(*)
+      integer(c_size_t), value :: length
+
+      real(wp) :: start
+
+      if (is_on) start = seconds_used()
+      call real_dgemv(trans, m, n, alpha, a, lda, x, incx, beta, y, incy, length)
+      if (.not. is_on) return
+      clock%products = clock%products + seconds_used() - start
+      clock%products_made = clock%products_made + 1
+   end subroutine wrapped_dgemv
 
 end module bench_lapack_clock
