@@ -52,6 +52,9 @@ module camroller_ehl_films
    !> The same below which nearly all are whose grids agree by chance, so that no less should be stated of many contacts: of 40 320
    !> contacts 142 on 65 nodes and three on 129 are off by more than this and than what is stated, instead of 493 and 134 [-]
    real(wp), parameter :: chance_error = 16.0_wp
+   !> Second difference of that logarithm from which on it is a jump that the nodes do not resolve, as behind a spike, and not
+   !> the bend of a curve [-]
+   real(wp), parameter :: largest_bend = 4.0_wp
 
 contains
 
@@ -220,8 +223,13 @@ contains
       end if
    end function mean_place
 
-   !> Integral of viscosity over film from each node to the next, as far as the film is full: exact where its logarithm is linear
-   !> between both. Behind the end of the film there is none.
+   !> Integral of viscosity over film from each node to the next, as far as the film is full. Behind the end of the film there is
+   !> none.
+   !>
+   !> Exact where its logarithm is linear between both nodes, times what the logarithm's bend adds: the cubic through four nodes is
+   !> above the straight line by a sixteenth of both second differences in the middle, by a 24th in the mean. Without it the top
+   !> of a spike of two or three nodes is cut off. That is so where the flow makes the pressure at a node, in films thicker than
+   !> b^2/R. In thinner ones the bodies do, and they feel a pressure that is straight between the nodes: straight lines it is, then.
    pure function cell_shear(grid, state) result(shear)
       !> The grid
       type(ehl_grid_t), intent(in) :: grid
@@ -232,15 +240,20 @@ contains
 
       ! Logarithm of film over viscosity; its derivatives, not used; part of a node's cell with a full film [-]
       real(wp) :: fluidity(grid%size), slopes(2), filled(grid%size)
+      ! Second differences of the logarithm, as far as the nodes resolve them [-]
+      real(wp) :: bend(grid%size)
       integer :: i
 
       fluidity = max(log(state%fields%film) - state%fields%log_viscosity, -largest_exponent)
       filled = filled_part(grid, state)
+      bend = 0.0_wp
+      bend(2:grid%size - 1) = fluidity(3:) - 2.0_wp*fluidity(2:grid%size - 1) + fluidity(:grid%size - 2)
+      bend = bend/(1.0_wp + (bend/largest_bend)**4)/(1.0_wp + 1.0_wp/state%fields%film**2)
       shear = 0.0_wp
       do i = 1, grid%size - 1
          if (filled(i) + filled(i + 1) <= 0.0_wp) cycle
          call mean_fluidity(fluidity(i), fluidity(i + 1), shear(i), slopes)
-         shear(i) = shear(i)*grid%step(i)*0.5_wp*(filled(i) + filled(i + 1))
+         shear(i) = shear(i)*exp((bend(i) + bend(i + 1))/24.0_wp)*grid%step(i)*0.5_wp*(filled(i) + filled(i + 1))
       end do
    end function cell_shear
 

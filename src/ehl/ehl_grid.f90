@@ -5,7 +5,8 @@
 !> the deformation `-(1/pi) int ln|X - X'| P(X') dX'`.
 !>
 !> Nodes lie at equal steps of `asinh((X + 1)/d) + asinh((X - 1)/d) + 2 asinh(X)`: logarithmic on either side of both edges of the
-!> contact, so that a zone of width d there has as many nodes as the whole middle, and nested when their number is halved. The
+!> contact, so that a zone of width d there has as many nodes as the whole middle, and nested when their number is halved. Where a
+!> spike of the pressure is about the middle, the last term is `4 asinh(X/0.3)`. The
 !> pressure is piecewise linear, its deformation exact: second divided differences of `X^2/2 (ln|X| - 3/2)`.
 module camroller_ehl_grid
    use camroller_kinds, only : wp, pi
@@ -31,15 +32,15 @@ module camroller_ehl_grid
       real(wp), allocatable :: face(:, :)
    end type ehl_grid_t
 
-   !> Weight of the middle of the contact in the density of nodes [-]
-   real(wp), parameter :: middle_weight = 2.0_wp
+   !> Weight of the middle of the contact in the density of nodes [-], and its width [half widths]: usually, and with a spike there
+   real(wp), parameter :: middle_weights(2) = [2.0_wp, 4.0_wp], middle_widths(2) = [1.0_wp, 0.3_wp]
    !> Iterations of Newton's method for a node, more than it takes
    integer, parameter :: max_iterations = 60
 
 contains
 
    !> Grid that is dense at both edges of the contact.
-   pure subroutine new_ehl_grid(grid, nodes, inlet, outlet, edge)
+   pure subroutine new_ehl_grid(grid, nodes, inlet, outlet, edge, has_middle_spike)
       !> The grid
       type(ehl_grid_t), intent(out) :: grid
       !> Number of nodes
@@ -48,6 +49,8 @@ contains
       real(wp), intent(in) :: inlet, outlet
       !> Width of the zones at the edges of the contact [half widths]
       real(wp), intent(in) :: edge
+      !> Is there a spike of the pressure about the middle? Absent: no
+      logical, intent(in), optional :: has_middle_spike
 
       ! Ends of the range of the stretched coordinate, and the coordinate of a node [-]
       real(wp) :: first, last, target_value
@@ -55,11 +58,13 @@ contains
       real(wp) :: value, slope, change
       ! Bracket of the point [half widths]
       real(wp) :: low, high
-      integer :: i, iteration
+      integer :: i, iteration, middle
 
+      middle = 1
+      if (present(has_middle_spike)) middle = merge(2, 1, has_middle_spike)
       allocate (grid%x(nodes))
-      call stretch(-inlet, edge, first, slope)
-      call stretch(outlet, edge, last, slope)
+      call stretch(-inlet, edge, middle, first, slope)
+      call stretch(outlet, edge, middle, last, slope)
       grid%x(1) = -inlet
       grid%x(nodes) = outlet
       do i = 2, nodes - 1
@@ -68,7 +73,7 @@ contains
          high = outlet
          grid%x(i) = low
          do iteration = 1, max_iterations
-            call stretch(grid%x(i), edge, value, slope)
+            call stretch(grid%x(i), edge, middle, value, slope)
             if (value < target_value) low = grid%x(i)
             if (value > target_value) high = grid%x(i)
             change = (target_value - value)/slope
@@ -126,14 +131,17 @@ contains
    end function integral
 
    !> Stretched coordinate of a point, and its slope.
-   pure subroutine stretch(x, edge, value, slope)
+   pure subroutine stretch(x, edge, middle, value, slope)
       !> Point, and width of the zones at the edges [half widths]
       real(wp), intent(in) :: x, edge
+      !> Place of the middle's weight and width in their lists
+      integer, intent(in) :: middle
       !> Stretched coordinate [-] and its slope [1/half widths]
       real(wp), intent(out) :: value, slope
 
-      value = asinh((x + 1.0_wp)/edge) + asinh((x - 1.0_wp)/edge) + middle_weight*asinh(x)
-      slope = 1.0_wp/hypot(x + 1.0_wp, edge) + 1.0_wp/hypot(x - 1.0_wp, edge) + middle_weight/hypot(x, 1.0_wp)
+      value = asinh((x + 1.0_wp)/edge) + asinh((x - 1.0_wp)/edge) + middle_weights(middle)*asinh(x/middle_widths(middle))
+      slope = 1.0_wp/hypot(x + 1.0_wp, edge) + 1.0_wp/hypot(x - 1.0_wp, edge) &
+         & + middle_weights(middle)/hypot(x, middle_widths(middle))
    end subroutine stretch
 
    !> Everything that follows from the nodes.

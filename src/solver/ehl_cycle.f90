@@ -64,6 +64,8 @@ module camroller_ehl_cycle
    !> Sliding speed below which errors are measured by the largest of the cycle so far [m/s]; what counts as no sliding, over the
    !> largest speed of pure rolling [-]
    real(wp), parameter :: small_slip = 1.0e-3_wp, least_slip = 1.0e-5_wp
+   !> Thinnest film of a cycle over b^2/R from which on the spike of the pressure, where there is one, is about the middle [-]
+   real(wp), parameter :: rigid_film = 1.0_wp
    !> More steps than a cycle takes
    integer, parameter :: most_steps = 20000
 
@@ -283,7 +285,7 @@ contains
       end do
       parabola = sqrt(films(2))
       call new_ehl_grid(march%grid, options%nodes, max(16.0_wp, 24.0_wp*parabola), 1.0_wp + max(0.5_wp, 2.0_wp*parabola), &
-         & min(1.0_wp, 0.5_wp*films(1)**(2.0_wp/3.0_wp)))
+         & min(1.0_wp, 0.5_wp*films(1)**(2.0_wp/3.0_wp)), films(1) > rigid_film)
    end subroutine prepare_march
 
    !> Steady contact at the start of the run-up.

@@ -223,7 +223,7 @@ contains
       case ("cranking_1_rpm")
          ! Asperities carry the load, and the inlet of a film of a nanometre is narrower than the steps of either grid
          differences = [0.2_wp, usual_difference]
-      case ("pressure_1500_MPa_barus", "pressure_1500_MPa_roelands", "sharp_cap")
+      case ("pressure_1500_MPa_barus", "pressure_1500_MPa_roelands")
          ! Viscosity grows up to 10^14-fold, and what holds the roller comes from the few nodes of the pressure spike
          differences = [usual_difference, 0.06_wp]
       case default
