@@ -46,12 +46,12 @@ module camroller_ehl_films
    !> Error of a film times the square of the number of nodes, below which half of the contacts of the range of solutions
    !> are: 3.2 to 3.4 at 65 to 513 nodes [-]
    real(wp), parameter :: usual_error = 4.0_wp
-   !> Logarithm of viscosity over film at which it is held: far above any shear that a limiting traction lets through, below
-   !> overflow [-]
-   real(wp), parameter :: largest_exponent = 600.0_wp
    !> The same below which nearly all are whose grids agree by chance, so that no less should be stated of many contacts: of 40 320
    !> contacts 142 on 65 nodes and three on 129 are off by more than this and than what is stated, instead of 493 and 134 [-]
    real(wp), parameter :: chance_error = 16.0_wp
+   !> Logarithm of viscosity over film at which it is held: far above any shear that a limiting traction lets through, below
+   !> overflow [-]
+   real(wp), parameter :: largest_exponent = 600.0_wp
    !> Second difference of that logarithm from which on it is a jump that the nodes do not resolve, as behind a spike, and not
    !> the bend of a curve [-]
    real(wp), parameter :: largest_bend = 4.0_wp
