@@ -48,7 +48,7 @@ module camroller_ehl_table
    end type task_t
 
    !> Polynomials over speed and over load: to begin with, and at most
-   integer, parameter :: fewest_terms(2) = [3, 9], most_terms_each(2) = [most_terms/2 + 1, most_terms]
+   integer, parameter :: fewest_terms(2) = [3, 9], most_terms_each(2) = [33, most_terms]
    !> Most nodes across a contact; as many are taken as its accuracy asks for
    integer, parameter :: most_nodes = 1025
    !> Part of what is stated of a grid that counts at the worst of many points: 0.1 to 0.63 of it were true there, on 65 and on
