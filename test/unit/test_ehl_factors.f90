@@ -72,7 +72,7 @@ contains
       lack = maxval(abs(film - deformation(grid, pressure) - level))
       do i = 2, n + 1
          value = dot_product(rows%by_pressure(i, 2:4), pressure(i - 1:i + 1)) + dot_product(rows%by_film(i, 2:4), film(i - 1:i + 1))
-         if (i > 2) value = value + rows%by_pressure(i, 1)*pressure(i - 2) + rows%by_film(i, 1)*film(i - 2)
+         if (i > 2) value = value + rows%by_pressure(i, 1)*pressure(max(i - 2, 1)) + rows%by_film(i, 1)*film(max(i - 2, 1))
          lack = max(lack, abs(value - side(i - 1)))
       end do
       lack = max(lack, abs(dot_product(grid%weight, pressure) - side(n + 1)))
