@@ -17,7 +17,7 @@ module camroller_ehl_problem
    private
 
    public :: ehl_contact_t, ehl_problem_t, new_ehl_problem, range_text, in_range, largest_pressure, speed_range, load_range
-   public :: log_viscosity, relative_density, asperity_pressure, real_area_part, pressure_flow_factor, mean_gap
+   public :: log_viscosity, relative_density, asperity_reach, asperity_pressure, real_area_part, pressure_flow_factor, mean_gap
 
    !> What a problem may be: in range, or which quantity is out of it
    integer, parameter :: in_range = 0, pressure_out_of_range = 1, exponent_out_of_range = 2, speed_out_of_range = 3, &
@@ -125,6 +125,19 @@ contains
       call film_shape(law_moes, groups, shape)
       problem%expected_film = shape%central*contact%radius/problem%film_scale
    end subroutine new_ehl_problem
+
+   !> Distance from the middle at which asperities carry next to nothing: there the gap of a parabola has grown by four times the
+   !> roughness, and with it their pressure has fallen by more than four decades. Light contacts of rough surfaces are far wider
+   !> than dry ones.
+   pure function asperity_reach(problem) result(reach)
+      !> The problem
+      type(ehl_problem_t), intent(in) :: problem
+      !> The distance; zero for smooth surfaces [half widths]
+      real(wp) :: reach
+
+      reach = 0.0_wp
+      if (problem%asperity_factor > 0.0_wp) reach = sqrt(2.0_wp*4.0_wp*problem%roughness)
+   end function asperity_reach
 
    !> Is the contact one that solutions are given for?
    pure subroutine check_range(groups, pressure, exponent, status)

@@ -7,7 +7,7 @@ module camroller_ehl_solution
    use camroller_kinds, only : wp, pi
    use camroller_error, only : error_t, raise, kind_domain, kind_convergence
    use camroller_ehl_grid, only : ehl_grid_t, new_ehl_grid, new_uniform_grid, deformation, integral
-   use camroller_ehl_problem, only : ehl_contact_t, ehl_problem_t, new_ehl_problem, range_text, in_range
+   use camroller_ehl_problem, only : ehl_contact_t, ehl_problem_t, new_ehl_problem, asperity_reach, range_text, in_range
    use camroller_ehl_reynolds, only : new_ehl_fields
    use camroller_ehl_newton, only : ehl_state_t, solve_newton, forget
    use camroller_ehl_settling, only : settle
@@ -308,7 +308,7 @@ contains
       real(wp) :: reach(2), edge, parabola
 
       parabola = sqrt(problem%expected_film)
-      reach = [max(least_inlet, inlet_part*parabola), 1.0_wp + max(0.5_wp, 1.5_wp*parabola)]
+      reach = max([max(least_inlet, inlet_part*parabola), 1.0_wp + max(0.5_wp, 1.5_wp*parabola)], asperity_reach(problem))
       where (options%reach > 0.0_wp) reach = options%reach
       edge = 0.5_wp*problem%expected_film**(2.0_wp/3.0_wp)
       if (problem%expected_film > 1.0_wp) edge = parabola

@@ -14,7 +14,7 @@ module camroller_ehl_cycle
    use camroller_spin, only : rolling_speed_at
    use camroller_state, only : evaluate_loading
    use camroller_ehl_grid, only : new_ehl_grid
-   use camroller_ehl_problem, only : ehl_problem_t, new_ehl_problem, in_range, range_text
+   use camroller_ehl_problem, only : ehl_problem_t, new_ehl_problem, asperity_reach, in_range, range_text
    use camroller_ehl_newton, only : ehl_state_t
    use camroller_ehl_reynolds, only : new_ehl_fields
    use camroller_ehl_step, only : moment_t, ehl_march_t, make_step, contact_at, max_rounds
@@ -44,8 +44,8 @@ module camroller_ehl_cycle
       type(moment_t), allocatable :: moments(:)
       !> Nodes [half widths]; pressure [Pa] and film [m] there at the accepted angles, where asked for
       real(wp), allocatable :: nodes(:), pressure(:, :), film(:, :)
-      !> Work: steps refused, rounds of film and forces, factorisations, cycles
-      integer :: refused = 0, rounds = 0, factorisations = 0, turns = 1
+      !> Work: steps tried, of them refused, rounds of film and forces, factorisations, cycles
+      integer :: tried = 0, refused = 0, rounds = 0, factorisations = 0, turns = 1
    end type ehl_cycle_t
 
    !> First angle of the cycle and run-up before it [rad]
@@ -66,6 +66,8 @@ module camroller_ehl_cycle
    real(wp), parameter :: small_slip = 1.0e-3_wp, least_slip = 1.0e-5_wp
    !> Thinnest film of a cycle over b^2/R from which on the spike of the pressure, where there is one, is about the middle [-]
    real(wp), parameter :: rigid_film = 1.0_wp
+   !> Part of the error of a step that may be left of the sliding speed when film and forces agree [-]
+   real(wp), parameter :: round_part = 1.0e-2_wp
    !> More steps than a cycle takes
    integer, parameter :: most_steps = 20000
 
@@ -89,7 +91,7 @@ contains
       real(wp) :: step, excess, scale
       ! Angles that end a step [rad]
       real(wp), allocatable :: stops(:)
-      integer :: known, trial
+      integer :: known
       logical :: converged
 
       call prepare_march(march, model, options, error)
@@ -102,9 +104,11 @@ contains
       scale = max(abs(history(1)%sliding_speed), least_slip*march%largest_rolling)
       known = 1
       step = first_step
-      do trial = 1, most_steps
+      do while (cycle%tried < most_steps)
+         cycle%tried = cycle%tried + 1
          saved = state
          step = bounded_step(min(step, options%longest_step), history(1)%angle, stops)
+         march%slip_tolerance = round_part*options%step_error*scale
          call make_step(model, march, history(:min(known, 2)), history(1)%angle + step, state, now, converged)
          excess = huge(1.0_wp)
          if (converged) excess = step_excess(history(:known), now, scale, options%step_error)
@@ -189,8 +193,9 @@ contains
 
       if (last%status /= in_range) then
          call raise(error, kind_domain, "ehl: "//trim(range_text(last%status))//" at cam angle "//trim(angle_text(reached)))
-      else if (last%angle < start + two_pi - angle_tolerance) then
+      else if (cycle%tried >= most_steps .or. last%angle < start + two_pi - angle_tolerance) then
          reason = "no film is found"
+         if (cycle%tried >= most_steps) reason = "the cycle takes more steps than any should"
          if (last%rounds == max_rounds .and. options%is_transient) reason = "load and friction find no balance"
          if (last%rounds == max_rounds .and. .not. options%is_transient) reason = "the balance of load and friction, "// &
             & "where the spike of the pressure is narrower than the nodes, jumps with steady films (a film with squeeze does not)"
@@ -258,13 +263,14 @@ contains
       type(position_t) :: position
       type(moments_t) :: moments
       type(ehl_problem_t) :: problem
-      ! Load without friction [N], gas force [N]; thinnest and thickest expected film [-]; length in which a gap doubles
-      ! [half widths]
-      real(wp) :: load, force, films(2), parabola
+      ! Load without friction [N], gas force [N]; thinnest and thickest expected film [-]; length in which a gap doubles, and within
+      ! which asperities touch [half widths]
+      real(wp) :: load, force, films(2), parabola, touching
       integer :: i, status, pass
 
       march%is_transient = options%is_transient
       films = [huge(1.0_wp), 0.0_wp]
+      touching = 0.0_wp
       do pass = 1, 2
          do i = 1, 180
             call evaluate_loading(model, 2.0_wp*i*degree, position, force, moments, status)
@@ -281,11 +287,12 @@ contains
                return
             end if
             films = [min(films(1), problem%expected_film), max(films(2), problem%expected_film)]
+            touching = max(touching, asperity_reach(problem))
          end do
       end do
       parabola = sqrt(films(2))
-      call new_ehl_grid(march%grid, options%nodes, max(16.0_wp, 24.0_wp*parabola), 1.0_wp + max(0.5_wp, 2.0_wp*parabola), &
-         & min(1.0_wp, 0.5_wp*films(1)**(2.0_wp/3.0_wp)), films(1) > rigid_film)
+      call new_ehl_grid(march%grid, options%nodes, max(16.0_wp, 24.0_wp*parabola, touching), &
+         & max(1.5_wp, 1.0_wp + 2.0_wp*parabola, touching), min(1.0_wp, 0.5_wp*films(1)**(2.0_wp/3.0_wp)), films(1) > rigid_film)
    end subroutine prepare_march
 
    !> Steady contact at the start of the run-up.

@@ -58,8 +58,8 @@ module camroller_ehl_step
       real(wp) :: largest_load = 0.0_wp, largest_rolling = 0.0_wp
       !> Does the film remember? If not, each angle is a steady contact
       logical :: is_transient = .true.
-      !> What may be left of film and forces [-]
-      real(wp) :: tolerance = 1.0e-6_wp
+      !> What may be left of film and forces [-], and of the sliding speed [m/s]
+      real(wp) :: tolerance = 1.0e-6_wp, slip_tolerance = 1.0_wp
    end type ehl_march_t
 
    !> Parts of the largest load: below the first the nodes no longer shrink with the load, below the second contact counts as lost
@@ -125,7 +125,7 @@ contains
          ! Where film and slip drive each other round in circles, meet in the middle
          if (round > free_rounds) now%sliding_speed = 0.5_wp*(now%sliding_speed + speed)
          now%load = balanced_load(model, position, moments, now%traction, now%rolling_resistance, now%sliding_speed)
-         converged = abs(now%sliding_speed - speed) <= march%tolerance*rolling_speed_at(model, position) &
+         converged = abs(now%sliding_speed - speed) <= min(march%slip_tolerance, march%tolerance*march%largest_rolling) &
             & .and. abs(now%load - load) <= march%tolerance*march%largest_load
          if (converged) exit
          ! So may load and traction: with the shear of a pressure spike, either changes the other by more than its own change

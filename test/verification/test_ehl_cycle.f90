@@ -7,8 +7,13 @@ module test_ehl_cycle
    use camroller_model, only : model_t
    use camroller_ehl_converged, only : integrate_converged
    use camroller_ehl_cycle, only : ehl_cycle_t, ehl_cycle_options_t, integrate_ehl_cycle
+   use camroller_ehl_films, only : ehl_films_t
+   use camroller_ehl_problem, only : ehl_contact_t
+   use camroller_ehl_solution, only : ehl_options_t, solve_contact_film
    use camroller_ehl_summary, only : ehl_summary_t, compare_cycles
    use closeness, only : check_close, check_scaled, expect_success, expect_error
+   use camroller_hertz, only : half_width
+   use ehl_contacts, only : contact_of_groups
    use reference_cases, only : thesis_case, make_model, set_point, point_speeds, point_viscosities
    implicit none
    private
@@ -29,6 +34,7 @@ contains
          new_unittest("profiles carry the load", test_profiles), &
          new_unittest("where friction can hold the roller it rests, else it slides against all of it", test_rest), &
          new_unittest("contact is lost and found again", test_loss), &
+         new_unittest("a light contact of rough surfaces is solved as wide as its asperities touch", test_light), &
          new_unittest("no step passes over an event of one degree", test_short_event), &
          new_unittest("two grids that differ by too much are an error, in film and in slip", test_grids), &
          new_unittest("where two grids do not agree within the accuracy, finer ones are taken, or there is an error", &
@@ -298,6 +304,33 @@ contains
       if (allocated(error)) return
       call check(error, minval(cycle%moments%films%minimum, mask=cycle%moments%has_film) > 0.0_wp, "film")
    end subroutine test_loss
+
+   !> Asperities carry nearly all of it, far beyond the dry contact's half width: a domain three times as long changes nothing.
+   subroutine test_light(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(ehl_contact_t) :: contact
+      type(ehl_options_t) :: options
+      type(ehl_films_t) :: films(2)
+      type(error_t), allocatable :: failure
+      integer :: i
+
+      contact = contact_of_groups(1.0e-6_wp, 1.0e-13_wp, 4500.0_wp)
+      contact%roughness = 3.0e-5_wp*contact%radius
+      contact%asperity%load_factor = 3.0e8_wp
+      options%nodes = 129
+      do i = 1, 2
+         if (i == 2) options%reach = 3.0_wp*sqrt(8.0_wp*contact%roughness*contact%radius)/half_width(contact%line_load, &
+            & contact%radius, 1.0_wp, contact%modulus)
+         call solve_contact_film(contact, options, films(i), failure)
+         call expect_success(error, failure)
+         if (allocated(error)) return
+         call check(error, films(i)%asperity_share > 0.98_wp .and. films(i)%asperity_share <= 1.0_wp, "share of the asperities")
+         if (allocated(error)) return
+      end do
+      ! Errors of the grids are below a thousandth, and beyond its end the domain leaves less; cut off behind one and a half half
+      ! widths, as for smooth surfaces, the film is a tenth thinner
+      call check_close(error, films(1)%central, films(2)%central, 2.0e-3_wp, "film with a longer domain")
+   end subroutine test_light
 
    !> A long dwell, in which steps are as long as they may be, and an event as long as one of them.
    subroutine test_short_event(error)
