@@ -2,7 +2,7 @@
 
 SHELL := /bin/bash
 .DEFAULT_GOAL := help
-.PHONY: help setup commit build debug mpi run comparison test quick bless random needed rough-rows study study-film audit check check-layers \
+.PHONY: help setup commit build debug mpi run comparison test quick bless random random-ehl needed rough-rows study study-film audit check check-layers \
   check-style check-format check-lint check-warnings format bench bench-ehl range-ehl bench-batch bench-effects clean distclean
 
 FPM := .venv/bin/fpm
@@ -77,6 +77,10 @@ test: build debug mpi ## all tests, with run-time checks and optimised
 
 random: commit ## cases drawn at random by two methods, optimised: CASES=20000 SEED=1; failures print a deck
 	@RANDOM_CASES=$(or $(CASES),20000) RANDOM_SEED=$(or $(SEED),1) $(FPM) test --flag "$(RELEASE_FLAGS)" -- random_cases
+
+random-ehl: commit ## cases drawn at random with a numerical film, as law and over the cycle: CASES=200 SEED=1; failures print a deck
+	@OPENBLAS_NUM_THREADS=1 RANDOM_EHL_CASES=$(or $(CASES),200) RANDOM_EHL_SEED=$(or $(SEED),1) RANDOM_EHL_TABLE=$(or $(TABLE),0) $(FPM) test \
+	  --flag "$(RELEASE_FLAGS)" -- random_ehl
 
 needed: commit ## effects that are left out against what they change, for random cases, optimised: CASES=300 SEED=1
 	@NEEDED_TABLE=1 NEEDED_CASES=$(or $(CASES),300) NEEDED_SEED=$(or $(SEED),1) $(FPM) test --flag "$(RELEASE_FLAGS)" -- needed

@@ -1,19 +1,18 @@
 !> Every deck in `decks/hard` with a numerical film: as a film law and with contacts solved over the cycle, or the error that it has
 !> to end with.
 module test_hard_ehl
-   use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
    use testdrive, only : new_unittest, unittest_type, error_type, test_failed
-   use camroller_kinds, only : wp, two_pi
+   use camroller_kinds, only : wp
    use camroller_error, only : error_t
    use camroller_case, only : case_t
    use camroller_deck, only : deck_t, override_t, read_deck, make_case
    use camroller_ehl_cycle, only : ehl_cycle_t, ehl_cycle_options_t, integrate_ehl_cycle
    use camroller_ehl_profiles, only : plain_model
-   use camroller_ehl_record, only : ehl_record_t, column, make_ehl_record
    use camroller_ehl_table, only : ehl_t
    use camroller_model, only : model_t
    use camroller_run, only : build_models
    use cycle_checks, only : sample_t, take_sample, compare_samples
+   use ehl_checks, only : look_t, look_at
    implicit none
    private
 
@@ -28,14 +27,6 @@ module test_hard_ehl
       !> decide whether errors of an integration keep the cycle open
       logical :: may_run = .false.
    end type outcome_t
-
-   !> What two cycles of a deck have to agree in
-   type :: look_t
-      !> Harmonic mean of the smallest film where there is contact: of the thin films, not of what a short loss leaves [m]
-      real(wp) :: film = 0.0_wp
-      !> Mean, largest size and total variation of the sliding speed [m/s]
-      real(wp) :: slip = 0.0_wp, largest_slip = 0.0_wp, variation = 0.0_wp
-   end type look_t
 
    character(len=*), parameter :: heavy = "above 1.5 GPa", fast = "U outside", light = "W* outside", undercut = "undercut"
 
@@ -68,8 +59,6 @@ module test_hard_ehl
    real(wp), parameter :: film_accuracy = 5.0e-2_wp, tolerances(2) = [1.0e-6_wp, 1.0e-4_wp], &
       & step_errors(2) = [1.0e-3_wp, 1.0e-2_wp]
    integer, parameter :: nodes(2) = [65, 49]
-   !> Energy left over, over the largest power: a sum of ten terms of which each has some roundings [-]
-   real(wp), parameter :: energy_tolerance = 200.0_wp*epsilon(1.0_wp)
    !> What two grids of 65 and 49 nodes may differ by: the film, whose error is a few tenths of a per cent, and the slip, which is
    !> the film over a viscosity that the pressure raises; growth of the total variation of the slip with ten times smaller errors of
    !> a step, which is 0.95 to 1.13 here [-]
@@ -245,49 +234,5 @@ contains
       if (.not. abs(looks(3)%film/looks(2)%film - 1.0_wp) <= differences(1)) trouble = "film on another grid"
       if (.not. abs(looks(3)%slip - looks(2)%slip) <= differences(2)*looks(1)%largest_slip) trouble = "slip on another grid"
    end function disagreement
-
-   !> Solve a cycle and look at it.
-   subroutine look_at(model, node_count, step_error, look, trouble, failure)
-      type(model_t), intent(in) :: model
-      integer, intent(in) :: node_count
-      real(wp), intent(in) :: step_error
-      type(look_t), intent(out) :: look
-      character(len=:), allocatable, intent(inout) :: trouble
-      type(error_t), allocatable, intent(out) :: failure
-      type(ehl_cycle_t) :: cycle
-      type(ehl_record_t) :: record
-      real(wp), allocatable :: slip(:), film(:)
-      real(wp) :: power
-
-      call integrate_ehl_cycle(cycle, model, ehl_cycle_options_t(nodes=node_count, step_error=step_error), failure)
-      if (allocated(failure)) return
-      call make_ehl_record(record, model, cycle)
-      film = column(record, "film_min")
-      slip = column(record, "sliding_speed")
-      power = maxval(abs(column(record, "torque_drive")))*model%speed
-      look%largest_slip = maxval(abs(slip))
-      associate (last => size(slip), moments => cycle%moments)
-         if (.not. all(ieee_is_finite(record%values))) trouble = "a number that is none"
-         if (any(moments%has_film .and. .not. film > 0.0_wp)) trouble = "contact without a film"
-         if (maxval(abs(column(record, "energy_residual"))) > energy_tolerance*power) trouble = "energy does not close"
-         if (any(moments%films%load_lack > 1.0e-5_wp)) trouble = "pressure does not carry the load"
-         ! Three errors of a step are what the cycle itself asks for
-         if (abs(film(last) - film(1)) > 3.0_wp*step_error*film(1) .or. abs(slip(last) - slip(1)) > 3.0_wp*step_error &
-            & *look%largest_slip) trouble = "the cycle is not periodic"
-         look%variation = sum(abs(slip(2:) - slip(:last - 1)))
-         look%slip = mean(record%angle, slip)
-         look%film = 1.0_wp/mean(record%angle, merge(1.0_wp/max(film, tiny(1.0_wp)), 0.0_wp, moments%has_film))
-      end associate
-   end subroutine look_at
-
-   !> Mean over the cycle by the trapezoidal rule.
-   pure function mean(angles, values)
-      real(wp), intent(in) :: angles(:), values(:)
-      real(wp) :: mean
-
-      associate (last => size(angles))
-         mean = 0.5_wp*dot_product(values(2:) + values(:last - 1), angles(2:) - angles(:last - 1))/two_pi
-      end associate
-   end function mean
 
 end module test_hard_ehl

@@ -3,7 +3,7 @@
 !>
 !> The environment variables RANDOM_CASES and RANDOM_SEED choose how many and which; `make random` sets them.
 module test_random_cases
-   use, intrinsic :: iso_fortran_env, only : compiler_options, error_unit
+   use, intrinsic :: iso_fortran_env, only : error_unit
    use testdrive, only : new_unittest, unittest_type, error_type, test_failed
    use camroller_kinds, only : wp
    use camroller_error, only : error_t, kind_domain, kind_deck
@@ -14,6 +14,7 @@ module test_random_cases
    use camroller_deck, only : deck_t, override_t, parse_deck, make_case
    use cycle_checks, only : sample_t, take_sample, least_slip
    use random_decks, only : random_t, start_random, random_deck
+   use run_settings, only : has_checks, number_from
    implicit none
    private
 
@@ -153,26 +154,6 @@ contains
          call test_failed(error, "it takes too long")
       end if
    end subroutine test_folded
-
-   !> Is this a build with run-time checks, in which a case takes ten times as long? The compiler's options say so.
-   pure function has_checks()
-      logical :: has_checks
-
-      has_checks = index(compiler_options(), "-fcheck=all") > 0
-   end function has_checks
-
-   !> A whole number from the environment, or the usual one.
-   function number_from(variable, usual) result(number)
-      character(len=*), intent(in) :: variable
-      integer, intent(in) :: usual
-      integer :: number, status
-      character(len=12) :: buffer
-
-      call get_environment_variable(variable, buffer, status=status)
-      number = usual
-      if (status == 0) read (buffer, *, iostat=status) number
-      if (status /= 0) number = usual
-   end function number_from
 
    !> One deck: no geometry, or a cycle by two methods that agree, or words that say why not.
    subroutine check_deck(text, outcome)
