@@ -120,10 +120,8 @@ contains
             if (step < shortest_step) exit
             cycle
          end if
-         if (.not. (now%has_film .eqv. history(1)%has_film)) then
-            known = 0
-            step = min(step, first_step)
-         end if
+         if (now%has_film .neqv. history(1)%has_film) known = 0
+         if (known == 0) step = min(step, first_step)
          history(2:3) = history(1:2)
          history(1) = now
          scale = max(scale, abs(now%sliding_speed))

@@ -2,8 +2,8 @@
 !> contacts solved over the cycle, on three grids with two step errors. Whatever runs agrees within what is promised, or words say
 !> why there is no number.
 !>
-!> The environment variables RANDOM_EHL_CASES and RANDOM_EHL_SEED choose how many and which, by a finer grid too, and RANDOM_EHL_TABLE
-!> has a line printed for each; `make random-ehl` sets them.
+!> The environment variables RANDOM_EHL_CASES and RANDOM_EHL_SEED choose how many and which, on a finer grid too, and
+!> RANDOM_EHL_TABLE has a line printed for each; `make random-ehl` sets them.
 module test_random_ehl
    use, intrinsic :: iso_fortran_env, only : error_unit
    use testdrive, only : new_unittest, unittest_type, error_type, test_failed
@@ -24,9 +24,9 @@ module test_random_ehl
 
    public :: collect_random_ehl
 
-   !> Seeds of a usual run, of which one with run-time checks: an ordinary case; no load to speak of on rough surfaces, and a slip that
-   !> hardly anything damps; an oil so thick that the film is millimetres; a spike that two grids differ in by a fifth of the slip; a film
-   !> of ten nanometres; nearly all carried by asperities
+   !> Seeds of a usual run, of which one with run-time checks: an ordinary case; a small slip that hardly anything damps;
+   !> an oil so thick that the film is millimetres; a spike for which two grids differ by a fifth of the slip; a film of ten
+   !> nanometres; one that asperities carry nearly all of
    integer, parameter :: usual_seeds(*) = [7, 9, 2, 5, 14, 17]
    !> Accuracies of the table [-]
    real(wp), parameter :: accuracies(2) = [0.03_wp, 0.01_wp]
@@ -279,8 +279,9 @@ contains
          if (i == 3) call compare_summaries(summaries(3), summaries(1), "steps", 3.0_wp*step_errors(3), outcome)
          if (i == 3 .and. looks(1)%variation > most_variation*looks(3)%variation) outcome%trouble = outcome%trouble &
             & //" the slip chatters;"
-         if (i == 4 .and. .not. allocated(failure)) &
-            & call compare_summaries(summaries(4), summaries(3), "33 nodes", huge(1.0_wp), outcome)
+         if (i == 4 .and. .not. allocated(failure)) then
+            call compare_summaries(summaries(4), summaries(3), "33 nodes", huge(1.0_wp), outcome)
+         end if
          if (i == 5) call compare_summaries(summaries(2), summaries(5), "257 nodes", promised, outcome)
       end do
    end subroutine check_cycle
