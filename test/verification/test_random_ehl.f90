@@ -271,7 +271,7 @@ contains
          write (buffer, "(i0, a, es8.1, 2(a, i0), a)") nodes(i), " nodes,", step_errors(i), ": ", looks(i)%steps, "-", &
             & looks(i)%refused, " steps; "
          outcome%words = outcome%words//trim(buffer)//" "
-         if (.not. allocated(failure) .and. i == 2) call compare_cycles(model, summaries(1), summaries(2), failure)
+         if (.not. allocated(failure) .and. i == 2) call compare_cycles(summaries(1), summaries(2), promised, failure)
          ! The coarse grid is none that the command has
          if (allocated(failure) .and. i == 4) outcome%words = outcome%words//failure%message//"; "
          if (allocated(failure) .and. i /= 4) call end_with_words(failure, outcome)
