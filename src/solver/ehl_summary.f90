@@ -38,8 +38,8 @@ contains
       type(ehl_summary_t) :: summary
 
       type(position_t) :: position
-      ! Size of the rolling speed [m/s]
-      real(wp) :: rolling(size(cycle%angle))
+      ! Size of the rolling speed, sliding speed [m/s]; smallest and central films [m]
+      real(wp) :: rolling(size(cycle%angle)), slip(size(cycle%angle)), films(size(cycle%angle), 2)
       integer :: i, status
 
       do i = 1, size(cycle%angle)
@@ -49,12 +49,15 @@ contains
       summary%nodes = size(cycle%nodes)
       associate (moments => cycle%moments)
          summary%smallest_film = minval(moments%films%minimum, mask=moments%has_film)
-         summary%mean_film = mean(cycle%angle, moments%films%minimum)
-         summary%mean_central = mean(cycle%angle, moments%films%central)
-         summary%mean_slip = mean(cycle%angle, moments%sliding_speed)
-         summary%mean_size = mean(cycle%angle, abs(moments%sliding_speed))
-         summary%mean_rolling = mean(cycle%angle, rolling)
+         films(:, 1) = moments%films%minimum
+         films(:, 2) = moments%films%central
+         slip = moments%sliding_speed
       end associate
+      summary%mean_film = mean(cycle%angle, films(:, 1))
+      summary%mean_central = mean(cycle%angle, films(:, 2))
+      summary%mean_slip = mean(cycle%angle, slip)
+      summary%mean_size = mean(cycle%angle, abs(slip))
+      summary%mean_rolling = mean(cycle%angle, rolling)
    end function make_ehl_summary
 
    !> Mean over the cycle by the trapezoidal rule.
