@@ -117,7 +117,7 @@ format: setup ## set the blanks inside statements right
 bench: commit ## time cycles, also against SUNDIALS and scipy: tables and plots in bench/tables (five minutes)
 	@bench/run.sh
 
-bench-ehl: commit ## how the cost of the numerical film grows with the nodes: bench/tables/ehl_cost.txt and a figure (two minutes)
+bench-ehl: commit ## how the cost of the numerical film grows with the nodes: bench/tables/ehl_cost.txt and a figure (three minutes)
 	@bench/run.sh ehl
 
 range-ehl: commit ## the whole range of steady contacts: NODES=1025, every STRIDE-th from FIRST on; what fails or differs is listed

@@ -32,7 +32,14 @@ def read(path: str) -> dict[str, list[list[float]]]:
     return rows
 
 
-def draw(rows: dict[str, list[list[float]]], path: str) -> None:
+def read_setting(path: str) -> str:
+    """Linear algebra library with its threads, and machine, from the head of a table."""
+    with open(path, encoding="utf-8") as file:
+        head = dict(line[1:].strip().split(":", 1) for line in file if line.startswith("#") and ":" in line)
+    return ";".join(head[key] for key in ("LAPACK", "machine")).strip()
+
+
+def draw(rows: dict[str, list[list[float]]], path: str, setting: str) -> None:
     """Time, and LAPACK's part, over nodes."""
     figure, (time, part) = plt.subplots(1, 2, figsize=(10, 4.2), layout="constrained")
     for name, lines in rows.items():
@@ -51,6 +58,7 @@ def draw(rows: dict[str, list[list[float]]], path: str) -> None:
     for axis in (time, part):
         axis.set_xticks(nodes, [f"{n:.0f}" for n in nodes])
         axis.minorticks_off()
+    figure.suptitle(setting, fontsize="medium")
     figure.savefig(path, dpi=90)
 
 
@@ -60,7 +68,7 @@ def main(arguments=None) -> int:
     if len(words) != 2:
         print(__doc__, file=sys.stderr)
         return 2
-    draw(read(words[0]), words[1])
+    draw(read(words[0]), words[1], read_setting(words[0]))
     return 0
 
 

@@ -126,6 +126,13 @@ def draw_map(data: dict, title: str) -> Figure:
     return figure
 
 
+def read_point(path: str, case: int) -> str:
+    """What a sweep varies, with its values in one case; nothing without a sweep."""
+    with h5py.File(path) as file:
+        return ", ".join(f"{key.rpartition('.')[2]} = {data[case]:.6g}" for key, data in file.get("sweep", {}).items()
+                         if key != "case" and data.ndim == 1 and data.dtype.kind == "f")
+
+
 def read_run(path: str, case: int) -> dict:
     """Cam angle and sliding speed of a run."""
     with h5py.File(path) as file:
@@ -144,6 +151,7 @@ def main(arguments=None) -> int:
     options = parser.parse_args(arguments)
     try:
         lobes = read(options.file, options.case)
+        point = read_point(options.file, options.case)
         run = read_run(options.run, options.case) if options.run else None
     except (OSError, KeyError, ValueError) as error:
         print(f"ehl.py: no solved contacts: {error}", file=sys.stderr)
@@ -152,7 +160,7 @@ def main(arguments=None) -> int:
         if numpy.isnan(data["load"]).all():
             print(f"ehl.py: case {options.case} has no solved contacts", file=sys.stderr)
             return 2
-        title = f"case {options.case}" + (", second lobe shape" if name else "")
+        title = f"case {options.case}" + (f": {point}" if point else "") + (", second lobe shape" if name else "")
         for target, make in ((options.output, lambda: draw(data, None if name else run, options.angles, title)),
                              (options.map, lambda: draw_map(data, title))):
             if target:

@@ -51,7 +51,7 @@ contains
          level = state%level
          call evaluate_film(problem, grid, total, level, state%fields)
          film = state%fields%film
-         storage%mass = grid%weight*state%fields%density*film
+         storage%mass = grid%weight*state%fields%density*state%fields%gap
          state%factors%rate = contraction
          call solve_newton(problem, grid, state, step_tolerance, iterations, converged, storage)
          if (.not. converged) then
