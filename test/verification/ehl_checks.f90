@@ -54,9 +54,9 @@ contains
       real(wp) :: power
 
       call integrate_ehl_cycle(cycle, model, ehl_cycle_options_t(nodes=node_count, step_error=step_error), failure)
-      look%steps = size(cycle%angle)
       look%refused = cycle%refused
       if (allocated(failure)) return
+      look%steps = size(cycle%angle)
       if (present(summary)) summary = make_ehl_summary(model, cycle)
       call make_ehl_record(record, model, cycle)
       film = column(record, "film_min")
