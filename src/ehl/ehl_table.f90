@@ -43,6 +43,8 @@ module camroller_ehl_table
       real(wp) :: ends(2, 2)
       !> Error of the grid asked for, and the largest stated [-]
       real(wp) :: grid_accuracy, grid_error = 0.0_wp
+      !> Is there a contact that even the finest grid does not solve that well?
+      logical :: is_limited = .false.
       !> Logarithms of minimum and central film over the radius at the points of speed and load [-]
       real(wp), allocatable :: films(:, :, :)
    end type task_t
@@ -110,12 +112,13 @@ contains
          changes = halving_changes(task%films)
          if (along > 0) rest(along) = min(max(changes(along)/before(along), usual_rest), 1.0_wp)
          stated = sum(rest*changes) + grid_share*task%grid_error
-         if (stated <= setup%accuracy) exit
+         ! Whatever their number, points are no better than their grids
+         if (stated <= setup%accuracy .or. grid_share*task%grid_error >= setup%accuracy) exit
          is_noise = .false.
          if (along > 0) is_noise = rest(along) > usual_rest .and. changes(along) < noise_limit*task%grid_error
          if (is_noise) then
             task%grid_accuracy = finer_grid*task%grid_accuracy
-            if (task%grid_accuracy < least_grid_part*setup%accuracy) exit
+            if (task%is_limited .or. task%grid_accuracy < least_grid_part*setup%accuracy) exit
             deallocate (task%films)
          else
             along = maxloc(rest*changes, dim=1, mask=terms < most_terms_each)
@@ -155,6 +158,7 @@ contains
          steps = (terms - 1)/([size(known, 1), size(known, 2)] - 1)
       else
          task%grid_error = 0.0_wp
+         task%is_limited = .false.
       end if
       allocate (task%films(terms(1), terms(2), 2))
       log_speeds = speed_points(task%ends(:, 1), terms(1))
@@ -208,6 +212,7 @@ contains
       end if
       films = log([solution%minimum, solution%central]/radius)
       task%grid_error = max(task%grid_error, solution%error, chance_error/real(solution%nodes, wp)**2)
+      task%is_limited = task%is_limited .or. solution%error > task%grid_accuracy
    end subroutine solve_at
 
 end module camroller_ehl_table
