@@ -16,4 +16,5 @@ if [ -f "$target" ] && [ "$(cat "$target")" = "$text" ]; then exit 0; fi
 mkdir -p build/commit
 printf '%s\n' "$text" > "$target"
 # where the sources are in the folder above, fpm calls an object after it, with dots in front
-rm -f build/gfortran_*/camroller/src_base_version.f90.o* mpi/build/*/camroller-mpi/.*src_base_version.f90.o*
+rm -f build/gfortran_*/camroller/src_base_version.f90.o* mpi/build/*/camroller-mpi/.*src_base_version.f90.o* \
+    bench/build/*/bench/.*src_base_version.f90.o*
