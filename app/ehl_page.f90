@@ -2,9 +2,9 @@
 !>
 !> Layer: app. In: solved cycles. Out: lines.
 module camroller_ehl_page
-   use camroller_kinds, only : wp, two_pi
+   use camroller_kinds, only : wp
    use camroller_ehl_record, only : ehl_record_t, column
-   use camroller_ehl_summary, only : ehl_summary_t, film_difference, slip_difference
+   use camroller_ehl_summary, only : ehl_summary_t, mean_over_cycle, film_difference, slip_difference
    implicit none
    private
 
@@ -34,20 +34,6 @@ module camroller_ehl_page
 
 contains
 
-   !> Mean over the cycle by the trapezoidal rule.
-   pure function mean(angles, values)
-      !> Angles [rad]
-      real(wp), intent(in) :: angles(:)
-      !> Values there [any]
-      real(wp), intent(in) :: values(:)
-      !> Their mean [any]
-      real(wp) :: mean
-
-      associate (last => size(angles))
-         mean = 0.5_wp*dot_product(values(2:) + values(:last - 1), angles(2:) - angles(:last - 1))/two_pi
-      end associate
-   end function mean
-
    !> Film and friction beside the closed formulas.
    subroutine set_friction(self, record)
       !> The line
@@ -58,8 +44,8 @@ contains
       integer :: i
 
       do i = 1, size(compared)
-         self%friction(i, 1) = mean(record%angle, abs(column(record, trim(compared(i)))))
-         self%friction(i, 2) = mean(record%angle, abs(column(record, trim(compared(i))//"_formula")))
+         self%friction(i, 1) = mean_over_cycle(record%angle, abs(column(record, trim(compared(i)))))
+         self%friction(i, 2) = mean_over_cycle(record%angle, abs(column(record, trim(compared(i))//"_formula")))
       end do
    end subroutine set_friction
 

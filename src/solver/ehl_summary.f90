@@ -11,7 +11,8 @@ module camroller_ehl_summary
    implicit none
    private
 
-   public :: ehl_summary_t, make_ehl_summary, film_difference, slip_difference, compare_cycles
+   public :: ehl_summary_t, make_ehl_summary, mean_over_cycle, film_difference, slip_difference, &
+      & compare_cycles
 
    !> A cycle in a few numbers
    type :: ehl_summary_t
@@ -53,16 +54,16 @@ contains
          films(:, 2) = moments%films%central
          slip = moments%sliding_speed
       end associate
-      summary%mean_film = mean(cycle%angle, films(:, 1))
-      summary%mean_central = mean(cycle%angle, films(:, 2))
-      summary%mean_slip = mean(cycle%angle, slip)
-      summary%mean_size = mean(cycle%angle, abs(slip))
-      summary%mean_rolling = mean(cycle%angle, rolling)
+      summary%mean_film = mean_over_cycle(cycle%angle, films(:, 1))
+      summary%mean_central = mean_over_cycle(cycle%angle, films(:, 2))
+      summary%mean_slip = mean_over_cycle(cycle%angle, slip)
+      summary%mean_size = mean_over_cycle(cycle%angle, abs(slip))
+      summary%mean_rolling = mean_over_cycle(cycle%angle, rolling)
    end function make_ehl_summary
 
    !> Mean over the cycle by the trapezoidal rule.
-   pure function mean(angles, values)
-      !> Angles [rad]
+   pure function mean_over_cycle(angles, values) result(mean)
+      !> Angles of one cycle, increasing, both ends included [rad]
       real(wp), intent(in) :: angles(:)
       !> Values there [any]
       real(wp), intent(in) :: values(:)
@@ -72,7 +73,7 @@ contains
       associate (last => size(angles))
          mean = 0.5_wp*dot_product(values(2:) + values(:last - 1), angles(2:) - angles(:last - 1))/two_pi
       end associate
-   end function mean
+   end function mean_over_cycle
 
    !> What two cycles differ by in their films.
    pure function film_difference(one, other) result(difference)

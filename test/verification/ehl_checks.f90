@@ -2,11 +2,11 @@
 !> them are compared.
 module ehl_checks
    use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
-   use camroller_kinds, only : wp, two_pi
+   use camroller_kinds, only : wp
    use camroller_error, only : error_t
    use camroller_ehl_cycle, only : ehl_cycle_t, ehl_cycle_options_t, integrate_ehl_cycle
    use camroller_ehl_record, only : ehl_record_t, column, make_ehl_record
-   use camroller_ehl_summary, only : ehl_summary_t, make_ehl_summary
+   use camroller_ehl_summary, only : ehl_summary_t, make_ehl_summary, mean_over_cycle
    use camroller_model, only : model_t
    implicit none
    private
@@ -72,23 +72,9 @@ contains
          if (abs(film(last) - film(1)) > 3.0_wp*step_error*film(1) .or. abs(slip(last) - slip(1)) > 3.0_wp*step_error &
             & *look%largest_slip) trouble = "the cycle is not periodic"
          look%variation = sum(abs(slip(2:) - slip(:last - 1)))
-         look%slip = mean(record%angle, slip)
-         look%film = 1.0_wp/mean(record%angle, merge(1.0_wp/max(film, tiny(1.0_wp)), 0.0_wp, moments%has_film))
+         look%slip = mean_over_cycle(record%angle, slip)
+         look%film = 1.0_wp/mean_over_cycle(record%angle, merge(1.0_wp/max(film, tiny(1.0_wp)), 0.0_wp, moments%has_film))
       end associate
    end subroutine look_at
-
-   !> Mean over the cycle by the trapezoidal rule.
-   pure function mean(angles, values)
-      !> Angles [rad]
-      real(wp), intent(in) :: angles(:)
-      !> Values there [any]
-      real(wp), intent(in) :: values(:)
-      !> Their mean [any]
-      real(wp) :: mean
-
-      associate (last => size(angles))
-         mean = 0.5_wp*dot_product(values(2:) + values(:last - 1), angles(2:) - angles(:last - 1))/two_pi
-      end associate
-   end function mean
 
 end module ehl_checks
