@@ -24,7 +24,7 @@ STYLES = {
     "cvode": ("CVODE", "black", "-", "s"), "LSODA": ("scipy LSODA", "0.35", "--", "^"), "BDF": ("scipy BDF", "0.5", ":", "v"),
     "Radau": ("scipy Radau", "0.5", "-.", "D"),
 }
-EXPLICIT = ("bogacki_shampine", "dormand_prince")
+EXPLICIT = ("dormand_prince",)
 
 
 def curves(rows: list[Row]) -> dict[str, list[Row]]:

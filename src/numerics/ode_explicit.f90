@@ -6,7 +6,6 @@
 !> | method | order | stages | source |
 !> |---|---|---|---|
 !> | `euler` | 1, fixed step | 1 | Euler (1768) |
-!> | `bogacki_shampine` | 3(2) | 4, the last is the first of the next step | Appl. Math. Lett. 2 (1989) 321 |
 !> | `dormand_prince` | 5(4) | 7, the last is the first of the next step | J. Comput. Appl. Math. 6 (1980) 19 |
 !>
 !> The curve of a step is the cubic on the rates at its ends; `dormand_prince` adds a quartic term, which makes it one order
@@ -43,14 +42,12 @@ contains
    subroutine new_explicit_method(method, name, components)
       !> The method
       type(explicit_method_t), intent(out) :: method
-      !> `euler`, `bogacki_shampine` or `dormand_prince`
+      !> `euler` or `dormand_prince`
       character(len=*), intent(in) :: name
       !> Number of components of the state
       integer, intent(in) :: components
 
       select case (name)
-      case ("bogacki_shampine")
-         call set_bogacki_shampine(method)
       case ("dormand_prince")
          call set_dormand_prince(method)
       case default
@@ -64,24 +61,6 @@ contains
       allocate (method%stage_rates(components, 0:method%stages), method%bends(components, 3))
       method%has_curve = allocated(method%quartic_weights)
    end subroutine new_explicit_method
-
-   !> Bogacki and Shampine (1989).
-   subroutine set_bogacki_shampine(method)
-      !> The method
-      type(explicit_method_t), intent(inout) :: method
-
-      method%stages = 3
-      method%error_order = 3
-      method%stability_limit = 2.512_wp
-      allocate (method%nodes(3), method%weights(3, 3), method%error_weights(4))
-      method%nodes = [1.0_wp/2.0_wp, 3.0_wp/4.0_wp, 1.0_wp]
-      method%weights = 0.0_wp
-      method%weights(:1, 1) = [1.0_wp/2.0_wp]
-      method%weights(:2, 2) = [0.0_wp, 3.0_wp/4.0_wp]
-      method%weights(:3, 3) = [2.0_wp/9.0_wp, 1.0_wp/3.0_wp, 4.0_wp/9.0_wp]
-      method%error_weights = method_difference([method%weights(:, 3), 0.0_wp], &
-         & [7.0_wp/24.0_wp, 1.0_wp/4.0_wp, 1.0_wp/3.0_wp, 1.0_wp/8.0_wp])
-   end subroutine set_bogacki_shampine
 
    !> Dormand and Prince (1980).
    subroutine set_dormand_prince(method)

@@ -8,8 +8,6 @@ module camroller_ode_methods
    use camroller_ode_explicit, only : explicit_method_t, new_explicit_method
    use camroller_ode_rosenbrock, only : rosenbrock_method_t, new_rosenbrock_method
    use camroller_ode_implicit, only : radau_method_t, new_radau_method
-   use camroller_ode_stabilised, only : chebyshev_method_t, new_chebyshev_method
-   use camroller_ode_exponential, only : exponential_method_t, new_exponential_method
    use camroller_ode_hermite, only : hermite_method_t, new_hermite_method
    implicit none
    private
@@ -37,16 +35,10 @@ module camroller_ode_methods
 
    !> All methods
    type(method_facts_t), parameter :: method_facts(*) = [ &
-      & method_facts_t("rodas3", 3, 2, .true., unlimited, "Sandu et al., Atmos. Environ. 31 (1997) 3459"), &
-      & method_facts_t("rodas4", 4, 3, .true., unlimited, "Hairer and Wanner, Solving ODEs II (1996), VI.4"), &
-      & method_facts_t("rodas4p", 4, 3, .true., unlimited, "Steinebach, TH Darmstadt, preprint 1741 (1995)"), &
       & method_facts_t("rodas5p", 5, 4, .true., unlimited, "Steinebach, BIT Numer. Math. 63 (2023) 27"), &
       & method_facts_t("radau5", 5, 3, .true., unlimited, "Hairer and Wanner, Solving ODEs II (1996), IV.8"), &
-      & method_facts_t("exprb32", 3, 2, .true., 1, "Hochbruck and Ostermann, Acta Numerica 19 (2010) 209"), &
       & method_facts_t("hermite", 6, 5, .true., 1, "ours; see Hochbruck and Ostermann, BIT Numer. Math. 51 (2011) 889", &
       & takes_integrals=.true.), &
-      & method_facts_t("rkc", 2, 2, .false., unlimited, "Sommeijer et al., J. Comput. Appl. Math. 88 (1998) 315"), &
-      & method_facts_t("bogacki_shampine", 3, 2, .false., unlimited, "Bogacki and Shampine, Appl. Math. Lett. 2 (1989) 321"), &
       & method_facts_t("dormand_prince", 5, 4, .false., unlimited, "Dormand and Prince, J. Comput. Appl. Math. 6 (1980) 19"), &
       & method_facts_t("euler", 1, 0, .false., unlimited, "Euler (1768), as in the source thesis")]
 
@@ -71,8 +63,6 @@ contains
       type(explicit_method_t), allocatable :: explicit_method
       type(rosenbrock_method_t), allocatable :: rosenbrock_method
       type(radau_method_t), allocatable :: radau_method
-      type(chebyshev_method_t), allocatable :: chebyshev_method
-      type(exponential_method_t), allocatable :: exponential_method
       type(hermite_method_t), allocatable :: hermite_method
       integer :: choice, unknowns
 
@@ -85,26 +75,18 @@ contains
          return
       end if
       select case (name)
-      case ("rodas3", "rodas4", "rodas4p", "rodas5p")
+      case ("rodas5p")
          allocate (rosenbrock_method)
-         call new_rosenbrock_method(rosenbrock_method, name, components)
+         call new_rosenbrock_method(rosenbrock_method, components)
          call move_alloc(rosenbrock_method, method)
       case ("radau5")
          allocate (radau_method)
          call new_radau_method(radau_method, components)
          call move_alloc(radau_method, method)
-      case ("rkc")
-         allocate (chebyshev_method)
-         call new_chebyshev_method(chebyshev_method, components)
-         call move_alloc(chebyshev_method, method)
       case ("hermite")
          allocate (hermite_method)
          call new_hermite_method(hermite_method, components - 1)
          call move_alloc(hermite_method, method)
-      case ("exprb32")
-         allocate (exponential_method)
-         call new_exponential_method(exponential_method)
-         call move_alloc(exponential_method, method)
       case default
          allocate (explicit_method)
          call new_explicit_method(explicit_method, name, components)

@@ -1,20 +1,17 @@
-!> Rosenbrock methods: the tables, and the one procedure that steps them.
+!> A Rosenbrock method: its table, and the procedure that steps it.
 !>
-!> Layer: numerics. In: the name of a method. Out: a `method_t`. Each stage solves one linear system with the matrix
+!> Layer: numerics. In: number of components. Out: a `method_t`. Each stage solves one linear system with the matrix
 !> `I/(gamma h) - J`; nothing is iterated. With the increments u_i the form stepped is
 !>
 !>     (I/(gamma h) - J) u_i = f(t + c_i h, y + sum a_ij u_j) + sum C_ij u_j/h + h d_i df/dt
 !>
-!> All methods are L-stable and stiffly accurate: the last increment is at the same time the error estimate, and the
+!> The method is L-stable and stiffly accurate: the last increment is at the same time the error estimate, and the
 !> trial state of the last stage plus that increment is the new state. The curve of a step is a combination of the increments,
 !> not of the rates at its ends, which stiffness would spoil. Source of form and curve: Hairer and Wanner, Solving
 !> Ordinary Differential Equations II, 2nd ed., Springer (1996), section IV.7 and chapter VI.4.
 !>
 !> | method | order | stages | source |
 !> |---|---|---|---|
-!> | `rodas3` | 3(2) | 4, two of them share a rate | Sandu et al., Atmos. Environ. 31 (1997) 3459; curve: see `set_rodas3` |
-!> | `rodas4` | 4(3) | 6 | Hairer and Wanner (1996), VI.4 |
-!> | `rodas4p` | 4(3) | 6, no loss of order on stiff smooth solutions | Steinebach, preprint 1741, TU Darmstadt (1995) |
 !> | `rodas5p` | 5(4) | 8, no loss of order on stiff smooth solutions | Steinebach, BIT Numer. Math. 63 (2023) 27 |
 module camroller_ode_rosenbrock
    use camroller_kinds, only : wp
@@ -41,8 +38,6 @@ module camroller_ode_rosenbrock
       real(wp), allocatable :: couplings(:, :)
       !> Weights of the increments (row) in the bends of the curve (column) [-]
       real(wp), allocatable :: bend_weights(:, :)
-      !> Does a stage have the trial state and the time of the one before?
-      logical, allocatable :: repeats_rate(:)
       !> Increments of the stages, shape (component, stage) [state]
       real(wp), allocatable :: increments(:, :)
       !> The matrix of the stages or its factors [1/time]
@@ -57,38 +52,19 @@ module camroller_ode_rosenbrock
 
 contains
 
-   !> Make a method by its name.
-   subroutine new_rosenbrock_method(method, name, components)
+   !> Make the method.
+   subroutine new_rosenbrock_method(method, components)
       !> The method
       type(rosenbrock_method_t), intent(out) :: method
-      !> `rodas3`, `rodas4p`, `rodas5p`, else `rodas4`
-      character(len=*), intent(in) :: name
       !> Number of components of the state
       integer, intent(in) :: components
 
-      integer :: stage
-
-      select case (name)
-      case ("rodas3")
-         call set_rodas3(method)
-      case ("rodas4p")
-         call set_rodas4p(method)
-      case ("rodas5p")
-         call set_rodas5p(method)
-      case default
-         call set_rodas4(method)
-      end select
+      call set_rodas5p(method)
       method%gives_rate = .false.
       method%needs_jacobian = .true.
       method%proportional = 1.0_wp
       method%integral = 0.0_wp
       method%has_curve = .true.
-      allocate (method%repeats_rate(method%stages))
-      method%repeats_rate(1) = .true.
-      do stage = 2, method%stages
-         method%repeats_rate(stage) = .not. any(abs(method%weights(:, stage) - method%weights(:, stage - 1)) > 0.0_wp) &
-            & .and. .not. abs(method%nodes(stage) - method%nodes(stage - 1)) > 0.0_wp
-      end do
       allocate (method%increments(components, method%stages), method%bends(components, 3))
       allocate (method%matrix(components, components), method%stage_rate(components), method%right_side(components))
       allocate (method%pivots(components))
@@ -110,79 +86,6 @@ contains
       method%couplings = 0.0_wp
       method%bend_weights = 0.0_wp
    end subroutine clear_table
-
-   !> Sandu et al. (1997). The curve is ours: the one parabola of second order for smooth solutions that is of second order for
-   !> infinite stiffness as well.
-   subroutine set_rodas3(method)
-      !> The method
-      type(rosenbrock_method_t), intent(inout) :: method
-
-      call clear_table(method, 4)
-      method%error_order = 3
-      method%diagonal = 0.5_wp
-      method%nodes = [0.0_wp, 0.0_wp, 1.0_wp, 1.0_wp]
-      method%slope_weights = [0.5_wp, 1.5_wp, 0.0_wp, 0.0_wp]
-      method%weights(:2, 3) = [2.0_wp, 0.0_wp]
-      method%weights(:3, 4) = [2.0_wp, 0.0_wp, 1.0_wp]
-      method%couplings(:1, 2) = [4.0_wp]
-      method%couplings(:2, 3) = [1.0_wp, -1.0_wp]
-      method%couplings(:3, 4) = [1.0_wp, -1.0_wp, -8.0_wp/3.0_wp]
-      method%bend_weights(:3, 1) = [3.0_wp, -1.0_wp, -1.0_wp]
-   end subroutine set_rodas3
-
-   !> Hairer and Wanner (1996).
-   subroutine set_rodas4(method)
-      !> The method
-      type(rosenbrock_method_t), intent(inout) :: method
-
-      call clear_table(method, 6)
-      method%error_order = 4
-      method%diagonal = 0.25_wp
-      method%nodes = [0.0_wp, 0.386_wp, 0.21_wp, 0.63_wp, 1.0_wp, 1.0_wp]
-      method%slope_weights(:4) = [0.25_wp, -0.1043_wp, 0.1035_wp, -0.0362_wp]
-      method%weights(:1, 2) = [1.544_wp]
-      method%weights(:2, 3) = [0.9466785280815826_wp, 0.2557011698983284_wp]
-      method%weights(:3, 4) = [3.314825187068521_wp, 2.896124015972201_wp, 0.9986419139977817_wp]
-      method%weights(:4, 5) = [1.221224509226641_wp, 6.019134481288629_wp, 12.53708332932087_wp, -0.6878860361058950_wp]
-      method%weights(:5, 6) = [method%weights(:4, 5), 1.0_wp]
-      method%couplings(:1, 2) = [-5.6688_wp]
-      method%couplings(:2, 3) = [-2.430093356833875_wp, -0.2063599157091915_wp]
-      method%couplings(:3, 4) = [-0.1073529058151375_wp, -9.594562251023355_wp, -20.47028614809616_wp]
-      method%couplings(:4, 5) = [7.496443313967647_wp, -10.24680431464352_wp, -33.99990352819905_wp, 11.70890893206160_wp]
-      method%couplings(:5, 6) = [8.083246795921522_wp, -7.981132988064893_wp, -31.52159432874371_wp, &
-         & 16.31930543123136_wp, -6.058818238834054_wp]
-      method%bend_weights(:5, 1) = [10.12623508344586_wp, -7.487995877610167_wp, -34.80091861555747_wp, &
-         & -7.992771707568823_wp, 1.025137723295662_wp]
-      method%bend_weights(:5, 2) = [-0.6762803392801253_wp, 6.087714651680015_wp, 16.43084320892478_wp, &
-         & 24.76722511418386_wp, -6.594389125716872_wp]
-   end subroutine set_rodas4
-
-   !> Steinebach (1995).
-   subroutine set_rodas4p(method)
-      !> The method
-      type(rosenbrock_method_t), intent(inout) :: method
-
-      call clear_table(method, 6)
-      method%error_order = 4
-      method%diagonal = 0.25_wp
-      method%nodes = [0.0_wp, 0.75_wp, 0.21_wp, 0.63_wp, 1.0_wp, 1.0_wp]
-      method%slope_weights(:4) = [0.25_wp, -0.5_wp, -0.023504_wp, -0.0362_wp]
-      method%weights(:1, 2) = [3.0_wp]
-      method%weights(:2, 3) = [1.831036793486759_wp, 0.4955183967433795_wp]
-      method%weights(:3, 4) = [2.304376582692669_wp, -0.05249275245743001_wp, -1.176798761832782_wp]
-      method%weights(:4, 5) = [-7.170454962423024_wp, -4.741636671481785_wp, -16.31002631330971_wp, &
-         & -1.062004044111401_wp]
-      method%weights(:5, 6) = [method%weights(:4, 5), 1.0_wp]
-      method%couplings(:1, 2) = [-12.0_wp]
-      method%couplings(:2, 3) = [-8.791795173947035_wp, -2.207865586973518_wp]
-      method%couplings(:3, 4) = [10.81793056857153_wp, 6.780270611428266_wp, 19.53485944642410_wp]
-      method%couplings(:4, 5) = [34.19095006749676_wp, 15.49671153725963_wp, 54.74760875964130_wp, 14.16005392148534_wp]
-      method%couplings(:5, 6) = [34.62605830930532_wp, 15.30084976114473_wp, 56.99955578662667_wp, &
-         & 18.40807009793095_wp, -5.714285714285717_wp]
-      method%bend_weights(:4, 1) = [25.09876703708589_wp, 11.62013104361867_wp, 28.49148307714626_wp, -5.664021568594133_wp]
-      method%bend_weights(:5, 2) = [1.638054557396973_wp, -0.7373619806678748_wp, 8.477918219238990_wp, &
-         & 15.99253148779520_wp, -1.882352941176471_wp]
-   end subroutine set_rodas4p
 
    !> Steinebach (2023).
    subroutine set_rodas5p(method)
@@ -268,7 +171,7 @@ contains
             new_state = new_state + self%weights(i, stage)*self%increments(:, i)
             self%right_side = self%right_side + (self%couplings(i, stage)/step)*self%increments(:, i)
          end do
-         if (.not. self%repeats_rate(stage)) then
+         if (stage > 1) then
             call problem%get_rate(time + step*self%nodes(stage), new_state, self%stage_rate, status)
             counters%evaluations = counters%evaluations + 1
             if (status /= 0) return

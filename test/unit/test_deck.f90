@@ -305,7 +305,7 @@ contains
       call expect_mistake(error, "", "&numerics accuracy = 1e-3, tolerance = 1e-4 /", &
          & "11:40: 'tolerance' takes the place of 'accuracy'; give one of them")
       if (allocated(error)) return
-      call expect_valid(error, "", "&numerics method = 'rkc', tolerance = 1e-4 /")
+      call expect_valid(error, "", "&numerics method = 'radau5', tolerance = 1e-4 /")
       if (allocated(error)) return
       call expect_mistake(error, "", "&output angle_step_deg = 0.7 /", "11:26: 360 must be a whole multiple")
       call expect_valid(error, "", "&output angle_step_deg = 0.1 /")

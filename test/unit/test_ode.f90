@@ -359,7 +359,7 @@ contains
       call new_method(method, "gear", 1, failure)
       call check(error, allocated(failure), "an unknown method was made")
       if (allocated(error)) return
-      call check(error, failure%kind == kind_deck .and. index(failure%message, "rodas4") > 0, failure%message)
+      call check(error, failure%kind == kind_deck .and. index(failure%message, "rodas5p") > 0, failure%message)
    end subroutine test_unknown
 
    subroutine test_failures(error)
@@ -384,16 +384,16 @@ contains
       call expect(problem, options, "euler", "fixed step failed at time", error)
       if (allocated(error)) return
       problem%last = -1.0_wp
-      call expect(problem, options, "rodas4", "no value at time .000", error)
+      call expect(problem, options, "rodas5p", "no value at time .000", error)
       if (allocated(error)) return
       problem%last = huge(1.0_wp)
       options%max_steps = 3
       options%max_step = 0.1_wp
-      call expect(problem, options, "rodas4", "steps is used up at time", error)
+      call expect(problem, options, "rodas5p", "steps is used up at time", error)
       if (allocated(error)) return
       options%max_steps = huge(1)
       options%max_evaluations = 3
-      call expect(problem, options, "rodas4", "evaluations is used up at time", error)
+      call expect(problem, options, "rodas5p", "evaluations is used up at time", error)
    end subroutine test_failures
 
    !> Integrate and expect words in the message of a convergence error.

@@ -64,8 +64,7 @@ contains
       real(wp), intent(in) :: resistance, wanted, between
       integer, intent(in) :: most_steps
       type(error_type), allocatable, intent(out) :: error
-      character(len=*), parameter :: names(*) = [character(len=8) :: "hermite", "rodas3", "rodas4", "rodas4p", "rodas5p", &
-         & "radau5", "exprb32"]
+      character(len=*), parameter :: names(*) = [character(len=8) :: "hermite", "rodas5p", "radau5"]
       ! Error of a step [state]
       real(wp), parameter :: tolerance = 1.0e-6_wp
       type(counters_t) :: counters
@@ -95,18 +94,17 @@ contains
 
    subroutine test_explicit(error)
       type(error_type), allocatable, intent(out) :: error
-      character(len=*), parameter :: names(*) = [character(len=16) :: "bogacki_shampine", "dormand_prince", "rkc"]
       type(counters_t) :: counters
       type(error_t), allocatable :: failure
       ! State at the end and between [state]
       real(wp) :: state, middle
-      integer :: i
 
-      do i = 1, size(names)
-         call follow_latch(trim(names(i)), strong, 1.0e-6_wp, state, middle, counters, failure)
-         if (allocated(failure)) cycle
-         if (abs(state - held) > 1.0e-2_wp) call test_failed(error, trim(names(i))//" has stepped over the barrier")
-      end do
+      call follow_latch("dormand_prince", strong, 1.0e-6_wp, state, middle, counters, failure)
+      if (.not. allocated(failure)) then
+         call test_failed(error, "dormand_prince says nothing")
+      else if (index(failure%message, "steps is used up at time") == 0) then
+         call test_failed(error, failure%message)
+      end if
    end subroutine test_explicit
 
    !> Integrate with a method.

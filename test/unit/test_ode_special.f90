@@ -1,4 +1,4 @@
-!> What is peculiar to single methods: stages by decay rate, functions of the Jacobian, iterations with a rough Jacobian.
+!> What is peculiar to single methods: functions of the Jacobian, integrals beside the unknown, iterations with a rough Jacobian.
 module test_ode_special
    use testdrive, only : unittest_type, new_unittest, error_type, check
    use camroller_kinds, only : wp
@@ -7,7 +7,6 @@ module test_ode_special
    use camroller_ode_problem, only : problem_t
    use camroller_ode_methods, only : new_method
    use camroller_phi, only : phi_functions
-   use camroller_ode_stabilised, only : chebyshev_limit
    use camroller_trajectory, only : trajectory_t, interpolate_state
    use ode_problems, only : decay_t, line_t, rough_t, pair_t, work_t
    implicit none
@@ -21,15 +20,12 @@ contains
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
       testsuite = [ &
-         new_unittest("rkc: stages grow with the root of decay rate times step, and no disturbance grows", test_stages), &
-         new_unittest("rkc: two stages where nothing decays", test_two_stages), &
-         new_unittest("exprb32: functions at known arguments, and no seam between series and recurrence", test_functions), &
-         new_unittest("exprb32: linear problems are solved exactly, the curve included", test_linear), &
+         new_unittest("hermite: functions at known arguments, and no seam between series and recurrence", test_functions), &
          new_unittest("hermite: order 6 once the first step is short", test_hermite_order), &
          new_unittest("hermite: linear problems are solved exactly, the layer between the points included", test_hermite_linear), &
          new_unittest("hermite: one evaluation a step", test_hermite_cost), &
          new_unittest("hermite: an integral beside the unknown, at its end and between the points", test_hermite_integral), &
-         new_unittest("exprb32: more than one unknown is refused", test_refusal), &
+         new_unittest("hermite: more than one unknown is refused", test_refusal), &
          new_unittest("radau5: a rough Jacobian costs iterations, not accuracy", test_rough), &
          new_unittest("radau5: without convergence the step becomes smaller", test_no_convergence) &
          ]
@@ -56,46 +52,6 @@ contains
       call integrate(problem, method, options, [0.0_wp, finish], state, trajectory, counters, failure)
    end subroutine integrate_evenly
 
-   subroutine test_stages(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(decay_t) :: problem
-      type(trajectory_t) :: trajectory
-      type(counters_t) :: counters
-      type(error_t), allocatable :: failure
-      real(wp) :: state(1)
-      integer :: k, stages
-
-      do k = 1, 5
-         problem%decay = 10.0_wp**k
-         state = 2.0_wp
-         call integrate_evenly(problem, "rkc", 0.1_wp, 10.0_wp, state, trajectory, counters, failure)
-         call check(error, .not. allocated(failure), "fails")
-         if (allocated(error)) return
-         ! the damping takes 5 per cent or more of a disturbance away in each of 100 steps: 0.95^100 = 0.006
-         call check(error, abs(state(1) - cos(10.0_wp)) < 0.01_wp, "a disturbance grows")
-         if (allocated(error)) return
-         ! s stages with the start's rate known and the end's wanted, and the first point
-         stages = (counters%evaluations - 1)/counters%accepted
-         call check(error, chebyshev_limit(stages) >= 0.1_wp*problem%decay .and. &
-            & stages <= 2 + nint(sqrt(1.0_wp + 1.1_wp*1.54_wp*0.1_wp*problem%decay)), "number of stages")
-         if (allocated(error)) return
-      end do
-   end subroutine test_stages
-
-   subroutine test_two_stages(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(decay_t) :: problem
-      type(trajectory_t) :: trajectory
-      type(counters_t) :: counters
-      type(error_t), allocatable :: failure
-      real(wp) :: state(1)
-
-      problem%decay = 0.0_wp
-      state = 1.0_wp
-      call integrate_evenly(problem, "rkc", 0.1_wp, 1.0_wp, state, trajectory, counters, failure)
-      call check(error, .not. allocated(failure) .and. counters%evaluations == 2*counters%accepted + 1)
-   end subroutine test_two_stages
-
    subroutine test_functions(error)
       type(error_type), allocatable, intent(out) :: error
       real(wp) :: phi(3), other(3)
@@ -119,32 +75,6 @@ contains
          if (allocated(error)) return
       end do
    end subroutine test_functions
-
-   subroutine test_linear(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(line_t) :: problem
-      type(trajectory_t) :: trajectory
-      type(counters_t) :: counters
-      type(error_t), allocatable :: failure
-      real(wp) :: state(1)
-      integer :: k, hint
-
-      do k = 0, 5
-         problem%decay = 10.0_wp**k
-         state = 1.0_wp
-         call integrate_evenly(problem, "exprb32", 0.5_wp, 1.0_wp, state, trajectory, counters, failure)
-         call check(error, .not. allocated(failure), "fails")
-         if (allocated(error)) return
-         ! sums of terms of the size of rate times step
-         call check(error, abs(state(1) - 1.0_wp - exp(-problem%decay)) < 10.0_wp*problem%decay*epsilon(1.0_wp), "end")
-         if (allocated(error)) return
-         ! from the second step on even the fastest disturbance has died out, and a straight line is left
-         hint = 1
-         call interpolate_state(trajectory, 0.8_wp, hint, state)
-         call check(error, k < 2 .or. abs(state(1) - 0.8_wp) < 10.0_wp*problem%decay*epsilon(1.0_wp), "curve")
-         if (allocated(error)) return
-      end do
-   end subroutine test_linear
 
    !> Integrate with steps that grow up to a largest one, whatever their error.
    subroutine integrate_growing(problem, name, largest, finish, state, trajectory, counters, failure)
@@ -268,10 +198,10 @@ contains
       class(method_t), allocatable :: method
       type(error_t), allocatable :: failure
 
-      call new_method(method, "exprb32", 2, failure)
+      call new_method(method, "hermite", 2, failure)
       call check(error, allocated(failure), "two unknowns accepted")
       if (allocated(error)) return
-      call check(error, failure%kind == kind_domain .and. index(failure%message, "exprb32") > 0, failure%message)
+      call check(error, failure%kind == kind_domain .and. index(failure%message, "hermite") > 0, failure%message)
    end subroutine test_refusal
 
    subroutine test_rough(error)

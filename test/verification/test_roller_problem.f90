@@ -58,24 +58,12 @@ contains
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
       testsuite = [ &
-         new_unittest("dormand_prince finds the losses of the reference", test_dormand_prince), &
-         new_unittest("bogacki_shampine finds the losses of the reference", test_bogacki_shampine) &
+         new_unittest("dormand_prince finds the losses of the reference", test_dormand_prince) &
          ]
    end subroutine collect_roller_problem
 
-   subroutine test_dormand_prince(error)
-      type(error_type), allocatable, intent(out) :: error
-      call compare_losses("dormand_prince", error)
-   end subroutine test_dormand_prince
-
-   subroutine test_bogacki_shampine(error)
-      type(error_type), allocatable, intent(out) :: error
-      call compare_losses("bogacki_shampine", error)
-   end subroutine test_bogacki_shampine
-
    !> All cases of the table.
-   subroutine compare_losses(method_name, error)
-      character(len=*), intent(in) :: method_name
+   subroutine test_dormand_prince(error)
       type(error_type), allocatable, intent(out) :: error
       ! The two references agree to 1e-9 [-]
       real(wp), parameter :: tolerance = 1.0e-9_wp
@@ -89,15 +77,14 @@ contains
       if (size(names) /= 3) call test_failed(error, "three cases are expected")
       do i = 1, size(names)
          if (allocated(error)) return
-         call find_loss(method_name, rows(1, i), rows(2, i)*pi/30.0_wp, loss, error)
+         call find_loss(rows(1, i), rows(2, i)*pi/30.0_wp, loss, error)
          if (allocated(error)) return
          call check_close(error, loss, rows(3, i), tolerance, "loss of case "//trim(names(i)))
       end do
-   end subroutine compare_losses
+   end subroutine test_dormand_prince
 
    !> Loss over two cycles.
-   subroutine find_loss(method_name, viscosity, speed, loss, error)
-      character(len=*), intent(in) :: method_name
+   subroutine find_loss(viscosity, speed, loss, error)
       real(wp), intent(in) :: viscosity, speed
       real(wp), intent(out) :: loss
       type(error_type), allocatable, intent(out) :: error
@@ -120,7 +107,7 @@ contains
       options%tolerance = [1.0e-9_wp*state(1), 1.0e-9_wp*0.1_wp]
       options%step = 1.0e-5_wp
       options%max_step = pi/90.0_wp
-      call new_explicit_method(method, method_name, 2)
+      call new_explicit_method(method, "dormand_prince", 2)
       call integrate(problem, method, options, stops, state, trajectory, counters, failure)
       if (allocated(failure)) call test_failed(error, failure%message)
       loss = state(2)

@@ -28,7 +28,7 @@ contains
       type(case_t) :: the_case
 
       the_case = thesis_case()
-      the_case%numerics%method = "rodas4p"
+      the_case%numerics%method = "rodas5p"
       the_case%numerics%tolerance = 1.0e-8_wp
    end function tight_case
 

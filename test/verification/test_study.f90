@@ -123,8 +123,8 @@ contains
       type(case_t) :: the_case
 
       the_case%numerics%max_cycles = 7
-      the_case%numerics = numerics_of(rung_t("rodas4", tolerance=1.0e-3_wp), the_case%numerics)
-      call check(error, the_case%numerics%method == "rodas4" .and. the_case%numerics%max_cycles == 7)
+      the_case%numerics = numerics_of(rung_t("radau5", tolerance=1.0e-3_wp), the_case%numerics)
+      call check(error, the_case%numerics%method == "radau5" .and. the_case%numerics%max_cycles == 7)
       if (allocated(error)) return
       call check(error, the_case%numerics%tolerance, 1.0e-3_wp)
       if (allocated(error)) return
