@@ -2,7 +2,7 @@
 
 SHELL := /bin/bash
 .DEFAULT_GOAL := help
-.PHONY: help setup commit build debug mpi run comparison test quick bless random random-ehl needed rough-rows study study-film audit check check-layers \
+.PHONY: help setup commit build debug mpi run comparison test quick bless random random-ehl needed rough-rows fuzz study study-film audit check check-layers \
   check-style check-format check-lint check-warnings format bench bench-ehl range-ehl bench-batch bench-effects clean distclean
 
 FPM := .venv/bin/fpm
@@ -84,6 +84,10 @@ random-ehl: commit ## cases drawn at random with a numerical film, as law and ov
 
 needed: commit ## effects that are left out against what they change, for random cases, optimised: CASES=300 SEED=1
 	@NEEDED_TABLE=1 NEEDED_CASES=$(or $(CASES),300) NEEDED_SEED=$(or $(SEED),1) $(FPM) test --flag "$(RELEASE_FLAGS)" -- needed
+
+fuzz: build debug ## hostile decks and files, both programs, endings counted: CASES=300 SEED=1 (of each campaign), KIND=decks for one
+	@for campaign in $(if $(KIND),test/fuzz/fuzz_$(KIND).py,$(wildcard test/fuzz/fuzz_*.py)); do \
+	  $(PYTHON) $$campaign --cases $(or $(CASES),300) --seed $(or $(SEED),1) || failed=1; done; test -z "$$failed"
 
 rough-rows: commit ## rough contacts of Masjedi and Khonsari beside ours: bench/tables/ehl_rough.txt, for doc/ehl.md
 	@ROUGH_TABLE=bench/tables/ehl_rough.txt $(FPM) test --flag "$(RELEASE_FLAGS)" -- ehl_rough
