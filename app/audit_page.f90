@@ -4,6 +4,7 @@
 module camroller_audit_page
    use, intrinsic :: ieee_arithmetic, only : ieee_is_nan
    use camroller_kinds, only : wp
+   use camroller_number_text, only : fixed_text, scientific_text, integer_text, right_text
    use camroller_study_table, only : study_table_t, column_of
    implicit none
    private
@@ -37,13 +38,13 @@ contains
       do row = 1, table%rows
          line = ""
          associate (v => table%numbers(row, :))
-            write (line, '(i4, 1x, a8, 1x, a18)') nint(v(1)), table%words(row, 2), table%words(row, 1)
+            line = right_text(integer_text(nint(v(1))), 4)//" "//table%words(row, 2) (:8)//" "//table%words(row, 1) (:18)
             if (nint(v(2)) /= 0) then
                line(36:) = table%words(row, 4)
             else
                line(33:) = pair(v(6), v(9))//pair(v(7), v(10))//pair(v(8), v(11))
-               write (line(97:), '(f8.2)') 1.0e3_wp*v(14)
-               if (table%words(row, 2) /= "listed") write (line(105:), '(f7.0)') 100.0_wp*v(15)
+               line(97:) = right_text(fixed_text(1.0e3_wp*v(14), 2), 8)
+               if (table%words(row, 2) /= "listed") line(105:) = right_text(fixed_text(100.0_wp*v(15), 0), 7)
                if (.not. ieee_is_nan(v(12))) line(114:) = merge("left out", "kept    ", v(12) > 0.0_wp)
             end if
          end associate
@@ -60,9 +61,9 @@ contains
       character(len=21) :: text
 
       text = ""
-      if (.not. ieee_is_nan(change)) write (text(:10), '(es10.2)') change
+      if (.not. ieee_is_nan(change)) text(:10) = right_text(scientific_text(change, 2), 10)
       if (.not. ieee_is_nan(estimate)) then
-         if (estimate < unknown) write (text(11:), '(es10.1)') estimate
+         if (estimate < unknown) text(11:) = right_text(scientific_text(estimate, 1), 10)
          if (estimate >= unknown) text(11:) = "     large"
       end if
    end function pair
@@ -78,7 +79,6 @@ contains
       ! [-]
       real(wp), allocatable :: changes(:), estimates(:)
       logical, allocatable :: is_known(:)
-      character(len=60) :: buffer
       integer :: i, held, known
 
       held = 0
@@ -92,8 +92,7 @@ contains
          held = held + count(is_known .and. abs(changes) <= estimates + accuracy_left)
          known = known + count(is_known)
       end do
-      write (buffer, '(i0, a, i0, a)') held, " of ", known, " changes are within what was expected"
-      text = trim(buffer)
+      text = integer_text(held)//" of "//integer_text(known)//" changes are within what was expected"
    end function sizes
 
 end module camroller_audit_page

@@ -5,6 +5,7 @@ module camroller_ehl_page
    use camroller_kinds, only : wp
    use camroller_ehl_record, only : ehl_record_t, column
    use camroller_ehl_summary, only : ehl_summary_t, mean_over_cycle, film_difference, slip_difference
+   use camroller_number_text, only : fixed_text, scientific_text, integer_text, right_text
    implicit none
    private
 
@@ -71,16 +72,19 @@ contains
       character(len=width) :: buffer
 
       associate (fine => line%fine)
-         write (buffer, "(i4, i5, 3f11.4, es12.3, f12.3, f11.3)") line%case_number, line%lobe, 1.0e6_wp*fine%smallest_film, &
-            & 1.0e6_wp*fine%mean_film, 1.0e6_wp*fine%mean_central, fine%mean_slip, 100.0_wp*film_difference(line%coarse, fine), &
-            & 100.0_wp*slip_difference(line%coarse, fine)
+         buffer = right_text(integer_text(line%case_number), 4)//right_text(integer_text(line%lobe), 5)// &
+            & right_text(fixed_text(1.0e6_wp*fine%smallest_film, 4), 11)//right_text(fixed_text(1.0e6_wp*fine%mean_film, 4), 11)// &
+            & right_text(fixed_text(1.0e6_wp*fine%mean_central, 4), 11)//right_text(scientific_text(fine%mean_slip, 3), 12)// &
+            & right_text(fixed_text(100.0_wp*film_difference(line%coarse, fine), 3), 12)// &
+            & right_text(fixed_text(100.0_wp*slip_difference(line%coarse, fine), 3), 11)
       end associate
       if (line%has_steady) then
-         write (buffer(79:), "(f14.3)") 100.0_wp*film_difference(line%steady, line%fine)
+         buffer(79:) = right_text(fixed_text(100.0_wp*film_difference(line%steady, line%fine), 3), 14)
       else
          buffer(92:92) = "-"
       end if
-      write (buffer(94:), "(i7, i8, f8.2)") line%fine%nodes, line%steps, line%time
+      buffer(94:) = right_text(integer_text(line%fine%nodes), 7)//right_text(integer_text(line%steps), 8)// &
+         & right_text(fixed_text(line%time, 2), 8)
       text = trim(buffer)
    end function page_line
 
@@ -92,16 +96,18 @@ contains
       character(len=:), allocatable :: text
 
       character(len=width) :: buffer
-      integer :: i
+      integer :: i, k
 
       text = n//"Means over the cycle, solved, and by how much the closed formulas differ at the same load and slip"//n// &
          & "case lobe  smallest film        central film         rolling resistance   shear of the film"//n// &
          & "           [um]      formula    [um]      formula    [N]       formula    [N]       formula"
       do i = 1, size(lines)
          associate (f => lines(i)%friction)
-            write (buffer, "(i4, i5, 4(f11.4, f8.1, ' %'))") lines(i)%case_number, lines(i)%lobe, &
-               & 1.0e6_wp*f(1, 1), change(f(1, :)), 1.0e6_wp*f(2, 1), change(f(2, :)), f(3, 1), change(f(3, :)), f(4, 1), &
-               & change(f(4, :))
+            buffer = right_text(integer_text(lines(i)%case_number), 4)//right_text(integer_text(lines(i)%lobe), 5)
+            do k = 1, 4
+               buffer = buffer(:21*k - 12)//right_text(fixed_text(merge(1.0e6_wp, 1.0_wp, k <= 2)*f(k, 1), 4), 11)// &
+                  & right_text(fixed_text(change(f(k, :)), 1), 8)//" %"
+            end do
          end associate
          text = text//n//trim(buffer)
       end do

@@ -11,7 +11,7 @@ module camroller_film_study
    use camroller_cli, only : config_t
    use camroller_deck, only : deck_t, make_sweep_case
    use camroller_deck_sweep, only : sweep_size
-   use camroller_number_text, only : integer_text
+   use camroller_number_text, only : fixed_text, scientific_text, integer_text, right_text
    use camroller_output, only : output_t, abandon_output
    use camroller_progress, only : progress_t, show_progress, end_progress, seconds_since
    use camroller_study_contact, only : new_contact_table, study_contacts
@@ -158,18 +158,20 @@ contains
          is_same = table%words(:table%rows, word) == table%words(row, word) .and. equal(first, first(row)) &
             & .and. equal(second, second(row))
          is_done = is_done .or. is_same
-         write (line, "(a)") table%words(row, word) (:16)
+         line = table%words(row, word) (:16)
          place = 17
-         if (.not. ieee_is_nan(first(row))) write (line(place:), "(a)") short(first(row))
+         if (.not. ieee_is_nan(first(row))) line(place:) = short(first(row))
          if (other /= "") place = place + 7
-         if (other /= "" .and. .not. ieee_is_nan(second(row))) write (line(place:), "(a)") short(second(row))
+         if (other /= "" .and. .not. ieee_is_nan(second(row))) line(place:) = short(second(row))
          place = place + 7
          do i = 1, size(names)
             values = pack(column_of(table, names(i)), is_same .and. fine)
-            if (size(values) > 0 .and. .not. any(ieee_is_nan(values))) write (line(place:), "(a)") shown(names(i), values)
+            if (size(values) > 0 .and. .not. any(ieee_is_nan(values))) line(place:) = shown(names(i), values)
             place = place + 12
          end do
-         if (count(is_same .and. fine) < count(is_same)) write (line(place:), "(i6)") count(is_same) - count(is_same .and. fine)
+         if (count(is_same .and. fine) < count(is_same)) then
+            line(place:) = right_text(integer_text(count(is_same) - count(is_same .and. fine)), 6)
+         end if
          text = text//n//trim(line)
       end do
       text = text//n
@@ -185,11 +187,11 @@ contains
       character(len=12) :: text
 
       if (index(name, "error") == 1) then
-         write (text, "(es12.1)") maxval(values)
+         text = right_text(scientific_text(maxval(values), 1), 12)
       else if (name == "steps") then
-         write (text, "(f12.0)") exp(sum(log(values))/size(values))
+         text = right_text(fixed_text(exp(sum(log(values))/size(values)), 0), 12)
       else
-         write (text, "(f12.2)") 1.0e3_wp*exp(sum(log(values))/size(values))
+         text = right_text(fixed_text(1.0e3_wp*exp(sum(log(values))/size(values)), 2), 12)
       end if
    end function shown
 
@@ -201,9 +203,9 @@ contains
       character(len=7) :: text
 
       if (value >= 1.0_wp) then
-         write (text, "(i6)") nint(value)
+         text = right_text(integer_text(nint(value)), 6)
       else
-         write (text, "(es7.0)") value
+         text = right_text(scientific_text(value, 0), 7)
       end if
    end function short
 

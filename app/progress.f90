@@ -6,7 +6,7 @@ module camroller_progress
    use, intrinsic :: iso_c_binding, only : c_int
    use, intrinsic :: iso_fortran_env, only : error_unit, int64
    use camroller_kinds, only : wp
-   use camroller_number_text, only : integer_text, number_text
+   use camroller_number_text, only : number_text, fixed_text, integer_text
    implicit none
    private
 
@@ -135,12 +135,9 @@ contains
       character(len=:), allocatable :: words
 
       integer(int64) :: now, rate
-      character(len=16) :: buffer
 
       call system_clock(now, rate)
-      write (buffer, '(f0.2)') real(now - progress%start)/real(rate)
-      words = trim(buffer)//" s"
-      if (words(1:1) == ".") words = "0"//words
+      words = fixed_text(real(now - progress%start, wp)/real(rate, wp), 2)//" s"
    end function seconds_since
 
 end module camroller_progress

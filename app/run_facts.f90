@@ -9,7 +9,7 @@ module camroller_run_facts
    use camroller_deck, only : deck_t
    use camroller_deck_document, only : echo_t, get_echo
    use camroller_deck_sweep, only : sweep_numbers, sweep_size, sweep_words
-   use camroller_number_text, only : integer_text
+   use camroller_number_text, only : hexadecimal => hexadecimal_text, integer_text
    use camroller_output, only : output_t, write_deck, write_deck_table, write_overrides, write_run, write_sweep
    use camroller_part_file, only : study_facts_t
    use camroller_record, only : checksum, text_words
@@ -209,15 +209,5 @@ contains
       text = text//"table "//table%path//" with checksum "//hexadecimal(checksum([transfer(table%x, [0_int64]), &
          & transfer(table%y, [0_int64])], 0_int64))//new_line("a")
    end subroutine add_table
-
-   !> A number in hexadecimal digits.
-   function hexadecimal(number) result(text)
-      !> The number
-      integer(int64), intent(in) :: number
-      !> Its digits
-      character(len=16) :: text
-
-      write (text, '(z16.16)') number
-   end function hexadecimal
 
 end module camroller_run_facts

@@ -4,6 +4,7 @@
 module camroller_study_page
    use, intrinsic :: ieee_arithmetic, only : ieee_is_nan
    use camroller_kinds, only : wp, pi
+   use camroller_number_text, only : fixed_text, scientific_text, integer_text, right_text
    use camroller_study_table, only : study_table_t, column_of, word_length
    implicit none
    private
@@ -31,9 +32,12 @@ contains
          & "                               [1/rad]    [-]         [N m]      [um]"
       do row = 1, table%rows
          associate (v => table%numbers(row, :))
-            write (line, '(i4, f8.1, f7.1)') nint(v(1)), v(3)*30.0_wp/pi, v(4) - 273.15_wp
+            line = right_text(integer_text(nint(v(1))), 4)//right_text(fixed_text(v(3)*30.0_wp/pi, 1), 8)// &
+               & right_text(fixed_text(v(4) - 273.15_wp, 1), 7)
             if (nint(v(2)) == 0) then
-               write (line(20:), '(es10.1, es11.2, es12.3, es11.3, f9.4)') v(5), v(6), v(8), v(9), v(10)*1.0e6_wp
+               line(20:) = right_text(scientific_text(v(5), 1), 10)//right_text(scientific_text(v(6), 2), 11)// &
+                  & right_text(scientific_text(v(8), 3), 12)//right_text(scientific_text(v(9), 3), 11)// &
+                  & right_text(fixed_text(v(10)*1.0e6_wp, 4), 9)
             else
                line(21:) = table%words(row, 1)
             end if
@@ -86,18 +90,22 @@ contains
       real(wp), allocatable :: rung(:)
       logical :: fine(size(is_same))
 
-      write (line, "(a)") table%words(row, 1) (:width)
+      line = table%words(row, 1) (:width)
       rung = column_of(table, "tolerance")
-      if (.not. ieee_is_nan(rung(row))) write (line(18:), '(es9.0)') rung(row)
+      if (.not. ieee_is_nan(rung(row))) line(18:) = right_text(scientific_text(rung(row), 0), 9)
       rung = column_of(table, "step")
-      if (.not. ieee_is_nan(rung(row))) write (line(28:), '(f7.3)') rung(row)
+      if (.not. ieee_is_nan(rung(row))) line(28:) = right_text(fixed_text(rung(row), 3), 7)
       fine = is_same .and. column_of(table, "status") <= 0.0_wp
       if (any(fine)) then
-         write (line(36:), '(4es11.1, f10.0, f9.0, f8.1, f11.3)') worst("error_sliding_speed"), &
-            & worst("error_torque_friction"), worst("error_film_min"), worst("estimated_error"), mean("evaluations"), &
-            & mean("steps"), mean("rejected"), 1.0e3_wp*geometric_mean(pack(column_of(table, "time"), fine))
+         line(36:) = right_text(scientific_text(worst("error_sliding_speed"), 1), 11)// &
+            & right_text(scientific_text(worst("error_torque_friction"), 1), 11)// &
+            & right_text(scientific_text(worst("error_film_min"), 1), 11)// &
+            & right_text(scientific_text(worst("estimated_error"), 1), 11)// &
+            & right_text(fixed_text(mean("evaluations"), 0), 10)//right_text(fixed_text(mean("steps"), 0), 9)// &
+            & right_text(fixed_text(mean("rejected"), 1), 8)// &
+            & right_text(fixed_text(1.0e3_wp*geometric_mean(pack(column_of(table, "time"), fine)), 3), 11)
       end if
-      if (count(fine) < count(is_same)) write (line(119:), '(i4)') count(is_same) - count(fine)
+      if (count(fine) < count(is_same)) line(119:) = right_text(integer_text(count(is_same) - count(fine)), 4)
       text = trim(line)
 
    contains
@@ -173,12 +181,15 @@ contains
          is_same = same(accuracies, row)
          is_done = is_done .or. is_same
          fine = is_same .and. column_of(table, "status") <= 0.0_wp
-         write (line, '(es8.0)') accuracies(row)
-         if (any(fine)) write (line(9:), '(3es11.1, f10.0, f9.0, f11.3)') &
-            & maxval(pack(column_of(table, "error_sliding_speed"), fine)), maxval(pack(column_of(table, "error_losses"), fine)), &
-            & maxval(pack(column_of(table, "estimated_error"), fine)), mean_of("evaluations"), mean_of("steps"), &
-            & 1.0e3_wp*geometric_mean(pack(column_of(table, "time"), fine))
-         if (count(fine) < count(is_same)) write (line(73:), '(i4)') count(is_same) - count(fine)
+         line = right_text(scientific_text(accuracies(row), 0), 8)
+         if (any(fine)) then
+            line(9:) = right_text(scientific_text(maxval(pack(column_of(table, "error_sliding_speed"), fine)), 1), 11)// &
+               & right_text(scientific_text(maxval(pack(column_of(table, "error_losses"), fine)), 1), 11)// &
+               & right_text(scientific_text(maxval(pack(column_of(table, "estimated_error"), fine)), 1), 11)// &
+               & right_text(fixed_text(mean_of("evaluations"), 0), 10)//right_text(fixed_text(mean_of("steps"), 0), 9)// &
+               & right_text(fixed_text(1.0e3_wp*geometric_mean(pack(column_of(table, "time"), fine)), 3), 11)
+         end if
+         if (count(fine) < count(is_same)) line(73:) = right_text(integer_text(count(is_same) - count(fine)), 4)
          text = text//n//trim(line)
       end do
       text = text//n
@@ -218,11 +229,14 @@ contains
          fine = is_same .and. column_of(table, "status") <= 0.0_wp .and. .not. ieee_is_nan(column_of(table, "time_saved"))
          line(:24) = table%words(row, 1) (:24)
          line(25:) = " "//table%words(row, 2) (:13)
-         if (any(fine)) write (line(39:), '(3f10.2, a, f9.3, f10.0)') 100.0_wp*extreme("change_torque_friction"), &
-            & 100.0_wp*extreme("change_slip"), 100.0_wp*extreme("change_film_min"), " %", &
-            & 1.0e3_wp*geometric_mean(pack(column_of(table, "time"), fine)), &
-            & 100.0_wp*(1.0_wp - geometric_mean(1.0_wp - pack(column_of(table, "time_saved"), fine)))
-         if (count(fine) < count(is_same)) write (line(93:), '(i4)') count(is_same) - count(fine)
+         if (any(fine)) then
+            line(39:) = right_text(fixed_text(100.0_wp*extreme("change_torque_friction"), 2), 10)// &
+               & right_text(fixed_text(100.0_wp*extreme("change_slip"), 2), 10)// &
+               & right_text(fixed_text(100.0_wp*extreme("change_film_min"), 2), 10)//" %"// &
+               & right_text(fixed_text(1.0e3_wp*geometric_mean(pack(column_of(table, "time"), fine)), 3), 9)//right_text( &
+               & fixed_text(100.0_wp*(1.0_wp - geometric_mean(1.0_wp - pack(column_of(table, "time_saved"), fine))), 0), 10)
+         end if
+         if (count(fine) < count(is_same)) line(93:) = right_text(integer_text(count(is_same) - count(fine)), 4)
          text = text//n//trim(line)
       end do
       text = text//n

@@ -5,8 +5,10 @@ Usage: tools/check_style.py [--root DIR]
 
 Everywhere: no tabs, no trailing blanks, lines within 132 characters (the limit of the language), `only` in every use,
 `implicit none`, files within 500 lines, procedures within 60 lines of code. In src and app: one module a file, named after it
-with our prefix, `private` at its top, a unit in brackets on every real declaration. In src: no stop, no print. In src below io, which threads run side by side: no
-function whose text has the length it finds, since gfortran keeps that length in a static variable of the caller.
+with our prefix, `private` at its top, a unit in brackets on every real declaration, and no write into a text, which ends the program where the
+text is too short (src/base/number_text.f90 has the routines for that; a unit is known by its name, `...unit` or `*`). In src: no
+stop, no print. In src below io, which threads run side by side: no function whose text has the length it finds, since gfortran
+keeps that length in a static variable of the caller.
 
 A rule is broken on purpose with a comment `style: <rule> because <reason>` on the line or the line above.
 """
@@ -32,6 +34,8 @@ END_PROCEDURE = re.compile(r"^end\s*(subroutine|function)\b")
 PROGRAM_UNIT = re.compile(r"^(module|program)\s+(?!procedure\b|subroutine\b|function\b)(\w+)$")
 REAL = re.compile(r"^(?:real|complex)\s*(?:\([^)]*\))?\s*(?:,.*)?::")
 UNIT = re.compile(r"\[[^\[\]]+\]|\bunits? (?:as|of|in) ")
+WRITE = re.compile(r"^(?:if\s*\(.*\)\s*)?write\s*\(\s*(?:unit\s*=\s*)?([^,)]*)")
+UNIT_NUMBER = re.compile(r"^(?:[\w%]*unit|\*|\d+)\s*$")
 EXCUSE = re.compile(r"style:\s*(\w+)\s+because\s+\S")
 
 
@@ -122,6 +126,8 @@ def check_statements(report: Report, code: list[Statement], folder: str) -> None
             report.add(statement.line, "stop", "stop in the library")
         if folder == "src" and re.match(r"^(?:if\s*\(.*\)\s*)?(?:print\b(?!\s*=)|write\s*\(\s*\*\s*,)", text):
             report.add(statement.line, "print", "the library prints")
+        if folder in ("src", "app") and (match := WRITE.match(text)) and not UNIT_NUMBER.match(match[1]):
+            report.add(statement.line, "write", "a number is written into a text; take number_text or another of its module")
 
 
 def check_lengths(report: Report, code: list[Statement]) -> None:

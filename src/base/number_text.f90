@@ -1,98 +1,308 @@
-!> Numbers as text: the shortest text for a number, and whether a text is a number at all.
+!> Numbers as text, and whether a text is a number: the only place where numbers are written into texts.
 !>
-!> Layer: io. In: numbers or words. Out: words or verdicts.
+!> Layer: base. In: numbers or words. Out: words or verdicts. A text is as long as its number needs, whatever the number: a
+!> buffer that a caller declares for it may be too short, and writing into that ends the program.
 module camroller_number_text
+   use, intrinsic :: ieee_arithmetic, only : ieee_is_finite, ieee_is_nan
+   use, intrinsic :: iso_fortran_env, only : int64
    use camroller_kinds, only : wp
    implicit none
    private
 
-   public :: number_text, integer_text, is_number, is_beyond_range
+   public :: number_text, fixed_text, scientific_text, integer_text, hexadecimal_text, right_text
+   public :: write_number, number_length
+   public :: is_number, is_beyond_range
+
+   !> A number with as few digits as give it back, or rounded to a number of significant digits
+   interface number_text
+      module procedure :: shortest_text, rounded_text
+   end interface number_text
+
+   !> An integer as text
+   interface integer_text
+      module procedure :: short_integer_text, long_integer_text
+   end interface integer_text
 
    !> Powers of ten between which a number is written without an exponent
    integer, parameter :: smallest_plain = -4, largest_plain = 7
    !> Digits that tell any two numbers apart
    integer, parameter :: all_digits = 17
+   !> Length that holds every number in the forms below
+   integer, parameter :: number_length = 40
+   !> Counts of digits as formats want them
+   character(len=*), parameter :: counts(0:all_digits) = [character(len=2) :: "0", "1", "2", "3", "4", "5", "6", "7", "8", "9", &
+      & "10", "11", "12", "13", "14", "15", "16", "17"]
+   !> From here on no digits after the point are written, but an exponent [any unit]
+   real(wp), parameter :: largest_fixed = 1.0e15_wp
 
 contains
 
-   !> A number with as few digits as give it back, or rounded to a number of digits.
-   pure function number_text(value, digits) result(text)
-      !> A finite number [any unit]
+   !> Length of the shortest text.
+   pure function shortest_length(value) result(length)
+      !> The number [any unit]
       real(wp), intent(in) :: value
-      !> Digits to round to; without it as many as are needed
-      integer, intent(in), optional :: digits
+      !> Characters
+      integer :: length
+
+      character(len=number_length) :: buffer
+
+      call write_plain(value, 1, all_digits, buffer, length)
+   end function shortest_length
+
+   !> Length of a text of so many significant digits.
+   pure function rounded_length(value, digits) result(length)
+      !> The number [any unit]
+      real(wp), intent(in) :: value
+      !> Digits
+      integer, intent(in) :: digits
+      !> Characters
+      integer :: length
+
+      character(len=number_length) :: buffer
+
+      call write_plain(value, digits, digits, buffer, length)
+   end function rounded_length
+
+   !> Length of a number in one of the forms of `write_number`.
+   pure function edited_length(value, form, decimals) result(length)
+      !> The number [any unit]
+      real(wp), intent(in) :: value
+      !> `f` or `es`
+      character(len=*), intent(in) :: form
+      !> Digits after the point
+      integer, intent(in) :: decimals
+      !> Characters
+      integer :: length
+
+      character(len=number_length) :: buffer
+
+      call write_number(value, form, decimals, buffer)
+      length = len_trim(adjustl(buffer))
+   end function edited_length
+
+   !> Length of an integer as text.
+   pure function integer_length(value) result(length)
+      !> The integer
+      integer(int64), intent(in) :: value
+      !> Characters
+      integer :: length
+
+      integer(int64) :: rest
+
+      length = merge(2, 1, value < 0)
+      rest = value/10
+      do while (rest /= 0)
+         length = length + 1
+         rest = rest/10
+      end do
+   end function integer_length
+
+   !> A number with as few digits as give it back.
+   pure function shortest_text(value) result(text)
+      !> The number [any unit]
+      real(wp), intent(in) :: value
       !> The number as text
-      character(len=:), allocatable :: text
+      character(len=shortest_length(value)) :: text
+
+      character(len=number_length) :: buffer
+      integer :: length
+
+      call write_plain(value, 1, all_digits, buffer, length)
+      text = buffer
+   end function shortest_text
+
+   !> A number rounded to so many significant digits.
+   pure function rounded_text(value, digits) result(text)
+      !> The number [any unit]
+      real(wp), intent(in) :: value
+      !> Digits, from 1 to 17
+      integer, intent(in) :: digits
+      !> The number as text
+      character(len=rounded_length(value, digits)) :: text
+
+      character(len=number_length) :: buffer
+      integer :: length
+
+      call write_plain(value, digits, digits, buffer, length)
+      text = buffer
+   end function rounded_text
+
+   !> A number with so many digits after the point; with an exponent where it is too large for that.
+   pure function fixed_text(value, decimals) result(text)
+      !> The number [any unit]
+      real(wp), intent(in) :: value
+      !> Digits after the point, from 0 to 16
+      integer, intent(in) :: decimals
+      !> The number as text
+      character(len=edited_length(value, "f", decimals)) :: text
+
+      character(len=number_length) :: buffer
+
+      call write_number(value, "f", decimals, buffer)
+      text = adjustl(buffer)
+   end function fixed_text
+
+   !> A number with one digit before the point, so many after it, and an exponent, as in 1.20E-04.
+   pure function scientific_text(value, decimals) result(text)
+      !> The number [any unit]
+      real(wp), intent(in) :: value
+      !> Digits after the point, from 0 to 16
+      integer, intent(in) :: decimals
+      !> The number as text
+      character(len=edited_length(value, "es", decimals)) :: text
+
+      character(len=number_length) :: buffer
+
+      call write_number(value, "es", decimals, buffer)
+      text = adjustl(buffer)
+   end function scientific_text
+
+   !> Write any number in one of two forms.
+   pure subroutine write_number(value, form, decimals, text)
+      !> The number [any unit]
+      real(wp), intent(in) :: value
+      !> `f` without exponent, but not for large numbers, or `es` with one
+      character(len=*), intent(in) :: form
+      !> Digits after the point
+      integer, intent(in) :: decimals
+      !> The number, blanks before it
+      character(len=number_length), intent(out) :: text
+
+      character(len=2) :: used
+      integer :: places
+
+      places = max(0, min(decimals, all_digits - 1))
+      if (.not. ieee_is_finite(value)) then
+         text = "NaN"
+         if (.not. ieee_is_nan(value)) text = merge("-Infinity", "Infinity ", value < 0.0_wp)
+         return
+      end if
+      used = form
+      if (abs(value) >= largest_fixed) used = "es"
+      ! style: write because this is the place where numbers become text
+      write (text, "("//used//"40."//counts(places)//")") value
+      if (used == "f" .or. index(text, "E") > 0) return
+      ! style: write because this is the place where numbers become text
+      write (text, "(es40."//counts(places)//"e3)") value
+   end subroutine write_number
+
+   !> A number as people write it, with the fewest digits of a range that give it back.
+   pure subroutine write_plain(value, fewest, most, text, length)
+      !> The number [any unit]
+      real(wp), intent(in) :: value
+      !> Range of digits
+      integer, intent(in) :: fewest, most
+      !> The number
+      character(len=number_length), intent(out) :: text
+      !> Its characters
+      integer, intent(out) :: length
 
       !> The number read back [any unit]
       real(wp) :: again
-      character(len=32) :: buffer, edit
-      integer :: n, first, last
+      character(len=number_length) :: buffer
+      integer :: n
 
-      last = all_digits
-      if (present(digits)) last = digits
-      first = 1
-      if (present(digits)) first = digits
-      do n = first, last
-         write (edit, '(a, i0, a, i0, a)') "(es", n + 9, ".", n - 1, "e3)"
-         write (buffer, edit) value
-         read (buffer, *) again
-         if (.not. abs(again - value) > 0.0_wp) exit
-      end do
-      text = plain_text(trim(adjustl(buffer)))
-   end function number_text
+      if (.not. ieee_is_finite(value)) then
+         call write_number(value, "es", 1, text)
+      else
+         do n = fewest, most
+            call write_number(value, "es", n - 1, buffer)
+            if (n == most) exit
+            if (is_beyond_range(trim(adjustl(buffer)))) cycle
+            read (buffer, *) again
+            if (.not. abs(again - value) > 0.0_wp) exit
+         end do
+         call write_without_needless(adjustl(buffer), text)
+      end if
+      length = len_trim(text)
+   end subroutine write_plain
 
-   !> Rewrite `-d.ddddE+xxx` without needless digits.
-   pure function plain_text(scientific) result(text)
+   !> Rewrite `-d.ddddE+xx` without needless digits.
+   pure subroutine write_without_needless(scientific, text)
       !> Number in scientific form
       character(len=*), intent(in) :: scientific
       !> The same, as people write it
-      character(len=:), allocatable :: text
+      character(len=*), intent(out) :: text
 
-      character(len=:), allocatable :: digits, sign
-      character(len=8) :: exponent_text
-      integer :: mark, exponent, i
+      character(len=number_length) :: digits
+      character(len=:), allocatable :: sign
+      integer :: mark, exponent, i, n
 
       mark = index(scientific, "E")
       read (scientific(mark + 1:), *) exponent
-      digits = ""
       sign = ""
+      if (scientific(1:1) == "-") sign = "-"
+      n = 0
       do i = 1, mark - 1
-         if (scientific(i:i) == "-") sign = "-"
-         if (index("0123456789", scientific(i:i)) > 0) digits = digits//scientific(i:i)
+         if (index("0123456789", scientific(i:i)) == 0) cycle
+         n = n + 1
+         digits(n:n) = scientific(i:i)
       end do
-      do while (len(digits) > 1)
-         if (digits(len(digits):) /= "0") exit
-         digits = digits(:len(digits) - 1)
+      do while (n > 1)
+         if (digits(n:n) /= "0") exit
+         n = n - 1
       end do
-      if (digits == "0") then
+      if (digits(:n) == "0") then
          text = "0"
-      else if (exponent >= len(digits) - 1 .and. exponent < largest_plain) then
-         text = sign//digits//repeat("0", exponent - len(digits) + 1)
+      else if (exponent >= n - 1 .and. exponent < largest_plain) then
+         text = sign//digits(:n)//repeat("0", exponent - n + 1)
       else if (exponent >= 0 .and. exponent < largest_plain) then
-         text = sign//digits(:exponent + 1)//"."//digits(exponent + 2:)
+         text = sign//digits(:exponent + 1)//"."//digits(exponent + 2:n)
       else if (exponent < 0 .and. exponent >= smallest_plain) then
-         text = sign//"0."//repeat("0", -exponent - 1)//digits
+         text = sign//"0."//repeat("0", -exponent - 1)//digits(:n)
       else
-         write (exponent_text, '(i0)') exponent
          text = sign//digits(1:1)
-         if (len(digits) > 1) text = text//"."//digits(2:)
-         text = text//"e"//trim(exponent_text)
+         if (n > 1) text = trim(text)//"."//digits(2:n)
+         text = trim(text)//"e"//integer_text(exponent)
       end if
-   end function plain_text
+   end subroutine write_without_needless
 
    !> An integer as text.
-   pure function integer_text(value) result(text)
+   pure function short_integer_text(value) result(text)
       !> The integer
       integer, intent(in) :: value
       !> Its digits
-      character(len=:), allocatable :: text
+      character(len=integer_length(int(value, int64))) :: text
 
-      character(len=16) :: buffer
+      text = long_integer_text(int(value, int64))
+   end function short_integer_text
 
-      write (buffer, '(i0)') value
-      text = trim(buffer)
-   end function integer_text
+   !> A long integer as text.
+   pure function long_integer_text(value) result(text)
+      !> The integer
+      integer(int64), intent(in) :: value
+      !> Its digits
+      character(len=integer_length(value)) :: text
+
+      character(len=number_length) :: buffer
+
+      ! style: write because this is the place where numbers become text
+      write (buffer, "(i0)") value
+      text = buffer
+   end function long_integer_text
+
+   !> The 64 bits of an integer as 16 hexadecimal digits.
+   pure function hexadecimal_text(value) result(text)
+      !> The integer
+      integer(int64), intent(in) :: value
+      !> Its digits
+      character(len=16) :: text
+
+      ! style: write because this is the place where numbers become text
+      write (text, "(z16.16)") value
+   end function hexadecimal_text
+
+   !> A word at the right end of a column; one that is too long makes its line longer and is shown whole.
+   pure function right_text(word, width) result(text)
+      !> The word
+      character(len=*), intent(in) :: word
+      !> Characters of the column
+      integer, intent(in) :: width
+      !> The word, blanks before it
+      character(len=max(width, len(word))) :: text
+
+      text = repeat(" ", len(text) - len(word))//word
+   end function right_text
 
    !> Is a word a number as Fortran reads it? Words for infinity and not-a-number are none.
    pure function is_number(word) result(verdict)

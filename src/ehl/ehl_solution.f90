@@ -12,6 +12,7 @@ module camroller_ehl_solution
    use camroller_ehl_newton, only : ehl_state_t, solve_newton, forget
    use camroller_ehl_settling, only : settle
    use camroller_ehl_films, only : ehl_films_t, get_films, compare_grids, chance_error
+   use camroller_number_text, only : fixed_text
    implicit none
    private
 
@@ -82,7 +83,6 @@ contains
       type(ehl_films_t) :: coarse
       integer :: status
       logical :: converged
-      character(len=32) :: text
 
       call new_ehl_problem(problem, contact, status)
       if (status /= in_range) then
@@ -95,8 +95,8 @@ contains
          return
       end if
       if (films%difference <= options%largest_difference) return
-      write (text, "(f0.1, a)") 100.0_wp*films%difference, " %"
-      call raise(error, kind_convergence, "ehl: film on two grids differs by "//trim(text)//"; more nodes are needed")
+      call raise(error, kind_convergence, "ehl: film on two grids differs by "//fixed_text(100.0_wp*films%difference, 1)// &
+         & " %; more nodes are needed")
    end subroutine solve_contact_film
 
    !> Film and friction of a contact near the one before, on the same two grids where they still suit it.

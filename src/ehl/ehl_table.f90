@@ -12,6 +12,7 @@ module camroller_ehl_table
    use camroller_ehl_problem, only : ehl_contact_t
    use camroller_ehl_solution, only : ehl_options_t, solve_contact_film
    use camroller_ehl_films, only : ehl_films_t, chance_error
+   use camroller_number_text, only : number_text
    implicit none
    private
 
@@ -95,7 +96,6 @@ contains
       real(wp) :: changes(2), before(2), rest(2), stated
       integer :: terms(2), along
       logical :: is_noise
-      character(len=32) :: texts(2)
 
       task%oil = oil
       task%modulus = modulus
@@ -130,9 +130,8 @@ contains
       call new_film_table(table, task%ends, task%films)
       table%error = stated
       if (stated <= setup%accuracy) return
-      write (texts, "(es8.1)") stated, setup%accuracy
-      call raise(error, kind_convergence, "ehl: error of the film"//trim(texts(1))//" instead of"//trim(texts(2))// &
-         & "; ask for less accuracy")
+      call raise(error, kind_convergence, "ehl: error of the film "//number_text(stated, 2)//" instead of "// &
+         & number_text(setup%accuracy, 2)//"; ask for less accuracy")
    end subroutine build_film_table
 
    !> Films at all points, of which those of fewer points may be known.
@@ -192,7 +191,6 @@ contains
       type(ehl_contact_t) :: contact
       type(ehl_options_t) :: options
       type(ehl_films_t) :: solution
-      character(len=64) :: text
 
       films = 0.0_wp
       contact%radius = radius
@@ -206,8 +204,7 @@ contains
       options%tolerance = max(options%tolerance, leftover*task%grid_accuracy)
       call solve_contact_film(contact, options, solution, error)
       if (allocated(error)) then
-         write (text, "(a, es9.2, a, es9.2)") "at U", exp(point(1)), ", W*", exp(point(2))
-         call add_context(error, trim(text))
+         call add_context(error, "at U "//number_text(exp(point(1)), 3)//", W* "//number_text(exp(point(2)), 3))
          return
       end if
       films = log([solution%minimum, solution%central]/radius)

@@ -7,6 +7,7 @@ module camroller_deck_sweep_keys
    use camroller_deck_schema, only : schema_t, add_group, add_integer, add_integers, add_name, add_number, add_text, &
       & add_words, anything, from_to, group_effect, not_negative, positive
    use camroller_deck_sweep, only : most_cases, scale_names, sweep_kind_names
+   use camroller_number_text, only : integer_text
    implicit none
    private
 
@@ -51,7 +52,7 @@ contains
       integer :: i
 
       do i = 1, sweep_key_count
-         write (digit, '(i1)') i
+         digit = integer_text(i)
          call add_text(schema, "key_"//digit, "key that is varied, as 'group.key'", is_optional=.true.)
          call add_words(schema, "values_"//digit, "its values; or from, to and count; samples take no count")
          call add_number(schema, "from_"//digit, anything, "its first value", is_optional=.true.)

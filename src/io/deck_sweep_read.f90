@@ -71,7 +71,7 @@ contains
          call complain(mistakes, settings, "sweep", "table", "'table' needs kind = 'table'")
       end if
       do i = 1, sweep_key_count
-         write (digit, '(i1)') i
+         digit = integer_text(i)
          if (.not. is_known(settings, "sweep", "key_"//digit)) then
             call refuse_values_without_key(settings, digit, mistakes)
             cycle

@@ -4,6 +4,7 @@
 module camroller_effect_words
    use camroller_kinds, only : wp
    use camroller_effect_list, only : choice_t, effect_names
+   use camroller_number_text, only : scientific_text, right_text
    implicit none
    private
 
@@ -26,7 +27,7 @@ contains
          associate (decision => choice%decisions(i))
             estimate = " large"
             if (decision%estimates(choice%quantity) < sqrt(huge(1.0_wp))) then
-               write (estimate, "(es8.1e2)") decision%estimates(choice%quantity)
+               estimate = right_text(scientific_text(decision%estimates(choice%quantity), 1), 8)
             end if
             if (i > 1) text = text//new_line("a")
             text = text//effect_names(decision%effect) (:20)//merge("kept     ", "left out ", decision%is_used)// &

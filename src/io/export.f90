@@ -10,6 +10,7 @@ module camroller_export
    use camroller_hdf5_file, only : discard_file
    use camroller_hdf5_read, only : has_member, is_text_dataset, list_members, member_length, open_file, read_extents, &
       & read_integer_attribute, read_numbers, read_text, read_text_attribute
+   use camroller_number_text, only : integer_text, write_number, number_length
    use camroller_output_file, only : format_version, result_format
    use camroller_system_file, only : is_folder, process_number, remove_file, rename_file
    implicit none
@@ -19,10 +20,8 @@ module camroller_export
 
    !> What `export_csv` can write
    integer, parameter :: export_series = 1, export_summary = 2
-   !> Letters of a number
-   integer, parameter :: number_length = 24
-   !> 17 significant digits, three of exponent
-   character(len=*), parameter :: number_format = '(es24.16e3)'
+   !> Digits after the first one: 17 tell any two numbers apart
+   integer, parameter :: decimals = 16
 
    !> A word of the table
    type :: word_t
@@ -220,12 +219,11 @@ contains
       type(error_t), allocatable, intent(out) :: error
 
       character(len=:), allocatable :: message
-      character(len=80) :: numbers
       real(wp), allocatable :: status(:) ! [-]
 
-      write (numbers, "('case ', i0, ': the file has the cases 0 to ', i0)") case, cases - 1
       if (case < 0 .or. case >= cases) then
-         call raise(error, kind_usage, "there is no "//trim(numbers))
+         call raise(error, kind_usage, "there is no case "//integer_text(case)//": the file has the cases 0 to "// &
+            & integer_text(cases - 1))
          return
       end if
       call read_numbers(file, "/summary/status", [case], [1], status, error)
@@ -233,7 +231,7 @@ contains
       if (status(1) > 0.0_wp) then
          call read_text(file, "/run/messages", [case], message, error)
          if (.not. allocated(error)) then
-            call raise(error, kind_usage, numbers(:index(numbers, ":") - 1)//" has no series, it failed: "//message)
+            call raise(error, kind_usage, "case "//integer_text(case)//" has no series, it failed: "//message)
          end if
       else if (.not. has_member(file, "/series/cam_angle")) then
          call raise(error, kind_usage, "'"//file%file//"' holds no series, the summary alone")
@@ -282,7 +280,6 @@ contains
 
       character(len=:), allocatable :: temporary
       character(len=200) :: message
-      character(len=32) :: number
       integer :: unit, status
       logical :: done
 
@@ -290,8 +287,7 @@ contains
          call raise(error, kind_file, "cannot write '"//path//"': it is a folder")
          return
       end if
-      write (number, "(i0)") process_number()
-      temporary = path//".unfinished-"//trim(number)
+      temporary = path//".unfinished-"//integer_text(process_number())
       open (newunit=unit, file=temporary, status="replace", action="write", iostat=status, iomsg=message)
       if (status /= 0) then
          call raise(error, kind_file, "cannot write '"//path//"': "//trim(message))
@@ -356,7 +352,7 @@ contains
          else if (table%has_words(i)) then
             line = line//quoted(table%words(row, i)%text)
          else
-            write (number, number_format) table%numbers(row, i)
+            call write_number(table%numbers(row, i), "es", decimals, number)
             line = line//trim(adjustl(number))
          end if
       end do

@@ -7,6 +7,7 @@ module camroller_output_file
    use camroller_kinds, only : wp
    use camroller_error, only : error_t, raise, kind_file, kind_internal, kind_usage
    use camroller_names, only : find_name, name_length
+   use camroller_number_text, only : integer_text
    use camroller_result, only : quantity_t
    use camroller_hdf5_object, only : hdf5_object_t
    use camroller_hdf5_file, only : close_file, create_file, create_group, create_integers, discard_file, &
@@ -162,7 +163,6 @@ contains
       !> File error
       type(error_t), allocatable, intent(out) :: error
 
-      character(len=32) :: number
       character(len=:), allocatable :: path
       integer :: attempt
       logical :: taken
@@ -179,8 +179,7 @@ contains
          return
       end if
       do attempt = 0, 99
-         write (number, "(i0,'-',i0)") process_number(), attempt
-         path = writer%path//".unfinished-"//trim(number)
+         path = writer%path//".unfinished-"//integer_text(process_number())//"-"//integer_text(attempt)
          inquire (file=path, exist=taken)
          if (.not. taken) exit
       end do

@@ -7,6 +7,7 @@ module camroller_spline
    use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
    use camroller_kinds, only : wp
    use camroller_error, only : error_t, raise, kind_domain
+   use camroller_number_text, only : integer_text
    use camroller_quintic_basis, only : taylor_coefficients
    use camroller_spline_fit, only : fit_t, prepare_clamped_fit, prepare_periodic_fit, solve_fit
    implicit none
@@ -192,27 +193,25 @@ contains
       type(error_t), allocatable, intent(out) :: error
 
       integer :: i
-      character(len=80) :: text
 
       if (size(points) /= size(values)) then
          call raise(error, kind_domain, "a table needs as many values as points")
          return
       end if
       if (size(points) < min_points) then
-         write (text, "(a,i0,a,i0)") "too few points in a table: ", size(points), ", needed are at least ", min_points
-         call raise(error, kind_domain, trim(text))
+         call raise(error, kind_domain, "too few points in a table: "//integer_text(size(points))//", needed are at least "// &
+            & integer_text(min_points))
          return
       end if
       do i = 1, size(points)
          if (.not. (ieee_is_finite(points(i)) .and. ieee_is_finite(values(i)))) then
-            write (text, "(a,i0,a)") "row ", i, " of the table is not a finite number"
-            call raise(error, kind_domain, trim(text))
+            call raise(error, kind_domain, "row "//integer_text(i)//" of the table is not a finite number")
             return
          end if
          if (i == 1) cycle
          if (points(i) <= points(max(i - 1, 1))) then
-            write (text, "(a,i0,a,i0)") "points of a table must increase: row ", i, " does not follow row ", i - 1
-            call raise(error, kind_domain, trim(text))
+            call raise(error, kind_domain, "points of a table must increase: row "//integer_text(i)//" does not follow row "// &
+               & integer_text(i - 1))
             return
          end if
       end do

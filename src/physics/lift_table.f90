@@ -7,6 +7,7 @@ module camroller_lift_table
    use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
    use camroller_kinds, only : wp, two_pi, degree
    use camroller_error, only : error_t, raise, add_context, kind_deck
+   use camroller_number_text, only : fixed_text
    use camroller_spline, only : spline_t, new_clamped_spline, new_periodic_spline
    implicit none
    private
@@ -111,16 +112,14 @@ contains
       type(error_t), allocatable, intent(out) :: error
 
       integer :: i
-      character(len=80) :: text
       !> Steps from row to row [rad]
       real(wp) :: step(size(angle) - 1)
 
       step = angle(2:) - angle(:size(angle) - 1)
       do i = 2, size(step) - 1
          if (step(i) <= gap_ratio*max(step(i - 1), step(i + 1))) cycle
-         write (text, "(a,f0.3,a,f0.3,a)") "lift table has a gap from ", angle(i)/degree, " to ", &
-            angle(i + 1)/degree, " deg"
-         call raise(error, kind_deck, trim(text))
+         call raise(error, kind_deck, "lift table has a gap from "//fixed_text(angle(i)/degree, 3)//" to "// &
+            & fixed_text(angle(i + 1)/degree, 3)//" deg")
          return
       end do
    end subroutine check_gaps

@@ -8,6 +8,7 @@ module camroller_lubricant
    use camroller_error, only : error_t, raise, kind_deck, kind_domain
    use camroller_names, only : name_length, find_name
    use camroller_contact_rule, only : rule_heights, rule_weights
+   use camroller_number_text, only : fixed_text
    implicit none
    private
 
@@ -187,7 +188,6 @@ contains
       real(wp) :: logs(3), ratio
       ! Constants of the law: c [K], b [K], a [-]
       real(wp) :: pole, slope, level
-      character(len=16) :: text
 
       viscosity = 0.0_wp
       logs = log(viscosities)
@@ -203,9 +203,8 @@ contains
       slope = (logs(1) - logs(2))*(temperatures(1) - pole)*(temperatures(2) - pole)/(temperatures(2) - temperatures(1))
       level = logs(1) - slope/(temperatures(1) - pole)
       if (temperature <= pole + 1.0_wp) then
-         write (text, "(f0.1)") pole - 273.15_wp
          call raise(error, kind_domain, "lubricant: the oil temperature is at or below the pole of the Vogel law at "// &
-            & trim(text)//" degC")
+            & fixed_text(pole - 273.15_wp, 1)//" degC")
          return
       end if
       viscosity = exp(level + slope/(temperature - pole))

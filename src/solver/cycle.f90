@@ -11,6 +11,7 @@ module camroller_cycle
    use camroller_model, only : model_t, evaluate_geometry
    use camroller_kinematics, only : position_t
    use camroller_dynamics, only : moments_t
+   use camroller_number_text, only : fixed_text
    use camroller_state, only : state_t, evaluate_state, evaluate_loading
    use camroller_events, only : find_stops, cycle_stops
    use camroller_fold, only : explain_end
@@ -376,7 +377,6 @@ contains
       real(wp) :: slope(1)
       ! Mobilised part of the boundary friction [-]
       real(wp) :: share
-      character(len=16) :: buffer
       integer :: status
       logical :: is_moved
 
@@ -403,9 +403,8 @@ contains
          end if
       end if
       if (status /= 0) then
-         write (buffer, "(f0.3)") modulo(180.0_wp + angle/degree, 360.0_wp)
          call raise(error, kind_convergence, "load and friction of the contact have no common solution at cam angle "// &
-            & trim(buffer)//" deg")
+            & fixed_text(modulo(180.0_wp + angle/degree, 360.0_wp), 3)//" deg")
       end if
    end subroutine state_at
 

@@ -12,6 +12,7 @@ module camroller_effect_reasons
    use camroller_effect_survey, only : survey_t
    use camroller_film, only : groups_t
    use camroller_hertz, only : peak_pressure
+   use camroller_number_text, only : fixed_text, scientific_text
    implicit none
    private
 
@@ -112,10 +113,9 @@ contains
       !> It in words
       character(len=number_length) :: text
 
-      write (text, "(es9.2e2)") number
-      if (abs(number) < 9999.5_wp .and. abs(number) >= 9.995_wp) write (text, "(f9.1)") number
-      if (abs(number) < 9.995_wp .and. abs(number) >= 0.01_wp) write (text, "(f6.3)") number
-      text = adjustl(text)
+      text = scientific_text(number, 2)
+      if (abs(number) < 9999.5_wp .and. abs(number) >= 9.995_wp) text = fixed_text(number, 1)
+      if (abs(number) < 9.995_wp .and. abs(number) >= 0.01_wp) text = fixed_text(number, 3)
    end function text
 
    !> A part of one in per cent.

@@ -11,6 +11,7 @@ module camroller_ehl_cycle
    use camroller_kinematics, only : position_t
    use camroller_dynamics, only : moments_t
    use camroller_events, only : find_stops_between
+   use camroller_number_text, only : fixed_text
    use camroller_spin, only : rolling_speed_at
    use camroller_state, only : evaluate_loading
    use camroller_ehl_grid, only : new_ehl_grid
@@ -210,7 +211,7 @@ contains
       !> The angle with full lift at 180 deg
       character(len=12) :: text
 
-      write (text, "(f0.3, a)") modulo(180.0_wp + angle/degree, 360.0_wp), " deg"
+      text = fixed_text(modulo(180.0_wp + angle/degree, 360.0_wp), 3)//" deg"
    end function angle_text
 
    !> Do start and end of a cycle agree as far as its steps are right? Where a cycle leaves a part of what the sliding speed

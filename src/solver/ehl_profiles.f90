@@ -16,6 +16,7 @@ module camroller_ehl_profiles
    use camroller_events, only : check_geometry
    use camroller_kinematics, only : position_t
    use camroller_model, only : model_t, new_model
+   use camroller_number_text, only : fixed_text
    use camroller_result, only : result_t, find_quantity
    use camroller_state, only : evaluate_loading
    implicit none
@@ -113,7 +114,6 @@ contains
       type(moment_t) :: before(1)
       integer :: i
       logical :: converged
-      character(len=16) :: text
 
       call prepare_march(march, model, ehl_cycle_options_t(nodes=profile_nodes, is_transient=.false.), error)
       if (allocated(error)) return
@@ -128,8 +128,8 @@ contains
          cycle%moments(i)%sliding_speed = speeds(i)
          call solve_at(model, march, before, state, cycle%moments(i), converged)
          if (.not. converged) then
-            write (text, "(f0.3)") modulo(180.0_wp + angles(i)/degree, 360.0_wp)
-            call raise(error, kind_convergence, "ehl: no film at cam angle "//trim(text)//" deg")
+            call raise(error, kind_convergence, "ehl: no film at cam angle "// &
+               & fixed_text(modulo(180.0_wp + angles(i)/degree, 360.0_wp), 3)//" deg")
             return
          end if
          before(1) = cycle%moments(i)

@@ -7,6 +7,7 @@ module camroller_ehl_summary
    use camroller_ehl_cycle, only : ehl_cycle_t
    use camroller_kinematics, only : position_t
    use camroller_model, only : model_t, evaluate_geometry
+   use camroller_number_text, only : number_text, integer_text
    use camroller_spin, only : rolling_speed_at
    implicit none
    private
@@ -105,13 +106,11 @@ contains
       !> Convergence error that says by how much they differ
       type(error_t), allocatable, intent(out) :: error
 
-      character(len=160) :: text
-
       if (max(film_difference(coarse, fine), slip_difference(coarse, fine)) <= accuracy) return
-      write (text, "(2(i0, a), 2(es8.1, a), es8.1)") coarse%nodes, " and ", fine%nodes, " nodes differ by", &
-         & film_difference(coarse, fine), " in the film and by", slip_difference(coarse, fine), &
-         & " in the mean slip; the largest allowed (ehl.accuracy) is", accuracy
-      call raise(error, kind_convergence, "ehl: "//trim(text))
+      call raise(error, kind_convergence, "ehl: "//integer_text(coarse%nodes)//" and "//integer_text(fine%nodes)// &
+         & " nodes differ by "//number_text(film_difference(coarse, fine), 2)//" in the film and by "// &
+         & number_text(slip_difference(coarse, fine), 2)//" in the mean slip; the largest allowed (ehl.accuracy) is "// &
+         & number_text(accuracy, 2))
    end subroutine compare_cycles
 
 end module camroller_ehl_summary

@@ -10,6 +10,7 @@ module camroller_events
    use camroller_lift, only : is_at_rest
    use camroller_kinematics, only : position_t
    use camroller_dynamics, only : moments_t
+   use camroller_number_text, only : fixed_text
    use camroller_state, only : evaluate_loading
    use camroller_roots, only : bracket_t, start_bracket, narrow_bracket, root_wanted
    implicit none
@@ -260,7 +261,7 @@ contains
       !> Text
       character(len=32) :: text
 
-      write (text, "(a, f0.2, a)") " at cam angle ", 180.0_wp + angle/degree, " deg"
+      text = " at cam angle "//fixed_text(180.0_wp + angle/degree, 2)//" deg"
    end function at_angle
 
    !> Smallest load of the event and the speed at which contact would first be lost, without friction.

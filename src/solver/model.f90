@@ -18,6 +18,7 @@ module camroller_model
    use camroller_ehl_table, only : ehl_t, build_film_table
    use camroller_asperity, only : asperity_law_names, law_zhao_maietta_chang, smallest_product, boundary_names, &
       & mobilisation_names, asperity_constants_t, new_asperity_constants
+   use camroller_number_text, only : number_text
    use camroller_traction, only : traction_t, shear_law_names, cap_names, rolling_law_names
    use camroller_needle, only : friction_radius, roller_bearing_names
    use camroller_guide, only : guide_drag_coefficient
@@ -371,7 +372,6 @@ contains
       type(position_t) :: closed
       ! Force of the adjuster at the valve's tip [N]
       real(wp) :: tip_force
-      character(len=12) :: texts(2)
       integer :: status
 
       model%base_circle_load = case%spring%base_circle_load
@@ -394,9 +394,9 @@ contains
       tip_force = model%base_circle_load*merge(closed%normal_arm, closed%parallel_arm, model%has_exact_arm)/closed%valve_arm
       model%train%closed_seat_force = model%train%stiffness*model%train%precompression - tip_force
       if (model%train%closed_seat_force <= 0.0_wp) then
-         write (texts, "(f0.1)") tip_force, model%train%stiffness*model%train%precompression
          call raise(error, kind_deck, "spring: the lash adjuster lifts the valve off its seat: base_circle_load presses the "// &
-            & "valve with "//trim(texts(1))//" N, the closed spring holds "//trim(texts(2))//" N; lower base_circle_load, "// &
+            & "valve with "//number_text(tip_force, 6)//" N, the closed spring holds "// &
+            & number_text(model%train%stiffness*model%train%precompression, 6)//" N; lower base_circle_load, "// &
             & "raise stiffness or precompression, or choose seating = 'maximum' with energy = 'source'")
          return
       end if

@@ -9,6 +9,7 @@ module camroller_quasi_static
    use camroller_model, only : model_t
    use camroller_kinematics, only : position_t
    use camroller_balance, only : follow_balance
+   use camroller_number_text, only : fixed_text
    use camroller_ode, only : counters_t
    use camroller_trajectory, only : trajectory_t, start_trajectory, append_point
    implicit none
@@ -126,15 +127,14 @@ contains
       type(position_t) :: position
       ! Decay rate [1/rad]
       real(wp) :: decay_rate
-      character(len=16) :: buffer
       logical :: is_found
 
       sliding_speed = guess
       call follow_balance(model, angle, balance_part*tolerance, position, sliding_speed, decay_rate, counters%evaluations, &
          & is_found)
       if (is_found) return
-      write (buffer, "(f0.3)") modulo(180.0_wp + angle/degree, 360.0_wp)
-      call raise(error, kind_convergence, "quasi-static limit: the roller has no algebraic balance at cam angle "//trim(buffer)// &
+      call raise(error, kind_convergence, "quasi-static limit: the roller has no algebraic balance at cam angle "// &
+         & fixed_text(modulo(180.0_wp + angle/degree, 360.0_wp), 3)// &
          & " deg: no contact there, or traction cannot follow the kinematics; choose another method")
    end subroutine balance_at
 

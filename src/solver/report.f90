@@ -6,6 +6,7 @@ module camroller_report
    use camroller_error, only : error_t, raise, add_context, kind_domain
    use camroller_case, only : case_t
    use camroller_model, only : model_t
+   use camroller_number_text, only : number_text, fixed_text
    use camroller_state, only : state_t
    use camroller_cycle, only : cycle_t
    use camroller_catalogue, only : list_series, series_values, follower_torques, torque_count
@@ -113,13 +114,10 @@ contains
       !> Warnings, one per line
       character(len=:), allocatable, intent(inout) :: warnings
 
-      character(len=12) :: buffer
-
       if (statistics%error <= worth_a_warning) return
-      write (buffer, "(es9.1)") statistics%error
       if (len(warnings) > 0) warnings = warnings//new_line("a")
-      warnings = warnings//"the sliding speed is not resolved: the estimate of its error is "//trim(adjustl(buffer))// &
-         & " of the largest; take another method, a smaller tolerance or smaller steps"
+      warnings = warnings//"the sliding speed is not resolved: the estimate of its error is "// &
+         & number_text(statistics%error, 2)//" of the largest; take another method, a smaller tolerance or smaller steps"
    end subroutine check_error
 
    !> Warn or stop where the film law was used outside its range.
@@ -134,13 +132,11 @@ contains
       type(error_t), allocatable, intent(out) :: error
 
       character(len=:), allocatable :: text
-      character(len=12) :: buffer(2)
 
       if (statistics%outside_share <= 0.0_wp) return
-      write (buffer(1), "(f0.1)") 100.0_wp*statistics%outside_share
-      write (buffer(2), "(f0.1)") modulo(180.0_wp + statistics%first_outside/degree, 360.0_wp)
-      text = "the film law is outside its published range for "//trim(buffer(1))//" % of the cycle, e.g. at cam angle "// &
-         & trim(buffer(2))//" deg"
+      text = "the film law is outside its published range for "//fixed_text(100.0_wp*statistics%outside_share, 1)// &
+         & " % of the cycle, e.g. at cam angle "// &
+         & fixed_text(modulo(180.0_wp + statistics%first_outside/degree, 360.0_wp), 1)//" deg"
       if (model%stops_outside_range) then
          call raise(error, kind_domain, text//" (range_policy = 'stop')")
       else

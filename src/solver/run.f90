@@ -14,6 +14,7 @@ module camroller_run
    use camroller_effect_report, only : add_choice
    use camroller_events, only : check_geometry
    use camroller_cycle, only : cycle_t, integrate_cycle
+   use camroller_number_text, only : number_text, fixed_text
    use camroller_report, only : make_result
    use camroller_result, only : result_t, get_summary
    implicit none
@@ -201,21 +202,18 @@ contains
 
       ! Cam angle where the estimate is largest [deg]
       real(wp) :: angle
-      character(len=12) :: buffer, place
 
-      write (buffer, "(es9.1e3)") estimate
       if (estimate >= 1.0_wp) then
          call get_summary(result, "estimated_error_angle", angle, error)
          if (allocated(error)) return
-         write (place, "(f7.3)") angle
-         call raise(error, kind_convergence, "the cycle was not found: its estimated error is "//trim(adjustl(buffer))// &
-            & " of the sliding speed, largest at cam angle "//trim(adjustl(place))//" deg; the spin is hardly damped there, or "// &
+         call raise(error, kind_convergence, "the cycle was not found: its estimated error is "//number_text(estimate, 2)// &
+            & " of the sliding speed, largest at cam angle "//fixed_text(angle, 3)//" deg; the spin is hardly damped there, or "// &
             & "friction gives way at once")
          return
       end if
       if (len(result%warnings) > 0) result%warnings = result%warnings//new_line("a")
       result%warnings = result%warnings//"the accuracy asked for was not reached; the estimated error is "// &
-         & trim(adjustl(buffer))
+         & number_text(estimate, 2)
    end subroutine judge
 
    !> Remark on a tolerance given by hand that says nothing of the error: steps keep to it and the curve between them does not, or
@@ -230,17 +228,15 @@ contains
 
       ! Estimated error [-]
       real(wp) :: estimate
-      character(len=12) :: buffer(2)
 
       if (.not. has_tolerance(numerics)) return
       call get_summary(result, "estimated_error", estimate, error)
       if (allocated(error)) return
       if (estimate <= numerics%tolerance*far_beyond) return
-      write (buffer(1), "(es9.1e3)") estimate
-      write (buffer(2), "(es9.1e3)") numerics%tolerance
       if (len(result%warnings) > 0) result%warnings = result%warnings//new_line("a")
-      result%warnings = result%warnings//"the tolerance "//trim(adjustl(buffer(2)))//" does not hold the error: that is "// &
-         & "estimated as "//trim(adjustl(buffer(1)))//"; leave the tolerance out and give the accuracy wanted instead"
+      result%warnings = result%warnings//"the tolerance "//number_text(numerics%tolerance, 2)// &
+         & " does not hold the error: that is estimated as "//number_text(estimate, 2)// &
+         & "; leave the tolerance out and give the accuracy wanted instead"
    end subroutine judge_tolerance
 
    !> Models of the lobe shapes of a case, geometry checked over the whole cycle.

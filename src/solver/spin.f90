@@ -5,6 +5,7 @@
 !> speeds. The source integrates the roller's surface speed `r_R omega_R` instead; its fixed step does so here too.
 module camroller_spin
    use camroller_kinds, only : wp, degree
+   use camroller_number_text, only : fixed_text
    use camroller_ode_problem, only : problem_t, linear_t, counters_t, time_increment, linearise_in_two, words_length
    use camroller_model, only : model_t, evaluate_geometry
    use camroller_kinematics, only : position_t
@@ -233,10 +234,7 @@ contains
       !> It in words
       character(len=words_length) :: text
 
-      character(len=16) :: buffer
-
-      write (buffer, "(f0.3)") modulo(180.0_wp + time/degree, 360.0_wp)
-      text = "cam angle "//trim(buffer)//" deg"
+      text = "cam angle "//fixed_text(modulo(180.0_wp + time/degree, 360.0_wp), 3)//" deg"
       if (self%has_surface_speed) text = trim(text)//" (fixed step)"
    end function name_time
 

@@ -9,6 +9,7 @@ module camroller_study
    use camroller_kinds, only : wp, degree
    use camroller_error, only : error_t, raise, add_context, kind_convergence
    use camroller_case, only : case_t, numerics_t
+   use camroller_number_text, only : number_text
    use camroller_result, only : quantity_t
    use camroller_run, only : build_models
    use camroller_model, only : model_t
@@ -84,12 +85,10 @@ contains
       !> Convergence error
       type(error_t), allocatable, intent(out) :: error
 
-      character(len=12) :: texts(2)
-
       if (disagreement <= agreement*smallest_error) return
-      write (texts, "(es8.1)") disagreement, agreement*smallest_error
       call raise(error, kind_convergence, "no reference: "//trim(reference_rungs(1)%method)//" and "// &
-         & trim(reference_rungs(2)%method)//" differ by"//trim(texts(1))//", allowed is"//trim(texts(2)))
+         & trim(reference_rungs(2)%method)//" differ by "//number_text(disagreement, 2)//", allowed is "// &
+         & number_text(agreement*smallest_error, 2))
    end subroutine check_reference
 
    !> The failure of a trial as an error.

@@ -63,6 +63,9 @@ def test_good_code_passes(tmp_path, capsys):
     ("      answer =", "      if (length < 0) write (*, *) length\n      answer =", "print"),
     ("      answer =", "      error stop 1\n      answer =", "stop"),
     ("      answer =", "      if (length < 0) stop\n      answer =", "stop"),
+    ("      answer =", "      write (buffer, '(f0.1)') length\n      answer =", "write"),
+    ("      answer =", "      if (length < 0) write (line(20:), *) length\n      answer =", "write"),
+    ("      answer =", "      write (unit=self%text, fmt=*) length\n      answer =", "write"),
     ("camroller_sample", "camroller_simple", "name"),
     ("      answer =", "      stop_length = length\n"*60 + "      answer =", "procedure"),
     ("!> A sentence.\n", "!> A sentence.\n"*500, "length"),
@@ -97,6 +100,11 @@ def test_one_comment_speaks_for_declarations_that_follow_each_other(tmp_path, ca
 def test_programs_may_print_and_stop(tmp_path, capsys):
     text = "program main\n   implicit none\n   print *, 1\n   stop\nend program\n"
     assert faults(tmp_path, capsys, text, "app/main.f90") == []
+
+
+def test_writing_to_units_is_no_write_into_a_text(tmp_path, capsys):
+    lines = "".join(f"      write ({unit}, '(a)') words\n" for unit in ("unit", "self%unit", "error_unit", "unit=output_unit"))
+    assert faults(tmp_path, capsys, GOOD.replace("      answer =", lines + "      answer =")) == []
 
 
 def test_inner_procedures_count_for_themselves(tmp_path, capsys):

@@ -131,3 +131,10 @@ def test_binary_file_is_refused(camroller, tmp_path):
     deck = tmp_path / "binary.nml"
     deck.write_bytes(bytes(range(256)) * 8)
     assert "is no text file" in refused(run(camroller, "check", deck), FILE)
+
+
+def test_a_load_of_any_size_has_words(camroller):
+    message = refused(run(camroller, "check", "decks/thesis.nml", "--set", "spring.base_circle_load_N=1e12"), DECK)
+    assert "lifts the valve off its seat" in message
+    message = refused(run(camroller, "check", "decks/thesis.nml", "--set", "spring.precompression_mm=0.01"), DECK)
+    assert "holds 0." in message

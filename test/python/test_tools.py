@@ -137,3 +137,16 @@ def test_what_knows_the_commit_is_compiled_again(tmp_path):
     (tmp_path / "tools/write_commit.sh").write_bytes((ROOT / "tools/write_commit.sh").read_bytes())
     subprocess.run(["bash", tmp_path / "tools/write_commit.sh"], check=True, capture_output=True)
     assert [path for path in objects if path.exists()] == []
+
+
+def test_what_a_moved_source_left_is_not_linked(tmp_path):
+    """fpm leaves the object of a source that was moved in its library, beside the new one."""
+    folder = tmp_path / "build/gfortran_1/camroller"
+    for name in ("tools/write_commit.sh", "src/base/words.f90", "build/gfortran_1/camroller/src_base_words.f90.o",
+                 "build/gfortran_1/camroller/src_io_words.f90.o", "build/gfortran_2/camroller/libcamroller.a"):
+        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / name).touch()
+    (tmp_path / "tools/write_commit.sh").write_bytes((ROOT / "tools/write_commit.sh").read_bytes())
+    subprocess.run(["bash", tmp_path / "tools/write_commit.sh"], check=True, capture_output=True)
+    assert [path.name for path in folder.iterdir()] == ["src_base_words.f90.o"]
+    assert list((tmp_path / "build/gfortran_2/camroller").iterdir()) == []

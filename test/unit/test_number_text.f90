@@ -1,8 +1,10 @@
 !> Tests of numbers as text.
 module test_number_text
+   use, intrinsic :: ieee_arithmetic, only : ieee_value, ieee_quiet_nan, ieee_positive_inf
+   use, intrinsic :: iso_fortran_env, only : int64
    use testdrive, only : unittest_type, new_unittest, error_type, check
    use camroller_kinds, only : wp, pi
-   use camroller_number_text, only : number_text, integer_text, is_number, is_beyond_range
+   use camroller_number_text, only : number_text, fixed_text, scientific_text, integer_text, right_text, is_number, is_beyond_range
    implicit none
    private
 
@@ -19,6 +21,9 @@ contains
          new_unittest("a number is written with as few digits as give it back", short_numbers), &
          new_unittest("any number comes back as it was", numbers_come_back), &
          new_unittest("a number is rounded where that is asked for", rounded_numbers), &
+         new_unittest("digits after the point follow at least one digit before it", fixed_numbers), &
+         new_unittest("every number has a text in every form", extreme_numbers), &
+         new_unittest("a column is as wide as asked for, or as its word", columns), &
          new_unittest("words are told from numbers", words_and_numbers), &
          new_unittest("numbers too large to be held are found without reading them", too_large) &
          ]
@@ -67,6 +72,67 @@ contains
       if (allocated(error)) return
       call check(error, number_text(0.99999_wp, 2), "1")
    end subroutine rounded_numbers
+
+   subroutine fixed_numbers(error)
+      type(error_type), allocatable, intent(out) :: error
+
+      call check(error, fixed_text(0.2_wp, 1), "0.2")
+      if (allocated(error)) return
+      call check(error, fixed_text(-0.25_wp, 3), "-0.250")
+      if (allocated(error)) return
+      call check(error, fixed_text(1.0e12_wp, 1), "1000000000000.0")
+      if (allocated(error)) return
+      call check(error, fixed_text(2.5e20_wp, 1), "2.5E+20")
+      if (allocated(error)) return
+      call check(error, scientific_text(1.25e-4_wp, 2), "1.25E-04")
+      if (allocated(error)) return
+      call check(error, scientific_text(-1.25e-104_wp, 1), "-1.2E-104")
+   end subroutine fixed_numbers
+
+   !> With run-time checks an overflow on the way would end the program.
+   subroutine extreme_numbers(error)
+      type(error_type), allocatable, intent(out) :: error
+
+      !> Numbers at the ends of their range [-]
+      real(wp) :: numbers(8), again
+      integer :: i, digits
+
+      numbers = [huge(1.0_wp), -huge(1.0_wp), tiny(1.0_wp), -tiny(1.0_wp)*epsilon(1.0_wp), 1.0e308_wp, 9.99e307_wp, 1.0e12_wp, &
+         & 0.0_wp]
+      do i = 1, size(numbers)
+         call check(error, is_number(number_text(numbers(i))), number_text(numbers(i)))
+         if (allocated(error)) return
+         again = number_read(number_text(numbers(i)))
+         call check(error, again, numbers(i), thr=0.0_wp, message=number_text(numbers(i)))
+         if (allocated(error)) return
+         do digits = 1, 17
+            call check(error, is_number(number_text(numbers(i), digits)) .and. is_number(fixed_text(numbers(i), digits - 1)) &
+               & .and. is_number(scientific_text(numbers(i), digits - 1)), number_text(numbers(i)))
+            if (allocated(error)) return
+         end do
+      end do
+      call check(error, number_text(ieee_value(1.0_wp, ieee_quiet_nan))//fixed_text(ieee_value(1.0_wp, ieee_positive_inf), 3)// &
+         & number_text(-ieee_value(1.0_wp, ieee_positive_inf), 3), "NaNInfinity-Infinity")
+      if (allocated(error)) return
+      call check(error, integer_text(-huge(1) - 1)//integer_text(huge(1_int64))//integer_text(0), &
+         & "-214748364892233720368547758070")
+   end subroutine extreme_numbers
+
+   !> A number as it is read.
+   function number_read(text) result(number)
+      !> The text
+      character(len=*), intent(in) :: text
+      !> The number [-]
+      real(wp) :: number
+
+      read (text, *) number
+   end function number_read
+
+   subroutine columns(error)
+      type(error_type), allocatable, intent(out) :: error
+
+      call check(error, right_text("12", 5)//right_text("123456", 5)//right_text("", 2), "   12123456  ")
+   end subroutine columns
 
    subroutine words_and_numbers(error)
       type(error_type), allocatable, intent(out) :: error
