@@ -11,6 +11,7 @@ from typing import Callable
 import numpy as np
 
 from comparison_runs import SPEEDS, TEMPERATURES
+from units import significant
 
 NOSE = (165.0, 195.0)  # degree
 FLANKS = ((116.0, 137.0), (222.0, 242.0))  # degree, as the source names them
@@ -35,14 +36,6 @@ class Statement:
     source: str
     says: str
     claims: tuple
-
-
-def significant(value, count=3):
-    """A number with so many significant digits and no exponent."""
-    if value == 0.0 or not np.isfinite(value):
-        return f"{value:.0f}"
-    decimals = count - 1 - int(np.floor(np.log10(abs(value))))
-    return f"{round(value, decimals):.{max(decimals, 0)}f}"
 
 
 def listed(values, scale=1.0, count=3):

@@ -6,7 +6,8 @@ does not hold; a claim that does not hold and has no reason here is shown as une
 
 import numpy as np
 
-from comparison_claims import BASE, FLANKS, NOSE, band, largest, listed, percent, significant
+from comparison_claims import BASE, FLANKS, NOSE, band, largest, listed, percent
+from units import significant
 
 UNEXPLAINED = "unexplained"
 

@@ -3,8 +3,9 @@ worth, magnitudes, values as printed, and the source's step."""
 
 import numpy as np
 
-from comparison_claims import STATEMENTS, band, by_temperature, largest, listed, percent, significant
+from comparison_claims import STATEMENTS, band, by_temperature, largest, listed, percent
 from comparison_runs import CHOICES, SPEEDS, TEMPERATURES
+from units import significant
 
 WHERE = [(row, column) for row in range(len(SPEEDS)) for column in range(len(TEMPERATURES))]
 NAMES = [f"{SPEEDS[row]:.0f}/{TEMPERATURES[column]:.0f}" for row, column in WHERE]

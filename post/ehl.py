@@ -23,6 +23,9 @@ from matplotlib.colors import LogNorm  # noqa: E402
 from matplotlib.figure import Figure  # noqa: E402
 import numpy  # noqa: E402
 
+from command import run, save_figure  # noqa: E402
+from read import ResultError, opened  # noqa: E402
+
 DEGREE = "\N{DEGREE SIGN}"
 MICRO = "\N{MICRO SIGN}"
 REACH = 2.5  # half widths of the widest contact that are shown on both sides
@@ -33,12 +36,14 @@ ANGLE = f"cam angle, full lift at 180{DEGREE} [{DEGREE}]"
 def read(path: str, case: int) -> dict[str, dict]:
     """Lobe shapes by name, each with its quantities of one case; where there is no contact, numbers are NaN."""
     lobes = {}
-    with h5py.File(path) as file:
+    with opened(path, "a file of solved contacts") as file:
+        if "ehl" not in file:
+            raise ResultError(f"{path}: no solved contacts in it")
         for name, group in (("", file["ehl"]), ("second_lift", file["ehl"].get("second_lift"))):
             if group is None:
                 continue
             if not 0 <= case < group["load"].shape[0]:
-                raise ValueError(f"{path}: there is no case {case}")
+                raise ResultError(f"{path}: there is no case {case}; it has 0 to {group['load'].shape[0] - 1}")
             data = {key: item[case] if item.ndim > 1 else item[:] for key, item in group.items() if isinstance(item, h5py.Dataset)}
             lost = ~(data["film_min"] > 0)
             for key, values in data.items():
@@ -128,20 +133,23 @@ def draw_map(data: dict, title: str) -> Figure:
 
 def read_point(path: str, case: int) -> str:
     """What a sweep varies, with its values in one case; nothing without a sweep."""
-    with h5py.File(path) as file:
+    with opened(path) as file:
         return ", ".join(f"{key.rpartition('.')[2]} = {data[case]:.6g}" for key, data in file.get("sweep", {}).items()
                          if key != "case" and data.ndim == 1 and data.dtype.kind == "f")
 
 
 def read_run(path: str, case: int) -> dict:
     """Cam angle and sliding speed of a run."""
-    with h5py.File(path) as file:
+    with opened(path, "a result of a run with series") as file:
+        cases = file["series/sliding_speed"].shape[0]
+        if case >= cases:
+            raise ResultError(f"{path}: there is no case {case}; it has 0 to {cases - 1}")
         return {"angle": file["series/cam_angle"][:], "sliding_speed": file["series/sliding_speed"][case]}
 
 
 def main(arguments=None) -> int:
     """Command line; returns the exit code."""
-    parser = argparse.ArgumentParser(description="draw solved contacts over the cycle")
+    parser = argparse.ArgumentParser(prog="ehl.py", description="draw solved contacts over the cycle")
     parser.add_argument("file")
     parser.add_argument("run", nargs="?")
     parser.add_argument("--output", required=True)
@@ -152,22 +160,29 @@ def main(arguments=None) -> int:
     try:
         lobes = read(options.file, options.case)
         point = read_point(options.file, options.case)
-        run = read_run(options.run, options.case) if options.run else None
-    except (OSError, KeyError, ValueError) as error:
-        print(f"ehl.py: no solved contacts: {error}", file=sys.stderr)
+        run_beside = read_run(options.run, options.case) if options.run else None
+        for name, data in lobes.items():
+            if numpy.isnan(data["load"]).all():
+                raise ResultError(f"case {options.case} has no solved contacts")
+            title = f"case {options.case}" + (f": {point}" if point else "") + (", second lobe shape" if name else "")
+            for target, make in ((options.output, lambda: draw(data, None if name else run_beside, options.angles, title)),
+                                 (options.map, lambda: draw_map(data, title))):
+                if target:
+                    path = pathlib.Path(target)
+                    save_figure(made(make, options.file), path.with_stem(path.stem + ("_" + name if name else "")), dpi=90)
+    except ResultError as error:
+        print(f"ehl.py: {error}", file=sys.stderr)
         return 2
-    for name, data in lobes.items():
-        if numpy.isnan(data["load"]).all():
-            print(f"ehl.py: case {options.case} has no solved contacts", file=sys.stderr)
-            return 2
-        title = f"case {options.case}" + (f": {point}" if point else "") + (", second lobe shape" if name else "")
-        for target, make in ((options.output, lambda: draw(data, None if name else run, options.angles, title)),
-                             (options.map, lambda: draw_map(data, title))):
-            if target:
-                path = pathlib.Path(target)
-                make().savefig(path.with_stem(path.stem + ("_" + name if name else "")), dpi=90)
     return 0
 
 
+def made(make, path: str) -> Figure:
+    """A figure; ResultError where quantities are missing, or of lengths that do not fit."""
+    try:
+        return make()
+    except (KeyError, ValueError, IndexError, TypeError) as error:
+        raise ResultError(f"{path}: not solved contacts that can be drawn: {error}") from None
+
+
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(run(main, "ehl.py"))

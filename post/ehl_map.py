@@ -14,11 +14,26 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy
 
+from command import one_line, run, save_figure
+from read import ResultError
+
 LAWS = ["Dowson-Higginson", "Pan-Hamrock", "Masjedi-Khonsari", "Moes"]
+COLUMNS = 4 + 2 * len(LAWS)
 LEVELS = [-0.5, -0.2, -0.1, -0.05, 0.05, 0.1, 0.2, 0.5]
 
 
-def draw(table: numpy.ndarray, path: str) -> None:
+def read(path: str) -> numpy.ndarray:
+    """The table; ResultError where it is none."""
+    try:
+        table = numpy.loadtxt(path, ndmin=2)
+    except (OSError, ValueError) as error:
+        raise ResultError(f"{path}: no table of film formulas: {one_line(error)}") from None
+    if table.shape[1] != COLUMNS or table.shape[0] < 3 or not (table[:, :2] > 0).all():
+        raise ResultError(f"{path}: no table of film formulas: {COLUMNS} columns and 3 rows or more are needed, U and W above 0")
+    return table
+
+
+def draw(table: numpy.ndarray):
     """One panel for each law and film."""
     figure, axes = plt.subplots(2, 4, figsize=(13, 6.4), sharex=True, sharey=True, layout="constrained")
     for row, film in enumerate(["smallest film", "central film"]):
@@ -34,7 +49,7 @@ def draw(table: numpy.ndarray, path: str) -> None:
             if not column:
                 axis.set_ylabel("log10 W*")
     figure.colorbar(image, ax=axes, label="formula over numerical film, less one", ticks=levels)
-    figure.savefig(path, dpi=90)
+    return figure
 
 
 def main(arguments=None) -> int:
@@ -43,9 +58,13 @@ def main(arguments=None) -> int:
     if len(words) != 2:
         print(__doc__, file=sys.stderr)
         return 2
-    draw(numpy.loadtxt(words[0]), words[1])
+    try:
+        save_figure(draw(read(words[0])), words[1], dpi=90)
+    except ResultError as error:
+        print(f"ehl_map.py: {error}", file=sys.stderr)
+        return 2
     return 0
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(run(main, "ehl_map.py"))

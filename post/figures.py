@@ -3,15 +3,18 @@
 `draw(name, layout)` makes one of `FIGURES`; it raises `Missing` where no file has what it needs.
 """
 
+import textwrap
+
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 import numpy as np
 
-from bars import shown_in_bars, slip_bars, torque_bars
+from bars import MOST_BARS, shown_in_bars, slip_bars, torque_bars
 from layout import line_style, thin_out
-from parts import (MOST_PANELS, angle_axis, closed, draw_curve, event_window, file_handles, head, legend_handles,
+from parts import (MOST_PANELS, angle_axis, closed, draw_curve, event_window, file_legend, head, legend_handles,
                    ranges_of, seen_range, set_values_axis)
-from quantities import CURVES, OVERVIEW, SOURCES, TORQUES, Missing, has_series, need_series, unit_text, values_of
+from quantities import CURVES, OVERVIEW, SOURCES, TORQUES, Missing, has_series, need_series, values_of
+from units import unit_words
 
 MOST_COLUMNS = 4  # of the overview
 
@@ -29,6 +32,7 @@ def shown(layout, panels):
 def curve_figure(curve, layout, whole_cycle):
     """One quantity over the cam angle, a panel for each value of the second swept key."""
     need_series(layout, curve.series)
+    layout.refuse_too_many()
     same = same_in_all_panels(layout, curve)
     panels = layout.panels[:1] if same else thin_out(layout.panels, MOST_PANELS)
     columns = min(len(panels), 3)
@@ -36,7 +40,7 @@ def curve_figure(curve, layout, whole_cycle):
     figure = Figure(figsize=(7.0 if columns == 1 else 2.0 + 3.2 * columns, 1.6 + 2.9 * rows), layout="constrained")
     grid = figure.subplots(rows, columns, squeeze=False)
     whole = curve.whole_cycle if whole_cycle is None else whole_cycle
-    window = (0.0, 360.0) if whole else event_window(layout)
+    window = (0.0, 360.0) if whole else event_window(layout, [curve.series])
     for axes in list(grid.flat)[len(panels):]:
         axes.remove()
     limits = [draw_curve(axes, layout, curve, panel, window) for axes, panel in zip(grid.flat, panels)]
@@ -46,7 +50,7 @@ def curve_figure(curve, layout, whole_cycle):
         if len(panels) > 1:
             axes.set_title(layout.panel_name(panel), fontsize="medium")
         if place % columns == 0:
-            axes.set_ylabel(f"{curve.title} [{unit_text(curve.unit)}]")
+            axes.set_ylabel(f"{curve.title} [{unit_words(curve.unit)}]")
     values, _ = shown(layout, panels)
     title = curve.title + (f", the same at each {layout.panel_words()}" if same else "")
     head(figure, layout, title, legend_handles(layout), (values, len(layout.panels) if same else len(panels)))
@@ -55,52 +59,64 @@ def curve_figure(curve, layout, whole_cycle):
 
 def same_in_all_panels(layout, curve):
     """Whether a quantity (the lift, say) does not depend on the keys that make the panels."""
-    drawn = {}
+    drawn, counts = {}, {}
     for entry in layout.entries:
-        values = values_of(layout, entry, curve.series, curve.unit)
-        if values is not None and not np.array_equal(drawn.setdefault((entry.file, entry.colour), values), values):
+        values, place = values_of(layout, entry, curve.series, curve.unit), (entry.file, entry.colour)
+        counts[place] = counts.get(place, 0) + 1
+        if values is None or not np.array_equal(drawn.setdefault(place, values), values):
             return False
-    return len(layout.panels) > 1 and len(drawn) == len({(entry.file, entry.colour) for entry in layout.entries})
+    return len(layout.panels) > 1 and set(counts.values()) == {len(layout.panels)}
 
 
 def torque_figure(layout, whole_cycle):
     """Drive torque with its geometric and friction parts, a panel for each case."""
     need_series(layout, *(name for name, *_ in TORQUES))
-    colours, panels = thin_out(layout.colours, 3), thin_out(layout.panels, 3)
-    figure = Figure(figsize=(7.0 if len(panels) == 1 else 2.0 + 3.2 * len(panels), 1.6 + 2.4 * len(colours)),
-                    layout="constrained")
-    grid = figure.subplots(len(colours), len(panels), sharex=True, sharey=True, squeeze=False)
-    window = (0.0, 360.0) if whole_cycle else event_window(layout)
+    layout.refuse_too_many()
+    colours, panels = (layout.colours if layout.is_list else thin_out(layout.colours, 3)), thin_out(layout.panels, 3)
+    places = [(colour, panel) for colour in colours for panel in panels]
+    columns = min(3, len(places)) if layout.is_list else len(panels)
+    rows = -(-len(places) // columns)
+    figure = Figure(figsize=(7.0 if columns == 1 else 2.0 + 3.2 * columns, 1.6 + 2.4 * rows), layout="constrained")
+    grid = list(figure.subplots(rows, columns, sharex=True, sharey=True, squeeze=False).flat)
+    window = (0.0, 360.0) if whole_cycle else event_window(layout, [name for name, *_ in TORQUES])
     limits = []
-    for number, colour in enumerate(colours):
-        for axes, panel in zip(grid[number], panels):
-            for part in TORQUES:
-                limits += [_torque_curve(axes, layout, entry, part, window)
-                           for entry in layout.entries_of(panel, [colour])]
-            angle_axis(axes, window, labelled=number == len(colours) - 1)
-            names = [layout.name(layout.colour_key, colour) if len(layout.colours) > 1 else "",
-                     layout.panel_name(panel) if len(layout.panels) > 1 else ""]
-            axes.set_title(", ".join(filter(None, names)), fontsize="medium")
-        grid[number, 0].set_ylabel("torque [N m]")
+    for number, (axes, (colour, panel)) in enumerate(zip(grid, places)):
+        for part in TORQUES:
+            limits += [_torque_curve(axes, layout, entry, part, window) for entry in layout.entries_of(panel, [colour])]
+        angle_axis(axes, window, labelled=number + columns >= len(places))
+        names = [layout.name(layout.colour_key, colour) if len(layout.colours) > 1 else "",
+                 layout.panel_name(panel) if len(layout.panels) > 1 else ""]
+        axes.set_title("\n".join(textwrap.wrap(", ".join(filter(None, names)), 42)), fontsize="medium")
+        if number % columns == 0:
+            axes.set_ylabel("torque [N m]")
     known = [pair for pair in limits if pair]
-    for axes in grid.flat:
+    for axes in grid[:len(places)]:
         set_values_axis(axes, CURVES["total_torque"],
                         (min(pair[0] for pair in known), max(pair[1] for pair in known)) if known else None)
-    handles = [Line2D([], [], color=tone, linestyle=dash if len(layout.files) == 1 else "-", linewidth=width,
-                      label=label) for _, label, tone, dash, width in TORQUES]
-    head(figure, layout, "drive torque and its parts", handles + file_handles(layout), (len(colours), len(panels)))
+    for axes in grid[len(places):]:
+        axes.remove()
+    head(figure, layout, "drive torque and its parts", _torque_legend(layout), (len(colours), len(panels)))
     return figure
 
 
+def _torque_legend(layout):
+    """The parts, in the colours of each file."""
+    entries = [[Line2D([], [], color=tones[place % len(tones)], linestyle=dash if len(layout.files) == 1 else line_style(place),
+                       linewidth=width, label=label) for _, label, tones, dash, width in TORQUES]
+               for place in range(len(layout.files))]
+    return (entries[0], None) if len(entries) == 1 else file_legend(layout, entries)
+
+
 def _torque_curve(axes, layout, entry, part, window):
-    series, _, tone, dash, width = part
+    series, _, tones, dash, width = part
     values = values_of(layout, entry, series, "N m")
     if values is None:
         return None
     angle, values = closed(layout.results[entry.file].cam_angle, values)
+    place = layout.files.index(entry.file)
     if len(layout.files) > 1:
-        dash = line_style(layout.files.index(entry.file))
-    axes.plot(angle, values, color=tone, linestyle=dash, linewidth=width)
+        dash = line_style(place)
+    axes.plot(angle, values, color=tones[place % len(tones)], linestyle=dash, linewidth=width)
     return seen_range(angle, values, window)
 
 
@@ -110,10 +126,11 @@ def overview_figure(layout, _whole_cycle):
     bars = [part for part in (slip_bars, torque_bars) if _has_summary(layout, part)]
     if not names:
         raise Missing("none of its series in the file" + ("s" if len(layout.files) > 1 else ""))
+    layout.refuse_too_many()
     panels = thin_out(layout.panels, MOST_COLUMNS)
     columns = len(panels) if len(panels) > 1 else 2
     rows = len(names) if len(panels) > 1 else -(-len(names) // columns)
-    heights = [1.5 + 1.5 * rows, 2.6 + 0.8 * len(layout.files)]
+    heights = [1.5 + 1.5 * rows + 0.2 * len(layout.colours) * layout.is_list, 2.6 + 0.8 * len(layout.files) + 1.2 * layout.is_list]
     figure = Figure(figsize=(2.0 + 3.2 * columns, sum(heights[:1 + bool(bars)])), layout="constrained")
     upper, lower = figure.subfigures(2, 1, height_ratios=heights) if bars else (figure, None)
     _overview_curves(upper, layout, names, panels, (rows, columns))
@@ -125,7 +142,7 @@ def overview_figure(layout, _whole_cycle):
 
 def _overview_curves(figure, layout, names, panels, shape):
     grid = figure.subplots(*shape, squeeze=False)
-    window = event_window(layout)
+    window = event_window(layout, [CURVES[name].series for name in names])
     places = list(grid.flat)
     for axes in places[len(names) * len(panels):]:
         axes.remove()
@@ -137,7 +154,7 @@ def _overview_curves(figure, layout, names, panels, shape):
             angle_axis(axes, window, labelled=places.index(axes) + shape[1] >= len(names) * len(panels))
             if number == 0 and len(panels) > 1:
                 axes.set_title(layout.panel_name(panel), fontsize="medium")
-        row[0].set_ylabel(f"{curve.title}\n[{unit_text(curve.unit)}]")
+        row[0].set_ylabel(f"{curve.title}\n[{unit_words(curve.unit)}]")
     figure.align_ylabels()
 
 
@@ -150,10 +167,11 @@ def bars_figure(part, title, layout):
     """A bar chart as a figure of its own."""
     if not _has_summary(layout, part):
         raise Missing("no means of it in the file" + ("s" if len(layout.files) > 1 else ""))
+    layout.refuse_too_many(MOST_BARS)
     rows = len(layout.files) if part is torque_bars else 1
-    figure = Figure(figsize=(7.5, 2.6 + 1.9 * rows), layout="constrained")
+    figure = Figure(figsize=(7.5, 2.6 + 1.9 * rows + 1.2 * layout.is_list), layout="constrained")
     part(figure, layout)
-    head(figure, layout, title, [], [len(values) for values in shown_in_bars(layout)])
+    head(figure, layout, title, ([], None), [len(values) for values in shown_in_bars(layout)])
     return figure
 
 

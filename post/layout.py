@@ -1,22 +1,26 @@
 """Who gets which colour, line style and panel: the arrangement that all figures share.
 
-The first swept key of the deck is told apart by colour, the other swept keys by panel, several
-files by line style. Without a swept key the files are told apart by colour. Where a sweep has more
-values than a figure can show, evenly spread ones are drawn, the first and the last among them.
+Where the cases are a grid, the first swept key of the deck is told apart by colour and the other swept keys by panel; where a
+sweep has more values than a figure can show, evenly spread ones are drawn, the first and the last among them. Any other set of
+cases (lists side by side, rows of a table, samples) is a list: each case has a colour and a label of its own, and more of them
+than a figure can hold are refused. Several files are told apart by families of colours and by line styles.
 """
 
 from dataclasses import dataclass
 
+from matplotlib import colormaps
 import numpy as np
 
 from read import ResultError
+from units import WORDS, bare_name, distinct_texts, key_words, unit_words, with_unit
 
 # Told apart by their lightness alone too, for grey print and for colour-blind readers.
 THREE_COLOURS = ["#08306b", "#d55e00", "#7cc0ea"]
+FAMILIES = ["Blues", "Oranges", "Greens", "Purples", "Greys", "Reds"]  # of the files, dark to light in each
 LINE_STYLES = ["-", "--", "-.", ":", (0, (6, 1, 1, 1, 1, 1)), (0, (1, 2.5)), (0, (8, 3))]
 MOST_COLOURS = 7
-UNIT_WORDS = {"rpm": "rev/min", "degC": "\N{DEGREE SIGN}C", "deg": "\N{DEGREE SIGN}", "um": "\N{MICRO SIGN}m",
-              "Pas": "Pa s", "GPa": "GPa", "MPa": "MPa", "mm": "mm", "kg": "kg", "N": "N"}
+MOST_LISTED = 12  # cases of a list in a figure of curves
+LIST = "case"  # stands for the swept keys where each case has a label of its own
 
 
 @dataclass(frozen=True)
@@ -36,8 +40,8 @@ class Layout:
         self.results = results
         keys = list(dict.fromkeys(key for result in results for key in result.sweep))
         self.colour_key, self.panel_keys = (keys[0], keys[1:]) if keys else (None, [])
-        self.short_names = _short_names(keys)
         self.units = {key: _unit(key, results) for key in keys}
+        self.short_names = _short_names(keys, results)
         self.entries = []
         for number, result in enumerate(results):
             for case in chosen_cases(result, selections):
@@ -45,14 +49,79 @@ class Layout:
                                           tuple(_plain(result, key, case) for key in self.panel_keys)))
         if not self.entries:
             raise ResultError("no case is left to draw: see --cases")
+        self.remarks = self._leave_out_cases_without_series()
         self.colours = _in_order(entry.colour for entry in self.entries)
         self.panels = _in_order(entry.panel for entry in self.entries)
+        self._texts = {key: _texts({_plain(result, key, case) for result in results for case in range(result.cases)})
+                       for key in keys}
+        self.listed_keys = []
+        if not self._is_grid():
+            self._become_list(keys)
         self.files = sorted({entry.file for entry in self.entries})
         self.titles = _titles(results)
 
+    def _leave_out_cases_without_series(self):
+        """Cases whose series a sweep has not kept go, where it has kept those of others; returns a line for each such file."""
+        remarks = []
+        for number, result in enumerate(self.results):
+            failed = {case for case, _ in result.failed_cases()}
+            there = set(result.cases_with_series())
+            if not result.series or len(there | failed) == result.cases:
+                continue
+            kept = [entry for entry in self.entries if entry.file != number or entry.case in there]
+            if not any(entry.file == number for entry in kept):
+                raise ResultError(f"{result.path}: no series of these cases in the file; it has those of "
+                                  f"{_some(sorted(there)) or 'none'}: 'series' and 'series_cases' in &sweep choose")
+            self.entries = kept
+            remarks.append(f"{result.path}: series of {len(there)} of {result.cases} cases are in the file; only these are drawn")
+        return remarks
+
+    def _is_grid(self):
+        """Is every value of the first key there with every panel, once in a file?"""
+        places = [(entry.file, entry.colour, entry.panel) for entry in self.entries]
+        return len(set(places)) == len(places) and \
+            len({place[1:] for place in places}) == len(self.colours) * len(self.panels)
+
+    def _become_list(self, keys):
+        """Give each set of swept values a label of its own, in the place of values and panels."""
+        failed = [{case for case, _ in result.failed_cases()} for result in self.results]
+        entries = [entry for entry in self.entries if entry.case not in failed[entry.file]]
+        if not entries:
+            raise ResultError("no case has a result")
+        values = [dict(zip(keys, (entry.colour, *entry.panel))) for entry in entries]
+        self.listed_keys = [key for key in keys if len({value[key] for value in values}) > 1]
+        places = [(entry.file, tuple(value.values())) for entry, value in zip(entries, values)]
+        numbered = len(set(places)) < len(places)
+        labels = [", ".join([f"case {entry.case}"] * (numbered or not self.listed_keys)
+                            + [self._listed_name(key, value[key]) for key in self.listed_keys])
+                  for entry, value in zip(entries, values)]
+        self.common = {key: values[0][key] for key in keys if key not in self.listed_keys}
+        self.entries = [Entry(entry.file, entry.case, label, ()) for entry, label in zip(entries, labels)]
+        self.colours, self.panels = list(dict.fromkeys(labels)), [()]
+        self.colour_key, self.panel_keys = LIST, []
+        self.units[LIST] = ""
+        self.short_names[LIST] = "case"
+
+    def _listed_name(self, key, value):
+        """A value in the label of a case, with the key's name where the unit does not tell which it is."""
+        name, unit = self.name(key, value), self.units[key]
+        alike = [other for other in self.listed_keys if self.units[other] == unit]
+        return f"{self.short_names[key]} {name}" if unit and len(alike) > 1 else name
+
+    @property
+    def is_list(self):
+        """Has each case a label of its own?"""
+        return self.colour_key == LIST
+
+    def refuse_too_many(self, most=MOST_LISTED):
+        """ResultError where a list has more cases than a figure can hold."""
+        if self.is_list and len(self.colours) > most:
+            raise ResultError(f"{len(self.colours)} cases that are no grid are too many for this figure, which holds {most}: choose "
+                              f"with --cases 0,3,7-9 or --cases {_example(self)}; plot_sweep.py draws summaries of all")
+
     def shown_colours(self):
         """Values of the colour key that fit into one panel."""
-        return thin_out(self.colours, MOST_COLOURS)
+        return list(self.colours) if self.is_list else thin_out(self.colours, MOST_COLOURS)
 
     def entries_of(self, panel, colours=None):
         """Cases that belong into a panel, all or only those of some values of the colour key."""
@@ -61,14 +130,13 @@ class Layout:
 
     def style(self, entry):
         """Colour, line style and width of the curve of one case."""
-        shown = self.shown_colours()
-        several = len(self.files) > 1
-        if self.colour_key is None:
-            index = self.files.index(entry.file)
-            return {"color": spread_colours(len(self.files))[index], "linestyle": line_style(index), "linewidth": 1.4}
+        shown, place = self.shown_colours(), self.files.index(entry.file)
+        if self.colour_key is None or (len(self.files) > 1 and len(shown) == 1):
+            return {"color": spread_colours(len(self.files))[place], "linestyle": line_style(place), "linewidth": 1.4}
         index = shown.index(entry.colour)
-        dash = self.files.index(entry.file) if several else index
-        return {"color": spread_colours(len(shown))[index], "linestyle": line_style(dash), "linewidth": 1.4}
+        if len(self.files) > 1:
+            return {"color": family(place, len(shown))[index], "linestyle": line_style(place), "linewidth": 1.4}
+        return {"color": spread_colours(len(shown))[index], "linestyle": line_style(index), "linewidth": 1.4}
 
     def name(self, key, value):
         """A value of a swept key as people write it: `300 rev/min`."""
@@ -76,8 +144,12 @@ class Layout:
             return f"{self.short_names[key]} not given"
         if isinstance(value, str):
             return value
-        unit = self.units[key]
-        return f"{value:g} {unit}" if unit else f"{self.short_names[key]} {value:g}"
+        unit, text = self.units[key], self._texts[key][value]
+        return f"{text} {unit}" if unit else f"{self.short_names[key]} {text}"
+
+    def text(self, key, value):
+        """A value of a swept key without its unit."""
+        return "" if value is None else value if isinstance(value, str) else self._texts[key][value]
 
     def panel_name(self, panel):
         """Title of a panel; empty without a second swept key."""
@@ -89,12 +161,39 @@ class Layout:
 
     def axis_name(self, key):
         """Label of an axis along a swept key."""
-        unit = self.units[key]
-        return f"{self.short_names[key]} [{unit}]" if unit else self.short_names[key]
+        return with_unit(self.short_names[key], self.units[key])
+
+    def common_words(self):
+        """What all cases of a list have in common, and how many of them have lost contact."""
+        words = [self.name(key, value) for key, value in self.common.items()] if self.is_list else []
+        lost = sum(_has_lost_contact(self.results[entry.file], entry.case) for entry in self.entries)
+        if lost:
+            words.append(f"contact is lost in {lost} of {len(self.entries)} cases" if len(self.entries) > 1 else "contact is lost")
+        return words
+
+
+def _has_lost_contact(result, case):
+    share = result.summary.get("lost_contact_share")
+    return share is not None and np.shape(share.values) == (result.cases,) and float(share.values[case]) > 0.0
+
+
+def _example(layout):
+    """A selection that a reader can change: a range over the first key whose values are numbers."""
+    for key in layout.listed_keys:
+        values = [layout.results[entry.file].value_of(key, entry.case) for entry in layout.entries]
+        if all(isinstance(value, (int, float)) for value in values):
+            low, high = min(values), max(values)
+            return f"{key.rpartition('.')[2]}={low:.4g}:{low + 0.2 * (high - low):.4g}"
+    return "KEY=VALUE"
+
+
+def _some(cases, most=8):
+    """Some numbers in words."""
+    return ", ".join(map(str, cases[:most])) + (" ..." if len(cases) > most else "")
 
 
 def chosen_cases(result, selections):
-    """Indices of the cases that fit all selections: `0,2-4` or `speed_rpm=300,600`."""
+    """Indices of the cases that fit all selections: `0,2-4`, `speed_rpm=300,600` or `speed_rpm=300:600`."""
     cases = list(range(result.cases))
     for selection in selections:
         name, equals, wanted = selection.rpartition("=")
@@ -119,8 +218,13 @@ def spread_colours(count):
     """So many colours, dark to light."""
     if count <= len(THREE_COLOURS):
         return THREE_COLOURS[:count]
-    from matplotlib import colormaps
     return [colormaps["viridis"](value) for value in np.linspace(0.0, 0.88, count)]
+
+
+def family(place, count):
+    """So many colours of one file, dark to light."""
+    shades = colormaps[FAMILIES[place % len(FAMILIES)]]
+    return [shades(value) for value in np.linspace(1.0, 0.45, count)]
 
 
 def line_style(index):
@@ -152,33 +256,35 @@ def _titles(results):
             for title, result in zip(titles, results)]
 
 
-def _short_names(keys):
-    """Last part of each key in words and without its unit; the whole key where that is not unique."""
-    short = {key: _without_unit(key.rpartition(".")[2]).replace("_", " ") for key in keys}
+def _texts(values):
+    """Text of each number of a key."""
+    numbers = sorted(value for value in values if isinstance(value, float))
+    return dict(zip(numbers, distinct_texts(numbers)))
+
+
+def _short_names(keys, results):
+    """Each key in words and without its unit; the whole key where that is not unique."""
+    short = {key: key_words(key, _file_unit(key, results)) for key in keys}
     return {key: name if list(short.values()).count(name) == 1 else key for key, name in short.items()}
 
 
-def _without_unit(name):
-    head, _, last = name.rpartition("_")
-    return head if head and last in UNIT_WORDS else name
+def _file_unit(key, results):
+    """Unit of a swept key as the files state it."""
+    return next((result.sweep[key].units for result in results if key in result.sweep), "")
 
 
 def _unit(key, results):
     """Unit of a swept key for people: that of the file, else the last word of the key."""
-    for result in results:
-        if key in result.sweep:
-            unit = result.sweep[key].units or key.rpartition("_")[2]
-            if unit in UNIT_WORDS:
-                return UNIT_WORDS[unit]
-            return unit if unit not in ("", "1", "-") and result.sweep[key].units else ""
-    return ""
+    unit = _file_unit(key, results)
+    last = key.rpartition("_")[2]
+    return "" if unit in ("1", "-") else unit_words(unit or (last if last in WORDS else ""))
 
 
 def _matching_key(result, name):
     """The swept key, else the deck key, meant by its name, its last part, or that without the unit."""
     for known in (result.sweep, result.deck):
-        keys = [key for key in known
-                if name in (key, key.rpartition(".")[2], _without_unit(key.rpartition(".")[2]))]
+        keys = [key for key, quantity in known.items()
+                if name in (key, key.rpartition(".")[2], bare_name(key.rpartition(".")[2], quantity.units))]
         if len(keys) == 1:
             return keys[0]
     swept = ", ".join(result.sweep) or "none"
@@ -186,7 +292,10 @@ def _matching_key(result, name):
 
 
 def _same(value, text):
+    low, colon, high = text.partition(":")
     try:
+        if colon:
+            return float(low or "-inf") <= float(value) <= float(high or "inf")
         return abs(float(value) - float(text)) <= 1e-9 * abs(float(text))
     except (TypeError, ValueError):
         return str(value).lower() == text.lower()

@@ -6,17 +6,21 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import FuncFormatter, LogLocator, MultipleLocator, NullFormatter, SymmetricalLogLocator
 import numpy as np
 
-from layout import line_style
-from quantities import values_of
+from layout import family, line_style
+from quantities import curve_of
 
 NOSE = 180.0  # cam angle of full lift [deg]
 MARGIN = 30.0  # shown on each side of the event [deg]
 MOST_PANELS = 9
+BUSY = 0.05  # part of a torque's range that other cams make outside of the event of the first, from which the whole turn is shown
 ALIKE = 3.0  # panels whose largest values differ by more than this have axes of their own
 
 
-def event_window(layout):
-    """Cam angles from a little before to a little after the valve is off its seat, over all cases."""
+def event_window(layout, names=()):
+    """Cam angles from a little before to a little after the valve is off its seat, over all cases.
+
+    The whole turn where that is not known, or where one of the series named belongs to a shaft whose other cams are at work outside.
+    """
     first, last = 360.0, 0.0
     for result in layout.results:
         lift = result.series.get("valve_lift")
@@ -28,7 +32,18 @@ def event_window(layout):
             first, last = min(first, open_angles[0]), max(last, open_angles[-1])
     if first > last:
         return 0.0, 360.0
-    return max(0.0, 10.0 * np.floor((first - MARGIN) / 10.0)), min(360.0, 10.0 * np.ceil((last + MARGIN) / 10.0))
+    window = max(0.0, 10.0 * np.floor((first - MARGIN) / 10.0)), min(360.0, 10.0 * np.ceil((last + MARGIN) / 10.0))
+    return (0.0, 360.0) if any(_is_busy_outside(result, name, window) for result in layout.results for name in names) else window
+
+
+def _is_busy_outside(result, name, window):
+    """Does a torque of the shaft vary much outside of the window?"""
+    if not name.startswith("torque_") or name not in result.series:
+        return False
+    values = result.series[name].values
+    outside = values[:, (result.cam_angle < window[0]) | (result.cam_angle > window[1])]
+    outside, values = outside[np.isfinite(outside)], values[np.isfinite(values)]
+    return outside.size > 0 and np.ptp(outside) > BUSY * np.ptp(values)
 
 
 def closed(angle, values):
@@ -53,7 +68,7 @@ def draw_curve(axes, layout, curve, panel, window):
     """All curves of one panel; returns lowest and highest value within the window, None if there is none."""
     low, high = np.inf, -np.inf
     for entry in layout.entries_of(panel, layout.shown_colours()):
-        values = values_of(layout, entry, curve.series, curve.unit)
+        values = curve_of(layout, entry, curve)
         if values is None:
             continue
         angle, values = closed(layout.results[entry.file].cam_angle, values)
@@ -61,7 +76,11 @@ def draw_curve(axes, layout, curve, panel, window):
         seen = seen_range(angle, values, window)
         if seen:
             low, high = min(low, seen[0]), max(high, seen[1])
-    return (low, high) if low <= high else None
+    if low <= high:
+        return low, high
+    axes.annotate("no result", (0.5, 0.5), xycoords="axes fraction", ha="center", color="0.4")
+    axes.set_yticks([])
+    return None
 
 
 def seen_range(angle, values, window):
@@ -85,7 +104,7 @@ def set_values_axis(axes, curve, limits):
     """Range of the upright axis with a little room; logarithmic only where the values differ much."""
     if limits is None:
         return
-    low, high = limits
+    low, high = limits[0], max(limits[1], curve.least_top)
     if curve.scale == "log" and max(abs(low), abs(high)) > 3.0 * low:
         log_axis(axes, low, high)
     else:
@@ -117,34 +136,29 @@ def linear_axis(axes, low, high):
 
 
 def legend_handles(layout):
-    """Legend entries of a page: colours by swept value, line styles by file."""
-    if layout.colour_key is None:
+    """Legend of a page, entries and columns: colours by swept value, families of colours and line styles by file."""
+    if layout.colour_key is None or (len(layout.files) > 1 and len(layout.shown_colours()) == 1):
         first = {number: next(entry for entry in layout.entries if entry.file == number) for number in layout.files}
-        return [Line2D([], [], label=layout.titles[number], **layout.style(entry)) for number, entry in first.items()]
-    return (colour_handles(layout) if len(layout.colours) > 1 else []) + file_handles(layout)
-
-
-def file_handles(layout):
-    """Legend entries for several files."""
+        return [Line2D([], [], label=layout.titles[number], **layout.style(entry)) for number, entry in first.items()], None
+    values = [layout.name(layout.colour_key, value) for value in layout.shown_colours()]
     if len(layout.files) == 1:
-        return []
-    return [Line2D([], [], color="0.3", linestyle=line_style(place), linewidth=1.4, label=layout.titles[number])
-            for place, number in enumerate(layout.files)]
+        return [Line2D([], [], label=name, **layout.style(next(entry for entry in layout.entries if entry.colour == value)))
+                for value, name in zip(layout.shown_colours(), values)] if len(layout.colours) > 1 else [], None
+    tones = [family(place, len(values)) for place in range(len(layout.files))]
+    return file_legend(layout, [[Line2D([], [], color=tone, linestyle=line_style(place), linewidth=1.4, label=name)
+                                 for tone, name in zip(tones[place], values)] for place in range(len(layout.files))])
 
 
-def colour_handles(layout):
-    """Legend entries for the values of the colour key."""
-    handles = []
-    for value in layout.shown_colours():
-        style = layout.style(next(entry for entry in layout.entries if entry.colour == value))
-        if len(layout.files) > 1:
-            style["linestyle"] = "-"
-        handles.append(Line2D([], [], label=layout.name(layout.colour_key, value), **style))
-    return handles
+def file_legend(layout, entries):
+    """Legend of several files: a column for each, its title on top of its entries."""
+    handles = [handle for number, own in zip(layout.files, entries)
+               for handle in (Line2D([], [], linestyle="none", label=layout.titles[number]), *own)]
+    return handles, len(layout.files)
 
 
-def head(figure, layout, title, handles, shown):
+def head(figure, layout, title, legend, shown):
     """Top of a page: what it shows, of which file, how many values and panels of a big sweep, and the legend."""
+    handles, columns = legend
     words = [layout.titles[layout.files[0]]] if len(layout.files) == 1 else []
     if layout.colour_key and len(layout.colours) == 1:
         words.append(layout.name(layout.colour_key, layout.colours[0]))
@@ -154,11 +168,22 @@ def head(figure, layout, title, handles, shown):
                                      (shown[1], layout.panels, layout.panel_words())):
         if count < len(all_of_them):
             words.append(f"{count} of {len(all_of_them)} values of {name} shown")
+    words += layout.common_words() + several_cams(layout)
     width = int(11.0 * figure.bbox.width / figure.dpi)
     text = "\n".join([title[:1].upper() + title[1:], *textwrap.wrap(", ".join(words), width)]).strip()
     legend = figure.legend(handles=handles if len(handles) > 1 else [], title=text, title_fontsize="large",
-                           loc="outside upper center", ncols=columns_for(figure, handles), frameon=False)
+                           loc="outside upper center", ncols=columns or columns_for(figure, handles), frameon=False)
     legend.get_title().set_multialignment("center")
+
+
+def several_cams(layout):
+    """What belongs to the whole shaft and what to one cam, where there are several cams."""
+    cams = 1
+    for result in layout.results:
+        given = result.deck.get("cam_bearings.cam_positions_mm")
+        if given is not None:
+            cams = max(cams, len(str(given.values).split(",")) if isinstance(given.values, str) else np.size(given.values))
+    return [f"torques of all {cams} cams, all else of the first"] if cams > 1 else []
 
 
 def columns_for(figure, handles):

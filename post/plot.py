@@ -3,12 +3,15 @@
     python post/plot.py results/thesis.h5                        all figures, beside the file
     python post/plot.py results/thesis.h5 --figure overview      one page with everything
     python post/plot.py a.h5 b.h5 --figure slip --format pdf     two runs in one figure
-    python post/plot.py results/thesis.h5 --cases speed_rpm=300,600 --cases oil_temperature=95
+    python post/plot.py results/thesis.h5 --cases speed_rpm=300,600 --cases oil_temperature=80:100
 
-Needs no display. Colours tell the values of the first swept key apart, panels those of the others,
-line styles the files, which go by the titles that their decks give. A figure whose quantities are
-not in the files (the effect is not in the case) is left out and a line says so. Exit code 0 if
-something was drawn, 2 if a file or an option cannot be used.
+Needs no display. Colours tell the values of the first swept key apart, panels those of the others;
+cases that are no grid (lists side by side, tables, samples) have a label each, and have to be chosen
+where they are too many. Families of colours and line styles tell files apart, which go by the titles
+that their decks give. A figure whose quantities are not in the files (the effect is not in the case)
+is left out and a line says so. A file of a sweep without series has bar charts of its means;
+plot_sweep.py draws how any summary answers to what the sweep varies. Exit code 0 if something was
+drawn, 2 if a file or an option cannot be used.
 """
 
 import argparse
@@ -22,11 +25,13 @@ matplotlib.use("Agg")
 matplotlib.rcParams.update({"font.size": 9.0, "axes.spines.top": False, "axes.spines.right": False,
                             "svg.hashsalt": "camroller", "hatch.linewidth": 0.6, "hatch.color": "white"})
 
+from command import DPI, run, save_figure  # noqa: E402
 from figures import FIGURES, draw  # noqa: E402
 from layout import Layout  # noqa: E402
 from quantities import Missing  # noqa: E402
 from read import ResultError, read_result  # noqa: E402
 
+MOST_FAILURES = 5  # told one by one
 NO_DATE = {"png": {}, "pdf": {"CreationDate": None}, "svg": {"Date": None}}
 
 
@@ -36,11 +41,14 @@ def main(arguments=None):
     try:
         results = [read_result(path) for path in options.files]
         layout = Layout(results, options.cases)
-        for result in results:
-            for case, reason in result.failed_cases():
-                print(f"{result.path}: case {case} has no result: {reason}".rstrip(": "))
+        for line in remarks(results, layout):
+            print(line)
         folder = Path(options.output) if options.output else results[0].path.parent
         names = list(FIGURES) if options.figure == "all" else [options.figure]
+        if not any(result.series for result in results) and options.figure == "all":
+            print(f"no series in {', '.join(str(result.path) for result in results)}, so only means are drawn: plot_sweep.py draws "
+                  "other summaries, and series = 'all' or 'chosen' in &sweep keeps the series")
+            names = [name for name in names if name.startswith("mean_")]
         drawn = [draw_to_file(name, layout, folder, options) for name in names]
     except ResultError as error:
         print(f"plot.py: {error}", file=sys.stderr)
@@ -49,6 +57,19 @@ def main(arguments=None):
         print("plot.py: nothing to draw", file=sys.stderr)
         return 2
     return 0
+
+
+def remarks(results, layout):
+    """Lines on what is not drawn: cases without a result, of many the first only, and without series."""
+    for result in results:
+        failed = result.failed_cases()
+        if len(failed) == result.cases:
+            raise ResultError(f"{result.path}: no case has a result: {failed[0][1]}".rstrip(": "))
+        for case, reason in failed[:MOST_FAILURES]:
+            yield f"{result.path}: case {case} has no result: {reason}".rstrip(": ")
+        if len(failed) > MOST_FAILURES:
+            yield f"{result.path}: {len(failed) - MOST_FAILURES} more cases have no result"
+    yield from layout.remarks
 
 
 def parser():
@@ -61,9 +82,9 @@ def parser():
     made.add_argument("--figure", choices=["all", *FIGURES], default="all", metavar="NAME",
                       help="which figure: all (default), " + ", ".join(FIGURES))
     made.add_argument("--cases", action="append", default=[], metavar="WHICH",
-                      help="only these cases: numbers from 0 as in 0,2-4 or values as in speed_rpm=300,600; "
-                           "given more than once, a case must fit all")
-    made.add_argument("--dpi", type=int, default=130, help="pixels per inch of a PNG (default: 130)")
+                      help="only these cases: numbers from 0 as in 0,2-4, values as in speed_rpm=300,600 or a range "
+                           "as in speed_rpm=300:600; given more than once, a case must fit all")
+    made.add_argument("--dpi", type=DPI, default=130, help="pixels per inch of a PNG (default: 130)")
     made.add_argument("--angles", choices=["event", "cycle"],
                       help="cam angles of the single figures: around the valve event or the whole cycle "
                            "(default: what suits the figure)")
@@ -78,11 +99,7 @@ def draw_to_file(name, layout, folder, options):
         print(f"{name}: skipped, {reason}")
         return False
     target = folder / f"{common_name(layout.results)}_{name}.{options.format}"
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        figure.savefig(target, dpi=options.dpi, metadata=NO_DATE[options.format])
-    except OSError as error:
-        raise ResultError(f"{target}: cannot be written: {error.strerror or error}") from None
+    save_figure(figure, target, dpi=options.dpi, metadata=NO_DATE[options.format])
     print(f"{name}: {target}")
     return True
 
@@ -94,4 +111,4 @@ def common_name(results):
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(run(main, "plot.py"))

@@ -13,7 +13,6 @@ import argparse
 from pathlib import Path
 import sys
 
-import h5py
 import matplotlib
 
 matplotlib.use("Agg")
@@ -22,28 +21,26 @@ matplotlib.rcParams.update({"font.size": 9.0, "axes.spines.top": False, "axes.sp
 from matplotlib.figure import Figure  # noqa: E402
 import numpy as np  # noqa: E402
 
+from command import run, save_figure  # noqa: E402
+from read import ResultError, opened, text_columns  # noqa: E402
+
 QUANTITIES = {"mean_torque": "mean friction torque", "minimum_film": "smallest film", "slip": "slip per turn"}
+COLUMNS = ["run", "effect", "status", "time_share", "is_left_out",
+           *(prefix + name for name in QUANTITIES for prefix in ("change_", "estimate_"))]
 FLOOR = 1e-7  # changes below are drawn there: the accuracy of the runs
 UNKNOWN = 1e10  # estimates from here on mean that nothing can be said
 
 
-class AuditError(Exception):
-    """The file cannot be used; the text says why in one line."""
-
-
 def read_audit(path):
     """Table of an audit as a dictionary of columns."""
-    try:
-        with h5py.File(path) as file:
-            return {name: _plain(data) for name, data in file["study/audit"].items()}
-    except (OSError, KeyError) as error:
-        raise AuditError(f"{path}: not an audit: {error}") from None
-
-
-def _plain(data):
-    if h5py.check_string_dtype(data.dtype):
-        return np.array([text.decode() for text in data[()]])
-    return data[()]
+    with opened(path, "an audit") as file:
+        audit = text_columns(file["study/audit"])
+        missing = [name for name in COLUMNS if name not in audit]
+        if missing or len({len(audit[name]) for name in COLUMNS}) != 1:
+            raise ResultError(f"{path}: not an audit: " + (f"no {missing[0]}" if missing else "columns of different lengths"))
+        if not effects(audit):
+            raise ResultError(f"{path}: no run without an effect in it")
+        return audit
 
 
 def without(audit, effect):
@@ -52,8 +49,8 @@ def without(audit, effect):
 
 
 def effects(audit):
-    """Effects in the order of the table."""
-    return list(dict.fromkeys(audit["effect"][audit["run"] == "without"]))
+    """Effects in the order of the table, those that a run without has a result of."""
+    return [name for name in dict.fromkeys(audit["effect"][audit["run"] == "without"]) if without(audit, name).any()]
 
 
 def draw(audit):
@@ -122,15 +119,14 @@ def main(arguments=None):
         if options.table:
             print(table(audit))
             return 0
-        folder.mkdir(parents=True, exist_ok=True)
         target = folder / f"{options.name or path.stem}.png"
-        draw(audit).savefig(target, dpi=110)
+        save_figure(draw(audit), target, dpi=110)
         print(target)
-    except (AuditError, OSError) as error:
+    except ResultError as error:
         print(f"plot_audit.py: {error}", file=sys.stderr)
         return 2
     return 0
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(run(main, "plot_audit.py"))

@@ -14,7 +14,6 @@ import argparse
 from pathlib import Path
 import sys
 
-import h5py
 import matplotlib
 import matplotlib.lines
 
@@ -24,6 +23,9 @@ matplotlib.rcParams.update({"font.size": 9.0, "axes.spines.top": False, "axes.sp
 from matplotlib.figure import Figure  # noqa: E402
 import numpy as np  # noqa: E402
 
+from command import run, save_figure  # noqa: E402
+from read import ResultError, opened, text_columns  # noqa: E402
+
 LIMIT = 2.0  # of explicit Euler: decay rate times step
 CHATTER = 1.05  # total variation of the slip ratio over that of the reference, above which a cycle chatters
 LEVELS = 10.0 ** np.arange(-1.0, -7.5, -0.5)
@@ -32,24 +34,10 @@ COLOURS = ["#08306b", "#2171b5", "#6baed6", "#d55e00", "#a63603", "#74c476", "#e
 MARKERS = "os^vD<h>PX*p"
 
 
-class StudyError(Exception):
-    """The file cannot be used; the text says why in one line."""
-
-
 def read_study(path):
     """Tables of a study as dictionaries of columns."""
-    try:
-        with h5py.File(path) as file:
-            return {name: {column: _plain(data) for column, data in file["study"][name].items()}
-                    for name in ("references", "methods", "models", "accuracy")}
-    except (OSError, KeyError) as error:
-        raise StudyError(f"{path}: not a study: {error}") from None
-
-
-def _plain(data):
-    if h5py.check_string_dtype(data.dtype):
-        return np.array([text.decode() for text in data[()]])
-    return data[()]
+    with opened(path, "a study") as file:
+        return {name: text_columns(file["study"][name]) for name in ("references", "methods", "models", "accuracy")}
 
 
 def curves(methods):
@@ -153,13 +141,10 @@ FILM_TABLES = ("contacts", "film_table", "film_cycle")
 
 def read_films(path):
     """Tables of a study of films; none where the file has another study."""
-    try:
-        with h5py.File(path) as file:
-            if "film_cycle" not in file["study"]:
-                return None
-            return {name: {column: _plain(data) for column, data in file["study"][name].items()} for name in FILM_TABLES}
-    except (OSError, KeyError) as error:
-        raise StudyError(f"{path}: not a study: {error}") from None
+    with opened(path, "a study") as file:
+        if "film_cycle" not in file["study"]:
+            return None
+        return {name: text_columns(file["study"][name]) for name in FILM_TABLES}
 
 
 def film_points(table, rows, error, cost):
@@ -212,6 +197,14 @@ def film_work_precision(study):
 FIGURES = {"work_precision": work_precision, "cheapest": cheapest, "stability": stability}
 
 
+def _drawn(draw, study, path):
+    """A figure of a study; ResultError where columns are missing, have no numbers or lengths of their own."""
+    try:
+        return draw(study)
+    except (KeyError, ValueError, IndexError, TypeError) as error:
+        raise ResultError(f"{path}: not a study that can be drawn: {error}") from None
+
+
 def main(arguments=None):
     """Command line; returns the exit code."""
     made = argparse.ArgumentParser(prog="plot_study.py", description=__doc__,
@@ -226,16 +219,15 @@ def main(arguments=None):
         study, figures = read_films(path), {"work_precision": film_work_precision}
         if study is None:
             study, figures = read_study(path), FIGURES
-        folder.mkdir(parents=True, exist_ok=True)
         for name, draw in figures.items():
             target = folder / f"{options.name or path.stem}_{name}.png"
-            draw(study).savefig(target, dpi=110)
+            save_figure(_drawn(draw, study, path), target, dpi=110)
             print(f"{name}: {target}")
-    except (StudyError, OSError) as error:
+    except ResultError as error:
         print(f"plot_study.py: {error}", file=sys.stderr)
         return 2
     return 0
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(run(main, "plot_study.py"))

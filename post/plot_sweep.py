@@ -6,12 +6,14 @@
 `map`: two swept keys as axes, the quantity as colour. `curves`: one key along the axis, the others as curves. `scatter`: every
 swept key against every quantity. `parallel`: an axis for each key and quantity, a line for each case, coloured by the last one.
 Without --figure a grid of two long keys becomes a map, other grids curves, samples and tables a scatter. Only the summary is
-read, so a file of a hundred thousand cases is drawn as well. Needs no display. Exit code 2 where the file does not suit.
+read, so a file of a hundred thousand cases is drawn as well. Needs no display. Exit code 2 where the file or a name does not suit.
 """
 
 import argparse
+import difflib
 from pathlib import Path
 import sys
+import textwrap
 
 import h5py
 import matplotlib
@@ -24,17 +26,17 @@ from matplotlib.patheffects import withStroke  # noqa: E402
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter  # noqa: E402
 import numpy as np  # noqa: E402
 
+from command import DPI, run, save_figure  # noqa: E402
+from layout import thin_out  # noqa: E402
+from read import ResultError, fills_grid, opened  # noqa: E402
+from units import distinct_texts, fitting_unit, key_words, number, unit_words, with_unit  # noqa: E402
+
 FIGURES = ("map", "curves", "scatter", "parallel")
 QUANTITY = "mean_torque_drive"
 MOST_CURVES = 8
 MOST_LINES = 2000  # of parallel coordinates; of more cases evenly spread ones are drawn
 MOST_WORDS = 24  # values of a key that the axis of a map can name
 SPREAD = 0.18  # of points of a scatter about the word they belong to
-UNITS = {"um": "µm", "degC": "°C", "deg": "°", "degree": "°"}
-
-
-class SweepError(Exception):
-    """The file does not suit; the text says why in one line."""
 
 
 class Sweep:
@@ -45,31 +47,40 @@ class Sweep:
 
     def __init__(self, path, quantities):
         self.keys, self.quantities, self.words, self.logarithmic = {}, {}, {}, set()
-        try:
-            with h5py.File(path) as file:
-                for key, data in file["sweep"].items():
-                    self._add(self.keys, key, _label_of(key), data)
-                    if _is_logarithmic(file, key) and (self.keys[key][0] > 0).all():
-                        self.logarithmic.add(key)
-                for name in quantities:
-                    if name not in file["summary"]:
-                        near = [other for other in file["summary"] if name in other][:5]
-                        raise SweepError(f"{path} has no summary '{name}'" + (f"; there is {', '.join(near)}" if near else ""))
-                    self._add(self.quantities, name, name, file["summary"][name])
-                self.status = file["summary/status"][()]
-        except (OSError, KeyError) as error:
-            raise SweepError(f"{path} is no result of a sweep: {error}") from None
+        with opened(path, "a result of a sweep") as file:
+            if "sweep" not in file or "summary/status" not in file:
+                raise ResultError(f"{path} is no result of a sweep: there is no {'/summary/status' if 'sweep' in file else '/sweep'}")
+            self.status = file["summary/status"][()]
+            for key, data in file["sweep"].items():
+                self._add(path, self.keys, key, data)
+                if _is_logarithmic(file, key) and (self.keys[key][0] > 0).all():
+                    self.logarithmic.add(key)
+            for name in quantities:
+                if name not in file["summary"]:
+                    there = list(file["summary"])
+                    near = [other for other in there if name in other][:5] or difflib.get_close_matches(name, there, 5)
+                    raise ResultError(f"{path} has no summary '{name}'" + (f"; there is {', '.join(near)}" if near else ""))
+                self._add(path, self.quantities, name, file["summary"][name])
         if not self.keys:
-            raise SweepError(f"nothing varies in {path}")
+            raise ResultError(f"nothing varies in {path}")
+        if not any(np.isfinite(values).any() for values, _ in self.quantities.values()):
+            raise ResultError(f"{path}: no case has a value of {', '.join(self.quantities)}")
 
-    def _add(self, columns, name, label, data):
+    def _add(self, path, columns, name, data):
         values = data[()]
-        if h5py.check_string_dtype(data.dtype):
-            self.words[name], values = np.unique([text.decode() for text in values], return_inverse=True)
+        if np.shape(values) != np.shape(self.status) or np.ndim(values) != 1:
+            raise ResultError(f"{path}: {name} does not have one value for each case")
         unit = data.attrs.get("units", "")
         unit = unit.decode() if isinstance(unit, bytes) else str(unit)
-        label = label.removesuffix("_" + unit).replace("_", " ")
-        columns[name] = (np.asarray(values, dtype=float), label if unit in ("", "1") else f"{label} [{UNITS.get(unit, unit)}]")
+        if h5py.check_string_dtype(data.dtype):
+            self.words[name], values = np.unique([text.decode() for text in values], return_inverse=True)
+        values = np.asarray(values, dtype=float)
+        if columns is self.quantities and name not in self.words:
+            unit, scale = fitting_unit(name, unit, values)
+            values, label = values * scale, name.replace("_", " ")
+        else:
+            label = key_words(name, unit)
+        columns[name] = (values, with_unit(label, unit_words(unit)))
 
     def lengths(self):
         """Number of different values of each key."""
@@ -77,21 +88,20 @@ class Sweep:
 
     def is_grid(self):
         """Is every value there with every other?"""
-        return int(np.prod([float(n) for n in self.lengths().values()])) == len(self.status)
+        return fills_grid([values.tolist() for values, _ in self.keys.values()], len(self.status))
 
     def column(self, name):
         """Values and label of a key or a quantity."""
         return self.keys.get(name) or self.quantities[name]
 
     def label_value(self, key, value):
-        """A value of a key in words."""
-        return str(self.words[key][int(value)]).replace("_", " ") if key in self.words else f"{value:.4g}"
-
-
-def _label_of(key):
-    """The last part of a key, with its group where it is too short a name to stand alone, as in film.law and roller.radius_mm."""
-    group, _, name = key.rpartition(".")
-    return name if group == "operating_point" or name.count("_") > 1 else f"{group}_{name}"
+        """A value of a key or a quantity in words."""
+        if key in self.words:
+            return str(self.words[key][int(value)]).replace("_", " ")
+        if key in self.quantities:
+            return number(value)
+        values = np.unique(self.keys[key][0])
+        return distinct_texts(values.tolist())[int(np.searchsorted(values, value))] if len(values) <= MOST_WORDS else f"{value:.4g}"
 
 
 def _is_logarithmic(file, key):
@@ -115,7 +125,7 @@ def draw_map(sweep):
     """One map for each quantity; where more than two keys vary, the others have their first value."""
     lengths = sweep.lengths()
     if len(lengths) < 2 or not sweep.is_grid():
-        raise SweepError("a map needs a grid over two keys; see --figure")
+        raise ResultError("a map needs a grid over two keys; see --figure")
     first, second = sorted(sorted(lengths, key=lengths.get, reverse=True)[:2], key=list(lengths).index)
     chosen = _where_others_are_first(sweep, (first, second))
     x, y = sweep.keys[first][0][chosen], sweep.keys[second][0][chosen]
@@ -145,7 +155,7 @@ def draw_map(sweep):
 def draw_curves(sweep):
     """The longest key of numbers along the axis, the next key as curves; the others have their first value."""
     if not sweep.is_grid():
-        raise SweepError("curves need a grid; see --figure")
+        raise ResultError("curves need a grid; see --figure")
     lengths = sweep.lengths()
     order = sorted(lengths, key=lambda key: (key not in sweep.words, lengths[key]), reverse=True)
     axis, curve = order[0], (order[1] if len(order) > 1 else None)
@@ -154,7 +164,7 @@ def draw_curves(sweep):
     for axes, name in zip(_row(figure, len(sweep.quantities)), sweep.quantities):
         values, label = sweep.quantities[name]
         steps = np.unique(sweep.keys[curve][0]) if curve else [None]
-        steps = [steps[i] for i in np.unique(np.linspace(0, len(steps) - 1, MOST_CURVES).round().astype(int))]
+        steps = thin_out(steps, MOST_CURVES)
         for number, step in enumerate(steps):
             here = chosen if step is None else chosen & (sweep.keys[curve][0] == step)
             order_here = np.argsort(sweep.keys[axis][0][here], kind="stable")
@@ -166,7 +176,8 @@ def draw_curves(sweep):
         _name_axis(sweep, axes, "x", axis)
         if curve:
             axes.legend(title=sweep.keys[curve][1], fontsize=7, title_fontsize=7, frameon=False)
-    _note(figure, sweep, order[:2])
+    count = sweep.lengths()[curve] if curve else 0
+    _note(figure, sweep, order[:2], [f"{MOST_CURVES} of {count} values of {sweep.keys[curve][1]} shown"] * (count > MOST_CURVES))
     return figure
 
 
@@ -194,7 +205,8 @@ def draw_parallel(sweep):
     names = [*sweep.keys, *sweep.quantities]
     cases = np.flatnonzero(np.all([np.isfinite(sweep.column(name)[0]) for name in names], axis=0))
     if not len(cases):
-        raise SweepError("no case has a result")
+        raise ResultError("no case has a result")
+    count = len(cases)
     cases = cases[np.unique(np.linspace(0, len(cases) - 1, MOST_LINES).round().astype(int))]
     scaled, ends = [], []
     for name in names:
@@ -218,7 +230,7 @@ def draw_parallel(sweep):
     axes.set_yticks([])
     axes.set_ylim(-0.08, 1.08)
     axes.spines[:].set_visible(False)
-    _note(figure, sweep, names)
+    _note(figure, sweep, names, [f"{len(cases)} of {count} cases shown"] * (len(cases) < count))
     return figure
 
 
@@ -268,38 +280,38 @@ def _name_axis(sweep, axes, side, key):
         getattr(axes, f"set_{side}lim")(-0.5, len(words) - 0.5)
 
 
-def _note(figure, sweep, shown):
-    """Values of the keys that are not shown, and cases without a result."""
+def _note(figure, sweep, shown, more=()):
+    """Values of the keys that are not shown, what else is left out, and cases without a result."""
     words = [f"{label} = {sweep.label_value(key, values[0])}" for key, (values, label) in sweep.keys.items() if key not in shown]
+    words += more
     failed = int(np.count_nonzero(sweep.status))
     if failed:
         words.append(f"{failed} of {len(sweep.status)} cases have no result")
     if words:
-        figure.suptitle(", ".join(words), fontsize=8)
+        figure.suptitle(textwrap.fill(", ".join(words), max(30, int(14 * figure.get_figwidth()))), fontsize=8)
 
 
 def main(arguments=None):
     """Command line; returns the exit code."""
-    parser = argparse.ArgumentParser(description="draw how a result answers to what a sweep varies")
+    parser = argparse.ArgumentParser(prog="plot_sweep.py", description="draw how a result answers to what a sweep varies")
     parser.add_argument("file", type=Path)
     parser.add_argument("--quantity", default=QUANTITY, help="names in /summary, separated by commas")
     parser.add_argument("--figure", choices=FIGURES, help="what is drawn; what suits the sweep where not given")
     parser.add_argument("--output", type=Path, help="folder; that of the file where not given")
-    parser.add_argument("--dpi", type=int, default=150)
+    parser.add_argument("--dpi", type=DPI, default=150)
     options = parser.parse_args(arguments)
     try:
-        sweep = Sweep(options.file, options.quantity.split(","))
+        sweep = Sweep(options.file, list(dict.fromkeys(filter(None, options.quantity.replace(" ", "").split(",")))) or [QUANTITY])
         name = options.figure or suitable_figure(sweep)
         figure = {"map": draw_map, "curves": draw_curves, "scatter": draw_scatter, "parallel": draw_parallel}[name](sweep)
-    except SweepError as error:
-        print(f"plot_sweep: {error}", file=sys.stderr)
+        target = (options.output or options.file.parent) / f"{options.file.stem}_{name}.png"
+        save_figure(figure, target, dpi=options.dpi)
+    except ResultError as error:
+        print(f"plot_sweep.py: {error}", file=sys.stderr)
         return 2
-    target = (options.output or options.file.parent) / f"{options.file.stem}_{name}.png"
-    target.parent.mkdir(parents=True, exist_ok=True)
-    figure.savefig(target, dpi=options.dpi)
     print(target)
     return 0
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(run(main, "plot_sweep.py"))

@@ -8,9 +8,10 @@
     result.value_of("operating_point.speed_rpm", case=0)
 
 Everything else (units, names, the deck and how the file was made) comes with it; nothing is
-converted here, so all series are in SI units. Needs h5py and numpy.
+converted here, so all series are in SI units. A file of a sweep may have series of few cases or of none. Needs h5py and numpy.
 """
 
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
 import re
@@ -45,11 +46,7 @@ class Result:
     deck_text: str = ""
     run: dict = field(default_factory=dict)
     messages: list = field(default_factory=list)
-
-    @property
-    def cases(self):
-        """Number of cases."""
-        return next(iter(self.series.values())).values.shape[0] if self.series else 0
+    cases: int = 0
 
     @property
     def title(self):
@@ -74,48 +71,116 @@ class Result:
     def failed_cases(self):
         """Cases without a result, each with the reason that the file gives."""
         status = self.summary.get("status")
-        if status is None:
+        if status is None or np.shape(status.values) != (self.cases,):
             return []
         return [(int(case), self.messages[case] if case < len(self.messages) else "")
                 for case in np.flatnonzero(status.values)]
 
+    def scalar(self, name):
+        """A scalar of the summary for each case; ResultError where it is not one value for each case."""
+        quantity = self.summary[name]
+        if np.shape(quantity.values) != (self.cases,):
+            raise ResultError(f"{self.path}: the scalar {name} does not have one value for each of {self.cases} cases")
+        return quantity
 
-def read_result(path):
-    """Read a whole result file into memory; raise ResultError with one clear line if it is not one."""
+    def cases_with_series(self):
+        """Cases whose series are in the file; a sweep may keep them of a few cases only."""
+        filled = np.zeros(self.cases, dtype=bool)
+        for quantity in self.series.values():
+            filled |= np.isfinite(quantity.values).any(axis=1)
+        return np.flatnonzero(filled).tolist()
+
+    def is_grid(self):
+        """Is every swept value there with every other, once?"""
+        return fills_grid([quantity.values.tolist() for quantity in self.sweep.values()], self.cases)
+
+
+def fills_grid(columns, count):
+    """Do so many rows of these columns hold every value with every other, once?"""
+    lengths = [float(len(set(column))) for column in columns]
+    return float(np.prod(lengths)) == count and len(set(zip(*columns))) == count if columns else count <= 1
+
+
+@contextmanager
+def opened(path, kind="a result file of camroller"):
+    """An HDF5 file to be read from; whatever is wrong with it is a ResultError of one line."""
     path = Path(path)
     if not path.exists():
         raise ResultError(f"{path}: no such file")
+    if not path.is_file():
+        raise ResultError(f"{path}: not a regular file")
     try:
         with h5py.File(path, "r") as file:
-            return _read(path, file)
-    except OSError as error:
-        reason = "not an HDF5 file" if not h5py.is_hdf5(path) else str(error).splitlines()[0]
-        raise ResultError(f"{path}: cannot be read: {reason}") from None
+            yield file
+    except ResultError:
+        raise
+    except Exception as error:  # pylint: disable=broad-except
+        # A damaged file makes h5py raise exceptions of nearly every kind
+        reason = next(iter(str(error.args[0] if error.args else error).splitlines()), type(error).__name__)
+        if not h5py.is_hdf5(path):
+            reason = "cannot be read: not an HDF5 file" if isinstance(error, OSError) else reason
+        elif isinstance(error, OSError):
+            reason = f"cannot be read: {reason}"
+        else:
+            reason = f"not {kind}, or damaged: {reason}"
+        raise ResultError(f"{path}: {reason}") from None
 
 
-def _read(path, file):
-    if "series" not in file or "cam_angle" not in file["series"]:
-        raise ResultError(f"{path}: not a result file of camroller (no /series/cam_angle)")
+def text_columns(group):
+    """Datasets of a table by name, texts decoded."""
+    return {name: _quantity(data).values for name, data in group.items()}
+
+
+def read_result(path, with_series=True):
+    """Read a result file into memory; raise ResultError with one clear line if it is not one."""
+    path = Path(path)
+    with opened(path) as file:
+        return _read(path, file, with_series)
+
+
+def _read(path, file, with_series):
+    if "series" not in file or ("cam_angle" not in file["series"] and "summary/status" not in file):
+        raise ResultError(f"{path}: not a result file of camroller (neither /series/cam_angle nor /summary/status)")
     if int(np.ravel(file.attrs.get("complete", 0))[0]) != 1:
         raise ResultError(f"{path}: not complete: the run that wrote it did not finish")
-    angle = np.asarray(file["series/cam_angle"], dtype=float)
-    series = {name: _quantity(data) for name, data in file["series"].items() if name != "cam_angle"}
-    for name, quantity in series.items():
-        if quantity.values.ndim != 2 or quantity.values.shape[1] != angle.size:
-            raise ResultError(f"{path}: series {name} does not have the dimensions (case, cam_angle)")
-    if len({quantity.values.shape[0] for quantity in series.values()}) != 1:
-        raise ResultError(f"{path}: no series, or series with different numbers of cases")
+    angle, series = _read_series(path, file) if with_series else (np.zeros(0), {})
     deck_text = _text(file["deck/text"][()]) if "deck/text" in file else ""
     deck = _datasets(file, "deck/values")
     sweep = _datasets(file, "sweep")
-    cases = next(iter(series.values())).values.shape[0]
+    cases = _count_cases(path, file, series)
     for key, quantity in sweep.items():
         if np.shape(quantity.values) != (cases,):
             raise ResultError(f"{path}: swept key {key} does not have one value for each case")
     run = {name: _text(value) for name, value in file["run"].attrs.items()} if "run" in file else {}
     messages = [_text(message) for message in file["run/messages"][()]] if "run/messages" in file else []
     return Result(path, angle, series, _datasets(file, "summary"),
-                  _in_deck_order(sweep, deck_text, deck), deck, deck_text, run, messages)
+                  _in_deck_order(sweep, deck_text, deck), deck, deck_text, run, messages, cases)
+
+
+def _read_series(path, file):
+    """Cam angles and series by name; both empty where a sweep has kept none."""
+    if "cam_angle" not in file["series"]:
+        return np.zeros(0), {}
+    angle = np.asarray(file["series/cam_angle"][()], dtype=float)
+    series = {name: _quantity(data) for name, data in file["series"].items() if name != "cam_angle"}
+    if angle.ndim != 1 or angle.size == 0:
+        raise ResultError(f"{path}: /series/cam_angle is not a list of angles")
+    for name, quantity in series.items():
+        if quantity.values.ndim != 2 or quantity.values.shape[1] != angle.size or quantity.values.dtype.kind not in "fiu":
+            raise ResultError(f"{path}: series {name} does not have the dimensions (case, cam_angle)")
+    if len({quantity.values.shape[0] for quantity in series.values()}) > 1:
+        raise ResultError(f"{path}: series with different numbers of cases")
+    return angle, series
+
+
+def _count_cases(path, file, series):
+    """Number of cases, from the series, else from what has one value for each case."""
+    shapes = [quantity.values.shape for quantity in series.values()][:1]
+    shapes += [file[name].shape for name in ("summary/status", "case") if name in file and isinstance(file[name], h5py.Dataset)]
+    shapes += [data.shape for data in file["series"].values() if isinstance(data, h5py.Dataset) and data.ndim == 2]
+    if not shapes or not shapes[0] or shapes[0][0] < 1:
+        raise ResultError(f"{path}: no cases in it")
+    return shapes[0][0]
 
 
 def _datasets(file, group):

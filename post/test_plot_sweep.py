@@ -50,7 +50,7 @@ def test_a_figure_suits_the_sweep(grid, sample, tmp_path):
 def test_a_map_shows_the_longest_keys(grid):
     figure = draw_map(Sweep(grid, ["mean_torque_drive"]))
     axes = figure.axes[0]
-    assert axes.get_xlabel() == "speed [rpm]" and axes.get_ylabel() == "oil temperature [°C]"
+    assert axes.get_xlabel() == "speed [rev/min]" and axes.get_ylabel() == "oil temperature [°C]"
     table = axes.collections[0].get_array()
     assert table.shape == (9, 10) and np.ma.count_masked(table) == 1
     assert np.isclose(table[0, 0], 300 / 40) and np.isclose(table[8, 9], 900 / 120)

@@ -12,6 +12,7 @@ import argparse
 from pathlib import Path
 import sys
 
+from command import run, write_file
 from comparison_claims import STATEMENTS, verdict
 from comparison_reasons import reason
 from comparison_runs import command_lines, read_runs
@@ -50,8 +51,9 @@ def main(arguments=None):
     if not options.folder or not options.page:
         parser.error("a folder and --page, or --runs")
     try:
-        Path(options.page).write_text("\n".join(page(read_runs(options.folder))), encoding="utf-8")
-    except (ResultError, OSError) as error:
+        text = "\n".join(page(read_runs(options.folder)))
+        write_file(options.page, lambda beside: Path(beside).write_text(text, encoding="utf-8"))
+    except ResultError as error:
         print(f"thesis_comparison.py: {error}", file=sys.stderr)
         return 2
     return 0
@@ -104,4 +106,4 @@ def section(number, statement, runs):
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(run(main, "thesis_comparison.py"))

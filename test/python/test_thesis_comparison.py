@@ -8,9 +8,10 @@ import sys
 
 import pytest
 
-from comparison_claims import STATEMENTS, band, falls, rises, significant, verdict
+from comparison_claims import STATEMENTS, band, falls, rises, verdict
 from comparison_reasons import REASONS, UNEXPLAINED
 from comparison_runs import RUNS, command_lines
+from units import significant
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PAGE = ROOT / "doc/thesis_comparison.md"
