@@ -55,6 +55,8 @@ module camroller_cycle
       real(wp) :: distance = 0.0_wp
       !> Error allowed per step [m/s]; zero for methods without error control
       real(wp) :: step_error = 0.0_wp
+      !> Error of the sliding speed that was aimed at, over its largest value; means are integrated to the same [-]
+      real(wp) :: tolerance = 0.0_wp
    end type cycle_t
 
    !> Part of the integration's tolerance to which the contact is solved at each evaluation [-]
@@ -103,6 +105,7 @@ contains
       integer :: turn
 
       resolved = resolve_numerics(numerics)
+      cycle%tolerance = resolved%tolerance
       call find_stops(model, stops)
       call choose_start(model, cycle%start, state(1), scale, least, cycle%counters%evaluations)
       if (resolved%method == quasi_static) then
@@ -259,6 +262,7 @@ contains
       type(numerics_t) :: resolved
 
       resolved = resolve_numerics(numerics)
+      cycle%tolerance = resolved%tolerance
       call new_method(method, resolved%method, 1, error)
       if (allocated(error)) return
       cycle%has_surface_speed = method%error_order == 0

@@ -1,7 +1,8 @@
 !> Error of a cycle, estimated from the equation that its own curve leaves unsatisfied.
 !>
 !> Layer: solver. In: at the points of the rule for means, the slope of the curve less the rate of the roller equation there (its
-!> defect) and the decay rate. Out: the largest error of the sliding speed over the cycle.
+!> defect), the decay rate and the changes of the losses with the sliding speed. Out: the largest error of the sliding speed over
+!> the cycle, and the errors of the losses that come of it.
 !>
 !> The error obeys `d error/d angle = defect - decay_rate*error` in first order. Its terms are evaluated for the means anyway, so
 !> the estimate costs no evaluation, and it holds for any method, interpolation included. Source: Enright, SIAM J. Numer. Anal. 26
@@ -11,10 +12,10 @@ module camroller_error_estimate
    implicit none
    private
 
-   public :: estimate_t, add_defect, end_interval, estimated_error
+   public :: estimate_t, add_defect, end_interval, estimated_error, loss_errors
 
-   !> Most points of a rule in an interval
-   integer, parameter :: most_points = 3
+   !> Most points of a rule in an interval; losses that follow the sliding speed
+   integer, parameter :: most_points = 3, losses = 2
    !> Places that cut an interval into parts [-]: shorter ones at its ends, where the defect of a stiff method is largest
    real(wp), parameter :: cuts(*) = [0.0_wp, 0.02_wp, 0.1_wp, 0.3_wp, 0.5_wp, 0.7_wp, 0.9_wp, 1.0_wp]
    !> The estimate is of first order; true errors were met at up to 1.25 times as much [-]
@@ -30,26 +31,35 @@ module camroller_error_estimate
       integer :: points = 0
       !> Defect [m/s/rad] and decay rate [1/rad] at each of them
       real(wp) :: defects(most_points) = 0.0_wp, rates(most_points) = 0.0_wp
+      !> Changes of the losses with the sliding speed there [N m s/m]
+      real(wp) :: slopes(losses, most_points) = 0.0_wp
       !> Error at the end of the last interval, largest so far [m/s]
       real(wp) :: error = 0.0_wp, largest = 0.0_wp
       !> Part of an error at the start of the cycle that is left [-]
       real(wp) :: contraction = 1.0_wp
+      !> Integrals over the cycle of the changes of the losses with the sliding speed, times the size of the error [N m rad], and
+      !> times the part of an error at the start that is left there [N m s rad/m]
+      real(wp) :: losses(losses) = 0.0_wp, losses_of_start(losses) = 0.0_wp
    end type estimate_t
 
 contains
 
    !> Add a point of the present interval.
-   pure subroutine add_defect(estimate, defect, decay_rate)
+   pure subroutine add_defect(estimate, defect, decay_rate, slopes)
       !> The estimate
       type(estimate_t), intent(inout) :: estimate
       !> Slope of the curve less rate of the equation [m/s/rad]
       real(wp), intent(in) :: defect
       !> Decay rate of a disturbance [1/rad]
       real(wp), intent(in) :: decay_rate
+      !> Changes of the losses with the sliding speed, as sizes; absent: none [N m s/m]
+      real(wp), intent(in), optional :: slopes(losses)
 
       estimate%points = estimate%points + 1
       estimate%defects(estimate%points) = defect
       estimate%rates(estimate%points) = decay_rate
+      estimate%slopes(:, estimate%points) = 0.0_wp
+      if (present(slopes)) estimate%slopes(:, estimate%points) = slopes
    end subroutine add_defect
 
    !> Carry the error over an interval.
@@ -70,8 +80,8 @@ contains
       ! Places [-] and defects [m/s/rad] that are known
       real(wp) :: places(size(nodes) + 2), values(size(nodes) + 2)
       ! Defect at start, middle and end of a part [m/s/rad]; its length over the interval [-]; decay over it, what it leaves, its
-      ! mean weight [-]
-      real(wp) :: defects(3), part, decay, left, weight
+      ! mean weight [-]; size of the error in a part [m/s]; changes of the losses with the sliding speed there [N m s/m]
+      real(wp) :: defects(3), part, decay, left, weight, size_there, slopes(losses)
       integer :: i, j, known
 
       known = size(nodes)
@@ -92,9 +102,16 @@ contains
          left = exp(-decay)
          weight = 1.0_wp
          if (abs(decay) > epsilon(1.0_wp)) weight = (1.0_wp - left)/decay
+         size_there = abs(estimate%error)
          estimate%error = left*estimate%error + length*part*(weight*defects(2) &
             & + left*(defects(1) - 2.0_wp*defects(2) + defects(3))/6.0_wp)
          estimate%error = sign(min(abs(estimate%error), lost), estimate%error)
+         size_there = max(size_there, abs(estimate%error))
+         do j = 1, losses
+            slopes(j) = rate_at(nodes, estimate%slopes(j, :size(nodes)), cuts(i) + 0.5_wp*part)
+         end do
+         estimate%losses = estimate%losses + length*part*slopes*size_there
+         estimate%losses_of_start = estimate%losses_of_start + length*part*slopes*estimate%contraction*max(1.0_wp, left)
          estimate%contraction = min(estimate%contraction*left, lost)
          estimate%largest = max(estimate%largest, abs(estimate%error))
       end do
@@ -110,6 +127,19 @@ contains
       error = margin*(estimate%largest &
          & + abs(estimate%error)*estimate%contraction/max(1.0_wp - estimate%contraction, epsilon(1.0_wp)))
    end function estimated_error
+
+   !> Integrals of the errors of the losses over the cycle, with what the cycle passes on to itself, and a margin.
+   pure function loss_errors(estimate, closure) result(errors)
+      !> The estimate at the end of the cycle
+      type(estimate_t), intent(in) :: estimate
+      !> Difference of the sliding speed between end and start [m/s]
+      real(wp), intent(in) :: closure
+      !> Errors of contact and roller bearing [N m rad]
+      real(wp) :: errors(losses)
+
+      errors = margin*estimate%losses + estimate%losses_of_start*(margin*abs(estimate%error) + closure) &
+         & /max(1.0_wp - estimate%contraction, epsilon(1.0_wp))
+   end function loss_errors
 
    !> Decay rate between two or three points, constant beyond them.
    pure function rate_at(nodes, rates, place) result(rate)

@@ -1,27 +1,36 @@
-!> Means over the cycle, integrated with the solution itself.
+!> Means over the cycle, integrated with the solution itself to a tolerance of their own.
 !>
-!> Layer: solver. In: cycles. Out: mean and extremes of the series of the first follower, mean torques of every lobe shape, mean
-!> torque of the camshaft bearings. Each interval between accepted points, and so each segment between stops, gets its own
-!> Gauss-Legendre rule of order six; a solution that is only linear between its points gets the trapezoidal rule.
+!> Layer: solver. In: cycles. Out: mean and extremes of the series and torques of a lobe shape's follower, and an estimate of the
+!> largest error of a mean. Each interval between accepted points, and so each
+!> segment between stops, is a panel of `panels`, halved where the doubt of a mean asks for it; a solution that is only linear
+!> between its points gets the trapezoidal rule.
+!>
+!> The torque against spring, seat and inertia and the one that spins the roller up are not integrated over the angle: over a
+!> cycle or a piece of one they are differences of stored energy, `stored_work`.
 module camroller_means
-   use camroller_kinds, only : wp, two_pi, degree
+   use camroller_kinds, only : wp
    use camroller_error, only : error_t
    use camroller_case, only : case_t
+   use camroller_names, only : name_length
    use camroller_model, only : model_t
-   use camroller_state, only : state_t, evaluate_spin
-   use camroller_contact_forces, only : contact_t, film_groups
+   use camroller_state, only : state_t
+   use camroller_contact_forces, only : film_groups
    use camroller_film, only : is_in_range
-   use camroller_cycle, only : cycle_t, state_at
-   use camroller_catalogue, only : series_values, follower_torques, torque_count
-   use camroller_error_estimate, only : estimate_t, add_defect, end_interval, estimated_error
-   use camroller_shaft, only : shaft_t, shaft_torques
-   use camroller_spin, only : decay_rate_of, full_decay_rate, rolling_speed_slope
+   use camroller_cycle, only : cycle_t
+   use camroller_catalogue, only : list_series, series_values, torque_count
+   use camroller_defects, only : find_defect, loss_slopes
+   use camroller_error_estimate, only : estimate_t, add_defect, end_interval, estimated_error, loss_errors
+   use camroller_extremes, only : refine_extremes, add_standstills
+   use camroller_follower_samples, only : follower_samples_t, start_samples, look_t, look_of
+   use camroller_panels, only : panels_t, panel_points, panel_places, panel_weights, gauss_points, start_panels, add_panel, &
+      & add_trapezoid, refine_panels
+   use camroller_result, only : quantity_t, find_quantity
+   use camroller_stored_work, only : stored_work_t, follow_contact, end_work, spin_work
    use camroller_trajectory, only : curve_slope
-   use camroller_events, only : cycle_stops
    implicit none
    private
 
-   public :: statistics_t, integrate_lobe, integrate_torques, mean_bearing_torque
+   public :: statistics_t, integrate_lobe, integrate_torques, mean_tolerance
 
    !> Means over the cycle of one lobe shape
    type :: statistics_t
@@ -41,27 +50,37 @@ module camroller_means
       real(wp) :: error = 0.0_wp
       !> Cam angle from full lift at the end of the interval where that error is largest [rad]
       real(wp) :: error_angle = 0.0_wp
+      !> Estimate of the largest error of a mean over the mean size of its quantity [-]
+      real(wp) :: mean_error = 0.0_wp
+      !> The mean that has it
+      character(len=name_length) :: worst_mean = ""
+      !> Changes of sign of the entrainment speed in contact, and cam angle from full lift of the first [rad]
+      integer :: standstills = 0
+      real(wp) :: first_standstill = 0.0_wp
    end type statistics_t
 
-   !> Three-point Gauss-Legendre quadrature on [0, 1]: nodes and weights [-]
-   real(wp), parameter :: gauss_nodes(3) = 0.5_wp*[1.0_wp - sqrt(0.6_wp), 1.0_wp, 1.0_wp + sqrt(0.6_wp)]
-   real(wp), parameter :: gauss_weights(3) = [5.0_wp, 8.0_wp, 5.0_wp]/18.0_wp
-   !> Trapezoidal rule on [0, 1] [-]
-   real(wp), parameter :: trapezoid_nodes(2) = [0.0_wp, 1.0_wp]
-   real(wp), parameter :: trapezoid_weights(2) = [0.5_wp, 0.5_wp]
-   !> Longest panel for the camshaft bearings [rad]
-   real(wp), parameter :: longest_panel = 2.0_wp*degree
+   !> Places of the trapezoidal rule on [0, 1] [-]
+   real(wp), parameter :: trapezoid(2) = [0.0_wp, 1.0_wp]
+   !> Halvings of panels, at most
+   integer, parameter, public :: most_halvings = 1000
+   !> Times that what is allowed is taken anew from means that have become better
+   integer, parameter :: most_passes = 5
+   !> Least tolerance of a mean: below it rounding counts [-]
+   real(wp), parameter :: least_tolerance = 1.0e-10_wp
+   !> Names of the torques that are integrated, as series have them; the one that spins the roller up is not
+   character(len=*), parameter :: torque_names(torque_count) = [character(len=name_length) :: "torque_drive", "torque_contact", &
+      & "torque_needle", "torque_guide", "", "energy_residual"]
 
 contains
 
    !> Means and extremes over the cycle of one lobe shape.
    subroutine integrate_lobe(case, model, cycle, series_count, statistics, error)
       !> The case
-      type(case_t), intent(in) :: case
+      type(case_t), intent(in), target :: case
       !> Model of the lobe
-      type(model_t), intent(in) :: model
+      type(model_t), intent(in), target :: model
       !> Cycle of the lobe
-      type(cycle_t), intent(in) :: cycle
+      type(cycle_t), intent(in), target :: cycle
       !> Number of series of the case
       integer, intent(in) :: series_count
       !> Means and extremes
@@ -69,56 +88,149 @@ contains
       !> Convergence error
       type(error_t), allocatable, intent(out) :: error
 
-      ! Angles [rad] and weights [-] of the rule over the cycle
-      real(wp), allocatable :: angles(:), weights(:)
-      ! Places of the rule in an interval [-]
-      real(wp), allocatable :: nodes(:)
+      type(follower_samples_t) :: samples
+      type(panels_t) :: panels
       type(estimate_t) :: estimate
-      ! Largest error so far [m/s]
-      real(wp) :: largest
-      integer :: point, hint
+      type(stored_work_t) :: work
+      type(look_t), allocatable :: looks(:)
+      type(quantity_t), allocatable :: series(:)
+      ! Length of the cycle [rad]
+      real(wp) :: span
 
-      allocate (statistics%mean(series_count), statistics%lowest(series_count), statistics%highest(series_count))
-      statistics%mean = 0.0_wp
-      statistics%lowest = huge(1.0_wp)
-      statistics%highest = -huge(1.0_wp)
-      call list_points(cycle, angles, weights)
-      nodes = gauss_nodes
-      if (cycle%is_linear) nodes = trapezoid_nodes
-      hint = 1
-      do point = 1, size(angles)
-         call add_point(case, model, cycle, angles(point), weights(point), hint, statistics, estimate, error)
+      call list_series(case, series)
+      call start_samples(samples, model, cycle, case, series_count, find_quantity(series, "torque_geometric"))
+      call walk_round(samples, statistics, panels, estimate, work, looks, error)
+      if (allocated(error)) return
+      if (.not. cycle%is_linear) then
+         call refine_means(panels, samples, cycle%tolerance, series_count, error)
+         if (.not. allocated(error)) call refine_extremes(samples, looks, error)
+         if (.not. allocated(error)) call add_standstills(samples, looks, statistics%standstills, statistics%first_standstill, &
+            & error)
          if (allocated(error)) return
-         if (estimate%points < size(nodes)) cycle
-         associate (first => (point - 1)/size(nodes) + 1)
-            largest = estimate%largest
-            call close_interval(cycle, first, nodes, estimate)
-            if (estimate%largest > largest) statistics%error_angle = angles(point)
-         end associate
-      end do
+      end if
+      statistics%lowest = samples%lowest
+      statistics%highest = samples%highest
+      statistics%largest_sliding = samples%largest_sliding
+      span = cycle%trajectory%time(cycle%trajectory%count) - cycle%trajectory%time(1)
+      call take_means(panels, samples, work, span, statistics)
+      call judge_means(panels, loss_errors(estimate, cycle%closure*cycle%scale), span, series, statistics)
       ! What start and end differ by comes again in every cycle that the periodic one is away
       statistics%error = cycle%closure/max(1.0_wp - estimate%contraction, epsilon(1.0_wp)) &
          & + estimated_error(estimate)/max(statistics%largest_sliding, cycle%scale, tiny(1.0_wp))
    end subroutine integrate_lobe
 
+   !> Sample every interval of a cycle: panels, estimate of the error, contact, range of the film law.
+   subroutine walk_round(samples, statistics, panels, estimate, work, looks, error)
+      !> The samples
+      type(follower_samples_t), intent(inout) :: samples
+      !> Shares of the cycle without contact and outside the film law's range, angle of the largest error
+      type(statistics_t), intent(inout) :: statistics
+      !> One panel for each interval
+      type(panels_t), intent(out) :: panels
+      !> Estimate of the error
+      type(estimate_t), intent(inout) :: estimate
+      !> Work of what is stored
+      type(stored_work_t), intent(inout) :: work
+      !> The points, in order
+      type(look_t), allocatable, intent(out) :: looks(:)
+      !> Convergence error
+      type(error_t), allocatable, intent(out) :: error
+
+      ! Places in an interval [-], weights there [-]
+      real(wp), allocatable :: places(:), weights(:)
+      ! Values at the places [unit of each]; ends of an interval, angle [rad]; largest error so far [m/s]
+      real(wp) :: values(samples%series + torque_count, panel_points), left, right, angle, largest
+      integer :: interval, point, count
+
+      places = panel_places
+      weights = panel_weights
+      if (samples%cycle%is_linear) places = trapezoid
+      if (samples%cycle%is_linear) weights = [0.5_wp, 0.5_wp]
+      associate (times => samples%cycle%trajectory%time(:samples%cycle%trajectory%count))
+         call start_panels(panels, size(values, 1), 2*size(times))
+         allocate (looks(size(places)*size(times)))
+         count = 0
+         do interval = 1, size(times) - 1
+            left = times(interval)
+            right = times(interval + 1)
+            if (.not. right > left) cycle
+            do point = 1, size(places)
+               angle = left + places(point)*(right - left)
+               call samples%sample(angle, values(:, point), error)
+               if (allocated(error)) return
+               count = count + 1
+               looks(count) = look_of(samples, angle)
+               call follow_contact(work, samples, angle, left, error)
+               if (allocated(error)) return
+               call add_shares(samples, angle, weights(point)*(right - left)/(times(size(times)) - times(1)), statistics)
+               if (samples%cycle%is_linear .or. any(gauss_points == point)) call add_point(samples, angle, interval, estimate)
+            end do
+            largest = estimate%largest
+            call close_interval(samples%cycle, interval, estimate)
+            if (estimate%largest > largest) statistics%error_angle = right
+            if (samples%cycle%is_linear) call add_trapezoid(panels, left, right, values(:, :2))
+            if (.not. samples%cycle%is_linear) call add_panel(panels, left, right, values)
+         end do
+      end associate
+      looks = looks(:count)
+   end subroutine walk_round
+
+   !> Add the point that was sampled last to the estimate of the error.
+   subroutine add_point(samples, angle, interval, estimate)
+      !> The samples
+      type(follower_samples_t), intent(in) :: samples
+      !> Cam angle from full lift [rad]
+      real(wp), intent(in) :: angle
+      !> Interval of the trajectory that holds it
+      integer, intent(in) :: interval
+      !> Estimate of the error so far
+      type(estimate_t), intent(inout) :: estimate
+
+      ! Defect [m/s/rad], decay rate [1/rad]
+      real(wp) :: defect, decay_rate
+
+      call find_defect(samples%model, samples%cycle, angle, interval, samples%state, estimate%error, defect, decay_rate)
+      call add_defect(estimate, defect, decay_rate, loss_slopes(samples%model, samples%state, decay_rate))
+   end subroutine add_point
+
+   !> Add the point that was sampled last to the shares of the cycle without contact and outside the film law's range.
+   subroutine add_shares(samples, angle, weight, statistics)
+      !> The samples
+      type(follower_samples_t), intent(in) :: samples
+      !> Cam angle from full lift [rad]
+      real(wp), intent(in) :: angle
+      !> Weight of the point over the cycle [-]
+      real(wp), intent(in) :: weight
+      !> The shares
+      type(statistics_t), intent(inout) :: statistics
+
+      if (.not. samples%state%contact%is_touching) statistics%lost_share = statistics%lost_share + weight
+      if (has_film_in_range(samples%model, samples%state)) return
+      if (statistics%outside_share <= 0.0_wp) statistics%first_outside = angle
+      statistics%outside_share = statistics%outside_share + weight
+   end subroutine add_shares
+
    !> Carry the estimate of the error over an interval, with the defects at its ends where the rates of the equation are kept there.
-   pure subroutine close_interval(cycle, interval, nodes, estimate)
+   pure subroutine close_interval(cycle, interval, estimate)
       !> Cycle of the lobe
       type(cycle_t), intent(in) :: cycle
       !> Interval of its trajectory
       integer, intent(in) :: interval
-      !> Places of the points in it [-]
-      real(wp), intent(in) :: nodes(:)
       !> The estimate
       type(estimate_t), intent(inout) :: estimate
 
       ! Slope at an end [m/s/rad], defects at both [m/s/rad]
       real(wp) :: slope(1), ends(2)
+      ! Places of the points in the interval [-]
+      real(wp), allocatable :: nodes(:)
       integer :: i
+
+      nodes = panel_places(gauss_points)
+      if (cycle%is_linear) nodes = trapezoid
 
       associate (trajectory => cycle%trajectory, &
          & length => cycle%trajectory%time(interval + 1) - cycle%trajectory%time(interval))
-         if (cycle%is_linear .or. allocated(cycle%phases) .or. .not. length > 0.0_wp) then
+         if (cycle%is_linear .or. allocated(cycle%phases)) then
             call end_interval(estimate, nodes, length)
             return
          end if
@@ -130,239 +242,194 @@ contains
       end associate
    end subroutine close_interval
 
+   !> Halve panels until the means are within the tolerance.
+   subroutine refine_means(panels, samples, tolerance, series, error)
+      !> The panels
+      type(panels_t), intent(inout) :: panels
+      !> The samples
+      type(follower_samples_t), intent(inout) :: samples
+      !> Error allowed, over the mean size of each quantity [-]
+      real(wp), intent(in) :: tolerance
+      !> Number of series that stand before the torques
+      integer, intent(in) :: series
+      !> Convergence error
+      type(error_t), allocatable, intent(out) :: error
+
+      ! Doubts allowed [unit of each times rad]
+      real(wp) :: allowed(series + torque_count)
+      integer :: pass, halvings
+
+      halvings = most_halvings
+      do pass = 1, most_passes
+         allowed = mean_tolerance(tolerance)*mean_sizes(panels, series)
+         if (all(sum(panels%doubts(:, :panels%count), 2) <= allowed)) return
+         call refine_panels(panels, samples, allowed, halvings, error)
+         if (allocated(error) .or. halvings == 0) return
+      end do
+   end subroutine refine_means
+
+   !> Error of a mean that is aimed at, over the mean size of its quantity.
+   elemental function mean_tolerance(tolerance) result(error)
+      !> Tolerance of the integration of the cycle [-]
+      real(wp), intent(in) :: tolerance
+      !> Error of a mean [-]
+      real(wp) :: error
+
+      error = max(tolerance, least_tolerance)
+   end function mean_tolerance
+
+   !> What the errors of the integrals are relative to: the integrals of the sizes, and for the torque against gas, which adds to what
+   !> drives the camshaft, that of all losses. The energy residual is a matter of rounding.
+   pure function mean_sizes(panels, series) result(sizes)
+      !> The panels
+      type(panels_t), intent(in) :: panels
+      !> Number of series that stand before the torques
+      integer, intent(in) :: series
+      !> Sizes, positive [unit of each times rad]
+      real(wp) :: sizes(series + torque_count)
+
+      sizes = max(sum(panels%sizes(:, :panels%count), 2), tiny(1.0_wp)/least_tolerance)
+      sizes(series + 1) = sum(sizes(series + 2:series + 4))
+      sizes(series + torque_count) = huge(1.0_wp)
+   end function mean_sizes
+
+   !> Means of series and torques from the integrals and the stored energy.
+   subroutine take_means(panels, samples, work, span, statistics)
+      !> The panels
+      type(panels_t), intent(in) :: panels
+      !> The samples
+      type(follower_samples_t), intent(in) :: samples
+      !> Work of what is stored
+      type(stored_work_t), intent(inout) :: work
+      !> Length of the cycle [rad]
+      real(wp), intent(in) :: span
+      !> The means
+      type(statistics_t), intent(inout) :: statistics
+
+      ! Means [unit of each]; series of the last state with the mean torques
+      real(wp) :: means(samples%series + torque_count), series(samples%series)
+
+      means = sum(panels%integrals(:, :panels%count), 2)/span
+      statistics%torques = means(samples%series + 1:) + stored_torques(samples, work, span)
+      call series_values(samples%case, samples%model, samples%state, statistics%torques, 0.0_wp, series)
+      statistics%mean = [means(:samples%first_torque - 1), series(samples%first_torque:)]
+   end subroutine take_means
+
+   !> Mean torques that come of stored energy.
+   function stored_torques(samples, work, span) result(torques)
+      !> The samples
+      type(follower_samples_t), intent(in) :: samples
+      !> Work of what is stored
+      type(stored_work_t), intent(in) :: work
+      !> Length of the cycle or the piece [rad]
+      real(wp), intent(in) :: span
+      !> The torques [N m]
+      real(wp) :: torques(torque_count)
+
+      torques = 0.0_wp
+      torques(1) = end_work(work, samples)/span
+      if (samples%model%is_consistent) torques(5) = spin_work(samples)/span
+   end function stored_torques
+
+   !> Largest error of a mean, over the mean size of its quantity.
+   subroutine judge_means(panels, loss_errors, span, series, statistics)
+      !> The panels
+      type(panels_t), intent(in) :: panels
+      !> Integrals of the errors of the losses in contact and bearing that come of the sliding speed [N m rad]
+      real(wp), intent(in) :: loss_errors(2)
+      !> Length of the cycle [rad]
+      real(wp), intent(in) :: span
+      !> The series
+      type(quantity_t), intent(in) :: series(:)
+      !> The means; out: with the largest error
+      type(statistics_t), intent(inout) :: statistics
+
+      ! Errors of the integrals [unit of each times rad], over the sizes [-]
+      real(wp) :: errors(size(panels%integrals, 1)), relative(size(panels%integrals, 1))
+      integer :: worst
+
+      associate (first => size(series) + 1)
+         errors = sum(panels%doubts(:, :panels%count), 2)
+         errors(first + 1:first + 2) = errors(first + 1:first + 2) + loss_errors
+         ! The drive has the errors of all losses, and what the spin of the roller differs by between start and end
+         errors(first) = sum(errors(first:first + 3)) + abs(statistics%torques(5))*span
+         relative = errors/mean_sizes(panels, size(series))
+         ! What is not there has no error
+         where (errors <= 0.0_wp) relative = 0.0_wp
+         worst = maxloc(relative, 1)
+         statistics%mean_error = relative(worst)
+         if (worst < first) statistics%worst_mean = series(worst)%name
+         if (worst >= first) statistics%worst_mean = torque_names(worst - first + 1)
+      end associate
+   end subroutine judge_means
+
    !> Mean torques of a follower over a cycle or a piece of one.
    subroutine integrate_torques(model, cycle, torques, error)
       !> Model of the lobe
-      type(model_t), intent(in) :: model
+      type(model_t), intent(in), target :: model
       !> Cycle or a piece of one
-      type(cycle_t), intent(in) :: cycle
+      type(cycle_t), intent(in), target :: cycle
       !> Mean torques [N m], last the energy residual [W]
       real(wp), intent(out) :: torques(torque_count)
       !> Convergence error
       type(error_t), allocatable, intent(out) :: error
 
-      type(state_t) :: state
-      ! Angles [rad] and weights [-] of the rule
-      real(wp), allocatable :: angles(:), weights(:)
-      integer :: point, hint
+      type(follower_samples_t) :: samples
+      type(panels_t) :: panels
+      type(stored_work_t) :: work
+      ! Length [rad]
+      real(wp) :: span
 
       torques = 0.0_wp
-      call list_points(cycle, angles, weights)
-      hint = 1
-      do point = 1, size(angles)
-         call state_at(cycle, model, angles(point), hint, state, error)
-         if (allocated(error)) return
-         torques = torques + weights(point)*follower_torques(state)
-      end do
+      call start_samples(samples, model, cycle)
+      call walk_along(samples, panels, work, error)
+      if (.not. (allocated(error) .or. cycle%is_linear)) call refine_means(panels, samples, cycle%tolerance, 0, error)
+      if (allocated(error)) return
+      span = cycle%trajectory%time(cycle%trajectory%count) - cycle%trajectory%time(1)
+      torques = sum(panels%integrals(:, :panels%count), 2)/span + stored_torques(samples, work, span)
    end subroutine integrate_torques
 
-   !> Points and weights of the rule over all intervals of a trajectory; the weights add up to one.
-   pure subroutine list_points(cycle, angles, weights)
-      !> Cycle or a piece of one
-      type(cycle_t), intent(in) :: cycle
-      !> Cam angles from full lift [rad]
-      real(wp), allocatable, intent(out) :: angles(:)
-      !> Weights [-]
-      real(wp), allocatable, intent(out) :: weights(:)
-
-      ! Rule on [0, 1] [-]
-      real(wp), allocatable :: rule_nodes(:), rule_weights(:)
-      ! Length of an interval and of all [rad]
-      real(wp) :: length, span
-      integer :: interval, points, first
-
-      rule_nodes = gauss_nodes
-      rule_weights = gauss_weights
-      if (cycle%is_linear) then
-         rule_nodes = trapezoid_nodes
-         rule_weights = trapezoid_weights
-      end if
-      points = size(rule_nodes)
-      associate (times => cycle%trajectory%time(:cycle%trajectory%count))
-         span = times(size(times)) - times(1)
-         allocate (angles(points*(size(times) - 1)), weights(points*(size(times) - 1)))
-         do interval = 1, size(times) - 1
-            length = times(interval + 1) - times(interval)
-            first = points*(interval - 1)
-            angles(first + 1:first + points) = times(interval) + rule_nodes*length
-            weights(first + 1:first + points) = rule_weights*length/span
-         end do
-      end associate
-   end subroutine list_points
-
-   !> Add one point of the rule.
-   subroutine add_point(case, model, cycle, angle, weight, hint, statistics, estimate, error)
-      !> The case
-      type(case_t), intent(in) :: case
-      !> Model of the lobe
-      type(model_t), intent(in) :: model
-      !> Cycle of the lobe
-      type(cycle_t), intent(in) :: cycle
-      !> Cam angle from full lift [rad]
-      real(wp), intent(in) :: angle
-      !> Weight of the point over the cycle [-]
-      real(wp), intent(in) :: weight
-      !> Interval where the search starts
-      integer, intent(inout) :: hint
-      !> Means and extremes so far
-      type(statistics_t), intent(inout) :: statistics
-      !> Estimate of the error so far
-      type(estimate_t), intent(inout) :: estimate
+   !> Sample a cycle or a piece of one for its torques alone, two intervals a panel where no stop parts them.
+   subroutine walk_along(samples, panels, work, error)
+      !> The samples
+      type(follower_samples_t), intent(inout) :: samples
+      !> The panels
+      type(panels_t), intent(out) :: panels
+      !> Work of what is stored
+      type(stored_work_t), intent(inout) :: work
       !> Convergence error
       type(error_t), allocatable, intent(out) :: error
 
-      type(state_t) :: state
-      ! Errors of steps that add up to one of the cycle [-]
-      real(wp), parameter :: few = 5.0_wp
-      ! Values of the series [unit of the series]; torques [N m]; defect [m/s/rad]; decay rate [1/rad]
-      real(wp) :: values(size(statistics%mean)), torques(torque_count), defect, decay_rate
+      ! Places in a panel [-]; values there [unit of each]; ends of a panel, angle [rad]
+      real(wp), allocatable :: places(:)
+      real(wp) :: values(torque_count, panel_points), left, right, angle
+      integer :: interval, next, point
 
-      call state_at(cycle, model, angle, hint, state, error)
-      if (allocated(error)) return
-      torques = follower_torques(state)
-      call series_values(case, model, state, torques, 0.0_wp, values)
-      statistics%mean = statistics%mean + weight*values
-      statistics%lowest = min(statistics%lowest, values)
-      statistics%highest = max(statistics%highest, values)
-      statistics%torques = statistics%torques + weight*torques
-      statistics%largest_sliding = max(statistics%largest_sliding, abs(state%contact%sliding_speed))
-      defect = defect_at(model, cycle, angle, hint, state)
-      decay_rate = decay_rate_of(model, state%contact)
-      if (.not. allocated(cycle%phases)) decay_rate = decay_rate_at(model, angle, state)
-      if (.not. (cycle%is_linear .or. allocated(cycle%phases))) call weaken_decay(model, state, defect, decay_rate)
-      if (decay_rate < 0.0_wp) call limit_growth(model, state, max(few*cycle%step_error, abs(estimate%error)), decay_rate)
-      call add_defect(estimate, defect, decay_rate)
-      if (.not. state%contact%is_touching) statistics%lost_share = statistics%lost_share + weight
-      if (.not. has_film_in_range(model, state)) then
-         if (statistics%outside_share <= 0.0_wp) statistics%first_outside = angle
-         statistics%outside_share = statistics%outside_share + weight
-      end if
-   end subroutine add_point
-
-   !> Decay rate of a disturbance of the spin.
-   !>
-   !> Film and load follow the slip through the entrainment speed, which changes forces by about their size over that speed. Where
-   !> the slope of the traction at constant film is large against that, it is good enough; beyond a sharp limit of the traction it
-   !> is zero, and all decay there is comes from the film.
-   function decay_rate_at(model, angle, state) result(decay_rate)
-      !> Model of the lobe
-      type(model_t), intent(in) :: model
-      !> Cam angle from full lift [rad]
-      real(wp), intent(in) :: angle
-      !> State there
-      type(state_t), intent(in) :: state
-      !> Decay rate [1/rad]
-      real(wp) :: decay_rate
-
-      ! Slope at constant film over that of the film, from which on the first is good enough [-]; accuracy of the other [-]
-      real(wp), parameter :: large = 5.0_wp, accuracy = 1.0e-4_wp
-      ! Decay rate that the film may make, about [1/rad]
-      real(wp) :: by_film
-
-      decay_rate = decay_rate_of(model, state%contact)
-      associate (contact => state%contact)
-         if (.not. contact%is_touching) return
-         by_film = model%roller_radius**2*(abs(contact%traction) + abs(contact%rolling_resistance)) &
-            & /(model%roller_inertia*model%speed)
-         if (decay_rate*abs(contact%entrainment_speed) >= large*by_film) return
-         decay_rate = full_decay_rate(model, angle, state%position, state%moments, contact%sliding_speed, accuracy)
+      places = panel_places
+      if (samples%cycle%is_linear) places = trapezoid
+      associate (times => samples%cycle%trajectory%time(:samples%cycle%trajectory%count))
+         call start_panels(panels, torque_count, size(times))
+         interval = 1
+         do while (interval < size(times))
+            next = interval + 1
+            left = times(interval)
+            if (next < size(times) .and. times(next) > left .and. .not. samples%cycle%is_linear) then
+               if (times(next + 1) > times(next)) next = next + 1
+            end if
+            right = times(next)
+            interval = next
+            if (.not. right > left) cycle
+            do point = 1, size(places)
+               angle = left + places(point)*(right - left)
+               call samples%sample(angle, values(:, point), error)
+               if (.not. allocated(error)) call follow_contact(work, samples, angle, left, error)
+               if (allocated(error)) return
+            end do
+            if (samples%cycle%is_linear) call add_trapezoid(panels, left, right, values(:, :2))
+            if (.not. samples%cycle%is_linear) call add_panel(panels, left, right, values)
+         end do
       end associate
-   end function decay_rate_at
-
-   !> Slope of the cycle's curve less the rate of the roller equation.
-   pure function defect_at(model, cycle, angle, interval, state) result(defect)
-      !> Model of the lobe
-      type(model_t), intent(in) :: model
-      !> Cycle of the lobe
-      type(cycle_t), intent(in) :: cycle
-      !> Cam angle from full lift, in the trajectory [rad]
-      real(wp), intent(in) :: angle
-      !> Interval of the trajectory that holds it
-      integer, intent(in) :: interval
-      !> State there
-      type(state_t), intent(in) :: state
-      !> The defect [m/s/rad]
-      real(wp) :: defect
-
-      ! Slope of the curve, rate of the equation [m/s/rad]
-      real(wp) :: slope(1), rate
-
-      call curve_slope(cycle%trajectory, angle, interval, slope)
-      rate = model%roller_radius*state%spin_acceleration/model%speed
-      if (.not. cycle%has_surface_speed) rate = rolling_speed_slope(model, state%position) - rate
-      defect = slope(1) - rate
-   end function defect_at
-
-   !> Decay rate over the distance that a defect would move the sliding speed, where it is less than at the point itself.
-   !>
-   !> Traction saturates: what decays fast at the sliding speed of the curve may hardly decay at the right one, and a roller that
-   !> the curve takes as held by friction may have broken away.
-   pure subroutine weaken_decay(model, state, defect, decay_rate)
-      !> Model of the lobe
-      type(model_t), intent(in) :: model
-      !> State on the curve
-      type(state_t), intent(in) :: state
-      !> Defect there [m/s/rad]
-      real(wp), intent(in) :: defect
-      !> Decay rate, in: at the point; out: over the distance [1/rad]
-      real(wp), intent(inout) :: decay_rate
-
-      ! Part of a decay rate that is as good as all of it [-]; evaluations at most
-      real(wp), parameter :: good_part = 0.5_wp
-      integer, parameter :: most = 12
-      ! Part of the traction that may be rounding [-]
-      real(wp), parameter :: rounding = 1.0e-9_wp
-      type(contact_t) :: contact
-      ! Distance [m/s]; acceleration of the roller [rad/s^2]; decay rate over the distance [1/rad]
-      real(wp) :: distance, acceleration, secant
-      integer :: i, status
-
-      if (.not. state%contact%is_touching) return
-      if (abs(defect) <= rounding*(abs(state%contact%shear) + state%contact%boundary_capacity)*model%roller_radius**2 &
-         & /(model%roller_inertia*model%speed)) return
-      do i = 1, most
-         if (.not. decay_rate > 0.0_wp) return
-         distance = -defect/decay_rate
-         if (.not. abs(distance) > 4.0_wp*spacing(state%contact%sliding_speed)) return
-         if (abs(distance) > abs(state%contact%rolling_speed)) return
-         call evaluate_spin(model, state%position, state%moments, state%contact%sliding_speed + distance, contact, &
-            & acceleration, status)
-         if (status /= 0) return
-         secant = model%roller_radius*(acceleration - state%spin_acceleration)/(model%speed*distance)
-         if (secant >= good_part*decay_rate) return
-         decay_rate = max(secant, 0.0_wp)
-      end do
-   end subroutine weaken_decay
-
-   !> Growth rate over the range that an error reaches, where a disturbance grows at the point itself.
-   !>
-   !> Near zero entrainment the traction falls with the sliding speed, within a range that may be far less than any error; beyond it
-   !> errors do not grow on.
-   pure subroutine limit_growth(model, state, reach, decay_rate)
-      !> Model of the lobe
-      type(model_t), intent(in) :: model
-      !> State on the curve
-      type(state_t), intent(in) :: state
-      !> Size of an error [m/s]
-      real(wp), intent(in) :: reach
-      !> Decay rate, in: at the point, negative; out: over the range, negative or zero [1/rad]
-      real(wp), intent(inout) :: decay_rate
-
-      type(contact_t) :: contact
-      ! Accelerations of the roller [rad/s^2]
-      real(wp) :: accelerations(2)
-      integer :: i, status
-
-      do i = 1, 2
-         status = 1
-         if (reach > 4.0_wp*spacing(state%contact%sliding_speed)) call evaluate_spin(model, state%position, state%moments, &
-            & state%contact%sliding_speed + (2*i - 3)*reach, contact, accelerations(i), status)
-         if (status /= 0) decay_rate = 0.0_wp
-         if (status /= 0) return
-      end do
-      decay_rate = max(decay_rate, min(0.0_wp, 0.5_wp*model%roller_radius*(accelerations(2) - accelerations(1)) &
-         & /(model%speed*reach)))
-   end subroutine limit_growth
+   end subroutine walk_along
 
    !> Is the film law inside its published range? True where there is no contact.
    pure function has_film_in_range(model, state) result(inside)
@@ -378,48 +445,5 @@ contains
          inside = is_in_range(model%film_law, film_groups(model, state%position, state%contact), model%film_table)
       end if
    end function has_film_in_range
-
-   !> Mean torque of all camshaft bearings, over panels that end at the stops of every cam.
-   subroutine mean_bearing_torque(shaft, models, cycles, mean, error)
-      !> The shaft
-      type(shaft_t), intent(inout) :: shaft
-      !> Model of each lobe shape
-      type(model_t), intent(in) :: models(:)
-      !> Cycle of each lobe shape
-      type(cycle_t), intent(in) :: cycles(:)
-      !> Mean torque [N m]
-      real(wp), intent(out) :: mean
-      !> Convergence or domain error
-      type(error_t), allocatable, intent(out) :: error
-
-      type(state_t) :: state
-      ! Stops of all cams [rad]
-      real(wp), allocatable :: stops(:)
-      ! Torques of the followers and of the bearings [N m]
-      real(wp) :: torques(torque_count), bearing_torque
-      ! Length of a panel, angle [rad]
-      real(wp) :: length, angle
-      integer :: cam, segment, panels, panel, node
-
-      mean = 0.0_wp
-      allocate (stops(0))
-      do cam = 1, size(shaft%lobes)
-         stops = [stops, cycles(shaft%lobes(cam))%stops + shaft%phases(cam)]
-      end do
-      stops = cycle_stops(stops, cycles(shaft%lobes(1))%start)
-      do segment = 1, size(stops) - 1
-         panels = ceiling((stops(segment + 1) - stops(segment))/longest_panel)
-         if (panels == 0) cycle
-         length = (stops(segment + 1) - stops(segment))/panels
-         do panel = 0, panels - 1
-            do node = 1, size(gauss_nodes)
-               angle = stops(segment) + (panel + gauss_nodes(node))*length
-               call shaft_torques(shaft, models, cycles, angle, state, torques, bearing_torque, error)
-               if (allocated(error)) return
-               mean = mean + gauss_weights(node)*length/two_pi*bearing_torque
-            end do
-         end do
-      end do
-   end subroutine mean_bearing_torque
 
 end module camroller_means

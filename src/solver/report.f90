@@ -12,7 +12,8 @@ module camroller_report
    use camroller_catalogue, only : list_series, series_values, follower_torques, torque_count
    use camroller_result, only : result_t, quantity_t
    use camroller_shaft, only : shaft_t, new_shaft, shaft_torques
-   use camroller_means, only : statistics_t, integrate_lobe, mean_bearing_torque
+   use camroller_mean_bearings, only : mean_bearing_torque
+   use camroller_means, only : statistics_t, integrate_lobe
    use camroller_summary, only : make_summary
    implicit none
    private
@@ -39,8 +40,8 @@ contains
 
       type(shaft_t) :: shaft
       type(statistics_t), allocatable :: statistics(:)
-      ! Mean torque of the camshaft bearings [N m]
-      real(wp) :: bearing_torque
+      ! Mean torque of the camshaft bearings [N m], its error over itself [-]
+      real(wp) :: bearing_torque, bearing_error
       integer :: lobe
 
       result%warnings = ""
@@ -57,10 +58,16 @@ contains
          call check_range(models(lobe), statistics(lobe), result%warnings, error)
          if (allocated(error)) return
          call check_error(statistics(lobe), result%warnings)
+         call check_entrainment(statistics(lobe), result%warnings)
       end do
       bearing_torque = 0.0_wp
-      if (allocated(case%cam_bearings)) call mean_bearing_torque(shaft, models, cycles, bearing_torque, error)
+      bearing_error = 0.0_wp
+      if (allocated(case%cam_bearings)) call mean_bearing_torque(shaft, models, cycles, bearing_torque, bearing_error, error)
       if (allocated(error)) return
+      if (bearing_error > maxval(statistics%mean_error)) then
+         statistics%mean_error = bearing_error
+         statistics%worst_mean = "torque_bearings"
+      end if
       call make_summary(case, models, cycles, shaft, statistics, bearing_torque, result)
    end subroutine make_result
 
@@ -119,6 +126,23 @@ contains
       warnings = warnings//"the sliding speed is not resolved: the estimate of its error is "// &
          & number_text(statistics%error, 2)//" of the largest; take another method, a smaller tolerance or smaller steps"
    end subroutine check_error
+
+   !> Say where the entrainment passes through zero: the smallest film is that of a standstill.
+   subroutine check_entrainment(statistics, warnings)
+      !> Means over the cycle of a lobe
+      type(statistics_t), intent(in) :: statistics
+      !> Warnings, one per line
+      character(len=:), allocatable, intent(inout) :: warnings
+
+      character(len=12) :: buffer(2)
+
+      if (statistics%standstills == 0) return
+      write (buffer(1), "(i0)") statistics%standstills
+      write (buffer(2), "(f0.1)") modulo(180.0_wp + statistics%first_standstill/degree, 360.0_wp)
+      if (len(warnings) > 0) warnings = warnings//new_line("a")
+      warnings = warnings//"the entrainment speed changes its sign "//trim(buffer(1))//" times in contact, first at cam angle "// &
+         & trim(buffer(2))//" deg; the smallest film is that of the standstill there, without what squeeze would leave"
+   end subroutine check_entrainment
 
    !> Warn or stop where the film law was used outside its range.
    subroutine check_range(model, statistics, warnings, error)

@@ -18,7 +18,7 @@ module camroller_summary
    public :: make_summary
 
    !> Scalars that do not belong to a series: room for them
-   integer, parameter :: more_scalars = 41
+   integer, parameter :: more_scalars = 43
 
 contains
 
@@ -56,6 +56,9 @@ contains
       worst = maxloc(statistics%error, 1)
       call add(quantities, values, count, "estimated_error_angle", "deg", "cam angle where the estimated error is largest", &
          & "numerics", modulo(180.0_wp + statistics(worst)%error_angle/degree, 360.0_wp))
+      call add(quantities, values, count, "estimated_error_of_means", "1", "estimate of the largest error of a mean over the "// &
+         & "mean size of its quantity; of geometric and drive torque, over the mean friction torque", "numerics", &
+         & maxval(statistics%mean_error))
       call add_counters(cycles, quantities, values, count)
       result%summary = quantities(:count)
       result%summary_values = values(:count)
@@ -214,6 +217,9 @@ contains
       rolling = statistics%mean(find_quantity(result%series, "rolling_speed"))
       call add(quantities, values, count, "revolution_slip", "1", &
          & "part of its turns in pure rolling that the roller loses per cam revolution", "roller", sliding/rolling)
+      call add(quantities, values, count, "entrainment_reversals", "1", &
+         & "times per cam revolution that the entrainment speed changes its sign in contact; the smallest film is that of the "// &
+         & "standstill there", "film", real(statistics%standstills, wp))
    end subroutine add_slip
 
    !> Margins: contact, range of the film law.

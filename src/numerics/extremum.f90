@@ -1,0 +1,114 @@
+!> Smallest value of a function of one variable near three points of which the middle one is lowest.
+!>
+!> Layer: numerics. In: three points with their values, then the value at each point asked for. Out: the smallest value met. The
+!> caller evaluates its own function between the calls, as with `roots`:
+!>
+!>     call start_extremum(search, points, values, tolerance)
+!>     do while (search%is_wanted)
+!>        call narrow_extremum(search, f(search%trial))
+!>     end do
+!>
+!> then `search%point(2)` is the place and `search%value(2)` the value. For a largest value the signs of all values are changed.
+module camroller_extremum
+   use camroller_kinds, only : wp
+   implicit none
+   private
+
+   public :: extremum_t, start_extremum, narrow_extremum
+
+   !> Values asked for at most: with each the bracket shrinks by a fifth at least, or the parabola has the extremum
+   integer, parameter :: most_steps = 30
+   !> Smallest distance of a trial from a point over the part of the bracket on that side [-]
+   real(wp), parameter :: least_part = 0.05_wp
+   !> Where the larger part of a bracket is cut, from its middle point [-]: golden section
+   real(wp), parameter :: golden = 0.5_wp*(3.0_wp - sqrt(5.0_wp))
+
+   !> A search on its way
+   type :: extremum_t
+      !> Is the value at `trial` wanted?
+      logical :: is_wanted = .false.
+      !> Point where it is wanted [x]
+      real(wp) :: trial = 0.0_wp
+      !> Bracket: a point, the one with the smallest value so far, and one on its other side [x]; values there [f]
+      real(wp) :: point(3) = 0.0_wp, value(3) = 0.0_wp
+      !> Gain that is not worth a value [f]
+      real(wp), private :: tolerance = 0.0_wp
+      !> Values asked for so far
+      integer :: steps = 0
+   end type extremum_t
+
+contains
+
+   !> Begin with three points in order; without a lowest one in the middle nothing is wanted.
+   pure subroutine start_extremum(search, points, values, tolerance)
+      !> The search
+      type(extremum_t), intent(out) :: search
+      !> Three points, increasing [x]
+      real(wp), intent(in) :: points(3)
+      !> Values there [f]
+      real(wp), intent(in) :: values(3)
+      !> Gain that is not worth a value [f]
+      real(wp), intent(in) :: tolerance
+
+      search%point = points
+      search%value = values
+      search%tolerance = tolerance
+      search%trial = points(2)
+      search%is_wanted = values(2) <= min(values(1), values(3)) .and. max(values(1), values(3)) > values(2)
+      if (search%is_wanted) call choose_trial(search)
+   end subroutine start_extremum
+
+   !> Take the value at the trial point.
+   pure subroutine narrow_extremum(search, value)
+      !> The search
+      type(extremum_t), intent(inout) :: search
+      !> Value at `search%trial` [f]
+      real(wp), intent(in) :: value
+
+      integer :: side
+
+      search%steps = search%steps + 1
+      side = merge(1, 3, search%trial < search%point(2))
+      if (value < search%value(2)) then
+         search%point(4 - side) = search%point(2)
+         search%value(4 - side) = search%value(2)
+         search%point(2) = search%trial
+         search%value(2) = value
+      else
+         search%point(side) = search%trial
+         search%value(side) = value
+      end if
+      call choose_trial(search)
+   end subroutine narrow_extremum
+
+   !> Next trial: the lowest point of the parabola, or a cut of the larger part where that is too close to a point. Nothing is wanted
+   !> any more where the parabola gains next to nothing, after one value at least.
+   pure subroutine choose_trial(search)
+      !> The search
+      type(extremum_t), intent(inout) :: search
+
+      ! Parts of the bracket [x], rises of the value over them [f], slopes [f/x]
+      real(wp) :: left, right, rises(2), slopes(2)
+      ! Shift of the lowest point from the middle one [x], what it gains [f]
+      real(wp) :: shift, gain
+
+      left = search%point(2) - search%point(1)
+      right = search%point(3) - search%point(2)
+      rises = [search%value(1) - search%value(2), search%value(3) - search%value(2)]
+      slopes = rises/[left, right]
+      search%is_wanted = search%steps < most_steps .and. maxval(rises) > search%tolerance &
+         & .and. min(left, right) > 16.0_wp*spacing(search%point(2))
+      if (.not. search%is_wanted) return
+      shift = 0.5_wp*(slopes(1)*right - slopes(2)*left)/(slopes(1) + slopes(2))
+      gain = shift**2*(slopes(1) + slopes(2))/(left + right)
+      if (gain <= search%tolerance .and. search%steps > 0) then
+         search%is_wanted = .false.
+         return
+      end if
+      if (abs(shift) < least_part*min(left, right)) shift = golden*merge(right, -left, right > left)
+      if (shift > 0.0_wp) shift = min(shift, (1.0_wp - least_part)*right)
+      if (shift < 0.0_wp) shift = max(shift, -(1.0_wp - least_part)*left)
+      search%trial = search%point(2) + shift
+   end subroutine choose_trial
+
+end module camroller_extremum

@@ -1,0 +1,251 @@
+!> Integrals of several quantities at once, sampled together, over panels that are halved where it takes.
+!>
+!> Layer: numerics. In: panels, the values of all quantities at seven places in each. Out: integrals, integrals of the sizes, and
+!> doubts of the integrals, which bound their errors as a rule. What is to be integrated is a type that extends `sampled_t`.
+!>
+!> The rule is that of Gauss with three places and Kronrod's extension to seven: exact for polynomials of degree 11. A doubt joins
+!> the difference of both rules with the fifth and the sixth coefficient of the polynomial through the seven values over Legendre's
+!> polynomials, in the root of the sum of squares: a kink or a jump that leaves one of them zero by chance shows in the others,
+!> however large the smooth part is. Sources: Kronrod (1965), Nodes and Weights of Quadrature Formulas; Berntsen and Espelid, ACM
+!> Trans. Math. Software 17 (1991) 233, on several such rules together.
+module camroller_panels
+   use camroller_kinds, only : wp
+   use camroller_error, only : error_t
+   implicit none
+   private
+
+   public :: sampled_t, panels_t, start_panels, add_panel, add_trapezoid, sample_panel, refine_panels
+
+   !> Places of a panel
+   integer, parameter, public :: panel_points = 7
+   !> Which of them are those of the rule of three
+   integer, parameter, public :: gauss_points(3) = [2, 4, 6]
+   !> Positive places on [-1, 1], outermost first, and the weights of both rules there [-]
+   real(wp), parameter :: outer = 0.960491268708020283423507092629080_wp, second = 0.774596669241483377035853079956480_wp, &
+      & third = 0.434243749346802558002071502844628_wp
+   real(wp), parameter :: kronrod(4) = [0.104656226026467265193823857192073_wp, 0.268488089868333440728569280666710_wp, &
+      & 0.401397414775962222905051818618432_wp, 0.450916538658474142345110087045571_wp]
+   real(wp), parameter :: gauss(2) = [5.0_wp/9.0_wp, 8.0_wp/9.0_wp]
+   !> Places on [0, 1] [-]
+   real(wp), parameter, public :: panel_places(panel_points) = 0.5_wp*(1.0_wp + [-outer, -second, -third, 0.0_wp, third, second, &
+      & outer])
+   !> Weights of the rule of seven on [0, 1] [-]
+   real(wp), parameter, public :: panel_weights(panel_points) = 0.5_wp*[kronrod, kronrod(3:1:-1)]
+   !> Coefficients of degree 5 and 6 of the polynomial through the values, over Legendre's polynomials, from the differences and the
+   !> sums of values at opposite places, outermost first [-]
+   real(wp), parameter :: fifth(3) = [0.279226086984319099777228097127315_wp, -0.617670841024766752942759318542525_wp, &
+      & 0.484178662140076336045515456826413_wp]
+   real(wp), parameter :: sixth(4) = [0.158570039434041310899733116957686_wp, -0.434950705586700173980282234680070_wp, &
+      & 0.608177901175700337734926997906715_wp, -0.663594470046082949308755760368663_wp]
+   !> Panel that is no longer halved, over the largest angle or time [-]
+   real(wp), parameter :: shortest = 1.0e-13_wp
+
+   !> Quantities over one variable
+   type, abstract :: sampled_t
+   contains
+      procedure(sample_values), deferred :: sample
+   end type sampled_t
+
+   abstract interface
+      !> Values of all quantities at a point.
+      subroutine sample_values(self, x, values, error)
+         import :: sampled_t, error_t, wp
+         !> The quantities; what they remember may change
+         class(sampled_t), intent(inout) :: self
+         !> The point [x]
+         real(wp), intent(in) :: x
+         !> Values [unit of each]
+         real(wp), intent(out) :: values(:)
+         !> Why there are none
+         type(error_t), allocatable, intent(out) :: error
+      end subroutine sample_values
+   end interface
+
+   !> Panels with their integrals
+   type :: panels_t
+      !> Number of panels in use
+      integer :: count = 0
+      !> Ends of each [x]
+      real(wp), allocatable :: left(:), right(:)
+      !> Integral of each quantity, of its size, and doubt of the integral, shape (quantity, panel) [unit of each times x]
+      real(wp), allocatable :: integrals(:, :), sizes(:, :), doubts(:, :)
+   end type panels_t
+
+contains
+
+   !> Begin without panels.
+   pure subroutine start_panels(panels, quantities, room)
+      !> The panels
+      type(panels_t), intent(out) :: panels
+      !> Number of quantities
+      integer, intent(in) :: quantities
+      !> Number of panels to have room for
+      integer, intent(in) :: room
+
+      allocate (panels%left(room), panels%right(room), panels%integrals(quantities, room), panels%sizes(quantities, room), &
+         & panels%doubts(quantities, room))
+   end subroutine start_panels
+
+   !> Append a panel whose values are known.
+   pure subroutine add_panel(panels, left, right, values)
+      !> The panels
+      type(panels_t), intent(inout) :: panels
+      !> Ends [x]
+      real(wp), intent(in) :: left, right
+      !> Values at the seven places, shape (quantity, place) [unit of each]
+      real(wp), intent(in) :: values(:, :)
+
+      if (panels%count == size(panels%left)) call grow(panels)
+      panels%count = panels%count + 1
+      call set_panel(panels, panels%count, left, right, values)
+   end subroutine add_panel
+
+   !> Append a panel by the trapezoidal rule, for a solution that is known at its ends alone.
+   !>
+   !> The doubt is that of a quantity that rises or falls all the way from one end to the other.
+   pure subroutine add_trapezoid(panels, left, right, values)
+      !> The panels
+      type(panels_t), intent(inout) :: panels
+      !> Ends [x]
+      real(wp), intent(in) :: left, right
+      !> Values there, shape (quantity, end) [unit of each]
+      real(wp), intent(in) :: values(:, :)
+
+      if (panels%count == size(panels%left)) call grow(panels)
+      panels%count = panels%count + 1
+      panels%left(panels%count) = left
+      panels%right(panels%count) = right
+      panels%integrals(:, panels%count) = 0.5_wp*(right - left)*(values(:, 1) + values(:, 2))
+      panels%sizes(:, panels%count) = 0.5_wp*(right - left)*(abs(values(:, 1)) + abs(values(:, 2)))
+      panels%doubts(:, panels%count) = 0.5_wp*(right - left)*abs(values(:, 2) - values(:, 1))
+   end subroutine add_trapezoid
+
+   !> Append a panel and sample it.
+   subroutine sample_panel(panels, sampled, left, right, error)
+      !> The panels
+      type(panels_t), intent(inout) :: panels
+      !> What is integrated
+      class(sampled_t), intent(inout) :: sampled
+      !> Ends [x]
+      real(wp), intent(in) :: left, right
+      !> Why there is no value at a place
+      type(error_t), allocatable, intent(out) :: error
+
+      ! Values [unit of each]
+      real(wp) :: values(size(panels%integrals, 1), panel_points)
+
+      call sample_places(sampled, left, right, values, error)
+      if (.not. allocated(error)) call add_panel(panels, left, right, values)
+   end subroutine sample_panel
+
+   !> Halve the panel of the largest doubt until the sums of the doubts are within what is allowed.
+   subroutine refine_panels(panels, sampled, allowed, halvings, error)
+      !> The panels
+      type(panels_t), intent(inout) :: panels
+      !> What is integrated
+      class(sampled_t), intent(inout) :: sampled
+      !> Doubt allowed of each quantity, positive [unit of each times x]
+      real(wp), intent(in) :: allowed(:)
+      !> Halvings that are left; zero afterwards where the doubts are not within what is allowed
+      integer, intent(inout) :: halvings
+      !> Why there is no value at a place
+      type(error_t), allocatable, intent(out) :: error
+
+      ! Sums of the doubts [unit of each times x]; values in both halves [unit of each]; middle [x]
+      real(wp) :: sums(size(allowed)), values(size(allowed), panel_points, 2), middle
+      integer :: quantity, panel
+
+      sums = sum(panels%doubts(:, :panels%count), 2)
+      do while (halvings > 0)
+         if (all(sums <= allowed)) sums = sum(panels%doubts(:, :panels%count), 2)
+         if (all(sums <= allowed)) return
+         quantity = maxloc(sums/allowed, 1)
+         panel = maxloc(panels%doubts(quantity, :panels%count), 1)
+         associate (left => panels%left(panel), right => panels%right(panel))
+            if (right - left <= shortest*max(abs(left), abs(right))) then
+               halvings = 0
+               return
+            end if
+            middle = 0.5_wp*(left + right)
+            call sample_places(sampled, left, middle, values(:, :, 1), error)
+            if (.not. allocated(error)) call sample_places(sampled, middle, right, values(:, :, 2), error)
+         end associate
+         if (allocated(error)) return
+         sums = sums - panels%doubts(:, panel)
+         call add_panel(panels, middle, panels%right(panel), values(:, :, 2))
+         call set_panel(panels, panel, panels%left(panel), middle, values(:, :, 1))
+         sums = sums + panels%doubts(:, panel) + panels%doubts(:, panels%count)
+         halvings = halvings - 1
+      end do
+   end subroutine refine_panels
+
+   !> Values at the places between two ends.
+   subroutine sample_places(sampled, left, right, values, error)
+      !> What is integrated
+      class(sampled_t), intent(inout) :: sampled
+      !> Ends [x]
+      real(wp), intent(in) :: left, right
+      !> Values, shape (quantity, place) [unit of each]
+      real(wp), intent(out) :: values(:, :)
+      !> Why there is no value at a place
+      type(error_t), allocatable, intent(out) :: error
+
+      integer :: point
+
+      do point = 1, panel_points
+         call sampled%sample(left + panel_places(point)*(right - left), values(:, point), error)
+         if (allocated(error)) return
+      end do
+   end subroutine sample_places
+
+   !> Integrals and doubts of a panel.
+   pure subroutine set_panel(panels, panel, left, right, values)
+      !> The panels
+      type(panels_t), intent(inout) :: panels
+      !> Which of them
+      integer, intent(in) :: panel
+      !> Ends [x]
+      real(wp), intent(in) :: left, right
+      !> Values at the seven places, shape (quantity, place) [unit of each]
+      real(wp), intent(in) :: values(:, :)
+
+      ! Length of the panel [x]; sums and differences of values at opposite places [unit of the quantity]
+      real(wp) :: length, sums(4), differences(3)
+      ! Doubts apart [unit of the quantity]
+      real(wp) :: by_rules, by_odd, by_even
+      integer :: i
+
+      panels%left(panel) = left
+      panels%right(panel) = right
+      length = right - left
+      do i = 1, size(values, 1)
+         sums = [values(i, 1:3) + values(i, 7:5:-1), values(i, 4)]
+         differences = values(i, 7:5:-1) - values(i, 1:3)
+         by_rules = sum(kronrod*sums) - gauss(1)*sums(2) - gauss(2)*sums(4)
+         by_odd = sum(fifth*differences)
+         by_even = sum(sixth*sums)
+         panels%integrals(i, panel) = 0.5_wp*length*sum(kronrod*sums)
+         panels%sizes(i, panel) = length*sum(panel_weights*abs(values(i, :)))
+         panels%doubts(i, panel) = 0.5_wp*length*sqrt(by_rules**2 + by_odd**2 + by_even**2)
+      end do
+   end subroutine set_panel
+
+   !> Twice the room.
+   pure subroutine grow(panels)
+      !> The panels
+      type(panels_t), intent(inout) :: panels
+
+      ! Larger copies
+      type(panels_t) :: larger
+
+      call start_panels(larger, size(panels%integrals, 1), max(2*panels%count, 16))
+      larger%count = panels%count
+      larger%left(:panels%count) = panels%left(:panels%count)
+      larger%right(:panels%count) = panels%right(:panels%count)
+      larger%integrals(:, :panels%count) = panels%integrals(:, :panels%count)
+      larger%sizes(:, :panels%count) = panels%sizes(:, :panels%count)
+      larger%doubts(:, :panels%count) = panels%doubts(:, :panels%count)
+      panels = larger
+   end subroutine grow
+
+end module camroller_panels
