@@ -20,21 +20,22 @@ module camroller_run_command
       & abandon_output
    use camroller_profile_file, only : profile_file_t, put_profiles, close_profiles
    use camroller_progress, only : progress_t, start_progress, show_progress, end_progress, seconds_since
+   use camroller_remarks, only : remarks_t, note_remarks
    use camroller_run_facts, only : write_facts
    use camroller_settings, only : take
    implicit none
    private
 
-   public :: run_deck, check_cases, options_of, output_path, tell_unused_values
+   public :: run_deck, check_cases, options_of, output_path, tell_remarks, tell_unused_values
 
    !> What happened to the cases
    type :: tally_t
-      !> Cases without a result, and cases with remarks
-      integer :: failed = 0, remarked = 0
+      !> Cases without a result
+      integer :: failed = 0
       !> The first failure
       type(error_t), allocatable :: failure
-      !> The first remarks
-      character(len=:), allocatable :: remarks
+      !> Remarks by kind
+      type(remarks_t) :: remarks
    end type tally_t
 
 contains
@@ -77,7 +78,7 @@ contains
       end if
       call close_output(writer, error)
       if (allocated(error)) return
-      if (.not. config%is_quiet) call report(path, cases, seconds_since(progress), tally)
+      if (.not. config%is_quiet) call report(deck, path, seconds_since(progress), tally)
       if (tally%failed == 0) return
       call move_alloc(tally%failure, error)
       error%message = integer_text(tally%failed)//" of "//integer_text(cases)//" cases have no result; the first is "// &
@@ -153,30 +154,13 @@ contains
          else
             call write_case(writer, i, result, error)
             if (.not. allocated(error)) call put_profiles(profile_file, writer, i, profiles, error)
-            call note_remarks(deck, i, result, tally)
+            if (allocated(result%warnings)) call note_remarks(tally%remarks, i, result%warnings)
          end if
          if (allocated(error)) exit
          call show_progress(progress, i, sweep_size(deck%sweep))
       end do
       call close_profiles(profile_file)
    end subroutine run_cases
-
-   !> Take note of remarks.
-   subroutine note_remarks(deck, case_number, result, tally)
-      !> The deck
-      type(deck_t), intent(in) :: deck
-      !> Number of the case, from 1
-      integer, intent(in) :: case_number
-      !> Its result
-      type(result_t), intent(in) :: result
-      !> What happened
-      type(tally_t), intent(inout) :: tally
-
-      if (.not. allocated(result%warnings)) return
-      if (result%warnings == "") return
-      tally%remarked = tally%remarked + 1
-      if (tally%remarked == 1) tally%remarks = case_in_words(deck%sweep, case_number)//": "//result%warnings
-   end subroutine note_remarks
 
    !> Choices of the group &output.
    function options_of(deck) result(options)
@@ -209,11 +193,11 @@ contains
    end function output_path
 
    !> Say what was done.
-   subroutine report(path, cases, time, tally)
+   subroutine report(deck, path, time, tally)
+      !> The deck
+      type(deck_t), intent(in) :: deck
       !> Path of the result file
       character(len=*), intent(in) :: path
-      !> Number of cases
-      integer, intent(in) :: cases
       !> Time taken, in words
       character(len=*), intent(in) :: time
       !> What happened
@@ -221,13 +205,32 @@ contains
 
       character(len=:), allocatable :: words
 
-      words = integer_text(cases)//" cases in "
-      if (cases == 1) words = "one case in "
+      words = integer_text(sweep_size(deck%sweep))//" cases in "
+      if (sweep_size(deck%sweep) == 1) words = "one case in "
       write (output_unit, '(a)') path//": "//words//time
-      if (tally%remarked == 0) return
-      words = "remarks on "//integer_text(tally%remarked)//" cases (see /run/warnings); the first is on "
-      if (tally%remarked == 1) words = "remarks on "
-      write (error_unit, '(a)') words//tally%remarks
+      call tell_remarks(tally%remarks, deck)
    end subroutine report
+
+   !> Show remarks: all of a case that is alone; of several cases the worst of each kind, with the number of cases.
+   subroutine tell_remarks(remarks, deck)
+      !> The remarks
+      type(remarks_t), intent(in) :: remarks
+      !> The deck
+      type(deck_t), intent(in) :: deck
+
+      character(len=:), allocatable :: words
+      integer :: i
+
+      if (.not. allocated(remarks%groups)) return
+      do i = 1, size(remarks%groups)
+         associate (group => remarks%groups(i), cases => sweep_size(deck%sweep))
+            words = "remark"
+            if (cases > 1) words = "remark on "//integer_text(group%cases)//" of "//integer_text(cases)//" cases, the worst is "// &
+               & case_in_words(deck%sweep, group%case_number)
+            write (error_unit, '(a)') words//": "//group%worst
+         end associate
+      end do
+      if (size(remarks%groups) > 0) write (error_unit, '(a)') "all remarks are in /run/warnings of the result file"
+   end subroutine tell_remarks
 
 end module camroller_run_command

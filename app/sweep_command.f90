@@ -24,7 +24,7 @@ module camroller_sweep_command
    use camroller_part_sink, only : part_sink_t
    use camroller_progress, only : end_progress, progress_t, seconds_since, start_progress
    use camroller_raw_file, only : find_files
-   use camroller_run_command, only : options_of, output_path, tell_unused_values
+   use camroller_run_command, only : options_of, output_path, tell_remarks, tell_unused_values
    use camroller_run_facts, only : study_digest, study_facts, write_facts
    use camroller_settings, only : get_word, is_known, take
    use camroller_stop_signal, only : heed_stop_signals, release_stop_signals
@@ -435,9 +435,7 @@ contains
       words = run%path//": "//integer_text(tally%cases - tally%missing)//" cases in "//time
       if (tally%missing > 0) words = words//", "//integer_text(tally%missing)//" missing"
       write (output_unit, '(a)') words
-      if (tally%remarked == 0) return
-      write (error_unit, '(a)') "remarks on "//integer_text(tally%remarked)//" cases (see /run/warnings); the first is on "// &
-         & case_in_words(run%deck%sweep, tally%remarked_case)//": "//tally%remark
+      call tell_remarks(tally%remarks, run%deck)
    end subroutine report
 
 end module camroller_sweep_command

@@ -42,6 +42,10 @@ program main
    use test_stick_slip, only : collect_stick_slip
    use test_contact, only : collect_contact
    use test_events, only : collect_events
+   use test_margins, only : collect_margins
+   use test_result, only : collect_result
+   use test_extremes, only : collect_extremes
+   use test_remarks, only : collect_remarks
    use test_train, only : collect_train
    use test_traction, only : collect_traction
    use test_load_share, only : collect_load_share
@@ -166,6 +170,10 @@ contains
          new_testsuite("stick_slip", collect_stick_slip), &
          new_testsuite("contact", collect_contact), &
          new_testsuite("events", collect_events), &
+         new_testsuite("margins", collect_margins), &
+         new_testsuite("result", collect_result), &
+         new_testsuite("extremes", collect_extremes), &
+         new_testsuite("remarks", collect_remarks), &
          new_testsuite("train", collect_train), &
          new_testsuite("traction", collect_traction), &
          new_testsuite("load_share", collect_load_share), &

@@ -44,7 +44,7 @@ PHYSICS_FLOORS = [
     {"torque", "camshaft"},
 ]
 # Beside the chain: these use nothing of the chain but the bottom, only the top may use them.
-PHYSICS_BESIDE = {"needle", "journal", "guide"}
+PHYSICS_BESIDE = {"needle", "journal", "guide", "pivot"}
 
 USE = re.compile(r"^use\s*(?:,\s*(?:non_)?intrinsic\s*)?(?:::)?\s*(\w+)")
 MODULE = re.compile(r"^module\s+(?!procedure\b|subroutine\b|function\b)(\w+)$")

@@ -16,6 +16,7 @@ module camroller_assemble
    use camroller_profile_file, only : profile_file_t, put_profiles, close_profiles
    use camroller_raw_file, only : close_raw, open_raw, raw_file_t
    use camroller_record, only : record_t
+   use camroller_remarks, only : remarks_t, note_remarks
    implicit none
    private
 
@@ -26,13 +27,12 @@ module camroller_assemble
 
    !> What happened to the cases
    type :: tally_t
-      !> Cases in all, without a result, not computed, with remarks
-      integer :: cases = 0, failed = 0, missing = 0, remarked = 0
-      !> First failure and first remark
+      !> Cases in all, without a result, not computed
+      integer :: cases = 0, failed = 0, missing = 0
+      !> First failure
       type(error_t), allocatable :: failure
-      character(len=:), allocatable :: remark
-      !> Case with the first remark, from 1
-      integer :: remarked_case = 0
+      !> Remarks by kind
+      type(remarks_t) :: remarks
    end type tally_t
 
 contains
@@ -217,11 +217,8 @@ contains
       if (outcome%status /= 0) then
          tally%failed = tally%failed + 1
          if (tally%failed == 1) call raise(tally%failure, outcome%status, outcome%text)
-      else if (outcome%text /= "") then
-         tally%remarked = tally%remarked + 1
-         if (tally%remarked > 1) return
-         tally%remark = outcome%text
-         tally%remarked_case = number
+      else
+         call note_remarks(tally%remarks, number, outcome%text)
       end if
    end subroutine count_case
 

@@ -58,6 +58,7 @@ contains
          call take(settings, "mechanism", "pivot_to_cam_mm", mechanism%pivot_to_cam)
          call take(settings, "mechanism", "roller_arm_angle_deg", mechanism%roller_arm_angle)
          call take(settings, "mechanism", "valve_axis_angle_deg", mechanism%valve_axis_angle)
+         call take(settings, "mechanism", "adjuster_tilt_deg", mechanism%adjuster_tilt)
          call take(settings, "mechanism", "base_radius_mm", mechanism%base_radius)
          call take(settings, "mechanism", "contact_width_mm", mechanism%contact_width)
          call take(settings, "mechanism", "grinding_wheel_radius_mm", mechanism%grinding_wheel_radius)
@@ -105,6 +106,7 @@ contains
       call take(settings, "masses", "valve_kg", case%masses%valve)
       call take(settings, "masses", "finger_kg", case%masses%finger)
       call take(settings, "masses", "finger_inertia_kg_m2", case%masses%finger_inertia)
+      call take(settings, "masses", "finger_centre_mm", case%masses%finger_centre)
       associate (spring => case%spring)
          call take(settings, "spring", "stiffness_N_m", spring%stiffness)
          call take(settings, "spring", "precompression_mm", spring%precompression)
@@ -112,6 +114,7 @@ contains
          call take(settings, "spring", "seating", spring%seating)
          call take(settings, "spring", "seat_stiffness_N_m", spring%seat_stiffness)
          call take(settings, "spring", "load_arm", spring%load_arm)
+         call take(settings, "spring", "contact_policy", spring%contact_policy)
       end associate
       if (.not. has_group(settings, "gas_force")) return
       allocate (case%gas_force)

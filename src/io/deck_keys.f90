@@ -9,7 +9,7 @@ module camroller_deck_keys
    use camroller_case, only : case_t, energy_names, method_choices, select_names, quantity_names
    use camroller_lift, only : lift_t, lift_law_names
    use camroller_kinematics, only : rotation_names
-   use camroller_dynamics, only : seating_names, load_arm_names
+   use camroller_dynamics, only : contact_policy_names, load_arm_names, seating_names
    use camroller_lubricant, only : temperature_law_names, pressure_law_names
    use camroller_ehl_table, only : ehl_t
    use camroller_film, only : film_law_names, range_policy_names
@@ -102,6 +102,10 @@ contains
          & example="-3.5")
       call add_number(schema, "valve_axis_angle_deg", from_to(-180.0_wp, 180.0_wp), &
          & "angle between the valve's axis and the line from pivot to cam centre", example="37.5")
+      call add_number(schema, "adjuster_tilt_deg", from_to(-90.0_wp, 90.0_wp), &
+         & "angle from the valve's axis to the lash adjuster's, in the sense of valve_axis_angle_deg; for the force in the "// &
+         & "pivot's joint", &
+         & default=standard%mechanism%adjuster_tilt)
       call add_number(schema, "base_radius_mm", positive, "radius of the cam's base circle", example="18")
       call add_number(schema, "contact_width_mm", positive, "full length of the line contact", example="13.7")
       call add_number(schema, "grinding_wheel_radius_mm", positive, &
@@ -163,9 +167,13 @@ contains
       call add_number(schema, "valve_kg", not_negative, &
          & "everything that moves with the valve: valve, retainer, a third of the spring", example="0.0432")
       call add_number(schema, "finger_kg", not_negative, &
-         & "mass of the finger, taken at the pad; where no inertia is given", example="0.0418", is_optional=.true.)
+         & "mass of the finger with its roller; for the force in the pivot's joint, and taken at the pad for the inertia where "// &
+         & "none is given", example="0.0418", is_optional=.true.)
       call add_number(schema, "finger_inertia_kg_m2", positive, &
-         & "moment of inertia of the finger about its pivot, in place of finger_kg", is_optional=.true.)
+         & "moment of inertia of the finger about its pivot", is_optional=.true.)
+      call add_number(schema, "finger_centre_mm", positive, &
+         & "distance from the pivot to the finger's centre of mass, on the roller arm; where not given 20, or the radius of "// &
+         & "gyration if that is less", is_optional=.true.)
       call add_group(schema, "spring", group_required, "valve spring, seat and lash adjuster")
       call add_number(schema, "stiffness_N_m", positive, "stiffness of the valve spring", example="25000")
       call add_number(schema, "precompression_mm", not_negative, "compression of the spring with the valve closed", &
@@ -180,6 +188,8 @@ contains
          & default=standard%spring%seat_stiffness)
       call add_name(schema, "load_arm", load_arm_names, standard%spring%load_arm, &
          & "arm of the contact's normal about the pivot: exact, or with the normal parallel to the valve's axis")
+      call add_name(schema, "contact_policy", contact_policy_names, standard%spring%contact_policy, &
+         & "what to do where cam and roller lose contact: a remark, or no result")
    end subroutine add_load_keys
 
    !> Cylinder pressure.

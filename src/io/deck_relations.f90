@@ -113,22 +113,17 @@ contains
          & "'needle_radius_mm' must be below the inner radius of the roller, 'radius_mm' less 'wall_thickness_mm'")
    end subroutine roller_has_a_hole
 
-   !> The finger's mass is given one way or the other.
+   !> The finger has a mass, a moment of inertia or both.
    subroutine finger_has_a_mass(settings, mistakes)
       !> The settings
       type(settings_t), intent(in) :: settings
       !> Mistakes so far
       type(mistakes_t), intent(inout) :: mistakes
 
-      if (is_known(settings, "masses", "finger_kg") .neqv. is_known(settings, "masses", "finger_inertia_kg_m2")) return
+      if (is_known(settings, "masses", "finger_kg") .or. is_known(settings, "masses", "finger_inertia_kg_m2")) return
       if (is_wrong(settings, "masses", "finger_kg") .or. is_wrong(settings, "masses", "finger_inertia_kg_m2")) return
       if (.not. has_group(settings, "masses")) return
-      if (is_known(settings, "masses", "finger_kg")) then
-         call complain(mistakes, settings, "masses", "finger_kg", &
-            & "give 'finger_kg' or 'finger_inertia_kg_m2', not both")
-      else
-         call complain_about_group(mistakes, settings, "masses", "&masses needs 'finger_kg' or 'finger_inertia_kg_m2'")
-      end if
+      call complain_about_group(mistakes, settings, "masses", "&masses needs 'finger_kg', 'finger_inertia_kg_m2' or both")
    end subroutine finger_has_a_mass
 
    !> A lift law comes with its lengths, angles and exponents, or with its table.

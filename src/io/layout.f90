@@ -83,6 +83,7 @@ contains
          call put_text(record, quantities(i)%unit)
          call put_text(record, quantities(i)%description)
          call put_text(record, quantities(i)%source)
+         call put_text(record, trim(quantities(i)%scope))
       end do
    end subroutine put_quantities
 
@@ -109,6 +110,7 @@ contains
       !> The quantities
       type(quantity_t), allocatable, intent(out) :: quantities(:)
 
+      character(len=:), allocatable :: scope
       integer :: i, count
 
       call take_integer(record, count)
@@ -118,6 +120,8 @@ contains
          call take_text(record, quantities(i)%unit)
          call take_text(record, quantities(i)%description)
          call take_text(record, quantities(i)%source)
+         call take_text(record, scope)
+         quantities(i)%scope = scope
       end do
    end subroutine take_quantities
 

@@ -326,7 +326,7 @@ contains
             call create_numbers(writer%series_group, series%name, [size(angle), cases], chunk(:axes_in_chunk), level, &
                & dataset, error)
             if (.not. allocated(error)) call describe(dataset, series%unit, series%description, &
-               & series%source, error)
+               & series%source, error, series%scope)
             if (.not. allocated(error)) call attach_scale(dataset, axis, 1, 2, error)
             if (.not. allocated(error)) call attach_scale(dataset, writer%case_axis, 2, 2, error)
          end associate
@@ -357,7 +357,7 @@ contains
             if (.not. allocated(error)) call create_numbers(group, scalar%name, shape(writer%status), &
                & chunk(:axes_in_chunk), level, dataset, error)
             if (.not. allocated(error)) call describe(dataset, scalar%unit, scalar%description, &
-               & scalar%source, error)
+               & scalar%source, error, scalar%scope)
             if (.not. allocated(error)) call attach_scale(dataset, writer%case_axis, 1, 1, error)
          end associate
          if (allocated(error)) return
@@ -429,7 +429,7 @@ contains
    end function is_large
 
    !> Attributes that say what a dataset is.
-   subroutine describe(dataset, unit, description, source, error)
+   subroutine describe(dataset, unit, description, source, error, scope)
       !> The dataset
       type(hdf5_object_t), intent(in) :: dataset
       !> Unit of its values
@@ -440,10 +440,13 @@ contains
       character(len=*), intent(in) :: source
       !> File error
       type(error_t), allocatable, intent(out) :: error
+      !> What it belongs to: a lobe, the camshaft or the case
+      character(len=*), intent(in), optional :: scope
 
       call put_attribute(dataset, "units", unit, error)
       if (.not. allocated(error)) call put_attribute(dataset, "long_name", description, error)
       if (.not. allocated(error)) call put_attribute(dataset, "source", source, error)
+      if (.not. allocated(error) .and. present(scope)) call put_attribute(dataset, "scope", trim(scope), error)
    end subroutine describe
 
 end module camroller_output_cases

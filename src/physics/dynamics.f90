@@ -9,7 +9,7 @@ module camroller_dynamics
    implicit none
    private
 
-   public :: masses_t, spring_t, gas_force_t, train_t, moments_t, seating_names, load_arm_names
+   public :: masses_t, spring_t, gas_force_t, train_t, moments_t, seating_names, load_arm_names, contact_policy_names
    public :: seat_force, unseated_share, evaluate_moments, moment_slope, stored_energy, stored_power
 
    !> How the contact load passes from the base circle to the event
@@ -17,14 +17,20 @@ module camroller_dynamics
    !> Arm of the contact normal about the pivot: exact, or with the normal taken parallel to the valve's axis
    character(len=*), parameter :: load_arm_names(*) = [character(len=name_length) :: "exact", "parallel"]
 
+   !> What to do where contact is lost: a warning, or no result
+   character(len=*), parameter :: contact_policy_names(*) = [character(len=name_length) :: "warn", "stop"]
+
    !> Moving masses
    type :: masses_t
       !> Mass moving with the valve: valve, retainer, a third of the spring [kg]
       real(wp) :: valve = 0.0_wp
-      !> Mass of the finger, taken at the pad [kg]; used where no inertia is given
+      !> Mass of the finger with its roller [kg]; taken at the pad for its inertia where none is given; zero where not given
       real(wp) :: finger = 0.0_wp
       !> Moment of inertia of the finger about its pivot [kg m^2]; zero where not given
       real(wp) :: finger_inertia = 0.0_wp
+      !> Distance from the pivot to the finger's centre of mass, on the roller arm [m]; 20 mm, or the radius of gyration where that is
+      !> less, where it is zero
+      real(wp) :: finger_centre = 0.0_wp
    end type masses_t
 
    !> Valve spring, seat and lash adjuster
@@ -41,6 +47,8 @@ module camroller_dynamics
       real(wp) :: seat_stiffness = 1.0e7_wp
       !> One of `load_arm_names`
       character(len=name_length) :: load_arm = "exact"
+      !> One of `contact_policy_names`
+      character(len=name_length) :: contact_policy = "warn"
    end type spring_t
 
    !> Cylinder pressure on the valve
@@ -99,6 +107,18 @@ contains
       force = train%closed_seat_force*(1.0_wp - unseated_share(train, lift))
    end function seat_force
 
+   !> Does the seat carry part of the valve's load? Never where it plays no part, even for a curve that dips below zero lift.
+   elemental function is_seated(train, lift) result(seated)
+      !> Masses and stiffnesses
+      type(train_t), intent(in) :: train
+      !> Valve lift [m]
+      real(wp), intent(in) :: lift
+      !> True where it does
+      logical :: seated
+
+      seated = train%seat_lift > 0.0_wp .and. lift < train%seat_lift
+   end function is_seated
+
    !> Part of the closed-valve forces that has passed from the seat to the train, `1 - (1 - l/l_s)^2`.
    elemental function unseated_share(train, lift) result(share)
       !> Masses and stiffnesses
@@ -109,7 +129,7 @@ contains
       real(wp) :: share
 
       share = 1.0_wp
-      if (lift < train%seat_lift) share = lift/train%seat_lift*(2.0_wp - lift/train%seat_lift)
+      if (is_seated(train, lift)) share = lift/train%seat_lift*(2.0_wp - lift/train%seat_lift)
    end function unseated_share
 
    !> Moments about the pivot at one position.
@@ -152,7 +172,7 @@ contains
       real(wp) :: share_slope
 
       share_slope = 0.0_wp
-      if (position%lift < train%seat_lift) share_slope = 2.0_wp*(1.0_wp - position%lift/train%seat_lift)/train%seat_lift
+      if (is_seated(train, position%lift)) share_slope = 2.0_wp*(1.0_wp - position%lift/train%seat_lift)/train%seat_lift
       force = train%stiffness*(position%lift + train%precompression) - seat_force(train, position%lift) &
          & + train%valve_mass*speed**2*position%lift_curvature + gas_force*unseated_share(train, position%lift)
       force_slope = (train%stiffness + (train%closed_seat_force + gas_force)*share_slope)*position%lift_slope &
@@ -177,7 +197,7 @@ contains
       real(wp) :: left
 
       left = 0.0_wp
-      if (position%lift < train%seat_lift) left = 1.0_wp - position%lift/train%seat_lift
+      if (is_seated(train, position%lift)) left = 1.0_wp - position%lift/train%seat_lift
       energy = train%stiffness*position%lift*(0.5_wp*position%lift + train%precompression) &
          & - train%closed_seat_force*train%seat_lift/3.0_wp*(1.0_wp - left**3) &
          & + 0.5_wp*speed**2*(train%valve_mass*position%lift_slope**2 + train%finger_inertia*position%finger_slope**2)

@@ -33,6 +33,8 @@ module camroller_kinematics
       real(wp) :: roller_arm_angle = 0.0_wp
       !> Angle between the valve's axis and the line from pivot to cam centre, chi [rad]
       real(wp) :: valve_axis_angle = 0.0_wp
+      !> Angle from the valve's axis to the lash adjuster's axis, chi_h - chi [rad]
+      real(wp) :: adjuster_tilt = 0.0_wp
       !> Radius of the cam's base circle [m]
       real(wp) :: base_radius = 0.0_wp
       !> Outer radius of the roller [m]

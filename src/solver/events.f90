@@ -1,9 +1,8 @@
-!> Cam angles at which the right-hand side of the roller equation has a kink or a jump, and the margin against loss of contact.
+!> Cam angles at which the right-hand side of the roller equation has a kink or a jump, and the angles without contact.
 !>
-!> Layer: solver. In: model. Out: stop angles for the integration, contact losses, spring margin. All of them depend on the cam
-!> angle alone, so they are known before a cycle is integrated and none can be stepped over.
+!> Layer: solver. In: model. Out: stop angles for the integration, intervals without contact. All of them depend on the cam angle
+!> alone, so they are known before a cycle is integrated and none can be stepped over.
 module camroller_events
-   use, intrinsic :: ieee_arithmetic, only : ieee_value, ieee_positive_inf
    use camroller_kinds, only : wp, pi, two_pi, degree
    use camroller_error, only : error_t, raise, kind_domain
    use camroller_model, only : model_t
@@ -16,24 +15,12 @@ module camroller_events
    implicit none
    private
 
-   public :: margin_t, find_stops, find_stops_between, cycle_stops, check_geometry, find_margin
-
-   !> Margin against loss of contact, frictionless
-   type :: margin_t
-      !> Smallest contact load over the event [N]; negative: the load that keeps contact is missing
-      real(wp) :: smallest_load
-      !> Cam angle from full lift where it occurs [rad]
-      real(wp) :: angle
-      !> Cam speed at which contact is first lost, infinite if never [rad/s]
-      real(wp) :: contact_loss_speed
-   end type margin_t
+   public :: find_stops, find_stops_between, cycle_stops, contact_losses, check_geometry
 
    !> Longest step of a scan [rad]
    real(wp), parameter :: longest_step = 0.25_wp*degree
    !> Least number of steps of a scan, shared out evenly between the pieces of the lift: an event may be shorter than a step
    integer, parameter :: least_steps = 256
-   !> Difference between two steps, over both together, up to which they count as equal [-]
-   real(wp), parameter :: even_spacing = 1.0e-6_wp
    !> Accuracy of an angle [rad]: a few roundings of a turn
    real(wp), parameter :: angle_tolerance = 4.0e-15_wp
 
@@ -216,6 +203,39 @@ contains
       ahead = [start, pack(moved, moved > start .and. moved < start + two_pi), start + two_pi]
    end function cycle_stops
 
+   !> Intervals of a cycle in which the roller has no contact.
+   function contact_losses(model, stops) result(intervals)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> Stops of the cycle, with start and end [rad]
+      real(wp), intent(in) :: stops(:)
+      !> First and last cam angle of each, shape (2, interval) [rad]
+      real(wp), allocatable :: intervals(:, :)
+
+      ! The intervals, one after the other [rad]; lift above the seat [m] and moment that keeps contact [N m]
+      real(wp), allocatable :: ends(:)
+      real(wp) :: values(2)
+      integer :: i
+      ! Was there no contact before a stop?
+      logical :: was_lost
+
+      allocate (ends(0))
+      was_lost = .false.
+      do i = 1, size(stops) - 1
+         if (.not. stops(i + 1) > stops(i)) cycle
+         values = switches(model, 0.5_wp*(stops(i) + stops(i + 1)))
+         if (values(2) > 0.0_wp .or. model%takes_maximum_load) then
+            was_lost = .false.
+         else if (was_lost) then
+            ends(size(ends)) = stops(i + 1)
+         else
+            ends = [ends, stops(i), stops(i + 1)]
+            was_lost = .true.
+         end if
+      end do
+      intervals = reshape(ends, [2, size(ends)/2])
+   end function contact_losses
+
    !> Refuse a cam that cannot be: lift out of reach, undercut, a hollow flank that the grinding wheel does not fit.
    subroutine check_geometry(model, grinding_wheel_radius, error)
       !> The model
@@ -263,89 +283,6 @@ contains
 
       text = " at cam angle "//fixed_text(180.0_wp + angle/degree, 2)//" deg"
    end function at_angle
-
-   !> Smallest load of the event and the speed at which contact would first be lost, without friction.
-   !>
-   !> The moment is `M_static + omega^2 M_inertia`; contact is first lost at the smallest `sqrt(-M_static/M_inertia)` over the
-   !> angles with a negative inertia moment, found on the scan and refined by a parabola through three points.
-   subroutine find_margin(model, margin)
-      !> The model
-      type(model_t), intent(in) :: model
-      !> Margin
-      type(margin_t), intent(out) :: margin
-
-      ! Angles of the scan, with one on either side [rad]
-      real(wp), allocatable :: scan(:)
-      ! Loads [N] and squares of the loss speed [rad^2/s^2] at three neighbouring points
-      real(wp) :: loads(3), squares(3)
-      ! Smallest square so far [rad^2/s^2]
-      real(wp) :: smallest_square
-      integer :: i
-
-      margin%smallest_load = huge(1.0_wp)
-      margin%angle = 0.0_wp
-      smallest_square = huge(1.0_wp)
-      scan = scan_angles(model, -pi, pi)
-      scan = [scan(size(scan) - 1) - two_pi, scan]
-      call frictionless(model, scan(1), loads(2), squares(2))
-      call frictionless(model, scan(2), loads(3), squares(3))
-      do i = 3, size(scan)
-         loads(:2) = loads(2:)
-         squares(:2) = squares(2:)
-         call frictionless(model, scan(i), loads(3), squares(3))
-         if (loads(2) < margin%smallest_load) then
-            margin%smallest_load = min(loads(2), valley(scan(i - 2:i), loads))
-            margin%angle = scan(i - 1)
-         end if
-         if (squares(2) < smallest_square) smallest_square = min(squares(2), valley(scan(i - 2:i), squares))
-      end do
-      margin%contact_loss_speed = ieee_value(1.0_wp, ieee_positive_inf)
-      if (smallest_square < huge(1.0_wp)) margin%contact_loss_speed = sqrt(max(smallest_square, 0.0_wp))
-   end subroutine find_margin
-
-   !> Load without friction, and the square of the speed at which it would vanish.
-   subroutine frictionless(model, angle, load, square)
-      !> The model
-      type(model_t), intent(in) :: model
-      !> Cam angle from full lift [rad]
-      real(wp), intent(in) :: angle
-      !> Load [N]
-      real(wp), intent(out) :: load
-      !> Square of the speed, huge where the inertia presses [rad^2/s^2]
-      real(wp), intent(out) :: square
-
-      type(position_t) :: position
-      type(moments_t) :: moments
-      ! Gas force [N]; moment of the masses [N m]
-      real(wp) :: force, inertia
-      integer :: status
-
-      call evaluate_loading(model, angle, position, force, moments, status)
-      load = moments%total/merge(position%normal_arm, position%parallel_arm, model%has_exact_arm)
-      inertia = moments%valve + moments%finger
-      square = huge(1.0_wp)
-      if (inertia < -epsilon(1.0_wp)*abs(moments%spring)) square = -(moments%total - inertia)/inertia*model%speed**2
-   end subroutine frictionless
-
-   !> Lowest value of the parabola through three equally spaced points with the middle one lowest; else the middle one.
-   pure function valley(angles, values) result(lowest)
-      !> Three angles [rad]
-      real(wp), intent(in) :: angles(3)
-      !> Three values [any]
-      real(wp), intent(in) :: values(3)
-      !> Lowest value [any]
-      real(wp) :: lowest
-
-      ! Second difference [any]
-      real(wp) :: bend
-
-      lowest = values(2)
-      if (maxval(values) >= 0.5_wp*huge(1.0_wp)) return
-      if (values(2) > min(values(1), values(3))) return
-      if (abs(angles(1) - 2.0_wp*angles(2) + angles(3)) > even_spacing*(angles(3) - angles(1))) return
-      bend = values(1) - 2.0_wp*values(2) + values(3)
-      if (bend > 0.0_wp) lowest = values(2) - (values(3) - values(1))**2/(8.0_wp*bend)
-   end function valley
 
    !> Sort a short list by insertion.
    pure subroutine sort(values)

@@ -1,117 +1,224 @@
-!> Extremes of a cycle: those of the curve and not of the points that it was looked at, and standstills of the contact.
+!> Smallest and largest values of the series of a cycle, between the angles at which they were sampled as well.
 !>
-!> Layer: solver. In: a cycle with the points met on the way round it. Out: smallest and largest load, pressure, film and sliding
-!> speed to a millionth of their range, each near the point that had it, and the angles at which the entrainment speed changes its
-!> sign. There a film formula gives no film, or where asperities carry the load the gap of the dry surfaces; whatever the points, they miss it.
+!> Layer: solver. In: rows of series at cam angles, in any order. Out: for each series its smallest and largest value, and before that
+!> the angles at which rows are wanted: where the parabola through the lowest or highest row and its neighbours has its vertex. A
+!> value counts only where a row has it, so that an extreme is never outside what the series takes.
 module camroller_extremes
-   use camroller_kinds, only : wp, two_pi
-   use camroller_error, only : error_t
-   use camroller_catalogue, only : follower_torques, series_values, torque_count
-   use camroller_state, only : evaluate_state
-   use camroller_extremum, only : extremum_t, start_extremum, narrow_extremum
-   use camroller_follower_samples, only : follower_samples_t, look_t, look_of, tracked_count
-   use camroller_roots, only : bracket_t, start_bracket, narrow_bracket, root_wanted, root_found
+   use camroller_kinds, only : wp, pi, two_pi
    implicit none
    private
 
-   public :: refine_extremes, add_standstills
+   public :: samples_t, start_samples, add_sample, next_sample, smallest_of, largest_of
 
-   !> Gain of an extreme that is not worth an evaluation, over the range of the quantity [-]
-   real(wp), parameter :: worth = 1.0e-6_wp
-   !> Accuracy of the angle of a standstill [rad]: its state is that without entrainment, which changes little over it
-   real(wp), parameter :: angle_tolerance = 1.0e-10_wp
+   !> Sectors of a turn by which rows are found
+   integer, parameter :: sectors = 720
+
+   !> Rows of series over one turn
+   type :: samples_t
+      !> Number of rows
+      integer :: count = 0
+      !> Cam angle of each row, within one turn [rad]
+      real(wp), allocatable :: angle(:)
+      !> Values, shape (series, row) [unit of the series]
+      real(wp), allocatable :: values(:, :)
+      !> Rows with the smallest and the largest value of each series
+      integer, allocatable, private :: lowest(:), highest(:)
+      !> Rows by their angles: the last row of each sector of the turn, and for each row the one before it in its sector; 0 for none
+      integer, private :: last(0:sectors - 1) = 0
+      integer, allocatable, private :: before(:)
+      !> Extreme that is being refined: series twice over, smallest before largest; and rows asked for it
+      integer, private :: extreme = 1, tries = 0
+   end type samples_t
+
+   !> Rows that are asked for each extreme at most
+   integer, parameter :: most_tries = 3
+   !> Gain of an extreme over the range of its series that is worth a row [-]
+   real(wp), parameter :: worth_a_row = 1.0e-7_wp
+   !> Widest distance to a neighbour that a parabola may bridge, in sectors
+   integer, parameter :: widest = 10
+   !> Rows for which there is room at first
+   integer, parameter :: first_room = 1536
 
 contains
 
-   !> Take smallest and largest values of the tracked quantities from the curve near the points that had them.
-   subroutine refine_extremes(samples, looks, error)
-      !> The samples, whose extremes widen
-      type(follower_samples_t), intent(inout) :: samples
-      !> Points of the cycle in order, the first one following on the last
-      type(look_t), intent(in) :: looks(:)
-      !> Convergence error
-      type(error_t), allocatable, intent(out) :: error
+   !> No rows yet.
+   pure subroutine start_samples(samples, series)
+      !> The rows
+      type(samples_t), intent(out) :: samples
+      !> Number of series
+      integer, intent(in) :: series
 
-      type(extremum_t) :: search
-      type(look_t) :: look
-      ! Values of all that is sampled [unit of each]; three angles [rad]; extent of a quantity [unit of it]
-      real(wp) :: values(samples%series + torque_count), angles(3), extent
-      integer :: quantity, sense, middle, before, after
+      allocate (samples%angle(first_room), samples%values(series, first_room), samples%before(first_room))
+      allocate (samples%lowest(series), samples%highest(series))
+      samples%lowest = 1
+      samples%highest = 1
+   end subroutine start_samples
 
-      do quantity = 1, tracked_count
-         extent = maxval(looks%tracked(quantity)) - minval(looks%tracked(quantity))
-         do sense = -1, 1, 2
-            middle = minloc(sense*looks%tracked(quantity), 1)
-            before = modulo(middle - 2, size(looks)) + 1
-            after = modulo(middle, size(looks)) + 1
-            if (.not. all(looks([before, middle, after])%is_touching)) cycle
-            angles = looks([before, middle, after])%angle
-            if (before > middle) angles(1) = angles(1) - two_pi
-            if (after < middle) angles(3) = angles(3) + two_pi
-            call start_extremum(search, angles, sense*looks([before, middle, after])%tracked(quantity), worth*extent)
-            do while (search%is_wanted)
-               call samples%sample(search%trial, values, error)
-               if (allocated(error)) return
-               look = look_of(samples, search%trial)
-               call narrow_extremum(search, sense*look%tracked(quantity))
+   !> Add a row.
+   pure subroutine add_sample(samples, angle, values)
+      !> The rows
+      type(samples_t), intent(inout) :: samples
+      !> Cam angle, of any turn [rad]
+      real(wp), intent(in) :: angle
+      !> Value of each series [unit of the series]
+      real(wp), intent(in) :: values(:)
+
+      integer :: row, sector, i
+
+      if (samples%count == size(samples%angle)) call make_room(samples)
+      row = samples%count + 1
+      samples%count = row
+      samples%angle(row) = modulo(angle, two_pi)
+      samples%values(:, row) = values
+      sector = sector_of(samples%angle(row))
+      samples%before(row) = samples%last(sector)
+      samples%last(sector) = row
+      do i = 1, size(values)
+         if (values(i) < samples%values(i, samples%lowest(i))) samples%lowest(i) = row
+         if (values(i) > samples%values(i, samples%highest(i))) samples%highest(i) = row
+      end do
+   end subroutine add_sample
+
+   !> Double the room for rows.
+   pure subroutine make_room(samples)
+      !> The rows
+      type(samples_t), intent(inout) :: samples
+
+      ! Longer lists [rad], [unit of the series]
+      real(wp), allocatable :: angles(:), rows(:, :)
+      integer, allocatable :: before(:)
+
+      associate (n => samples%count)
+         allocate (angles(2*n), rows(size(samples%values, 1), 2*n), before(2*n))
+         angles(:n) = samples%angle
+         rows(:, :n) = samples%values
+         before(:n) = samples%before
+      end associate
+      call move_alloc(angles, samples%angle)
+      call move_alloc(rows, samples%values)
+      call move_alloc(before, samples%before)
+   end subroutine make_room
+
+   !> Sector of the turn that an angle is in.
+   pure function sector_of(angle) result(sector)
+      !> Cam angle within one turn [rad]
+      real(wp), intent(in) :: angle
+      !> The sector, from 0
+      integer :: sector
+
+      sector = min(int(angle/two_pi*sectors), sectors - 1)
+   end function sector_of
+
+   !> The next angle at which a row may lower or raise an extreme.
+   pure subroutine next_sample(samples, angle, is_wanted)
+      !> The rows
+      type(samples_t), intent(inout) :: samples
+      !> The angle [rad]
+      real(wp), intent(out) :: angle
+      !> Is a row wanted?
+      logical, intent(out) :: is_wanted
+
+      do while (samples%extreme <= 2*size(samples%values, 1))
+         call try_extreme(samples, angle, is_wanted)
+         samples%tries = samples%tries + 1
+         if (is_wanted) return
+         samples%extreme = samples%extreme + 1
+         samples%tries = 0
+      end do
+      angle = 0.0_wp
+      is_wanted = .false.
+   end subroutine next_sample
+
+   !> Where the extreme in hand may have its place.
+   pure subroutine try_extreme(samples, angle, is_wanted)
+      !> The rows
+      type(samples_t), intent(in) :: samples
+      !> The angle [rad]
+      real(wp), intent(out) :: angle
+      !> Is a row there worth its while?
+      logical, intent(out) :: is_wanted
+
+      ! Angles of the extreme row and its neighbours, from that row [rad]; values there, the extreme one lowest
+      ! [unit of the series]; slopes away from it [unit of the series/rad]; range [unit of the series]
+      real(wp) :: x(3), f(3), slopes(2), range
+      integer :: rows(3), series
+
+      angle = 0.0_wp
+      is_wanted = .false.
+      if (samples%tries == most_tries) return
+      series = (samples%extreme + 1)/2
+      range = samples%values(series, samples%highest(series)) - samples%values(series, samples%lowest(series))
+      rows(2) = samples%lowest(series)
+      if (modulo(samples%extreme, 2) == 0) rows(2) = samples%highest(series)
+      call find_neighbours(samples, rows, x)
+      if (any(rows == 0)) return
+      f = samples%values(series, rows)
+      if (modulo(samples%extreme, 2) == 0) f = -f
+      ! what the parabola loses from its middle point to its vertex
+      slopes = [(f(1) - f(2))/(x(2) - x(1)), (f(3) - f(2))/(x(3) - x(2))]
+      if (.not. sum(slopes) > 0.0_wp) return
+      angle = 0.5_wp*(x(3)*slopes(1) + x(1)*slopes(2))/sum(slopes)
+      is_wanted = angle**2*sum(slopes)/(x(3) - x(1)) > worth_a_row*range
+      angle = samples%angle(rows(2)) + angle
+   end subroutine try_extreme
+
+   !> Rows next to one, on either side and round the turn.
+   pure subroutine find_neighbours(samples, rows, x)
+      !> The rows
+      type(samples_t), intent(in) :: samples
+      !> In: the middle one; out: the nearest before and after it as well, 0 where there is none close by
+      integer, intent(inout) :: rows(3)
+      !> Their angles, from the middle one [rad]
+      real(wp), intent(out) :: x(3)
+
+      ! Way from the middle row to another, backwards negative [rad]
+      real(wp) :: way
+      integer :: distance, side, sector, row
+
+      rows([1, 3]) = 0
+      x = [-pi, 0.0_wp, pi]
+      do distance = 0, widest
+         do side = -1, merge(0, 1, distance == 0), 2
+            sector = modulo(sector_of(samples%angle(rows(2))) + side*distance, sectors)
+            row = samples%last(sector)
+            do while (row > 0)
+               way = modulo(samples%angle(row) - samples%angle(rows(2)) + pi, two_pi) - pi
+               if (way > 0.0_wp .and. way < x(3)) then
+                  x(3) = way
+                  rows(3) = row
+               else if (way < 0.0_wp .and. way > x(1)) then
+                  x(1) = way
+                  rows(1) = row
+               end if
+               row = samples%before(row)
             end do
          end do
+         if (all(rows > 0)) return
       end do
-   end subroutine refine_extremes
+   end subroutine find_neighbours
 
-   !> Count the angles at which the entrainment speed changes its sign in contact, and take the states there among the extremes.
-   subroutine add_standstills(samples, looks, standstills, first_angle, error)
-      !> The samples, whose extremes widen
-      type(follower_samples_t), intent(inout) :: samples
-      !> Points of the cycle in order
-      type(look_t), intent(in) :: looks(:)
-      !> Number of changes of sign
-      integer, intent(out) :: standstills
-      !> Cam angle from full lift of the first [rad]
-      real(wp), intent(out) :: first_angle
-      !> Convergence error
-      type(error_t), allocatable, intent(out) :: error
+   !> Smallest value of each series.
+   pure function smallest_of(samples) result(values)
+      !> The rows
+      type(samples_t), intent(in) :: samples
+      !> One for each series [unit of the series]
+      real(wp) :: values(size(samples%values, 1))
 
-      type(bracket_t) :: bracket
-      ! Values of all that is sampled [unit of each]
-      real(wp) :: values(samples%series + torque_count)
       integer :: i
 
-      standstills = 0
-      first_angle = 0.0_wp
-      do i = 2, size(looks)
-         if (.not. all(looks(i - 1:i)%is_touching)) cycle
-         call start_bracket(bracket, looks(i - 1)%angle, looks(i)%angle, looks(i - 1)%entrainment_speed, &
-            & looks(i)%entrainment_speed, angle_tolerance)
-         do while (bracket%status == root_wanted)
-            call samples%sample(bracket%trial, values, error)
-            if (allocated(error)) return
-            call narrow_bracket(bracket, samples%state%contact%entrainment_speed)
-         end do
-         if (bracket%status /= root_found) cycle
-         standstills = standstills + 1
-         if (standstills == 1) first_angle = bracket%trial
-         call add_state_at_rest(samples, bracket%trial)
-      end do
-   end subroutine add_standstills
+      values = [(samples%values(i, samples%lowest(i)), i=1, size(values))]
+   end function smallest_of
 
-   !> Take the state without entrainment at a cam angle among the extremes.
-   subroutine add_state_at_rest(samples, angle)
-      !> The samples, whose extremes widen
-      type(follower_samples_t), intent(inout) :: samples
-      !> Cam angle from full lift, that of the last sample or all but that [rad]
-      real(wp), intent(in) :: angle
+   !> Largest value of each series.
+   pure function largest_of(samples) result(values)
+      !> The rows
+      type(samples_t), intent(in) :: samples
+      !> One for each series [unit of the series]
+      real(wp) :: values(size(samples%values, 1))
 
-      ! Series [unit of the series]
-      real(wp) :: values(samples%series)
-      integer :: status
+      integer :: i
 
-      ! Where both surfaces have opposite speeds the roller slips by twice the speed of the cam's surface
-      call evaluate_state(samples%model, angle, 2.0_wp*samples%state%contact%cam_surface_speed, samples%state, status)
-      if (status /= 0) return
-      call series_values(samples%case, samples%model, samples%state, follower_torques(samples%state), 0.0_wp, values)
-      samples%lowest = min(samples%lowest, values)
-      samples%highest = max(samples%highest, values)
-   end subroutine add_state_at_rest
+      values = [(samples%values(i, samples%highest(i)), i=1, size(values))]
+   end function largest_of
 
 end module camroller_extremes

@@ -1,4 +1,4 @@
-!> What is sampled of a cycle: series and torques of a follower, with their extremes.
+!> What is sampled of a cycle: series and torques of a follower.
 !>
 !> Layer: solver. In: case, model, cycle, then angles. Out: values to be integrated, and what was met on the way. The torque against
 !> spring, seat and inertia and the one that spins the roller up are left out of what is integrated: their integrals are differences
@@ -11,22 +11,17 @@ module camroller_follower_samples
    use camroller_state, only : state_t
    use camroller_cycle, only : cycle_t, state_at
    use camroller_catalogue, only : series_values, follower_torques, torque_count
-   use camroller_hertz, only : peak_pressure
+   use camroller_extremes, only : samples_t, add_sample, start_rows => start_samples
    use camroller_panels, only : sampled_t
    implicit none
    private
 
    public :: follower_samples_t, start_samples, look_t, look_of
 
-   !> Quantities whose extremes are those of the curve: load, pressure of the dry contact, smallest film, sliding speed
-   integer, parameter, public :: tracked_count = 4
-
-   !> One point of a cycle, for the search of extremes
+   !> One point of a cycle, for the search of standstills
    type :: look_t
       !> Cam angle from full lift [rad]
       real(wp) :: angle = 0.0_wp
-      !> Load [N], pressure [Pa], film [m], sliding speed [m/s]
-      real(wp) :: tracked(tracked_count) = 0.0_wp
       !> Mean surface speed [m/s]
       real(wp) :: entrainment_speed = 0.0_wp
       logical :: is_touching = .false.
@@ -44,8 +39,8 @@ module camroller_follower_samples
       integer :: series = 0, first_torque = 1
       !> State at the point that was sampled last
       type(state_t) :: state
-      !> Smallest and largest values met [unit of the series]
-      real(wp), allocatable :: lowest(:), highest(:)
+      !> Series of the follower at the points met
+      type(samples_t) :: rows
       !> Largest size of the sliding speed met [m/s]
       real(wp) :: largest_sliding = 0.0_wp
    contains
@@ -74,8 +69,7 @@ contains
          samples%series = series
          samples%first_torque = first_torque
       end if
-      allocate (samples%lowest(samples%series), source=huge(1.0_wp))
-      allocate (samples%highest(samples%series), source=-huge(1.0_wp))
+      call start_rows(samples%rows, samples%first_torque - 1)
    end subroutine start_samples
 
    !> Series and torques at a cam angle, with zero for torques among the series and for what comes of stored energy.
@@ -98,8 +92,7 @@ contains
       self%largest_sliding = max(self%largest_sliding, abs(self%state%contact%sliding_speed))
       if (associated(self%case)) then
          call series_values(self%case, self%model, self%state, torques, 0.0_wp, values(:self%series))
-         self%lowest = min(self%lowest, values(:self%series))
-         self%highest = max(self%highest, values(:self%series))
+         call add_sample(self%rows, x, values(:self%first_torque - 1))
          values(self%first_torque:self%series) = 0.0_wp
       end if
       torques(1) = 0.0_wp
@@ -108,7 +101,7 @@ contains
       values(self%series + 1:) = torques
    end subroutine sample
 
-   !> The point that was sampled last, for the search of extremes.
+   !> The point that was sampled last, for the search of standstills.
    pure function look_of(samples, angle) result(look)
       !> The samples
       type(follower_samples_t), intent(in) :: samples
@@ -117,13 +110,9 @@ contains
       !> What it is like
       type(look_t) :: look
 
-      associate (contact => samples%state%contact, model => samples%model)
-         look%angle = angle
-         look%tracked = [contact%load, peak_pressure(contact%load, samples%state%position%equivalent_radius, &
-            & model%contact_width, model%modulus), contact%film_min, contact%sliding_speed]
-         look%entrainment_speed = contact%entrainment_speed
-         look%is_touching = contact%is_touching
-      end associate
+      look%angle = angle
+      look%entrainment_speed = samples%state%contact%entrainment_speed
+      look%is_touching = samples%state%contact%is_touching
    end function look_of
 
 end module camroller_follower_samples

@@ -72,9 +72,10 @@ contains
       if (same .and. allocated(one%second_lift)) same = is_same_lift(one%second_lift, other%second_lift)
       associate (a => one%mechanism, b => other%mechanism)
          same = same .and. a%rotation == b%rotation .and. all(same_bits([a%pivot_to_roller, a%pivot_to_pad, a%pivot_to_cam, &
-            & a%roller_arm_angle, a%valve_axis_angle, a%base_radius, a%roller_radius, a%contact_width, a%grinding_wheel_radius], &
-            & [b%pivot_to_roller, b%pivot_to_pad, b%pivot_to_cam, b%roller_arm_angle, b%valve_axis_angle, b%base_radius, &
-            & b%roller_radius, b%contact_width, b%grinding_wheel_radius]))
+            & a%roller_arm_angle, a%valve_axis_angle, a%adjuster_tilt, a%base_radius, a%roller_radius, a%contact_width, &
+            & a%grinding_wheel_radius], &
+            & [b%pivot_to_roller, b%pivot_to_pad, b%pivot_to_cam, b%roller_arm_angle, b%valve_axis_angle, b%adjuster_tilt, &
+            & b%base_radius, b%roller_radius, b%contact_width, b%grinding_wheel_radius]))
       end associate
       associate (a => one%spring, b => other%spring)
          same = same .and. a%seating == b%seating .and. a%load_arm == b%load_arm .and. all(same_bits([a%stiffness, &
@@ -82,8 +83,9 @@ contains
             & b%seat_stiffness]))
       end associate
       same = same .and. one%roller%spin == other%roller%spin .and. all(same_bits([one%masses%valve, one%masses%finger, &
-         & one%masses%finger_inertia, one%roller%mass, one%roller%wall_thickness], [other%masses%valve, other%masses%finger, &
-         & other%masses%finger_inertia, other%roller%mass, other%roller%wall_thickness]))
+         & one%masses%finger_inertia, one%masses%finger_centre, one%roller%mass, one%roller%wall_thickness], &
+         & [other%masses%valve, other%masses%finger, other%masses%finger_inertia, other%masses%finger_centre, &
+         & other%roller%mass, other%roller%wall_thickness]))
       if (same) same = is_same_lift(one%lift, other%lift)
    end function has_same_train
 

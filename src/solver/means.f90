@@ -20,11 +20,12 @@ module camroller_means
    use camroller_catalogue, only : list_series, series_values, torque_count
    use camroller_defects, only : find_defect, loss_slopes
    use camroller_error_estimate, only : estimate_t, add_defect, end_interval, estimated_error, loss_errors
-   use camroller_extremes, only : refine_extremes, add_standstills
+   use camroller_extremes, only : samples_t
    use camroller_follower_samples, only : follower_samples_t, start_samples, look_t, look_of
    use camroller_panels, only : panels_t, panel_points, panel_places, panel_weights, gauss_points, start_panels, add_panel, &
       & add_trapezoid, refine_panels
    use camroller_result, only : quantity_t, find_quantity
+   use camroller_standstills, only : add_standstills
    use camroller_stored_work, only : stored_work_t, follow_contact, end_work, spin_work
    use camroller_trajectory, only : curve_slope
    implicit none
@@ -36,8 +37,8 @@ module camroller_means
    type :: statistics_t
       !> Mean of each series of the follower, as if it were alone [unit of the series]
       real(wp), allocatable :: mean(:)
-      !> Smallest and largest values met [unit of the series]
-      real(wp), allocatable :: lowest(:), highest(:)
+      !> Series of the follower at the points met
+      type(samples_t) :: rows
       !> Mean torques of the follower [N m], last the energy residual [W]
       real(wp) :: torques(torque_count) = 0.0_wp
       !> Part of the cycle without contact, and outside the film law's range [-]
@@ -81,7 +82,7 @@ contains
       type(model_t), intent(in), target :: model
       !> Cycle of the lobe
       type(cycle_t), intent(in), target :: cycle
-      !> Number of series of the case
+      !> Number of series of one follower and the camshaft
       integer, intent(in) :: series_count
       !> Means and extremes
       type(statistics_t), intent(out) :: statistics
@@ -103,17 +104,15 @@ contains
       if (allocated(error)) return
       if (.not. cycle%is_linear) then
          call refine_means(panels, samples, cycle%tolerance, series_count, error)
-         if (.not. allocated(error)) call refine_extremes(samples, looks, error)
          if (.not. allocated(error)) call add_standstills(samples, looks, statistics%standstills, statistics%first_standstill, &
             & error)
          if (allocated(error)) return
       end if
-      statistics%lowest = samples%lowest
-      statistics%highest = samples%highest
+      statistics%rows = samples%rows
       statistics%largest_sliding = samples%largest_sliding
       span = cycle%trajectory%time(cycle%trajectory%count) - cycle%trajectory%time(1)
       call take_means(panels, samples, work, span, statistics)
-      call judge_means(panels, loss_errors(estimate, cycle%closure*cycle%scale), span, series, statistics)
+      call judge_means(panels, loss_errors(estimate, cycle%closure*cycle%scale), span, series(:series_count), statistics)
       ! What start and end differ by comes again in every cycle that the periodic one is away
       statistics%error = cycle%closure/max(1.0_wp - estimate%contraction, epsilon(1.0_wp)) &
          & + estimated_error(estimate)/max(statistics%largest_sliding, cycle%scale, tiny(1.0_wp))

@@ -9,7 +9,8 @@ module camroller_model
    use camroller_case, only : case_t, energy_names
    use camroller_lift, only : lift_t, lift_law_t, new_lift_law, evaluate_lift, stop_angles
    use camroller_kinematics, only : linkage_t, position_t, new_linkage, evaluate_position
-   use camroller_dynamics, only : train_t, moments_t, evaluate_moments, seating_names, load_arm_names
+   use camroller_dynamics, only : train_t, moments_t, evaluate_moments, seating_names, load_arm_names, contact_policy_names
+   use camroller_pivot, only : pivot_t, usual_centre
    use camroller_materials, only : combined_modulus, combined_roughness
    use camroller_lubricant, only : lubricant_t, oil_t, get_oil
    use camroller_film, only : film_law_names, range_policy_names, law_masjedi_khonsari_rough, law_table
@@ -71,10 +72,14 @@ module camroller_model
       logical :: has_rolling_in_balance
       !> End with an error where the film law is used outside its range?
       logical :: stops_outside_range
+      !> End with an error where contact is lost?
+      logical :: stops_without_contact
       !> Positions in the lists of names of the laws
       integer :: film_law, shear_law, cap, rolling_law
       type(linkage_t) :: linkage
       type(train_t) :: train
+      !> Joint between finger and adjuster; allocated where the finger's mass is known
+      type(pivot_t), allocatable :: pivot
       type(lift_law_t) :: lift_law
       type(gas_law_t), allocatable :: gas
       type(lubricant_t) :: lubricant
@@ -289,6 +294,9 @@ contains
       call find_name("range policy", case%film%range_policy, range_policy_names, choice, error)
       if (allocated(error)) return
       model%stops_outside_range = choice == 2
+      call find_name("contact policy", case%spring%contact_policy, contact_policy_names, choice, error)
+      if (allocated(error)) return
+      model%stops_without_contact = choice == 2
       call find_name("film law", case%film%law, film_law_names, model%film_law, error)
       if (allocated(error)) return
       if (allocated(case%ehl)) then
@@ -388,7 +396,8 @@ contains
          call raise(error, kind_deck, "roller: the mass must be positive and the wall thinner than the radius")
          return
       end if
-      if (model%takes_maximum_load) return
+      if (case%masses%finger > 0.0_wp) call set_pivot(model, case, error)
+      if (allocated(error) .or. model%takes_maximum_load) return
 
       call evaluate_position(model%linkage, [0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp], closed, status)
       tip_force = model%base_circle_load*merge(closed%normal_arm, closed%parallel_arm, model%has_exact_arm)/closed%valve_arm
@@ -402,6 +411,33 @@ contains
       end if
       model%train%seat_lift = 2.0_wp*model%train%closed_seat_force/case%spring%seat_stiffness
    end subroutine set_train
+
+   !> The finger's joint with the lash adjuster.
+   subroutine set_pivot(model, case, error)
+      !> The model with the finger's inertia
+      type(model_t), intent(inout) :: model
+      !> A case
+      type(case_t), intent(in) :: case
+      !> Deck error where no finger of this mass and inertia has its centre of mass so far out
+      type(error_t), allocatable, intent(out) :: error
+
+      ! Radius of gyration about the pivot [m]
+      real(wp) :: gyration
+      character(len=12) :: texts(2)
+
+      gyration = sqrt(model%train%finger_inertia/case%masses%finger)
+      allocate (model%pivot)
+      model%pivot%mass = case%masses%finger
+      model%pivot%centre = min(usual_centre, gyration)
+      if (case%masses%finger_centre > 0.0_wp) model%pivot%centre = case%masses%finger_centre
+      model%pivot%tilt = case%mechanism%adjuster_tilt
+      model%pivot%axis_angle = case%mechanism%valve_axis_angle + case%mechanism%adjuster_tilt
+      if (model%pivot%centre <= gyration) return
+      write (texts, "(f0.3)") 1.0e3_wp*model%pivot%centre, 1.0e3_wp*gyration
+      call raise(error, kind_deck, "masses: the finger's centre of mass, finger_centre of "//trim(texts(1))// &
+         & " mm, lies beyond its radius of gyration about the pivot, "//trim(texts(2))//" mm; lower finger_centre or "// &
+         & "finger_kg, or raise finger_inertia_kg_m2")
+   end subroutine set_pivot
 
    !> Effects that the case has.
    subroutine set_effects(model, case, error)

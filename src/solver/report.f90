@@ -2,26 +2,26 @@
 !>
 !> Layer: solver. In: case, models, cycles. Out: `result_t`.
 module camroller_report
-   use camroller_kinds, only : wp, pi, two_pi, degree
-   use camroller_error, only : error_t, raise, add_context, kind_domain
+   use camroller_kinds, only : wp, two_pi, degree
+   use camroller_error, only : error_t
    use camroller_case, only : case_t
    use camroller_model, only : model_t
-   use camroller_number_text, only : number_text, fixed_text
    use camroller_state, only : state_t
-   use camroller_cycle, only : cycle_t
-   use camroller_catalogue, only : list_series, series_values, follower_torques, torque_count
-   use camroller_result, only : result_t, quantity_t
+   use camroller_cycle, only : cycle_t, state_at
+   use camroller_cycle_remarks, only : judge_lobe
+   use camroller_catalogue, only : list_series, follower_values, camshaft_values, follower_count, camshaft_count, lobe_columns, &
+      & camshaft_columns, torque_count
+   use camroller_extremes, only : samples_t, start_samples, add_sample, next_sample, smallest_of, largest_of
+   use camroller_margins, only : margins_t, find_margins
+   use camroller_result, only : result_t, find_quantity, check_numbers
    use camroller_shaft, only : shaft_t, new_shaft, shaft_torques
    use camroller_mean_bearings, only : mean_bearing_torque
    use camroller_means, only : statistics_t, integrate_lobe
-   use camroller_summary, only : make_summary
+   use camroller_summary, only : make_summary, extremes_t
    implicit none
    private
 
    public :: make_result, output_angles
-
-   !> Estimate of the error of the sliding speed, over the largest, beyond which a result is worth a warning [-]
-   real(wp), parameter :: worth_a_warning = 0.1_wp
 
 contains
 
@@ -40,6 +40,8 @@ contains
 
       type(shaft_t) :: shaft
       type(statistics_t), allocatable :: statistics(:)
+      type(margins_t), allocatable :: margins(:)
+      type(extremes_t) :: extremes
       ! Mean torque of the camshaft bearings [N m], its error over itself [-]
       real(wp) :: bearing_torque, bearing_error
       integer :: lobe
@@ -51,14 +53,14 @@ contains
       call sample_series(case, models, cycles, shaft, result, error)
       if (allocated(error)) return
 
-      allocate (statistics(size(models)))
+      allocate (statistics(size(models)), margins(size(models)))
       do lobe = 1, size(models)
-         call integrate_lobe(case, models(lobe), cycles(lobe), size(result%series), statistics(lobe), error)
+         call integrate_lobe(case, models(lobe), cycles(lobe), follower_count(case) + camshaft_count(case), statistics(lobe), error)
          if (allocated(error)) return
-         call check_range(models(lobe), statistics(lobe), result%warnings, error)
+         call find_margins(models(lobe), cycles(lobe)%stops, margins(lobe))
+         call judge_lobe(models(lobe), cycles(lobe), statistics(lobe), margins(lobe), merge(lobe, 0, size(models) > 1), &
+            & result%warnings, error)
          if (allocated(error)) return
-         call check_error(statistics(lobe), result%warnings)
-         call check_entrainment(statistics(lobe), result%warnings)
       end do
       bearing_torque = 0.0_wp
       bearing_error = 0.0_wp
@@ -68,7 +70,10 @@ contains
          statistics%mean_error = bearing_error
          statistics%worst_mean = "torque_bearings"
       end if
-      call make_summary(case, models, cycles, shaft, statistics, bearing_torque, result)
+      call find_extremes(case, models, cycles, shaft, margins, statistics, result, extremes, error)
+      if (allocated(error)) return
+      call make_summary(case, models, cycles, shaft, statistics, bearing_torque, margins, extremes, result)
+      call check_numbers(result, error)
    end subroutine make_result
 
    !> Cam angles of the output, 0 to 360 with the nose at 180, end point left out [deg].
@@ -84,7 +89,7 @@ contains
       angles = [(360.0_wp*i/points, i=0, points - 1)]
    end function output_angles
 
-   !> Series at the output angles.
+   !> Series at the output angles: each lobe's follower over the angle from its own nose, torques over that from the first cam's.
    subroutine sample_series(case, models, cycles, shaft, result, error)
       !> The case
       type(case_t), intent(in) :: case
@@ -100,73 +105,199 @@ contains
       type(error_t), allocatable, intent(out) :: error
 
       type(state_t) :: state
-      ! Torques of all followers [N m], of all bearings [N m]; values of the series
-      real(wp) :: torques(torque_count), bearing_torque, values(size(result%series))
-      integer :: i
+      ! Torques of all followers [N m], of all bearings [N m]; values of the series; cam angle from full lift [rad]
+      real(wp) :: torques(torque_count), bearing_torque, values(size(result%series)), angle
+      integer :: hints(size(models)), columns(2, size(models)), of_camshaft(2), i, lobe
+      ! Is the first cam's follower the first lobe's, at the same angle?
+      logical :: is_first
 
+      hints = 1
+      of_camshaft = camshaft_columns(case)
+      do lobe = 1, size(models)
+         columns(:, lobe) = lobe_columns(case, lobe)
+      end do
+      is_first = shaft%lobes(1) == 1 .and. abs(shaft%phases(1)) <= 0.0_wp
       result%angle = output_angles(case%numerics%output_step)
       allocate (result%series_values(size(result%angle), size(result%series)))
       do i = 1, size(result%angle)
-         call shaft_torques(shaft, models, cycles, (result%angle(i) - 180.0_wp)*degree, state, torques, bearing_torque, error)
+         angle = (result%angle(i) - 180.0_wp)*degree
+         call shaft_torques(shaft, models, cycles, angle, state, torques, bearing_torque, error)
          if (allocated(error)) return
-         call series_values(case, models(1), state, torques, bearing_torque, values)
+         call camshaft_values(case, torques, bearing_torque, values(of_camshaft(1):of_camshaft(2)))
+         do lobe = 1, size(models)
+            if (lobe > 1 .or. .not. is_first) call state_at(cycles(lobe), models(lobe), angle, hints(lobe), state, error)
+            if (allocated(error)) return
+            call follower_values(case, models(lobe), state, &
+               & values(columns(1, lobe):columns(2, lobe)))
+         end do
          result%series_values(i, :) = values
       end do
    end subroutine sample_series
 
-   !> Warn where the sliding speed is no answer, as with explicit steps beyond the stability limit.
-   subroutine check_error(statistics, warnings)
-      !> Means over the cycle of a lobe, with the estimate of its error
-      type(statistics_t), intent(in) :: statistics
-      !> Warnings, one per line
-      character(len=:), allocatable, intent(inout) :: warnings
-
-      if (statistics%error <= worth_a_warning) return
-      if (len(warnings) > 0) warnings = warnings//new_line("a")
-      warnings = warnings//"the sliding speed is not resolved: the estimate of its error is "// &
-         & number_text(statistics%error, 2)//" of the largest; take another method, a smaller tolerance or smaller steps"
-   end subroutine check_error
-
-   !> Say where the entrainment passes through zero: the smallest film is that of a standstill.
-   subroutine check_entrainment(statistics, warnings)
-      !> Means over the cycle of a lobe
-      type(statistics_t), intent(in) :: statistics
-      !> Warnings, one per line
-      character(len=:), allocatable, intent(inout) :: warnings
-
-      character(len=12) :: buffer(2)
-
-      if (statistics%standstills == 0) return
-      write (buffer(1), "(i0)") statistics%standstills
-      write (buffer(2), "(f0.1)") modulo(180.0_wp + statistics%first_standstill/degree, 360.0_wp)
-      if (len(warnings) > 0) warnings = warnings//new_line("a")
-      warnings = warnings//"the entrainment speed changes its sign "//trim(buffer(1))//" times in contact, first at cam angle "// &
-         & trim(buffer(2))//" deg; the smallest film is that of the standstill there, without what squeeze would leave"
-   end subroutine check_entrainment
-
-   !> Warn or stop where the film law was used outside its range.
-   subroutine check_range(model, statistics, warnings, error)
-      !> Model of the lobe
-      type(model_t), intent(in) :: model
-      !> Means over its cycle
-      type(statistics_t), intent(in) :: statistics
-      !> Warnings, one per line
-      character(len=:), allocatable, intent(inout) :: warnings
-      !> Domain error where the case forbids it
+   !> Smallest and largest value of every series, at the stops and between the output angles as well.
+   subroutine find_extremes(case, models, cycles, shaft, margins, statistics, result, extremes, error)
+      !> The case
+      type(case_t), intent(in) :: case
+      !> Model of each lobe shape
+      type(model_t), intent(in) :: models(:)
+      !> Cycle of each lobe shape
+      type(cycle_t), intent(in) :: cycles(:)
+      !> The camshaft
+      type(shaft_t), intent(inout) :: shaft
+      !> Margins of each lobe shape
+      type(margins_t), intent(in) :: margins(:)
+      !> Rows of each lobe shape; more are added
+      type(statistics_t), intent(inout) :: statistics(:)
+      !> Series
+      type(result_t), intent(in) :: result
+      !> The extremes
+      type(extremes_t), intent(out) :: extremes
+      !> Convergence or domain error
       type(error_t), allocatable, intent(out) :: error
 
-      character(len=:), allocatable :: text
+      integer :: columns(2), lobe
 
-      if (statistics%outside_share <= 0.0_wp) return
-      text = "the film law is outside its published range for "//fixed_text(100.0_wp*statistics%outside_share, 1)// &
-         & " % of the cycle, e.g. at cam angle "// &
-         & fixed_text(modulo(180.0_wp + statistics%first_outside/degree, 360.0_wp), 1)//" deg"
-      if (model%stops_outside_range) then
-         call raise(error, kind_domain, text//" (range_policy = 'stop')")
-      else
-         if (len(warnings) > 0) warnings = warnings//new_line("a")
-         warnings = warnings//text
-      end if
-   end subroutine check_range
+      allocate (extremes%lowest(size(result%series)), extremes%highest(size(result%series)), extremes%event_load(size(models)))
+      do lobe = 1, size(models)
+         columns = lobe_columns(case, lobe)
+         associate (samples => statistics(lobe)%rows)
+            call add_output_rows(result, columns, samples)
+            call complete_lobe(case, models(lobe), cycles(lobe), margins(lobe), samples, error)
+            if (allocated(error)) return
+            extremes%lowest(columns(1):columns(2)) = smallest_of(samples)
+            extremes%highest(columns(1):columns(2)) = largest_of(samples)
+            extremes%event_load(lobe) = smallest_event_load(models(lobe), result, samples)
+         end associate
+      end do
+      call complete_camshaft(case, models, cycles, shaft, result, extremes, error)
+   end subroutine find_extremes
+
+   !> Rows at the output angles.
+   pure subroutine add_output_rows(result, columns, samples)
+      !> Series
+      type(result_t), intent(in) :: result
+      !> The first and the last of those that make a row
+      integer, intent(in) :: columns(2)
+      !> The rows
+      type(samples_t), intent(inout) :: samples
+
+      integer :: i
+
+      do i = 1, size(result%angle)
+         call add_sample(samples, (result%angle(i) - 180.0_wp)*degree, result%series_values(i, columns(1):columns(2)))
+      end do
+   end subroutine add_output_rows
+
+   !> Rows of a lobe's follower at the stops, at the smallest load without friction, and where extremes are.
+   subroutine complete_lobe(case, model, cycle, margins, samples, error)
+      !> The case
+      type(case_t), intent(in) :: case
+      !> Model of the lobe
+      type(model_t), intent(in) :: model
+      !> Its cycle
+      type(cycle_t), intent(in) :: cycle
+      !> Its margins
+      type(margins_t), intent(in) :: margins
+      !> The rows
+      type(samples_t), intent(inout) :: samples
+      !> Convergence error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(state_t) :: state
+      ! Cam angles from full lift [rad]; a row [unit of the series]
+      real(wp), allocatable :: angles(:)
+      real(wp) :: angle, values(size(samples%values, 1))
+      integer :: hint, i
+      logical :: is_wanted
+
+      hint = 1
+      angles = [cycle%stops, margins%event%angle]
+      i = 0
+      do
+         i = i + 1
+         if (i <= size(angles)) then
+            angle = angles(i)
+         else if (cycle%is_linear) then
+            exit
+         else
+            call next_sample(samples, angle, is_wanted)
+            if (.not. is_wanted) exit
+         end if
+         call state_at(cycle, model, angle, hint, state, error)
+         if (allocated(error)) return
+         call follower_values(case, model, state, values)
+         call add_sample(samples, angle, values)
+      end do
+   end subroutine complete_lobe
+
+   !> Extremes of the camshaft's series.
+   subroutine complete_camshaft(case, models, cycles, shaft, result, extremes, error)
+      !> The case
+      type(case_t), intent(in) :: case
+      !> Model of each lobe shape
+      type(model_t), intent(in) :: models(:)
+      !> Cycle of each lobe shape
+      type(cycle_t), intent(in) :: cycles(:)
+      !> The camshaft
+      type(shaft_t), intent(inout) :: shaft
+      !> Series
+      type(result_t), intent(in) :: result
+      !> The extremes
+      type(extremes_t), intent(inout) :: extremes
+      !> Convergence or domain error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(samples_t) :: samples
+      type(state_t) :: state
+      ! Stops of all cams [rad]; torques [N m]; a row [unit of the series]; cam angle from full lift [rad]
+      real(wp), allocatable :: stops(:)
+      real(wp) :: torques(torque_count), bearing_torque, values(camshaft_count(case)), angle
+      integer :: columns(2), i
+      logical :: is_wanted
+
+      columns = camshaft_columns(case)
+      call start_samples(samples, size(values))
+      call add_output_rows(result, columns, samples)
+      stops = [(cycles(shaft%lobes(i))%stops + shaft%phases(i), i=1, size(shaft%lobes))]
+      i = 0
+      do
+         i = i + 1
+         if (i <= size(stops)) then
+            angle = stops(i)
+         else
+            call next_sample(samples, angle, is_wanted)
+            if (.not. is_wanted) exit
+         end if
+         call shaft_torques(shaft, models, cycles, angle, state, torques, bearing_torque, error)
+         if (allocated(error)) return
+         call camshaft_values(case, torques, bearing_torque, values)
+         call add_sample(samples, angle, values)
+      end do
+      extremes%lowest(columns(1):columns(2)) = smallest_of(samples)
+      extremes%highest(columns(1):columns(2)) = largest_of(samples)
+   end subroutine complete_camshaft
+
+   !> Smallest contact load with the valve off its seat; over the whole cycle where it never leaves it.
+   pure function smallest_event_load(model, result, samples) result(load)
+      !> Model of the lobe
+      type(model_t), intent(in) :: model
+      !> Series
+      type(result_t), intent(in) :: result
+      !> Rows of the lobe
+      type(samples_t), intent(in) :: samples
+      !> The load [N]
+      real(wp) :: load
+
+      ! Part of the lift at the seat that counts as all of it at a stop [-]
+      real(wp), parameter :: nearly = 1.0_wp - 1.0e-9_wp
+      logical :: in_event(samples%count)
+
+      associate (lift => samples%values(find_quantity(result%series, "valve_lift"), :samples%count), &
+         & loads => samples%values(find_quantity(result%series, "contact_load"), :samples%count))
+         in_event = lift > 0.0_wp .and. lift >= nearly*model%train%seat_lift
+         if (.not. any(in_event)) in_event = .true.
+         load = minval(loads, in_event)
+      end associate
+   end function smallest_event_load
 
 end module camroller_report

@@ -2,13 +2,21 @@
 !>
 !> Layer: solver. In: what `camroller_report` evaluated. Out: `result_t`, to be read by name or written to a file.
 module camroller_result
+   use, intrinsic :: ieee_arithmetic, only : ieee_is_finite, ieee_is_nan
    use camroller_kinds, only : wp
-   use camroller_error, only : error_t, raise, kind_usage
+   use camroller_error, only : error_t, raise, kind_domain, kind_usage
    use camroller_effect_list, only : choice_t
+   use camroller_number_text, only : fixed_text, integer_text
    implicit none
    private
 
-   public :: quantity_t, result_t, get_series, get_summary, find_quantity
+   public :: quantity_t, result_t, get_series, get_summary, find_quantity, check_numbers, add_remark, lobe_scope
+   public :: scope_length, scope_camshaft, scope_case
+
+   !> Length of a scope
+   integer, parameter :: scope_length = 16
+   !> Scopes beside those of `lobe_scope`: all followers and bearings of the camshaft together; the case as a whole
+   character(len=*), parameter :: scope_camshaft = "camshaft", scope_case = "case"
 
    !> What a column of numbers means
    type :: quantity_t
@@ -20,6 +28,10 @@ module camroller_result
       character(len=:), allocatable :: description
       !> Part of the model that it comes from, e.g. `asperity`
       character(len=:), allocatable :: source
+      !> What it belongs to: `lobe 1` or `lobe 2` for one follower of that lobe shape, `camshaft`, or `case`
+      character(len=scope_length) :: scope = scope_case
+      !> Has infinity a meaning, as for the speed at which something that never happens would happen?
+      logical :: may_be_infinite = .false.
    end type quantity_t
 
    !> Result of one case
@@ -58,6 +70,76 @@ contains
       end do
       position = 0
    end function find_quantity
+
+   !> Scope of what belongs to one follower.
+   pure function lobe_scope(lobe) result(scope)
+      !> Its lobe shape, from 1
+      integer, intent(in) :: lobe
+      !> The scope
+      character(len=scope_length) :: scope
+
+      scope = "lobe "//integer_text(lobe)
+   end function lobe_scope
+
+   !> Add a remark to others.
+   !>
+   !> The screen shows remarks of many cases by kind: what stands before the first number is the kind, that number how bad it is.
+   pure subroutine add_remark(remarks, text)
+      !> Remarks, one per line; empty where there are none
+      character(len=:), allocatable, intent(inout) :: remarks
+      !> The remark
+      character(len=*), intent(in) :: text
+
+      if (len(remarks) > 0) remarks = remarks//new_line("a")
+      remarks = remarks//text
+   end subroutine add_remark
+
+   !> Refuse a result that holds what is not a finite number, unless infinity has a meaning there.
+   subroutine check_numbers(result, error)
+      !> A result
+      type(result_t), intent(in) :: result
+      !> Domain error that names the first series or scalar, its cam angle and its value
+      type(error_t), allocatable, intent(out) :: error
+
+      integer :: i, row
+
+      do i = 1, size(result%series)
+         if (all(ieee_is_finite(result%series_values(:, i)))) cycle
+         row = findloc(ieee_is_finite(result%series_values(:, i)), .false., 1)
+         call refuse(result%series(i)%name, result%series_values(row, i), error, result%angle(row))
+         return
+      end do
+      do i = 1, size(result%summary)
+         if (ieee_is_finite(result%summary_values(i))) cycle
+         if (result%summary(i)%may_be_infinite .and. .not. ieee_is_nan(result%summary_values(i))) cycle
+         call refuse(result%summary(i)%name, result%summary_values(i), error)
+         return
+      end do
+   end subroutine check_numbers
+
+   !> Refuse a value that is not a finite number.
+   subroutine refuse(name, value, error, angle)
+      !> Name of the quantity
+      character(len=*), intent(in) :: name
+      !> The value [any]
+      real(wp), intent(in) :: value
+      !> Domain error
+      type(error_t), allocatable, intent(out) :: error
+      !> Cam angle, for a series [deg]
+      real(wp), intent(in), optional :: angle
+
+      character(len=:), allocatable :: words
+
+      words = name
+      if (present(angle)) words = words//" at cam angle "//fixed_text(angle, 3)//" deg"
+      if (ieee_is_nan(value)) then
+         words = words//" is not a number (NaN)"
+      else
+         words = words//" is infinite"
+      end if
+      call raise(error, kind_domain, words//": values of the case are so large or so small that its formulas cannot be "// &
+         & "evaluated; bring them into a physical range")
+   end subroutine refuse
 
    !> Copy of one series.
    subroutine get_series(result, name, values, error)

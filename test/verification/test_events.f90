@@ -1,4 +1,4 @@
-!> Events and refusals that depend on the whole model: stops, undercut, margin against loss of contact, contradictions.
+!> Events and refusals that depend on the whole model: stops, undercut, contradictions.
 module test_events
    use testdrive, only : unittest_type, new_unittest, error_type, check, test_failed
    use camroller_kinds, only : wp, pi, two_pi, degree
@@ -8,7 +8,7 @@ module test_events
    use camroller_kinematics, only : position_t, rotation_names
    use camroller_dynamics, only : moments_t
    use camroller_state, only : state_t, evaluate_state, evaluate_loading
-   use camroller_events, only : margin_t, find_stops, find_stops_between, cycle_stops, check_geometry, find_margin
+   use camroller_events, only : find_stops, find_stops_between, cycle_stops, check_geometry
    use closeness, only : check_close, check_scaled, expect_error, expect_success
    use reference_cases, only : thesis_case, source_case, skewed_case, make_model, set_point, point_speeds, point_viscosities
    implicit none
@@ -29,8 +29,6 @@ contains
          new_unittest("an undercut cam is refused with its angle", test_undercut), &
          new_unittest("a hollow flank refuses a large grinding wheel and takes a small one", test_wheel), &
          new_unittest("a lift out of reach is refused with its angle", test_reach), &
-         new_unittest("the margin is the smallest load, and contact is lost at its speed", test_margin), &
-         new_unittest("without negative inertia forces contact is never lost", test_no_loss_speed), &
          new_unittest("a closed energy balance refuses what it cannot have, all at once", test_contradictions), &
          new_unittest("an adjuster that lifts the valve is refused with both forces", test_adjuster), &
          new_unittest("unknown names list the known ones", test_names), &
@@ -201,51 +199,6 @@ contains
       call check_geometry(model, 0.0_wp, failure)
       call expect_error(error, failure, kind_domain, "at cam angle")
    end subroutine test_reach
-
-   subroutine test_margin(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(case_t) :: case
-      type(model_t) :: model
-      type(margin_t) :: margin, at_loss
-      integer :: i
-
-      do i = 1, 2
-         case = thesis_case()
-         if (i == 2) case = skewed_case(rotation_names(2))
-         call make_model(case, model, error)
-         if (allocated(error)) return
-         call find_margin(model, margin)
-         call check(error, margin%smallest_load > 0.0_wp .and. margin%contact_loss_speed > model%speed, "contact at this speed")
-         if (allocated(error)) return
-         ! at the speed of first loss the smallest load is zero; the parabola through a scan of a quarter of a degree leaves 1e-4
-         ! of the spring's load
-         call set_point(case, margin%contact_loss_speed, point_viscosities(2))
-         call make_model(case, model, error)
-         if (allocated(error)) return
-         call find_margin(model, at_loss)
-         call check_scaled(error, at_loss%smallest_load, 0.0_wp, 500.0_wp, 1.0e-4_wp, "smallest load at the speed of loss")
-         if (allocated(error)) return
-         call check_close(error, at_loss%contact_loss_speed, margin%contact_loss_speed, 1.0e-6_wp, "speed of loss")
-         if (allocated(error)) return
-      end do
-   end subroutine test_margin
-
-   subroutine test_no_loss_speed(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(case_t) :: case
-      type(model_t) :: model
-      type(margin_t) :: margin
-
-      case = thesis_case()
-      case%masses%valve = 0.0_wp
-      case%masses%finger = 0.0_wp
-      call make_model(case, model, error)
-      if (allocated(error)) return
-      call find_margin(model, margin)
-      call check(error, margin%contact_loss_speed > huge(1.0_wp), "a speed is given")
-      if (allocated(error)) return
-      call check_close(error, margin%smallest_load, case%spring%base_circle_load, 1.0e-12_wp, "smallest load")
-   end subroutine test_no_loss_speed
 
    !> A case is refused with a kind and words.
    subroutine refused(case, kind, words, error)

@@ -1,0 +1,441 @@
+!> Results as a whole: every lobe's series, extremes against a fine scan, loss of contact in words, finite numbers alone.
+module test_result
+   use, intrinsic :: ieee_arithmetic, only : ieee_is_finite, ieee_positive_inf, ieee_quiet_nan, ieee_value
+   use, intrinsic :: iso_fortran_env, only : int64
+   use testdrive, only : unittest_type, new_unittest, error_type, check, test_failed
+   use camroller_kinds, only : wp, pi, two_pi, degree
+   use camroller_error, only : error_t, kind_domain
+   use camroller_case, only : case_t
+   use camroller_catalogue, only : follower_count, follower_values, list_series
+   use camroller_cycle, only : cycle_t, integrate_cycle, state_at
+   use camroller_dynamics, only : moment_slope, moments_t, seat_force, stored_energy, unseated_share
+   use camroller_events, only : contact_losses
+   use camroller_kinematics, only : position_t
+   use camroller_lift, only : lift_t
+   use camroller_model, only : model_t
+   use camroller_result, only : result_t, check_numbers, find_quantity, get_summary
+   use camroller_run, only : run_case
+   use camroller_state, only : evaluate_loading, state_t
+   use closeness, only : check_close, expect_error, expect_success
+   use reference_cases, only : thesis_case, make_model, set_point, point_speeds, point_viscosities
+   implicit none
+   private
+
+   public :: collect_result
+
+   !> Speed at which contact is lost around the nose [rad/s]: 3600 rev/min
+   real(wp), parameter :: fast = 120.0_wp*pi
+
+contains
+
+   subroutine collect_result(testsuite)
+      type(unittest_type), allocatable, intent(out) :: testsuite(:)
+
+      testsuite = [ &
+         new_unittest("a second lobe shape with the first one's lift has its series", test_same_lobes), &
+         new_unittest("series follow the lobe shape, not its number", test_swapped_lobes), &
+         new_unittest("every series says what it belongs to", test_scopes), &
+         new_unittest("a first cam of lobe 2 leaves lobe 1 its series", test_first_cam), &
+         new_unittest("smallest and largest values are those of a fine scan", test_extremes), &
+         new_unittest("extremes do not depend on the output step", test_coarse_output), &
+         new_unittest("intervals without contact are those of a fine scan", test_intervals), &
+         new_unittest("loss of contact is a remark with part, speed and angles", test_remark), &
+         new_unittest("the lobe that loses contact is named", test_lobe_remark), &
+         new_unittest("contact_policy 'stop' refuses loss of contact alone", test_policy), &
+         new_unittest("what is not a finite number is refused by name, angle and value", test_gate), &
+         new_unittest("lift that dips below zero meets no seat where there is none", test_dip) &
+         ]
+   end subroutine collect_result
+
+   !> Two cams of two lobe shapes.
+   function two_lobes(first, second, lobes) result(case)
+      type(lift_t), intent(in) :: first, second
+      integer, intent(in) :: lobes(2)
+      type(case_t) :: case
+
+      case = thesis_case()
+      case%lift = first
+      allocate (case%second_lift, source=second)
+      allocate (case%cam_bearings)
+      associate (bearings => case%cam_bearings)
+         bearings%diameter = 23.0e-3_wp
+         bearings%width = 20.0e-3_wp
+         bearings%radial_clearance = 47.5e-6_wp
+         bearings%bearing_positions = [0.0_wp, 100.0e-3_wp]
+         bearings%cam_positions = [30.0e-3_wp, 70.0e-3_wp]
+         bearings%cam_phases = [0.0_wp, 0.4_wp*pi]
+         bearings%cam_lobes = lobes
+         bearings%follower_angles = [0.0_wp, 0.0_wp]
+      end associate
+      case%numerics%output_step = 5.0_wp*degree
+   end function two_lobes
+
+   !> A lift with less height and a shorter event than that of the thesis.
+   function low_lift() result(lift)
+      type(lift_t) :: lift
+      type(case_t) :: case
+
+      case = thesis_case()
+      lift = case%lift
+      lift%max_lift = 7.0e-3_wp
+      lift%opening_half_angle = 64.0_wp*degree
+      lift%closing_half_angle = 64.0_wp*degree
+   end function low_lift
+
+   function thesis_lift() result(lift)
+      type(lift_t) :: lift
+      type(case_t) :: case
+
+      case = thesis_case()
+      lift = case%lift
+   end function thesis_lift
+
+   !> Have two results the same series and scalars under two names, bit by bit?
+   subroutine compare_named(error, one, prefix, other, other_prefix)
+      type(error_type), allocatable, intent(out) :: error
+      type(result_t), intent(in) :: one, other
+      character(len=*), intent(in) :: prefix, other_prefix
+      character(len=*), parameter :: series(*) = [character(len=24) :: "contact_load", "sliding_speed", "film_thickness_min", &
+         "friction_contact"]
+      character(len=*), parameter :: scalars(*) = [character(len=24) :: "margin_event", "margin_pivot_speed", &
+         "lost_contact_share", "outside_film_range_share", "revolution_slip", "spring_margin"]
+      character(len=*), parameter :: statistics(*) = [character(len=5) :: "mean_", "min_", "max_"]
+      integer :: i, k
+
+      do i = 1, size(series)
+         associate (a => one%series_values(:, find_quantity(one%series, prefix//trim(series(i)))), &
+            b => other%series_values(:, find_quantity(other%series, other_prefix//trim(series(i)))))
+            call check(error, all(transfer(a, 0_int64, size(a)) == transfer(b, 0_int64, size(b))), trim(series(i)))
+         end associate
+         if (allocated(error)) return
+         do k = 1, size(statistics)
+            call compare_scalar(error, one, trim(statistics(k))//prefix//trim(series(i)), other, &
+               trim(statistics(k))//other_prefix//trim(series(i)))
+            if (allocated(error)) return
+         end do
+      end do
+      do i = 1, size(scalars)
+         call compare_scalar(error, one, prefix//trim(scalars(i)), other, other_prefix//trim(scalars(i)))
+         if (allocated(error)) return
+      end do
+   end subroutine compare_named
+
+   subroutine compare_scalar(error, one, name, other, other_name)
+      type(error_type), allocatable, intent(out) :: error
+      type(result_t), intent(in) :: one, other
+      character(len=*), intent(in) :: name, other_name
+      type(error_t), allocatable :: failure
+      real(wp) :: values(2)
+
+      call get_summary(one, name, values(1), failure)
+      if (.not. allocated(failure)) call get_summary(other, other_name, values(2), failure)
+      call expect_success(error, failure)
+      if (allocated(error)) return
+      call check(error, transfer(values(1), 0_int64) == transfer(values(2), 0_int64), name//" and "//other_name//" differ")
+   end subroutine compare_scalar
+
+   subroutine run(case, result, error)
+      type(case_t), intent(in) :: case
+      type(result_t), intent(out) :: result
+      type(error_type), allocatable, intent(out) :: error
+      type(error_t), allocatable :: failure
+
+      call run_case(case, result, failure)
+      call expect_success(error, failure)
+   end subroutine run
+
+   subroutine test_same_lobes(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(result_t) :: result
+
+      call run(two_lobes(thesis_lift(), thesis_lift(), [1, 2]), result, error)
+      if (.not. allocated(error)) call compare_named(error, result, "", result, "lobe_2_")
+   end subroutine test_same_lobes
+
+   subroutine test_swapped_lobes(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(result_t) :: one, other
+
+      call run(two_lobes(thesis_lift(), low_lift(), [1, 2]), one, error)
+      if (.not. allocated(error)) call run(two_lobes(low_lift(), thesis_lift(), [2, 1]), other, error)
+      if (.not. allocated(error)) call compare_named(error, one, "", other, "lobe_2_")
+      if (.not. allocated(error)) call compare_named(error, one, "lobe_2_", other, "")
+      ! the camshaft is the same one, so its torques are, too
+      if (.not. allocated(error)) call compare_scalar(error, one, "max_torque_bearings", other, "max_torque_bearings")
+   end subroutine test_swapped_lobes
+
+   subroutine test_scopes(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(result_t) :: result
+      type(case_t) :: case
+      integer :: i, of_lobe
+
+      case = two_lobes(thesis_lift(), low_lift(), [1, 2])
+      call list_series(case, result%series)
+      of_lobe = follower_count(case)
+      do i = 1, size(result%series)
+         associate (series => result%series(i))
+            if (index(series%name, "lobe_2_") == 1) then
+               call check(error, series%scope, "lobe 2")
+            else if (index(series%name, "torque_") == 1 .or. series%name == "energy_residual") then
+               call check(error, series%scope, "camshaft")
+            else
+               call check(error, series%scope, "lobe 1")
+            end if
+         end associate
+         if (allocated(error)) return
+      end do
+      call check(error, count(result%series%scope == "lobe 1"), of_lobe)
+      if (.not. allocated(error)) call check(error, count(result%series%scope == "lobe 2"), of_lobe)
+   end subroutine test_scopes
+
+   subroutine test_first_cam(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(result_t) :: one, other
+
+      call run(two_lobes(thesis_lift(), low_lift(), [1, 2]), one, error)
+      if (.not. allocated(error)) call run(two_lobes(thesis_lift(), low_lift(), [2, 1]), other, error)
+      if (.not. allocated(error)) call compare_named(error, one, "", other, "")
+      if (.not. allocated(error)) call compare_named(error, one, "lobe_2_", other, "lobe_2_")
+   end subroutine test_first_cam
+
+   subroutine test_extremes(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: case
+      type(model_t) :: model
+      type(cycle_t) :: cycle
+      type(result_t) :: result
+      type(state_t) :: state
+      type(error_t), allocatable :: failure
+      ! Values of a row; smallest and largest of the scan and of the result; what the extremes may differ by over their range
+      real(wp), allocatable :: values(:), lowest(:), highest(:)
+      real(wp) :: ends(2), range
+      real(wp), parameter :: allowed = 1.0e-6_wp
+      ! A hundredth of a degree: what a valley twenty degrees wide loses between two points is 1e-7 of its depth
+      integer, parameter :: steps = 36000
+      integer :: i, hint, point
+
+      do point = 1, 2
+         case = thesis_case()
+         call set_point(case, point_speeds(3), point_viscosities(2*point - 1))
+         call run(case, result, error)
+         if (allocated(error)) return
+         call make_model(case, model, error)
+         if (allocated(error)) return
+         call integrate_cycle(cycle, model, case%numerics, failure)
+         call expect_success(error, failure)
+         if (allocated(error)) return
+         allocate (values(follower_count(case)), lowest(follower_count(case)), highest(follower_count(case)))
+         lowest = huge(1.0_wp)
+         highest = -lowest
+         hint = 1
+         do i = 1, steps
+            call state_at(cycle, model, two_pi*i/steps - pi, hint, state, failure)
+            call expect_success(error, failure)
+            if (allocated(error)) return
+            call follower_values(case, model, state, values)
+            lowest = min(lowest, values)
+            highest = max(highest, values)
+         end do
+         do i = 1, size(values)
+            associate (name => result%series(i)%name)
+               call get_summary(result, "min_"//name, ends(1), failure)
+               if (.not. allocated(failure)) call get_summary(result, "max_"//name, ends(2), failure)
+               call expect_success(error, failure)
+               if (allocated(error)) return
+               range = highest(i) - lowest(i)
+               call check(error, ends(1) <= lowest(i) + allowed*range, "min_"//name//" is too large")
+               if (allocated(error)) return
+               call check(error, ends(2) >= highest(i) - allowed*range, "max_"//name//" is too small")
+               if (allocated(error)) return
+               call check(error, ends(1) >= lowest(i) - 1.0e-3_wp*range .and. ends(2) <= highest(i) + 1.0e-3_wp*range, &
+                  name//" goes beyond what the cycle has")
+               if (allocated(error)) return
+            end associate
+         end do
+         deallocate (values, lowest, highest)
+      end do
+   end subroutine test_extremes
+
+   subroutine test_coarse_output(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: case
+      type(result_t) :: fine, coarse
+      type(error_t), allocatable :: failure
+      real(wp) :: values(2)
+      character(len=*), parameter :: names(*) = [character(len=24) :: "min_contact_load", "max_contact_load", &
+         "min_film_thickness_min", "max_hertz_pressure", "max_torque_geometric"]
+      integer :: i
+
+      case = thesis_case()
+      call run(case, fine, error)
+      if (allocated(error)) return
+      case%numerics%output_step = 7.2_wp*degree
+      call run(case, coarse, error)
+      if (allocated(error)) return
+      do i = 1, size(names)
+         call get_summary(fine, trim(names(i)), values(1), failure)
+         if (.not. allocated(failure)) call get_summary(coarse, trim(names(i)), values(2), failure)
+         call expect_success(error, failure)
+         if (allocated(error)) return
+         ! three vertices of parabolas from points 7 degrees apart: 1e-4 of the value
+         call check_close(error, values(2), values(1), 1.0e-4_wp, trim(names(i)))
+         if (allocated(error)) return
+      end do
+   end subroutine test_coarse_output
+
+   subroutine test_intervals(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: case
+      type(model_t) :: model
+      type(cycle_t) :: cycle
+      type(position_t) :: position
+      type(moments_t) :: moments
+      type(error_t), allocatable :: failure
+      real(wp), allocatable :: intervals(:, :)
+      real(wp) :: angle, gas
+      integer, parameter :: steps = 7200
+      integer :: i, status, lost
+      logical :: inside
+
+      case = thesis_case()
+      call set_point(case, fast, point_viscosities(3))
+      deallocate (case%valve_guide)
+      call make_model(case, model, error)
+      if (allocated(error)) return
+      call integrate_cycle(cycle, model, case%numerics, failure)
+      call expect_success(error, failure)
+      if (allocated(error)) return
+      intervals = contact_losses(model, cycle%stops)
+      lost = 0
+      do i = 1, steps
+         angle = cycle%start + two_pi*i/steps
+         call evaluate_loading(model, angle, position, gas, moments, status)
+         inside = any(angle > intervals(1, :) .and. angle < intervals(2, :))
+         if (inside) lost = lost + 1
+         call check(error, inside .eqv. (moments%total <= 0.0_wp), "contact is lost where it is not, or kept where it is lost")
+         if (allocated(error)) return
+      end do
+      call check(error, lost > steps/100, "contact is hardly lost")
+   end subroutine test_intervals
+
+   subroutine test_remark(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: case
+      type(result_t) :: result
+
+      case = thesis_case()
+      case%film%law = "moes"
+      call set_point(case, fast, point_viscosities(3))
+      call run(case, result, error)
+      if (allocated(error)) return
+      call check(error, index(result%warnings, "contact is lost for ") == 1, result%warnings)
+      if (allocated(error)) return
+      call check(error, index(result%warnings, " % of the cycle at 3600 rev/min, at cam angles 165.4 to 194.7 deg") > 0, result%warnings)
+      if (allocated(error)) return
+      call check(error, index(result%warnings, "from 2937 rev/min on") > 0, result%warnings)
+      if (allocated(error)) return
+      call set_point(case, 0.7_wp*fast, point_viscosities(3))
+      call run(case, result, error)
+      if (allocated(error)) return
+      call check(error, index(result%warnings, "contact is lost"), 0)
+   end subroutine test_remark
+
+   subroutine test_lobe_remark(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: case
+      type(result_t) :: result
+      type(lift_t) :: sharp
+
+      sharp = thesis_lift()
+      sharp%opening_half_angle = 50.0_wp*degree
+      sharp%closing_half_angle = 50.0_wp*degree
+      case = two_lobes(low_lift(), sharp, [1, 2])
+      case%film%law = "moes"
+      call set_point(case, 0.7_wp*fast, point_viscosities(3))
+      call run(case, result, error)
+      if (allocated(error)) return
+      call check(error, index(result%warnings, "lobe 2: contact is lost for ") > 0, result%warnings)
+      if (allocated(error)) return
+      call check(error, index(result%warnings, "lobe 1: contact is lost for "), 0, result%warnings)
+   end subroutine test_lobe_remark
+
+   subroutine test_policy(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: case
+      type(result_t) :: result
+      type(error_t), allocatable :: failure
+
+      case = thesis_case()
+      case%spring%contact_policy = "stop"
+      call run(case, result, error)
+      if (allocated(error)) return
+      call set_point(case, fast, point_viscosities(3))
+      call run_case(case, result, failure)
+      call expect_error(error, failure, kind_domain, "contact is lost for ")
+      if (allocated(error)) return
+      call expect_error(error, failure, kind_domain, "contact_policy = 'stop'")
+   end subroutine test_policy
+
+   subroutine test_gate(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(result_t) :: result, changed
+      type(error_t), allocatable :: failure
+      integer :: place
+
+      call run(thesis_case(), result, error)
+      if (allocated(error)) return
+      call check_numbers(result, failure)
+      call expect_success(error, failure)
+      if (allocated(error)) return
+      changed = result
+      place = find_quantity(result%series, "contact_load")
+      changed%series_values(26, place) = ieee_value(1.0_wp, ieee_quiet_nan)
+      call check_numbers(changed, failure)
+      call expect_error(error, failure, kind_domain, "contact_load at cam angle 12.500 deg is not a number (NaN)")
+      if (allocated(error)) return
+      changed%series_values(26, place) = -ieee_value(1.0_wp, ieee_positive_inf)
+      call check_numbers(changed, failure)
+      call expect_error(error, failure, kind_domain, "contact_load at cam angle 12.500 deg is infinite")
+      if (allocated(error)) return
+      changed = result
+      changed%summary_values(find_quantity(result%summary, "mean_torque_drive")) = ieee_value(1.0_wp, ieee_positive_inf)
+      call check_numbers(changed, failure)
+      call expect_error(error, failure, kind_domain, "mean_torque_drive is infinite")
+      if (allocated(error)) return
+      ! the speed at which contact would be lost on the base circle is infinite, and may be
+      changed = result
+      place = find_quantity(result%summary, "margin_base_circle_speed")
+      call check(error, .not. ieee_is_finite(result%summary_values(place)), "a finite speed of loss")
+      if (allocated(error)) return
+      changed%summary_values(place) = ieee_value(1.0_wp, ieee_quiet_nan)
+      call check_numbers(changed, failure)
+      call expect_error(error, failure, kind_domain, "margin_base_circle_speed is not a number")
+   end subroutine test_gate
+
+   subroutine test_dip(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: case
+      type(model_t) :: model
+      type(position_t) :: position
+      type(moments_t) :: moments
+      real(wp) :: gas, slope
+      integer :: status
+
+      case = thesis_case()
+      case%energy = "source"
+      case%spring%seating = "maximum"
+      call make_model(case, model, error)
+      if (allocated(error)) return
+      call evaluate_loading(model, -pi, position, gas, moments, status)
+      position%lift = -1.0e-20_wp
+      call check(error, seat_force(model%train, position%lift), 0.0_wp, thr=0.0_wp)
+      if (allocated(error)) return
+      call check(error, unseated_share(model%train, position%lift), 1.0_wp, thr=0.0_wp)
+      if (allocated(error)) return
+      slope = moment_slope(model%train, position, model%speed, 0.0_wp, 0.0_wp)
+      call check(error, ieee_is_finite(slope) .and. ieee_is_finite(stored_energy(model%train, position, model%speed)), &
+         "slope or energy is not finite")
+   end subroutine test_dip
+
+end module test_result
