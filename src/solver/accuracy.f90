@@ -1,6 +1,6 @@
 !> From the accuracy that a user wants to method and tolerance.
 !>
-!> Layer: solver. In: numerics as given. Out: whether they can be; numerics with a method and, unless the step is fixed, a tolerance.
+!> Layer: solver. In: numerics as given. Out: whether they can be; numerics with a method and, unless the step is fixed, tolerance.
 !>
 !> The numbers here come from `camroller study`, whose findings `doc/accuracy_and_cost.md` keeps.
 module camroller_accuracy

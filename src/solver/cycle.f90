@@ -29,7 +29,7 @@ module camroller_cycle
    implicit none
    private
 
-   public :: cycle_t, integrate_cycle, integrate_between, state_at, check_mobilisation
+   public :: cycle_t, integrate_cycle, integrate_between, state_at
 
    !> One periodic cycle
    type :: cycle_t

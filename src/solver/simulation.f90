@@ -11,7 +11,7 @@ module camroller_simulation
    use camroller_error, only : error_t, raise, kind_usage, kind_convergence
    use camroller_number_text, only : number_text, integer_text
    use camroller_accuracy, only : resolve_numerics, has_error_control
-   use camroller_case, only : case_t, numerics_t, quasi_static
+   use camroller_case, only : case_t, numerics_t
    use camroller_model, only : model_t, set_operating_point, evaluate_geometry
    use camroller_kinematics, only : position_t
    use camroller_state, only : state_t, evaluate_state
@@ -21,7 +21,7 @@ module camroller_simulation
    use camroller_spin, only : rolling_speed_at
    use camroller_stick, only : share_at_rest
    use camroller_stick_slip, only : direction_at
-   use camroller_cycle, only : cycle_t, integrate_between, check_mobilisation
+   use camroller_cycle, only : cycle_t, integrate_between
    use camroller_cycle_start, only : choose_start
    use camroller_means, only : integrate_torques
    use camroller_run, only : build_model
@@ -92,8 +92,12 @@ contains
       call check_start(case, cam_angle, used_lobe, error)
       if (allocated(error)) return
       call build_model(case, used_lobe, started%model, error)
-      if (.not. allocated(error)) call check_method(case%numerics, started%model, error)
       if (allocated(error)) return
+      if (.not. has_error_control(case%numerics)) then
+         call raise(error, kind_usage, "start_simulation: with the method '"//trim(case%numerics%method)//"' nobody knows how "// &
+            & "wrong a step is; choose 'automatic' or another method with error control")
+         return
+      end if
       started%numerics = resolve_numerics(case%numerics)
       started%oil_temperature = case%operating_point%oil_temperature
       started%angle = cam_angle
@@ -128,23 +132,6 @@ contains
             & " turns of zero; leave whole turns out")
       end if
    end subroutine check_start
-
-   !> Refuse a method that cannot be driven from angle to angle.
-   subroutine check_method(numerics, model, error)
-      !> Numerics of the case
-      type(numerics_t), intent(in) :: numerics
-      !> Its model
-      type(model_t), intent(in) :: model
-      !> Usage or deck error
-      type(error_t), allocatable, intent(out) :: error
-
-      if (numerics%method == quasi_static) then
-         call raise(error, kind_usage, "start_simulation: the method '"//trim(quasi_static)//"' has no spin to carry from "// &
-            & "step to step; choose 'automatic' or an integration method")
-      else if (.not. has_error_control(numerics)) then
-         call check_mobilisation(model, error)
-      end if
-   end subroutine check_method
 
    !> Advance to a cam angle at a speed and an oil temperature; the roller's spin carries over.
    subroutine advance(simulation, cam_angle, speed, oil_temperature, outcome, error)
