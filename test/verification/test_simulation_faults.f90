@@ -156,16 +156,16 @@ contains
 
    end subroutine test_refusal
 
-   !> Every kind of failure: refused angle, refused operating point, oil outside its law, integration that runs out of steps on the
-   !> way.
+   !> Every kind of failure: refused angle, refused operating point, oil outside its law, and an integration that gets through the
+   !> base circle, the first of the two pieces that the step is cut into, and not through the event.
    subroutine test_failed_step(error)
       type(error_type), allocatable, intent(out) :: error
       ! End [rad], speed [rad/s] and temperature [K] of the steps that fail
       real(wp), parameter :: failing(3, 4) = reshape([ &
-         & 0.5_wp, 31.0_wp, 330.0_wp, &
-         & 1.5_wp, -31.0_wp, 330.0_wp, &
-         & 1.5_wp, 40.0_wp, 100.0_wp, &
-         & 21.0_wp, 1.0e-4_wp, 330.0_wp], [3, 4])
+         & 4.0_wp, 31.0_wp, 330.0_wp, &
+         & 4.8_wp, -31.0_wp, 330.0_wp, &
+         & 4.8_wp, 40.0_wp, 100.0_wp, &
+         & 9.2_wp, 1.0e10_wp, 330.0_wp], [3, 4])
       type(case_t) :: the_case
       type(simulation_t) :: simulation, other
       type(outcome_t) :: outcome, expected
@@ -180,16 +180,16 @@ contains
       do i = 1, size(failing, 2)
          call start_simulation(simulation, the_case, 1.0_wp, failure)
          if (.not. allocated(failure)) call start_simulation(other, the_case, 1.0_wp, failure)
-         if (.not. allocated(failure)) call advance(simulation, 1.2_wp, 31.0_wp, 330.0_wp, outcome, failure)
-         if (.not. allocated(failure)) call advance(other, 1.2_wp, 31.0_wp, 330.0_wp, expected, failure)
+         if (.not. allocated(failure)) call advance(simulation, 4.5_wp, 31.0_wp, 330.0_wp, outcome, failure)
+         if (.not. allocated(failure)) call advance(other, 4.5_wp, 31.0_wp, 330.0_wp, expected, failure)
          if (allocated(failure)) exit
          call advance(simulation, failing(1, i), failing(2, i), failing(3, i), outcome, failure)
          call check(error, allocated(failure), "a step that should fail does not")
          if (allocated(error)) return
          deallocate (failure)
          do step = 1, 3
-            if (.not. allocated(failure)) call advance(simulation, 1.2_wp + 0.2_wp*step, 31.0_wp, 330.0_wp, outcome, failure)
-            if (.not. allocated(failure)) call advance(other, 1.2_wp + 0.2_wp*step, 31.0_wp, 330.0_wp, expected, failure)
+            if (.not. allocated(failure)) call advance(simulation, 4.5_wp + 0.2_wp*step, 31.0_wp, 330.0_wp, outcome, failure)
+            if (.not. allocated(failure)) call advance(other, 4.5_wp + 0.2_wp*step, 31.0_wp, 330.0_wp, expected, failure)
             if (allocated(failure)) exit
             call check(error, is_same(outcome, expected), "a failed step leaves something moved")
             if (allocated(error)) return
