@@ -69,6 +69,7 @@ program main
    use test_roller_problem, only : collect_roller_problem
    use test_spin_slopes, only : collect_spin_slopes
    use test_simulation, only : collect_simulation
+   use test_simulation_faults, only : collect_simulation_faults
    use test_quasi_static, only : collect_quasi_static
    use test_ode_barrier, only : collect_ode_barrier
    use test_ode_bridge, only : collect_ode_bridge
@@ -188,6 +189,7 @@ contains
          new_testsuite("error_estimate", collect_error_estimate), &
          new_testsuite("roller_problem", collect_roller_problem), &
          new_testsuite("simulation", collect_simulation), &
+         new_testsuite("simulation_faults", collect_simulation_faults), &
          new_testsuite("quasi_static", collect_quasi_static) &
          ]
    end function all_suites

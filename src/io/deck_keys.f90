@@ -368,7 +368,8 @@ contains
       call add_integers(schema, "cam_lobes", from_to(1.0_wp, 2.0_wp), &
          & "lobe shape of each cam: 1 is &lift, 2 is &second_lift; 1 for every cam where not given", is_optional=.true.)
       call add_numbers(schema, "follower_angles_deg", from_to(-360.0_wp, 360.0_wp), &
-         & "angle of each cam's follower about the shaft, from the first one's; 0 for every cam where not given", &
+         & "angle of each cam's follower about the shaft, from the first one's, positive the way a finger turns as it opens "// &
+         & "its valve; 0 for every cam where not given", &
          & is_optional=.true.)
    end subroutine add_cam_bearing_keys
 

@@ -5,6 +5,7 @@
 !> rule is silent where one of its values is wrong already. What needs the geometry worked out is checked by the model.
 module camroller_deck_relations
    use camroller_kinds, only : wp
+   use camroller_accuracy, only : divides_turn
    use camroller_asperity, only : asperity_law_names, law_zhao_maietta_chang, smallest_product
    use camroller_number_text, only : integer_text
    use camroller_mistakes, only : mistakes_t
@@ -417,17 +418,12 @@ contains
       !> Mistakes so far
       type(mistakes_t), intent(inout) :: mistakes
 
-      !> Steps in a turn [-]
-      real(wp) :: steps
       !> Step [rad]
       real(wp) :: step
-      !> Distance from a whole number that is taken for round-off, in steps [-]
-      real(wp), parameter :: allowed = 1.0e-9_wp
 
       if (.not. is_known(settings, "output", "angle_step_deg")) return
       call take(settings, "output", "angle_step_deg", step)
-      steps = 2.0_wp*acos(-1.0_wp)/step
-      if (abs(steps - anint(steps)) <= allowed*steps .and. steps < 1.0e6_wp) return
+      if (divides_turn(step)) return
       call complain(mistakes, settings, "output", "angle_step_deg", &
          & "360 must be a whole multiple of 'angle_step_deg', with fewer than a million points")
    end subroutine output_step_divides_the_turn

@@ -51,7 +51,7 @@ module camroller_journal
       real(wp), allocatable :: cam_phases(:)
       !> Lobe shape of each cam: 1 is the case's lift, 2 its second lift
       integer, allocatable :: cam_lobes(:)
-      !> Direction from cam centre to the first cam's pivot is the x axis; each follower stands at this angle from it [rad]
+      !> Angle about the shaft at which each follower stands from the first, positive the way a finger turns as it opens [rad]
       real(wp), allocatable :: follower_angles(:)
    end type cam_bearings_t
 

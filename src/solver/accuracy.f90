@@ -1,16 +1,19 @@
 !> From the accuracy that a user wants to method and tolerance.
 !>
-!> Layer: solver. In: numerics as given. Out: numerics with a method and, unless the step is fixed, a tolerance.
+!> Layer: solver. In: numerics as given. Out: whether they can be; numerics with a method and, unless the step is fixed, tolerance.
 !>
 !> The numbers here come from `camroller study`, whose findings `doc/accuracy_and_cost.md` keeps.
 module camroller_accuracy
-   use camroller_kinds, only : wp
-   use camroller_case, only : numerics_t, automatic_method, quasi_static
+   use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
+   use camroller_kinds, only : wp, two_pi, degree
+   use camroller_error, only : error_t, raise, kind_deck
+   use camroller_names, only : find_name
+   use camroller_case, only : numerics_t, automatic_method, quasi_static, method_choices
    implicit none
    private
 
-   public :: resolve_numerics, is_checked, has_tolerance, refine_tolerance, way_out, most_refinements, second_method, far_beyond, &
-      & evaluations_allowed
+   public :: check_numerics, is_within, above_zero, divides_turn, resolve_numerics, has_error_control, is_checked, has_tolerance, &
+      & refine_tolerance, way_out, most_refinements, second_method, far_beyond, evaluations_allowed
 
    !> Method with the least work for errors from 1e-2 to 1e-8, or near it
    character(len=*), parameter :: chosen_method = "hermite"
@@ -41,8 +44,69 @@ module camroller_accuracy
    real(wp), parameter :: usual_tolerance = 1.0e-4_wp, evaluations_exponent = 0.2_wp
    !> Times that a cycle is integrated again
    integer, parameter :: most_refinements = 4
+   !> Smallest number above zero [any]
+   real(wp), parameter :: above_zero = tiny(1.0_wp)
+   !> Largest accuracy, tolerance and periodicity [-]: beyond them nothing is left of a sliding speed
+   real(wp), parameter :: largest_accuracy = 0.1_wp, largest_periodicity = 1.0_wp
+   !> Largest step of a method or between reported points [rad]
+   real(wp), parameter :: largest_step = 90.0_wp*degree
+   !> More reported points than a turn may have [-]
+   real(wp), parameter :: too_many_points = 1.0e6_wp
 
 contains
+
+   !> Refuse numerics that mean nothing: those of a case that was made by hand, since decks are checked key by key.
+   subroutine check_numerics(numerics, error)
+      !> As given
+      type(numerics_t), intent(in) :: numerics
+      !> Deck error that names the component
+      type(error_t), allocatable, intent(out) :: error
+
+      integer :: position
+
+      call find_name("integration method", numerics%method, method_choices, position, error)
+      if (allocated(error)) return
+      if (.not. is_within(numerics%accuracy, above_zero, largest_accuracy)) then
+         call raise(error, kind_deck, "numerics: the accuracy must be above 0, and 0.1 at most")
+      else if (.not. is_within(numerics%tolerance, 0.0_wp, largest_accuracy)) then
+         call raise(error, kind_deck, "numerics: the tolerance must be 0, which leaves it to the accuracy, or above, to 0.1")
+      else if (.not. is_within(numerics%step, above_zero, largest_step)) then
+         call raise(error, kind_deck, "numerics: the step must be above 0, and 90 degrees (in radians) at most")
+      else if (.not. is_within(numerics%periodicity, above_zero, largest_periodicity)) then
+         call raise(error, kind_deck, "numerics: the periodicity must be above 0, and 1 at most")
+      else if (numerics%max_cycles < 1) then
+         call raise(error, kind_deck, "numerics: max_cycles must be 1 or more")
+      else if (.not. (is_within(numerics%output_step, above_zero, largest_step) .and. divides_turn(numerics%output_step))) then
+         call raise(error, kind_deck, "numerics: output_step must be 90 degrees (in radians) at most, and a turn a whole "// &
+            & "multiple of it, with fewer than a million points")
+      end if
+   end subroutine check_numerics
+
+   !> Is a number finite and in a range?
+   pure function is_within(value, smallest, largest) result(verdict)
+      !> The number, its smallest and its largest value [any]
+      real(wp), intent(in) :: value, smallest, largest
+      !> True where it is
+      logical :: verdict
+
+      verdict = ieee_is_finite(value)
+      if (verdict) verdict = value >= smallest .and. value <= largest
+   end function is_within
+
+   !> Is a turn a whole multiple of a step between reported points?
+   pure function divides_turn(step) result(verdict)
+      !> Cam angle between reported points [rad]
+      real(wp), intent(in) :: step
+      !> True where it is, with fewer than a million points
+      logical :: verdict
+
+      ! Distance from a whole number that is taken for round-off, in steps [-]
+      real(wp), parameter :: allowed = 1.0e-9_wp
+
+      verdict = ieee_is_finite(step)
+      if (verdict) verdict = step > two_pi/too_many_points
+      if (verdict) verdict = abs(two_pi/step - anint(two_pi/step)) <= allowed*two_pi/step
+   end function divides_turn
 
    !> Method, tolerance and periodicity where they are not given.
    pure function resolve_numerics(numerics) result(resolved)
@@ -68,8 +132,7 @@ contains
       !> True where the accuracy is a promise
       logical :: verdict
 
-      verdict = .not. numerics%tolerance > 0.0_wp .and. numerics%method /= fixed_method .and. &
-         & numerics%method /= quasi_static
+      verdict = .not. numerics%tolerance > 0.0_wp .and. has_error_control(numerics)
    end function is_checked
 
    !> Is the tolerance given by hand, to a method that keeps to one?
@@ -79,8 +142,18 @@ contains
       !> True where it is
       logical :: verdict
 
-      verdict = numerics%tolerance > 0.0_wp .and. numerics%method /= fixed_method .and. numerics%method /= quasi_static
+      verdict = numerics%tolerance > 0.0_wp .and. has_error_control(numerics)
    end function has_tolerance
+
+   !> Does the method choose its steps by an error?
+   pure function has_error_control(numerics) result(verdict)
+      !> As given
+      type(numerics_t), intent(in) :: numerics
+      !> True where it does
+      logical :: verdict
+
+      verdict = numerics%method /= fixed_method .and. numerics%method /= quasi_static
+   end function has_error_control
 
    !> Evaluations that a turn may take with an implicit method.
    pure function evaluations_allowed(tolerance) result(evaluations)

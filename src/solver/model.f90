@@ -6,6 +6,7 @@ module camroller_model
    use camroller_kinds, only : wp, pi, degree
    use camroller_error, only : error_t, raise, add_context, kind_deck, kind_domain
    use camroller_names, only : name_length, find_name
+   use camroller_accuracy, only : check_numerics, is_within, above_zero
    use camroller_case, only : case_t, energy_names
    use camroller_lift, only : lift_t, lift_law_t, new_lift_law, evaluate_lift, stop_angles
    use camroller_kinematics, only : linkage_t, position_t, new_linkage, evaluate_position
@@ -189,7 +190,7 @@ contains
       if (allocated(ehl)) call move_alloc(ehl, model%ehl)
    end subroutine revise_model
 
-   !> Speed and temperature: everything that follows from them.
+   !> Speed and temperature: everything that follows from them. After an error the model is of no use.
    subroutine set_operating_point(model, speed, oil_temperature, error)
       !> The model
       type(model_t), intent(inout) :: model
@@ -200,10 +201,12 @@ contains
       !> Deck or domain error
       type(error_t), allocatable, intent(out) :: error
 
-      if (.not. speed > 0.0_wp) then
-         call raise(error, kind_deck, "operating point: the speed must be positive")
-         return
+      if (.not. is_within(speed, above_zero, huge(speed))) then
+         call raise(error, kind_deck, "operating point: the speed must be positive and finite")
+      else if (.not. is_within(oil_temperature, above_zero, huge(speed))) then
+         call raise(error, kind_deck, "operating point: the oil temperature must be finite and above -273.15 degC, 0 K")
       end if
+      if (allocated(error)) return
       model%speed = speed
       call get_oil(model%lubricant, oil_temperature, model%oil, error)
       if (allocated(error)) return
@@ -268,7 +271,7 @@ contains
       call evaluate_position(model%linkage, lift, position, status)
    end subroutine evaluate_geometry
 
-   !> Laws by name.
+   !> Laws by name; numerics that mean nothing are refused.
    subroutine choose_laws(model, case, error)
       !> The model
       type(model_t), intent(inout) :: model
@@ -279,6 +282,8 @@ contains
 
       integer :: choice
 
+      call check_numerics(case%numerics, error)
+      if (allocated(error)) return
       call find_name("energy bookkeeping", case%energy, energy_names, choice, error)
       if (allocated(error)) return
       model%is_consistent = choice == 1

@@ -20,7 +20,7 @@ module camroller_run
    implicit none
    private
 
-   public :: run_case, run_next_case, build_models
+   public :: run_case, run_next_case, build_models, build_model
 
 contains
 
@@ -252,17 +252,29 @@ contains
 
       allocate (models(merge(2, 1, allocated(case%second_lift))))
       do lobe = 1, size(models)
-         if (lobe == 1) then
-            call new_model(models(lobe), case, case%lift, error)
-         else
-            call new_model(models(lobe), case, case%second_lift, error)
-         end if
-         if (.not. allocated(error)) call check_geometry(models(lobe), case%mechanism%grinding_wheel_radius, error)
-         if (allocated(error)) then
-            if (lobe == 2) call add_context(error, "second lift")
-            return
-         end if
+         call build_model(case, lobe, models(lobe), error)
+         if (allocated(error)) return
       end do
    end subroutine build_models
+
+   !> Model of one of the lobe shapes of a case, geometry checked over the whole cycle.
+   subroutine build_model(case, lobe, model, error)
+      !> The case
+      type(case_t), intent(in) :: case
+      !> 1 for the lift, 2 for the second lift, which must be there
+      integer, intent(in) :: lobe
+      !> The model
+      type(model_t), intent(out) :: model
+      !> Deck or domain error
+      type(error_t), allocatable, intent(out) :: error
+
+      if (lobe == 1) then
+         call new_model(model, case, case%lift, error)
+      else
+         call new_model(model, case, case%second_lift, error)
+      end if
+      if (.not. allocated(error)) call check_geometry(model, case%mechanism%grinding_wheel_radius, error)
+      if (lobe == 2) call add_context(error, "second lift")
+   end subroutine build_model
 
 end module camroller_run

@@ -3,6 +3,8 @@ module test_units
    use testdrive, only : unittest_type, new_unittest, error_type, check
    use camroller_kinds, only : wp, pi
    use camroller_units, only : unit_t, unit_of_key, find_unit, to_si, from_si, length_unit_names, pressure_unit_names
+   use camroller_deck_schema, only : schema_t
+   use camroller_deck_keys, only : new_schema
    implicit none
    private
 
@@ -10,6 +12,13 @@ module test_units
 
    !> One multiplication, one division and one addition [-]
    real(wp), parameter :: round_off = 4.0_wp*epsilon(1.0_wp)
+
+   !> Names of units and what one of them is in SI, at zero and beyond it [SI unit]; source: Bureau International des Poids et
+   !> Mesures, The International System of Units, 9th edition (2019), tables 2 to 8
+   character(len=*), parameter :: names(*) = [character(len=8) :: "m", "mm", "um", "deg", "rpm", "degC", "s", "m_s", "kg", &
+      & "kg_m2", "kg_m3", "N", "N_m", "Pa", "kPa", "bar", "MPa", "GPa", "Pa_s", "per_GPa", "per_K"]
+   real(wp), parameter :: ones(*) = [1.0_wp, 1.0e-3_wp, 1.0e-6_wp, pi/180.0_wp, pi/30.0_wp, 1.0_wp, 1.0_wp, 1.0_wp, 1.0_wp, &
+      & 1.0_wp, 1.0_wp, 1.0_wp, 1.0_wp, 1.0_wp, 1.0e3_wp, 1.0e5_wp, 1.0e6_wp, 1.0e9_wp, 1.0_wp, 1.0e-9_wp, 1.0_wp]
 
 contains
 
@@ -24,7 +33,9 @@ contains
          new_unittest("values become SI", values_become_si), &
          new_unittest("millimetres become the number that metres are written as", exact_lengths), &
          new_unittest("there and back is no change", there_and_back), &
-         new_unittest("units of tables are known", units_of_tables) &
+         new_unittest("units of tables are known", units_of_tables), &
+         new_unittest("each unit has the factor of the SI brochure", factors), &
+         new_unittest("each key of a deck has one of these units", units_of_keys) &
          ]
    end subroutine collect_units
 
@@ -115,5 +126,54 @@ contains
       call find_unit("furlong", unit, is_known)
       call check(error, .not. is_known)
    end subroutine units_of_tables
+
+   subroutine factors(error)
+      type(error_type), allocatable, intent(out) :: error
+
+      type(unit_t) :: unit
+      ! Value in SI of zero and of two [SI unit]
+      real(wp) :: zero, two
+      logical :: is_known
+      integer :: i
+
+      do i = 1, size(names)
+         call find_unit(names(i), unit, is_known)
+         call check(error, is_known, "unknown unit "//names(i))
+         if (allocated(error)) return
+         zero = 0.0_wp
+         if (names(i) == "degC") zero = 273.15_wp
+         two = zero + 2.0_wp*ones(i)
+         call check(error, to_si(unit, 0.0_wp), zero, thr=0.0_wp, message="zero in "//names(i))
+         if (allocated(error)) return
+         call check(error, to_si(unit, 2.0_wp), two, rel=.true., thr=round_off, message="two in "//names(i))
+         if (allocated(error)) return
+         call check(error, from_si(unit, two), 2.0_wp, rel=.true., thr=100.0_wp*round_off, message="back to "//names(i))
+         if (allocated(error)) return
+      end do
+   end subroutine factors
+
+   !> The table above is complete: every unit of a table or of a key is in it.
+   subroutine units_of_keys(error)
+      type(error_type), allocatable, intent(out) :: error
+
+      type(schema_t) :: schema
+      integer :: i
+
+      do i = 1, size(length_unit_names)
+         call check(error, any(names == length_unit_names(i)), length_unit_names(i))
+         if (allocated(error)) return
+      end do
+      do i = 1, size(pressure_unit_names)
+         call check(error, any(names == pressure_unit_names(i)), pressure_unit_names(i))
+         if (allocated(error)) return
+      end do
+      call new_schema(schema)
+      do i = 1, schema%key_count
+         associate (suffix => schema%keys(i)%unit%suffix)
+            call check(error, suffix == "" .or. any(names == suffix), "no factor for unit "//suffix)
+         end associate
+         if (allocated(error)) return
+      end do
+   end subroutine units_of_keys
 
 end module test_units

@@ -1,0 +1,206 @@
+"""Camshafts with several cams against followers run alone and statics worked out here.
+
+Each lobe shape is run alone, without a camshaft. What a camshaft must give follows from these runs: torques of the followers by
+shifting and adding, loads of the bearings by the geometry of `test/reference/mechanism.py` and the balance of forces and moments,
+their friction by Sommerfeld's closed form, its mean by a uniform sum over the turn.
+"""
+
+import math
+import pathlib
+import re
+import subprocess
+import sys
+
+import h5py
+import numpy
+import pytest
+from scipy.optimize import brentq
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "test/reference"))
+from mechanism import Geometry, PolynomialLift, closed_form  # noqa: E402
+
+STEP = 1.0  # degrees between reported angles
+SPEED, VISCOSITY = 100 * math.pi, 0.02  # rad/s, Pa s
+JOURNAL = {"diameter": 23e-3, "width": 20e-3, "radial_clearance": 47.5e-6}
+LIFTS = {1: (9.5e-3, 70.0), 2: (6.0e-3, 60.0)}  # largest lift [m], half angle [degrees]
+# Torques of the same cycle at angles that differ by the rounding of a turn, where the steepest changes in some hundredths of a degree
+ROUND_OFF = 1e-9
+# The slope of the pitch curve is a central difference over 2e-5 rad
+DIFFERENCE = 1e-7
+
+
+def deck(path, rotation, lifts, bearings=""):
+    """The valve train of `decks/thesis.nml` with other lobes and an oil of its own."""
+    text = (ROOT / "decks/thesis.nml").read_text()
+    for group in ("operating_point", "lift", "second_lift", "lubricant", "cam_bearings", "numerics", "sweep"):
+        text = re.sub(rf"^&{group}\n.*?^/\n", "", text, flags=re.M | re.S)
+    text = re.sub(r"^   rotation = .*\n", "", text, flags=re.M).replace("&mechanism\n", f"&mechanism\n   rotation = '{rotation}'\n")
+    text += f"&operating_point\nspeed_rpm = {SPEED * 30 / math.pi!r}\noil_temperature_degC = 60\n/\n"
+    text += f"&lubricant\ntemperature_law = 'direct'\nviscosity_Pa_s = {VISCOSITY}\npressure_viscosity_coefficient_per_GPa = 22\n/\n"
+    for group, number in zip(("lift", "second_lift"), lifts):
+        largest, half = LIFTS[number]
+        text += (f"&{group}\nlaw = 'power'\nexponents = 4\nmax_lift_mm = {largest * 1000!r}\n"
+                 f"opening_half_angle_deg = {half}\nclosing_half_angle_deg = {half}\n/\n")
+    if bearings:
+        text += (f"&cam_bearings\nlaw = 'long_full_sommerfeld'\ndiameter_mm = {JOURNAL['diameter'] * 1e3!r}\n"
+                 f"width_mm = {JOURNAL['width'] * 1e3!r}\nradial_clearance_um = {JOURNAL['radial_clearance'] * 1e6!r}\n{bearings}\n/\n")
+    path.write_text(text + f"&output\nangle_step_deg = {STEP}\n/\n")
+    return path
+
+
+def run(camroller, path):
+    """Series and summary of the one case of a deck."""
+    target = path.with_suffix(".h5")
+    done = subprocess.run([camroller, "run", path, "-o", target, "--quiet"], capture_output=True, text=True, stdin=subprocess.DEVNULL,
+                          timeout=300, check=False)
+    assert done.returncode == 0, done.stderr
+    with h5py.File(target) as file:
+        found = {name: file[f"series/{name}"][...].ravel() for name in file["series"]}
+        found["summary"] = {name: float(file[f"summary/{name}"][0]) for name in file["summary"]}
+        keys = ("pivot_to_roller_mm", "pivot_to_pad_mm", "pivot_to_cam_mm", "roller_arm_angle_deg", "valve_axis_angle_deg",
+                "base_radius_mm")
+        found["mechanism"] = {key: float(file[f"deck/values/mechanism.{key}"][()]) for key in keys}
+        found["roller_radius"] = float(file["deck/values/roller.radius_mm"][()]) / 1000
+    return found
+
+
+@pytest.fixture(scope="module", params=["away_from_pivot", "towards_pivot"])
+def alone(request, camroller, tmp_path_factory):
+    """Sense of rotation, and the follower of each lobe shape run alone."""
+    folder = tmp_path_factory.mktemp(request.param)
+    return request.param, {lobe: run(camroller, deck(folder / f"lobe_{lobe}.nml", request.param, [lobe])) for lobe in LIFTS}
+
+
+def shifted(series, phase):
+    """Series of a cam whose event follows by an angle [degrees]."""
+    return numpy.roll(series, round(phase / STEP))
+
+
+def cam_forces(rotation, lobe, follower):
+    """Force on the cam at every angle, in a frame whose x axis runs from the pivot to the cam centre and whose y axis is a quarter
+    turn from it the way the finger turns as it opens the valve; shape (angles, 2) [N].
+
+    The centre of the roller draws the pitch curve on the cam; the load acts along its normal, the friction along its tangent.
+    """
+    values, degree = follower["mechanism"], math.pi / 180
+    r_roller = follower["roller_radius"]
+    sense = {"away_from_pivot": 1, "towards_pivot": -1}[rotation]
+    largest, half = LIFTS[lobe]
+    geometry = Geometry(A=values["pivot_to_roller_mm"] / 1e3, B=values["pivot_to_pad_mm"] / 1e3, D=values["pivot_to_cam_mm"] / 1e3,
+                        lam=values["roller_arm_angle_deg"] * degree, chi=values["valve_axis_angle_deg"] * degree,
+                        r_B=values["base_radius_mm"] / 1e3, r_R=r_roller, lift=PolynomialLift(largest, half * degree), sense=sense)
+
+    def roller(theta):
+        """Roller centre seen from the cam centre, as a complex number, where the cam stands still and the follower goes round it."""
+        arm = closed_form(geometry, theta).gamma + geometry.lam
+        return (geometry.A * complex(math.cos(arm), math.sin(arm)) - geometry.D) * complex(math.cos(theta), sense * math.sin(theta))
+
+    forces = numpy.empty((follower["contact_load"].size, 2))
+    for i, angle in enumerate(follower["cam_angle"]):
+        theta = (angle - 180) * degree
+        # turned back into the standing frame
+        back = complex(math.cos(theta), -sense * math.sin(theta))
+        along = (roller(theta + 1e-5) - roller(theta - 1e-5)) * back
+        along /= abs(along)
+        outwards = -1j * along * sense
+        centre = roller(theta) * back
+        assert (outwards * centre.conjugate()).real > 0
+        load = follower["contact_load"][i]
+        rolling = follower["friction_rolling"][i]
+        # both rolling resistances and the couple that they make, taken up at the roller's centre
+        radius = follower["equivalent_radius"][i]
+        tangential = follower["traction"][i] + rolling * (2 * radius / r_roller - 1)
+        # the cam's surface, which drives the roller, runs against the way of the roller around the cam
+        force = -(load * outwards - tangential * along)
+        forces[i] = force.real, force.imag
+        # the cam's own equilibrium: moment about its centre, against its turning, is what the drive torque balances
+        contact = centre - r_roller * outwards
+        moment = sense * (contact.conjugate() * force).imag
+        expected = follower["torque_drive"][i] - 2 * rolling * radius
+        assert abs(moment - expected) < 1e-6 * numpy.max(numpy.abs(follower["torque_drive"])), angle
+    return forces
+
+
+def sommerfeld_torque(load):
+    """Friction torque of a long bearing with a full film, Sommerfeld (1904), after Hamrock, Schmid and Jacobson (2004), chapter 11."""
+    radius, clearance = JOURNAL["diameter"] / 2, JOURNAL["radial_clearance"]
+    shear = VISCOSITY * SPEED * radius * JOURNAL["width"] * radius / clearance
+    number = load * clearance / radius / shear
+    e = brentq(lambda e: 12 * math.pi * e - number * (2 + e * e) * math.sqrt(1 - e * e), 0, 1 - 1e-15, xtol=1e-16, rtol=1e-14)
+    return shear * 4 * math.pi * (1 + 2 * e * e) / ((2 + e * e) * math.sqrt(1 - e * e)) * radius
+
+
+def bearing_torque(places, cams, forces):
+    """Torque of all bearings; each span between two of them is a beam of its own, in balance of forces and moments."""
+    loads = numpy.zeros((len(places), *forces[0].shape))
+    for span in range(len(places) - 1):
+        for place, force in zip(cams, forces):
+            if places[span] < place < places[span + 1]:
+                matrix = [[1, 1], [places[span], places[span + 1]]]
+                shares = numpy.linalg.solve(matrix, [1, place])
+                loads[span] += shares[0] * force
+                loads[span + 1] += shares[1] * force
+    return sum(numpy.array([sommerfeld_torque(size) for size in numpy.hypot(*load.T)]) for load in loads)
+
+
+SHAFTS = {
+    "one cam, nearer to the second bearing": dict(places=[0, 60], cams=[45], phases=[0], lobes=[1], angles=[0]),
+    "one cam in the wider of two spans": dict(places=[0, 20, 80], cams=[35], phases=[0], lobes=[1], angles=[0]),
+    "two shapes, the second later": dict(places=[0, 60], cams=[20, 45], phases=[0, 100], lobes=[1, 2], angles=[0, 0]),
+    "two shapes, the second earlier": dict(places=[0, 60], cams=[20, 45], phases=[0, -50], lobes=[1, 2], angles=[0, 0]),
+    "followers at two angles on one span": dict(places=[0, 60], cams=[20, 45], phases=[0, 40], lobes=[1, 1], angles=[0, 60]),
+    "three cams on three spans": dict(places=[0, 30, 70, 120], cams=[12, 60, 85], phases=[0, 120, -75], lobes=[1, 2, 1],
+                                      angles=[0, -35, 80]),
+}
+
+
+@pytest.fixture(scope="module", params=SHAFTS)
+def shaft(request, alone, camroller, tmp_path_factory):
+    """A camshaft as run, and as put together from the followers alone."""
+    rotation, followers = alone
+    data = SHAFTS[request.param]
+    words = {"bearing_positions_mm": "places", "cam_positions_mm": "cams", "cam_phases_deg": "phases", "cam_lobes": "lobes",
+             "follower_angles_deg": "angles"}
+    bearings = "\n".join(f"{key} = {', '.join(map(str, data[word]))}" for key, word in words.items())
+    path = deck(tmp_path_factory.mktemp("shaft") / "shaft.nml", rotation, sorted(set(data["lobes"])), bearings)
+    return run(camroller, path), rotation, followers, data
+
+
+def put_together(rotation, followers, data, sign=1):
+    """Torque of the bearings from the followers alone; `sign` -1 has the followers stand on the other side."""
+    forces = []
+    for phase, lobe, angle in zip(data["phases"], data["lobes"], data["angles"]):
+        turn = sign * math.radians(angle)
+        turned = cam_forces(rotation, lobe, followers[lobe]) @ [[math.cos(turn), math.sin(turn)], [-math.sin(turn), math.cos(turn)]]
+        forces.append(numpy.stack([shifted(turned[:, 0], phase), shifted(turned[:, 1], phase)], axis=1))
+    return bearing_torque([place / 1e3 for place in data["places"]], [place / 1e3 for place in data["cams"]], forces)
+
+
+def test_torques_of_the_followers_are_those_of_each_alone_shifted_and_added(shaft):
+    found, _, followers, data = shaft
+    for name in ("torque_geometric", "torque_contact", "torque_needle", "torque_guide", "torque_roller_inertia"):
+        expected = sum(shifted(followers[lobe][name], phase) for phase, lobe in zip(data["phases"], data["lobes"]))
+        numpy.testing.assert_allclose(found[name], expected, rtol=0, atol=ROUND_OFF * numpy.max(numpy.abs(expected)), err_msg=name)
+        mean = sum(followers[lobe]["summary"][f"mean_{name}"] for lobe in data["lobes"])
+        assert found["summary"][f"mean_{name}"] == pytest.approx(mean, rel=ROUND_OFF, abs=1e-15), name
+    numpy.testing.assert_array_equal(found["contact_load"], followers[data["lobes"][0]]["contact_load"])
+
+
+def test_bearings_take_what_balances_the_cams(shaft):
+    found, rotation, followers, data = shaft
+    expected = put_together(rotation, followers, data)
+    numpy.testing.assert_allclose(found["torque_bearings"], expected, rtol=DIFFERENCE)
+
+
+def test_the_mean_of_the_bearings_is_that_of_a_uniform_sum(shaft):
+    found, _, _, _ = shaft
+    # kinks where a valve leaves its seat cost the sum a share of the square of its step
+    assert found["summary"]["mean_torque_bearings"] == pytest.approx(numpy.mean(found["torque_bearings"]), rel=1e-5)
+
+
+def test_the_side_on_which_followers_stand_matters_above(alone):
+    rotation, followers = alone
+    data = SHAFTS["followers at two angles on one span"]
+    change = put_together(rotation, followers, data) - put_together(rotation, followers, data, sign=-1)
+    assert numpy.max(numpy.abs(change)) > 1e-3 * numpy.mean(put_together(rotation, followers, data))

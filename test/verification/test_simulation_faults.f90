@@ -1,0 +1,292 @@
+!> A follower driven from outside: what is refused, and what a refusal or a failure leaves.
+module test_simulation_faults
+   use, intrinsic :: ieee_arithmetic, only : ieee_value, ieee_quiet_nan, ieee_positive_inf
+   use, intrinsic :: iso_fortran_env, only : int64
+   use testdrive, only : unittest_type, new_unittest, error_type, check, test_failed
+   use camroller, only : wp, pi, degree, error_t, case_t, numerics_t, result_t, simulation_t, outcome_t, run_case, &
+      & start_simulation, advance, kind_usage, kind_deck
+   use reference_cases, only : thesis_case
+   use test_simulation, only : tight_case
+   implicit none
+   private
+
+   public :: collect_simulation_faults
+
+contains
+
+   subroutine collect_simulation_faults(testsuite)
+      type(unittest_type), allocatable, intent(out) :: testsuite(:)
+
+      testsuite = [ &
+         new_unittest("the second lobe shape can be driven, one that is not there cannot", test_lobe), &
+         new_unittest("a step back, angles and operating points that cannot be are refused", test_refusal), &
+         new_unittest("after a step that failed all goes on bit by bit as if it had not been", test_failed_step), &
+         new_unittest("a step of the smallest length has the torque at its place", test_smallest_step), &
+         new_unittest("numerics of a case made by hand are checked for runs and for simulations", test_numerics) &
+         ]
+   end subroutine collect_simulation_faults
+
+   subroutine test_lobe(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: both, second
+      type(simulation_t) :: simulation, alone
+      type(outcome_t) :: outcome, expected
+      type(error_t), allocatable :: failure
+      integer :: i
+
+      second = tight_case()
+      second%lift%max_lift = 0.8_wp*second%lift%max_lift
+      both = tight_case()
+      both%second_lift = second%lift
+      call start_simulation(simulation, both, 2.0_wp, failure, lobe=2)
+      if (.not. allocated(failure)) call start_simulation(alone, second, 2.0_wp, failure)
+      do i = 1, 6
+         if (.not. allocated(failure)) call advance(simulation, 2.0_wp + 0.3_wp*i, 31.0_wp, 330.0_wp, outcome, failure)
+         if (.not. allocated(failure)) call advance(alone, 2.0_wp + 0.3_wp*i, 31.0_wp, 330.0_wp, expected, failure)
+         if (allocated(failure)) then
+            call test_failed(error, failure%message)
+            return
+         end if
+         call check(error, is_same(outcome, expected), "not the follower of the second lift")
+         if (allocated(error)) return
+      end do
+      do i = 0, 3, 3
+         call start_simulation(simulation, both, 2.0_wp, failure, lobe=i)
+         call expect(error, failure, kind_usage, "lobe")
+         if (allocated(error)) return
+      end do
+      call start_simulation(simulation, second, 2.0_wp, failure, lobe=2)
+      call expect(error, failure, kind_usage, "second_lift")
+   end subroutine test_lobe
+
+   !> An error of a kind whose message has a word.
+   subroutine expect(error, failure, kind, word)
+      type(error_type), allocatable, intent(out) :: error
+      type(error_t), allocatable, intent(in) :: failure
+      integer, intent(in) :: kind
+      character(len=*), intent(in) :: word
+
+      call check(error, allocated(failure), "accepted, no error about "//word)
+      if (allocated(error)) return
+      call check(error, failure%kind, kind, failure%message)
+      if (allocated(error)) return
+      call check(error, index(failure%message, word) > 0, failure%message)
+   end subroutine expect
+
+   !> Are all numbers of two steps the same, bit by bit?
+   pure function is_same(one, other) result(same)
+      type(outcome_t), intent(in) :: one, other
+      logical :: same
+
+      same = all(transfer(numbers(one), [0_int64]) == transfer(numbers(other), [0_int64])) .and. &
+         & (one%state%contact%is_touching .eqv. other%state%contact%is_touching)
+   end function is_same
+
+   !> All numbers of a step [any]
+   pure function numbers(outcome) result(values)
+      type(outcome_t), intent(in) :: outcome
+      real(wp), allocatable :: values(:)
+
+      values = [outcome%mean_torque_drive, outcome%torque_drive, outcome%mean_torque_friction, outcome%torque_friction]
+      associate (state => outcome%state, contact => outcome%state%contact)
+         values = [values, state%position%lift, state%position%lift_slope, state%position%equivalent_radius, &
+            & state%moments%total, state%gas_force, state%spin_acceleration, state%boundary_friction, state%contact_friction, &
+            & state%torque_geometric, state%torque_contact, state%torque_needle, state%torque_guide, &
+            & state%torque_roller_inertia, state%torque_friction, state%torque_drive, state%energy_residual]
+         values = [values, contact%cam_surface_speed, contact%roller_surface_speed, contact%rolling_speed, &
+            & contact%sliding_speed, contact%entrainment_speed, contact%roller_spin, contact%relative_spin, contact%load, &
+            & contact%half_width, contact%apparent_area, contact%film_min, contact%film_central, contact%film_ratio, &
+            & contact%asperity_load, contact%real_area, contact%shear, contact%boundary_capacity, &
+            & contact%boundary_mobilised, contact%rolling_resistance, contact%traction, contact%traction_slope, &
+            & contact%tangential_force, contact%bearing_torque]
+      end associate
+   end function numbers
+
+   subroutine test_refusal(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(simulation_t) :: simulation
+      type(outcome_t) :: outcome
+      type(error_t), allocatable :: failure
+      ! Not a number, infinity, a turn
+      real(wp) :: nan, infinity, turn
+      integer :: i
+
+      nan = ieee_value(1.0_wp, ieee_quiet_nan)
+      infinity = ieee_value(1.0_wp, ieee_positive_inf)
+      turn = 2.0_wp*pi
+      ! a start that cannot be
+      do i = 1, 3
+         call start_simulation(simulation, tight_case(), merge(nan, merge(infinity, -1.0e7_wp*turn, i == 2), i == 1), failure)
+         call expect(error, failure, kind_usage, "cam angle")
+         if (allocated(error)) return
+      end do
+      call start_simulation(simulation, tight_case(), 1.0_wp, failure)
+      call try(1.0_wp, 31.0_wp, 330.0_wp, "grow")
+      if (.not. allocated(error)) call try(0.9_wp, 31.0_wp, 330.0_wp, "grow")
+      if (.not. allocated(error)) call try(nan, 31.0_wp, 330.0_wp, "cam angle")
+      if (.not. allocated(error)) call try(infinity, 31.0_wp, 330.0_wp, "cam angle")
+      if (.not. allocated(error)) call try(1.0_wp + 1.0e-13_wp*degree, 31.0_wp, 330.0_wp, "at least")
+      if (.not. allocated(error)) call try(1.0_wp + 101.0_wp*turn, 31.0_wp, 330.0_wp, "turns")
+      if (.not. allocated(error)) call try(1.0e7_wp*turn, 31.0_wp, 330.0_wp, "turns")
+      if (.not. allocated(error)) call try(1.5_wp, -31.0_wp, 330.0_wp, "speed")
+      if (.not. allocated(error)) call try(1.5_wp, 0.0_wp, 330.0_wp, "speed")
+      if (.not. allocated(error)) call try(1.5_wp, nan, 330.0_wp, "speed")
+      if (.not. allocated(error)) call try(1.5_wp, infinity, 330.0_wp, "speed")
+      if (.not. allocated(error)) call try(1.5_wp, 31.0_wp, nan, "temperature")
+      if (.not. allocated(error)) call try(1.5_wp, 31.0_wp, infinity, "temperature")
+      if (.not. allocated(error)) call try(1.5_wp, 31.0_wp, 0.0_wp, "temperature")
+      if (allocated(error)) return
+      call advance(simulation, 1.1_wp, 31.0_wp, 330.0_wp, outcome, failure)
+      call check(error, .not. allocated(failure), "the follower is of no use after a refusal")
+
+   contains
+
+      subroutine try(angle, speed, temperature, word)
+         ! Cam angle [rad], speed [rad/s], temperature [K]
+         real(wp), intent(in) :: angle, speed, temperature
+         character(len=*), intent(in) :: word
+
+         call advance(simulation, angle, speed, temperature, outcome, failure)
+         call check(error, allocated(failure), "accepted, no error about "//word)
+         if (allocated(error)) return
+         call check(error, index(failure%message, word) > 0, failure%message)
+         if (allocated(error)) return
+         call check(error, failure%kind == kind_usage .or. failure%kind == kind_deck, failure%message)
+      end subroutine try
+
+   end subroutine test_refusal
+
+   !> Every kind of failure: refused angle, refused operating point, oil outside its law, and an integration that gets through the
+   !> base circle, the first of the two pieces that the step is cut into, and not through the event.
+   subroutine test_failed_step(error)
+      type(error_type), allocatable, intent(out) :: error
+      ! End [rad], speed [rad/s] and temperature [K] of the steps that fail
+      real(wp), parameter :: failing(3, 4) = reshape([ &
+         & 4.0_wp, 31.0_wp, 330.0_wp, &
+         & 4.8_wp, -31.0_wp, 330.0_wp, &
+         & 4.8_wp, 40.0_wp, 100.0_wp, &
+         & 9.2_wp, 1.0e10_wp, 330.0_wp], [3, 4])
+      type(case_t) :: the_case
+      type(simulation_t) :: simulation, other
+      type(outcome_t) :: outcome, expected
+      type(error_t), allocatable :: failure
+      integer :: i, step
+
+      the_case = tight_case()
+      the_case%numerics%method = "bogacki_shampine"
+      the_case%lubricant%temperature_law = "vogel"
+      the_case%lubricant%temperature_points = [313.15_wp, 343.15_wp, 373.15_wp]
+      the_case%lubricant%viscosity_points = [0.08_wp, 0.025_wp, 0.011_wp]
+      do i = 1, size(failing, 2)
+         call start_simulation(simulation, the_case, 1.0_wp, failure)
+         if (.not. allocated(failure)) call start_simulation(other, the_case, 1.0_wp, failure)
+         if (.not. allocated(failure)) call advance(simulation, 4.5_wp, 31.0_wp, 330.0_wp, outcome, failure)
+         if (.not. allocated(failure)) call advance(other, 4.5_wp, 31.0_wp, 330.0_wp, expected, failure)
+         if (allocated(failure)) exit
+         call advance(simulation, failing(1, i), failing(2, i), failing(3, i), outcome, failure)
+         call check(error, allocated(failure), "a step that should fail does not")
+         if (allocated(error)) return
+         deallocate (failure)
+         do step = 1, 3
+            if (.not. allocated(failure)) call advance(simulation, 4.5_wp + 0.2_wp*step, 31.0_wp, 330.0_wp, outcome, failure)
+            if (.not. allocated(failure)) call advance(other, 4.5_wp + 0.2_wp*step, 31.0_wp, 330.0_wp, expected, failure)
+            if (allocated(failure)) exit
+            call check(error, is_same(outcome, expected), "a failed step leaves something moved")
+            if (allocated(error)) return
+         end do
+      end do
+      if (allocated(failure)) call test_failed(error, failure%message)
+   end subroutine test_failed_step
+
+   !> From near zero and from many turns away, with a method of each family.
+   subroutine test_smallest_step(error)
+      type(error_type), allocatable, intent(out) :: error
+      character(len=*), parameter :: methods(*) = [character(len=16) :: "automatic", "rodas5p", "bogacki_shampine", "rkc"]
+      ! Cam angles to start from [rad]
+      real(wp), parameter :: starts(*) = [0.0_wp, 3.0_wp, 6000.0_wp]
+      type(case_t) :: the_case
+      type(simulation_t) :: simulation
+      type(outcome_t) :: outcome
+      type(error_t), allocatable :: failure
+      ! Step [rad]
+      real(wp) :: step
+      integer :: i, j
+
+      the_case = thesis_case()
+      the_case%numerics = numerics_t()
+      do i = 1, size(methods)
+         do j = 1, size(starts)
+            the_case%numerics%method = methods(i)
+            call start_simulation(simulation, the_case, starts(j), failure)
+            if (allocated(failure)) exit
+            ! the message says how long a step must be: ten thousand spacings of the angle and half a turn
+            step = 1.0e4_wp*spacing(starts(j) + pi)
+            call advance(simulation, starts(j) + 0.9_wp*step, 31.0_wp, 330.0_wp, outcome, failure)
+            call expect(error, failure, kind_usage, "at least")
+            if (allocated(error)) return
+            call advance(simulation, starts(j) + 1.1_wp*step, 31.0_wp, 330.0_wp, outcome, failure)
+            if (allocated(failure)) exit
+            ! the angle is good to 1e-4 of the step, and so are changes over it
+            call check(error, abs(outcome%mean_torque_friction - outcome%torque_friction) < 1.0e-3_wp*outcome%torque_friction, &
+               & "mean friction of a step without length")
+            if (allocated(error)) return
+            call check(error, abs(outcome%mean_torque_drive - outcome%torque_drive) < 1.0e-3_wp*abs(outcome%torque_drive), &
+               & "mean torque of a step without length")
+            if (allocated(error)) return
+         end do
+      end do
+      if (allocated(failure)) call test_failed(error, failure%message)
+   end subroutine test_smallest_step
+
+   subroutine test_numerics(error)
+      type(error_type), allocatable, intent(out) :: error
+      ! What is wrong with each, and the word that its message must have
+      character(len=*), parameter :: words(*) = [character(len=12) :: "method", "accuracy", "accuracy", "accuracy", "tolerance", &
+         & "tolerance", "step", "step", "periodicity", "max_cycles", "output_step", "output_step", "output_step"]
+      type(case_t) :: the_case
+      type(result_t) :: result
+      type(simulation_t) :: simulation
+      type(error_t), allocatable :: failure
+      ! Not a number
+      real(wp) :: nan
+      integer :: i
+
+      nan = ieee_value(1.0_wp, ieee_quiet_nan)
+      do i = 1, size(words)
+         the_case = thesis_case()
+         the_case%numerics = numerics_t()
+         associate (numerics => the_case%numerics)
+            select case (i)
+            case (1)
+               numerics%method = "no_such"
+            case (2:4)
+               numerics%accuracy = merge(nan, merge(-1.0e-4_wp, 0.0_wp, i == 2), i == 4)
+            case (5, 6)
+               numerics%tolerance = merge(-1.0e-4_wp, nan, i == 5)
+            case (7, 8)
+               numerics%step = merge(0.0_wp, 4.0_wp, i == 7)
+            case (9)
+               numerics%periodicity = 0.0_wp
+            case (10)
+               numerics%max_cycles = 0
+            case (11:13)
+               numerics%output_step = merge(nan, merge(-degree, 7.0_wp*degree, i == 11), i == 13)
+            end select
+         end associate
+         call run_case(the_case, result, failure)
+         call expect(error, failure, kind_deck, trim(words(i)))
+         if (allocated(error)) return
+         call start_simulation(simulation, the_case, 0.0_wp, failure)
+         call expect(error, failure, kind_deck, trim(words(i)))
+         if (allocated(error)) return
+      end do
+      ! a run tells how wrong these are, a step would not
+      do i = 1, 2
+         the_case%numerics = numerics_t(method=merge("quasi_static", "euler       ", i == 1))
+         call start_simulation(simulation, the_case, 0.0_wp, failure)
+         call expect(error, failure, kind_usage, trim(the_case%numerics%method))
+         if (allocated(error)) return
+      end do
+   end subroutine test_numerics
+
+end module test_simulation_faults
