@@ -142,10 +142,12 @@ contains
       type(tally_t), intent(in) :: tally
       character(len=:), allocatable :: table
       character(len=88) :: line
-      logical :: is_open(size(tally%names))
+      logical, allocatable :: is_open(:)
       integer :: i, k
 
       table = ""
+      if (.not. allocated(tally%names)) return
+      allocate (is_open(size(tally%names)))
       is_open = .true.
       do k = 1, size(tally%names)
          i = maxloc(tally%counts, 1, mask=is_open)

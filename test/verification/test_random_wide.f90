@@ -15,12 +15,13 @@ module test_random_wide
    use camroller_run, only : build_models, run_case
    use camroller_deck, only : deck_t, override_t, parse_deck, make_case
    use camroller_deck_keys, only : new_schema
-   use camroller_deck_schema, only : schema_t
+   use camroller_deck_schema, only : schema_t, key_t, type_integer, type_logical, type_name, type_number
    use case_endings, only : tally_t, count_ending, count_error, count_remarks, endings_table, ending_count
-   use random_decks, only : random_t, start_random
    use result_checks, only : check_result, compare_results, promised_error
    use run_settings, only : has_checks, number_from
-   use wide_decks, only : wide_deck_t, draw_wide_deck, save_wide_deck
+   use wide_decks, only : wide_deck_t, style_t, draw_wide_deck, save_wide_deck, is_left_out
+   use wide_numbers, only : usual_t, find_range
+   use wide_words, only : deck_word
    implicit none
    private
 
@@ -28,8 +29,11 @@ module test_random_wide
 
    !> Cases of a test run with and without run-time checks, and the seed of the first
    integer, parameter :: usual_cases = 200, few_cases = 20, usual_seed = 1
-   !> One deck of so many has numbers at the ends of their ranges
+   !> One deck of so many has numbers at the ends of their ranges, and their part of all numbers [-]
    integer, parameter :: ends_stride = 4
+   real(wp), parameter :: ends_share = 0.03_wp
+   !> Marks of a key in many decks: left out, given; then both ends or each choice, of which there are fewer than that
+   integer, parameter :: mark_absent = 1, mark_given = 2, most_marks = 40
    !> Part of the decks drawn that must have a result, lest nothing is tested [-]
    real(wp), parameter :: least_share = 0.25_wp
 
@@ -41,17 +45,134 @@ contains
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
       testsuite = [ &
+         new_unittest("random decks have every choice of every key, every key given and left out, both ends of every range", &
+         test_coverage), &
+         new_unittest("a new choice of a key is drawn, and a new number must be given a range", test_new_keys), &
          new_unittest("random cases with every option end with a result that is right, or with words", test_wide) &
          ]
    end subroutine collect_random_wide
+
+   subroutine test_coverage(error)
+      type(error_type), allocatable, intent(out) :: error
+      ! Decks that are drawn; the rarest choice is in one of five hundred
+      integer, parameter :: decks = 3000
+      type(schema_t) :: schema
+      character(len=:), allocatable :: missing
+
+      call new_schema(schema)
+      call draw_missing(schema, decks, missing)
+      if (missing /= "") call test_failed(error, "never drawn:"//missing)
+   end subroutine test_coverage
+
+   subroutine test_new_keys(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(schema_t) :: schema
+      character(len=:), allocatable :: missing
+      integer :: i
+
+      call new_schema(schema)
+      do i = 1, schema%key_count
+         associate (key => schema%keys(i))
+            if (key%name == "shear_law") key%choices = [key%choices, [character(len=len(key%choices)) :: "of_tomorrow"]]
+            if (key%name == "limiting_coefficient") key%name = "coefficient_of_tomorrow"
+         end associate
+      end do
+      call draw_missing(schema, 30, missing)
+      if (index(missing, "shear_law 'of_tomorrow'") > 0) call test_failed(error, "a new choice is not drawn")
+      if (index(missing, "traction.coefficient_of_tomorrow has no usual range") == 0) call test_failed(error, &
+         & "a new number is not missed: "//missing)
+   end subroutine test_new_keys
+
+   !> Draw decks and list what none of them has.
+   subroutine draw_missing(schema, decks, missing)
+      type(schema_t), intent(in) :: schema
+      integer, intent(in) :: decks
+      character(len=:), allocatable, intent(out) :: missing
+      ! Every deck has much of what is rare
+      type(style_t), parameter :: style = style_t(ends_share=0.3_wp, ehl_share=0.3_wp, method_share=0.5_wp)
+      type(wide_deck_t) :: deck
+      character(len=:), allocatable :: word
+      logical :: is_seen(size(schema%keys), most_marks)
+      integer :: seed, group, key
+
+      missing = ""
+      is_seen = .false.
+      do seed = 1, decks
+         call draw_wide_deck(seed, schema, style, deck)
+         if (deck%unknown /= "" .and. index(missing, deck%unknown//" has no usual range") == 0) missing = missing//deck%unknown &
+            & //" has no usual range in wide_numbers or wide_lists;"
+         do group = 1, schema%group_count
+            do key = schema%groups(group)%first, schema%groups(group)%last
+               word = deck_word(deck%text, trim(schema%groups(group)%name), trim(schema%keys(key)%name))
+               call mark(schema%keys(key), trim(schema%groups(group)%name), word, is_seen(key, :))
+            end do
+         end do
+      end do
+      do group = 1, schema%group_count
+         do key = schema%groups(group)%first, schema%groups(group)%last
+            if (is_left_out(schema%groups(group)%name, schema%keys(key)%name)) cycle
+            call list_missing(schema%keys(key), trim(schema%groups(group)%name), is_seen(key, :), missing)
+         end do
+      end do
+   end subroutine draw_missing
+
+   !> Note what a deck has of a key: left out, given, near the lower and the upper end; or each choice.
+   subroutine mark(key, group, word, is_seen)
+      type(key_t), intent(in) :: key
+      character(len=*), intent(in) :: group, word
+      logical, intent(inout) :: is_seen(:)
+      type(usual_t) :: usual
+      ! [unit of the key]
+      real(wp) :: value
+      logical :: is_known
+
+      is_seen(merge(mark_absent, mark_given, word == "")) = .true.
+      if (word == "") return
+      select case (key%type)
+      case (type_name)
+         where (key%choices == word) is_seen(mark_given + 1:mark_given + size(key%choices)) = .true.
+      case (type_logical)
+         is_seen(mark_given + merge(1, 2, word == ".true.")) = .true.
+      case (type_number, type_integer)
+         read (word, *) value
+         call find_range(group//"."//trim(key%name), usual, is_known)
+         if (value < usual%lowest .or. value <= key%range%smallest) is_seen(mark_given + 1) = .true.
+         if (value > usual%highest .or. value >= key%range%largest) is_seen(mark_given + 2) = .true.
+      end select
+   end subroutine mark
+
+   !> Words for what was not seen of a key.
+   subroutine list_missing(key, group, is_seen, missing)
+      type(key_t), intent(in) :: key
+      character(len=*), intent(in) :: group
+      logical, intent(in) :: is_seen(:)
+      character(len=:), allocatable, intent(inout) :: missing
+      character(len=:), allocatable :: name
+      integer :: i
+
+      name = " "//group//"."//trim(key%name)
+      if (.not. is_seen(mark_given)) missing = missing//name//";"
+      if (.not. (is_seen(mark_absent) .or. key%is_required .or. key%type == type_name)) missing = missing//name//" left out;"
+      select case (key%type)
+      case (type_name)
+         do i = 1, size(key%choices)
+            if (.not. is_seen(mark_given + i)) missing = missing//name//" '"//trim(key%choices(i))//"';"
+         end do
+      case (type_logical)
+         if (.not. all(is_seen(mark_given + 1:mark_given + 2))) missing = missing//name//" both ways;"
+      case (type_number, type_integer)
+         if (.not. is_seen(mark_given + 1)) missing = missing//name//" at its lower end;"
+         if (.not. is_seen(mark_given + 2)) missing = missing//name//" at its upper end;"
+      end select
+   end subroutine list_missing
 
    subroutine test_wide(error)
       type(error_type), allocatable, intent(out) :: error
       ! Failures after which a run ends
       integer, parameter :: most_shown = 1000
       type(schema_t) :: schema
-      type(random_t) :: random
       type(wide_deck_t) :: deck
+      type(style_t) :: style
       type(tally_t) :: tally
       character(len=:), allocatable :: list, trouble
       character(len=40) :: buffer
@@ -65,12 +186,12 @@ contains
       failures = 0
       do i = 1, cases
          seed = number_from("WIDE_SEED", usual_seed) + i - 1
-         call start_random(random, seed)
-         call draw_wide_deck(random, schema, modulo(seed, ends_stride) == 0, deck)
+         style%ends_share = merge(ends_share, 0.0_wp, modulo(seed, ends_stride) == 0)
+         call draw_wide_deck(seed, schema, style, deck)
          write (buffer, "(a, i0)") "WIDE_SEED=", seed
          if (number_from("WIDE_TRACE", 0) > 0) write (error_unit, "(a)") trim(buffer)
          call cpu_time(start)
-         call check_deck(deck, modulo(seed, ends_stride) == 0, tally, trouble)
+         call check_deck(deck, style%ends_share > 0.0_wp, tally, trouble)
          call cpu_time(finish)
          if (finish - start > 20.0_wp .and. cases > usual_cases) write (error_unit, "(a, f7.1, a)") trim(buffer), finish - start, &
             & " s"
@@ -82,7 +203,8 @@ contains
          if (failures >= most_shown) exit
       end do
       write (error_unit, "(a)") endings_table(tally)
-      if (ending_count(tally, "result") < least_share*cases) list = list//new_line("a")//"too few decks have a result"
+      if (cases >= few_cases .and. ending_count(tally, "result") < least_share*cases) list = list &
+         & //new_line("a")//"too few decks have a result"
       if (list /= "") call test_failed(error, list)
    end subroutine test_wide
 

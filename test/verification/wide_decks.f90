@@ -4,12 +4,13 @@
 !> has its usual range in `wide_numbers`. Rules that tie keys together are kept, so that a deck is hardly ever refused for a
 !> contradiction; its geometry may be impossible.
 module wide_decks
+   use, intrinsic :: iso_fortran_env, only : int64
    use camroller_kinds, only : wp
    use camroller_deck_schema, only : schema_t, key_t, group_effect, group_required, type_integer, type_integers, type_logical, &
       & type_name, type_number, type_numbers, type_text
    use camroller_deck_tables, only : deck_tables_t
    use camroller_table_file, only : table_t
-   use random_decks, only : random_t, draw
+   use random_decks, only : random_t, draw, start_random
    use wide_lists, only : draft_t, list_of_integers, list_of_numbers
    use wide_numbers, only : end_of_range, find_range, usual_t
    use wide_tables, only : draw_lift_table, draw_pressure_table
@@ -17,7 +18,7 @@ module wide_decks
    implicit none
    private
 
-   public :: wide_deck_t, draw_wide_deck, save_wide_deck, is_left_out
+   public :: wide_deck_t, style_t, draw_wide_deck, save_wide_deck, is_left_out
 
    !> A deck with the tables that it names
    type :: wide_deck_t
@@ -29,15 +30,23 @@ module wide_decks
       character(len=:), allocatable :: unknown
    end type wide_deck_t
 
+   !> How much of what is hard or slow there is in decks
+   type :: style_t
+      !> Part of the numbers at an end of their range [-]
+      real(wp) :: ends_share = 0.0_wp
+      !> Part of the decks with a numerical film, which takes a hundred times as long as a formula [-]
+      real(wp) :: ehl_share = 0.001_wp
+      !> Part of the decks with a method of their own; some take a hundred times as long as the one that the program chooses [-]
+      real(wp) :: method_share = 0.1_wp
+   end type style_t
+
    !> Part of the decks that have a group which may be left out, and that give a key which may be left out [-]
    real(wp), parameter :: group_share = 0.75_wp, key_share = 0.5_wp
-   !> Groups that are rarer than that, and their part of the decks: a numerical film takes a hundred times as long as a formula [-]
-   character(len=*), parameter :: rare_groups(*) = [character(len=12) :: "ehl", "gas_force", "effects"]
-   real(wp), parameter :: rare_shares(*) = [0.005_wp, 0.4_wp, 0.3_wp]
-   !> Part of the numbers at an end of their range, in decks with ends [-]
-   real(wp), parameter :: end_share = 0.03_wp
+   !> Groups that are rarer than that, and their part of the decks [-]
+   character(len=*), parameter :: rare_groups(*) = [character(len=12) :: "gas_force", "effects"]
+   real(wp), parameter :: rare_shares(*) = [0.4_wp, 0.3_wp]
    !> Part of the decks with a choice that changes much, or that ends most cases [-]
-   real(wp), parameter :: source_share = 0.3_wp, stop_share = 0.05_wp, method_share = 0.3_wp, needed_share = 0.2_wp
+   real(wp), parameter :: source_share = 0.3_wp, stop_share = 0.05_wp, needed_share = 0.2_wp
    !> Width of a bearing that the law of finite width takes for every diameter drawn [mm]
    real(wp), parameter :: widest_finite = 17.0_wp
    character(len=*), parameter :: nl = new_line("a")
@@ -45,39 +54,70 @@ module wide_decks
 contains
 
    !> Draw a deck.
-   subroutine draw_wide_deck(random, schema, with_ends, deck)
-      !> The generator
-      type(random_t), intent(inout) :: random
+   subroutine draw_wide_deck(seed, schema, style, deck)
+      !> Any number
+      integer, intent(in) :: seed
       !> Groups and keys
       type(schema_t), intent(in) :: schema
-      !> Are some of its numbers at an end of their range?
-      logical, intent(in) :: with_ends
+      !> How hard and slow it may be
+      type(style_t), intent(in) :: style
       !> The deck
       type(wide_deck_t), intent(out) :: deck
       type(draft_t) :: draft
+      type(random_t) :: random
       ! [-]
       real(wp) :: number
       integer :: group, key
 
       deck%text = ""
       deck%unknown = ""
+      call start_stream(random, seed, "cams")
       call draft_cams(random, draft)
       do group = 1, schema%group_count
-         if (.not. has_group(random, draft, schema, group)) cycle
+         call start_stream(random, seed, "&"//trim(schema%groups(group)%name))
+         if (.not. has_group(random, draft, style, schema, group)) cycle
          deck%text = deck%text//"&"//trim(schema%groups(group)%name)//nl
          call draw(random, number)
          draft%is_first = number < 0.5_wp
          do key = schema%groups(group)%first, schema%groups(group)%last
             if (is_left_out(schema%groups(group)%name, schema%keys(key)%name)) cycle
-            call draw_key(random, draft, trim(schema%groups(group)%name), schema%keys(key), with_ends, deck)
+            call start_stream(random, seed, trim(schema%groups(group)%name)//"."//trim(schema%keys(key)%name))
+            call draw_key(random, draft, trim(schema%groups(group)%name), schema%keys(key), style, deck)
          end do
          deck%text = deck%text//"/"//nl
       end do
+      call start_stream(random, seed, "tables")
       if (deck_word(deck%text, "lift", "law") == "table") call draw_lift_table(random, "lift", deck%text, deck%tables%lift)
       if (deck_word(deck%text, "second_lift", "law") == "table") call draw_lift_table(random, "second_lift", deck%text, &
          & deck%tables%second_lift)
       if (deck_word(deck%text, "gas_force", "table") /= "") call draw_pressure_table(random, deck%text, deck%tables%pressure)
    end subroutine draw_wide_deck
+
+   !> Start the draws of one key, group or table: a new key of the schema leaves what a seed gives for all others as it is.
+   subroutine start_stream(random, seed, name)
+      !> The generator
+      type(random_t), intent(out) :: random
+      !> Seed of the deck
+      integer, intent(in) :: seed
+      !> What is drawn
+      character(len=*), intent(in) :: name
+      ! Knuth's multiplier and a prime below 2**31
+      integer(int64), parameter :: factor = 2654435761_int64, modulus = 2147483647_int64
+      ! [-]
+      real(wp) :: number
+      integer(int64) :: mixed
+      integer :: i
+
+      mixed = modulo(int(seed, int64)*factor, modulus)
+      do i = 1, len(name)
+         mixed = modulo(131_int64*mixed + ichar(name(i:i)), modulus)
+      end do
+      call start_random(random, int(mixed))
+      ! The first numbers of seeds that are alike are alike
+      do i = 1, 4
+         call draw(random, number)
+      end do
+   end subroutine start_stream
 
    !> Keys that say what is done with a result, not what it is.
    pure function is_left_out(group, key)
@@ -119,11 +159,13 @@ contains
    end subroutine draft_cams
 
    !> Is a group in the deck?
-   function has_group(random, draft, schema, group)
+   function has_group(random, draft, style, schema, group)
       !> The generator
       type(random_t), intent(inout) :: random
       !> What is decided
       type(draft_t), intent(in) :: draft
+      !> How hard and slow the deck may be
+      type(style_t), intent(in) :: style
       !> Groups and keys
       type(schema_t), intent(in) :: schema
       !> Position of the group
@@ -137,6 +179,7 @@ contains
       do i = 1, size(rare_groups)
          if (schema%groups(group)%name == rare_groups(i)) share = rare_shares(i)
       end do
+      if (schema%groups(group)%name == "ehl") share = style%ehl_share
       call draw(random, number)
       has_group = number < share
       if (schema%groups(group)%kind == group_required) has_group = .true.
@@ -146,7 +189,7 @@ contains
    end function has_group
 
    !> Draw one key, or leave it out.
-   subroutine draw_key(random, draft, group, key, with_ends, deck)
+   subroutine draw_key(random, draft, group, key, style, deck)
       !> The generator
       type(random_t), intent(inout) :: random
       !> What is decided
@@ -155,8 +198,8 @@ contains
       character(len=*), intent(in) :: group
       !> The key
       type(key_t), intent(in) :: key
-      !> May it be at an end of its range?
-      logical, intent(in) :: with_ends
+      !> How hard and slow the deck may be
+      type(style_t), intent(in) :: style
       !> The deck so far
       type(wide_deck_t), intent(inout) :: deck
       character(len=:), allocatable :: words
@@ -172,13 +215,13 @@ contains
       words = ""
       select case (key%type)
       case (type_name)
-         call draw_choice(random, deck%text, group, key, words)
+         call draw_choice(random, style, deck%text, group, key, words)
       case (type_number, type_integer)
          call find_range(group//"."//trim(key%name), usual, is_known)
          if (.not. is_known) deck%unknown = deck%unknown//" "//group//"."//trim(key%name)
          if (key%name == "width_mm" .and. deck_word(deck%text, group, "law") == "finite") usual%highest = widest_finite
          call draw(random, number)
-         if (with_ends .and. number < end_share) then
+         if (number < style%ends_share) then
             call end_of_range(random, key%range, usual, words)
          else
             call draw_number(random, usual, words)
@@ -191,9 +234,9 @@ contains
       case (type_text)
          words = "'"//group//".txt'"
       case (type_numbers)
-         call list_of_numbers(random, draft, deck%text, group//"."//trim(key%name), with_ends, words)
+         call list_of_numbers(random, draft, deck%text, group//"."//trim(key%name), style%ends_share > 0.0_wp, words)
       case (type_integers)
-         call list_of_integers(random, draft, deck%text, group//"."//trim(key%name), with_ends, words)
+         call list_of_integers(random, draft, deck%text, group//"."//trim(key%name), style%ends_share > 0.0_wp, words)
       end select
       if (words == "") deck%unknown = deck%unknown//" "//group//"."//trim(key%name)
       deck%text = deck%text//"   "//trim(key%name)//" = "//words//nl
@@ -238,8 +281,13 @@ contains
          is_given = draft%is_first
       case ("finger_inertia_kg_m2")
          is_given = .not. draft%is_first
-      case ("hardness_GPa", "eyring_stress_MPa", "needle_radius_mm")
-         is_given = .true.
+      case ("hardness_GPa")
+         ! Where it is not there, laws that need it are not drawn
+         is_given = is_given .or. draft%has_lobes
+      case ("eyring_stress_MPa")
+         is_given = is_given .or. deck_word(text, group, "shear_law") == "eyring"
+      case ("needle_radius_mm")
+         is_given = is_given .or. deck_word(text, group, "kind") == "needles"
       case ("grinding_wheel_radius_mm")
          is_given = is_given .and. draft%is_first
       case ("viscosity_Pa_s")
@@ -260,9 +308,11 @@ contains
    end subroutine keep_rules
 
    !> Draw one of several names.
-   subroutine draw_choice(random, text, group, key, words)
+   subroutine draw_choice(random, style, text, group, key, words)
       !> The generator
       type(random_t), intent(inout) :: random
+      !> How hard and slow the deck may be
+      type(style_t), intent(in) :: style
       !> The deck so far
       character(len=*), intent(in) :: text
       !> Name of the group
@@ -281,7 +331,7 @@ contains
       case ("film.range_policy")
          share = stop_share
       case ("numerics.method")
-         share = method_share
+         share = style%method_share
       case ("effects.select")
          share = needed_share
       end select
@@ -307,6 +357,9 @@ contains
 
       is_allowed = .true.
       select case (trim(key%name))
+      case ("law")
+         is_allowed = index(text, "hardness_GPa") > 0 .or. all(words /= [character(len=26) :: "'masjedi_khonsari_rough'", &
+            & "'zhao_maietta_chang'"])
       case ("load_arm", "spin", "boundary", "seating")
          is_allowed = has_source(text) .or. words == key%default
       case ("method")
