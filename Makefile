@@ -2,7 +2,7 @@
 
 SHELL := /bin/bash
 .DEFAULT_GOAL := help
-.PHONY: help setup commit build debug mpi run comparison test quick bless random random-ehl needed rough-rows fuzz study study-film audit check check-layers \
+.PHONY: help setup commit build debug mpi run comparison test quick bless random random-ehl random-wide needed rough-rows fuzz study study-film audit check check-layers \
   check-style check-format check-lint check-warnings format bench bench-ehl range-ehl bench-batch bench-effects clean distclean
 
 FPM := .venv/bin/fpm
@@ -81,6 +81,10 @@ random: commit ## cases drawn at random by two methods, optimised: CASES=20000 S
 random-ehl: commit ## cases drawn at random with a numerical film, as law and over the cycle: CASES=200 SEED=1; failures print a deck
 	@OPENBLAS_NUM_THREADS=1 RANDOM_EHL_CASES=$(or $(CASES),200) RANDOM_EHL_SEED=$(or $(SEED),1) RANDOM_EHL_TABLE=$(or $(TABLE),0) $(FPM) test \
 	  --flag "$(RELEASE_FLAGS)" -- random_ehl
+
+random-wide: commit ## cases drawn at random with every option of a deck, optimised: CASES=20000 SEED=1 FOLDER= for decks that fail
+	@WIDE_CASES=$(or $(CASES),20000) WIDE_SEED=$(or $(SEED),1) $(if $(FOLDER),WIDE_FOLDER="$(FOLDER)") $(FPM) test \
+	  --flag "$(RELEASE_FLAGS)" -- random_wide
 
 needed: commit ## effects that are left out against what they change, for random cases, optimised: CASES=300 SEED=1
 	@NEEDED_TABLE=1 NEEDED_CASES=$(or $(CASES),300) NEEDED_SEED=$(or $(SEED),1) $(FPM) test --flag "$(RELEASE_FLAGS)" -- needed

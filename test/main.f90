@@ -78,6 +78,7 @@ program main
    use test_hard_cases, only : collect_hard_cases
    use test_random_cases, only : collect_random_cases
    use test_random_ehl, only : collect_random_ehl
+   use test_random_wide, only : collect_random_wide
    use test_effects, only : collect_effects
    use test_needed, only : collect_needed
    implicit none
@@ -123,6 +124,7 @@ contains
          new_testsuite("hard_cases", collect_hard_cases), &
          new_testsuite("random_cases", collect_random_cases), &
          new_testsuite("random_ehl", collect_random_ehl), &
+         new_testsuite("random_wide", collect_random_wide), &
          new_testsuite("effects", collect_effects), &
          new_testsuite("ehl", collect_ehl), &
          new_testsuite("ehl_rough", collect_ehl_rough), &

@@ -10,7 +10,7 @@ module random_decks
    implicit none
    private
 
-   public :: random_t, start_random, random_deck
+   public :: random_t, start_random, draw, random_deck
 
    !> Generator of random numbers: xorshift with 32 bits; source: Marsaglia, J. Stat. Softw. 8 (2003) 14
    type :: random_t

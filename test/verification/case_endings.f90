@@ -1,0 +1,160 @@
+!> How cases end: every class of ending by its words, counted.
+module case_endings
+   use camroller_error, only : error_t, kind_convergence, kind_deck, kind_domain
+   implicit none
+   private
+
+   public :: tally_t, count_ending, count_error, count_remarks, endings_table, ending_count
+
+   !> Counted classes
+   type :: tally_t
+      !> Names in the order of their first appearance
+      character(len=72), allocatable :: names(:)
+      integer, allocatable :: counts(:)
+   end type tally_t
+
+   !> What the message of an error of a run says, and its class
+   character(len=*), parameter :: error_phrases(2, 15) = reshape([character(len=44) :: &
+      & "at several loads", "several balances at once", &
+      & "did not become periodic", "not periodic", &
+      & "was not found", "estimate beyond the slip itself", &
+      & "number of evaluations is used up", "evaluations used up", &
+      & "number of steps is used up", "steps used up", &
+      & "step has become too small", "step too small", &
+      & "has no value at", "no value of the roller equation", &
+      & "cannot be evaluated", "state that cannot be evaluated", &
+      & "have no common solution", "no common solution of the contact", &
+      & "sticks and slides too many", "sticks and slides too many times", &
+      & "a fixed step failed", "fixed step failed", &
+      & "quasi-static limit", "no quasi-static limit", &
+      & "range_policy = 'stop'", "film law outside its range, which stops", &
+      & "bearing law has no solution", "camshaft bearing without solution", &
+      & "ehl:", "numerical film"], [2, 15])
+   !> What a remark says, and its class
+   character(len=*), parameter :: remark_phrases(2, 7) = reshape([character(len=44) :: &
+      & "accuracy asked for was not reached", "accuracy not reached", &
+      & "outside its published range", "film law outside its range", &
+      & "the tolerance", "tolerance does not hold the error", &
+      & "sliding speed is not resolved", "sliding speed not resolved", &
+      & "contact", "contact lost", &
+      & "film", "other remark on the film", &
+      & "mean", "remark on means"], [2, 7])
+
+contains
+
+   !> Count one ending.
+   subroutine count_ending(tally, name)
+      !> The counts
+      type(tally_t), intent(inout) :: tally
+      !> The class
+      character(len=*), intent(in) :: name
+      integer :: place
+
+      if (.not. allocated(tally%names)) allocate (tally%names(0), tally%counts(0))
+      place = findloc(tally%names == name, .true., 1)
+      if (place == 0) then
+         tally%names = [tally%names, [character(len=len(tally%names)) :: name]]
+         tally%counts = [tally%counts, 0]
+         place = size(tally%names)
+      end if
+      tally%counts(place) = tally%counts(place) + 1
+   end subroutine count_ending
+
+   !> Count an error of a run by its cause; trouble where it has no known cause.
+   subroutine count_error(tally, error, prefix, trouble)
+      !> The counts
+      type(tally_t), intent(inout) :: tally
+      !> The error
+      type(error_t), intent(in) :: error
+      !> What ended
+      character(len=*), intent(in) :: prefix
+      !> What is wrong with the error; blank where all is well
+      character(len=:), allocatable, intent(inout) :: trouble
+      character(len=:), allocatable :: kind
+      integer :: i
+
+      select case (error%kind)
+      case (kind_convergence)
+         kind = " convergence error: "
+      case (kind_domain)
+         kind = " domain error: "
+      case (kind_deck)
+         kind = " deck error: "
+      case default
+         kind = " other error: "
+         trouble = trouble//" an error of a kind that no case may have: "//error%message
+      end select
+      do i = 1, size(error_phrases, 2)
+         if (index(error%message, trim(error_phrases(1, i))) == 0) cycle
+         call count_ending(tally, prefix//kind//trim(error_phrases(2, i)))
+         return
+      end do
+      call count_ending(tally, prefix//kind//"of another cause")
+      write (6, '(a)') "OTHER "//prefix//kind//error%message
+      if (error%kind == kind_convergence) trouble = trouble//" an error without a known cause: "//error%message
+   end subroutine count_error
+
+   !> Count the remarks of a result.
+   subroutine count_remarks(tally, warnings, trouble)
+      !> The counts
+      type(tally_t), intent(inout) :: tally
+      !> Remarks, one per line
+      character(len=*), intent(in) :: warnings
+      !> What is wrong; blank where all is well
+      character(len=:), allocatable, intent(inout) :: trouble
+      character(len=:), allocatable :: rest, line
+      integer :: i, last
+
+      if (warnings == "") call count_ending(tally, "result without a remark")
+      if (warnings /= "") call count_ending(tally, "result with remarks")
+      rest = warnings
+      do while (rest /= "")
+         last = index(rest//new_line("a"), new_line("a"))
+         line = rest(:last - 1)
+         rest = rest(min(last + 1, len(rest) + 1):)
+         do i = 1, size(remark_phrases, 2)
+            if (index(line, trim(remark_phrases(1, i))) > 0) exit
+         end do
+         if (i <= size(remark_phrases, 2)) then
+            call count_ending(tally, "  remark: "//trim(remark_phrases(2, i)))
+         else
+            call count_ending(tally, "  remark: another")
+            trouble = trouble//" a remark of no known class: "//line
+         end if
+      end do
+   end subroutine count_remarks
+
+   !> Cases that ended so.
+   pure function ending_count(tally, name) result(count)
+      !> The counts
+      type(tally_t), intent(in) :: tally
+      !> Beginning of the class
+      character(len=*), intent(in) :: name
+      integer :: count
+
+      count = 0
+      if (allocated(tally%names)) count = sum(tally%counts, mask=tally%names(:)(:len(name)) == name)
+   end function ending_count
+
+   !> All classes with their counts, a line each.
+   function endings_table(tally) result(table)
+      !> The counts
+      type(tally_t), intent(in) :: tally
+      character(len=:), allocatable :: table
+      character(len=88) :: line
+      logical, allocatable :: is_open(:)
+      integer :: i, k
+
+      table = ""
+      if (.not. allocated(tally%names)) return
+      allocate (is_open(size(tally%names)))
+      is_open = .true.
+      do k = 1, size(tally%names)
+         i = maxloc(tally%counts, 1, mask=is_open)
+         is_open(i) = .false.
+         write (line, "(i9, 2x, a)") tally%counts(i), trim(tally%names(i))
+         table = table//trim(line)//new_line("a")
+      end do
+   end function endings_table
+
+end module case_endings

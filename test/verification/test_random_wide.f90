@@ -1,0 +1,273 @@
+!> Cases drawn at random over everything that a deck may hold: each has a result that is right by more than one measure, or words
+!> say why there is none. How they end is counted and printed.
+!>
+!> The environment variables WIDE_CASES and WIDE_SEED choose how many and which; `make random-wide` sets them. WIDE_FOLDER names a
+!> folder for decks and tables of cases that fail and of a case run alone, WIDE_TRACE=1 has each seed printed before its case is run.
+module test_random_wide
+   use, intrinsic :: iso_fortran_env, only : error_unit
+   use testdrive, only : new_unittest, unittest_type, error_type, test_failed
+   use camroller_kinds, only : wp
+   use camroller_error, only : error_t
+   use camroller_accuracy, only : is_checked, has_tolerance
+   use camroller_case, only : case_t
+   use camroller_model, only : model_t
+   use camroller_result, only : result_t
+   use camroller_run, only : build_models, run_case
+   use camroller_deck, only : deck_t, override_t, parse_deck, make_case
+   use camroller_deck_keys, only : new_schema
+   use camroller_deck_schema, only : schema_t, key_t, type_integer, type_logical, type_name, type_number
+   use case_endings, only : tally_t, count_ending, count_error, count_remarks, endings_table, ending_count
+   use result_checks, only : check_result, compare_results, promised_error
+   use run_settings, only : has_checks, number_from
+   use wide_decks, only : wide_deck_t, style_t, draw_wide_deck, save_wide_deck, is_left_out
+   use wide_numbers, only : usual_t, find_range
+   use wide_words, only : deck_word
+   implicit none
+   private
+
+   public :: collect_random_wide
+
+   !> Cases of a test run with and without run-time checks, and the seed of the first
+   integer, parameter :: usual_cases = 200, few_cases = 20, usual_seed = 1
+   !> One deck of so many has numbers at the ends of their ranges, and their part of all numbers [-]
+   integer, parameter :: ends_stride = 4
+   real(wp), parameter :: ends_share = 0.03_wp
+   !> Marks of a key in many decks: left out, given; then both ends or each choice, of which there are fewer than that
+   integer, parameter :: mark_absent = 1, mark_given = 2, most_marks = 40
+   !> Part of the decks drawn that must have a result, lest nothing is tested [-]
+   real(wp), parameter :: least_share = 0.25_wp
+
+contains
+
+   !> Collect the tests.
+   subroutine collect_random_wide(testsuite)
+      !> The tests
+      type(unittest_type), allocatable, intent(out) :: testsuite(:)
+
+      testsuite = [ &
+         new_unittest("random decks have every choice of every key, every key given and left out, both ends of every range", &
+         test_coverage), &
+         new_unittest("a new choice of a key is drawn, and a new number must be given a range", test_new_keys), &
+         new_unittest("random cases with every option end with a result that is right, or with words", test_wide) &
+         ]
+   end subroutine collect_random_wide
+
+   subroutine test_coverage(error)
+      type(error_type), allocatable, intent(out) :: error
+      ! Decks that are drawn; the rarest choice is in one of five hundred
+      integer, parameter :: decks = 3000
+      type(schema_t) :: schema
+      character(len=:), allocatable :: missing
+
+      call new_schema(schema)
+      call draw_missing(schema, decks, missing)
+      if (missing /= "") call test_failed(error, "never drawn:"//missing)
+   end subroutine test_coverage
+
+   subroutine test_new_keys(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(schema_t) :: schema
+      character(len=:), allocatable :: missing
+      integer :: i
+
+      call new_schema(schema)
+      do i = 1, schema%key_count
+         associate (key => schema%keys(i))
+            if (key%name == "shear_law") key%choices = [key%choices, [character(len=len(key%choices)) :: "of_tomorrow"]]
+            if (key%name == "limiting_coefficient") key%name = "coefficient_of_tomorrow"
+         end associate
+      end do
+      call draw_missing(schema, 30, missing)
+      if (index(missing, "shear_law 'of_tomorrow'") > 0) call test_failed(error, "a new choice is not drawn")
+      if (index(missing, "traction.coefficient_of_tomorrow has no usual range") == 0) call test_failed(error, &
+         & "a new number is not missed: "//missing)
+   end subroutine test_new_keys
+
+   !> Draw decks and list what none of them has.
+   subroutine draw_missing(schema, decks, missing)
+      type(schema_t), intent(in) :: schema
+      integer, intent(in) :: decks
+      character(len=:), allocatable, intent(out) :: missing
+      ! Every deck has much of what is rare
+      type(style_t), parameter :: style = style_t(ends_share=0.3_wp, ehl_share=0.3_wp, method_share=0.5_wp)
+      type(wide_deck_t) :: deck
+      character(len=:), allocatable :: word
+      logical :: is_seen(size(schema%keys), most_marks)
+      integer :: seed, group, key
+
+      missing = ""
+      is_seen = .false.
+      do seed = 1, decks
+         call draw_wide_deck(seed, schema, style, deck)
+         if (deck%unknown /= "" .and. index(missing, deck%unknown//" has no usual range") == 0) missing = missing//deck%unknown &
+            & //" has no usual range in wide_numbers or wide_lists;"
+         do group = 1, schema%group_count
+            do key = schema%groups(group)%first, schema%groups(group)%last
+               word = deck_word(deck%text, trim(schema%groups(group)%name), trim(schema%keys(key)%name))
+               call mark(schema%keys(key), trim(schema%groups(group)%name), word, is_seen(key, :))
+            end do
+         end do
+      end do
+      do group = 1, schema%group_count
+         do key = schema%groups(group)%first, schema%groups(group)%last
+            if (is_left_out(schema%groups(group)%name, schema%keys(key)%name)) cycle
+            call list_missing(schema%keys(key), trim(schema%groups(group)%name), is_seen(key, :), missing)
+         end do
+      end do
+   end subroutine draw_missing
+
+   !> Note what a deck has of a key: left out, given, near the lower and the upper end; or each choice.
+   subroutine mark(key, group, word, is_seen)
+      type(key_t), intent(in) :: key
+      character(len=*), intent(in) :: group, word
+      logical, intent(inout) :: is_seen(:)
+      type(usual_t) :: usual
+      ! [unit of the key]
+      real(wp) :: value
+      logical :: is_known
+
+      is_seen(merge(mark_absent, mark_given, word == "")) = .true.
+      if (word == "") return
+      select case (key%type)
+      case (type_name)
+         where (key%choices == word) is_seen(mark_given + 1:mark_given + size(key%choices)) = .true.
+      case (type_logical)
+         is_seen(mark_given + merge(1, 2, word == ".true.")) = .true.
+      case (type_number, type_integer)
+         read (word, *) value
+         call find_range(group//"."//trim(key%name), usual, is_known)
+         if (value < usual%lowest .or. value <= key%range%smallest) is_seen(mark_given + 1) = .true.
+         if (value > usual%highest .or. value >= key%range%largest) is_seen(mark_given + 2) = .true.
+      end select
+   end subroutine mark
+
+   !> Words for what was not seen of a key.
+   subroutine list_missing(key, group, is_seen, missing)
+      type(key_t), intent(in) :: key
+      character(len=*), intent(in) :: group
+      logical, intent(in) :: is_seen(:)
+      character(len=:), allocatable, intent(inout) :: missing
+      character(len=:), allocatable :: name
+      integer :: i
+
+      name = " "//group//"."//trim(key%name)
+      if (.not. is_seen(mark_given)) missing = missing//name//";"
+      if (.not. (is_seen(mark_absent) .or. key%is_required .or. key%type == type_name)) missing = missing//name//" left out;"
+      select case (key%type)
+      case (type_name)
+         do i = 1, size(key%choices)
+            if (.not. is_seen(mark_given + i)) missing = missing//name//" '"//trim(key%choices(i))//"';"
+         end do
+      case (type_logical)
+         if (.not. all(is_seen(mark_given + 1:mark_given + 2))) missing = missing//name//" both ways;"
+      case (type_number, type_integer)
+         if (.not. is_seen(mark_given + 1)) missing = missing//name//" at its lower end;"
+         if (.not. is_seen(mark_given + 2)) missing = missing//name//" at its upper end;"
+      end select
+   end subroutine list_missing
+
+   subroutine test_wide(error)
+      type(error_type), allocatable, intent(out) :: error
+      ! Failures after which a run ends
+      integer, parameter :: most_shown = 1000
+      type(schema_t) :: schema
+      type(wide_deck_t) :: deck
+      type(style_t) :: style
+      type(tally_t) :: tally
+      character(len=:), allocatable :: list, trouble
+      character(len=40) :: buffer
+      integer :: seed, i, cases, failures
+      ! [s]
+      real(wp) :: start, finish
+
+      call new_schema(schema)
+      cases = number_from("WIDE_CASES", merge(few_cases, usual_cases, has_checks()))
+      list = ""
+      failures = 0
+      do i = 1, cases
+         seed = number_from("WIDE_SEED", usual_seed) + i - 1
+         style%ends_share = merge(ends_share, 0.0_wp, modulo(seed, ends_stride) == 0)
+         call draw_wide_deck(seed, schema, style, deck)
+         write (buffer, "(a, i0)") "WIDE_SEED=", seed
+         if (number_from("WIDE_TRACE", 0) > 0) write (error_unit, "(a)") trim(buffer)
+         call cpu_time(start)
+         call check_deck(deck, style%ends_share > 0.0_wp, tally, trouble)
+         call cpu_time(finish)
+         if (finish - start > 20.0_wp .and. cases > usual_cases) write (error_unit, "(a, f7.1, a)") trim(buffer), finish - start, &
+            & " s"
+         if (trouble /= "" .or. cases == 1) call save_wide_deck(deck, trim(buffer(11:)), trouble)
+         if (trouble == "") cycle
+         failures = failures + 1
+         list = list//new_line("a")//trim(buffer)//":"//trouble
+         if (cases > usual_cases) write (error_unit, "(2a)") trim(buffer)//":", trouble
+         if (failures >= most_shown) exit
+      end do
+      write (error_unit, "(a)") endings_table(tally)
+      if (cases >= few_cases .and. ending_count(tally, "result") < least_share*cases) list = list &
+         & //new_line("a")//"too few decks have a result"
+      if (list /= "") call test_failed(error, list)
+   end subroutine test_wide
+
+   !> One deck: read, built, run by its own and by an unlike method.
+   subroutine check_deck(deck, with_ends, tally, trouble)
+      type(wide_deck_t), intent(in) :: deck
+      logical, intent(in) :: with_ends
+      type(tally_t), intent(inout) :: tally
+      character(len=:), allocatable, intent(out) :: trouble
+      type(deck_t) :: parsed
+      type(override_t) :: none(0)
+      type(case_t) :: case
+      type(model_t), allocatable :: models(:)
+      type(error_t), allocatable :: error
+      type(result_t) :: result
+
+      trouble = ""
+      call parse_deck(parsed, deck%text, "random deck", "", none, error, deck%tables)
+      if (.not. allocated(error)) call make_case(parsed, none, case, error)
+      if (allocated(error)) then
+         call count_ending(tally, "deck refused")
+         if (.not. with_ends) trouble = " a deck within all ranges is refused: "//error%message
+         return
+      end if
+      call build_models(case, models, error)
+      if (allocated(error)) then
+         call count_error(tally, error, "no model:", trouble)
+         return
+      end if
+      call run_case(case, result, error)
+      if (allocated(error)) then
+         call count_error(tally, error, "no result:", trouble)
+         return
+      end if
+      call count_remarks(tally, result%warnings, trouble)
+      trouble = trouble//check_result(case, result)
+      if (trouble == "") call compare_methods(case, result, tally, trouble)
+      if (trouble /= "") call count_ending(tally, "SILENT: a result that is not right")
+   end subroutine check_deck
+
+   !> The same case by another method.
+   subroutine compare_methods(case, one, tally, trouble)
+      type(case_t), intent(in) :: case
+      type(result_t), intent(in) :: one
+      type(tally_t), intent(inout) :: tally
+      character(len=:), allocatable, intent(inout) :: trouble
+      type(case_t) :: changed
+      type(result_t) :: other
+      type(error_t), allocatable :: error
+
+      ! Euler's steps and the quasi-static limit promise nothing
+      if (.not. (is_checked(case%numerics) .or. has_tolerance(case%numerics))) return
+      changed = case
+      changed%numerics%method = "rodas5p"
+      if (case%numerics%method == "rodas5p") changed%numerics%method = "radau5"
+      call run_case(changed, other, error)
+      if (allocated(error)) then
+         call count_error(tally, error, "  no second result:", trouble)
+         return
+      end if
+      trouble = trouble//check_result(changed, other)
+      if (trouble /= "") return
+      call compare_results(one, other, promised_error(case, one) + promised_error(changed, other), trouble)
+   end subroutine compare_methods
+
+end module test_random_wide

@@ -1,0 +1,440 @@
+!> Decks drawn at random over everything that the schema of decks holds: every group, key and named choice, tables, ends of ranges.
+!>
+!> The generator walks through the schema itself, so a new choice of a key is drawn as soon as it is there; a new key with a number
+!> has its usual range in `wide_numbers`. Rules that tie keys together are kept, so that a deck is hardly ever refused for a
+!> contradiction; its geometry may be impossible.
+module wide_decks
+   use, intrinsic :: iso_fortran_env, only : int64
+   use camroller_kinds, only : wp
+   use camroller_deck_schema, only : schema_t, key_t, group_effect, group_required, type_integer, type_integers, type_logical, &
+      & type_name, type_number, type_numbers, type_text
+   use camroller_deck_tables, only : deck_tables_t
+   use camroller_table_file, only : table_t
+   use random_decks, only : random_t, draw, start_random
+   use wide_lists, only : draft_t, list_of_integers, list_of_numbers
+   use wide_numbers, only : end_of_range, find_range, usual_t
+   use wide_tables, only : draw_lift_table, draw_pressure_table
+   use wide_words, only : deck_word, number_words
+   implicit none
+   private
+
+   public :: wide_deck_t, style_t, draw_wide_deck, save_wide_deck, is_left_out
+
+   !> A deck with the tables that it names
+   type :: wide_deck_t
+      !> Its text
+      character(len=:), allocatable :: text
+      !> Its tables
+      type(deck_tables_t) :: tables
+      !> Keys whose range is not known to the generator; blank where there are none
+      character(len=:), allocatable :: unknown
+   end type wide_deck_t
+
+   !> How much of what is hard or slow there is in decks
+   type :: style_t
+      !> Part of the numbers at an end of their range [-]
+      real(wp) :: ends_share = 0.0_wp
+      !> Part of the decks with a numerical film, which takes a hundred times as long as a formula [-]
+      real(wp) :: ehl_share = 0.001_wp
+      !> Part of the decks with a method of their own; some take a hundred times as long as the one that the program chooses [-]
+      real(wp) :: method_share = 0.1_wp
+   end type style_t
+
+   !> Part of the decks that have a group which may be left out, and that give a key which may be left out [-]
+   real(wp), parameter :: group_share = 0.75_wp, key_share = 0.5_wp
+   !> Groups that are rarer than that, and their part of the decks [-]
+   character(len=*), parameter :: rare_groups(*) = [character(len=12) :: "gas_force", "effects"]
+   real(wp), parameter :: rare_shares(*) = [0.4_wp, 0.3_wp]
+   !> Part of the decks with a choice that changes much, or that ends most cases [-]
+   real(wp), parameter :: source_share = 0.3_wp, stop_share = 0.05_wp, needed_share = 0.2_wp
+   !> Width of a bearing that the law of finite width takes for every diameter drawn [mm]
+   real(wp), parameter :: widest_finite = 17.0_wp
+   character(len=*), parameter :: nl = new_line("a")
+
+contains
+
+   !> Draw a deck.
+   subroutine draw_wide_deck(seed, schema, style, deck)
+      !> Any number
+      integer, intent(in) :: seed
+      !> Groups and keys
+      type(schema_t), intent(in) :: schema
+      !> How hard and slow it may be
+      type(style_t), intent(in) :: style
+      !> The deck
+      type(wide_deck_t), intent(out) :: deck
+      type(draft_t) :: draft
+      type(random_t) :: random
+      ! [-]
+      real(wp) :: number
+      integer :: group, key
+
+      deck%text = ""
+      deck%unknown = ""
+      call start_stream(random, seed, "cams")
+      call draft_cams(random, draft)
+      do group = 1, schema%group_count
+         call start_stream(random, seed, "&"//trim(schema%groups(group)%name))
+         if (.not. has_group(random, draft, style, schema, group)) cycle
+         deck%text = deck%text//"&"//trim(schema%groups(group)%name)//nl
+         call draw(random, number)
+         draft%is_first = number < 0.5_wp
+         do key = schema%groups(group)%first, schema%groups(group)%last
+            if (is_left_out(schema%groups(group)%name, schema%keys(key)%name)) cycle
+            call start_stream(random, seed, trim(schema%groups(group)%name)//"."//trim(schema%keys(key)%name))
+            call draw_key(random, draft, trim(schema%groups(group)%name), schema%keys(key), style, deck)
+         end do
+         deck%text = deck%text//"/"//nl
+      end do
+      call start_stream(random, seed, "tables")
+      if (deck_word(deck%text, "lift", "law") == "table") call draw_lift_table(random, "lift", deck%text, deck%tables%lift)
+      if (deck_word(deck%text, "second_lift", "law") == "table") call draw_lift_table(random, "second_lift", deck%text, &
+         & deck%tables%second_lift)
+      if (deck_word(deck%text, "gas_force", "table") /= "") call draw_pressure_table(random, deck%text, deck%tables%pressure)
+   end subroutine draw_wide_deck
+
+   !> Start the draws of one key, group or table: a new key of the schema leaves what a seed gives for all others as it is.
+   subroutine start_stream(random, seed, name)
+      !> The generator
+      type(random_t), intent(out) :: random
+      !> Seed of the deck
+      integer, intent(in) :: seed
+      !> What is drawn
+      character(len=*), intent(in) :: name
+      ! Knuth's multiplier and a prime below 2**31
+      integer(int64), parameter :: factor = 2654435761_int64, modulus = 2147483647_int64
+      ! [-]
+      real(wp) :: number
+      integer(int64) :: mixed
+      integer :: i
+
+      mixed = modulo(int(seed, int64)*factor, modulus)
+      do i = 1, len(name)
+         mixed = modulo(131_int64*mixed + ichar(name(i:i)), modulus)
+      end do
+      call start_random(random, int(mixed))
+      ! The first numbers of seeds that are alike are alike
+      do i = 1, 4
+         call draw(random, number)
+      end do
+   end subroutine start_stream
+
+   !> Keys that say what is done with a result, not what it is.
+   pure function is_left_out(group, key)
+      !> Names of group and key
+      character(len=*), intent(in) :: group, key
+      logical :: is_left_out
+
+      select case (trim(group)//"."//trim(key))
+      case ("case.title", "ehl.profiles", "output.series", "output.compression")
+         is_left_out = .true.
+      case default
+         is_left_out = group == "sweep"
+      end select
+   end function is_left_out
+
+   !> Bearings and cams, which several groups need to know.
+   subroutine draft_cams(random, draft)
+      !> The generator
+      type(random_t), intent(inout) :: random
+      !> What is decided
+      type(draft_t), intent(out) :: draft
+      ! [-]
+      real(wp) :: number
+      integer :: i
+
+      call draw(random, number)
+      draft%has_cams = number < 0.5_wp
+      call draw(random, number)
+      draft%cams = 1 + int(4.0_wp*number**2)
+      draft%bearings = 2 + int(3.0_wp*number)
+      allocate (draft%lobes(draft%cams))
+      do i = 1, draft%cams
+         call draw(random, number)
+         draft%lobes(i) = merge(2, 1, number < 0.3_wp)
+      end do
+      call draw(random, number)
+      draft%has_lobes = draft%has_cams .and. number < 0.7_wp
+      draft%has_second = draft%has_lobes .and. any(draft%lobes == 2)
+   end subroutine draft_cams
+
+   !> Is a group in the deck?
+   function has_group(random, draft, style, schema, group)
+      !> The generator
+      type(random_t), intent(inout) :: random
+      !> What is decided
+      type(draft_t), intent(in) :: draft
+      !> How hard and slow the deck may be
+      type(style_t), intent(in) :: style
+      !> Groups and keys
+      type(schema_t), intent(in) :: schema
+      !> Position of the group
+      integer, intent(in) :: group
+      logical :: has_group
+      ! [-]
+      real(wp) :: number, share
+      integer :: i
+
+      share = group_share
+      do i = 1, size(rare_groups)
+         if (schema%groups(group)%name == rare_groups(i)) share = rare_shares(i)
+      end do
+      if (schema%groups(group)%name == "ehl") share = style%ehl_share
+      call draw(random, number)
+      has_group = number < share
+      if (schema%groups(group)%kind == group_required) has_group = .true.
+      if (schema%groups(group)%name == "cam_bearings") has_group = draft%has_cams
+      if (schema%groups(group)%name == "second_lift") has_group = draft%has_second
+      if (schema%groups(group)%name == "sweep") has_group = .false.
+   end function has_group
+
+   !> Draw one key, or leave it out.
+   subroutine draw_key(random, draft, group, key, style, deck)
+      !> The generator
+      type(random_t), intent(inout) :: random
+      !> What is decided
+      type(draft_t), intent(in) :: draft
+      !> Name of the group
+      character(len=*), intent(in) :: group
+      !> The key
+      type(key_t), intent(in) :: key
+      !> How hard and slow the deck may be
+      type(style_t), intent(in) :: style
+      !> The deck so far
+      type(wide_deck_t), intent(inout) :: deck
+      character(len=:), allocatable :: words
+      type(usual_t) :: usual
+      logical :: is_given, is_known
+      ! [-]
+      real(wp) :: number
+
+      call draw(random, number)
+      is_given = key%is_required .or. key%type == type_name .or. number < key_share
+      call keep_rules(draft, deck%text, group, trim(key%name), is_given)
+      if (.not. is_given) return
+      words = ""
+      select case (key%type)
+      case (type_name)
+         call draw_choice(random, style, deck%text, group, key, words)
+      case (type_number, type_integer)
+         call find_range(group//"."//trim(key%name), usual, is_known)
+         if (.not. is_known) deck%unknown = deck%unknown//" "//group//"."//trim(key%name)
+         if (key%name == "width_mm" .and. deck_word(deck%text, group, "law") == "finite") usual%highest = widest_finite
+         call draw(random, number)
+         if (number < style%ends_share) then
+            call end_of_range(random, key%range, usual, words)
+         else
+            call draw_number(random, usual, words)
+         end if
+         if (key%type == type_integer) call make_whole(words)
+      case (type_logical)
+         call draw(random, number)
+         words = trim(merge(".true. ", ".false.", number < 0.5_wp .or. (key%name == "in_roller_balance" .and. &
+            & .not. has_source(deck%text))))
+      case (type_text)
+         words = "'"//group//".txt'"
+      case (type_numbers)
+         call list_of_numbers(random, draft, deck%text, group//"."//trim(key%name), style%ends_share > 0.0_wp, words)
+      case (type_integers)
+         call list_of_integers(random, draft, deck%text, group//"."//trim(key%name), style%ends_share > 0.0_wp, words)
+      end select
+      if (words == "") deck%unknown = deck%unknown//" "//group//"."//trim(key%name)
+      deck%text = deck%text//"   "//trim(key%name)//" = "//words//nl
+   end subroutine draw_key
+
+   !> Is the bookkeeping that of the source, which may be open?
+   pure function has_source(text)
+      !> The deck so far
+      character(len=*), intent(in) :: text
+      logical :: has_source
+
+      has_source = deck_word(text, "case", "energy") == "source"
+   end function has_source
+
+   !> Which keys go together.
+   pure subroutine keep_rules(draft, text, group, key, is_given)
+      !> What is decided
+      type(draft_t), intent(in) :: draft
+      !> The deck so far
+      character(len=*), intent(in) :: text
+      !> Names of group and key
+      character(len=*), intent(in) :: group, key
+      !> In: is the key wanted; out: is it given
+      logical, intent(inout) :: is_given
+      character(len=:), allocatable :: law
+
+      law = deck_word(text, group, "law")
+      select case (key)
+      case ("max_lift_mm", "opening_half_angle_deg")
+         is_given = law /= "table"
+      case ("closing_half_angle_deg")
+         is_given = is_given .and. all(law /= [character(len=8) :: "table", "power", "polydyne"])
+      case ("exponents")
+         is_given = law == "power" .or. law == "polydyne"
+      case ("table")
+         is_given = law == "table" .or. group == "gas_force"
+      case ("table_unit", "smoothing_um")
+         is_given = is_given .and. law == "table"
+      case ("table_nose_angle_deg")
+         is_given = is_given .and. (law == "table" .or. group == "gas_force")
+      case ("finger_kg")
+         is_given = draft%is_first
+      case ("finger_inertia_kg_m2")
+         is_given = .not. draft%is_first
+      case ("hardness_GPa")
+         ! Where it is not there, laws that need it are not drawn
+         is_given = is_given .or. draft%has_lobes
+      case ("eyring_stress_MPa")
+         is_given = is_given .or. deck_word(text, group, "shear_law") == "eyring"
+      case ("needle_radius_mm")
+         is_given = is_given .or. deck_word(text, group, "kind") == "needles"
+      case ("grinding_wheel_radius_mm")
+         is_given = is_given .and. draft%is_first
+      case ("viscosity_Pa_s")
+         is_given = deck_word(text, group, "temperature_law") == "direct"
+      case ("temperature_points_degC", "viscosity_points_Pa_s")
+         is_given = deck_word(text, group, "temperature_law") /= "direct"
+      case ("pressure_viscosity_coefficient_per_GPa")
+         is_given = draft%is_first .or. (is_given .and. deck_word(text, group, "pressure_law") /= "roelands")
+      case ("roelands_index")
+         is_given = .not. draft%is_first .or. (is_given .and. deck_word(text, group, "pressure_law") /= "roelands")
+      case ("cam_lobes")
+         is_given = draft%has_lobes
+      case ("accuracy")
+         if (group == "numerics") is_given = is_given .and. draft%is_first
+      case ("tolerance")
+         is_given = is_given .and. .not. draft%is_first
+      end select
+   end subroutine keep_rules
+
+   !> Draw one of several names.
+   subroutine draw_choice(random, style, text, group, key, words)
+      !> The generator
+      type(random_t), intent(inout) :: random
+      !> How hard and slow the deck may be
+      type(style_t), intent(in) :: style
+      !> The deck so far
+      character(len=*), intent(in) :: text
+      !> Name of the group
+      character(len=*), intent(in) :: group
+      !> The key
+      type(key_t), intent(in) :: key
+      !> The name, in quotes
+      character(len=:), allocatable, intent(out) :: words
+      ! [-]
+      real(wp) :: number, share
+
+      share = 1.0_wp
+      select case (group//"."//trim(key%name))
+      case ("case.energy")
+         share = source_share
+      case ("film.range_policy")
+         share = stop_share
+      case ("numerics.method")
+         share = style%method_share
+      case ("effects.select")
+         share = needed_share
+      end select
+      call draw(random, number)
+      words = key%default
+      if (number >= share .and. share < 1.0_wp) return
+      call draw(random, number)
+      associate (first => merge(1, 2, share >= 1.0_wp))
+         words = "'"//trim(key%choices(min(size(key%choices), first + int(number*(size(key%choices) - first + 1)))))//"'"
+      end associate
+      if (.not. is_allowed(text, key, words)) words = key%default
+   end subroutine draw_choice
+
+   !> Does a choice go with those made before?
+   pure function is_allowed(text, key, words)
+      !> The deck so far
+      character(len=*), intent(in) :: text
+      !> The key
+      type(key_t), intent(in) :: key
+      !> The name, in quotes
+      character(len=*), intent(in) :: words
+      logical :: is_allowed
+
+      is_allowed = .true.
+      select case (trim(key%name))
+      case ("law")
+         is_allowed = index(text, "hardness_GPa") > 0 .or. all(words /= [character(len=26) :: "'masjedi_khonsari_rough'", &
+            & "'zhao_maietta_chang'"])
+      case ("load_arm", "spin", "boundary", "seating")
+         is_allowed = has_source(text) .or. words == key%default
+      case ("method")
+         if (words == "'euler'" .or. words == "'quasi_static'") is_allowed = deck_word(text, "asperity", "mobilisation") &
+            & /= "stick_slip"
+      end select
+   end function is_allowed
+
+   !> Draw a number from its usual range.
+   subroutine draw_number(random, usual, words)
+      !> The generator
+      type(random_t), intent(inout) :: random
+      !> The usual range
+      type(usual_t), intent(in) :: usual
+      !> The number
+      character(len=:), allocatable, intent(out) :: words
+      ! [-], [unit of the key]
+      real(wp) :: number, value
+
+      call draw(random, number)
+      value = usual%lowest + number*(usual%highest - usual%lowest)
+      if (usual%is_wide) value = usual%lowest*(usual%highest/usual%lowest)**number
+      ! A turn is a whole number of output steps
+      if (usual%divides_turn) value = 360.0_wp/nint(360.0_wp/value)
+      words = number_words(value)
+   end subroutine draw_number
+
+   !> A whole number in the place of any.
+   subroutine make_whole(words)
+      !> The number
+      character(len=:), allocatable, intent(inout) :: words
+      ! [unit of the key]
+      real(wp) :: value
+      character(len=12) :: buffer
+
+      read (words, *) value
+      write (buffer, "(i0)") nint(min(value, 1.0e9_wp))
+      words = trim(buffer)
+   end subroutine make_whole
+
+   !> Write a deck and its tables to a folder of its own in that of the environment variable WIDE_FOLDER, if there is one.
+   subroutine save_wide_deck(deck, name, remark)
+      !> The deck
+      type(wide_deck_t), intent(in) :: deck
+      !> Name of its folder
+      character(len=*), intent(in) :: name
+      !> What is wrong with it: a comment
+      character(len=*), intent(in) :: remark
+      character(len=200) :: folder
+      integer :: unit, status
+
+      call get_environment_variable("WIDE_FOLDER", folder, status=status)
+      if (status /= 0) return
+      folder = trim(folder)//"/"//name
+      call execute_command_line("mkdir -p "//trim(folder))
+      open (newunit=unit, file=trim(folder)//"/deck.nml", action="write", status="replace")
+      write (unit, "(a)") "! "//remark, deck%text
+      close (unit)
+      call save_table(trim(folder), deck%tables%lift)
+      call save_table(trim(folder), deck%tables%second_lift)
+      call save_table(trim(folder), deck%tables%pressure)
+   end subroutine save_wide_deck
+
+   !> Write a table under the name that the deck has for it.
+   subroutine save_table(folder, table)
+      !> Folder of the deck
+      character(len=*), intent(in) :: folder
+      !> The table
+      type(table_t), intent(in) :: table
+      integer :: unit, i
+
+      if (.not. allocated(table%path)) return
+      open (newunit=unit, file=folder//"/"//table%path, action="write", status="replace")
+      write (unit, "(2es26.16e3)") (table%x(i), table%y(i), i=1, size(table%x))
+      close (unit)
+   end subroutine save_table
+
+end module wide_decks

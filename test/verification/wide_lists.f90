@@ -1,0 +1,165 @@
+!> Lists of numbers of a random deck: points of an oil, exponents of a lift, bearings and cams along a shaft.
+module wide_lists
+   use camroller_kinds, only : wp
+   use random_decks, only : random_t, draw
+   use wide_words, only : deck_word, number_words
+   implicit none
+   private
+
+   public :: draft_t, list_of_numbers, list_of_integers
+
+   !> What is decided before a deck is written
+   type :: draft_t
+      !> Has the camshaft bearings, lobe shapes for its cams, a second one among them?
+      logical :: has_cams = .false., has_lobes = .false., has_second = .false.
+      !> Bearings and cams
+      integer :: bearings = 2, cams = 1
+      !> Lobe shape of each cam
+      integer, allocatable :: lobes(:)
+      !> Is the first of two keys given that take each other's place?
+      logical :: is_first = .true.
+   end type draft_t
+
+   !> Length of a shaft with two bearings [mm]
+   real(wp), parameter :: spacing_of_bearings = 50.0_wp
+
+contains
+
+   !> A list of numbers; blank where the key is not known.
+   subroutine list_of_numbers(random, draft, text, name, with_ends, words)
+      !> The generator
+      type(random_t), intent(inout) :: random
+      !> What is decided
+      type(draft_t), intent(in) :: draft
+      !> The deck so far
+      character(len=*), intent(in) :: text
+      !> Group and key
+      character(len=*), intent(in) :: name
+      !> May a number be at an end of its range?
+      logical, intent(in) :: with_ends
+      !> The list
+      character(len=:), allocatable, intent(out) :: words
+      ! [unit of the key]
+      real(wp), allocatable :: values(:)
+      ! [-]
+      real(wp) :: number
+      integer :: i, points
+
+      points = merge(2, 3, index(text, "temperature_law = 'walther'") > 0)
+      words = ""
+      select case (name)
+      case ("lubricant.temperature_points_degC")
+         values = running_sum(points, -20.0_wp, 40.0_wp)
+      case ("lubricant.viscosity_points_Pa_s")
+         values = oil_points(points)
+      case ("cam_bearings.bearing_positions_mm")
+         values = running_sum(draft%bearings, -spacing_of_bearings, spacing_of_bearings)
+      case ("cam_bearings.cam_positions_mm")
+         values = places_between()
+      case ("cam_bearings.cam_phases_deg", "cam_bearings.follower_angles_deg")
+         allocate (values(draft%cams))
+         do i = 1, draft%cams
+            call draw(random, number)
+            values(i) = 360.0_wp*(2.0_wp*number - 1.0_wp)
+            if (with_ends) values(i) = sign(360.0_wp, values(i))
+            ! The first cam is what the others are counted from
+            if (i == 1 .and. .not. with_ends) values(i) = 0.0_wp
+         end do
+      case default
+         return
+      end select
+      do i = 1, size(values)
+         words = words//number_words(values(i))
+         if (i < size(values)) words = words//", "
+      end do
+
+   contains
+
+      !> Numbers that grow by half a step to one and a half.
+      function running_sum(count, start, step) result(sums)
+         !> So many
+         integer, intent(in) :: count
+         !> Before the first; step [unit of the key]
+         real(wp), intent(in) :: start, step
+         real(wp) :: sums(count)
+         integer :: k
+
+         do k = 1, count
+            call draw(random, number)
+            sums(k) = start + step*(0.5_wp + number)
+            if (k > 1) sums(k) = sums(k) + sums(k - 1) - start
+         end do
+      end function running_sum
+
+      !> Viscosities at the temperatures of the deck by Vogel's law, with a constant and a pole like those of mineral oils.
+      function oil_points(count) result(viscosities)
+         !> So many
+         integer, intent(in) :: count
+         ! [Pa s]; [degC]
+         real(wp) :: viscosities(count), temperatures(count)
+         character(len=:), allocatable :: line
+
+         line = deck_word(text, "lubricant", "temperature_points_degC")
+         read (line, *) temperatures
+         call draw(random, number)
+         viscosities = 5.0e-5_wp*exp((700.0_wp + 600.0_wp*number)/(temperatures + 95.0_wp))
+      end function oil_points
+
+      !> Places of the cams between the bearings; at a bearing now and then.
+      function places_between() result(places)
+         ! [mm]
+         real(wp) :: places(draft%cams), bearings(draft%bearings)
+         character(len=:), allocatable :: line
+         integer :: k
+
+         line = deck_word(text, "cam_bearings", "bearing_positions_mm")
+         read (line, *) bearings
+         do k = 1, draft%cams
+            call draw(random, number)
+            places(k) = bearings(1) + number*(bearings(draft%bearings) - bearings(1))
+            if (with_ends .and. number < 0.2_wp) places(k) = bearings(1)
+         end do
+      end function places_between
+
+   end subroutine list_of_numbers
+
+   !> A list of whole numbers; blank where the key is not known.
+   subroutine list_of_integers(random, draft, text, name, with_ends, words)
+      !> The generator
+      type(random_t), intent(inout) :: random
+      !> What is decided
+      type(draft_t), intent(in) :: draft
+      !> The deck so far
+      character(len=*), intent(in) :: text
+      !> Group and key
+      character(len=*), intent(in) :: name
+      !> May a number be at an end of its range?
+      logical, intent(in) :: with_ends
+      !> The list
+      character(len=:), allocatable, intent(out) :: words
+      ! [-]
+      real(wp) :: number
+      character(len=60) :: buffer
+      integer :: first
+
+      words = ""
+      call draw(random, number)
+      select case (name)
+      case ("lift.exponents", "second_lift.exponents")
+         first = 3 + int(5.0_wp*number)
+         if (with_ends .and. number < 0.1_wp) first = 200
+         ! The law stands in the same group, which is the last so far
+         if (index(text, "law = 'polydyne'", back=.true.) > index(text, "law = 'power'", back=.true.)) then
+            write (buffer, "(3(i0, ', '), i0)") first + 1, first + 3, first + 6, first + 8 + modulo(int(50.0_wp*number), 10)
+         else
+            write (buffer, "(i0)") first
+         end if
+      case ("cam_bearings.cam_lobes")
+         write (buffer, "(*(i0, :, ', '))") draft%lobes
+      case default
+         buffer = ""
+      end select
+      words = trim(buffer)
+   end subroutine list_of_integers
+
+end module wide_lists

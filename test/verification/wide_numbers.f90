@@ -1,0 +1,178 @@
+!> Usual ranges of the numbers of a deck, and the ends of what the schema allows.
+module wide_numbers
+   use camroller_kinds, only : wp
+   use camroller_deck_schema, only : range_t
+   use random_decks, only : random_t, draw
+   use wide_words, only : number_words
+   implicit none
+   private
+
+   public :: usual_t, find_range, end_of_range, lower_end, upper_end
+
+   !> What a number usually is
+   type :: usual_t
+      !> Group and key
+      character(len=60) :: name = ""
+      !> Range [unit of the key]
+      real(wp) :: lowest = 1.0_wp, highest = 2.0_wp
+      !> Is each ratio as likely as another, or each difference?
+      logical :: is_wide = .false.
+      !> Must it be a whole part of a turn?
+      logical :: divides_turn = .false.
+   end type usual_t
+
+   !> All numbers; wide enough for roller followers from model engines to ships, from cranking to flight
+   type(usual_t), parameter :: usual(*) = [ &
+      & usual_t("operating_point.speed_rpm", 1.0_wp, 5000.0_wp, .true.), &
+      & usual_t("operating_point.oil_temperature_degC", -20.0_wp, 140.0_wp), &
+      & usual_t("mechanism.pivot_to_roller_mm", 18.0_wp, 26.0_wp), &
+      & usual_t("mechanism.pivot_to_pad_mm", 30.0_wp, 45.0_wp), &
+      & usual_t("mechanism.pivot_to_cam_mm", 28.0_wp, 38.0_wp), &
+      & usual_t("mechanism.roller_arm_angle_deg", -8.0_wp, 8.0_wp), &
+      & usual_t("mechanism.valve_axis_angle_deg", 25.0_wp, 45.0_wp), &
+      & usual_t("mechanism.base_radius_mm", 14.0_wp, 20.0_wp), &
+      & usual_t("mechanism.contact_width_mm", 3.0_wp, 30.0_wp, .true.), &
+      & usual_t("mechanism.grinding_wheel_radius_mm", 20.0_wp, 200.0_wp, .true.), &
+      & usual_t("roller.radius_mm", 6.0_wp, 11.0_wp), &
+      & usual_t("roller.mass_kg", 1.0e-3_wp, 0.05_wp, .true.), &
+      & usual_t("roller.wall_thickness_mm", 1.0_wp, 3.0_wp), &
+      & usual_t("lift.max_lift_mm", 1.0_wp, 10.0_wp), &
+      & usual_t("lift.opening_half_angle_deg", 45.0_wp, 110.0_wp), &
+      & usual_t("lift.closing_half_angle_deg", 45.0_wp, 110.0_wp), &
+      & usual_t("lift.table_nose_angle_deg", -180.0_wp, 360.0_wp), &
+      & usual_t("lift.smoothing_um", 0.01_wp, 3.0_wp, .true.), &
+      & usual_t("masses.valve_kg", 0.01_wp, 0.15_wp, .true.), &
+      & usual_t("masses.finger_kg", 0.01_wp, 0.15_wp, .true.), &
+      & usual_t("masses.finger_inertia_kg_m2", 5.0e-6_wp, 3.0e-4_wp, .true.), &
+      & usual_t("spring.stiffness_N_m", 1.0e4_wp, 1.0e5_wp, .true.), &
+      & usual_t("spring.precompression_mm", 5.0_wp, 15.0_wp), &
+      & usual_t("spring.base_circle_load_N", 0.1_wp, 60.0_wp, .true.), &
+      & usual_t("spring.seat_stiffness_N_m", 1.0e6_wp, 1.0e9_wp, .true.), &
+      & usual_t("gas_force.table_nose_angle_deg", -180.0_wp, 360.0_wp), &
+      & usual_t("gas_force.valve_diameter_mm", 15.0_wp, 45.0_wp), &
+      & usual_t("materials.cam_modulus_GPa", 70.0_wp, 400.0_wp), &
+      & usual_t("materials.roller_modulus_GPa", 70.0_wp, 400.0_wp), &
+      & usual_t("materials.cam_poisson_ratio", 0.2_wp, 0.35_wp), &
+      & usual_t("materials.roller_poisson_ratio", 0.2_wp, 0.35_wp), &
+      & usual_t("materials.hardness_GPa", 0.5_wp, 10.0_wp, .true.), &
+      & usual_t("surface.cam_roughness_um", 1.0e-3_wp, 2.0_wp, .true.), &
+      & usual_t("surface.roller_roughness_um", 1.0e-3_wp, 2.0_wp, .true.), &
+      & usual_t("lubricant.viscosity_Pa_s", 1.0e-3_wp, 10.0_wp, .true.), &
+      & usual_t("lubricant.density_kg_m3", 800.0_wp, 950.0_wp), &
+      & usual_t("lubricant.thermal_expansion_per_K", 1.0e-5_wp, 1.0e-3_wp), &
+      & usual_t("lubricant.pressure_viscosity_coefficient_per_GPa", 8.0_wp, 30.0_wp), &
+      & usual_t("lubricant.roelands_index", 0.3_wp, 0.9_wp), &
+      & usual_t("ehl.accuracy", 0.03_wp, 0.2_wp, .true.), &
+      & usual_t("traction.eyring_stress_MPa", 1.0_wp, 20.0_wp, .true.), &
+      & usual_t("traction.limiting_coefficient", 0.02_wp, 0.12_wp), &
+      & usual_t("asperity.roughness_product", 0.025_wp, 0.1_wp), &
+      & usual_t("asperity.roughness_over_tip_radius", 1.0e-4_wp, 0.05_wp, .true.), &
+      & usual_t("asperity.boundary_coefficient", 0.0_wp, 0.3_wp), &
+      & usual_t("asperity.film_shear_strength_MPa", 0.0_wp, 20.0_wp), &
+      & usual_t("asperity.mobilising_speed_m_s", 1.0e-6_wp, 1.0e-2_wp, .true.), &
+      & usual_t("needle_bearing.friction_coefficient", 1.0e-4_wp, 0.1_wp, .true.), &
+      & usual_t("needle_bearing.needle_radius_mm", 0.5_wp, 2.0_wp), &
+      & usual_t("needle_bearing.reversal_ratio", 1.0e-4_wp, 0.5_wp, .true.), &
+      & usual_t("cam_bearings.diameter_mm", 18.0_wp, 35.0_wp), &
+      & usual_t("cam_bearings.width_mm", 8.0_wp, 30.0_wp), &
+      & usual_t("cam_bearings.radial_clearance_um", 10.0_wp, 100.0_wp, .true.), &
+      & usual_t("valve_guide.length_mm", 20.0_wp, 50.0_wp), &
+      & usual_t("valve_guide.stem_diameter_mm", 4.0_wp, 8.0_wp), &
+      & usual_t("valve_guide.radial_clearance_um", 10.0_wp, 50.0_wp, .true.), &
+      & usual_t("effects.negligible", 1.0e-5_wp, 0.1_wp, .true.), &
+      & usual_t("numerics.accuracy", 1.0e-6_wp, 1.0e-2_wp, .true.), &
+      & usual_t("numerics.tolerance", 1.0e-8_wp, 1.0e-3_wp, .true.), &
+      & usual_t("numerics.step_deg", 0.01_wp, 2.0_wp, .true.), &
+      & usual_t("numerics.periodicity", 1.0e-8_wp, 1.0e-3_wp, .true.), &
+      & usual_t("numerics.max_cycles", 2.0_wp, 60.0_wp), &
+      & usual_t("output.angle_step_deg", 0.2_wp, 5.0_wp, .true., .true.)]
+
+contains
+
+   !> Usual range of a number; the second lift is like the first.
+   pure subroutine find_range(name, range, is_known)
+      !> Group and key
+      character(len=*), intent(in) :: name
+      !> The range
+      type(usual_t), intent(out) :: range
+      !> Is there one?
+      logical, intent(out) :: is_known
+      integer :: i
+
+      do i = 1, size(usual)
+         is_known = usual(i)%name == name .or. "second_"//usual(i)%name == name
+         if (is_known) range = usual(i)
+         if (is_known) return
+      end do
+   end subroutine find_range
+
+   !> A number at an end of what the schema allows, or far beyond the usual where there is no end.
+   subroutine end_of_range(random, range, usual_range, words)
+      !> The generator
+      type(random_t), intent(inout) :: random
+      !> What the schema allows
+      type(range_t), intent(in) :: range
+      !> The usual range
+      type(usual_t), intent(in) :: usual_range
+      !> The number
+      character(len=:), allocatable, intent(out) :: words
+      ! Part of the open ends that are approached as closely as a number can [-]
+      real(wp), parameter :: extreme_share = 0.2_wp
+      ! [-]
+      real(wp) :: side, far
+
+      call draw(random, side)
+      call draw(random, far)
+      if (side < 0.5_wp) then
+         words = number_words(lower_end(range, usual_range, far < extreme_share))
+      else
+         words = number_words(upper_end(range, usual_range, far < extreme_share))
+      end if
+   end subroutine end_of_range
+
+   !> The lower end.
+   pure function lower_end(range, usual_range, is_extreme) result(value)
+      !> What the schema allows
+      type(range_t), intent(in) :: range
+      !> The usual range
+      type(usual_t), intent(in) :: usual_range
+      !> As close as a number can be, or a little less so?
+      logical, intent(in) :: is_extreme
+      ! [unit of the key]
+      real(wp) :: value
+      ! Parts of the distance from the end to the usual [-]
+      real(wp), parameter :: close = 1.0e-4_wp, closest = 1.0e-200_wp
+
+      if (range%smallest < -0.5_wp*huge(1.0_wp)) then
+         value = -merge(1.0e200_wp, 1.0e4_wp, is_extreme)*(abs(usual_range%highest) + 1.0_wp)
+      else if (range%with_smallest) then
+         value = range%smallest
+      else
+         value = range%smallest + merge(closest, close, is_extreme)*(usual_range%highest - range%smallest)
+         if (.not. value > range%smallest) value = range%smallest + 4.0_wp*spacing(range%smallest)
+      end if
+   end function lower_end
+
+   !> The upper end.
+   pure function upper_end(range, usual_range, is_extreme) result(value)
+      !> What the schema allows
+      type(range_t), intent(in) :: range
+      !> The usual range
+      type(usual_t), intent(in) :: usual_range
+      !> As close as a number can be, or a little less so?
+      logical, intent(in) :: is_extreme
+      ! [unit of the key]
+      real(wp) :: value
+      ! Distance from an open end, over the end [-]
+      real(wp), parameter :: close = 1.0e-4_wp, closest = 4.0_wp*epsilon(1.0_wp)
+
+      if (range%largest > 0.5_wp*huge(1.0_wp)) then
+         value = merge(1.0e200_wp, 1.0e4_wp, is_extreme)*(abs(usual_range%highest) + 1.0_wp)
+      else if (range%with_largest) then
+         value = range%largest
+      else
+         value = range%largest - merge(closest, close, is_extreme)*abs(range%largest)
+      end if
+   end function upper_end
+
+end module wide_numbers

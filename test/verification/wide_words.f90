@@ -1,0 +1,50 @@
+!> Words of a random deck: numbers to write, values to read back.
+module wide_words
+   use camroller_kinds, only : wp
+   implicit none
+   private
+
+   public :: deck_word, number_words
+
+   character(len=*), parameter :: nl = new_line("a")
+
+contains
+
+   !> Value of a key as its deck has it, without quotes; blank where it is not there.
+   pure function deck_word(text, group, key) result(word)
+      !> The deck
+      character(len=*), intent(in) :: text
+      !> Names of group and key
+      character(len=*), intent(in) :: group, key
+      !> The value
+      character(len=:), allocatable :: word
+      integer :: first, last, found
+
+      word = ""
+      first = index(text, "&"//group//nl)
+      if (first == 0) return
+      last = index(text(first:), nl//"/"//nl)
+      last = merge(len(text), first + last - 1, last == 0)
+      found = index(text(first:last), "   "//key//" = ")
+      if (found == 0) return
+      first = first + found - 1 + len(key) + 6
+      last = first + index(text(first:), nl) - 2
+      if (text(first:first) == "'") then
+         word = text(first + 1:last - 1)
+      else
+         word = text(first:last)
+      end if
+   end function deck_word
+
+   !> A number as text, with more digits than are drawn.
+   pure function number_words(value) result(words)
+      ! [any]
+      real(wp), intent(in) :: value
+      character(len=:), allocatable :: words
+      character(len=24) :: buffer
+
+      write (buffer, "(es23.15e3)") value
+      words = trim(adjustl(buffer))
+   end function number_words
+
+end module wide_words
