@@ -9,6 +9,7 @@ module camroller_deck_values
    use camroller_units, only : to_si
    use camroller_number_text, only : integer_text, is_beyond_range
    use camroller_mistakes, only : nearest_name, shown
+   use camroller_deck_bounds, only : is_bounded, bounds_in_words
    use camroller_deck_schema, only : key_t, range_t, key_length, allowed_values, type_number, type_integer, &
       & type_logical, type_name, type_text, type_numbers, type_integers, type_words
    implicit none
@@ -154,6 +155,11 @@ contains
       if (allocated(reason)) return
       if (.not. all(is_within(list(:n), key%range))) then
          reason = "'"//trim(key%name)//"' must be "//allowed_values(key)//", not "//shown(value%text)
+         return
+      end if
+      if (.not. all(is_bounded(list(:n), key%unit))) then
+         reason = "'"//trim(key%name)//"' must be "//bounds_in_words(key%unit, is_within(0.0_wp, key%range), &
+            & key%range%smallest < 0.0_wp)//", not "//shown(value%text)
          return
       end if
       value%numbers = to_si(key%unit, list(:n))
