@@ -2,7 +2,7 @@
 !>
 !> Layer: io. In: names and a sentence. Out: a mistake with the place where the key's value, or its group, stands.
 module camroller_deck_complaint
-   use camroller_mistakes, only : mistakes_t, add_mistake
+   use camroller_mistakes, only : mistakes_t, add_mistake, override_place
    use camroller_settings, only : settings_t, find_value, group_position
    implicit none
    private
@@ -24,7 +24,7 @@ contains
 
       associate (value => settings%values(find_value(settings, group, key)))
          if (allocated(value%source)) then
-            call add_mistake(mistakes, message, 0, 1, len(value%source), "override", value%source)
+            call add_mistake(mistakes, message, 0, 1, len(value%source), override_place, value%source)
          else if (value%line > 0) then
             call add_mistake(mistakes, message, value%line, value%column, value%width)
          else

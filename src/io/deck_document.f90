@@ -2,6 +2,7 @@
 !>
 !> Layer: io. In: the schema, or a deck. Out: text, or lists of strings.
 module camroller_deck_document
+   use camroller_deck_bounds, only : write_bounds
    use camroller_deck_schema, only : schema_t, key_t, find_group, group_names, allowed_values, group_required, &
       & group_standard, group_effect, type_number, type_integer, type_logical, type_name, type_text, type_numbers, &
       & type_integers, key_length
@@ -292,6 +293,7 @@ contains
          if (wanted > 0 .and. wanted /= i) cycle
          call write_table(schema, i, text)
       end do
+      if (wanted == 0) call write_bounds(text)
    end subroutine write_page
 
    !> One group as a table.

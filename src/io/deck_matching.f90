@@ -1,14 +1,13 @@
 !> A deck held against the schema: which groups and keys are known, given, missing, and what their values are.
 !>
-!> Layer: io. In: groups, keys and texts of a deck; overrides `group.key=value`. Out: settings, with a mistake for
-!> whatever
-!> does not fit.
+!> Layer: io. In: groups, keys and texts of a deck; overrides `group.key=value`. Out: settings, with a mistake for whatever does
+!> not fit.
 module camroller_deck_matching
    use camroller_kinds, only : wp
    use camroller_names, only : list_names
-   use camroller_mistakes, only : mistakes_t, add_mistake, nearest_name
+   use camroller_mistakes, only : mistakes_t, add_mistake, is_shown_at, nearest_name, override_place, shown
    use camroller_deck_text, only : deck_text_t, assignment_t, to_lower
-   use camroller_deck_schema, only : schema_t, find_group, group_names, key_names, group_required, &
+   use camroller_deck_schema, only : schema_t, key_length, find_group, group_names, key_names, group_required, &
       & group_effect, type_name, type_text
    use camroller_deck_values, only : read_value
    use camroller_settings, only : settings_t, find_value, has_group, is_known
@@ -68,7 +67,7 @@ contains
          associate (group => deck%groups(i))
             positions(i) = find_group(schema, group%name)
             if (positions(i) == 0) then
-               call add_mistake(mistakes, "unknown group &"//group%name//advice(group%name, group_names(schema), &
+               call add_mistake(mistakes, "unknown group &"//shown(group%name)//advice(group%name, group_names(schema), &
                   & "known are "), group%line, group%column, len(group%name) + 1)
                call excuse_group(schema, nearest_name(group%name, group_names(schema)), settings)
             else
@@ -119,7 +118,10 @@ contains
       integer :: key
 
       key = find_key_without_case(schema, group, assignment%key)
-      if (key == 0) then
+      if (key == 0 .and. .not. is_shown_at(mistakes, assignment%line, assignment%column)) then
+         call add_mistake(mistakes, "", assignment%line, assignment%column, len(assignment%key))
+         return
+      else if (key == 0) then
          call add_mistake(mistakes, unknown_key(schema, group, assignment%key), assignment%line, assignment%column, &
             & len(assignment%key))
          key = find_key_without_case(schema, group, nearest_name(assignment%key, key_names(schema, group)))
@@ -157,9 +159,11 @@ contains
       !> Its position, 0 where unknown
       integer :: position
 
-      character(len=len(name)) :: lower_name
+      character(len=key_length) :: lower_name
 
-      lower_name = to_lower(name)
+      position = 0
+      if (len_trim(name) > key_length) return
+      lower_name = to_lower(trim(name))
       do position = schema%groups(group)%first, schema%groups(group)%last
          if (schema%keys(position)%lower_name == lower_name) return
       end do
@@ -198,7 +202,7 @@ contains
 
       integer :: i
 
-      words = "unknown key '"//name//"' in &"//trim(schema%groups(group)%name)
+      words = "unknown key '"//shown(name)//"' in &"//trim(schema%groups(group)%name)
       do i = 1, schema%group_count
          if (find_key_without_case(schema, i, name) == 0) cycle
          words = words//"; it belongs to &"//trim(schema%groups(i)%name)
@@ -229,7 +233,7 @@ contains
             if (schema%keys(key)%type == type_name .or. schema%keys(key)%type == type_text) then
                if (scan(text, "'""") /= 1) text = "'"//text//"'"
             else if (scan(text, "=/!&") > 0) then
-               reason = "'"//text//"' is no value of '"//trim(value%name)//"'"
+               reason = "'"//shown(text)//"' is no value of '"//trim(value%name)//"'"
             end if
             if (.not. allocated(reason)) call read_value(schema%keys(key), text, value, reason)
             value%is_wrong = allocated(reason)
@@ -240,7 +244,7 @@ contains
          end associate
       end if
       if (allocated(reason)) then
-         call add_mistake(mistakes, reason, 0, 1, len(override%text), "override", override%text)
+         call add_mistake(mistakes, reason, 0, 1, len(override%text), override_place, override%text)
       end if
    end subroutine apply_override
 
@@ -269,7 +273,7 @@ contains
       end if
       group = find_group(schema, to_lower(trim(adjustl(text(:point - 1)))))
       if (group == 0) then
-         reason = "unknown group '"//text(:point - 1)//"'"//advice(text(:point - 1), group_names(schema), "known are ")
+         reason = "unknown group '"//shown(text(:point - 1))//"'"//advice(text(:point - 1), group_names(schema), "known are ")
          return
       end if
       key = find_key_without_case(schema, group, trim(adjustl(text(point + 1:equals - 1))))

@@ -4,24 +4,23 @@
 module camroller_deck_sweep_read
    use camroller_kinds, only : wp
    use camroller_number_text, only : integer_text
-   use camroller_mistakes, only : mistakes_t
+   use camroller_mistakes, only : mistakes_t, add_mistake
    use camroller_samples, only : sobol_axes
    use camroller_deck_schema, only : schema_t, type_number, type_integer, type_numbers, type_integers, type_words
    use camroller_deck_sweep_keys, only : sweep_key_count
-   use camroller_deck_values, only : split_words, longest_text
+   use camroller_deck_values, only : next_word, longest_text
    use camroller_settings, only : settings_t, take, is_known, is_wrong, get_word, has_group
    use camroller_deck_complaint, only : complain, complain_about_group
    use camroller_deck_matching, only : override_t, apply_override, find_override
    use camroller_deck_sweep, only : sweep_t, sweep_axis_t, axis_size, is_sample, most_cases, sweep_size, sweep_value
-   use camroller_text_list, only : new_text_list, put_text_at, text_at
+   use camroller_text_list, only : new_text_list, put_text_at, text_at, first_repeated
    use camroller_sweep_table, only : column_t, read_columns
+   use camroller_text_file, only : join_path
+   use camroller_error, only : error_t
    implicit none
    private
 
    public :: read_sweep
-
-   !> Lists up to this length are searched for values that are there twice
-   integer, parameter :: longest_searched = 5000
 
 contains
 
@@ -251,27 +250,44 @@ contains
          call complain(mistakes, settings, "sweep", "key_"//digit, "'key_"//digit//"' needs either 'values_"//digit// &
             & "' or "//ends)
       else if (has_list) then
-         call read_list(get_word(settings, "sweep", "values_"//digit), axis)
+         call read_list(settings, digit, get_word(settings, "sweep", "values_"//digit), axis, mistakes)
       else
          call read_range(settings, digit, sweep, axis, mistakes)
       end if
    end subroutine read_axis_values
 
    !> A list of values.
-   subroutine read_list(text, axis)
+   subroutine read_list(settings, digit, text, axis, mistakes)
+      !> The settings
+      type(settings_t), intent(in) :: settings
+      !> Number of the key
+      character(len=1), intent(in) :: digit
       !> The list
       character(len=*), intent(in) :: text
       !> The key; gets its values
       type(sweep_axis_t), intent(inout) :: axis
+      !> Mistakes so far
+      type(mistakes_t), intent(inout) :: mistakes
 
-      character(len=longest_text), allocatable :: words(:)
-      integer :: i, n
+      integer :: position, first, last, n, width, pass
 
-      allocate (words(len(text)/2 + 1))
-      call split_words(text, words, n)
-      call new_text_list(axis%values, n, maxval(len_trim(words(:n))))
-      do i = 1, n
-         call put_text_at(axis%values, i, words(i))
+      width = 1
+      do pass = 1, 2
+         n = 0
+         position = 1
+         do
+            call next_word(text, position, first, last)
+            if (first == 0) exit
+            n = n + 1
+            width = max(width, last - first + 1)
+            if (pass == 2) call put_text_at(axis%values, n, text(first:last))
+         end do
+         if (width > longest_text) then
+            call complain(mistakes, settings, "sweep", "values_"//digit, "a value of "//integer_text(width)// &
+               & " characters; the longest has "//integer_text(longest_text))
+            return
+         end if
+         if (pass == 1) call new_text_list(axis%values, n, width)
       end do
    end subroutine read_list
 
@@ -306,7 +322,7 @@ contains
    end subroutine read_range
 
    !> Is each value of the last key one that the key takes, and in a list there once? Of a range the ends are tried.
-   subroutine try_values(schema, settings, sweep, place, mistakes)
+   subroutine try_values(schema, settings, sweep, place, mistakes, path, lines)
       !> The schema
       type(schema_t), intent(in) :: schema
       !> The settings
@@ -317,12 +333,16 @@ contains
       character(len=*), intent(in) :: place
       !> Mistakes so far
       type(mistakes_t), intent(inout) :: mistakes
+      !> Table that the values are from, where there is one
+      character(len=*), intent(in), optional :: path
+      !> Line of each value in it; 0 where the table has no lines
+      integer, intent(in), optional :: lines(:)
 
       type(settings_t) :: trial
       type(sweep_t) :: alone
       type(mistakes_t) :: found
-      character(len=:), allocatable :: value
-      integer :: i, j, n, step
+      type(override_t) :: override
+      integer :: i, n, step
 
       alone%kind = "zip"
       alone%axes = sweep%axes(size(sweep%axes):)
@@ -332,20 +352,22 @@ contains
       if (alone%axes(1)%values%count == 0) step = n - 1
       trial = settings
       do i = 1, n, step
-         value = sweep_value(alone, 1, i)
-         call apply_override(schema, override_t(alone%axes(1)%key//"="//value), trial, found)
-         if (found%count > 0) then
+         override%text = alone%axes(1)%key//"="//sweep_value(alone, 1, i)
+         call apply_override(schema, override, trial, found)
+         if (found%count == 0) cycle
+         if (present(path)) then
+            call add_mistake(mistakes, "value "//integer_text(i)//" of "//alone%axes(1)%key//": "//found%list(1)%message, &
+               & lines(i), 0, 0, path)
+         else
             call complain(mistakes, settings, "sweep", place, "value "//integer_text(i)//" of "//alone%axes(1)%key// &
                & ": "//found%list(1)%message)
-            return
          end if
-         if (sweep%kind /= "grid" .or. alone%axes(1)%values%count == 0 .or. i > longest_searched) cycle
-         do j = 1, i - 1
-            if (text_at(alone%axes(1)%values, j) /= value) cycle
-            call complain(mistakes, settings, "sweep", place, "value "//value//" of "//alone%axes(1)%key//" is there twice")
-            return
-         end do
+         found = mistakes_t()
       end do
+      if (sweep%kind /= "grid" .or. alone%axes(1)%values%count == 0) return
+      i = first_repeated(alone%axes(1)%values)
+      if (i > 0) call complain(mistakes, settings, "sweep", place, "value "//text_at(alone%axes(1)%values, i)//" of "// &
+         & alone%axes(1)%key//" is there twice")
    end subroutine try_values
 
    !> Keys and values from a table of cases.
@@ -363,7 +385,8 @@ contains
 
       type(column_t), allocatable :: columns(:)
       type(sweep_axis_t) :: axis
-      character(len=:), allocatable :: reason
+      type(error_t), allocatable :: error
+      character(len=:), allocatable :: path
       integer :: i, before
 
       if (.not. is_known(settings, "sweep", "table")) then
@@ -375,9 +398,10 @@ contains
          call complain(mistakes, settings, "sweep", "key_1", "the table names the keys")
          return
       end if
-      call read_columns(folder, get_word(settings, "sweep", "table"), columns, reason)
-      if (allocated(reason)) then
-         call complain(mistakes, settings, "sweep", "table", reason)
+      path = join_path(folder, get_word(settings, "sweep", "table"))
+      call read_columns(path, columns, mistakes, error)
+      if (allocated(error)) then
+         call complain(mistakes, settings, "sweep", "table", error%message)
          return
       end if
       do i = 1, size(columns)
@@ -390,7 +414,7 @@ contains
          end if
          axis%values = columns(i)%cells
          sweep%axes = [sweep%axes, axis]
-         call try_values(schema, settings, sweep, "table", mistakes)
+         call try_values(schema, settings, sweep, "table", mistakes, path, columns(i)%lines)
       end do
    end subroutine read_table_axes
 

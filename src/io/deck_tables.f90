@@ -87,8 +87,8 @@ contains
       if (allocated(error)) then
          call complain(mistakes, settings, group, "table", error%message)
       else if (mistakes%count == before .and. size(table%x) < fewest_rows) then
-         call complain(mistakes, settings, group, "table", "the table has "//integer_text(size(table%x))// &
-            & " of at least "//integer_text(fewest_rows)//" rows")
+         call add_mistake(mistakes, "the table has "//integer_text(size(table%x))//" of at least "// &
+            & integer_text(fewest_rows)//" rows", 0, 0, 0, path)
       else if (mistakes%count == before) then
          call check_spacing(table, mistakes)
       end if

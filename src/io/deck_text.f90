@@ -1,13 +1,13 @@
 !> The shape of a deck: groups, keys and the text of each value, with their places. Nothing here knows what a key means.
 !>
 !> Layer: io. In: the text of a deck. Out: `deck_text_t` and the mistakes in its shape. The notation is that of Fortran
-!> namelists: `&group key = value ... /`, `!` begins a comment, text stands in quotes. A value may span lines; a key and
-!> its
-!> `=` stand on one line. Indexed keys and components are refused, and so is text outside of groups, which a namelist
-!> read
-!> would skip.
+!> namelists: `&group key = value ... /`, `!` begins a comment, text stands in quotes. A value may span lines; a key and its
+!> `=` stand on one line. Indexed keys and components are refused, and so is text outside of groups, which a namelist read
+!> would skip. The time it takes grows as the length of the text, whatever the text is.
 module camroller_deck_text
-   use camroller_mistakes, only : line_t, mistakes_t, add_mistake, split_lines
+   use camroller_number_text, only : integer_text
+   use camroller_mistakes, only : mistakes_t, add_mistake, shown
+   use camroller_text_lines, only : text_lines_t, split_lines
    implicit none
    private
 
@@ -40,7 +40,7 @@ module camroller_deck_text
    !> A deck without its comments
    type :: deck_text_t
       !> All lines as given
-      type(line_t), allocatable :: lines(:)
+      type(text_lines_t) :: lines
       !> Groups in order; a repeated group is there once
       type(group_place_t), allocatable :: groups(:)
       !> Keys with their values, in order
@@ -59,7 +59,17 @@ module camroller_deck_text
       type(group_place_t) :: open
       !> Line that is being read
       integer :: line = 0
+      !> Number of assignments so far; the list has room for more
+      integer :: assignments = 0
+      !> Value of the open assignment, which has so many characters, and room for more
+      character(len=:), allocatable :: value
+      integer :: length = 0
    end type reader_t
+
+   !> Groups of a deck; there are not so many, and each new name is held against those before
+   integer, parameter :: most_groups = 100
+   !> Length of the indices of an indexed key
+   integer, parameter :: longest_indices = 80
 
    character(len=*), parameter :: letters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
    character(len=*), parameter :: word_characters = letters//"0123456789_%"
@@ -79,12 +89,15 @@ contains
       type(reader_t) :: reader
 
       call split_lines(text, deck%lines)
-      allocate (deck%groups(0), deck%assignments(0))
-      do while (reader%line < size(deck%lines))
+      allocate (deck%groups(0), deck%assignments(64))
+      allocate (character(len=64) :: reader%value)
+      do while (reader%line < deck%lines%count .and. size(deck%groups) <= most_groups)
          reader%line = reader%line + 1
-         call read_line(deck%lines(reader%line)%text, reader, deck, mistakes)
+         call read_line(text(deck%lines%first(reader%line):deck%lines%last(reader%line)), reader, deck, mistakes)
       end do
       if (is_open(reader)) call complain_no_end(reader, mistakes)
+      call close_group(reader, deck)
+      deck%assignments = deck%assignments(:reader%assignments)
    end subroutine read_shape
 
    !> Is a group open?
@@ -112,20 +125,20 @@ contains
       logical :: is_done
 
       position = 1
-      call end_word(reader, deck)
-      do while (position <= len(line))
+      call end_word(reader)
+      do while (position <= len(line) .and. size(deck%groups) <= most_groups)
          last = position
          is_done = .false.
          if (line(position:position) == "!") return
          if (index(blanks, line(position:position)) > 0) then
-            call end_word(reader, deck)
+            call end_word(reader)
          else if (line(position:position) == "&") then
             call open_group(line, position, last, reader, deck, mistakes)
          else if (.not. is_open(reader)) then
             call complain_outside(line, position, reader, mistakes)
             return
          else if (line(position:position) == "/") then
-            call close_group(reader)
+            call close_group(reader, deck)
          else if (index("'""", line(position:position)) > 0) then
             call read_quoted(line, position, last, reader, deck, mistakes)
          else if (index(letters, line(position:position)) > 0) then
@@ -159,9 +172,9 @@ contains
       !> Mistakes so far
       type(mistakes_t), intent(inout) :: mistakes
 
-      call add_mistake(mistakes, "&"//reader%open%name//" has no '/' at its end", reader%open%line, &
-         & reader%open%column, &
-         & len(reader%open%name) + 1)
+      if (reader%open%name == "") return
+      call add_mistake(mistakes, "&"//shown(reader%open%name)//" has no '/' at its end", reader%open%line, &
+         & reader%open%column, len(reader%open%name) + 1)
    end subroutine complain_no_end
 
    !> Begin a group.
@@ -188,32 +201,53 @@ contains
       place%column = position
       if (place%name == "end" .and. is_open(reader)) then
          call add_mistake(mistakes, "a group ends with '/'", reader%line, position, last - position + 1)
-         call close_group(reader)
+         call close_group(reader, deck)
          return
       end if
       if (is_open(reader)) call complain_no_end(reader, mistakes)
-      call close_group(reader)
+      call close_group(reader, deck)
       reader%open = place
+      if (place%name == "") then
+         call add_mistake(mistakes, "'&' without the name of a group after it", place%line, position, 1)
+         reader%is_repeated = .true.
+         return
+      end if
       do i = 1, size(deck%groups)
          if (deck%groups(i)%name /= place%name) cycle
-         call add_mistake(mistakes, "group &"//place%name//" is there twice", place%line, position, last - position + 1)
+         call add_mistake(mistakes, "group &"//shown(place%name)//" is there twice", place%line, position, last - position + 1)
          reader%is_repeated = .true.
          return
       end do
       deck%groups = [deck%groups, place]
       reader%group = size(deck%groups)
+      if (reader%group > most_groups) call add_mistake(mistakes, "more than "//integer_text(most_groups)// &
+         & " groups; what follows was not read", place%line, position, last - position + 1)
    end subroutine open_group
 
    !> End a group.
-   pure subroutine close_group(reader)
+   pure subroutine close_group(reader, deck)
       !> State of the reading
       type(reader_t), intent(inout) :: reader
+      !> Keys and values so far
+      type(deck_text_t), intent(inout) :: deck
 
+      call end_assignment(reader, deck)
       reader%group = 0
-      reader%assignment = 0
       reader%is_repeated = .false.
       if (allocated(reader%open%name)) deallocate (reader%open%name)
    end subroutine close_group
+
+   !> Hand over the value of the open key, if there is one.
+   pure subroutine end_assignment(reader, deck)
+      !> State of the reading
+      type(reader_t), intent(inout) :: reader
+      !> Keys and values so far
+      type(deck_text_t), intent(inout) :: deck
+
+      if (reader%assignment > 0) deck%assignments(reader%assignment)%value = reader%value(:reader%length)
+      reader%assignment = 0
+      reader%length = 0
+   end subroutine end_assignment
 
    !> Quoted text, on one line.
    subroutine read_quoted(line, position, last, reader, deck, mistakes)
@@ -224,7 +258,7 @@ contains
       !> Place of the closing quote
       integer, intent(out) :: last
       !> State of the reading
-      type(reader_t), intent(in) :: reader
+      type(reader_t), intent(inout) :: reader
       !> Values so far
       type(deck_text_t), intent(inout) :: deck
       !> Mistakes so far
@@ -263,12 +297,11 @@ contains
       word = line(position:last)
       next = next_column(line, last + 1)
       closing = 0
-      if (character_at(line, next) == "(") closing = index(line(next:), ")") + next - 1
+      if (character_at(line, next) == "(") closing = index(line(next:min(len(line), next + longest_indices)), ")") + next - 1
       if (closing > next) then
          if (character_at(line, next_column(line, closing + 1)) == "=") then
-            call add_mistake(mistakes, "indexed keys are not taken; give the whole list: "//word//" = ...", &
-               & reader%line, &
-               & position, closing - position + 1)
+            call add_mistake(mistakes, "indexed keys are not taken; give the whole list: "//shown(word)//" = ...", &
+               & reader%line, position, closing - position + 1)
             last = next_column(line, closing + 1)
             call begin_assignment(reader, deck, word, position, last)
             deck%assignments(reader%assignment)%is_broken = .true.
@@ -296,7 +329,7 @@ contains
       !> Last place that belongs to it
       integer, intent(out) :: last
       !> State of the reading
-      type(reader_t), intent(in) :: reader
+      type(reader_t), intent(inout) :: reader
       !> Values so far
       type(deck_text_t), intent(inout) :: deck
       !> Mistakes so far
@@ -327,7 +360,9 @@ contains
       integer, intent(in) :: column, equals
 
       type(assignment_t) :: new
+      type(assignment_t), allocatable :: longer(:)
 
+      call end_assignment(reader, deck)
       new%group = reader%group
       new%key = key
       new%line = reader%line
@@ -337,14 +372,20 @@ contains
       new%value_column = column
       new%value_width = max(1, equals - column + 1)
       if (reader%is_repeated) new%key = ""
-      deck%assignments = [deck%assignments, new]
-      reader%assignment = size(deck%assignments)
+      if (reader%assignments == size(deck%assignments)) then
+         allocate (longer(2*reader%assignments))
+         longer(:reader%assignments) = deck%assignments
+         call move_alloc(longer, deck%assignments)
+      end if
+      reader%assignments = reader%assignments + 1
+      reader%assignment = reader%assignments
+      deck%assignments(reader%assignment) = new
    end subroutine begin_assignment
 
    !> Add to the value of the open key.
    subroutine append(reader, deck, piece, column, mistakes)
       !> State of the reading
-      type(reader_t), intent(in) :: reader
+      type(reader_t), intent(inout) :: reader
       !> Values so far
       type(deck_text_t), intent(inout) :: deck
       !> What to add
@@ -355,33 +396,45 @@ contains
       type(mistakes_t), intent(inout) :: mistakes
 
       if (reader%assignment == 0) then
-         call add_mistake(mistakes, "'"//piece//"' belongs to no key; expected 'key = value' or '/'", reader%line, &
-            & column, &
-            & len(piece))
+         call add_mistake(mistakes, "'"//shown(piece)//"' belongs to no key; expected 'key = value' or '/'", reader%line, &
+            & column, len(piece))
          return
       end if
       associate (open => deck%assignments(reader%assignment))
-         if (open%value == "") then
+         if (reader%length == 0) then
             open%value_line = reader%line
             open%value_column = column
          end if
          if (open%value_line == reader%line) open%value_width = column + len(piece) - open%value_column
-         open%value = open%value//piece
       end associate
+      call lengthen(reader, piece)
    end subroutine append
 
-   !> Part the words of a value by one blank.
-   pure subroutine end_word(reader, deck)
+   !> Add characters to the open value.
+   pure subroutine lengthen(reader, piece)
       !> State of the reading
-      type(reader_t), intent(in) :: reader
-      !> Values so far
-      type(deck_text_t), intent(inout) :: deck
+      type(reader_t), intent(inout) :: reader
+      !> The characters
+      character(len=*), intent(in) :: piece
 
-      if (reader%assignment == 0) return
-      associate (open => deck%assignments(reader%assignment))
-         if (open%value == "") return
-         if (open%value(len(open%value):) /= " ") open%value = open%value//" "
-      end associate
+      character(len=:), allocatable :: longer
+
+      if (reader%length + len(piece) > len(reader%value)) then
+         allocate (character(len=2*(reader%length + len(piece))) :: longer)
+         longer(:reader%length) = reader%value(:reader%length)
+         call move_alloc(longer, reader%value)
+      end if
+      reader%value(reader%length + 1:reader%length + len(piece)) = piece
+      reader%length = reader%length + len(piece)
+   end subroutine lengthen
+
+   !> Part the words of a value by one blank.
+   pure subroutine end_word(reader)
+      !> State of the reading
+      type(reader_t), intent(inout) :: reader
+
+      if (reader%length == 0) return
+      if (reader%value(reader%length:reader%length) /= " ") call lengthen(reader, " ")
    end subroutine end_word
 
    !> Last column of a word that begins at a column; the column before it where there is none.

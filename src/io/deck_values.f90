@@ -1,7 +1,6 @@
 !> Values of a deck's keys: read from text as the schema says, checked one by one, held in SI.
 !>
-!> Layer: io. In: the text of a value and its key. Out: a value, or what is wrong with it in words. The value syntax is
-!> that
+!> Layer: io. In: the text of a value and its key. Out: a value, or what is wrong with it in words. The value syntax is that
 !> of Fortran: the text goes through a namelist read of its own.
 module camroller_deck_values
    use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
@@ -9,16 +8,19 @@ module camroller_deck_values
    use camroller_names, only : index_of_name
    use camroller_units, only : to_si
    use camroller_number_text, only : integer_text, is_beyond_range
-   use camroller_mistakes, only : nearest_name
+   use camroller_mistakes, only : nearest_name, shown
+   use camroller_deck_bounds, only : is_bounded, bounds_in_words
    use camroller_deck_schema, only : key_t, range_t, key_length, allowed_values, type_number, type_integer, &
       & type_logical, type_name, type_text, type_numbers, type_integers, type_words
    implicit none
    private
 
-   public :: value_t, read_value, split_words, longest_text
+   public :: value_t, read_value, next_word, split_words, longest_text
 
    !> Longest list and longest text
    integer, parameter :: longest_list = 512, longest_text = 512
+   !> Longest value of a key but a list of &sweep: a list of numbers with all their digits is shorter
+   integer, parameter :: longest_value = 64*longest_list
 
    !> Value of one key
    type :: value_t
@@ -63,6 +65,10 @@ contains
       value%is_known = .false.
       if (len(value%text) == 0) then
          reason = "'"//trim(key%name)//"' has no value"
+      else if (len(value%text) > longest_value .and. key%type /= type_words) then
+         reason = "'"//trim(key%name)//"' has a value of "//integer_text(len(value%text))//" characters; the longest has "// &
+            & integer_text(longest_value)
+         value%text = shown(value%text)
       else
          select case (key%type)
          case (type_number, type_numbers)
@@ -130,25 +136,30 @@ contains
       namelist /value_group/ list
 
       if (is_beyond_range(value%text)) then
-         reason = "'"//trim(key%name)//"' must be finite; '"//value%text//"' is too large to be held"
+         reason = "'"//trim(key%name)//"' must be finite; '"//shown(value%text)//"' is too large to be held"
          return
       end if
       list = empty
       buffer = "&value_group list="//value%text//" /"
       read (buffer, nml=value_group, iostat=status)
       if (status /= 0) then
-         reason = "'"//trim(key%name)//"' takes "//number_or_list(key)//", not "//quoted(value%text)
+         reason = "'"//trim(key%name)//"' takes "//number_or_list(key)//", not "//shown(value%text)
          return
       end if
       if (.not. all(ieee_is_finite(list))) then
-         reason = "'"//trim(key%name)//"' must be finite, not "//quoted(value%text)
+         reason = "'"//trim(key%name)//"' must be finite, not "//shown(value%text)
          return
       end if
       n = count(list > empty)
       call check_count(key, n, all(list(:n) > empty), value%text, reason)
       if (allocated(reason)) return
       if (.not. all(is_within(list(:n), key%range))) then
-         reason = "'"//trim(key%name)//"' must be "//allowed_values(key)//", not "//value%text
+         reason = "'"//trim(key%name)//"' must be "//allowed_values(key)//", not "//shown(value%text)
+         return
+      end if
+      if (.not. all(is_bounded(list(:n), key%unit))) then
+         reason = "'"//trim(key%name)//"' must be "//bounds_in_words(key%unit, is_within(0.0_wp, key%range), &
+            & key%range%smallest < 0.0_wp)//", not "//shown(value%text)
          return
       end if
       value%numbers = to_si(key%unit, list(:n))
@@ -173,14 +184,14 @@ contains
       buffer = "&value_group list="//value%text//" /"
       read (buffer, nml=value_group, iostat=status)
       if (status /= 0) then
-         reason = "'"//trim(key%name)//"' takes "//number_or_list(key)//", not "//quoted(value%text)
+         reason = "'"//trim(key%name)//"' takes "//number_or_list(key)//", not "//shown(value%text)
          return
       end if
       n = count(list > empty)
       call check_count(key, n, all(list(:n) > empty), value%text, reason)
       if (allocated(reason)) return
       if (.not. all(is_within(real(list(:n), wp), key%range))) then
-         reason = "'"//trim(key%name)//"' must be "//allowed_values(key)//", not "//value%text
+         reason = "'"//trim(key%name)//"' must be "//allowed_values(key)//", not "//shown(value%text)
          return
       end if
       value%integers = list(:n)
@@ -203,7 +214,7 @@ contains
       item = .false.
       buffer = "&value_group item="//value%text//" /"
       read (buffer, nml=value_group, iostat=status)
-      if (status /= 0) reason = "'"//trim(key%name)//"' takes .true. or .false., not "//quoted(value%text)
+      if (status /= 0) reason = "'"//trim(key%name)//"' takes .true. or .false., not "//shown(value%text)
       value%flag = item
    end subroutine read_logical
 
@@ -232,7 +243,7 @@ contains
          read (buffer, nml=value_group, iostat=status)
       end if
       if (status /= 0) then
-         reason = "'"//trim(key%name)//"' takes one text in quotes, not "//quoted(value%text)
+         reason = "'"//trim(key%name)//"' takes one text in quotes, not "//shown(value%text)
          if (allocated(key%choices)) reason = reason//"; it is "//allowed_values(key)
       else if (allocated(key%choices)) then
          call check_choice(key, trim(item), reason)
@@ -254,7 +265,7 @@ contains
       character(len=:), allocatable :: nearest
 
       if (index_of_name(name, key%choices) > 0) return
-      reason = "'"//trim(key%name)//"' must be "//allowed_values(key)//", not "//quoted("'"//name//"'")
+      reason = "'"//trim(key%name)//"' must be "//allowed_values(key)//", not "//shown("'"//name//"'")
       nearest = nearest_name(name, key%choices)
       if (nearest /= "") reason = reason//"; did you mean '"//nearest//"'?"
    end subroutine check_choice
@@ -273,9 +284,9 @@ contains
       character(len=:), allocatable, intent(out) :: reason
 
       if (n == 0 .or. .not. is_dense) then
-         reason = "'"//trim(key%name)//"' has an empty place between commas: "//text
+         reason = "'"//trim(key%name)//"' has an empty place between commas: "//shown(text)
       else if (n > 1 .and. (key%type == type_number .or. key%type == type_integer)) then
-         reason = "'"//trim(key%name)//"' takes "//number_or_list(key)//", not "//integer_text(n)//": "//text
+         reason = "'"//trim(key%name)//"' takes "//number_or_list(key)//", not "//integer_text(n)//": "//shown(text)
       end if
    end subroutine check_count
 
@@ -298,19 +309,6 @@ contains
       end select
    end function number_or_list
 
-   !> A text as part of a message, cut where it is long.
-   pure function quoted(text) result(words)
-      !> The text
-      character(len=*), intent(in) :: text
-      !> The text, at most so long
-      character(len=:), allocatable :: words
-
-      integer, parameter :: longest_shown = 60
-
-      words = text
-      if (len(text) > longest_shown) words = text(:longest_shown)//"..."
-   end function quoted
-
    !> Is a number in a range?
    elemental function is_within(number, range) result(verdict)
       !> The number [unit of the key]
@@ -324,7 +322,34 @@ contains
          & (number < range%largest .or. (range%with_largest .and. .not. number > range%largest))
    end function is_within
 
-   !> Cut a list into its words; quoted text stays in one piece, with its quotes.
+   !> Next word of a list; quoted text stays in one piece, with its quotes.
+   pure subroutine next_word(text, position, first, last)
+      !> The list
+      character(len=*), intent(in) :: text
+      !> Where to begin; behind the word on return
+      integer, intent(inout) :: position
+      !> First and last character of the word; the first is 0 where there is none left
+      integer, intent(out) :: first, last
+
+      first = 0
+      last = 0
+      do while (position <= len(text))
+         if (index(" ,"//char(9), text(position:position)) == 0) exit
+         position = position + 1
+      end do
+      if (position > len(text)) return
+      first = position
+      if (index("'""", text(first:first)) > 0) then
+         last = index(text(first + 1:), text(first:first))
+         last = merge(len(text), first + last, last == 0)
+      else
+         last = scan(text(first:), " ,"//char(9))
+         last = merge(len(text), first + last - 2, last == 0)
+      end if
+      position = last + 1
+   end subroutine next_word
+
+   !> Cut a list into its words.
    pure subroutine split_words(text, words, count)
       !> The list
       character(len=*), intent(in) :: text
@@ -333,26 +358,16 @@ contains
       !> How many there are, at most as many as fit
       integer, intent(out) :: count
 
-      integer :: position, last
+      integer :: position, first, last
 
       count = 0
       words = ""
       position = 1
-      do while (position <= len(text) .and. count < size(words))
-         if (index(" ,"//char(9), text(position:position)) > 0) then
-            position = position + 1
-            cycle
-         end if
-         if (index("'""", text(position:position)) > 0) then
-            last = index(text(position + 1:), text(position:position))
-            last = merge(len(text), position + last, last == 0)
-         else
-            last = scan(text(position:), " ,"//char(9))
-            last = merge(len(text), position + last - 2, last == 0)
-         end if
+      do while (count < size(words))
+         call next_word(text, position, first, last)
+         if (first == 0) exit
          count = count + 1
-         words(count) = text(position:last)
-         position = last + 1
+         words(count) = text(first:last)
       end do
    end subroutine split_words
 

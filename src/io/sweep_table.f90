@@ -8,10 +8,11 @@ module camroller_sweep_table
    use camroller_kinds, only : wp
    use camroller_error, only : error_t
    use camroller_names, only : name_length
-   use camroller_mistakes, only : line_t, split_lines
+   use camroller_mistakes, only : mistakes_t, add_mistake
+   use camroller_text_lines, only : text_lines_t, split_lines, line_at
    use camroller_number_text, only : number_text, integer_text
    use camroller_deck_values, only : split_words, longest_text
-   use camroller_text_file, only : read_text_file, join_path
+   use camroller_text_file, only : read_text_file
    use camroller_text_list, only : text_list_t, new_text_list, put_text_at
    use camroller_hdf5_object, only : hdf5_object_t
    use camroller_hdf5_file, only : discard_file
@@ -37,49 +38,44 @@ module camroller_sweep_table
       character(len=:), allocatable :: key
       !> Its value in each case
       type(text_list_t) :: cells
+      !> Line of each case in the file, 0 where it has no lines
+      integer, allocatable :: lines(:)
    end type column_t
 
 contains
 
    !> Read a table of cases.
-   subroutine read_columns(folder, name, columns, reason)
-      !> Folder of the deck
-      character(len=*), intent(in) :: folder
-      !> Name of the file in the deck
-      character(len=*), intent(in) :: name
-      !> Its columns, of one length
+   subroutine read_columns(path, columns, mistakes, error)
+      !> Path of the file
+      character(len=*), intent(in) :: path
+      !> Its columns, of one length; none where there is a mistake
       type(column_t), allocatable, intent(out) :: columns(:)
-      !> What is wrong; not allocated where nothing is
-      character(len=:), allocatable, intent(out) :: reason
+      !> Mistakes so far; those of the table are added
+      type(mistakes_t), intent(inout) :: mistakes
+      !> File error where the file cannot be read
+      type(error_t), allocatable, intent(out) :: error
 
-      type(error_t), allocatable :: error
-      character(len=:), allocatable :: path, text
-      integer :: i
+      character(len=:), allocatable :: text
+      integer :: i, before
 
-      path = join_path(folder, name)
+      before = mistakes%count
       if (is_hdf5(path)) then
          call read_datasets(path, columns, error)
-         if (allocated(error)) reason = error%message
       else
          call read_text_file(path, text, error)
-         if (allocated(error)) then
-            reason = error%message
-         else
-            call read_rows(path, text, columns, reason)
+         if (.not. allocated(error)) call read_rows(path, text, columns, mistakes)
+      end if
+      if (allocated(error)) return
+      if (mistakes%count == before) then
+         if (size(columns) == 0) then
+            call add_mistake(mistakes, "the table names no key", 0, 0, 0, path)
+         else if (columns(1)%cells%count == 0) then
+            call add_mistake(mistakes, "the table has no cases", 0, 0, 0, path)
+         else if (any([(columns(i)%cells%count /= columns(1)%cells%count, i=1, size(columns))])) then
+            call add_mistake(mistakes, "the columns differ in length", 0, 0, 0, path)
          end if
       end if
-      if (allocated(reason)) return
-      if (size(columns) == 0) then
-         reason = "'"//path//"' names no key"
-      else if (columns(1)%cells%count == 0) then
-         reason = "'"//path//"' has no cases"
-      else
-         do i = 2, size(columns)
-            if (columns(i)%cells%count == columns(1)%cells%count) cycle
-            reason = "columns of '"//path//"' differ in length"
-            return
-         end do
-      end if
+      if (mistakes%count > before) columns = columns(:0)
    end subroutine read_columns
 
    !> Does a file begin as HDF5 files do?
@@ -101,17 +97,17 @@ contains
    end function is_hdf5
 
    !> Columns of a text.
-   subroutine read_rows(path, text, columns, reason)
+   subroutine read_rows(path, text, columns, mistakes)
       !> Path of the file, for messages
       character(len=*), intent(in) :: path
       !> The text
       character(len=*), intent(in) :: text
       !> Its columns
       type(column_t), allocatable, intent(out) :: columns(:)
-      !> What is wrong; not allocated where nothing is
-      character(len=:), allocatable, intent(out) :: reason
+      !> Mistakes so far
+      type(mistakes_t), intent(inout) :: mistakes
 
-      type(line_t), allocatable :: lines(:)
+      type(text_lines_t) :: lines
       character(len=longest_text) :: words(most_columns)
       integer, allocatable :: widths(:)
       integer :: i, j, n, rows, pass
@@ -120,8 +116,8 @@ contains
       allocate (columns(0))
       do pass = 1, 2
          rows = -1
-         do i = 1, size(lines)
-            call split_words(without_comment(lines(i)%text), words, n)
+         do i = 1, lines%count
+            call split_words(without_comment(text(lines%first(i):lines%last(i))), words, n)
             if (n == 0) cycle
             rows = rows + 1
             if (pass == 1 .and. rows == 0) then
@@ -132,20 +128,22 @@ contains
                   columns(j)%key = without_quotes(words(j))
                end do
             else if (n /= size(columns)) then
-               reason = path//", line "//integer_text(i)//": a row has "//integer_text(size(columns))//" columns, not "// &
-                  & integer_text(n)
-               return
+               rows = rows - 1
+               if (pass == 1) call add_mistake(mistakes, "a row has "//integer_text(size(columns))//" columns, not "// &
+                  & integer_text(n), i, 0, 0, path, line_at(lines, i))
             else if (pass == 1) then
                widths = max(widths, len_trim(words(:n)))
             else if (rows > 0) then
                do j = 1, n
                   call put_text_at(columns(j)%cells, rows, words(j))
+                  columns(j)%lines(rows) = i
                end do
             end if
          end do
          if (pass == 2) exit
          do j = 1, size(columns)
             call new_text_list(columns(j)%cells, max(rows, 0), widths(j))
+            allocate (columns(j)%lines(max(rows, 0)), source=0)
          end do
       end do
    end subroutine read_rows
@@ -227,6 +225,8 @@ contains
       if (allocated(error)) return
       n = 0
       if (size(extents) == 1) n = extents(1)
+      if (allocated(column%lines)) deallocate (column%lines)
+      allocate (column%lines(n), source=0)
       if (is_text_dataset(file, name)) then
          call new_text_list(column%cells, n, longest_name)
          do i = 1, n

@@ -9,6 +9,9 @@ module camroller_text_file
 
    public :: read_text_file, join_path, folder_of
 
+   !> Marks of a text at its first bytes: of UTF-8, which is skipped, and of UTF-16, which is not read
+   character(len=*), parameter :: utf8_mark = char(239)//char(187)//char(191), utf16_marks(*) = &
+      & [char(255)//char(254), char(254)//char(255)]
    !> Larger files are no decks and no tables [bytes]
    integer(int64), parameter :: largest_size = 64_int64*1024_int64*1024_int64
 
@@ -50,10 +53,33 @@ contains
       close (unit)
       if (status /= 0) then
          call raise(error, kind_file, "cannot read '"//path//"': "//trim(message))
-      else if (index(text, achar(0)) > 0) then
-         call raise(error, kind_file, "'"//path//"' is no text file")
+      else if (any(text(:min(2, len(text))) == utf16_marks)) then
+         call raise(error, kind_file, "'"//path//"' is a text in UTF-16; save it in UTF-8")
+      else if (.not. is_text(text)) then
+         call raise(error, kind_file, "'"//path//"' is no text file: it holds bytes that no text has")
+      else if (index(text, utf8_mark) == 1) then
+         text = text(len(utf8_mark) + 1:)
       end if
    end subroutine read_text_file
+
+   !> Are there no control characters but tabulators and those between lines and pages?
+   pure function is_text(text) result(verdict)
+      !> The text
+      character(len=*), intent(in) :: text
+      !> Are there none?
+      logical :: verdict
+
+      integer :: i
+
+      verdict = .false.
+      do i = 1, len(text)
+         select case (iachar(text(i:i)))
+         case (:8, 14:31, 127)
+            return
+         end select
+      end do
+      verdict = .true.
+   end function is_text
 
    !> Path of a file named in another file: relative to that file's folder unless it begins at the root.
    pure function join_path(folder, name) result(path)

@@ -1,0 +1,121 @@
+"""Decks and tables as people's programs write them: marks, encodings, headings; and where mistakes are said to be."""
+
+import pathlib
+import shutil
+import subprocess
+
+import pytest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+THESIS = (ROOT / "decks/thesis.nml").read_text(encoding="utf-8")
+TABULATED = (ROOT / "decks/tabulated_lift.nml").read_text(encoding="utf-8")
+LIFT = (ROOT / "decks/tables/polynomial_lift.txt").read_text(encoding="utf-8")
+ROWS = "".join(line for line in LIFT.splitlines(keepends=True) if line.strip() and not line.startswith(("#", "!")))
+DECK, FILE = 3, 6
+
+
+def check(camroller, path, *options):
+    """Check a deck."""
+    return subprocess.run([camroller, "check", str(path), *options], cwd=ROOT, capture_output=True, text=True,
+                          stdin=subprocess.DEVNULL, timeout=60)
+
+
+def check_table(camroller, folder, table):
+    """Check a deck with a lift table."""
+    (folder / "tables").mkdir()
+    (folder / "tables/polynomial_lift.txt").write_text(table, encoding="utf-8")
+    (folder / "deck.nml").write_text(TABULATED, encoding="utf-8")
+    return check(camroller, folder / "deck.nml"), f"{folder}/tables/polynomial_lift.txt"
+
+
+@pytest.mark.parametrize("text", [THESIS, THESIS.replace("\n", "\r\n"), "! \u00fc\n" + THESIS])
+def test_a_byte_order_mark_is_skipped(camroller, tmp_path, text):
+    path = tmp_path / "deck.nml"
+    path.write_bytes(b"\xef\xbb\xbf" + text.encode("utf-8"))
+    assert check(camroller, path).returncode == 0
+    path.write_bytes(b"\xef\xbb\xbf&rolle mass_kg = 1 /\n")
+    assert f"{path}:1:1: unknown group &rolle; did you mean 'roller'?" in check(camroller, path).stderr
+
+
+@pytest.mark.parametrize(("content", "words"), [
+    (THESIS.encode("utf-16"), "is a text in UTF-16; save it in UTF-8"),
+    (THESIS.encode("utf-16-be"), "is no text file: it holds bytes that no text has"),
+    (b"\x89HDF\r\n\x1a\n" + bytes(range(1, 256))*4, "is no text file: it holds bytes that no text has"),
+    (b"\x7fELF\x02\x01\x01" + b"\x90"*400, "is no text file: it holds bytes that no text has"),
+])
+def test_a_file_that_is_no_text_is_said_to_be_none_and_not_quoted(camroller, tmp_path, content, words):
+    path = tmp_path / "deck.nml"
+    path.write_bytes(content)
+    result = check(camroller, path)
+    assert result.returncode == FILE
+    assert result.stderr == f"camroller: '{path}' {words}\n"
+
+
+def test_bytes_of_another_encoding_do_not_spoil_the_message(camroller, tmp_path):
+    path = tmp_path / "deck.nml"
+    path.write_bytes(b"! gr\xf6\xdfe\n" + THESIS.encode("utf-8"))
+    assert check(camroller, path).returncode == 0
+    path.write_bytes(b"&roller gr\xf6\xdfe = 1 /\n")
+    assert "gr??e" in check(camroller, path).stderr
+
+
+@pytest.mark.parametrize("heading", [
+    "angle lift\n", "cam angle [deg], lift [mm]\n", "# a comment\n\nangle_deg;lift_mm\n", '"Angle";"Lift 1"\n', "lift\n", "phi s 1 2 3\n"])
+def test_a_heading_of_a_table_is_skipped(camroller, tmp_path, heading):
+    result, table = check_table(camroller, tmp_path, heading + ROWS)
+    assert result.returncode == 0, result.stderr
+    pathlib.Path(table).write_text(ROWS, encoding="utf-8")
+    assert result.stdout == check(camroller, tmp_path / "deck.nml").stdout
+
+
+@pytest.mark.parametrize(("table", "line", "words"), [
+    ("nan nan\n" + ROWS, 1, "'nan' is no finite number"),
+    ("inf 0\n" + ROWS, 1, "'inf' is no finite number"),
+    ("0 zero\n" + ROWS, 1, "'zero' is no finite number"),
+    ("angle lift\nangle lift\n" + ROWS, 2, "'angle' is no finite number"),
+    (ROWS + "angle lift\n", ROWS.count("\n") + 1, "'angle' is no finite number"),
+])
+def test_a_line_of_words_is_no_heading_elsewhere(camroller, tmp_path, table, line, words):
+    result, path = check_table(camroller, tmp_path, table)
+    assert result.returncode == DECK
+    assert f"{path}:{line}:1: {words}" in result.stderr or f"{path}:{line}:3: {words}" in result.stderr
+
+
+def test_every_mistake_of_a_table_is_counted(camroller, tmp_path):
+    result, path = check_table(camroller, tmp_path, "\n".join(f"{i} x" for i in range(100)))
+    assert result.returncode == DECK
+    lines = result.stderr.splitlines()
+    assert lines[0] == f"camroller: 100 mistakes in {path}"
+    assert lines[1].startswith(f"{path}:1:3: 'x' is no finite number")
+    assert lines[-1] == "... and 80 more"
+
+
+def test_a_short_table_is_named_itself(camroller, tmp_path):
+    result, path = check_table(camroller, tmp_path, "".join(ROWS.splitlines(keepends=True)[:5]))
+    assert result.stderr == f"camroller: {path}: the table has 5 of at least 8 rows\n"
+
+
+def test_mistakes_are_counted_where_they_are(camroller, tmp_path):
+    path = tmp_path / "deck.nml"
+    path.write_text(THESIS.replace("mass_kg", "mas_kg"), encoding="utf-8")
+    result = check(camroller, path, "--set", "film.law=moess", "--set", "nothing=1")
+    assert result.stderr.splitlines()[0] == \
+        f"camroller: 1 mistake in {path}, 2 in values given beside the deck (--set)"
+    result = check(camroller, ROOT / "decks/thesis.nml", "--set", "film.law=moess", "--set", "nothing=1")
+    assert result.stderr.splitlines()[0] == "camroller: 2 mistakes in values given beside the deck (--set)"
+
+
+def test_mistakes_in_a_table_of_cases_name_its_lines(camroller, tmp_path):
+    shutil.copy(ROOT / "decks/thesis.nml", tmp_path / "deck.nml")
+    text = THESIS[:THESIS.index("&sweep")] + "&sweep\n kind = 'table'\n table = 'cases.csv'\n/\n"
+    (tmp_path / "deck.nml").write_text(text, encoding="utf-8")
+    table = tmp_path / "cases.csv"
+    table.write_text("# cases\nroller.mass_kg, film.law\n0.01, moes\n\n-1, moes\n0.02, moess\n", encoding="utf-8")
+    errors = check(camroller, tmp_path / "deck.nml").stderr
+    assert f"2 mistakes in {table}" in errors
+    assert f"{table}:5: value 2 of roller.mass_kg: 'mass_kg' must be" in errors
+    assert f"{table}:6: value 3 of film.law: 'law' must be" in errors
+    table.write_text("roller.mass_kg, film.law\n0.01, moes\n0.01\n", encoding="utf-8")
+    assert f"{table}:3: a row has 2 columns, not 1" in check(camroller, tmp_path / "deck.nml").stderr
+    table.write_text("roller.mass_kg\n", encoding="utf-8")
+    assert f"{table}: the table has no cases" in check(camroller, tmp_path / "deck.nml").stderr
