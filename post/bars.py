@@ -1,7 +1,7 @@
 """Bar charts of means over the cycle: slip, and friction torque by source.
 
-One group of bars for each panel of the other figures, in it one bar for each value of the first
-swept key, with that value below the bar and the group's below the group.
+Of a grid, one group of upright bars for each panel of the other figures, in it one bar for each value of the first swept key,
+with that value below the bar and the group's below the group. Of a list of cases, a lying bar for each with its label beside.
 """
 
 import textwrap
@@ -31,51 +31,74 @@ def shown_in_bars(layout):
 
 def slip_bars(figure, layout):
     """Mean slip, bars of several files side by side."""
-    axes = figure.subplots()
+    _slip(figure.subplots(), layout)
+    if len(layout.files) > 1:
+        legend_below(figure, [Patch(facecolor=family(place, 3)[1], hatch=FILE_HATCHES[place % len(FILE_HATCHES)], linewidth=0.0,
+                                    label=layout.titles[number]) for place, number in enumerate(layout.files)])
+
+
+def torque_bars(figure, layout):
+    """Mean friction torque stacked by source, a chart for each file."""
+    grid = figure.subplots(len(layout.files), 1, sharex=True, squeeze=False)[:, 0]
+    for axes, number in zip(grid, layout.files):
+        _torque(axes, layout, number, axes is grid[-1])
+        if len(layout.files) > 1:
+            letters = (0.5 if layout.is_list else AXES_PART) * _inches(axes) / (1.3 * CHARACTER)
+            axes.set_title(textwrap.fill(layout.titles[number], int(letters)), fontsize="medium")
+    legend_below(figure, _source_handles(layout))
+
+
+def both_bars(figure, layout):
+    """Both for a list of one file, side by side with the labels of the cases on the left."""
+    left, right = figure.subplots(1, 2, sharey=True)
+    _slip(left, layout)
+    _torque(right, layout, layout.files[0], True)
+    right.tick_params(axis="y", labelleft=False)
+    legend_below(figure, _source_handles(layout))
+
+
+def _slip(axes, layout):
     colours, panels = shown_in_bars(layout)
     files = len(layout.files)
-    tones = [spread_colours(len(colours))] if files == 1 else [family(place, len(colours)) for place in range(files)]
     width = 0.84 / files
     bars = []
     for entry, position in _places(layout, colours, panels):
         value, place = mean_of(layout, entry, "mean_slip_ratio", "%"), layout.files.index(entry.file)
         if value is None:
             continue
+        own = layout.colours_of(entry.file) if layout.is_list else colours
+        tones = spread_colours(len(own)) if files == 1 else family(place, len(own))
         left = position - 0.42 + (place + 0.5) * width
         bars.append((left, value))
         if np.isfinite(value):
-            axes.bar(left, value, width, color=tones[place][colours.index(entry.colour)], linewidth=0.0,
-                     hatch=FILE_HATCHES[place % len(FILE_HATCHES)])
-    axes.axhline(0.0, color="0.3", linewidth=0.8)
-    axes.set_ylabel("mean slip ratio [%]")
+            _bar(axes, layout, left, value, width, color=tones[own.index(entry.colour)],
+                 hatch=FILE_HATCHES[place % len(FILE_HATCHES)])
+    _name_values(axes, layout, "mean slip ratio [%]")
     _case_axis(axes, layout, colours, panels)
-    numbers_above(axes, bars, width)
-    axes.margins(y=0.12)
-    if files > 1:
-        legend_below(figure, [Patch(facecolor=family(place, 3)[1], hatch=FILE_HATCHES[place % len(FILE_HATCHES)], linewidth=0.0,
-                                    label=layout.titles[number]) for place, number in enumerate(layout.files)])
+    _numbers(axes, layout, bars, width)
 
 
-def torque_bars(figure, layout):
-    """Mean friction torque stacked by source, a row of bars for each file."""
-    grid = figure.subplots(len(layout.files), 1, sharex=True, squeeze=False)[:, 0]
+def _torque(axes, layout, file, labelled):
     colours, panels = shown_in_bars(layout)
-    places = _places(layout, colours, panels)
-    sums = [sum(_parts(layout, entry)) for entry, _ in places]
-    top = np.nanmax([0.0, *sums])
-    for axes, number in zip(grid, layout.files):
-        for entry, position in places:
-            if entry.file == number:
-                _stack(axes, position, _parts(layout, entry))
-        axes.set_ylim(0.0, 1.18 * top or 1.0)
-        axes.set_ylabel("mean friction\ntorque [N mm]")
-        _case_axis(axes, layout, colours, panels, labelled=axes is grid[-1])
-        numbers_above(axes, [(position, total) for (entry, position), total in zip(places, sums) if entry.file == number], 0.84)
-        if len(layout.files) > 1:
-            axes.set_title(layout.titles[number], fontsize="medium")
-    legend_below(figure, [Patch(facecolor=tone, hatch=hatch, linewidth=0.0, label=label)
-                          for name, label, tone, hatch in SOURCES
-                          if any(name in result.summary for result in layout.results)])
+    if layout.is_list:
+        colours = layout.colours_of(file)
+    top = np.nanmax([0.0, *(sum(_parts(layout, entry)) for entry, _ in _places(layout, *shown_in_bars(layout)))])
+    bars = []
+    for entry, position in _places(layout, colours, panels):
+        if entry.file == file:
+            parts = _parts(layout, entry)
+            _stack(axes, layout, position, parts)
+            bars.append((position, sum(parts)))
+    (axes.set_xlim if layout.is_list else axes.set_ylim)(0.0, 1.18 * top or 1.0)
+    words = "mean friction torque [N mm]" if layout.is_list else "mean friction\ntorque [N mm]"
+    _name_values(axes, layout, words, labelled or not layout.is_list)
+    _case_axis(axes, layout, colours, panels, labelled)
+    _numbers(axes, layout, bars, 0.84)
+
+
+def _source_handles(layout):
+    return [Patch(facecolor=tone, hatch=hatch, linewidth=0.0, label=label) for name, label, tone, hatch in SOURCES
+            if any(name in result.summary for result in layout.results)]
 
 
 def legend_below(figure, handles):
@@ -96,27 +119,52 @@ def _parts(layout, entry):
     return [0.0 if value is None else value for value in values]
 
 
-def _stack(axes, position, parts):
-    bottom = 0.0
+def _bar(axes, layout, position, value, width, start=0.0, **style):
+    """A bar, lying where each case has a label of its own."""
+    if layout.is_list:
+        axes.barh(position, value, width, left=start, linewidth=0.0, **style)
+    else:
+        axes.bar(position, value, width, bottom=start, linewidth=0.0, **style)
+
+
+def _stack(axes, layout, position, parts):
+    start = 0.0
     for value, (_, _, tone, hatch) in zip(parts, SOURCES):
         if np.isfinite(value):
-            axes.bar(position, value, 0.84, bottom=bottom, color=tone, hatch=hatch, linewidth=0.0)
-            bottom += value
+            _bar(axes, layout, position, value, 0.84, start, color=tone, hatch=hatch)
+            start += value
 
 
-def numbers_above(axes, bars, width):
-    """Values above the bars, upright where they are too long to stand beside each other; left out where there is no room for that."""
+def _name_values(axes, layout, words, labelled=True):
+    """Axis of the values: its name, a line at zero, and a grid behind the bars."""
+    if layout.is_list:
+        axes.set_xlabel(words if labelled else "")
+        axes.axvline(0.0, color="0.3", linewidth=0.8)
+        axes.margins(x=0.15)
+    else:
+        axes.set_ylabel(words)
+        axes.axhline(0.0, color="0.3", linewidth=0.8)
+        axes.margins(y=0.12)
+    axes.grid(True, axis="x" if layout.is_list else "y", color="0.9", linewidth=0.6)
+    axes.set_axisbelow(True)
+
+
+def _numbers(axes, layout, bars, width):
+    """Values at the ends of the bars; above upright ones turned where they are too long to stand beside each other."""
     texts = [number(value) if np.isfinite(value) else "no result" for _, value in bars]
-    low, high = axes.get_xlim()
-    room = AXES_PART * _inches(axes) * width / (high - low)
-    longest = max(map(len, texts), default=0)
-    turn = 0 if CHARACTER * longest <= room or len(bars) == 1 else 90
-    if turn and room < 1.5 * CHARACTER:
-        return
+    turn = 0
+    if not layout.is_list:
+        low, high = axes.get_xlim()
+        room = AXES_PART * _inches(axes) * width / (high - low)
+        turn = 0 if CHARACTER * max(map(len, texts), default=0) <= room or len(bars) == 1 else 90
+        if turn and room < 1.5 * CHARACTER:
+            return
     for (position, value), text in zip(bars, texts):
-        down = np.isfinite(value) and value < 0.0
-        axes.annotate(text, (position, value if np.isfinite(value) else 0.0), (0, -2 if down else 2), textcoords="offset points",
-                      ha="center", va="top" if down else "bottom", fontsize="small", rotation=turn)
+        end, side = (value, 1 if value >= 0.0 else -1) if np.isfinite(value) else (0.0, 1)
+        place, shift = ((end, position), (2 * side, 0)) if layout.is_list else ((position, end), (0, 2 * side))
+        across, upright = ("left" if side > 0 else "right"), ("bottom" if side > 0 else "top")
+        axes.annotate(text, place, shift, textcoords="offset points", fontsize="small", rotation=turn,
+                      ha=across if layout.is_list else "center", va="center" if layout.is_list else upright)
 
 
 def _inches(axes):
@@ -125,21 +173,23 @@ def _inches(axes):
 
 
 def _case_axis(axes, layout, colours, panels, labelled=True):
-    """Axis of the cases: values of the first key below the bars, those of the others below the groups."""
+    """Axis of the cases: the label of each of a list, else values of the first key, and those of the others below the groups."""
+    if layout.is_list:
+        axes.set_yticks(range(len(colours)), [textwrap.fill(name, 44) for name in colours], fontsize="small")
+        axes.set_ylim(len(colours) - 0.4, -0.6)
+        axes.tick_params(axis="y", length=0.0)
+        return
     names = [layout.text(layout.colour_key, value) for value in colours]
     group = AXES_PART * _inches(axes) / len(panels)
     room = int(group / CHARACTER / (max(map(len, names)) + 2))
-    named = range(len(names)) if layout.is_list else thin_out(range(len(names)), room) if room > 1 or len(names) == 1 else []
+    named = thin_out(range(len(names)), room) if room > 1 or len(names) == 1 else []
     starts = [place * (len(colours) + GAP) for place in range(len(panels))]
     ticks = [(start + place, names[place]) for start in starts for place in named]
-    turn = {"rotation": 35 if len(names) <= 16 else 90, "ha": "right", "rotation_mode": "anchor"} if layout.is_list else {}
-    axes.set_xticks([tick for tick, _ in ticks], [name for _, name in ticks], fontsize="small", **turn)
+    axes.set_xticks([tick for tick, _ in ticks], [name for _, name in ticks], fontsize="small")
     axes.tick_params(axis="x", length=0.0, labelbottom=labelled)
     last = starts[-1] + len(colours) - 1
     room = max(0.8, 0.5 * (4.0 - last))
     axes.set_xlim(-room, last + room)
-    axes.grid(True, axis="y", color="0.9", linewidth=0.6)
-    axes.set_axisbelow(True)
     if not labelled:
         return
     lower = axes

@@ -6,7 +6,7 @@ does not hold; a claim that does not hold and has no reason here is shown as une
 
 import numpy as np
 
-from comparison_claims import BASE, FLANKS, NOSE, band, largest, listed, percent
+from comparison_claims import BASE, FLANKS, NOSE, band, largest, listed, percent, share_peak
 from units import significant
 
 UNEXPLAINED = "unexplained"
@@ -40,13 +40,50 @@ def share_nose(column):
         slip = at_angle(points, "slip_ratio", 180.0)[0, column]
         shear = abs(at_angle(points, "friction_hydrodynamic", 180.0)[0, column])
         boundary = at_angle(points, "friction_boundary", 180.0)[0, column]
-        smoother = largest(runs["thesis_source_smoother"], "asperity_friction_share", NOSE)[0, column]
+        smoother = at_angle(runs["thesis_source_smoother"], "asperity_friction_share", 180.0)[0, column]
         return f"at the nose the roller slips by {significant(slip * 100.0, 2)} %, so the film's shear is " \
                f"{significant(shear, 2)} N beside {significant(boundary)} N of boundary friction that counts in " \
                f"full. A smoother surface (0.14 µm for both together) does not change that: {percent(smoother)}. " \
                "Only more slip could lower it; a step that overshoots makes slip, and too much of it (see the last " \
                "section)."
     return words
+
+
+def share_shape_thesis(column):
+    def words(runs, points):
+        _, place, _ = share_peak(points, 0, column)
+        parts = {name: [at_angle(points, name, angle)[0, column] for angle in (place, 180.0)]
+                 for name in ("friction_boundary_mobilised", "friction_hydrodynamic", "friction_boundary")}
+        used, film, full = parts.values()
+        pressure = [at_angle(points, "hertz_pressure", angle)[0, column] * 1e-9 for angle in (place, 180.0)]
+        whole = at_angle(runs["full_boundary"], "asperity_friction_share", 180.0)[0, column]
+        return "only the boundary friction that the slip mobilises counts, and the roller draws no more than rolling " \
+               f"resistance, needle bearing and inertia ask for: {significant(used[0])} N at {place:.0f}° and " \
+               f"{significant(used[1])} N at the nose, of {significant(full[0])} and {significant(full[1])} N that the " \
+               f"asperities could give. The film gives {significant(abs(film[0]), 2)} and {significant(abs(film[1]), 2)} N: it " \
+               f"is stiffest where the pressure is highest ({significant(pressure[0])} and {significant(pressure[1])} GPa), so " \
+               "the share falls towards the nose, where the source has its peak. Boundary friction counted in full, as in the " \
+               f"source, has not the source's shape either: {percent(whole)} at the nose, up to " \
+               f"{percent(share_peak(runs['full_boundary'], 0, column)[2])} on the flanks."
+    return words
+
+
+def share_shape_source(column):
+    def words(runs, points):
+        boundary = largest(points, "friction_boundary", *FLANKS)[0, column]
+        film = np.abs(points.series("friction_hydrodynamic"))[0, column, points.within(*FLANKS)].max()
+        rolling = largest(points, "friction_rolling", *FLANKS)[0, column]
+        peak, place, flank = share_peak(runs["thesis_source_smoother"], 0, column)
+        return f"boundary friction counts in full and is up to {significant(boundary)} N on the flanks as well, beside at most " \
+               f"{significant(film, 2)} N of shear and {significant(rolling, 2)} N of rolling friction. With 0.14 µm as the " \
+               f"roughness of both surfaces together the largest share is {percent(peak)} at {place:.0f}° and " \
+               f"{percent(flank)} on the flanks."
+    return words
+
+
+def share_60_thesis(runs, points):
+    return "as in the line above, the share falls towards the nose; within 15° of it the largest is " \
+           f"{percent(largest(points, 'asperity_friction_share', NOSE)[0, 1])}."
 
 
 def friction_hot_thesis(runs, points):
@@ -171,6 +208,11 @@ def guide_needle(runs, points):
 REASONS = {
     ("share_cold", "thesis_source"): share_cold,
     ("share_flank", "thesis_source"): share_flank,
+    ("share_shape_60", "thesis"): share_shape_thesis(1),
+    ("share_shape_60", "thesis_source"): share_shape_source(1),
+    ("share_shape_95", "thesis"): share_shape_thesis(2),
+    ("share_shape_95", "thesis_source"): share_shape_source(2),
+    ("share_60", "thesis"): share_60_thesis,
     ("share_60", "thesis_source"): share_nose(1),
     ("share_95", "thesis_source"): share_nose(2),
     ("friction_hot_falls", "thesis"): friction_hot_thesis,

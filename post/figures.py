@@ -9,10 +9,10 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 import numpy as np
 
-from bars import MOST_BARS, shown_in_bars, slip_bars, torque_bars
+from bars import MOST_BARS, both_bars, shown_in_bars, slip_bars, torque_bars
 from layout import line_style, thin_out
 from parts import (MOST_PANELS, angle_axis, closed, draw_curve, event_window, file_legend, head, legend_handles,
-                   ranges_of, seen_range, set_values_axis)
+                   legend_height, ranges_of, say_no_result, seen_range, set_values_axis)
 from quantities import CURVES, OVERVIEW, SOURCES, TORQUES, Missing, has_series, need_series, values_of
 from units import unit_words
 
@@ -37,7 +37,8 @@ def curve_figure(curve, layout, whole_cycle):
     panels = layout.panels[:1] if same else thin_out(layout.panels, MOST_PANELS)
     columns = min(len(panels), 3)
     rows = -(-len(panels) // columns)
-    figure = Figure(figsize=(7.0 if columns == 1 else 2.0 + 3.2 * columns, 1.6 + 2.9 * rows), layout="constrained")
+    legend, width = legend_handles(layout), 7.0 if columns == 1 else 2.0 + 3.2 * columns
+    figure = Figure(figsize=(width, 1.6 + 2.9 * rows + legend_height(legend, width)), layout="constrained")
     grid = figure.subplots(rows, columns, squeeze=False)
     whole = curve.whole_cycle if whole_cycle is None else whole_cycle
     window = (0.0, 360.0) if whole else event_window(layout, [curve.series])
@@ -53,7 +54,7 @@ def curve_figure(curve, layout, whole_cycle):
             axes.set_ylabel(f"{curve.title} [{unit_words(curve.unit)}]")
     values, _ = shown(layout, panels)
     title = curve.title + (f", the same at each {layout.panel_words()}" if same else "")
-    head(figure, layout, title, legend_handles(layout), (values, len(layout.panels) if same else len(panels)))
+    head(figure, layout, title, legend, (values, len(layout.panels) if same else len(panels)))
     return figure
 
 
@@ -81,8 +82,11 @@ def torque_figure(layout, whole_cycle):
     window = (0.0, 360.0) if whole_cycle else event_window(layout, [name for name, *_ in TORQUES])
     limits = []
     for number, (axes, (colour, panel)) in enumerate(zip(grid, places)):
-        for part in TORQUES:
-            limits += [_torque_curve(axes, layout, entry, part, window) for entry in layout.entries_of(panel, [colour])]
+        drawn = [_torque_curve(axes, layout, entry, part, window) for part in TORQUES
+                 for entry in layout.entries_of(panel, [colour])]
+        limits += drawn
+        if not any(drawn):
+            say_no_result(axes)
         angle_axis(axes, window, labelled=number + columns >= len(places))
         names = [layout.name(layout.colour_key, colour) if len(layout.colours) > 1 else "",
                  layout.panel_name(panel) if len(layout.panels) > 1 else ""]
@@ -130,14 +134,26 @@ def overview_figure(layout, _whole_cycle):
     panels = thin_out(layout.panels, MOST_COLUMNS)
     columns = len(panels) if len(panels) > 1 else 2
     rows = len(names) if len(panels) > 1 else -(-len(names) // columns)
-    heights = [1.5 + 1.5 * rows + 0.2 * len(layout.colours) * layout.is_list, 2.6 + 0.8 * len(layout.files) + 1.2 * layout.is_list]
-    figure = Figure(figsize=(2.0 + 3.2 * columns, sum(heights[:1 + bool(bars)])), layout="constrained")
+    legend, width = legend_handles(layout), 2.0 + 3.2 * columns
+    heights = [1.5 + 1.5 * rows + legend_height(legend, width), lying_height(layout) or 2.6 + 0.8 * len(layout.files)]
+    figure = Figure(figsize=(width, sum(heights[:1 + bool(bars)])), layout="constrained")
     upper, lower = figure.subfigures(2, 1, height_ratios=heights) if bars else (figure, None)
     _overview_curves(upper, layout, names, panels, (rows, columns))
-    head(upper, layout, "", legend_handles(layout), shown(layout, panels))
+    head(upper, layout, "", legend, shown(layout, panels))
+    if layout.is_list and len(bars) > 1 and len(layout.files) == 1:
+        both_bars(lower, layout)
+        return figure
     for part, place in zip(bars, np.atleast_1d(lower.subfigures(1, len(bars))) if bars else []):
         part(place, layout)
     return figure
+
+
+def lying_height(layout):
+    """Height of a chart of lying bars [inch]; 0 for upright ones."""
+    if not layout.is_list:
+        return 0.0
+    lines = sum(1.0 + len(label) // 45 for label in layout.colours)
+    return 1.2 + max(0.22 * len(layout.files), 0.2) * lines + 0.4 * len(layout.files)
 
 
 def _overview_curves(figure, layout, names, panels, shape):
@@ -169,7 +185,7 @@ def bars_figure(part, title, layout):
         raise Missing("no means of it in the file" + ("s" if len(layout.files) > 1 else ""))
     layout.refuse_too_many(MOST_BARS)
     rows = len(layout.files) if part is torque_bars else 1
-    figure = Figure(figsize=(7.5, 2.6 + 1.9 * rows + 1.2 * layout.is_list), layout="constrained")
+    figure = Figure(figsize=(7.5, 0.6 + lying_height(layout) if layout.is_list else 2.6 + 1.9 * rows), layout="constrained")
     part(figure, layout)
     head(figure, layout, title, ([], None), [len(values) for values in shown_in_bars(layout)])
     return figure

@@ -111,17 +111,24 @@ class Layout:
     @property
     def is_list(self):
         """Has each case a label of its own?"""
-        return self.colour_key == LIST
+        return self.colour_key == LIST and len(self.colours) > 1
 
     def refuse_too_many(self, most=MOST_LISTED):
         """ResultError where a list has more cases than a figure can hold."""
         if self.is_list and len(self.colours) > most:
-            raise ResultError(f"{len(self.colours)} cases that are no grid are too many for this figure, which holds {most}: choose "
-                              f"with --cases 0,3,7-9 or --cases {_example(self)}; plot_sweep.py draws summaries of all")
+            raise ResultError(f"{len(self.colours)} cases that are no grid are too many for this figure, which holds {most}: "
+                              f"choose with --cases 0,3,7-9 or --cases {_example(self)}; plot_sweep.py draws summaries of all")
 
     def shown_colours(self):
         """Values of the colour key that fit into one panel."""
         return list(self.colours) if self.is_list else thin_out(self.colours, MOST_COLOURS)
+
+    def colours_of(self, file):
+        """Values of the colour key that a file has a colour for: those that are shown, of a list its own cases."""
+        if not self.is_list:
+            return self.shown_colours()
+        own = {entry.colour for entry in self.entries if entry.file == file}
+        return [label for label in self.colours if label in own]
 
     def entries_of(self, panel, colours=None):
         """Cases that belong into a panel, all or only those of some values of the colour key."""
@@ -133,6 +140,8 @@ class Layout:
         shown, place = self.shown_colours(), self.files.index(entry.file)
         if self.colour_key is None or (len(self.files) > 1 and len(shown) == 1):
             return {"color": spread_colours(len(self.files))[place], "linestyle": line_style(place), "linewidth": 1.4}
+        if len(self.files) > 1:
+            shown = self.colours_of(entry.file)
         index = shown.index(entry.colour)
         if len(self.files) > 1:
             return {"color": family(place, len(shown))[index], "linestyle": line_style(place), "linewidth": 1.4}
@@ -224,7 +233,7 @@ def spread_colours(count):
 def family(place, count):
     """So many colours of one file, dark to light."""
     shades = colormaps[FAMILIES[place % len(FAMILIES)]]
-    return [shades(value) for value in np.linspace(1.0, 0.45, count)]
+    return [shades(value) for value in np.linspace(0.9, 0.4, count)]
 
 
 def line_style(index):

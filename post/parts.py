@@ -12,14 +12,15 @@ from quantities import curve_of
 NOSE = 180.0  # cam angle of full lift [deg]
 MARGIN = 30.0  # shown on each side of the event [deg]
 MOST_PANELS = 9
-BUSY = 0.05  # part of a torque's range that other cams make outside of the event of the first, from which the whole turn is shown
+LEGEND_ROW = 0.17  # height [inch]
+BUSY = 0.2  # part of a torque's range that is reached outside of the first cam's event where other cams are at work there
 ALIKE = 3.0  # panels whose largest values differ by more than this have axes of their own
 
 
 def event_window(layout, names=()):
     """Cam angles from a little before to a little after the valve is off its seat, over all cases.
 
-    The whole turn where that is not known, or where one of the series named belongs to a shaft whose other cams are at work outside.
+    The whole turn where that is not known, or where one of the series named is of a shaft whose other cams are at work outside.
     """
     first, last = 360.0, 0.0
     for result in layout.results:
@@ -41,9 +42,9 @@ def _is_busy_outside(result, name, window):
     if not name.startswith("torque_") or name not in result.series:
         return False
     values = result.series[name].values
+    values = values[np.isfinite(values).all(axis=1)]
     outside = values[:, (result.cam_angle < window[0]) | (result.cam_angle > window[1])]
-    outside, values = outside[np.isfinite(outside)], values[np.isfinite(values)]
-    return outside.size > 0 and np.ptp(outside) > BUSY * np.ptp(values)
+    return outside.size > 0 and bool((np.ptp(outside, axis=1) > BUSY * np.ptp(values, axis=1)).any())
 
 
 def closed(angle, values):
@@ -78,9 +79,14 @@ def draw_curve(axes, layout, curve, panel, window):
             low, high = min(low, seen[0]), max(high, seen[1])
     if low <= high:
         return low, high
-    axes.annotate("no result", (0.5, 0.5), xycoords="axes fraction", ha="center", color="0.4")
     axes.set_yticks([])
+    say_no_result(axes)
     return None
+
+
+def say_no_result(axes):
+    """Words in a panel whose cases have no result."""
+    axes.annotate("no result", (0.5, 0.5), xycoords="axes fraction", ha="center", color="0.4")
 
 
 def seen_range(angle, values, window):
@@ -144,15 +150,20 @@ def legend_handles(layout):
     if len(layout.files) == 1:
         return [Line2D([], [], label=name, **layout.style(next(entry for entry in layout.entries if entry.colour == value)))
                 for value, name in zip(layout.shown_colours(), values)] if len(layout.colours) > 1 else [], None
-    tones = [family(place, len(values)) for place in range(len(layout.files))]
-    return file_legend(layout, [[Line2D([], [], color=tone, linestyle=line_style(place), linewidth=1.4, label=name)
-                                 for tone, name in zip(tones[place], values)] for place in range(len(layout.files))])
+    entries = []
+    for place, number in enumerate(layout.files):
+        own = layout.colours_of(number)
+        entries.append([Line2D([], [], color=tone, linestyle=line_style(place), linewidth=1.4,
+                               label=layout.name(layout.colour_key, value))
+                        for tone, value in zip(family(place, len(own)), own)])
+    return file_legend(layout, entries)
 
 
 def file_legend(layout, entries):
     """Legend of several files: a column for each, its title on top of its entries."""
+    most = max(map(len, entries))
     handles = [handle for number, own in zip(layout.files, entries)
-               for handle in (Line2D([], [], linestyle="none", label=layout.titles[number]), *own)]
+               for handle in (_words(layout.titles[number]), *own, *[_words("")] * (most - len(own)))]
     return handles, len(layout.files)
 
 
@@ -176,6 +187,11 @@ def head(figure, layout, title, legend, shown):
     legend.get_title().set_multialignment("center")
 
 
+def _words(label):
+    """Words in a legend, without a line."""
+    return Line2D([], [], linestyle="none", label=label)
+
+
 def several_cams(layout):
     """What belongs to the whole shaft and what to one cam, where there are several cams."""
     cams = 1
@@ -186,7 +202,18 @@ def several_cams(layout):
     return [f"torques of all {cams} cams, all else of the first"] if cams > 1 else []
 
 
+def legend_height(legend, width):
+    """Height of the rows of a legend after the first, in a figure of some width [inch]."""
+    handles, columns = legend
+    return LEGEND_ROW * max(0, -(-len(handles) // (columns or columns_that_fit(handles, width))) - 1)
+
+
 def columns_for(figure, handles):
     """Columns of a legend so that it is not wider than the figure."""
+    return columns_that_fit(handles, figure.bbox.width / figure.dpi)
+
+
+def columns_that_fit(handles, width):
+    """Columns of a legend in a figure of some width [inch]."""
     longest = max([len(handle.get_label()) for handle in handles] + [1])
-    return int(max(1, min(len(handles), 11.0 * figure.bbox.width / figure.dpi / (longest + 7.0))))
+    return int(max(1, min(len(handles), 11.0 * width / (longest + 7.0))))

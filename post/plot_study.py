@@ -177,7 +177,8 @@ def film_work_precision(study):
                       for step in np.unique(cycles["step_error"][rows])]
             points = np.array([point for point in points if point])
             if points.size:
-                axes.plot(1e3 * points[:, 0], points[:, 1], f"C{number}o-", markersize=4, label=f"solved, {nodes:.0f} nodes" + (", as the reference" if nodes > 256 else ""))
+                axes.plot(1e3 * points[:, 0], points[:, 1], f"C{number}o-", markersize=4,
+                          label=f"solved, {nodes:.0f} nodes" + (", as the reference" if nodes > 256 else ""))
         for name, marker in zip((word for word in dict.fromkeys(cycles["model"]) if word and word != "solved"), "sD^"):
             point = film_points(cycles, cycles["model"] == name, error, "time")
             if point:

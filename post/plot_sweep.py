@@ -49,7 +49,8 @@ class Sweep:
         self.keys, self.quantities, self.words, self.logarithmic = {}, {}, {}, set()
         with opened(path, "a result of a sweep") as file:
             if "sweep" not in file or "summary/status" not in file:
-                raise ResultError(f"{path} is no result of a sweep: there is no {'/summary/status' if 'sweep' in file else '/sweep'}")
+                missing = "/summary/status" if "sweep" in file else "/sweep"
+                raise ResultError(f"{path} is no result of a sweep: there is no {missing}")
             self.status = file["summary/status"][()]
             for key, data in file["sweep"].items():
                 self._add(path, self.keys, key, data)

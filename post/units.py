@@ -104,7 +104,12 @@ def number(value, count=3):
 def distinct_texts(values, count=4):
     """Values as texts, numbers with as many digits as it takes to tell them apart."""
     for digits in range(count, MOST_DIGITS + 1):
-        texts = [f"{value:.{digits}g}" if isinstance(value, float) else str(value) for value in values]
+        texts = [_short(value, digits) if isinstance(value, float) else str(value) for value in values]
         if len(set(texts)) == len(set(values)):
             break
     return texts
+
+
+def _short(value, digits):
+    """A number with at most so many significant digits, and an exponent only where it is tiny or huge."""
+    return f"{float(f'{value:.{digits}g}'):.{MOST_DIGITS}g}"
