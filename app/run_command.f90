@@ -15,7 +15,8 @@ module camroller_run_command
    use camroller_cli, only : config_t
    use camroller_deck, only : deck_t, read_deck, make_sweep_case
    use camroller_deck_sweep, only : sweep_size, case_in_words
-   use camroller_number_text, only : integer_text
+   use camroller_earlier_result, only : failures_in_words
+   use camroller_number_text, only : agreeing, counted, integer_text
    use camroller_output, only : output_t, output_options_t, open_output, write_case, write_failure, close_output, &
       & abandon_output
    use camroller_profile_file, only : profile_file_t, put_profiles, close_profiles
@@ -80,8 +81,7 @@ contains
       if (.not. config%is_quiet) call report(path, cases, seconds_since(progress), tally)
       if (tally%failed == 0) return
       call move_alloc(tally%failure, error)
-      error%message = integer_text(tally%failed)//" of "//integer_text(cases)//" cases have no result; the first is "// &
-         & error%message
+      error%message = failures_in_words(tally%failed, cases, error%message)
    end subroutine run_deck
 
    !> Say which values given beside the deck are not used, since the sweep varies their keys.
@@ -221,12 +221,10 @@ contains
 
       character(len=:), allocatable :: words
 
-      words = integer_text(cases)//" cases in "
-      if (cases == 1) words = "one case in "
-      write (output_unit, '(a)') path//": "//words//time
+      write (output_unit, '(a)') path//": "//counted(cases, "case")//" in "//time
       if (tally%remarked == 0) return
-      words = "remarks on "//integer_text(tally%remarked)//" cases (see /run/warnings); the first is on "
-      if (tally%remarked == 1) words = "remarks on "
+      words = agreeing(tally%remarked, "remarks on ", "remarks on "//integer_text(tally%remarked)// &
+         & " cases (see /run/warnings); the first is on ")
       write (error_unit, '(a)') words//tally%remarks
    end subroutine report
 

@@ -112,7 +112,7 @@ contains
       character(len=:), allocatable, intent(out) :: reason
 
       type(line_t), allocatable :: lines(:)
-      character(len=longest_text) :: words(most_columns)
+      character(len=longest_text) :: words(most_columns + 1)
       integer, allocatable :: widths(:)
       integer :: i, j, n, rows, pass
 
@@ -124,7 +124,11 @@ contains
             call split_words(without_comment(lines(i)%text), words, n)
             if (n == 0) cycle
             rows = rows + 1
-            if (pass == 1 .and. rows == 0) then
+            if (n > most_columns) then
+               reason = path//", line "//integer_text(i)//": a table of cases has at most "//integer_text(most_columns)// &
+                  & " columns"
+               return
+            else if (pass == 1 .and. rows == 0) then
                deallocate (columns)
                allocate (columns(n), widths(n))
                widths = 1

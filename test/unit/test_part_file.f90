@@ -7,8 +7,8 @@ module test_part_file
    use camroller_case_record, only : begin_cases, end_cases, outcome_t, put_failure, put_result, take_case, take_header
    use camroller_case_runs, only : missing_runs, piece_of, run_total, runs_t
    use camroller_layout, only : layout_t
-   use camroller_part_file, only : append_record, close_part, entry_t, index_t, kind_cases, open_part, part_t, read_record, &
-      & scan_part, study_facts_t
+   use camroller_part_file, only : append_layout, append_record, close_part, open_part, part_t, read_record, scan_part
+   use camroller_part_scan, only : entry_t, index_t, kind_cases, study_facts_t
    use camroller_raw_file, only : append_words, close_raw, open_raw, raw_file_t
    use camroller_record, only : checksum, clear_record, put_integer, put_numbers, put_text, record_t, take_integer, &
       & take_numbers, take_text
