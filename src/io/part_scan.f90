@@ -28,7 +28,7 @@ module camroller_part_scan
    integer(int64), parameter :: longest_record = 268435456_int64
    !> Words in which marks are looked for at a time
    integer(int64), parameter :: searched_words = 8192_int64
-   !> Bytes that messages call a kilobyte
+   !> What messages call a kilobyte [byte]
    real(wp), parameter :: kilobyte = 1.0e3_wp
 
    !> What a part file must agree on with the sweep
