@@ -94,8 +94,9 @@ contains
          call raise(error, kind_file, "'"//run%path//"' is there with all cases, and a partial file would replace it; move it "// &
             & "away first")
       else
-         if (config%command == "merge" .and. earlier%state == other_there .and. .not. config%is_quiet) &
-            & write (error_unit, '(a)') "remark: '"//run%path//"' is replaced, which is no result of this sweep: "//earlier%reason
+         if (config%command == "merge" .and. earlier%state == other_there .and. .not. config%is_quiet) then
+            write (error_unit, '(a)') "remark: '"//run%path//"' is replaced, which is no result of this sweep: "//earlier%reason
+         end if
          call write_result(config, run, index, paths, progress, error)
       end if
    end subroutine join_parts
