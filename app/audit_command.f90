@@ -11,7 +11,7 @@ module camroller_audit_command
    use camroller_cli, only : config_t
    use camroller_deck, only : deck_t, read_deck, make_sweep_case
    use camroller_deck_sweep, only : sweep_size, case_in_words
-   use camroller_number_text, only : integer_text
+   use camroller_number_text, only : counted
    use camroller_output, only : output_t, output_options_t, open_output, abandon_output
    use camroller_progress, only : progress_t, start_progress, show_progress, end_progress, seconds_since
    use camroller_run_command, only : check_cases, output_path
@@ -62,7 +62,7 @@ contains
       if (.not. allocated(error)) call close_study(writer, error)
       if (allocated(error)) return
       if (.not. config%is_quiet) then
-         write (output_unit, '(a)') audit_page(table), path//": "//integer_text(sweep_size(deck%sweep))//" cases in "// &
+         write (output_unit, '(a)') audit_page(table), path//": "//counted(sweep_size(deck%sweep), "case")//" in "// &
             & seconds_since(progress)
       end if
       if (allocated(failure)) call move_alloc(failure, error)

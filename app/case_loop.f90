@@ -13,7 +13,7 @@ module camroller_case_loop
    use camroller_case, only : case_t
    use camroller_case_record, only : begin_cases, case_words, end_cases, put_failure, put_result
    use camroller_case_runs, only : piece_of, run_total, runs_t
-   use camroller_case_sink, only : find_layout, sink_t
+   use camroller_case_sink, only : name_layout, sink_t
    use camroller_deck, only : deck_t, make_sweep_case
    use camroller_deck_sweep, only : case_in_words
    use camroller_ehl_profiles, only : find_profiles
@@ -235,7 +235,7 @@ contains
          if (allocated(failure)) then
             call put_failure(record, failure)
          else
-            call name_layout(loop, sink, result, of_case)
+            call ask_layout(loop, sink, result, of_case)
             if (layout /= 0 .and. of_case /= layout) then
                call hand_over(loop, sink, record, n, layout)
                call begin_cases(record, i)
@@ -301,7 +301,7 @@ contains
    end function is_kept
 
    !> Number of the layout of a result.
-   subroutine name_layout(loop, sink, result, layout)
+   subroutine ask_layout(loop, sink, result, layout)
       !> Shared by all threads
       type(loop_t), intent(inout), target :: loop
       !> Where the cases go
@@ -314,10 +314,10 @@ contains
       type(error_t), allocatable :: error
 
       !$omp critical (camroller_desk)
-      call find_layout(sink, result, layout, error)
+      call name_layout(sink, result, layout, error)
       if (allocated(error)) call note_error(loop, error)
       !$omp end critical (camroller_desk)
-   end subroutine name_layout
+   end subroutine ask_layout
 
    !> Hand a record over.
    subroutine hand_over(loop, sink, record, count, layout)

@@ -3,22 +3,18 @@
 !> Layer: app. In: records, one at a time. Out: `sink_t`, which is extended by what is done with them.
 module camroller_case_sink
    use camroller_error, only : error_t
-   use camroller_layout, only : layout_t, fits_layout, layout_of
+   use camroller_layout, only : find_layout, layout_list_t, layout_t
    use camroller_record, only : record_t
    use camroller_result, only : result_t
    implicit none
    private
 
-   public :: sink_t, find_layout, most_layouts
-
-   !> Most layouts of one sweep: laws that are swept by name may add or drop a quantity
-   integer, parameter :: most_layouts = 64
+   public :: sink_t, name_layout
 
    !> Something that takes cases
    type, abstract :: sink_t
-      !> Layouts so far, and how many there are
-      type(layout_t) :: layouts(most_layouts)
-      integer :: layout_count = 0
+      !> Layouts so far: laws that are swept by name may add or drop a quantity
+      type(layout_list_t) :: layouts
    contains
       procedure(announce_interface), deferred :: announce
       procedure(keep_interface), deferred :: keep
@@ -53,7 +49,7 @@ module camroller_case_sink
 contains
 
    !> Number of the layout of a result; one that is new is announced.
-   subroutine find_layout(sink, result, number, error)
+   subroutine name_layout(sink, result, number, error)
       !> The sink
       class(sink_t), intent(inout) :: sink
       !> The result
@@ -63,13 +59,10 @@ contains
       !> File error
       type(error_t), allocatable, intent(out) :: error
 
-      do number = sink%layout_count, 1, -1
-         if (fits_layout(sink%layouts(number), result)) return
-      end do
-      number = sink%layout_count + 1
-      call layout_of(result, sink%layouts(number))
-      sink%layout_count = number
-      call sink%announce(sink%layouts(number), error)
-   end subroutine find_layout
+      logical :: is_new
+
+      call find_layout(sink%layouts, result, number, is_new)
+      if (is_new) call sink%announce(sink%layouts%items(number), error)
+   end subroutine name_layout
 
 end module camroller_case_sink

@@ -6,6 +6,7 @@ module camroller_cli
    use camroller_deck, only : override_t
    use camroller_mistakes, only : line_t, nearest_name
    use camroller_names, only : list_names, index_of_name
+   use camroller_number_text, only : integer_text
    implicit none
    private
 
@@ -28,6 +29,9 @@ module camroller_cli
    !> Does each command need a word?
    logical, parameter :: needs_word(*) = [.true., .true., .true., .false., .true., .false., .false., .true., .true., .true., &
       & .true., .true.]
+
+   !> Most threads: more than machines have cores, fewer than the system refuses to start
+   integer, parameter :: most_threads = 1024
 
    !> What to do
    type :: config_t
@@ -55,7 +59,7 @@ module camroller_cli
       logical :: is_quick = .false.
       !> A study of numerical films?
       logical :: is_film = .false.
-      !> Threads of a sweep; 0 for as many as there are cores
+      !> Threads of a sweep; 0, which cannot be asked for, for as many as there are cores
       integer :: threads = 0
       !> This shard of a sweep, from 1, and the number of shards
       integer :: shard = 1, shards = 1
@@ -203,9 +207,9 @@ contains
       case ("--set")
          config%overrides = [config%overrides, override_t(value)]
       case ("--case")
-         call read_whole_number(option, value, "the number of a case, from 0", see(config), config%case_number, error)
+         call read_whole_number(option, value, "the number of a case, from 0", see(config), 0, huge(1), config%case_number, error)
       case ("--repeats")
-         call read_whole_number(option, value, "a number of runs", see(config), config%repeats, error)
+         call read_whole_number(option, value, "a number of runs, from 1", see(config), 1, huge(1), config%repeats, error)
       case ("--quick")
          config%is_quick = .true.
       case ("--quiet")
@@ -232,9 +236,10 @@ contains
 
       select case (option)
       case ("--threads")
-         call read_whole_number(option, value, "a number of threads", see(config), config%threads, error)
+         call read_whole_number(option, value, "a number of threads, from 1 to "//integer_text(most_threads), see(config), 1, &
+            & most_threads, config%threads, error)
       case ("--log-every")
-         call read_whole_number(option, value, "a time in seconds", see(config), config%log_interval, error)
+         call read_whole_number(option, value, "a time in whole seconds", see(config), 0, huge(1), config%log_interval, error)
       case ("--shard")
          call read_shard(value, see(config), config, error)
       case ("--resume")
@@ -246,20 +251,26 @@ contains
       end select
    end subroutine set_option_of_many
 
-   !> A whole number, not negative.
-   subroutine read_whole_number(option, value, meaning, advice, number, error)
+   !> A whole number within bounds.
+   subroutine read_whole_number(option, value, meaning, advice, smallest, largest, number, error)
       !> The option, its word, what it takes, where to read more
       character(len=*), intent(in) :: option, value, meaning, advice
+      !> Bounds
+      integer, intent(in) :: smallest, largest
       !> Gets the number
       integer, intent(inout) :: number
       !> Usage error
       type(error_t), allocatable, intent(out) :: error
 
-      integer :: status
+      integer :: status, found
 
       status = 1
-      if (verify(value, "0123456789") == 0 .and. len(value) > 0) read (value, *, iostat=status) number
-      if (status == 0) return
+      found = smallest
+      if (verify(value, "0123456789") == 0 .and. len(value) > 0) read (value, *, iostat=status) found
+      if (status == 0 .and. found >= smallest .and. found <= largest) then
+         number = found
+         return
+      end if
       call raise(error, kind_usage, "option '"//option//"' takes "//meaning//", not '"//value//"'"//advice)
    end subroutine read_whole_number
 
@@ -278,13 +289,11 @@ contains
       integer :: slash
 
       slash = index(value, "/")
-      call read_whole_number("--shard", value(:max(slash - 1, 0)), meaning, advice, config%shard, error)
+      call read_whole_number("--shard", value(:max(slash - 1, 0)), meaning, advice, 1, huge(1), config%shard, error)
       if (.not. allocated(error)) then
-         call read_whole_number("--shard", value(slash + 1:), meaning, advice, config%shards, error)
+         call read_whole_number("--shard", value(slash + 1:), meaning, advice, config%shard, huge(1), config%shards, error)
       end if
-      if (allocated(error)) return
-      if (config%shard >= 1 .and. config%shard <= config%shards) return
-      call raise(error, kind_usage, "option '--shard' takes "//meaning//", not '"//value//"'"//advice)
+      if (allocated(error)) call raise(error, kind_usage, "option '--shard' takes "//meaning//", not '"//value//"'"//advice)
    end subroutine read_shard
 
    !> Long name of an option.

@@ -21,7 +21,7 @@ module camroller_commands
    use camroller_mistakes, only : line_t
    use camroller_model, only : model_t
    use camroller_names, only : index_of_name
-   use camroller_number_text, only : integer_text
+   use camroller_number_text, only : counted, integer_text
    use camroller_rerun_command, only : rerun_file
    use camroller_run, only : build_models
    use camroller_run_command, only : run_deck
@@ -251,10 +251,11 @@ contains
 
       integer :: i
 
-      words = "one case"
+      words = counted(1, "case")
       if (size(deck%sweep%axes) == 0) return
-      words = integer_text(sweep_size(deck%sweep))//" cases over"
-      if (deck%sweep%kind /= "grid") words = integer_text(sweep_size(deck%sweep))//" cases ("//trim(deck%sweep%kind)//") over"
+      words = counted(sweep_size(deck%sweep), "case")
+      if (deck%sweep%kind /= "grid") words = words//" ("//trim(deck%sweep%kind)//")"
+      words = words//" over"
       do i = 1, size(deck%sweep%axes)
          if (i > 1) words = words//" and"
          if (deck%sweep%kind == "grid") words = words//" "//integer_text(axis_size(deck%sweep%axes(i)))//" of"

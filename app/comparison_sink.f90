@@ -80,19 +80,21 @@ contains
       type(error_t), allocatable, intent(out) :: error
 
       type(outcome_t), allocatable :: outcomes(:)
+      type(layout_t) :: own
       logical, allocatable :: differs(:)
       integer :: first, count, layout, i
 
       call take_header(record, first, count, layout)
+      if (layout > 0) own = self%layouts%items(layout)
       allocate (outcomes(count), differs(count))
       differs = .false.
       do i = 1, count
-         call take_case(record, self%layouts(max(1, layout)), outcomes(i))
+         call take_case(record, own, outcomes(i))
       end do
       call compare_statuses(self, first, outcomes, differs, error)
       if (.not. allocated(error) .and. layout > 0) then
-         call compare_summaries(self, first, outcomes, self%layouts(layout)%summary, differs, error)
-         if (.not. allocated(error)) call compare_series(self, first, outcomes, self%layouts(layout), differs, error)
+         call compare_summaries(self, first, outcomes, own%summary, differs, error)
+         if (.not. allocated(error)) call compare_series(self, first, outcomes, own, differs, error)
          if (.not. allocated(error)) call compare_profiles(self, first, outcomes, differs, error)
       end if
       self%cases = self%cases + size(outcomes)

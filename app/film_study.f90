@@ -11,7 +11,7 @@ module camroller_film_study
    use camroller_cli, only : config_t
    use camroller_deck, only : deck_t, make_sweep_case
    use camroller_deck_sweep, only : sweep_size
-   use camroller_number_text, only : fixed_text, scientific_text, integer_text, right_text
+   use camroller_number_text, only : counted, fixed_text, scientific_text, integer_text, right_text
    use camroller_output, only : output_t, abandon_output
    use camroller_progress, only : progress_t, show_progress, end_progress, seconds_since
    use camroller_study_contact, only : new_contact_table, study_contacts
@@ -80,7 +80,7 @@ contains
       if (.not. allocated(error)) call close_study(writer, error)
       if (allocated(error) .or. config%is_quiet) return
       write (output_unit, "(a)") contact_page(tables(contacts)), table_page(tables(film_tables)), cycle_page(tables(cycles)), &
-         & path//": "//integer_text(sweep_size(deck%sweep))//" cases in "//seconds_since(progress)
+         & path//": "//counted(sweep_size(deck%sweep), "case")//" in "//seconds_since(progress)
    end subroutine study_films
 
    !> Steady films: one line for each contact and number of nodes.

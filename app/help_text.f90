@@ -129,11 +129,13 @@ contains
             & "Compute every case of a deck with a &sweep, in threads, and write one HDF5 file. While it runs, what is done is"// &
             & n// &
             & "in FILE.part-*; however it ends, --resume computes what is missing. The file does not depend on threads,"//n// &
-            & "shards and interruptions."//n//n// &
+            & "shards and interruptions. Without --resume an earlier FILE is replaced when all cases are done; one of"//n// &
+            & "another study not without a word."//n//n// &
             & "  -o, --output FILE          file to write: the deck's name with .h5 in the present folder where not given"//n// &
-            & "  -j, --threads N            threads; as many as there are cores where not given"//n// &
+            & "  -j, --threads N            threads, 1 to 1024; as many as there are cores where not given"//n// &
             & "  --shard K/N                only the K-th of N equal parts of the cases; 'camroller merge' makes the file"//n// &
-            & "  --resume                   go on with what is there; begin where nothing is"//n// &
+            & "  --resume                   go on with what is there; begin where nothing is; end as before where FILE has"//n// &
+            & "                             every case of this study; an error where FILE is anything else"//n// &
             & "  --log-every S              seconds between lines in a log; 60 where not given"//n// &
             & "  -s, --set group.key=value  other value than the deck's; may be repeated"//n// &
             & "  -q, --quiet                say nothing but errors"
@@ -143,7 +145,9 @@ contains
             & n// &
             & "the sweep was given."//n//n// &
             & "  -o, --output FILE          file to write: the deck's name with .h5 in the present folder where not given"//n// &
-            & "  --partial                  also where cases are missing, with status -1; the parts stay"//n// &
+            & "  --partial                  also where cases are missing: they have status -1, FILE has the"//n// &
+            & "                             attributes 'complete' 0 and 'missing_cases'; the parts stay, as 'camroller sweep"//n// &
+            & "                             --resume' goes on from them"//n// &
             & "  -s, --set group.key=value  other value than the deck's; may be repeated"//n// &
             & "  -q, --quiet                say nothing but errors"
       case default
@@ -153,7 +157,7 @@ contains
             & "every bit. Where something differs, says what and by how much, and which build made the file; the exit code is"// &
             & n// &
             & "then 7."//n//n// &
-            & "  -j, --threads N            threads; as many as there are cores where not given"//n// &
+            & "  -j, --threads N            threads, 1 to 1024; as many as there are cores where not given"//n// &
             & "  --log-every S              seconds between lines in a log; 60 where not given"//n// &
             & "  -q, --quiet                say nothing but errors"
       end select

@@ -7,9 +7,10 @@ module camroller_part_sink
    use camroller_error, only : error_t
    use camroller_case_record, only : end_cases, take_header
    use camroller_case_sink, only : sink_t
-   use camroller_layout, only : layout_t, put_layout
-   use camroller_part_file, only : append_record, kind_cases, kind_layout, part_t, sync_part
-   use camroller_record, only : clear_record, record_t
+   use camroller_layout, only : layout_t
+   use camroller_part_file, only : append_layout, append_record, part_t, sync_part
+   use camroller_part_scan, only : kind_cases
+   use camroller_record, only : record_t
    implicit none
    private
 
@@ -40,12 +41,8 @@ contains
       !> File error
       type(error_t), allocatable, intent(out) :: error
 
-      type(record_t) :: record
-
       if (self%layouts_before < 0) self%layouts_before = self%part%layouts
-      call clear_record(record)
-      call put_layout(record, layout)
-      call append_record(self%part, kind_layout, record, error)
+      call append_layout(self%part, layout, error)
    end subroutine announce
 
    !> Write a run of cases; its layout is counted from the first one of the file.

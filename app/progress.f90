@@ -6,7 +6,7 @@ module camroller_progress
    use, intrinsic :: iso_c_binding, only : c_int
    use, intrinsic :: iso_fortran_env, only : error_unit, int64
    use camroller_kinds, only : wp
-   use camroller_number_text, only : number_text, fixed_text, integer_text
+   use camroller_number_text, only : counted, number_text, fixed_text, integer_text
    implicit none
    private
 
@@ -94,7 +94,7 @@ contains
       !> The words
       character(len=:), allocatable :: words
 
-      words = integer_text(done)//" of "//integer_text(total)//" cases"
+      words = integer_text(done)//" of "//counted(total, "case")
       if (done == 0) return
       words = words//", "//number_text(real(done, wp)/time, 3)//"/s, "//time_in_words(time*real(total - done, wp)/ &
          & real(done, wp))//" left"

@@ -18,15 +18,14 @@ module camroller_rerun_command
    use camroller_hdf5_object, only : hdf5_object_t
    use camroller_hdf5_read, only : has_member, list_members, member_length, open_file, read_extents, read_numbers, read_text, &
       & read_text_attribute
-   use camroller_number_text, only : integer_text, number_text
-   use camroller_output, only : result_format
+   use camroller_number_text, only : agreeing, counted, integer_text, number_text
+   use camroller_output, only : not_computed, result_format
    use camroller_progress, only : end_progress, seconds_since, start_progress
-   use camroller_run_facts, only : shorten_options
+   use camroller_run_facts, only : find_other_build
    use camroller_settings, only : get_word, take
    use camroller_stop_signal, only : heed_stop_signals
    use camroller_table_file, only : table_t
    use camroller_team, only : team_t
-   use camroller_version, only : build_commit, compiler_facts, version_text
    implicit none
    private
 
@@ -48,6 +47,7 @@ contains
       type(loop_t) :: loop
       type(runs_t) :: runs
       character(len=:), allocatable :: facts
+      integer :: missing
       logical :: holds_contacts
 
       if (team%rank /= 0) return
@@ -55,14 +55,13 @@ contains
       call open_file(sink%file, config%subject, error)
       if (allocated(error)) return
       call read_stored_deck(sink%file, config%subject, deck, error)
-      if (.not. allocated(error)) call read_build(sink%file, facts, error)
+      if (.not. allocated(error)) call find_other_build(sink%file, facts, error)
       holds_contacts = is_ehl_file(sink%file)
       if (.not. (allocated(error) .or. holds_contacts)) call choose_series(sink%file, deck, loop, error)
+      if (.not. (allocated(error) .or. holds_contacts)) call choose_cases(sink%file, sweep_size(deck%sweep), runs, error)
       if (.not. allocated(error)) then
          loop%threads = config%threads
          if (loop%threads == 0) loop%threads = number_of_cores()
-         runs%first = [1]
-         runs%count = [sweep_size(deck%sweep)]
          call heed_stop_signals()
          call start_progress(loop%progress, config%is_quiet, real(config%log_interval, wp))
          if (holds_contacts) then
@@ -74,8 +73,32 @@ contains
       end if
       call discard_file(sink%file)
       if (allocated(error)) return
-      call conclude(config, sink, loop, facts, error)
+      missing = sweep_size(deck%sweep) - loop%total
+      if (holds_contacts) missing = 0
+      call conclude(config, sink, loop, missing, facts, error)
    end subroutine rerun_file
+
+   !> Cases to be computed: those that the file has, which are not all where it is partial.
+   subroutine choose_cases(file, cases, runs, error)
+      !> The file, open
+      type(hdf5_object_t), intent(in) :: file
+      !> Number of cases
+      integer, intent(in) :: cases
+      !> Runs of cases that were computed
+      type(runs_t), intent(out) :: runs
+      !> File error
+      type(error_t), allocatable, intent(out) :: error
+
+      real(wp), allocatable :: status(:) ! [-]
+      logical, allocatable :: is_there(:)
+      integer :: i
+
+      call read_numbers(file, "/summary/status", [0], [cases], status, error)
+      if (allocated(error)) return
+      is_there = nint(status) /= not_computed
+      runs%first = pack([(i, i=1, cases)], is_there .and. .not. [.false., is_there(:cases - 1)])
+      runs%count = pack([(i, i=1, cases)], is_there .and. .not. [is_there(2:), .false.]) - runs%first + 1
+   end subroutine choose_cases
 
    !> The deck of a result file, with all that belongs to it.
    subroutine read_stored_deck(file, path, deck, error)
@@ -106,7 +129,7 @@ contains
       if (.not. allocated(error)) call read_extents(file, "/case", extents, error)
       if (allocated(error)) return
       if (extents(1) /= sweep_size(deck%sweep)) then
-         call raise(error, kind_file, "'"//path//"' has "//integer_text(extents(1))//" cases, its deck "// &
+         call raise(error, kind_file, "'"//path//"' has "//counted(extents(1), "case")//", its deck "// &
             & integer_text(sweep_size(deck%sweep)))
       end if
    end subroutine read_stored_deck
@@ -193,51 +216,16 @@ contains
       loop%profiles = choice
    end subroutine choose_series
 
-   !> What tells the build of a file from this one, one line each.
-   subroutine read_build(file, facts, error)
-      !> The file, open
-      type(hdf5_object_t), intent(in) :: file
-      !> Lines
-      character(len=:), allocatable, intent(out) :: facts
-      !> File error
-      type(error_t), allocatable, intent(out) :: error
-
-      character(len=:), allocatable :: compiler, options
-
-      facts = ""
-      call compiler_facts(compiler, options)
-      call shorten_options(options)
-      call compare_fact("version", version_text)
-      if (.not. allocated(error)) call compare_fact("commit", build_commit)
-      if (.not. allocated(error)) call compare_fact("compiler", compiler)
-      if (.not. allocated(error)) call compare_fact("options", options)
-
-   contains
-
-      !> Add a line where a fact differs.
-      subroutine compare_fact(name, present_value)
-         !> Name of the fact, and what it is for this program
-         character(len=*), intent(in) :: name, present_value
-
-         character(len=:), allocatable :: stored
-
-         call read_text_attribute(file, "/run", name, stored, error)
-         if (allocated(error)) return
-         if (name == "options") call shorten_options(stored)
-         if (stored == present_value) return
-         facts = facts//new_line("a")//"  "//name//": '"//stored//"' made the file, this is '"//present_value//"'"
-      end subroutine compare_fact
-
-   end subroutine read_build
-
    !> Say what came of it.
-   subroutine conclude(config, sink, loop, facts, error)
+   subroutine conclude(config, sink, loop, missing, facts, error)
       !> What to do
       type(config_t), intent(in) :: config
       !> What differs
       type(comparison_sink_t), intent(in) :: sink
       !> How the loop ended
       type(loop_t), intent(in) :: loop
+      !> Cases that the file does not have
+      integer, intent(in) :: missing
       !> What tells the builds apart
       character(len=*), intent(in) :: facts
       !> What differs
@@ -247,17 +235,21 @@ contains
       integer :: i
 
       if (sink%differing == 0 .and. loop%ended == ended_all) then
-         if (.not. config%is_quiet) write (output_unit, '(a)') config%subject//": "//integer_text(sink%cases)// &
-            & " cases are the same to the last bit, in "//seconds_since(loop%progress)
+         text = config%subject//": "//counted(sink%cases, "case")//agreeing(sink%cases, " is", " are")// &
+            & " the same to the last bit, "
+         if (missing > 0) text = text//integer_text(missing)//agreeing(missing, " is", " are")//" not in the file, "
+         if (.not. config%is_quiet) write (output_unit, '(a)') text//"in "//seconds_since(loop%progress)
          return
       else if (sink%differing == 0) then
-         call raise(error, kind_unfinished, "stopped after "//integer_text(sink%cases)//" cases, which are the same")
+         call raise(error, kind_unfinished, "stopped after "//counted(sink%cases, "case")//agreeing(sink%cases, &
+            & ", which is the same", ", which are the same"))
          return
       end if
-      text = config%subject//": "//integer_text(sink%differing)//" of "//integer_text(sink%cases)//" cases differ"
+      text = config%subject//": "//integer_text(sink%differing)//" of "//counted(sink%cases, "case")// &
+         & agreeing(sink%differing, " differs", " differ")
       do i = 1, sink%count
          associate (difference => sink%differences(i))
-            text = text//new_line("a")//"  "//difference%name//": in "//integer_text(difference%cases)//" cases, "
+            text = text//new_line("a")//"  "//difference%name//": in "//counted(difference%cases, "case")//", "
             if (difference%largest < huge(1.0_wp)) then
                text = text//"at most by "//number_text(difference%largest, 2)//" of its value, in case "
             else

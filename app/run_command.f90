@@ -15,7 +15,8 @@ module camroller_run_command
    use camroller_cli, only : config_t
    use camroller_deck, only : deck_t, read_deck, make_sweep_case
    use camroller_deck_sweep, only : sweep_size, case_in_words
-   use camroller_number_text, only : integer_text
+   use camroller_earlier_result, only : failures_in_words
+   use camroller_number_text, only : counted, integer_text
    use camroller_output, only : output_t, output_options_t, open_output, write_case, write_failure, close_output, &
       & abandon_output
    use camroller_profile_file, only : profile_file_t, put_profiles, close_profiles
@@ -81,8 +82,7 @@ contains
       if (.not. config%is_quiet) call report(deck, path, seconds_since(progress), tally)
       if (tally%failed == 0) return
       call move_alloc(tally%failure, error)
-      error%message = integer_text(tally%failed)//" of "//integer_text(cases)//" cases have no result; the first is "// &
-         & error%message
+      error%message = failures_in_words(tally%failed, cases, error%message)
    end subroutine run_deck
 
    !> Say which values given beside the deck are not used, since the sweep varies their keys.
@@ -205,9 +205,7 @@ contains
 
       character(len=:), allocatable :: words
 
-      words = integer_text(sweep_size(deck%sweep))//" cases in "
-      if (sweep_size(deck%sweep) == 1) words = "one case in "
-      write (output_unit, '(a)') path//": "//words//time
+      write (output_unit, '(a)') path//": "//counted(sweep_size(deck%sweep), "case")//" in "//time
       call tell_remarks(tally%remarks, deck)
    end subroutine report
 

@@ -9,32 +9,44 @@ module camroller_run_facts
    use camroller_deck, only : deck_t
    use camroller_deck_document, only : echo_t, get_echo
    use camroller_deck_sweep, only : sweep_numbers, sweep_size, sweep_words
+   use camroller_hdf5_object, only : hdf5_object_t
+   use camroller_hdf5_read, only : read_text_attribute
+   use camroller_mistakes, only : mistakes_t
    use camroller_number_text, only : hexadecimal => hexadecimal_text, integer_text
    use camroller_output, only : output_t, write_deck, write_deck_table, write_overrides, write_run, write_sweep
-   use camroller_part_file, only : study_facts_t
+   use camroller_part_scan, only : study_facts_t
    use camroller_record, only : checksum, text_words
+   use camroller_settings, only : get_word
    use camroller_system_file, only : utc_date
-   use camroller_table_file, only : table_t
+   use camroller_table_file, only : read_table, table_t
+   use camroller_text_file, only : join_path
+   use camroller_text_list, only : text_at
    use camroller_version, only : version_text, build_commit, compiler_facts
    implicit none
    private
 
-   public :: write_facts, study_facts, study_digest, shorten_options
+   public :: write_facts, study_facts, study_digest, find_other_build
 
-   !> Keys that say how a sweep is run and nothing about its cases
-   character(len=*), parameter :: keys_of_running(*) = [character(len=23) :: "sweep.wall_time_limit_s", "sweep.checkpoint_s"]
+   !> Groups whose key `table` names a table of two columns
+   character(len=*), parameter :: table_groups(*) = [character(len=11) :: "lift", "second_lift", "gas_force"]
+   !> Keys that say nothing about the cases: how a sweep is run, and where tables are, whose content counts
+   character(len=*), parameter :: keys_beside_cases(*) = [character(len=23) :: "sweep.wall_time_limit_s", "sweep.checkpoint_s", &
+      & "sweep.table", "lift.table", "second_lift.table", "gas_force.table"]
 
 contains
 
    !> Deck, sweep and build into the result file.
-   subroutine write_facts(writer, deck, error)
+   subroutine write_facts(writer, deck, error, facts)
       !> The result file
       type(output_t), intent(inout) :: writer
       !> The deck
       type(deck_t), intent(in) :: deck
       !> File error
       type(error_t), allocatable, intent(out) :: error
+      !> The study as it was when its first case was computed; without it, as it is now
+      type(study_facts_t), intent(in), optional :: facts
 
+      type(study_facts_t) :: present_facts
       character(len=:), allocatable :: words(:)
       !> Values of a key that varies [unit of the key]
       real(wp), allocatable :: numbers(:)
@@ -56,7 +68,13 @@ contains
             end if
          end associate
       end do
-      if (.not. allocated(error)) call write_build(writer, deck, error)
+      if (allocated(error)) return
+      if (present(facts)) then
+         call write_build(writer, facts, error)
+      else
+         call study_facts(deck, present_facts)
+         call write_build(writer, present_facts, error)
+      end if
    end subroutine write_facts
 
    !> What stands beside the deck: overrides and tables.
@@ -101,21 +119,19 @@ contains
    end subroutine write_table
 
    !> Program, build, date and command into the result file.
-   subroutine write_build(writer, deck, error)
+   subroutine write_build(writer, facts, error)
       !> The result file
       type(output_t), intent(inout) :: writer
-      !> The deck
-      type(deck_t), intent(in) :: deck
+      !> The study
+      type(study_facts_t), intent(in) :: facts
       !> File error
       type(error_t), allocatable, intent(out) :: error
 
       character(len=*), parameter :: names(*) = [character(len=8) :: "program", "version", "commit", "compiler", "options", &
          & "date", "command", "study"]
       character(len=:), allocatable :: compiler, options, command, values(:)
-      type(study_facts_t) :: facts
       integer :: length
 
-      call study_facts(deck, facts)
       call compiler_facts(compiler, options)
       call get_command(length=length)
       allocate (character(len=length) :: command)
@@ -132,7 +148,8 @@ contains
       call write_run(writer, names, values, error)
    end subroutine write_build
 
-   !> What part files must agree on with a sweep: every value, a checksum of every table, the build.
+   !> What part files must agree on with a sweep: every value, a checksum of every table, the build. Where the deck and its tables
+   !> are does not matter.
    subroutine study_facts(deck, facts)
       !> The deck
       type(deck_t), intent(in) :: deck
@@ -147,12 +164,12 @@ contains
       call get_echo(deck, echo)
       facts%deck = ""
       do i = 1, size(echo%keys)
-         if (any(echo%keys(i) == keys_of_running)) cycle
+         if (any(echo%keys(i) == keys_beside_cases)) cycle
          facts%deck = facts%deck//trim(echo%keys(i))//" = "//trim(echo%values(i))//new_line("a")
       end do
-      call add_table(deck%tables%lift, facts%deck)
-      call add_table(deck%tables%second_lift, facts%deck)
-      call add_table(deck%tables%pressure, facts%deck)
+      do i = 1, size(table_groups)
+         call add_tables(deck, trim(table_groups(i)), facts%deck)
+      end do
       do i = 1, size(deck%sweep%axes)
          if (deck%sweep%axes(i)%values%count == 0) cycle
          facts%deck = facts%deck//"values of "//deck%sweep%axes(i)%key//" "// &
@@ -198,16 +215,101 @@ contains
       digest = hexadecimal(checksum(text_words(facts%deck//facts%build), int(facts%cases, int64)))
    end function study_digest
 
-   !> Checksum of a table as a line of text.
-   subroutine add_table(table, text)
-      !> The table
-      type(table_t), intent(in) :: table
+   !> Checksums of the tables that a group names in the deck or in any of its cases, a line of text for each.
+   subroutine add_tables(deck, group, text)
+      !> The deck
+      type(deck_t), intent(in) :: deck
+      !> The group
+      character(len=*), intent(in) :: group
       !> Text to add to
       character(len=:), allocatable, intent(inout) :: text
 
-      if (.not. allocated(table%path)) return
-      text = text//"table "//table%path//" with checksum "//hexadecimal(checksum([transfer(table%x, [0_int64]), &
+      character(len=:), allocatable :: name
+      integer :: i, k
+
+      call add_table(deck, group, get_word(deck%settings, group, "table"), text)
+      do i = 1, size(deck%sweep%axes)
+         associate (axis => deck%sweep%axes(i))
+            if (axis%key /= group//".table") cycle
+            do k = 1, axis%values%count
+               name = text_at(axis%values, k)
+               if (k > 1) then
+                  if (name == text_at(axis%values, k - 1)) cycle
+               end if
+               if (scan(name, "'""") == 1) name = name(2:len(name) - 1)
+               call add_table(deck, group, name, text)
+            end do
+         end associate
+      end do
+   end subroutine add_tables
+
+   !> Checksum of a table as a line of text.
+   subroutine add_table(deck, group, name, text)
+      !> The deck
+      type(deck_t), intent(in) :: deck
+      !> Group that names the table
+      character(len=*), intent(in) :: group
+      !> Its name in the deck; blank where there is none
+      character(len=*), intent(in) :: name
+      !> Text to add to
+      character(len=:), allocatable, intent(inout) :: text
+
+      type(table_t) :: table
+      type(mistakes_t) :: mistakes
+      type(error_t), allocatable :: error
+      logical :: is_at_hand
+
+      if (name == "") return
+      select case (group)
+      case ("lift")
+         table = deck%tables%lift
+      case ("second_lift")
+         table = deck%tables%second_lift
+      case default
+         table = deck%tables%pressure
+      end select
+      is_at_hand = allocated(table%path)
+      if (is_at_hand) is_at_hand = table%path == join_path(deck%folder, name)
+      if (.not. is_at_hand) call read_table(join_path(deck%folder, name), table, mistakes, error)
+      text = text//"table of &"//group//" with checksum "//hexadecimal(checksum([transfer(table%x, [0_int64]), &
          & transfer(table%y, [0_int64])], 0_int64))//new_line("a")
    end subroutine add_table
+
+   !> What tells the build of a file from this one, a line for each fact.
+   subroutine find_other_build(file, facts, error)
+      !> The file, open
+      type(hdf5_object_t), intent(in) :: file
+      !> Lines
+      character(len=:), allocatable, intent(out) :: facts
+      !> File error
+      type(error_t), allocatable, intent(out) :: error
+
+      character(len=:), allocatable :: compiler, options
+
+      facts = ""
+      call compiler_facts(compiler, options)
+      call shorten_options(options)
+      call compare_fact("version", version_text)
+      if (.not. allocated(error)) call compare_fact("commit", build_commit)
+      if (.not. allocated(error)) call compare_fact("compiler", compiler)
+      if (.not. allocated(error)) call compare_fact("options", options)
+
+   contains
+
+      !> Add a line where a fact differs.
+      subroutine compare_fact(name, present_value)
+         !> Name of the fact, and what it is for this program
+         character(len=*), intent(in) :: name, present_value
+
+         character(len=:), allocatable :: stored
+
+         call read_text_attribute(file, "/run", name, stored, error)
+         if (allocated(error)) return
+         if (name == "options") call shorten_options(stored)
+         if (stored == present_value) return
+         facts = facts//new_line("a")//"  "//name//": '"//stored//"' made the file, this is '"//present_value//"'"
+      end subroutine compare_fact
+
+   end subroutine find_other_build
 
 end module camroller_run_facts

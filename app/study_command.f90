@@ -10,7 +10,7 @@ module camroller_study_command
    use camroller_deck, only : deck_t, read_deck, make_sweep_case
    use camroller_deck_sweep, only : sweep_size, case_in_words
    use camroller_film_study, only : study_films
-   use camroller_number_text, only : integer_text
+   use camroller_number_text, only : counted
    use camroller_output, only : output_t, output_options_t, open_output, abandon_output
    use camroller_progress, only : progress_t, start_progress, show_progress, end_progress, seconds_since
    use camroller_run_command, only : check_cases, output_path
@@ -131,7 +131,7 @@ contains
 
       write (output_unit, '(a)') reference_page(tables(references)), method_page(tables(methods)), &
          & accuracy_page(tables(accuracies)), model_page(tables(models)), &
-         & path//": "//integer_text(tables(references)%rows)//" cases in "//time
+         & path//": "//counted(tables(references)%rows, "case")//" in "//time
    end subroutine report
 
 end module camroller_study_command

@@ -141,7 +141,7 @@ def read_result(path, with_series=True):
 def _read(path, file, with_series):
     if "series" not in file or ("cam_angle" not in file["series"] and "summary/status" not in file):
         raise ResultError(f"{path}: not a result file of camroller (neither /series/cam_angle nor /summary/status)")
-    if int(np.ravel(file.attrs.get("complete", 0))[0]) != 1:
+    if not any(int(np.ravel(file.attrs.get(name, 0))[0]) for name in ("complete", "missing_cases")):
         raise ResultError(f"{path}: not complete: the run that wrote it did not finish")
     angle, series = _read_series(path, file) if with_series else (np.zeros(0), {})
     deck_text = _text(file["deck/text"][()]) if "deck/text" in file else ""

@@ -9,7 +9,7 @@ module camroller_number_text
    implicit none
    private
 
-   public :: number_text, fixed_text, scientific_text, integer_text, hexadecimal_text, right_text
+   public :: number_text, fixed_text, scientific_text, integer_text, hexadecimal_text, right_text, counted, agreeing
    public :: write_number, number_length
    public :: is_number, is_beyond_range
 
@@ -291,6 +291,34 @@ contains
       ! style: write because this is the place where numbers become text
       write (text, "(z16.16)") value
    end function hexadecimal_text
+
+   !> How many there are of something: `1 case`, `24 cases`.
+   pure function counted(number, noun) result(words)
+      !> How many
+      integer, intent(in) :: number
+      !> One of them, a word whose plural ends with an s
+      character(len=*), intent(in) :: noun
+      !> Number and noun
+      character(len=integer_length(int(number, int64)) + len(noun) + merge(1, 2, number == 1)) :: words
+
+      words = integer_text(number)//" "//agreeing(number, noun, noun//"s")
+   end function counted
+
+   !> The words that go with a number.
+   pure function agreeing(number, one, many) result(words)
+      !> The number
+      integer, intent(in) :: number
+      !> Words for one, and for none or several
+      character(len=*), intent(in) :: one, many
+      !> One of both
+      character(len=merge(len(one), len(many), number == 1)) :: words
+
+      if (number == 1) then
+         words = one
+      else
+         words = many
+      end if
+   end function agreeing
 
    !> A word at the right end of a column; one that is too long makes its line longer and is shown whole.
    pure function right_text(word, width) result(text)

@@ -12,7 +12,9 @@ module camroller_assemble
    use camroller_layout, only : join_layouts, layout_t, places_of
    use camroller_mistakes, only : line_t
    use camroller_output, only : output_t, set_layout, write_outcome
-   use camroller_part_file, only : entry_t, index_t, read_record
+   use camroller_output_file, only : not_computed
+   use camroller_part_file, only : read_record
+   use camroller_part_scan, only : entry_t, index_t
    use camroller_profile_file, only : profile_file_t, put_profiles, close_profiles
    use camroller_raw_file, only : close_raw, open_raw, raw_file_t
    use camroller_record, only : record_t
@@ -20,10 +22,7 @@ module camroller_assemble
    implicit none
    private
 
-   public :: tally_t, assemble, not_computed
-
-   !> Status of a case that no part file has
-   integer, parameter :: not_computed = -1
+   public :: tally_t, assemble
 
    !> What happened to the cases
    type :: tally_t
@@ -91,7 +90,7 @@ contains
       !> Layout with every quantity
       type(layout_t), intent(out) :: joint
 
-      logical :: is_joined(index%layout_count)
+      logical :: is_joined(index%layouts%count)
       integer :: i
 
       is_joined = .false.
@@ -99,7 +98,7 @@ contains
          if (index%entries(i)%layout == 0) cycle
          if (is_joined(index%entries(i)%layout)) cycle
          is_joined(index%entries(i)%layout) = .true.
-         call join_layouts(joint, index%layouts(index%entries(i)%layout))
+         call join_layouts(joint, index%layouts%items(index%entries(i)%layout))
       end do
       if (.not. allocated(joint%summary)) allocate (joint%summary(0), joint%series(0), joint%angle(0))
    end subroutine find_joint
@@ -134,7 +133,7 @@ contains
       if (allocated(error)) return
       call take_header(record, first, count, unused)
       allocate (layout%summary(0), layout%series(0), layout%angle(0))
-      if (entry%layout > 0) layout = index%layouts(entry%layout)
+      if (entry%layout > 0) layout = index%layouts%items(entry%layout)
       summary_places = places_of(layout%summary, joint%summary)
       series_places = places_of(layout%series, joint%series)
       do i = first, first + count - 1

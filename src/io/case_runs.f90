@@ -2,11 +2,15 @@
 !>
 !> Layer: io. In: what part files hold. Out: runs, few integers however many cases there are.
 module camroller_case_runs
-   use camroller_part_file, only : entry_t, index_t
+   use camroller_number_text, only : counted, integer_text
+   use camroller_part_scan, only : entry_t, index_t
    implicit none
    private
 
-   public :: runs_t, missing_runs, run_total, piece_of, sort_entries
+   public :: runs_t, missing_runs, run_total, runs_in_words, piece_of, sort_entries
+
+   !> Most runs that are named in words
+   integer, parameter :: most_named = 20
 
    !> Runs in increasing order
    type :: runs_t
@@ -59,6 +63,23 @@ contains
 
       total = sum(runs%count)
    end function run_total
+
+   !> Which cases are in runs, from 0 as in result files: `3 cases, 0 to 1, 7`.
+   pure function runs_in_words(runs) result(words)
+      !> The runs
+      type(runs_t), intent(in) :: runs
+      !> The words
+      character(len=:), allocatable :: words
+
+      integer :: i
+
+      words = counted(run_total(runs), "case")
+      do i = 1, min(size(runs%first), most_named)
+         words = words//", "//integer_text(runs%first(i) - 1)
+         if (runs%count(i) > 1) words = words//" to "//integer_text(runs%first(i) + runs%count(i) - 2)
+      end do
+      if (size(runs%first) > most_named) words = words//" and others"
+   end function runs_in_words
 
    !> Consecutive cases from the so-manyth case of runs on.
    pure subroutine piece_of(runs, position, wanted, first, count)

@@ -7,7 +7,7 @@ module camroller_deck_keys
    use camroller_kinds, only : wp, pi
    use camroller_units, only : length_unit_names, pressure_unit_names
    use camroller_case, only : case_t, energy_names, method_choices, select_names, quantity_names
-   use camroller_lift, only : lift_t, lift_law_names, largest_exponent
+   use camroller_lift, only : lift_t, lift_law_names
    use camroller_kinematics, only : rotation_names
    use camroller_dynamics, only : contact_policy_names, load_arm_names, seating_names
    use camroller_lubricant, only : temperature_law_names, pressure_law_names
@@ -143,7 +143,7 @@ contains
          & "cam angle from the start of lift to full lift; every law but 'table'", example="70", is_optional=.true.)
       call add_number(schema, "closing_half_angle_deg", up_to(180.0_wp), &
          & "cam angle from full lift to the end of lift; as opening_half_angle_deg where not given", is_optional=.true.)
-      call add_integers(schema, "exponents", from_to(1.0_wp, real(largest_exponent, wp)), &
+      call add_integers(schema, "exponents", one_or_more, &
          & "'power': n of (1 - x^2)^n, 3 or more; 'polydyne': four exponents of x, increasing", example="4", &
          & is_optional=.true.)
       call add_text(schema, "table", "law 'table': file with two columns, cam angle in degrees and lift; "// &

@@ -77,7 +77,7 @@ contains
       end if
    end subroutine export_csv
 
-   !> Open a file that is one of our results, and complete.
+   !> Open a file that is one of our results, and was written to its end: complete, or partial by intention.
    subroutine open_result(file, path, cases, error)
       !> The open file
       type(hdf5_object_t), intent(out) :: file
@@ -89,7 +89,7 @@ contains
       type(error_t), allocatable, intent(out) :: error
 
       character(len=:), allocatable :: form
-      integer :: complete, version
+      integer :: complete, missing, version
 
       call open_file(file, path, error)
       if (allocated(error)) return
@@ -103,7 +103,9 @@ contains
       end if
       call read_integer_attribute(file, "/", "complete", complete, error)
       if (allocated(error)) complete = 0
-      if (complete /= 1) then
+      call read_integer_attribute(file, "/", "missing_cases", missing, error)
+      if (allocated(error)) missing = 0
+      if (complete /= 1 .and. missing == 0) then
          call raise(error, kind_file, "cannot read '"//path//"': it is not complete")
          return
       end if

@@ -23,7 +23,7 @@ module camroller_hdf5_file
    implicit none
    private
 
-   public :: create_file, reserve_file, flush_file, close_file, discard_file
+   public :: create_file, reserve_file, hand_over_file, flush_file, close_file, discard_file
    public :: create_group, close_object
    public :: create_numbers, create_integers, create_texts
    public :: write_numbers, write_integers, write_text
@@ -111,6 +111,19 @@ contains
          call raise(error, kind_file, "cannot write '"//file%file//"': "//reason)
       end if
    end subroutine reserve_file
+
+   !> Hand everything written so far over to the system, so that a file of a process that is killed says what it is.
+   subroutine hand_over_file(file, error)
+      !> An open file
+      type(hdf5_object_t), intent(in) :: file
+      !> File error where that fails
+      type(error_t), allocatable, intent(out) :: error
+
+      integer :: status
+
+      call h5fflush_f(file%id, h5f_scope_global_f, status)
+      if (status /= 0) call raise_hdf5(error, "cannot write '"//file%file//"'")
+   end subroutine hand_over_file
 
    !> Have everything written so far put on the device; space set aside and not used is given back.
    subroutine flush_file(file, error)

@@ -9,7 +9,8 @@ module camroller_layout
    implicit none
    private
 
-   public :: layout_t, layout_of, fits_layout, put_layout, take_layout, join_layouts, places_of
+   public :: layout_t, layout_list_t, layout_of, fits_layout, put_layout, take_layout, join_layouts, places_of
+   public :: find_layout, set_layout_at
 
    !> Quantities of a case
    type :: layout_t
@@ -18,6 +19,14 @@ module camroller_layout
       !> Cam angles [deg]
       real(wp), allocatable :: angle(:)
    end type layout_t
+
+   !> Layouts by their numbers, from 1
+   type :: layout_list_t
+      !> The layouts, with room behind them; without quantities where a number has none
+      type(layout_t), allocatable :: items(:)
+      !> Largest number in use
+      integer :: count = 0
+   end type layout_list_t
 
 contains
 
@@ -54,6 +63,50 @@ contains
          verdict = verdict .and. layout%series(i)%name == result%series(i)%name
       end do
    end function fits_layout
+
+   !> Number of the layout of a result; one that is new is added to the list.
+   subroutine find_layout(list, result, number, is_new)
+      !> The list
+      type(layout_list_t), intent(inout) :: list
+      !> The result
+      type(result_t), intent(in) :: result
+      !> Number of its layout
+      integer, intent(out) :: number
+      !> Has it come for the first time?
+      logical, intent(out) :: is_new
+
+      type(layout_t) :: layout
+
+      is_new = .false.
+      do number = list%count, 1, -1
+         if (fits_layout(list%items(number), result)) return
+      end do
+      is_new = .true.
+      number = list%count + 1
+      call layout_of(result, layout)
+      call set_layout_at(list, number, layout)
+   end subroutine find_layout
+
+   !> Put a layout under a number of a list, which grows as far as it has to.
+   subroutine set_layout_at(list, number, layout)
+      !> The list
+      type(layout_list_t), intent(inout) :: list
+      !> The number, from 1
+      integer, intent(in) :: number
+      !> The layout
+      type(layout_t), intent(in) :: layout
+
+      type(layout_t), allocatable :: longer(:)
+
+      if (.not. allocated(list%items)) allocate (list%items(4))
+      if (number > size(list%items)) then
+         allocate (longer(max(number, 2*size(list%items))))
+         longer(:list%count) = list%items(:list%count)
+         call move_alloc(longer, list%items)
+      end if
+      list%items(number) = layout
+      list%count = max(list%count, number)
+   end subroutine set_layout_at
 
    !> Pack a layout.
    subroutine put_layout(record, layout)

@@ -5,12 +5,14 @@
 !> Format, axes as C and Python see them:
 !> `/case` (case) and `/series/cam_angle` (cam_angle) are dimensions;
 !> `/series/<name>` (case, cam_angle) and `/summary/<name>` (case) carry `units`, `long_name` and `source`;
-!> `/summary/status` (case) is 0 or the kind of the error, whose message is in `/run/messages` (case);
+!> `/summary/status` (case) is 0 or the kind of the error, whose message is in `/run/messages` (case), or -1 for a case that was
+!> not computed;
 !> `/deck/text` is the deck as given, `/deck/overrides` the values given beside it, `/deck/values/<group.key>` what came of
 !> all of them, `/deck/table_<group>` (column, row) the tables that it names; `/sweep/<group.key>` (case) are the keys that vary;
 !> `/effects/<name>` (case) and `/effects/reasons` (case) tell which effects took part, where the deck leaves that to the program;
 !> `/run` has attributes, and `/run/warnings` (case) where there are warnings.
-!> The root has `format`, `format_version`, `axes` and `complete`, which is set last.
+!> The root has `format`, `format_version`, `axes` and `complete`, which is set last: 1, or 0 in a partial file, which has
+!> `missing_cases` too.
 !>
 !> Cases are gathered in memory and written in blocks, so that the memory needed does not depend on their number.
 !> Whatever fails, the unfinished file is removed, and an earlier file of the same name stays as it was.
@@ -21,14 +23,14 @@ module camroller_output
    use camroller_effect_words, only : choice_in_words
    use camroller_result, only : result_t
    use camroller_output_file, only : abandon_output, check_open, compression_names, finish_file, format_version, &
-      & not_written, output_options_t, output_t, result_format, start_file
+      & not_computed, not_written, output_options_t, output_t, result_format, start_file
    use camroller_output_cases, only : check_position, check_result, create_layout, gather, gather_row, &
       & write_remark, write_rows, write_series_row, write_status
    use camroller_output_facts, only : write_deck, write_deck_table, write_overrides, write_run, write_sweep
    implicit none
    private
 
-   public :: output_t, output_options_t, compression_names, result_format, format_version
+   public :: output_t, output_options_t, compression_names, result_format, format_version, not_computed
    public :: open_output, write_case, write_failure, set_layout, write_outcome, close_output, abandon_output
    public :: write_deck, write_deck_table, write_overrides, write_sweep, write_run
 

@@ -251,7 +251,7 @@ contains
          call create_integers(writer%summary_group, "status", shape(writer%status), dataset, error)
       end if
       if (.not. allocated(error)) call describe(dataset, "1", &
-         & "0 where the case has a result, else the kind of its error", "output", error)
+         & "0 where the case has a result, -1 where it was not computed, else the kind of its error", "output", error)
       if (.not. allocated(error)) call attach_scale(dataset, writer%case_axis, 1, 1, error)
       if (.not. allocated(error)) call write_integers(dataset, 0, writer%status, error)
       call close_object(dataset)
@@ -319,7 +319,7 @@ contains
       chunk = [size(angle), writer%block]
       if (writer%is_sparse) chunk(2) = 1
       level = compression_level(writer, size(angle))
-      axes_in_chunk = merge(2, 0, level > 0 .or. writer%is_sparse .or. is_large(cases, size(angle), contiguous_size))
+      axes_in_chunk = merge(2, 0, level > 0 .or. writer%is_sparse .or. is_large(real(cases, wp), size(angle), contiguous_size))
       do i = 1, size(writer%series)
          if (allocated(error)) exit
          associate (series => writer%series(i), dataset => writer%series_data(i))
@@ -409,15 +409,15 @@ contains
       case ("off")
          wanted = .false.
       case default
-         wanted = is_large(size(writer%status)*size(writer%series), angles, compressed_size)
+         wanted = is_large(real(size(writer%status), wp)*size(writer%series), angles, compressed_size)
       end select
       level = merge(deflate_level, 0, wanted)
    end function compression_level
 
    !> Whether rows of numbers take more than some bytes; products of large integers are kept out of integers.
    pure function is_large(rows, length, limit) result(answer)
-      !> Number of rows
-      integer, intent(in) :: rows
+      !> Number of rows [-]
+      real(wp), intent(in) :: rows
       !> Numbers in a row
       integer, intent(in) :: length
       !> The limit [byte]
@@ -425,7 +425,7 @@ contains
       !> True above the limit
       logical :: answer
 
-      answer = real(rows, wp)*real(length, wp)*number_size > limit
+      answer = rows*real(length, wp)*number_size > limit
    end function is_large
 
    !> Attributes that say what a dataset is.

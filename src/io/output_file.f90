@@ -11,7 +11,7 @@ module camroller_output_file
    use camroller_result, only : quantity_t
    use camroller_hdf5_object, only : hdf5_object_t
    use camroller_hdf5_file, only : close_file, create_file, create_group, create_integers, discard_file, &
-      & flush_file, reserve_file, write_integers
+      & flush_file, hand_over_file, reserve_file, write_integers
    use camroller_hdf5_attribute, only : make_scale, put_attribute
    use camroller_system_file, only : ignore_size_signal, is_folder, process_number, remove_file, rename_file, &
       & restore_size_signal
@@ -19,7 +19,7 @@ module camroller_output_file
    implicit none
    private
 
-   public :: output_t, output_options_t, compression_names, result_format, format_version, not_written
+   public :: output_t, output_options_t, compression_names, result_format, format_version, not_computed, not_written
    public :: number_size, text_size, object_size, start_file, finish_file, abandon_output, check_open
 
    !> When series are compressed: where they are large, always, never
@@ -39,8 +39,8 @@ module camroller_output_file
    !> Order of the axes, for readers in any language
    character(len=*), parameter :: axes_remark = "(case, cam_angle) as C and Python count them, the last axis "// &
       & "contiguous in memory; Fortran sees (cam_angle, case)"
-   !> Status of a case that has not come yet; -1 is that of a case that was not computed
-   integer, parameter :: not_written = -2
+   !> Status of a case that has not come yet, and of one that was not computed, which a partial file has
+   integer, parameter :: not_written = -2, not_computed = -1
 
    !> What goes into the file, and how
    type :: output_options_t
@@ -110,7 +110,7 @@ contains
       if (allocated(error)) call abandon_output(writer)
    end subroutine start_file
 
-   !> Mark the file complete, close it and give it its name.
+   !> Mark the file complete, or partial where cases were not computed, close it and give it its name.
    subroutine finish_file(writer, error)
       !> The writer
       type(output_t), intent(inout) :: writer
@@ -118,10 +118,13 @@ contains
       type(error_t), allocatable, intent(out) :: error
 
       logical :: done
+      integer :: missing
 
+      missing = count(writer%status == not_computed)
       call flush_file(writer%file, error)
       if (.not. allocated(error)) call reserve_file(writer%file, 0.0_wp, error)
-      if (.not. allocated(error)) call put_attribute(writer%file, "complete", 1, error)
+      if (missing > 0 .and. .not. allocated(error)) call put_attribute(writer%file, "missing_cases", missing, error)
+      if (.not. allocated(error)) call put_attribute(writer%file, "complete", merge(0, 1, missing > 0), error)
       if (.not. allocated(error)) call flush_file(writer%file, error)
       if (.not. allocated(error)) call close_file(writer%file, error)
       if (allocated(error)) return
@@ -245,6 +248,7 @@ contains
       if (.not. allocated(error)) call create_group(writer%file, "sweep", writer%sweep, error)
       if (.not. allocated(error)) call create_group(writer%file, "deck", writer%deck, error)
       if (.not. allocated(error)) call create_group(writer%file, "run", writer%run, error)
+      if (.not. allocated(error)) call hand_over_file(writer%file, error)
    end subroutine write_frame
 
 end module camroller_output_file

@@ -1,70 +1,35 @@
 !> Part files: what one process has computed of a sweep, appended record by record while it runs.
 !>
-!> Layer: io. In: records of finished cases. Out: a file that is complete up to its last whole record whatever ends the process,
-!> and an index of which cases stand where. A record is a mark with its kind, its length, a checksum and its words. The first
-!> one says what sweep the file belongs to; the others hold layouts and runs of consecutive cases. A record that was torn when
-!> the process ended fails its checksum and is cut off before anything is appended. Each file has one writer, by a lock.
+!> Layer: io. In: records of finished cases. Out: a file that is complete up to its last whole record whatever ends the process;
+!> `camroller_part_scan` says what is in it. A record that was torn when the process ended fails its checksum and is cut off
+!> before anything is appended. Each file has one writer, by a lock. A file is taken for a part by the mark at its beginning; by
+!> its name only where that is the very name of a part, and then it must be one.
 module camroller_part_file
    use, intrinsic :: iso_fortran_env, only : int64
    use camroller_error, only : error_t, raise, kind_file
    use camroller_number_text, only : integer_text
-   use camroller_layout, only : layout_t, take_layout
-   use camroller_raw_file, only : raw_file_t, open_raw, append_words, read_words, cut_raw, sync_raw, close_raw, word_size
-   use camroller_record, only : record_t, checksum, clear_record, put_integer, put_text, take_integer, take_text
+   use camroller_layout, only : layout_t, put_layout
+   use camroller_mistakes, only : line_t
+   use camroller_part_scan, only : entry_t, head_words, index_t, kind_cases, kind_head, kind_layout, longest_record, mark, &
+      & scan_file, study_facts_t
+   use camroller_raw_file, only : raw_file_t, open_raw, append_words, read_words, cut_raw, find_files, sync_raw, close_raw, &
+      & word_size
+   use camroller_record, only : record_t, checksum, clear_record, put_integer, put_text
    implicit none
    private
 
-   public :: part_t, study_facts_t, entry_t, index_t, kind_cases, kind_layout
-   public :: open_part, append_record, sync_part, close_part, scan_part, read_record, part_beginning
+   public :: part_t, open_part, append_layout, append_record, sync_part, close_part, scan_part, read_record
+   public :: part_beginning, part_name, find_parts
 
-   !> Kinds of records
-   integer, parameter :: kind_head = 1, kind_layout = 2, kind_cases = 3
-   !> What a record begins with, besides its kind: letters that say what it is, in the order of this machine's bytes
-   integer(int64), parameter :: mark = int(z'4361725061727400', int64)
-   !> Words before the words of a record: mark, length, checksum
-   integer, parameter :: head_words = 3
-   !> Longest record that is believed [words]
-   integer(int64), parameter :: longest_record = 268435456_int64
-
-   !> What a part file must agree on with the sweep
-   type :: study_facts_t
-      !> Number of cases
-      integer :: cases = 0
-      !> Every value that matters, one per line, and the build
-      character(len=:), allocatable :: deck, build
-   end type study_facts_t
+   !> Bytes that messages call a megabyte
+   integer(int64), parameter :: megabyte = 1000000_int64
 
    !> A part file being written
    type :: part_t
       type(raw_file_t) :: file
-      !> Layouts in it
+      !> Largest number of a layout in it
       integer :: layouts = 0
    end type part_t
-
-   !> A run of consecutive cases in a part file
-   type :: entry_t
-      !> Where its words start [byte], and how many there are
-      integer(int64) :: offset = 0
-      integer :: words = 0
-      !> First case, from 1, and number of cases
-      integer :: first = 0, count = 0
-      !> Its layout among those of the index, 0 where no case of it has a result
-      integer :: layout = 0
-      !> Its part file among those of the index
-      integer :: part = 0
-   end type entry_t
-
-   !> What is in part files
-   type :: index_t
-      !> Runs of cases, and how many there are
-      type(entry_t), allocatable :: entries(:)
-      integer :: count = 0
-      !> Layouts of all files, and how many there are
-      type(layout_t), allocatable :: layouts(:)
-      integer :: layout_count = 0
-      !> Files
-      integer :: parts = 0
-   end type index_t
 
 contains
 
@@ -77,6 +42,71 @@ contains
 
       beginning = path//".part-"
    end function part_beginning
+
+   !> Path of the part file of a process.
+   pure function part_name(path, shard, shards, rank) result(name)
+      !> Path of the result
+      character(len=*), intent(in) :: path
+      !> The shard, from 1, and the number of shards
+      integer, intent(in) :: shard, shards
+      !> The process, from 0; without it, what the paths of all processes of the shard begin with
+      integer, intent(in), optional :: rank
+      !> Path of the part file
+      character(len=:), allocatable :: name
+
+      name = part_beginning(path)
+      if (shards > 1) name = name//"shard-"//integer_text(shard)//"-of-"//integer_text(shards)//"-"
+      if (present(rank)) name = name//"rank-"//integer_text(rank)
+   end function part_name
+
+   !> Part files of a result, sorted.
+   subroutine find_parts(path, beginning, paths)
+      !> Path of the result
+      character(len=*), intent(in) :: path
+      !> What their paths begin with
+      character(len=*), intent(in) :: beginning
+      !> Their paths
+      type(line_t), allocatable, intent(out) :: paths(:)
+
+      type(line_t), allocatable :: found(:)
+      logical, allocatable :: are_parts(:)
+      integer :: i
+
+      call find_files(beginning, found)
+      allocate (are_parts(size(found)))
+      do i = 1, size(found)
+         are_parts(i) = is_part(found(i)%text, found(i)%text(len(part_beginning(path)) + 1:))
+      end do
+      paths = pack(found, are_parts)
+   end subroutine find_parts
+
+   !> Is a file a part, by its first word or by its whole name?
+   function is_part(path, name) result(verdict)
+      !> Path of the file
+      character(len=*), intent(in) :: path
+      !> Its name behind what all parts begin with
+      character(len=*), intent(in) :: name
+      !> Is it?
+      logical :: verdict
+
+      type(raw_file_t) :: file
+      type(error_t), allocatable :: error
+      character(len=:), allocatable :: letters
+      integer(int64) :: word(1)
+      integer :: i
+
+      letters = ""
+      do i = 1, len(name)
+         if (index("0123456789", name(i:i)) == 0) letters = letters//name(i:i)
+      end do
+      verdict = letters == "rank-" .or. letters == "shard--of--rank-"
+      if (verdict) return
+      call open_raw(file, path, .false., error)
+      if (allocated(error)) return
+      call read_words(file, 0_int64, word, verdict)
+      verdict = verdict .and. word(1) == mark + kind_head
+      call close_raw(file)
+   end function is_part
 
    !> Open a part file to append to: a new one, or one that is there up to its last whole record.
    subroutine open_part(part, path, facts, error)
@@ -105,9 +135,27 @@ contains
          call put_text(record, facts%build)
          call append_record(part, kind_head, record, error)
       end if
-      part%layouts = index%layout_count
+      part%layouts = index%layouts%count
       if (allocated(error)) call close_raw(part%file)
    end subroutine open_part
+
+   !> Append a layout, under the number that follows the largest one.
+   subroutine append_layout(part, layout, error)
+      !> The part file
+      type(part_t), intent(inout) :: part
+      !> The layout
+      type(layout_t), intent(in) :: layout
+      !> File error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(record_t) :: record
+
+      call clear_record(record)
+      call put_integer(record, part%layouts + 1)
+      call put_layout(record, layout)
+      call append_record(part, kind_layout, record, error)
+      if (.not. allocated(error)) part%layouts = part%layouts + 1
+   end subroutine append_layout
 
    !> Append a record.
    subroutine append_record(part, kind, record, error)
@@ -122,13 +170,18 @@ contains
 
       integer(int64), allocatable :: words(:)
 
+      if (record%length > longest_record) then
+         call raise(error, kind_file, "cannot write '"//part%file%path//"': a case takes "// &
+            & integer_text(int(record%length*word_size/megabyte))//" MB, and "//integer_text(int(longest_record*word_size/ &
+            & megabyte))//" MB are allowed; take a larger 'output.angle_step_deg'")
+         return
+      end if
       allocate (words(head_words + record%length))
       words(1) = mark + kind
       words(2) = record%length
       words(head_words + 1:) = record%words(:record%length)
       words(3) = checksum(words(head_words + 1:), words(1) + words(2))
       call append_words(part%file, words, error)
-      if (kind == kind_layout .and. .not. allocated(error)) part%layouts = part%layouts + 1
    end subroutine append_record
 
    !> Have the device keep what was appended.
@@ -168,189 +221,6 @@ contains
       call scan_file(file, facts, index, good, error)
       call close_raw(file)
    end subroutine scan_part
-
-   !> Read records up to the last whole one.
-   subroutine scan_file(file, facts, index, good, error)
-      !> An open file
-      type(raw_file_t), intent(in) :: file
-      !> The sweep it must belong to
-      type(study_facts_t), intent(in) :: facts
-      !> The index to add to
-      type(index_t), intent(inout) :: index
-      !> Where the last whole record ends [byte]
-      integer(int64), intent(out) :: good
-      !> File error where the file belongs to another sweep
-      type(error_t), allocatable, intent(out) :: error
-
-      type(record_t) :: record
-      integer :: kind, before
-      logical :: is_whole
-
-      if (.not. allocated(index%entries)) allocate (index%entries(64), index%layouts(4))
-      index%parts = index%parts + 1
-      before = index%layout_count
-      good = 0
-      do
-         call read_next(file, good, record, kind, is_whole)
-         if (.not. is_whole) exit
-         if (good == 0 .or. kind == kind_head) then
-            call check_head(file%path, record, kind, facts, error)
-            if (allocated(error)) return
-         else if (kind == kind_layout) then
-            call add_layout(index, record)
-         else
-            call add_entry(index, record, good + head_words*word_size, before)
-         end if
-         good = good + (head_words + record%length)*word_size
-      end do
-   end subroutine scan_file
-
-   !> Read the record at a place.
-   subroutine read_next(file, offset, record, kind, is_whole)
-      !> An open file
-      type(raw_file_t), intent(in) :: file
-      !> Where it starts [byte]
-      integer(int64), intent(in) :: offset
-      !> The record
-      type(record_t), intent(inout) :: record
-      !> Its kind
-      integer, intent(out) :: kind
-      !> Is there a whole record?
-      logical, intent(out) :: is_whole
-
-      integer(int64) :: head(head_words)
-
-      kind = 0
-      call clear_record(record)
-      call read_words(file, offset, head, is_whole)
-      if (.not. is_whole) return
-      is_whole = head(1) > mark .and. head(1) <= mark + kind_cases .and. head(2) >= 0 .and. head(2) <= longest_record
-      if (is_whole) is_whole = offset + (head_words + head(2))*word_size <= file%bytes
-      if (.not. is_whole) return
-      kind = int(head(1) - mark)
-      if (size(record%words) < head(2)) then
-         deallocate (record%words)
-         allocate (record%words(head(2)))
-      end if
-      call read_words(file, offset + head_words*word_size, record%words(:head(2)), is_whole)
-      if (is_whole) is_whole = checksum(record%words(:head(2)), head(1) + head(2)) == head(3)
-      record%length = int(head(2))
-   end subroutine read_next
-
-   !> Does a file belong to a sweep?
-   subroutine check_head(path, record, kind, facts, error)
-      !> Path of the file
-      character(len=*), intent(in) :: path
-      !> First record of the file
-      type(record_t), intent(inout) :: record
-      !> Its kind
-      integer, intent(in) :: kind
-      !> The sweep
-      type(study_facts_t), intent(in) :: facts
-      !> File error where it belongs to another one
-      type(error_t), allocatable, intent(out) :: error
-
-      character(len=:), allocatable :: deck, build
-      integer :: cases
-
-      if (kind /= kind_head) then
-         call raise(error, kind_file, "'"//path//"' is no part of a sweep")
-         return
-      end if
-      call take_integer(record, cases)
-      call take_text(record, deck)
-      call take_text(record, build)
-      if (deck /= facts%deck .or. cases /= facts%cases) then
-         call raise(error, kind_file, "the deck has changed since '"//path//"' was begun: "//difference(deck, facts%deck)// &
-            & "; put the deck back, or remove the part files to start anew")
-      else if (build /= facts%build) then
-         call raise(error, kind_file, "'"//path//"' was begun by another build of camroller: "// &
-            & difference(build, facts%build)//"; continue with that one, or remove the part files to start anew")
-      end if
-   end subroutine check_head
-
-   !> First lines in which two texts differ.
-   pure function difference(old, new) result(words)
-      !> Two texts
-      character(len=*), intent(in) :: old, new
-      !> Both lines
-      character(len=:), allocatable :: words
-
-      integer :: i, first
-
-      first = 1
-      do i = 1, min(len(old), len(new))
-         if (old(i:i) /= new(i:i)) exit
-         if (old(i:i) == new_line("a")) first = i + 1
-      end do
-      words = "'"//line_at(old, first)//"' is now '"//line_at(new, first)//"'"
-   end function difference
-
-   !> The line that begins at a place.
-   pure function line_at(text, first) result(line)
-      !> The text
-      character(len=*), intent(in) :: text
-      !> Where the line begins
-      integer, intent(in) :: first
-      !> The line
-      character(len=:), allocatable :: line
-
-      integer :: length
-
-      line = ""
-      if (first > len(text)) return
-      length = index(text(first:), new_line("a")) - 1
-      if (length < 0) length = len(text) - first + 1
-      line = text(first:first + length - 1)
-   end function line_at
-
-   !> Take a layout into an index.
-   subroutine add_layout(index, record)
-      !> The index
-      type(index_t), intent(inout) :: index
-      !> The record
-      type(record_t), intent(inout) :: record
-
-      type(layout_t), allocatable :: longer(:)
-
-      if (index%layout_count == size(index%layouts)) then
-         allocate (longer(2*size(index%layouts)))
-         longer(:index%layout_count) = index%layouts
-         call move_alloc(longer, index%layouts)
-      end if
-      index%layout_count = index%layout_count + 1
-      call take_layout(record, index%layouts(index%layout_count))
-   end subroutine add_layout
-
-   !> Take a run of cases into an index.
-   subroutine add_entry(index, record, offset, layouts_before)
-      !> The index
-      type(index_t), intent(inout) :: index
-      !> The record
-      type(record_t), intent(inout) :: record
-      !> Where its words start [byte]
-      integer(int64), intent(in) :: offset
-      !> Layouts of the files before
-      integer, intent(in) :: layouts_before
-
-      type(entry_t), allocatable :: longer(:)
-      type(entry_t) :: entry
-
-      call take_integer(record, entry%first)
-      call take_integer(record, entry%count)
-      call take_integer(record, entry%layout)
-      if (entry%layout > 0) entry%layout = entry%layout + layouts_before
-      entry%offset = offset
-      entry%words = record%length
-      entry%part = index%parts
-      if (index%count == size(index%entries)) then
-         allocate (longer(2*size(index%entries)))
-         longer(:index%count) = index%entries
-         call move_alloc(longer, index%entries)
-      end if
-      index%count = index%count + 1
-      index%entries(index%count) = entry
-   end subroutine add_entry
 
    !> Read a record that an index names.
    subroutine read_record(file, entry, record, error)

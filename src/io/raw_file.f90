@@ -12,12 +12,14 @@ module camroller_raw_file
    implicit none
    private
 
-   public :: raw_file_t, open_raw, append_words, read_words, cut_raw, sync_raw, close_raw, find_files
+   public :: raw_file_t, open_raw, append_words, read_words, cut_raw, sync_raw, close_raw, find_files, is_locked, wait_for_lock
 
    !> Bytes of a word
    integer(int64), parameter, public :: word_size = 8_int64
-   !> What `lseek` takes for the end of a file, `flock` for an exclusive lock without waiting
-   integer(c_int), parameter :: from_end = 2_c_int, lock_at_once = 6_c_int
+   !> What `lseek` takes for the end of a file; `flock` for an exclusive lock, with and without waiting, and for giving it back
+   integer(c_int), parameter :: from_end = 2_c_int, lock_exclusive = 2_c_int, lock_at_once = 6_c_int, unlock = 8_c_int
+   !> Error number that says that another process has the lock: EWOULDBLOCK
+   integer(c_int), parameter :: would_block = 11_c_int
 
    !> An open file
    type :: raw_file_t
@@ -109,8 +111,8 @@ module camroller_raw_file
 
 contains
 
-   !> Open a file: to read, or to append to, with a lock that no other process has.
-   subroutine open_raw(file, path, is_writable, error)
+   !> Open a file: to read, or to append to, with a lock that no other process has unless it is shared.
+   subroutine open_raw(file, path, is_writable, error, is_shared)
       !> The file
       type(raw_file_t), intent(out) :: file
       !> Its path; created where it is to be written and is not there
@@ -119,8 +121,14 @@ contains
       logical, intent(in) :: is_writable
       !> File error
       type(error_t), allocatable, intent(out) :: error
+      !> May other processes have it open to be appended to? Not where this is left out
+      logical, intent(in), optional :: is_shared
+
+      logical :: is_alone
 
       file%path = path
+      is_alone = is_writable
+      if (present(is_shared)) is_alone = is_alone .and. .not. is_shared
       if (is_writable) then
          file%stream = c_fopen(path//c_null_char, "a+b"//c_null_char)
       else
@@ -131,15 +139,47 @@ contains
          return
       end if
       file%descriptor = c_fileno(file%stream)
-      if (is_writable) then
+      if (is_alone) then
          if (c_flock(file%descriptor, lock_at_once) /= 0) then
+            if (last_number() == would_block) then
+               call raise(error, kind_file, "another process is writing '"//path//"'")
+            else
+               call raise(error, kind_file, "cannot lock '"//path//"': "//last_words())
+            end if
             call close_raw(file)
-            call raise(error, kind_file, "another process is writing '"//path//"'")
             return
          end if
       end if
       file%bytes = c_lseek(file%descriptor, 0_c_int64_t, from_end)
    end subroutine open_raw
+
+   !> Wait until no other process has a lock on a file, and have one.
+   subroutine wait_for_lock(file, error)
+      !> An open file; what it holds is looked at again
+      type(raw_file_t), intent(inout) :: file
+      !> File error where there are no locks
+      type(error_t), allocatable, intent(out) :: error
+
+      if (c_flock(file%descriptor, lock_exclusive) /= 0) then
+         call raise(error, kind_file, "cannot lock '"//file%path//"': "//last_words())
+      else
+         file%bytes = c_lseek(file%descriptor, 0_c_int64_t, from_end)
+      end if
+   end subroutine wait_for_lock
+
+   !> Has another process a lock on a file?
+   function is_locked(file) result(verdict)
+      !> An open file
+      type(raw_file_t), intent(in) :: file
+      !> Has it?
+      logical :: verdict
+
+      integer(c_int) :: ignored
+
+      verdict = c_flock(file%descriptor, lock_at_once) /= 0
+      if (verdict) verdict = last_number() == would_block
+      if (.not. verdict) ignored = c_flock(file%descriptor, unlock)
+   end function is_locked
 
    !> Append words in one piece; where that fails the file is as it was before.
    subroutine append_words(file, words, error)
@@ -273,10 +313,18 @@ contains
       !> The words
       character(len=:), allocatable :: words
 
-      integer(c_int), pointer :: number
-
-      call c_f_pointer(c_errno(), number)
-      words = system_words(number)
+      words = system_words(last_number())
    end function last_words
+
+   !> The system's number for what went wrong last.
+   function last_number() result(number)
+      !> The number
+      integer(c_int) :: number
+
+      integer(c_int), pointer :: place
+
+      call c_f_pointer(c_errno(), place)
+      number = place
+   end function last_number
 
 end module camroller_raw_file

@@ -20,9 +20,9 @@ module camroller_record
       !> Its words, with room behind them
       integer(int64), allocatable :: words(:)
       !> Words in use
-      integer :: length = 0
+      integer(int64) :: length = 0
       !> Words taken out so far
-      integer :: position = 0
+      integer(int64) :: position = 0
       !> Was more taken than there is?
       logical :: is_short = .false.
    end type record_t
@@ -50,8 +50,8 @@ contains
       integer(int64), allocatable :: longer(:)
 
       if (.not. allocated(record%words)) allocate (record%words(1024))
-      if (record%length + more <= size(record%words)) return
-      allocate (longer(max(2*size(record%words), record%length + more)))
+      if (record%length + more <= size(record%words, kind=int64)) return
+      allocate (longer(max(2*size(record%words, kind=int64), record%length + more)))
       longer(:record%length) = record%words(:record%length)
       call move_alloc(longer, record%words)
    end subroutine make_room

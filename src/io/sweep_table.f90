@@ -108,7 +108,7 @@ contains
       type(mistakes_t), intent(inout) :: mistakes
 
       type(text_lines_t) :: lines
-      character(len=longest_text) :: words(most_columns)
+      character(len=longest_text) :: words(most_columns + 1)
       integer, allocatable :: widths(:)
       integer :: i, j, n, rows, pass
 
@@ -120,7 +120,11 @@ contains
             call split_words(without_comment(text(lines%first(i):lines%last(i))), words, n)
             if (n == 0) cycle
             rows = rows + 1
-            if (pass == 1 .and. rows == 0) then
+            if (n > most_columns) then
+               rows = rows - 1
+               if (pass == 1) call add_mistake(mistakes, "a table of cases has at most "//integer_text(most_columns)// &
+                  & " columns", i, 0, 0, path, line_at(lines, i))
+            else if (pass == 1 .and. rows == 0) then
                deallocate (columns)
                allocate (columns(n), widths(n))
                widths = 1

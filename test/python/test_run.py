@@ -124,7 +124,7 @@ def test_a_case_that_fails_does_not_end_the_others(camroller, tmp_path):
     deck.write_text(deck.read_text() + "&sweep key_1 = 'mechanism.pivot_to_cam_mm' values_1 = 31.5, 60, 31 /\n")
     result = run(camroller, "run", deck, *COARSE, folder=tmp_path)
     assert result.returncode == DOMAIN
-    assert "1 of 3 cases have no result; the first is case 1 (mechanism.pivot_to_cam_mm=60): " in result.stderr
+    assert "1 of 3 cases has no result: case 1 (mechanism.pivot_to_cam_mm=60): " in result.stderr
     with h5py.File(tmp_path / "deck.h5") as file:
         assert list(file["summary/status"]) == [0, DOMAIN, 0]
         assert numpy.isnan(file["series/contact_load"][1]).all()
@@ -194,7 +194,7 @@ def test_contacts_are_solved_over_the_cycle(camroller, tmp_path):
     again = run(camroller, "rerun", path, folder=tmp_path)
     assert again.returncode == DIFFERENCE
     lines = [line for line in again.stderr.splitlines() if line.startswith("  ") and ":" in line]
-    assert lines[0].startswith("  ehl/traction: in 1 cases, at most by ") and "ehl/" not in "".join(lines[1:])
+    assert lines[0].startswith("  ehl/traction: in 1 case, at most by ") and "ehl/" not in "".join(lines[1:])
 
 
 SMALL = ["--set", "sweep.values_1=300", "--set", "sweep.values_2=60"]

@@ -35,7 +35,7 @@ def words(dataset):
 
 def test_tables_are_printed(done):
     assert done[1].startswith("References")
-    for name in ("rodas5p", "radau5", "dormand_prince", "euler", "no asperities", "one_study.h5: 1 cases in "):
+    for name in ("rodas5p", "radau5", "dormand_prince", "euler", "no asperities", "one_study.h5: 1 case in "):
         assert name in done[1]
     assert max(map(len, done[1].splitlines())) <= 132
 

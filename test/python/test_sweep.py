@@ -66,6 +66,31 @@ def test_many_threads_on_short_and_failing_cases(camroller, tmp_path):
     assert same(tmp_path / "one.h5", tmp_path / "many.h5")
 
 
+def test_as_many_threads_as_are_allowed(camroller, deck, reference, tmp_path):
+    """More of them than there are cases; the largest number does not ask too much of the system."""
+    done(camroller, "sweep", deck, "--threads", 1024, folder=tmp_path)
+    assert same(reference, tmp_path / "deck.h5")
+
+
+def test_one_of_anything_has_no_plural(camroller, tmp_path):
+    deck = write_deck(tmp_path / "deck.nml", "key_1 = 'operating_point.speed_rpm' values_1 = 300")
+    assert done(camroller, "sweep", deck, folder=tmp_path).stdout.startswith("deck.h5: 1 case in ")
+    assert done(camroller, "rerun", "deck.h5", folder=tmp_path).stdout.startswith("deck.h5: 1 case is the same to the last bit, in ")
+    assert done(camroller, "run", deck, folder=tmp_path).stdout.startswith("deck.h5: 1 case in ")
+    assert " is valid: 1 case over 1 of operating_point.speed_rpm" in done(camroller, "check", deck, folder=tmp_path).stdout
+    failing = run(camroller, "sweep", deck, "-o", "x.h5", "--set", "mechanism.pivot_to_cam_mm=60", folder=tmp_path)
+    assert "camroller: 1 of 1 case has no result: case 0 (operating_point.speed_rpm=300): " in failing.stderr
+
+
+def test_a_table_of_cases_with_too_many_columns_is_refused(camroller, tmp_path):
+    """The keys behind the last one that is read would not vary, without a word."""
+    keys = ["operating_point.speed_rpm"] * 65
+    (tmp_path / "wide.csv").write_text(",".join(keys) + "\n" + ",".join(["300"] * 65) + "\n")
+    result = run(camroller, "sweep", write_deck(tmp_path / "deck.nml", "kind = 'table' table = 'wide.csv'"), folder=tmp_path)
+    assert result.returncode == DECK
+    assert "wide.csv, line 1: a table of cases has at most 64 columns" in result.stderr
+
+
 def test_check_tells_what_it_costs(camroller, deck):
     lines = done(camroller, "check", deck, folder=deck.parent).stdout.splitlines()
     assert lines[0].endswith("is valid: 24 cases over 6 of operating_point.speed_rpm and 4 of "

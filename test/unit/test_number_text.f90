@@ -4,7 +4,8 @@ module test_number_text
    use, intrinsic :: iso_fortran_env, only : int64
    use testdrive, only : unittest_type, new_unittest, error_type, check
    use camroller_kinds, only : wp, pi
-   use camroller_number_text, only : number_text, fixed_text, scientific_text, integer_text, right_text, is_number, is_beyond_range
+   use camroller_number_text, only : agreeing, counted, number_text, fixed_text, scientific_text, integer_text, right_text, &
+      & is_number, is_beyond_range
    implicit none
    private
 
@@ -24,6 +25,7 @@ contains
          new_unittest("digits after the point follow at least one digit before it", fixed_numbers), &
          new_unittest("every number has a text in every form", extreme_numbers), &
          new_unittest("a column is as wide as asked for, or as its word", columns), &
+         new_unittest("one of anything has no plural", counted_nouns), &
          new_unittest("words are told from numbers", words_and_numbers), &
          new_unittest("numbers too large to be held are found without reading them", too_large) &
          ]
@@ -45,6 +47,21 @@ contains
       end do
       call check(error, integer_text(-42), "-42")
    end subroutine short_numbers
+
+   subroutine counted_nouns(error)
+      type(error_type), allocatable, intent(out) :: error
+
+      integer, parameter :: numbers(*) = [0, 1, 2, 11, huge(1)]
+      character(len=*), parameter :: texts(*) = [character(len=16) :: "0 cases", "1 case", "2 cases", "11 cases", &
+         & "2147483647 cases"]
+      integer :: i
+
+      do i = 1, size(numbers)
+         call check(error, "'"//counted(numbers(i), "case")//"'", "'"//trim(texts(i))//"'")
+         if (allocated(error)) return
+      end do
+      call check(error, agreeing(1, "is", "were")//agreeing(3, "is", "were"), "iswere")
+   end subroutine counted_nouns
 
    subroutine numbers_come_back(error)
       type(error_type), allocatable, intent(out) :: error

@@ -5,15 +5,15 @@ module test_part_file
    use camroller_kinds, only : wp
    use camroller_error, only : error_t, kind_file
    use camroller_case_record, only : begin_cases, end_cases, outcome_t, put_failure, put_result, take_case, take_header
-   use camroller_case_runs, only : missing_runs, piece_of, run_total, runs_t
-   use camroller_layout, only : layout_t
-   use camroller_part_file, only : append_record, close_part, entry_t, index_t, kind_cases, open_part, part_t, read_record, &
-      & scan_part, study_facts_t
+   use camroller_case_runs, only : missing_runs, piece_of, run_total, runs_in_words, runs_t
+   use camroller_layout, only : find_layout, layout_list_t, layout_t
+   use camroller_part_file, only : append_layout, append_record, close_part, open_part, part_t, read_record, scan_part
+   use camroller_part_scan, only : entry_t, index_t, kind_cases, study_facts_t
    use camroller_raw_file, only : append_words, close_raw, open_raw, raw_file_t
    use camroller_record, only : checksum, clear_record, put_integer, put_numbers, put_text, record_t, take_integer, &
       & take_numbers, take_text
    use camroller_system_file, only : remove_file
-   use camroller_result, only : result_t
+   use camroller_result, only : quantity_t, result_t
    use sample_result, only : new_sample
    implicit none
    private
@@ -37,6 +37,10 @@ contains
          new_unittest("a torn record is cut off and can be written again", torn_end), &
          new_unittest("a part of another sweep is refused", other_sweep), &
          new_unittest("one file has one writer", one_writer), &
+         new_unittest("a damaged record costs its cases and no others", damaged_record), &
+         new_unittest("cases whose layout is damaged are left out, and its number is not given again", damaged_layout), &
+         new_unittest("more layouts than anybody thought of", many_layouts), &
+         new_unittest("a record that would not be believed is not written", record_too_long), &
          new_unittest("missing cases are found between and behind records", missing_cases) &
          ]
    end subroutine collect_part_file
@@ -250,6 +254,149 @@ contains
       call close_part(part)
       call remove_file(path)
    end subroutine one_writer
+
+   !> Turn over a bit of a file.
+   subroutine flip_bit(byte)
+      !> Its byte, from 0
+      integer(int64), intent(in) :: byte
+
+      character :: letter
+      integer :: unit
+
+      open (newunit=unit, file=path, access="stream", form="unformatted", action="readwrite", status="old")
+      read (unit, pos=byte + 1) letter
+      write (unit, pos=byte + 1) achar(ieor(iachar(letter), 4))
+      close (unit)
+   end subroutine flip_bit
+
+   subroutine damaged_record(error)
+      type(error_type), allocatable, intent(out) :: error
+
+      type(part_t) :: part
+      type(index_t) :: index
+      type(record_t) :: record
+      type(error_t), allocatable :: raised
+      type(runs_t) :: runs
+      integer(int64) :: begin, length, byte
+
+      do byte = 1, 8
+         call remove_file(path)
+         if (allocated(index%entries)) deallocate (index%entries, index%damages)
+         index%count = 0
+         call write_part(part, raised)
+         begin = part%file%bytes
+         call cases_from(4, record)
+         call append_record(part, kind_cases, record, raised)
+         length = part%file%bytes - begin
+         call cases_from(7, record)
+         call append_record(part, kind_cases, record, raised)
+         call close_part(part)
+         call flip_bit(begin + (byte*(length - 1))/8)
+         call scan_part(path, facts("a"), index, raised)
+         if (allocated(raised)) call test_failed(error, raised%message)
+         if (allocated(error)) return
+         call check(error, index%count == 2 .and. size(index%damages) == 1)
+         if (allocated(error)) return
+         call missing_runs(index, 1, 9, runs)
+         call check(error, runs_in_words(runs), "3 cases, 3 to 5")
+         if (allocated(error)) return
+      end do
+      call open_part(part, path, facts("a"), raised)
+      call check(error, part%file%bytes == begin + 2*length, "what follows is not cut off")
+      call close_part(part)
+      call remove_file(path)
+   end subroutine damaged_record
+
+   !> A layout of one scalar.
+   function layout_of_one(name) result(layout)
+      !> Its name
+      character(len=*), intent(in) :: name
+      !> The layout
+      type(layout_t) :: layout
+
+      layout%summary = [quantity_t(name, "1", "a number", "test")]
+      allocate (layout%series(0), layout%angle(0))
+   end function layout_of_one
+
+   subroutine damaged_layout(error)
+      type(error_type), allocatable, intent(out) :: error
+
+      type(part_t) :: part
+      type(index_t) :: index
+      type(record_t) :: record
+      type(error_t), allocatable :: raised
+      integer(int64) :: place
+      integer :: i
+
+      call remove_file(path)
+      call open_part(part, path, facts("a"), raised)
+      do i = 1, 3
+         if (i == 2) place = part%file%bytes
+         call append_layout(part, layout_of_one(achar(iachar("a") + i - 1)), raised)
+         call cases_from(3*i - 2, record)
+         call end_cases(record, 3, i)
+         call append_record(part, kind_cases, record, raised)
+      end do
+      call close_part(part)
+      call flip_bit(place + 40)
+      call scan_part(path, facts("a"), index, raised)
+      if (allocated(raised)) call test_failed(error, raised%message)
+      if (allocated(error)) return
+      call check(error, index%count == 2 .and. size(index%damages) == 2)
+      if (allocated(error)) return
+      do i = 1, 2
+         associate (entry => index%entries(i))
+            call check(error, index%layouts%items(entry%layout)%summary(1)%name, merge("a", "c", entry%first == 1))
+            if (allocated(error)) return
+         end associate
+      end do
+      call open_part(part, path, facts("a"), raised)
+      call check(error, part%layouts, 3)
+      call close_part(part)
+      call remove_file(path)
+   end subroutine damaged_layout
+
+   subroutine many_layouts(error)
+      type(error_type), allocatable, intent(out) :: error
+
+      integer, parameter :: most = 300
+      type(layout_list_t) :: list
+      type(result_t) :: result
+      integer :: i, turn, number
+      logical :: is_new
+
+      call new_sample(result, 1, 1)
+      do turn = 1, 2
+         do i = 1, most
+            result%summary(1)%name = repeat("x", i)
+            call find_layout(list, result, number, is_new)
+            call check(error, number == i .and. (is_new .eqv. turn == 1))
+            if (allocated(error)) return
+         end do
+      end do
+      call check(error, list%count, most)
+   end subroutine many_layouts
+
+   subroutine record_too_long(error)
+      type(error_type), allocatable, intent(out) :: error
+
+      type(part_t) :: part
+      type(record_t) :: record
+      type(error_t), allocatable :: raised
+
+      call remove_file(path)
+      call write_part(part, raised)
+      call cases_from(4, record)
+      ! as long as if its words were there
+      record%length = 268435457_int64
+      call append_record(part, kind_cases, record, raised)
+      call close_part(part)
+      call remove_file(path)
+      call check(error, allocated(raised))
+      if (allocated(error)) return
+      call check(error, index(raised%message, "a case takes 2147 MB") > 0 .and. index(raised%message, "angle_step_deg") > 0, &
+         & raised%message)
+   end subroutine record_too_long
 
    subroutine missing_cases(error)
       type(error_type), allocatable, intent(out) :: error
