@@ -15,10 +15,11 @@ module camroller_sweep_command
    use camroller_mistakes, only : line_t
    use camroller_number_text, only : counted, integer_text
    use camroller_part_file, only : close_part, find_parts, open_part, part_beginning, part_name, sync_part
-   use camroller_part_scan, only : index_t
+   use camroller_part_scan, only : index_t, study_facts_t
    use camroller_part_sink, only : part_sink_t
    use camroller_progress, only : end_progress, progress_t, seconds_since, start_progress
    use camroller_run_command, only : tell_unused_values
+   use camroller_run_facts, only : study_facts
    use camroller_settings, only : take
    use camroller_stop_signal, only : heed_stop_signals, release_stop_signals
    use camroller_sweep_result, only : make_result, tell_complete
@@ -232,8 +233,15 @@ contains
       type(index_t) :: index
       type(line_t), allocatable :: paths(:)
       type(runs_t) :: missing
+      type(study_facts_t) :: facts
       character(len=:), allocatable :: reason
 
+      call study_facts(run%deck, facts)
+      if (facts%deck /= run%facts%deck) then
+         call raise(error, kind_file, "a table that the cases name has changed while they were computed, and which case had which "// &
+            & "is not known; remove "//part_beginning(run%path)//"* to start anew")
+         return
+      end if
       if (loop%ended == ended_all .and. config%shards == 1) then
          call make_result(config, run, "go on by --resume", loop%progress, error)
          return

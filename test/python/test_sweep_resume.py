@@ -2,6 +2,9 @@
 
 import re
 import shutil
+import signal
+import subprocess
+import time
 
 import h5py
 import pytest
@@ -236,6 +239,25 @@ def test_a_table_that_only_some_cases_name_is_part_of_the_study(camroller, table
     result = run(camroller, *study, "--resume", folder=tables)
     assert result.returncode == FILE
     assert "table of &lift with checksum" in result.stderr
+
+
+def test_a_table_that_changes_while_cases_name_it_is_an_error(camroller, tables):
+    """Which case had the old one and which the new one would not be known."""
+    table = table_of(tables / "decks/tabulated_lift.nml", "lift")
+    shutil.copy(table, table.with_name("other.txt"))
+    sweep = (f"&sweep key_1 = 'lift.table' values_1 = '{table}', '{table.with_name('other.txt')}' "
+             "key_2 = 'operating_point.speed_rpm' from_2 = 400 to_2 = 900 count_2 = 500 /\n")
+    deck = tables / "decks/swept.nml"
+    deck.write_text((tables / "decks/tabulated_lift.nml").read_text().replace(SPEEDS, sweep))
+    process = subprocess.Popen([camroller, "sweep", deck, "-o", "x.h5", "--threads", "1", *COARSE], cwd=tables, stderr=subprocess.PIPE)
+    while not list(tables.glob("x.h5.part-*")):
+        time.sleep(0.001)
+    table.with_name("other.txt").write_text(changed(table.read_text()))
+    process.send_signal(signal.SIGTERM)
+    words = process.communicate(timeout=60)[1].decode()
+    assert process.returncode == FILE
+    assert "a table that the cases name has changed while they were computed" in words
+    assert not (tables / "x.h5").exists()
 
 
 def test_a_table_of_cases_that_changed_is_refused_when_all_is_done(camroller, tmp_path):
