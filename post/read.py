@@ -144,15 +144,15 @@ def _read(path, file, with_series):
     if not any(int(np.ravel(file.attrs.get(name, 0))[0]) for name in ("complete", "missing_cases")):
         raise ResultError(f"{path}: not complete: the run that wrote it did not finish")
     angle, series = _read_series(path, file) if with_series else (np.zeros(0), {})
-    deck_text = _text(file["deck/text"][()]) if "deck/text" in file else ""
+    deck_text = text_of(file["deck/text"][()]) if "deck/text" in file else ""
     deck = _datasets(file, "deck/values")
     sweep = _datasets(file, "sweep")
     cases = _count_cases(path, file, series)
     for key, quantity in sweep.items():
         if np.shape(quantity.values) != (cases,):
             raise ResultError(f"{path}: swept key {key} does not have one value for each case")
-    run = {name: _text(value) for name, value in file["run"].attrs.items()} if "run" in file else {}
-    messages = [_text(message) for message in file["run/messages"][()]] if "run/messages" in file else []
+    run = {name: text_of(value) for name, value in file["run"].attrs.items()} if "run" in file else {}
+    messages = [text_of(message) for message in file["run/messages"][()]] if "run/messages" in file else []
     return Result(path, angle, series, _datasets(file, "summary"),
                   _in_deck_order(sweep, deck_text, deck), deck, deck_text, run, messages, cases)
 
@@ -196,21 +196,21 @@ def _datasets(file, group):
 def _quantity(data):
     values = data[()]
     if h5py.check_string_dtype(data.dtype) is not None:
-        values = _text(values) if np.ndim(values) == 0 else np.array([_text(value) for value in values])
-    return Quantity(values, _text(data.attrs.get("units", "")), _text(data.attrs.get("long_name", "")))
+        values = text_of(values) if np.ndim(values) == 0 else np.array([text_of(value) for value in values])
+    return Quantity(values, text_of(data.attrs.get("units", "")), text_of(data.attrs.get("long_name", "")))
 
 
-def _text(value):
+def text_of(value):
     """String from what HDF5 may hold: bytes padded with blanks, an array of one, a number."""
     if isinstance(value, np.ndarray):
-        return "\n".join(_text(item) for item in np.ravel(value))
+        return "\n".join(text_of(item) for item in np.ravel(value))
     return value.decode("utf-8", "replace").rstrip(" \0") if isinstance(value, bytes) else str(value).rstrip()
 
 
 def _in_deck_order(sweep, deck_text, deck):
     """Swept keys in the order in which the deck's sweep group names them (HDF5 lists them by name)."""
     start = max(deck_text.lower().find("&sweep"), 0)
-    resolved = "\n".join(_text(quantity.values) for key, quantity in sorted(deck.items())
+    resolved = "\n".join(text_of(quantity.values) for key, quantity in sorted(deck.items())
                          if key.startswith("sweep.") and np.asarray(quantity.values).dtype.kind in "US")
     text = resolved.lower() + "\n" + deck_text[start:].lower()
 
