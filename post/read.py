@@ -13,11 +13,18 @@ converted here, so all series are in SI units. A file of a sweep may have series
 
 from contextlib import contextmanager
 from dataclasses import dataclass, field
+import os
 from pathlib import Path
 import re
+import select
+import signal
 
 import h5py
 import numpy as np
+
+
+LONGEST_READ = 60.0  # [s]
+SLOWEST_READ = 1e7  # bytes that are read in a second at least
 
 
 class ResultError(Exception):
@@ -110,7 +117,7 @@ def opened(path, kind="a result file of camroller"):
     if not path.is_file():
         raise ResultError(f"{path}: not a regular file")
     try:
-        with h5py.File(path, "r") as file:
+        with _time_limit(path), h5py.File(path, "r") as file:
             yield file
     except ResultError:
         raise
@@ -124,6 +131,31 @@ def opened(path, kind="a result file of camroller"):
         else:
             reason = f"not {kind}, or damaged: {reason}"
         raise ResultError(f"{path}: {reason}") from None
+
+
+@contextmanager
+def _time_limit(path):
+    """End this process with a line if reading takes far too long: damaged bytes can make the HDF5 library go in circles.
+
+    A second process watches, since nothing in this one runs until the library comes back.
+    """
+    limit = LONGEST_READ + path.stat().st_size / SLOWEST_READ
+    done, told = os.pipe()
+    watcher = os.fork()
+    if watcher == 0:
+        try:
+            os.close(told)
+            if not select.select([done], [], [], limit)[0]:
+                os.write(2, f"{path}: cannot be read: the HDF5 library goes in circles, the file is damaged\n".encode())
+                os.kill(os.getppid(), signal.SIGTERM)
+        finally:
+            os._exit(0)
+    os.close(done)
+    try:
+        yield
+    finally:
+        os.close(told)
+        os.waitpid(watcher, 0)
 
 
 def text_columns(group):

@@ -183,3 +183,11 @@ def test_files_of_a_sweep_without_series_do_for_every_script_that_reads_results(
     for module, arguments in ((table, []), (plot, ["--figure", "mean_torque"]), (plot_sweep, ["--quantity", "mean_torque_drive"])):
         assert module.main([str(path), *arguments]) == 0
     assert capsys.readouterr().err == ""
+
+
+def test_reading_that_never_ends_is_ended_with_a_line(good):
+    program = "import sys, time, read; read.LONGEST_READ = 0.1; read.SLOWEST_READ = 1e9\n" \
+              "with read.opened(sys.argv[1]): time.sleep(60)"
+    done = subprocess.run([sys.executable, "-c", program, good["table"]], cwd=HERE, capture_output=True, text=True, timeout=50,
+                          check=False)
+    assert done.returncode != 0 and done.stderr.count("\n") == 1 and "goes in circles" in done.stderr
