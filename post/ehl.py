@@ -24,7 +24,8 @@ from matplotlib.figure import Figure  # noqa: E402
 import numpy  # noqa: E402
 
 from command import run, save_figure  # noqa: E402
-from read import ResultError, opened  # noqa: E402
+from read import ResultError, opened, text_of  # noqa: E402
+from units import key_words, unit_words  # noqa: E402
 
 DEGREE = "\N{DEGREE SIGN}"
 MICRO = "\N{MICRO SIGN}"
@@ -134,8 +135,12 @@ def draw_map(data: dict, title: str) -> Figure:
 def read_point(path: str, case: int) -> str:
     """What a sweep varies, with its values in one case; nothing without a sweep."""
     with opened(path) as file:
-        return ", ".join(f"{key.rpartition('.')[2]} = {data[case]:.6g}" for key, data in file.get("sweep", {}).items()
-                         if key != "case" and data.ndim == 1 and data.dtype.kind == "f")
+        words = []
+        for key, data in file.get("sweep", {}).items():
+            if data.ndim == 1 and data.dtype.kind == "f":
+                unit = text_of(data.attrs.get("units", "1"))
+                words.append(f"{key_words(key, unit)} {data[case]:.6g}" + ("" if unit == "1" else f" {unit_words(unit)}"))
+        return ", ".join(words)
 
 
 def read_run(path: str, case: int) -> dict:

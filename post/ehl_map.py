@@ -7,6 +7,7 @@ Usage: post/ehl_map.py bench/tables/ehl_map.txt FIGURE.png
 from __future__ import annotations
 
 import sys
+import warnings
 
 import matplotlib
 
@@ -25,7 +26,8 @@ LEVELS = [-0.5, -0.2, -0.1, -0.05, 0.05, 0.1, 0.2, 0.5]
 def read(path: str) -> numpy.ndarray:
     """The table; ResultError where it is none."""
     try:
-        table = numpy.loadtxt(path, ndmin=2)
+        with warnings.catch_warnings(action="ignore"):  # of an empty file
+            table = numpy.loadtxt(path, ndmin=2)
     except (OSError, ValueError) as error:
         raise ResultError(f"{path}: no table of film formulas: {one_line(error)}") from None
     if table.shape[1] != COLUMNS or table.shape[0] < 3 or not (table[:, :2] > 0).all():

@@ -36,6 +36,7 @@ QUANTITY = "mean_torque_drive"
 MOST_CURVES = 8
 MOST_LINES = 2000  # of parallel coordinates; of more cases evenly spread ones are drawn
 MOST_WORDS = 24  # values of a key that the axis of a map can name
+ROUNDING = 1e-9  # part of a quantity within which its values are the same
 SPREAD = 0.18  # of points of a scatter about the word they belong to
 
 
@@ -63,7 +64,7 @@ class Sweep:
                     raise ResultError(f"{path} has no summary '{name}'" + (f"; there is {', '.join(near)}" if near else ""))
                 self._add(path, self.quantities, name, file["summary"][name])
         if not self.keys:
-            raise ResultError(f"nothing varies in {path}")
+            raise ResultError(f"nothing varies in {path}; plot.py draws its curves, table.py prints its means")
         if not any(np.isfinite(values).any() for values, _ in self.quantities.values()):
             raise ResultError(f"{path}: no case has a value of {', '.join(self.quantities)}")
 
@@ -191,8 +192,8 @@ def draw_scatter(sweep):
     for i, name in enumerate(sweep.quantities):
         for j, key in enumerate(sweep.keys):
             axes = grid[i][j]
-            axes.scatter(sweep.keys[key][0] + _sideways(sweep, key), sweep.quantities[name][0], s=size, color="#08306b", linewidths=0,
-                         alpha=0.6, rasterized=True)
+            axes.scatter(sweep.keys[key][0] + _sideways(sweep, key), sweep.quantities[name][0], s=size, color="#08306b",
+                         linewidths=0, alpha=0.6, rasterized=True)
             if i == rows - 1:
                 _name_axis(sweep, axes, "x", key)
             if j == 0:
@@ -215,12 +216,15 @@ def draw_parallel(sweep):
         ends.append((values.min(), values.max()))
         values = np.log(values) if name in sweep.logarithmic else values
         low, high = values.min(), values.max()
-        scaled.append((values - low) / (high - low) if high > low else np.full(len(values), 0.5))
+        is_same = high - low <= ROUNDING * max(abs(low), abs(high))
+        scaled.append(np.full(len(values), 0.5) if is_same else (values - low) / (high - low))
     scaled = np.array(scaled)
     figure = Figure(figsize=(1.6 * len(names) + 1.0, 4.2), layout="constrained")
     axes = figure.subplots()
+    width = float(np.clip(60.0 / len(cases), 0.5, 1.5))
     for line in np.argsort(scaled[-1], kind="stable"):
-        axes.plot(scaled[:, line], color=matplotlib.colormaps["viridis"](scaled[-1, line]), linewidth=0.5, alpha=0.5)
+        axes.plot(scaled[:, line], color=matplotlib.colormaps["viridis"](0.9 * scaled[-1, line]), linewidth=width,
+                  alpha=min(1.0, 0.25 + 0.5 * width))
     for place, (name, (low, high)) in enumerate(zip(names, ends)):
         axes.plot([place, place], [0, 1], color="black", linewidth=0.8)
         for height, value, side in ((-0.02, low, "top"), (1.02, high, "bottom")):

@@ -13,11 +13,18 @@ converted here, so all series are in SI units. A file of a sweep may have series
 
 from contextlib import contextmanager
 from dataclasses import dataclass, field
+import os
 from pathlib import Path
 import re
+import select
+import signal
 
 import h5py
 import numpy as np
+
+
+LONGEST_READ = 60.0  # [s]
+SLOWEST_READ = 1e7  # bytes that are read in a second at least
 
 
 class ResultError(Exception):
@@ -110,7 +117,7 @@ def opened(path, kind="a result file of camroller"):
     if not path.is_file():
         raise ResultError(f"{path}: not a regular file")
     try:
-        with h5py.File(path, "r") as file:
+        with _time_limit(path), h5py.File(path, "r") as file:
             yield file
     except ResultError:
         raise
@@ -124,6 +131,31 @@ def opened(path, kind="a result file of camroller"):
         else:
             reason = f"not {kind}, or damaged: {reason}"
         raise ResultError(f"{path}: {reason}") from None
+
+
+@contextmanager
+def _time_limit(path):
+    """End this process with a line if reading takes far too long: damaged bytes can make the HDF5 library go in circles.
+
+    A second process watches, since nothing in this one runs until the library comes back.
+    """
+    limit = LONGEST_READ + path.stat().st_size / SLOWEST_READ
+    done, told = os.pipe()
+    watcher = os.fork()
+    if watcher == 0:
+        try:
+            os.close(told)
+            if not select.select([done], [], [], limit)[0]:
+                os.write(2, f"{path}: cannot be read: the HDF5 library goes in circles, the file is damaged\n".encode())
+                os.kill(os.getppid(), signal.SIGTERM)
+        finally:
+            os._exit(0)
+    os.close(done)
+    try:
+        yield
+    finally:
+        os.close(told)
+        os.waitpid(watcher, 0)
 
 
 def text_columns(group):
@@ -144,15 +176,15 @@ def _read(path, file, with_series):
     if not any(int(np.ravel(file.attrs.get(name, 0))[0]) for name in ("complete", "missing_cases")):
         raise ResultError(f"{path}: not complete: the run that wrote it did not finish")
     angle, series = _read_series(path, file) if with_series else (np.zeros(0), {})
-    deck_text = _text(file["deck/text"][()]) if "deck/text" in file else ""
+    deck_text = text_of(file["deck/text"][()]) if "deck/text" in file else ""
     deck = _datasets(file, "deck/values")
     sweep = _datasets(file, "sweep")
     cases = _count_cases(path, file, series)
     for key, quantity in sweep.items():
         if np.shape(quantity.values) != (cases,):
             raise ResultError(f"{path}: swept key {key} does not have one value for each case")
-    run = {name: _text(value) for name, value in file["run"].attrs.items()} if "run" in file else {}
-    messages = [_text(message) for message in file["run/messages"][()]] if "run/messages" in file else []
+    run = {name: text_of(value) for name, value in file["run"].attrs.items()} if "run" in file else {}
+    messages = [text_of(message) for message in file["run/messages"][()]] if "run/messages" in file else []
     return Result(path, angle, series, _datasets(file, "summary"),
                   _in_deck_order(sweep, deck_text, deck), deck, deck_text, run, messages, cases)
 
@@ -196,21 +228,21 @@ def _datasets(file, group):
 def _quantity(data):
     values = data[()]
     if h5py.check_string_dtype(data.dtype) is not None:
-        values = _text(values) if np.ndim(values) == 0 else np.array([_text(value) for value in values])
-    return Quantity(values, _text(data.attrs.get("units", "")), _text(data.attrs.get("long_name", "")))
+        values = text_of(values) if np.ndim(values) == 0 else np.array([text_of(value) for value in values])
+    return Quantity(values, text_of(data.attrs.get("units", "")), text_of(data.attrs.get("long_name", "")))
 
 
-def _text(value):
+def text_of(value):
     """String from what HDF5 may hold: bytes padded with blanks, an array of one, a number."""
     if isinstance(value, np.ndarray):
-        return "\n".join(_text(item) for item in np.ravel(value))
+        return "\n".join(text_of(item) for item in np.ravel(value))
     return value.decode("utf-8", "replace").rstrip(" \0") if isinstance(value, bytes) else str(value).rstrip()
 
 
 def _in_deck_order(sweep, deck_text, deck):
     """Swept keys in the order in which the deck's sweep group names them (HDF5 lists them by name)."""
     start = max(deck_text.lower().find("&sweep"), 0)
-    resolved = "\n".join(_text(quantity.values) for key, quantity in sorted(deck.items())
+    resolved = "\n".join(text_of(quantity.values) for key, quantity in sorted(deck.items())
                          if key.startswith("sweep.") and np.asarray(quantity.values).dtype.kind in "US")
     text = resolved.lower() + "\n" + deck_text[start:].lower()
 

@@ -55,10 +55,10 @@ SERIES_UNITS = {"valve_lift": "m", "contact_load": "N", "hertz_pressure": "Pa", 
 
 
 def write_result(path, speeds=(300.0, 600.0, 900.0), oils=(25.0, 60.0, 95.0), step=5.0, title="made up", factor=1.0,
-                 swept=(SPEED, OIL), without=(), complete=1):
-    """A result file; keys that are not swept have one value and stand with the other deck values."""
+                 swept=(SPEED, OIL), without=(), complete=1, points=None):
+    """A result file of a grid or of points; keys that are not swept have one value and stand with the other deck values."""
     angle = np.arange(0.0, 360.0, step)
-    points = [(speed, oil) for speed in speeds for oil in oils]
+    points = points or [(speed, oil) for speed in speeds for oil in oils]
     rows = [made_up_series(angle, *point) for point in points]
     with h5py.File(path, "w") as file:
         file["case"] = np.arange(len(points))

@@ -11,10 +11,10 @@ SHOWN = {
     "m/s": (("um/s", 1e6), ("mm/s", 1e3), ("m/s", 1.0)),
     "rad/s": (("rev/min", 30.0 / np.pi),),
     "rpm": (("rev/min", 1.0),),
-    "N": (("mN", 1e3), ("N", 1.0), ("kN", 1e-3)),
+    "N": (("mN", 1e3), ("N", 1.0)),
     "N m": (("N mm", 1e3), ("N m", 1.0)),
     "Pa": (("kPa", 1e-3), ("MPa", 1e-6), ("GPa", 1e-9)),
-    "W": (("mW", 1e3), ("W", 1.0), ("kW", 1e-3)),
+    "W": (("mW", 1e3), ("W", 1.0)),
     "J": (("mJ", 1e3), ("J", 1.0)),
     "s": (("us", 1e6), ("ms", 1e3), ("s", 1.0)),
     "1": (("1", 1.0), ("%", 100.0)),
@@ -63,15 +63,16 @@ def with_unit(words, unit):
 
 def bare_name(name, unit):
     """Name of a deck key without the unit that it ends with: `stiffness_N_m` is `stiffness`."""
-    given = unit.replace("1/", "per_").replace("/", "_").replace(" ", "_")
-    for ending in {given, {"degree": "deg"}.get(given, given), name.rpartition("_")[2] if name.rpartition("_")[2] in WORDS else given}:
+    last = name.rpartition("_")[2]
+    spelled = {"degree": "deg"}.get(unit, unit).replace("1/", "per_").replace("/", "_").replace(" ", "_")
+    for ending in (spelled, last if last in WORDS else ""):
         if ending and name.endswith("_" + ending):
             return name[:-len(ending) - 1]
     return name
 
 
 def key_words(key, unit):
-    """A deck key in words, with its group where the name alone is too short to tell: `film law`, `roller radius`, `cam roughness`."""
+    """A deck key in words, with its group where the name alone is too short: `film law`, `roller radius`, `cam roughness`."""
     group, _, name = key.rpartition(".")
     bare = bare_name(name, unit)
     is_short = bare.count("_") + (bare != name) < 2

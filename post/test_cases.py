@@ -1,0 +1,314 @@
+"""Any set of cases is drawn, each with a label of its own, or a choice is asked for: grids, lists, samples, files of sweeps."""
+
+import h5py
+from matplotlib.figure import Figure
+import numpy as np
+import pytest
+
+import figures
+from figures import FIGURES, draw
+from layout import MOST_LISTED, Layout
+from parts import event_window
+from plot import main
+from quantities import CURVES
+from read import ResultError, read_result
+from test_post import OIL, SPEED, write_result
+
+ZIP = [(300.0, 25.0), (600.0, 60.0), (900.0, 95.0)]
+LABELS = ["300 rev/min, 25 °C", "600 rev/min, 60 °C", "900 rev/min, 95 °C"]
+SINGLE = [name for name in CURVES if name != "total_torque"]
+
+
+def hypercube(count):
+    """Points of a Latin hypercube, no value twice."""
+    places = np.random.default_rng(1).permuted(np.tile(np.arange(count), (2, 1)), axis=1)
+    return [(300.0 + 1000.0 * speed / count, 20.0 + 80.0 * oil / count) for speed, oil in places.T]
+
+
+def without_series(path, kept=()):
+    """The file as a sweep writes it: a status, and series of the cases kept or none at all."""
+    with h5py.File(path, "a") as file:
+        count = file["case"].size
+        file["summary/status"] = np.zeros(count, dtype="i4")
+        if not kept:
+            del file["series"]
+            file.create_group("series")
+        for name, data in file["series"].items():
+            if name != "cam_angle":
+                blank(data, ~np.isin(np.arange(count), kept))
+    return path
+
+
+def blank(data, rows):
+    """No numbers in these rows of a dataset."""
+    values = data[()]
+    values[rows] = np.nan
+    data[...] = values
+
+
+def curves(axes):
+    """Curves in axes, without the line at the nose and that at zero."""
+    return [line for line in axes.lines if len(line.get_xdata()) > 2]
+
+
+def legend(figure):
+    """Labels of the legends of a page."""
+    return [text.get_text() for page in (figure, *figure.subfigs) for made in page.legends for text in made.get_texts()]
+
+
+def title(figure):
+    """Words above a page."""
+    page = figure.subfigs[0] if figure.subfigs else figure
+    return "".join(made.get_title().get_text() for made in page.legends)
+
+
+@pytest.fixture(name="zipped")
+def fixture_zipped(tmp_path):
+    return write_result(tmp_path / "zip.h5", points=ZIP, step=15.0)
+
+
+@pytest.mark.parametrize("name", SINGLE)
+def test_lists_side_by_side_have_a_curve_and_a_label_for_each_case(zipped, name):
+    figure = draw(name, Layout([read_result(zipped)]))
+    assert len(figure.axes) == 1 and len(curves(figure.axes[0])) == 3
+    assert legend(figure) == LABELS
+    assert "the same at each" not in title(figure)
+    drawn = [(str(line.get_color()), str(line.get_linestyle())) for line in curves(figure.axes[0])]
+    assert len(set(drawn)) == 3
+
+
+def test_an_overview_of_lists_has_every_case_in_every_panel(zipped):
+    figure = draw("overview", Layout([read_result(zipped)]))
+    panels, bars = figure.subfigs[0].axes, figure.subfigs[1].axes
+    assert len(panels) == 8 and all(len(curves(axes)) == 3 for axes in panels)
+    assert legend(figure)[:3] == LABELS
+    assert [text.get_text() for text in bars[0].get_yticklabels()] == LABELS
+    assert len(bars[0].patches) == 3 and len(bars[1].patches) == 3 * 4
+    # both charts have the labels of the left one, so their bars are at the same heights
+    assert bars[0].get_ylim() == bars[1].get_ylim()
+
+
+def test_parts_of_the_torque_of_lists_have_a_panel_for_each_case(zipped):
+    figure = draw("drive_torque", Layout([read_result(zipped)]))
+    assert [axes.get_title() for axes in figure.axes] == LABELS
+    assert all(len(curves(axes)) == 3 for axes in figure.axes)
+
+
+def test_a_hypercube_is_drawn_case_by_case(tmp_path):
+    result = read_result(write_result(tmp_path / "cube.h5", points=hypercube(MOST_LISTED), step=15.0))
+    for name in ("film", "slip", "overview"):
+        figure = draw(name, Layout([result]))
+        panels = figure.subfigs[0].axes if figure.subfigs else figure.axes
+        assert all(len(curves(axes)) == MOST_LISTED for axes in panels)
+        assert len(set(legend(figure)[:MOST_LISTED])) == MOST_LISTED
+    drawn = [(str(line.get_color()), str(line.get_linestyle())) for line in curves(panels[0])]
+    assert len(set(drawn)) == MOST_LISTED
+
+
+@pytest.mark.parametrize("figure", ["all", "film", "drive_torque", "overview"])
+def test_too_many_cases_that_are_no_grid_have_to_be_chosen(tmp_path, capsys, figure):
+    path = write_result(tmp_path / "cube.h5", points=hypercube(MOST_LISTED + 1), step=30.0)
+    assert main([str(path), "--figure", figure]) == 2
+    message = capsys.readouterr().err
+    assert message.count("\n") == 1 and f"{MOST_LISTED + 1} cases" in message and "--cases" in message
+    assert not list(tmp_path.glob("*.png"))
+
+
+def test_the_choice_that_the_message_shows_works(tmp_path, capsys):
+    path = write_result(tmp_path / "cube.h5", points=hypercube(40), step=30.0)
+    assert main([str(path), "--figure", "film"]) == 2
+    example = capsys.readouterr().err.split(" or --cases ")[1].split(";")[0]
+    assert main([str(path), "--figure", "film", "--cases", example]) == 0
+    figure = draw("film", Layout([read_result(path)], [example]))
+    assert 1 < len(curves(figure.axes[0])) <= MOST_LISTED
+
+
+def test_bars_hold_more_cases_than_curves(tmp_path):
+    result = read_result(write_result(tmp_path / "cube.h5", points=hypercube(30), step=30.0))
+    figure = draw("mean_torque", Layout([result]))
+    assert len(figure.axes[0].get_yticklabels()) == 30 and len(figure.axes[0].patches) == 30 * 4
+    with pytest.raises(ResultError, match="too many"):
+        draw("mean_torque", Layout([read_result(write_result(tmp_path / "big.h5", points=hypercube(60), step=90.0))]))
+
+
+def test_a_part_of_a_grid_that_is_none_is_a_list(tmp_path):
+    result = read_result(write_result(tmp_path / "nine.h5", step=15.0))
+    assert Layout([result], ["speed=300"]).is_list is False
+    layout = Layout([result], ["0,4,8"])
+    assert layout.is_list and layout.colours == LABELS
+    assert len(curves(draw("film", layout).axes[0])) == 3
+
+
+def test_cases_alike_are_told_apart_by_their_numbers(tmp_path):
+    result = read_result(write_result(tmp_path / "twice.h5", points=[ZIP[0], ZIP[0], ZIP[1]], step=15.0))
+    assert Layout([result]).colours == ["case 0, 300 rev/min, 25 °C", "case 1, 300 rev/min, 25 °C", "case 2, 600 rev/min, 60 °C"]
+
+
+def test_near_values_are_told_apart_by_their_digits(tmp_path):
+    points = [(1000.01, 25.0), (1000.02, 60.0), (25000.0, 95.0)]
+    result = read_result(write_result(tmp_path / "near.h5", points=points, step=15.0))
+    assert Layout([result]).colours == ["1000.01 rev/min, 25 °C", "1000.02 rev/min, 60 °C", "25000 rev/min, 95 °C"]
+
+
+def test_a_range_chooses_cases(zipped):
+    result = read_result(zipped)
+    assert [entry.case for entry in Layout([result], ["speed=400:"]).entries] == [1, 2]
+    assert [entry.case for entry in Layout([result], ["speed_rpm=300:600"]).entries] == [0, 1]
+
+
+def test_failed_cases_of_a_list_have_no_label_and_those_of_a_grid_no_curve(tmp_path):
+    for name, points in (("zip", ZIP), ("grid", None)):
+        path = write_result(tmp_path / f"{name}.h5", points=points, step=15.0)
+        with h5py.File(path, "a") as file:
+            file["summary/status"] = np.array([0, 3, 0] * (file["case"].size // 3))
+            for group in ("series", "summary"):
+                for data in file[group].values():
+                    if data.name not in ("/series/cam_angle", "/summary/status"):
+                        blank(data, file["summary/status"][()] == 3)
+    assert Layout([read_result(tmp_path / "zip.h5")]).colours == [LABELS[0], LABELS[2]]
+    figure = draw("film", Layout([read_result(tmp_path / "grid.h5")]))
+    words = [[text.get_text() for text in axes.texts] for axes in figure.axes]
+    assert words == [[], ["no result"], []]
+    bars = draw("mean_torque", Layout([read_result(tmp_path / "grid.h5")])).axes[0]
+    assert [text.get_text() for text in bars.texts].count("no result") == 3
+
+
+def test_no_case_with_a_result_is_an_error(zipped, capsys):
+    with h5py.File(zipped, "a") as file:
+        file["summary/status"] = np.array([3, 3, 3])
+    assert main([str(zipped)]) == 2
+    assert "no case has a result" in capsys.readouterr().err
+
+
+def test_a_sweep_without_series_has_its_means_drawn(tmp_path, capsys):
+    path = without_series(write_result(tmp_path / "sweep.h5", points=ZIP, step=15.0))
+    assert main([str(path)]) == 0
+    said = capsys.readouterr().out
+    assert said.count("no series in") == 1 and "plot_sweep.py" in said
+    assert sorted(made.name for made in tmp_path.glob("*.png")) == ["sweep_mean_slip.png", "sweep_mean_torque.png"]
+    assert main([str(path), "--figure", "film"]) == 2
+    figure = draw("mean_torque", Layout([read_result(path)]))
+    assert len(figure.axes[0].patches) == 3 * 4
+
+
+def test_of_a_sweep_with_few_series_these_are_drawn(tmp_path, capsys):
+    path = without_series(write_result(tmp_path / "sweep.h5", step=15.0), kept=(1, 5))
+    layout = Layout([read_result(path)])
+    assert [entry.case for entry in layout.entries] == [1, 5]
+    assert len(curves(draw("film", layout).axes[0])) == 2
+    assert main([str(path), "--figure", "film"]) == 0
+    assert "series of 2 of 9 cases" in capsys.readouterr().out
+    assert main([str(path), "--figure", "film", "--cases", "2"]) == 2
+    assert "it has those of 1, 5" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("name, count", [("film", 3), ("overview", 24), ("drive_torque", 9)])
+def test_a_grid_has_a_panel_for_each_value_of_the_second_key(tmp_path, name, count):
+    figure = draw(name, Layout([read_result(write_result(tmp_path / "nine.h5", step=15.0))]))
+    panels = figure.subfigs[0].axes if figure.subfigs else figure.axes
+    assert len(panels) == count and all(len(curves(axes)) == 3 for axes in panels)
+
+
+def test_bars_of_a_grid_have_values_that_do_not_overlap(tmp_path):
+    """Values stand above the bars where they fit beside each other, else upright."""
+    for speeds, turn in (((300.0, 900.0), 0.0), (tuple(np.linspace(310, 890, 12)), 90.0)):
+        result = read_result(write_result(tmp_path / f"{len(speeds)}.h5", speeds=speeds, step=30.0))
+        figure = draw("mean_slip", Layout([result]))
+        figure.canvas.draw()
+        texts = figure.axes[0].texts
+        assert len(texts) == 3 * len(speeds) and {text.get_rotation() for text in texts} == {turn}
+        boxes = sorted((text.get_window_extent().x0, text.get_window_extent().x1) for text in texts)
+        assert all(left[1] <= right[0] for left, right in zip(boxes, boxes[1:]))
+
+
+def two_files(tmp_path, **options):
+    """Results of two files that differ by a factor."""
+    return [read_result(write_result(tmp_path / f"{name}.h5", title=name, factor=factor, step=15.0, **options))
+            for name, factor in (("a", 1.0), ("b", 1.1))]
+
+
+@pytest.mark.parametrize("options, selection", [({}, ()), ({}, ("4",)), ({"points": ZIP}, ()),
+                                                ({"speeds": (300.0,), "oils": (60.0,), "swept": ()}, ())],
+                         ids=["grid", "one case", "list", "no sweep"])
+def test_two_files_have_no_colour_in_common(tmp_path, options, selection):
+    layout = Layout(two_files(tmp_path, **options), selection)
+    for name in ("film", "drive_torque"):
+        for axes in draw(name, layout).axes:
+            lines = curves(axes)
+            colours = [[str(line.get_color()) for line in part] for part in
+                       ((lines[:len(lines) // 2], lines[len(lines) // 2:]) if name == "film" else (lines[0::2], lines[1::2]))]
+            assert not set(colours[0]) & set(colours[1])
+    bars = draw("mean_slip", layout).axes[0].patches
+    tones = [{str(bar.get_facecolor()) for bar in bars if bool(bar.get_hatch()) is hatched} for hatched in (False, True)]
+    assert tones[0] and tones[1] and not tones[0] & tones[1]
+
+
+def test_the_legend_of_two_files_names_every_curve(tmp_path):
+    figure = draw("film", Layout(two_files(tmp_path)))
+    values = ["300 rev/min", "600 rev/min", "900 rev/min"]
+    assert legend(figure) == ["a", *values, "b", *values]
+
+
+def test_torques_of_a_shaft_whose_other_cams_are_at_work_are_shown_for_the_whole_turn(tmp_path):
+    path = write_result(tmp_path / "one.h5", step=5.0)
+    window = event_window(Layout([read_result(path)]), ["torque_drive"])
+    assert window[0] > 0.0 and window[1] < 360.0
+    with h5py.File(path, "a") as file:
+        file["series/torque_drive"][...] += np.roll(file["series/torque_drive"][()], 30, axis=1)
+        file["deck/values/cam_bearings.cam_positions_mm"] = "20, 60"
+    layout = Layout([read_result(path)])
+    assert event_window(layout, ["torque_drive"]) == (0.0, 360.0)
+    assert event_window(layout, ["contact_load"]) == window
+    figure = draw("overview", layout)
+    assert {axes.get_xlim() for axes in figure.subfigs[0].axes} == {(0.0, 360.0)}
+    assert "torques of all 2 cams" in title(figure)
+
+
+def test_where_contact_is_lost_there_is_no_film(tmp_path):
+    path = write_result(tmp_path / "lost.h5", step=5.0)
+    with h5py.File(path, "a") as file:
+        lost = np.abs(file["series/cam_angle"][()] - 180.0) < 12.0
+        for name in ("contact_load", "film_thickness_min", "asperity_friction_share", "friction_contact"):
+            values = file[f"series/{name}"][()]
+            values[:, lost] = 0.0
+            file[f"series/{name}"][...] = values
+        file["summary/lost_contact_share"] = np.full(9, lost.mean())
+    figure = draw("film", Layout([read_result(path)]))
+    for line in curves(figure.axes[0]):
+        assert np.isnan(line.get_ydata()[:-1][lost]).all() and np.nanmin(line.get_ydata()) > 0.0
+    assert figure.axes[0].get_yscale() == "log"
+    assert "contact is lost in 9 of 9 cases" in title(figure)
+    for line in curves(draw("friction", Layout([read_result(path)])).axes[0]):
+        assert np.isfinite(line.get_ydata()).all()
+
+
+def test_series_and_scalars_that_no_figure_knows_do_no_harm(zipped):
+    with h5py.File(zipped, "a") as file:
+        for name in ("lobe_2_contact_load", "margin"):
+            file[f"series/{name}"] = np.full(file["series/contact_load"].shape, 7.0)
+        file["summary/margin_pivot"] = np.ones(3)
+        file["summary/margin_words"] = np.array(["a", "b", "c"], dtype="S1")
+        file["summary/limits"] = np.ones((3, 2))
+    for name in FIGURES:
+        assert isinstance(draw(name, Layout([read_result(zipped)])), Figure)
+
+
+def test_every_kind_of_figure_is_drawn_of_one_case(tmp_path):
+    result = read_result(write_result(tmp_path / "one.h5", speeds=(600.0,), oils=(60.0,), swept=(), step=15.0))
+    for name in FIGURES:
+        figure = draw(name, Layout([result]))
+        if name in SINGLE:
+            assert [len(curves(axes)) for axes in figure.axes] == [1], name
+        assert "made up" in title(figure), name
+    assert figures.draw("drive_torque", Layout([result])).axes[0].get_ylabel() == "torque [N m]"
+
+
+def test_swept_words_are_labels(tmp_path):
+    path = write_result(tmp_path / "words.h5", points=ZIP, step=15.0)
+    with h5py.File(path, "a") as file:
+        del file[f"sweep/{OIL}"]
+        file["sweep/film.law"] = np.array(["moes", "dowson_higginson", "moes"], dtype="S20")
+    layout = Layout([read_result(path)])
+    assert layout.colours == ["300 rev/min, moes", "600 rev/min, dowson_higginson", "900 rev/min, moes"] or \
+        layout.colours == ["moes, 300 rev/min", "dowson_higginson, 600 rev/min", "moes, 900 rev/min"]
+    assert layout.short_names == {SPEED: "speed", "film.law": "film law", "case": "case"}

@@ -1,0 +1,193 @@
+"""How every script ends: with files that are none, closed pipes, folders that are not there or cannot be."""
+
+import os
+import pathlib
+import subprocess
+import sys
+
+import h5py
+import numpy as np
+import pytest
+
+import command
+import ehl
+import ehl_map
+import plot
+import plot_audit
+import plot_study
+import plot_sweep
+import table
+import test_ehl
+import test_plot_audit
+import test_plot_study
+import thesis_comparison
+from test_cases import without_series
+from test_post import write_result
+
+HERE = pathlib.Path(__file__).resolve().parent
+SCRIPTS = {"plot": (plot, ["--figure", "load"]), "table": (table, []), "plot_sweep": (plot_sweep, ["--quantity", "mean_torque_drive"]),
+           "plot_study": (plot_study, []), "plot_audit": (plot_audit, []), "ehl": (ehl, ["--output", "OUT/x.png"]),
+           "ehl_map": (ehl_map, ["OUT/x.png"]), "thesis_comparison": (thesis_comparison, ["--page", "OUT/page.md"])}
+made_ehl, made_audit, made_study = (module.made_up for module in (test_ehl, test_plot_audit, test_plot_study))
+
+
+@pytest.fixture(name="good")
+def fixture_good(tmp_path, made_ehl, made_audit, made_study):
+    """A file that suits each script."""
+    sweep = write_result(tmp_path / "grid.h5", step=30.0)
+    with h5py.File(sweep, "a") as file:
+        file["summary/status"] = np.zeros(9, dtype="i4")
+    values = np.random.default_rng(1).random((20, 12)) + 0.5
+    np.savetxt(tmp_path / "map.txt", values)
+    return {"plot": sweep, "table": sweep, "plot_sweep": sweep, "plot_study": made_study, "plot_audit": made_audit, "ehl": made_ehl,
+            "ehl_map": tmp_path / "map.txt"}
+
+
+fixture_ehl = pytest.fixture(name="made_ehl")(getattr(made_ehl, "__wrapped__", None) or made_ehl._fixture_function)
+fixture_audit = pytest.fixture(name="made_audit")(getattr(made_audit, "__wrapped__", None) or made_audit._fixture_function)
+fixture_study = pytest.fixture(name="made_study")(getattr(made_study, "__wrapped__", None) or made_study._fixture_function)
+
+
+def ended(name, path, folder, capsys):
+    """Exit code and lines on the screen of a script with a file."""
+    module, arguments = SCRIPTS[name]
+    arguments = [argument.replace("OUT", str(folder)) for argument in arguments]
+    if name in ("plot", "plot_sweep", "plot_study", "plot_audit"):
+        arguments += ["--output", str(folder)]
+    code = command.run(lambda: module.main([str(path), *arguments]), name + ".py")
+    return code, capsys.readouterr().err
+
+
+def no_such_file(path):
+    path.unlink(missing_ok=True)
+
+
+def text_file(path):
+    path.write_text("speed, torque\n1, x\n")
+
+
+def empty_file(path):
+    path.write_bytes(b"")
+
+
+def folder(path):
+    path.unlink()
+    path.mkdir()
+
+
+def other_hdf5(path):
+    with h5py.File(path, "w") as file:
+        file["x"] = 1
+
+
+def truncated(path):
+    path.write_bytes(path.read_bytes()[:path.stat().st_size // 2])
+
+
+def groups_for_datasets(path):
+    """The names are there, and what they name is of another kind."""
+    with h5py.File(path, "w") as file:
+        for name in ("series/cam_angle", "series/contact_load", "summary/status", "summary/mean_torque_drive", "sweep/a.x",
+                     "study/audit/run", "study/references/case", "study/methods/case", "ehl/load", "ehl/film_min"):
+            file.create_group(name)
+        file.attrs["complete"] = 1
+
+
+def single_numbers(path):
+    """Single numbers where there should be one for each case."""
+    with h5py.File(path, "w") as file:
+        for name in ("series/cam_angle", "series/contact_load", "summary/status", "summary/mean_torque_drive", "sweep/a.x",
+                     "study/audit/run", "study/references/case", "study/methods/method", "ehl/load", "ehl/film_min"):
+            file[name] = 1.0
+        file.attrs["complete"] = 1
+
+
+@pytest.mark.parametrize("spoil", [no_such_file, text_file, empty_file, folder, other_hdf5, truncated, groups_for_datasets,
+                                   single_numbers])
+@pytest.mark.parametrize("name", SCRIPTS)
+def test_a_file_that_cannot_be_used_is_one_line_and_code_2(good, tmp_path, capsys, name, spoil):
+    path = good.get(name, tmp_path / "no")
+    if name == "thesis_comparison":
+        (tmp_path / "runs").mkdir()
+        path = write_result(tmp_path / "runs/thesis.h5", step=30.0)
+    spoil(path)
+    if (name, spoil) == ("ehl_map", truncated):
+        path.write_text(path.read_text()[:-30])  # every whole row is a table
+    code, said = ended(name, path.parent if name == "thesis_comparison" else path, tmp_path / "new", capsys)
+    assert code == 2 and said.count("\n") == 1 and said.startswith(name + ".py: ") and len(said) < 400
+    assert not list((tmp_path / "new").glob("*"))
+
+
+@pytest.mark.parametrize("name", [name for name in SCRIPTS if name not in ("table", "thesis_comparison")])
+def test_a_folder_that_is_not_there_is_made_and_what_is_in_the_way_named(good, tmp_path, capsys, name):
+    assert ended(name, good[name], tmp_path / "new/deep", capsys) == (0, "")
+    assert list((tmp_path / "new/deep").glob("*.png")) and not list((tmp_path / "new/deep").glob(".*"))
+    (tmp_path / "taken").write_text("")
+    code, said = ended(name, good[name], tmp_path / "taken", capsys)
+    assert code == 2 and said.count("\n") == 1 and "cannot be written" in said
+    assert (tmp_path / "taken").read_text() == ""
+
+
+@pytest.mark.parametrize("arguments", [["table.py", "FILE", "--all"], ["thesis_comparison.py", "--runs"],
+                                       ["plot.py", "FILE", "--figure", "load"], ["plot_sweep.py", "FILE"]])
+def test_a_closed_pipe_ends_quietly(good, tmp_path, arguments):
+    words = [str(good["table"]) if word == "FILE" else word for word in arguments]
+    reading, writing = os.pipe()
+    os.close(reading)
+    with os.fdopen(writing, "w") as pipe:
+        done = subprocess.run([sys.executable, HERE / words[0], *words[1:]], stdout=pipe, stderr=subprocess.PIPE, text=True,
+                              timeout=120, cwd=tmp_path, check=False, env={**os.environ, "MPLCONFIGDIR": str(tmp_path / "config")})
+    assert done.stderr == "" and done.returncode == command.CLOSED_PIPE
+
+
+def test_a_figure_is_written_whole_or_not_at_all(tmp_path):
+    class Breaks:
+        """A figure whose writing breaks in the middle."""
+        canvas = plot.FIGURES and type("Canvas", (), {"get_supported_filetypes": staticmethod(lambda: {"png": ""})})
+
+        def savefig(self, target, **_):
+            """Some bytes, then an error."""
+            pathlib.Path(target).write_bytes(b"half")
+            raise OSError(28, "No space left on device")
+
+    (tmp_path / "x.png").write_text("earlier")
+    with pytest.raises(command.ResultError, match="cannot be written: No space left on device"):
+        command.save_figure(Breaks(), tmp_path / "x.png")
+    assert (tmp_path / "x.png").read_text() == "earlier" and [path.name for path in tmp_path.iterdir()] == ["x.png"]
+
+
+def test_a_result_is_not_overwritten_by_a_figure_or_a_page(good, capsys):
+    before = good["ehl"].read_bytes()
+    assert ehl.main([str(good["ehl"]), "--output", str(good["ehl"])]) == 2
+    assert "no kind of figure" in capsys.readouterr().err
+    with pytest.raises(command.ResultError, match="HDF5"):
+        command.write_file(good["ehl"], lambda beside: pathlib.Path(beside).write_text("x"))
+    assert good["ehl"].read_bytes() == before
+
+
+def test_a_target_that_is_no_regular_file_is_refused(tmp_path):
+    os.mkfifo(tmp_path / "pipe.png")
+    with pytest.raises(command.ResultError, match="not a regular file"):
+        command.write_file(tmp_path / "pipe.png", lambda beside: None)
+
+
+@pytest.mark.parametrize("name, dpi", [("plot", "0"), ("plot", "-5"), ("plot", "1e9"), ("plot_sweep", "100000")])
+def test_dots_per_inch_have_bounds(good, capsys, name, dpi):
+    with pytest.raises(SystemExit) as end:
+        SCRIPTS[name][0].main([str(good[name]), "--dpi", dpi])
+    assert end.value.code == 2 and "whole number from 20 to 1200" in capsys.readouterr().err
+
+
+def test_files_of_a_sweep_without_series_do_for_every_script_that_reads_results(tmp_path, capsys):
+    path = without_series(write_result(tmp_path / "grid.h5", step=30.0))
+    for module, arguments in ((table, []), (plot, ["--figure", "mean_torque"]), (plot_sweep, ["--quantity", "mean_torque_drive"])):
+        assert module.main([str(path), *arguments]) == 0
+    assert capsys.readouterr().err == ""
+
+
+def test_reading_that_never_ends_is_ended_with_a_line(good):
+    program = "import sys, time, read; read.LONGEST_READ = 0.1; read.SLOWEST_READ = 1e9\n" \
+              "with read.opened(sys.argv[1]): time.sleep(60)"
+    done = subprocess.run([sys.executable, "-c", program, good["table"]], cwd=HERE, capture_output=True, text=True, timeout=50,
+                          check=False)
+    assert done.returncode != 0 and done.stderr.count("\n") == 1 and "goes in circles" in done.stderr

@@ -1,0 +1,110 @@
+"""Tables of results and of sweeps."""
+
+import h5py
+import numpy as np
+import pytest
+
+from read import read_result
+from table import COLUMNS, MOST_ROWS, main, table_of
+from test_cases import ZIP, without_series
+from test_post import SPEED, write_result
+
+
+@pytest.fixture(name="grid")
+def a_sweep(tmp_path):
+    """A sweep of 60 cases without series."""
+    path = without_series(write_result(tmp_path / "grid.h5", speeds=tuple(np.linspace(300, 900, 12)),
+                                       oils=(25.0, 40.0, 60.0, 80.0, 95.0), step=30.0))
+    with h5py.File(path, "a") as file:
+        for name, unit, value in (("contact_loss_speed", "rad s-1", 307.5795), ("estimated_error", "1", 8.4e-5),
+                                  ("max_hertz_pressure", "Pa", 974689074.0), ("counter_steps", "1", 133.0)):
+            file[f"summary/{name}"] = np.full(60, value)
+            file[f"summary/{name}"].attrs["units"] = unit
+    return path
+
+
+def rows(text):
+    """Cells of the table, row by row, without the line below the headings."""
+    lines = [[cell.strip() for cell in line.strip("|").split("|")] for line in text.splitlines() if line.startswith("|")]
+    return lines[:1] + lines[2:]
+
+
+def test_numbers_are_neither_nought_nor_endless_and_speeds_are_in_rev_min(grid):
+    names = ["contact_loss_speed", "estimated_error", "max_hertz_pressure", "counter_steps", "status"]
+    head, first, *_ = rows(table_of(read_result(grid), names))
+    assert head[2:] == ["contact_loss_speed [rev/min]", "estimated_error", "max_hertz_pressure [GPa]", "counter_steps", "status"]
+    assert first[2:] == ["2937", "8.40e-05", "0.975", "133", "0"]
+
+
+def test_a_long_table_is_cut_and_says_so(grid, capsys):
+    assert main([str(grid)]) == 0
+    text = capsys.readouterr().out
+    assert len(rows(text)) == 1 + MOST_ROWS and f"{60 - MOST_ROWS} of 60 cases are left out" in text
+    assert main([str(grid), "--all"]) == 0
+    text = capsys.readouterr().out
+    assert len(rows(text)) == 61 and "left out" not in text
+    assert main([str(grid), "--rows", "3", "--cases", "speed=300"]) == 0
+    text = capsys.readouterr().out
+    assert len(rows(text)) == 4 and "2 of 5 cases are left out" in text
+
+
+def test_cases_that_are_no_grid_have_their_number(tmp_path):
+    head, *body = rows(table_of(read_result(write_result(tmp_path / "zip.h5", points=ZIP, step=30.0))))
+    assert head[:3] == ["case", "speed_rpm", "oil_temperature_degC"]
+    assert [row[:3] for row in body] == [["0", "300", "25"], ["1", "600", "60"], ["2", "900", "95"]]
+
+
+def test_the_table_of_a_grid_has_the_units_of_its_headings(tmp_path):
+    result = read_result(write_result(tmp_path / "nine.h5", step=15.0))
+    head, first, *_ = rows(table_of(result))
+    assert head[:2] == ["speed_rpm", "oil_temperature_degC"]
+    shown = [column for column in COLUMNS if column[0] in result.summary]
+    assert head[2:] == [f"{heading} [{unit}]" for _, heading, unit in shown] and len(shown) > 4
+    torque = result.summary["mean_torque_contact"].values[0]
+    assert float(first[head.index("contact [N mm]")]) == pytest.approx(1e3 * torque, rel=5.01e-3)
+
+
+def test_failed_cases_have_dashes_and_a_reason(grid, capsys):
+    with h5py.File(grid, "a") as file:
+        file["summary/status"][2] = 3
+        file["summary/estimated_error"][2] = np.nan
+        file["run/messages"] = np.array(["", "", "no periodic state"] + 57 * [""], dtype="S20")
+    assert main([str(grid), "--columns", "estimated_error", "--rows", "3"]) == 0
+    text = capsys.readouterr().out
+    assert [row[-1] for row in rows(text)[1:]] == ["8.40e-05", "8.40e-05", "-"]
+    assert "Case 2 has no result: no periodic state" in text
+
+
+def test_words_in_the_summary_are_printed_as_they_are(grid):
+    with h5py.File(grid, "a") as file:
+        file["summary/contact"] = np.array(60 * ["lost at 180 deg"], dtype="S20")
+    assert rows(table_of(read_result(grid), ["contact"]))[1][-1] == "lost at 180 deg"
+
+
+@pytest.mark.parametrize("arguments, words", [
+    (["--columns", "spring_margn"], "no scalar spring_margn in the summary; there is spring_margin"),
+    (["--columns", "limits"], "does not have one value for each of 60 cases"), (["--cases", "60"], "has the cases 0 to 59"),
+    (["--cases", "speed=1"], "no case is left")])
+def test_what_cannot_be_printed_is_one_line_and_code_2(grid, capsys, arguments, words):
+    with h5py.File(grid, "a") as file:
+        file["summary/spring_margin"] = np.ones(60)
+        file["summary/limits"] = np.ones((60, 2))
+    assert main([str(grid), *arguments]) == 2
+    captured = capsys.readouterr()
+    assert words in captured.err and captured.err.count("\n") == 1 and captured.out == ""
+
+
+@pytest.mark.parametrize("arguments", [["--rows", "0"], ["--rows", "x"], ["--rows", "3", "--all"]])
+def test_wrong_options_are_refused(grid, arguments):
+    with pytest.raises(SystemExit) as end:
+        main([str(grid), *arguments])
+    assert end.value.code == 2
+
+
+def test_keys_of_one_name_are_told_apart(tmp_path):
+    path = write_result(tmp_path / "zip.h5", points=ZIP, step=30.0)
+    with h5py.File(path, "a") as file:
+        for group in ("film", "asperity"):
+            file[f"sweep/{group}.law"] = np.array(["x", "y", "z"], dtype="S1")
+    head = rows(table_of(read_result(path)))[0]
+    assert {"film.law", "asperity.law", SPEED.split(".")[1]} <= set(head)
