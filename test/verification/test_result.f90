@@ -331,7 +331,8 @@ contains
       if (allocated(error)) return
       call check(error, index(result%warnings, "contact is lost for ") == 1, result%warnings)
       if (allocated(error)) return
-      call check(error, index(result%warnings, " % of the cycle at 3600 rev/min, at cam angles 165.4 to 194.7 deg") > 0, result%warnings)
+      call check(error, index(result%warnings, " % of the cycle at 3600 rev/min, at cam angles 165.4 to 194.7 deg") > 0, &
+         result%warnings)
       if (allocated(error)) return
       call check(error, index(result%warnings, "from 2937 rev/min on") > 0, result%warnings)
       if (allocated(error)) return
