@@ -60,8 +60,9 @@ module camroller_simulation
    real(wp), parameter :: balance_tolerance = 1.0e-12_wp
    !> Longest piece that is integrated in one go [rad]
    real(wp), parameter :: longest_piece = pi
-   !> Shortest step over the distance of neighbouring angles [-]: the step is then known to the default accuracy
-   real(wp), parameter :: least_spacings = 1.0e4_wp
+   !> Shortest step over the distance of neighbouring angles [-]: what is stored in spring and masses changes so much over it that
+   !> the difference is known to the default accuracy
+   real(wp), parameter :: least_spacings = 1.0e6_wp
    !> Turns at most in a step, where a periodic cycle is long reached, and from zero, where angles are still known to 1e-9
    integer, parameter :: most_turns_of_step = 100, most_turns = 1000000
 

@@ -48,8 +48,8 @@ DIMENSIONS = {
     r"spring_margin": FORCE,
     r"contact_loss_speed": RATE,
     r"cam_angle|estimated_error_angle": NUMBER,
-    r"revolution_slip|lost_contact_share|outside_film_range_share|relative_energy_residual|estimated_error": NUMBER,
-    r"counter_(evaluations|jacobians|steps|rejected|cycles)|periodicity|status|film_table_error": NUMBER,
+    r"revolution_slip|lost_contact_share|outside_film_range_share|relative_energy_residual|estimated_error(_of_means)?": NUMBER,
+    r"entrainment_reversals|counter_(evaluations|jacobians|steps|rejected|cycles)|periodicity|status|film_table_error": NUMBER,
 }
 # The same for files of `ehl`, whose places across the contact are in half widths of the dry contact, and of `study`
 EHL_DIMENSIONS = {
@@ -126,7 +126,7 @@ def check_units(file, groups, dimensions):
             if dataset.dtype.kind == "O":  # words
                 continue
             fitting = [dimension for pattern, dimension in dimensions.items() if re.fullmatch(pattern, name)]
-            assert len(fitting) == 1, f"{group}/{name}: {len(fitting)} lines of the table of dimensions fit, not one"
+            assert len(fitting) == 1, f"{group}/{name}: {len(fitting)} lines of the table of dimensions above fit, not one"
             factor, dimension = parse(dataset.attrs["units"])
             assert dimension == fitting[0], f"{group}/{name} in {dataset.attrs['units']}"
             expected = math.pi / 180 if name in IN_DEGREES else 1

@@ -173,7 +173,7 @@ contains
       integer :: i, step
 
       the_case = tight_case()
-      the_case%numerics%method = "bogacki_shampine"
+      the_case%numerics%method = "dormand_prince"
       the_case%lubricant%temperature_law = "vogel"
       the_case%lubricant%temperature_points = [313.15_wp, 343.15_wp, 373.15_wp]
       the_case%lubricant%viscosity_points = [0.08_wp, 0.025_wp, 0.011_wp]
@@ -201,7 +201,7 @@ contains
    !> From near zero and from many turns away, with a method of each family.
    subroutine test_smallest_step(error)
       type(error_type), allocatable, intent(out) :: error
-      character(len=*), parameter :: methods(*) = [character(len=16) :: "automatic", "rodas5p", "bogacki_shampine", "rkc"]
+      character(len=*), parameter :: methods(*) = [character(len=16) :: "automatic", "rodas5p", "radau5", "dormand_prince"]
       ! Cam angles to start from [rad]
       real(wp), parameter :: starts(*) = [0.0_wp, 3.0_wp, 6000.0_wp]
       type(case_t) :: the_case
@@ -219,14 +219,14 @@ contains
             the_case%numerics%method = methods(i)
             call start_simulation(simulation, the_case, starts(j), failure)
             if (allocated(failure)) exit
-            ! the message says how long a step must be: ten thousand spacings of the angle and half a turn
-            step = 1.0e4_wp*spacing(starts(j) + pi)
+            ! the message says how long a step must be: a million spacings of the angle and half a turn
+            step = 1.0e6_wp*spacing(starts(j) + pi)
             call advance(simulation, starts(j) + 0.9_wp*step, 31.0_wp, 330.0_wp, outcome, failure)
             call expect(error, failure, kind_usage, "at least")
             if (allocated(error)) return
             call advance(simulation, starts(j) + 1.1_wp*step, 31.0_wp, 330.0_wp, outcome, failure)
             if (allocated(failure)) exit
-            ! the angle is good to 1e-4 of the step, and so are changes over it
+            ! stored energy is some joules, known to 1e-16 of that, and a torque of 0.01 N m does 1e-11 J in a step of 1e-9 rad
             call check(error, abs(outcome%mean_torque_friction - outcome%torque_friction) < 1.0e-3_wp*outcome%torque_friction, &
                & "mean friction of a step without length")
             if (allocated(error)) return
