@@ -3,7 +3,6 @@
 !> Layer: app. In: the command line, a result file. Out: a line that says that nothing differs, or what does and which build made
 !> the file. The deck, the values given beside it and its tables are taken from the file, so that nothing else is needed.
 module camroller_rerun_command
-   use, intrinsic :: iso_fortran_env, only : output_unit
    use camroller_kinds, only : wp
    use camroller_error, only : error_t, raise, kind_difference, kind_file, kind_unfinished
    use camroller_case_loop, only : compute_cases, ended_all, loop_t, number_of_cores
@@ -23,6 +22,7 @@ module camroller_rerun_command
    use camroller_progress, only : end_progress, seconds_since, start_progress
    use camroller_run_facts, only : find_other_build
    use camroller_settings, only : get_word, take
+   use camroller_streams, only : print_lines
    use camroller_stop_signal, only : heed_stop_signals
    use camroller_table_file, only : table_t
    use camroller_team, only : team_t
@@ -238,7 +238,7 @@ contains
          text = config%subject//": "//counted(sink%cases, "case")//agreeing(sink%cases, " is", " are")// &
             & " the same to the last bit, "
          if (missing > 0) text = text//integer_text(missing)//agreeing(missing, " is", " are")//" not in the file, "
-         if (.not. config%is_quiet) write (output_unit, '(a)') text//"in "//seconds_since(loop%progress)
+         if (.not. config%is_quiet) call print_lines(text//"in "//seconds_since(loop%progress), error)
          return
       else if (sink%differing == 0) then
          call raise(error, kind_unfinished, "stopped after "//counted(sink%cases, "case")//agreeing(sink%cases, &

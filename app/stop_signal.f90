@@ -1,17 +1,23 @@
-!> Signals that ask the program to stop: taken note of, so that it can be asked for them where stopping does no harm.
+!> Signals that ask the program to stop: they end it, and files that are not finished are removed before; or they are taken note of,
+!> so that it can be asked for them where stopping does no harm.
 !>
 !> Layer: app. In: nothing. Out: whether somebody wants the program to end. A handler can be given nothing to write to, hence
 !> the one saved variable of the program. Holding the signals back and asking what is pending would need none, but other
 !> libraries start threads of their own, to which the system then hands them.
 module camroller_stop_signal
    use, intrinsic :: iso_c_binding, only : c_funloc, c_funptr, c_int, c_intptr_t
+   use camroller_unfinished, only : remove_unfinished
    implicit none
    private
 
-   public :: heed_stop_signals, is_stop_wanted, release_stop_signals
+   public :: end_on_signals, heed_stop_signals, is_stop_wanted, release_stop_signals
 
    !> Interrupt from the terminal, first user signal, end
    integer(c_int), parameter :: stop_signals(*) = [2_c_int, 10_c_int, 15_c_int]
+   !> Those that end the program, and the end of its terminal
+   integer(c_int), parameter :: end_signals(*) = [1_c_int, 2_c_int, 15_c_int]
+   !> What `signal` takes for what a signal does by itself, and gives for one that is ignored
+   integer(c_intptr_t), parameter :: by_itself = 0_c_intptr_t, ignored_signal = 1_c_intptr_t
 
    interface
       function c_signal(number, handler) bind(C, name="signal") result(former)
@@ -27,9 +33,39 @@ module camroller_stop_signal
          integer(c_intptr_t), value :: handler
          integer(c_intptr_t) :: former
       end function c_signal_default
+
+      function c_raise(number) bind(C, name="raise") result(status)
+         import :: c_int
+         integer(c_int), value :: number
+         integer(c_int) :: status
+      end function c_raise
    end interface
 
 contains
+
+   !> Let signals end the program, files that are not finished removed; what was to be ignored still is.
+   subroutine end_on_signals()
+      integer(c_intptr_t) :: former
+      integer :: i
+
+      do i = 1, size(end_signals)
+         former = c_signal(end_signals(i), c_funloc(end_by_signal))
+         if (former == ignored_signal) former = c_signal_default(end_signals(i), ignored_signal)
+      end do
+   end subroutine end_on_signals
+
+   !> End the program by a signal, as its handler.
+   subroutine end_by_signal(number) bind(C)
+      !> Number of the signal
+      integer(c_int), value :: number
+
+      integer(c_intptr_t) :: former
+      integer(c_int) :: ignored
+
+      call remove_unfinished()
+      former = c_signal_default(number, by_itself)
+      ignored = c_raise(number)
+   end subroutine end_by_signal
 
    !> Take note of the signals from now on.
    subroutine heed_stop_signals()
@@ -47,8 +83,9 @@ contains
       integer :: i
 
       do i = 1, size(stop_signals)
-         ignored = c_signal_default(stop_signals(i), 0_c_intptr_t)
+         ignored = c_signal_default(stop_signals(i), by_itself)
       end do
+      call end_on_signals()
    end subroutine release_stop_signals
 
    !> Has one of the signals come?
