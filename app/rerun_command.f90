@@ -126,7 +126,7 @@ contains
       if (.not. allocated(error)) call read_table(file, "second_lift", tables%second_lift, error)
       if (.not. allocated(error)) call read_table(file, "gas_force", tables%pressure, error)
       if (.not. allocated(error)) call parse_deck(deck, text, path//":/deck/text", "", overrides, error, tables)
-      if (.not. allocated(error)) call read_extents(file, "/case", extents, error)
+      if (.not. allocated(error)) call read_extents(file, "/case", 1, extents, error)
       if (allocated(error)) return
       if (extents(1) /= sweep_size(deck%sweep)) then
          call raise(error, kind_file, "'"//path//"' has "//counted(extents(1), "case")//", its deck "// &
@@ -151,7 +151,7 @@ contains
 
       allocate (overrides(0))
       if (has_member(file, "/deck/overrides")) then
-         call read_extents(file, "/deck/overrides", extents, error)
+         call read_extents(file, "/deck/overrides", 1, extents, error)
          if (allocated(error)) return
          do i = 1, extents(1)
             call read_text(file, "/deck/overrides", [i - 1], text, error)
@@ -180,7 +180,10 @@ contains
 
       name = "/deck/table_"//group
       if (.not. has_member(file, name)) return
-      call read_extents(file, name, extents, error)
+      call read_extents(file, name, 2, extents, error)
+      if (.not. allocated(error)) then
+         if (extents(2) /= 2) call raise(error, kind_file, "'"//name//"' of '"//file%file//"' does not have two columns")
+      end if
       if (.not. allocated(error)) call read_numbers(file, name, [0, 0], extents, numbers, error)
       ! the path as the deck names it is what is looked for, the deck having no folder
       if (.not. allocated(error)) call read_text(file, "/deck/values/"//group//".table", [integer ::], folder, error)

@@ -116,7 +116,7 @@ contains
       if (.not. allocated(error) .and. version > format_version) then
          call raise(error, kind_file, "cannot read '"//path//"': it was written by a newer camroller")
       end if
-      if (.not. allocated(error)) call read_extents(file, "/case", cases, error)
+      if (.not. allocated(error)) call read_extents(file, "/case", 1, cases, error)
    end subroutine open_result
 
    !> Series of one case.
@@ -139,7 +139,7 @@ contains
 
       call check_case(file, cases, case, error)
       if (.not. allocated(error)) call list_members(file, "/series", names, error)
-      if (.not. allocated(error)) call read_extents(file, "/series/cam_angle", angles, error)
+      if (.not. allocated(error)) call read_extents(file, "/series/cam_angle", 1, angles, error)
       if (allocated(error)) return
       call make_columns(table, angles(1), size(names))
       do i = 1, size(names)
