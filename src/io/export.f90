@@ -7,8 +7,8 @@ module camroller_export
    use camroller_error, only : error_t, raise, kind_file, kind_usage
    use camroller_hdf5_object, only : hdf5_object_t
    use camroller_hdf5_file, only : discard_file
-   use camroller_hdf5_read, only : has_member, is_text_dataset, list_members, member_length, open_file, read_extents, &
-      & read_integer_attribute, read_numbers, read_text, read_text_attribute
+   use camroller_hdf5_read, only : check_extents, has_member, is_text_dataset, list_members, member_length, open_file, &
+      & read_extents, read_integer_attribute, read_numbers, read_text, read_text_attribute
    use camroller_new_file, only : begin_new_file, drop_new_file, end_new_file, new_file_t
    use camroller_number_text, only : integer_text, write_number, number_length
    use camroller_output_file, only : format_version, result_format
@@ -146,7 +146,9 @@ contains
          if (names(i) == "cam_angle") then
             call read_numbers(file, "/series/"//trim(names(i)), [0], angles, column, error)
          else
-            call read_numbers(file, "/series/"//trim(names(i)), [0, case], [angles(1), 1], column, error)
+            call check_extents(file, "/series/"//trim(names(i)), [angles(1), cases], error)
+            if (.not. allocated(error)) call read_numbers(file, "/series/"//trim(names(i)), [0, case], [angles(1), 1], column, &
+               & error)
          end if
          if (allocated(error)) return
          table%numbers(:, i) = column
@@ -198,6 +200,8 @@ contains
       real(wp), allocatable :: column(:) ! [unit of the dataset]
       integer :: row
 
+      call check_extents(file, name, [size(table%numbers, 1)], error)
+      if (allocated(error)) return
       table%has_words(position) = is_text_dataset(file, name)
       if (table%has_words(position)) then
          do row = 1, size(table%words, 1)

@@ -17,11 +17,13 @@ module camroller_hdf5_read
    use camroller_hdf5_status, only : quiet_hdf5, raise_hdf5, start_hdf5
    use camroller_hdf5_object, only : hdf5_object_t, open_space, open_text_type
    use camroller_hdf5_shape, only : check_kind, check_rank, find_shape, of_numbers, of_texts, open_dataset, raise_read, shape_t
+   use camroller_library_watch, only : begin_call, end_call
+   use camroller_seal, only : check_seal
    use camroller_system_file, only : text_at_address
    implicit none
    private
 
-   public :: member_length, open_file, has_member, list_members, read_extents, is_text_dataset
+   public :: member_length, open_file, has_member, list_members, read_extents, check_extents, is_text_dataset
    public :: read_numbers, read_text, read_text_attribute, read_integer_attribute
 
    !> Longest name of a member that can be listed
@@ -56,12 +58,18 @@ contains
       file%bytes = facts%bytes
       call start_hdf5(error)
       if (allocated(error)) return
+      call begin_call(path)
       call h5fis_hdf5_f(path, is_hdf5, status)
+      call end_call()
       if (status /= 0 .or. .not. is_hdf5) then
          call raise(error, kind_file, "cannot read '"//path//"': it is not an HDF5 file")
          return
       end if
+      call check_seal(path, error)
+      if (allocated(error)) return
+      call begin_call(path)
       call h5fopen_f(path, h5f_acc_rdonly_f, file%id, status)
+      call end_call()
       if (status /= 0) then
          call raise_hdf5(error, "cannot read '"//path//"', it seems damaged")
          file%id = -1_hid_t
@@ -80,7 +88,9 @@ contains
       integer :: status
 
       call quiet_hdf5()
+      call begin_call(file%file)
       call h5lexists_f(file%id, name, answer, status)
+      call end_call()
       if (status /= 0) answer = .false.
    end function has_member
 
@@ -100,11 +110,13 @@ contains
 
       count = 0
       call quiet_hdf5()
+      call begin_call(file%file)
       call h5gopen_f(file%id, group, id, status)
       if (status == 0) then
          call h5gget_info_f(id, storage, count, highest, status)
          call h5gclose_f(id, ignored)
       end if
+      call end_call()
       if (count < 0 .or. count > file%bytes/smallest_link) then
          call raise(error, kind_file, "'"//group//"' of '"//file%file//"' cannot have so many members: the file is too small")
          return
@@ -113,13 +125,15 @@ contains
       do i = 1, count
          if (status /= 0) exit
          names(i) = ""
+         call begin_call(file%file)
          call h5lget_name_by_idx_f(file%id, group, h5_index_crt_order_f, h5_iter_inc_f, &
             & int(i - 1, hsize_t), names(i), status)
+         call end_call()
       end do
       if (status /= 0) call raise_hdf5(error, "cannot list '"//group//"' of '"//file%file//"'")
    end subroutine list_members
 
-   !> Extents of a dataset that has values.
+   !> Extents of a dataset all of whose values are there.
    subroutine read_extents(file, name, rank, extents, error)
       !> An open file
       type(hdf5_object_t), intent(in) :: file
@@ -149,6 +163,30 @@ contains
       end if
       extents = int(shape%extents)
    end subroutine read_extents
+
+   !> An error where a dataset has other extents than those of the datasets beside it.
+   subroutine check_extents(file, name, extents, error)
+      !> An open file
+      type(hdf5_object_t), intent(in) :: file
+      !> Name of the dataset from the root
+      character(len=*), intent(in) :: name
+      !> Extents that it has to have
+      integer, intent(in) :: extents(:)
+      !> File error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(shape_t) :: shape
+      integer(hid_t) :: dataset
+      integer :: ignored
+
+      call open_dataset(file, name, dataset, shape, error)
+      if (allocated(error)) return
+      call h5dclose_f(dataset, ignored)
+      call check_rank(file, name, shape, size(extents), error)
+      if (allocated(error)) return
+      if (any(shape%extents /= extents)) call raise(error, kind_file, "'"//name//"' of '"//file%file// &
+         & "' does not have as many values as those beside it")
+   end subroutine check_extents
 
    !> Whether a dataset holds texts.
    function is_text_dataset(file, name) result(answer)
@@ -317,7 +355,9 @@ contains
          if (status == 0 .and. size(first) > 0) then
             call h5sselect_hyperslab_f(file_space, h5s_select_set_f, int(first, hsize_t), int(extents, hsize_t), status)
          end if
+         call begin_call(file%file)
          if (status == 0) call h5dread_f(dataset, memory_type, target_address, status, memory_space, file_space)
+         call end_call()
          if (status /= 0) call raise_read(error, file, name)
          call h5sclose_f(memory_space, ignored)
          call h5sclose_f(file_space, ignored)
@@ -347,8 +387,10 @@ contains
       logical :: exists
 
       call quiet_hdf5()
+      call begin_call(file%file)
       call h5oopen_f(file%id, object, id, status)
       if (status /= 0) then
+         call end_call()
          call raise_read(error, file, object)
          return
       end if
@@ -359,6 +401,7 @@ contains
          call raise(error, kind_file, "'"//object//"' of '"//file%file//"' has no attribute '"//name//"'")
       end if
       call h5oclose_f(id, ignored)
+      call end_call()
    end subroutine read_attribute
 
    !> Read the value of an attribute that is there.

@@ -9,6 +9,7 @@ module camroller_hdf5_shape
    use camroller_error, only : error_t, raise, kind_file
    use camroller_hdf5_object, only : hdf5_object_t
    use camroller_hdf5_status, only : quiet_hdf5, raise_hdf5
+   use camroller_library_watch, only : begin_call, end_call
    use camroller_number_text, only : integer_text
    implicit none
    private
@@ -51,8 +52,10 @@ contains
       integer :: status, ignored
 
       call quiet_hdf5()
+      call begin_call(file%file)
       call h5dopen_f(file%id, name, dataset, status)
       if (status /= 0) then
+         call end_call()
          call raise_read(error, file, name)
          return
       end if
@@ -61,6 +64,7 @@ contains
       call h5dget_space_f(dataset, space, status)
       if (status == 0) call h5dget_type_f(dataset, value_type, status)
       if (status == 0) call find_shape(space, value_type, shape, status)
+      call end_call()
       if (status /= 0) then
          call raise_read(error, file, name)
          call h5dclose_f(dataset, ignored)

@@ -14,6 +14,7 @@ module camroller_output_file
    use camroller_hdf5_attribute, only : make_scale, put_attribute
    use camroller_new_file, only : begin_new_file, drop_new_file, end_new_file, new_file_t
    use camroller_raw_file, only : append_text, close_raw, create_raw, raw_file_t, settle_raw
+   use camroller_seal, only : seal_file
    use camroller_system_file, only : remove_file
    implicit none
    private
@@ -109,7 +110,7 @@ contains
       if (allocated(error)) call abandon_output(writer)
    end subroutine start_file
 
-   !> Mark the file complete, or partial where cases were not computed, close it and give it its name.
+   !> Mark the file complete, or partial where cases were not computed, close it, seal it and give it its name.
    subroutine finish_file(writer, error)
       !> The writer
       type(output_t), intent(inout) :: writer
@@ -125,8 +126,8 @@ contains
       if (missing > 0 .and. .not. allocated(error)) call put_attribute(writer%file, "missing_cases", missing, error)
       if (.not. allocated(error)) call put_attribute(writer%file, "complete", merge(0, 1, missing > 0), error)
       if (.not. allocated(error)) call flush_file(writer%file, error)
-      bytes = writer%file%reserved
       if (.not. allocated(error)) call close_file(writer%file, error)
+      if (.not. allocated(error)) call seal_file(writer%place%temporary, writer%path, bytes, error)
       if (.not. allocated(error)) call end_new_file(writer%place, bytes, error)
    end subroutine finish_file
 
