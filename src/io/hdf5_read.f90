@@ -10,7 +10,7 @@ module camroller_hdf5_read
       & h5dget_space_f, h5dget_storage_size_f, h5dread_f, h5dvlen_reclaim_f, h5fis_hdf5_f, h5fopen_f, h5gclose_f, &
       & h5gget_info_f, h5gopen_f, h5lexists_f, h5lget_name_by_idx_f, h5oclose_f, h5oopen_f, h5sclose_f, &
       & h5sselect_hyperslab_f, h5tclose_f, h5f_acc_rdonly_f, h5p_default_f, h5s_select_set_f, h5t_native_double, &
-      & h5t_native_integer, h5_index_crt_order_f, h5_iter_inc_f
+      & h5t_native_integer, h5_index_crt_order_f, h5_index_name_f, h5_iter_inc_f
    use camroller_kinds, only : wp
    use camroller_error, only : error_t, raise, kind_file
    use camroller_file_facts, only : facts_of_path, file_facts_t, kind_in_words
@@ -94,7 +94,7 @@ contains
       if (status /= 0) answer = .false.
    end function has_member
 
-   !> Names in a group in the order in which they were created.
+   !> Names in a group in the order in which they were created; by the alphabet where the file does not keep that order.
    subroutine list_members(file, group, names, error)
       !> An open file
       type(hdf5_object_t), intent(in) :: file
@@ -106,7 +106,7 @@ contains
       type(error_t), allocatable, intent(out) :: error
 
       integer(hid_t) :: id
-      integer :: status, ignored, storage, count, highest, i
+      integer :: status, ignored, storage, count, highest, order, i
 
       count = 0
       call quiet_hdf5()
@@ -122,12 +122,16 @@ contains
          return
       end if
       allocate (names(count))
+      order = h5_index_crt_order_f
       do i = 1, count
          if (status /= 0) exit
          names(i) = ""
          call begin_call(file%file)
-         call h5lget_name_by_idx_f(file%id, group, h5_index_crt_order_f, h5_iter_inc_f, &
-            & int(i - 1, hsize_t), names(i), status)
+         call h5lget_name_by_idx_f(file%id, group, order, h5_iter_inc_f, int(i - 1, hsize_t), names(i), status)
+         if (status /= 0 .and. i == 1) then
+            order = h5_index_name_f
+            call h5lget_name_by_idx_f(file%id, group, order, h5_iter_inc_f, int(i - 1, hsize_t), names(i), status)
+         end if
          call end_call()
       end do
       if (status /= 0) call raise_hdf5(error, "cannot list '"//group//"' of '"//file%file//"'")

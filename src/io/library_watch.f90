@@ -12,8 +12,8 @@ module camroller_library_watch
 
    public :: watch_library, begin_call, end_call, is_in_call, tell_call
 
-   !> Most time that a call may compute [s]: a thousand times what the largest piece that is read at once takes
-   integer(c_long), parameter :: longest_call = 10_c_long
+   !> Most time that a call may compute [s]: hundreds of times what the largest piece that is read at once takes
+   integer(c_long), parameter :: longest_call = 4_c_long
    !> Clock of the time that this thread has computed; descriptor of the error unit; letters of a path
    integer(c_int), parameter :: thread_clock = 3_c_int, error_descriptor = 2_c_int
    integer, parameter :: path_length = 4096

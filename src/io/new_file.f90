@@ -8,6 +8,7 @@ module camroller_new_file
    use camroller_error, only : error_t, raise, kind_file, kind_usage
    use camroller_file_facts, only : facts_of_path, file_facts_t, is_same_file, kind_in_words
    use camroller_mistakes, only : line_t
+   use camroller_number_text, only : integer_text
    use camroller_raw_file, only : open_raw, raw_file_t, settle_raw
    use camroller_system_file, only : is_folder, process_number, remove_file, rename_file, resolve_path
    use camroller_text_file, only : folder_of
@@ -67,7 +68,6 @@ contains
 
       type(file_facts_t) :: facts
       type(line_t) :: inputs(0)
-      character(len=32) :: number
       integer :: attempt
 
       file%path = path
@@ -85,11 +85,10 @@ contains
          return
       end if
       do attempt = 0, most_attempts - 1
-         write (number, "(i0,'-',i0)") process_number(), attempt
-         facts = facts_of_path(file%place//".unfinished-"//trim(number))
+         file%temporary = file%place//".unfinished-"//integer_text(process_number())//"-"//integer_text(attempt)
+         facts = facts_of_path(file%temporary)
          if (.not. facts%is_there) exit
       end do
-      file%temporary = file%place//".unfinished-"//trim(number)
       call remember_unfinished(file%temporary)
    end subroutine begin_new_file
 

@@ -190,8 +190,8 @@ def judge(ending: Ending, label: str, kind: str, words: str, base: Base) -> Endi
     """An ending as the harness sees it; other numbers without a word are a fault where they could be told."""
     if ending.code != 0 or label not in base.outputs or ending.output == base.outputs[label]:
         return ending
-    if words.endswith((": gone", ": a group")):
-        return dataclasses.replace(ending, kind="0, without what was taken out")
+    if words.endswith((": gone", ": a group", ": whole numbers", ": small numbers")):
+        return dataclasses.replace(ending, kind="0, what was changed on purpose")
     if kind in ("bytes", "pieces without seal"):
         return dataclasses.replace(ending, kind="0, other numbers, no seal to tell")
     return dataclasses.replace(ending, kind="0, other numbers in silence", is_fault=True)
