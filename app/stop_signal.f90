@@ -9,7 +9,7 @@ module camroller_stop_signal
    use camroller_end_process, only : end_process
    use camroller_error, only : kind_file
    use camroller_library_watch, only : is_in_call, tell_call, watch_library
-   use camroller_unfinished, only : remove_unfinished
+   use camroller_unfinished, only : remove_remembered
    implicit none
    private
 
@@ -87,7 +87,7 @@ contains
       integer(c_intptr_t) :: ignored_handler
       integer(c_int) :: ignored
 
-      call remove_unfinished()
+      call remove_remembered()
       if (is_in_call()) then
          call tell_call()
          call end_process(kind_file)
@@ -104,7 +104,7 @@ contains
       integer(c_intptr_t) :: former
       integer(c_int) :: ignored
 
-      call remove_unfinished()
+      call remove_remembered()
       former = c_signal_default(number, by_itself)
       ignored = c_raise(number)
    end subroutine end_by_signal

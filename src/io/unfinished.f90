@@ -8,7 +8,7 @@ module camroller_unfinished
    implicit none
    private
 
-   public :: remember_unfinished, forget_unfinished, remove_unfinished
+   public :: remember_unfinished, forget_unfinished, remove_remembered
 
    !> Places, and letters of a path with the null character that ends it
    integer, parameter :: places = 8, path_length = 4096
@@ -42,9 +42,9 @@ contains
    end subroutine forget_unfinished
 
    !> Remove the files that are remembered; may be called by a signal handler.
-   subroutine remove_unfinished()
+   subroutine remove_remembered()
       call change_places(clear, "")
-   end subroutine remove_unfinished
+   end subroutine remove_remembered
 
    !> Change the places, one by one; a place is in use while its length is not 0.
    subroutine change_places(task, path)
