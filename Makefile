@@ -2,7 +2,7 @@
 
 SHELL := /bin/bash
 .DEFAULT_GOAL := help
-.PHONY: help setup commit build debug mpi run comparison test quick bless random random-ehl random-wide needed rough-rows fuzz study study-film audit check check-layers \
+.PHONY: help setup commit build debug mpi run comparison test quick bless random random-ehl random-wide needed rough-rows fuzz sanitize study study-film audit check check-layers \
   check-style check-format check-lint check-warnings format bench bench-ehl range-ehl bench-batch bench-effects clean distclean
 
 FPM := .venv/bin/fpm
@@ -16,6 +16,7 @@ COMMON_FLAGS := -std=f2018 -g -ffp-contract=off -fbacktrace -Ibuild/commit
 export DEBUG_FLAGS := $(COMMON_FLAGS) -O0 -Wall -Wextra -Wimplicit-interface -fcheck=all \
   -ffpe-trap=invalid,zero,overflow -finit-real=snan
 export RELEASE_FLAGS := $(COMMON_FLAGS) -O3
+export SANITIZE_FLAGS := $(COMMON_FLAGS) -O1 -fno-omit-frame-pointer -fsanitize=address,undefined
 
 help: ## list what can be made
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/make \1|\2/p' $(MAKEFILE_LIST) | column -t -s '|' 2> /dev/null || \
@@ -93,6 +94,11 @@ fuzz: build debug ## hostile decks and files, both programs, endings counted: CA
 	@for campaign in $(if $(KIND),test/fuzz/fuzz_$(KIND).py,$(wildcard test/fuzz/fuzz_*.py)); do \
 	  $(PYTHON) $$campaign --cases $(or $(CASES),300) --seed $(or $(SEED),1) || failed=1; done; test -z "$$failed"
 
+sanitize: commit ## every deck and the Fortran tests with checks of memory and undefined behaviour: SUITES="names" DECKS="paths" (40 minutes)
+	@$(FPM) install --flag "$(SANITIZE_FLAGS)" --prefix build/sanitize > build/sanitize-build.log 2>&1 || \
+	  { cat build/sanitize-build.log; exit 1; }
+	@DECKS="$(DECKS)" SUITES="$(SUITES)" $(PYTHON) tools/sanitize.py
+
 rough-rows: commit ## rough contacts of Masjedi and Khonsari beside ours: bench/tables/ehl_rough.txt, for doc/ehl.md
 	@ROUGH_TABLE=bench/tables/ehl_rough.txt $(FPM) test --flag "$(RELEASE_FLAGS)" -- ehl_rough
 
@@ -138,7 +144,7 @@ bench-effects: build ## instructions that effects cost, and that absent ones do 
 	@bench/effects.sh
 
 clean: ## remove what was built; keep tools and results
-	rm -rf build/gfortran* build/debug build/release build/commit build/tests build/bench bench/build mpi/build build/mpi build/*.log build/compile_commands.json
+	rm -rf build/gfortran* build/debug build/release build/sanitize build/commit build/tests build/bench bench/build mpi/build build/mpi build/*.log build/compile_commands.json
 
 distclean: ## remove everything that is not in git, results too
 	rm -rf build bench/build mpi/build .venv results

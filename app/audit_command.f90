@@ -3,8 +3,7 @@
 !> Layer: app. In: the command line. Out: a table on the output unit and in a file. A case that cannot be run is told and does not
 !> end the others; the program still ends with its kind of error.
 module camroller_audit_command
-   use, intrinsic :: iso_fortran_env, only : output_unit
-   use camroller_error, only : error_t, raise, add_context, kind_usage
+   use camroller_error, only : error_t, add_context
    use camroller_audit, only : new_audit_table, audit_case
    use camroller_audit_page, only : audit_page
    use camroller_case, only : case_t
@@ -14,8 +13,9 @@ module camroller_audit_command
    use camroller_number_text, only : counted
    use camroller_output, only : output_t, output_options_t, open_output, abandon_output
    use camroller_progress, only : progress_t, start_progress, show_progress, end_progress, seconds_since
-   use camroller_run_command, only : check_cases, output_path
+   use camroller_run_command, only : check_cases, find_place
    use camroller_run_facts, only : write_facts
+   use camroller_streams, only : print_lines
    use camroller_study_file, only : write_study, close_study
    use camroller_study_table, only : study_table_t
    implicit none
@@ -42,11 +42,8 @@ contains
       call read_deck(deck, config%subject, config%overrides, error)
       if (.not. allocated(error)) call check_cases(deck, error)
       if (allocated(error)) return
-      path = output_path(config, "_audit.h5")
-      if (path == config%subject) then
-         call raise(error, kind_usage, "the result would replace the deck '"//path//"'")
-         return
-      end if
+      call find_place(config, deck, "_audit.h5", path, error)
+      if (allocated(error)) return
       call start_progress(progress, config%is_quiet)
       call open_output(writer, path, sweep_size(deck%sweep), output_options_t(), error)
       if (.not. allocated(error)) call write_facts(writer, deck, error)
@@ -62,10 +59,10 @@ contains
       if (.not. allocated(error)) call close_study(writer, error)
       if (allocated(error)) return
       if (.not. config%is_quiet) then
-         write (output_unit, '(a)') audit_page(table), path//": "//counted(sweep_size(deck%sweep), "case")//" in "// &
-            & seconds_since(progress)
+         call print_lines(audit_page(table)//new_line("a")//path//": "//counted(sweep_size(deck%sweep), "case")//" in "// &
+            & seconds_since(progress), error)
       end if
-      if (allocated(failure)) call move_alloc(failure, error)
+      if (allocated(failure) .and. .not. allocated(error)) call move_alloc(failure, error)
    end subroutine audit_deck
 
    !> Audit every case.

@@ -2,7 +2,6 @@
 !>
 !> Layer: app. In: the command line. Out: files, text, an exit code.
 module camroller_commands
-   use, intrinsic :: iso_fortran_env, only : error_unit, output_unit
    use camroller_error, only : error_t, raise, add_context, kind_file, kind_usage
    use camroller_audit_command, only : audit_deck
    use camroller_blas_threads, only : use_one_blas_thread
@@ -21,10 +20,13 @@ module camroller_commands
    use camroller_mistakes, only : line_t
    use camroller_model, only : model_t
    use camroller_names, only : index_of_name
+   use camroller_new_file, only : check_place
    use camroller_number_text, only : counted, integer_text
    use camroller_rerun_command, only : rerun_file
    use camroller_run, only : build_models
    use camroller_run_command, only : run_deck
+   use camroller_stop_signal, only : end_on_signals
+   use camroller_streams, only : close_output_stream, hold_streams, print_lines, print_text, tell
    use camroller_study_command, only : study_deck
    use camroller_sweep_command, only : merge_deck, sweep_deck
    use camroller_sweep_cost, only : case_to_try, cost_in_words
@@ -53,16 +55,19 @@ contains
       type(config_t) :: config
       type(error_t), allocatable :: error
 
+      call hold_streams()
+      call end_on_signals()
       call use_one_blas_thread()
       allocate (arguments(0))
       call get_arguments(arguments)
       call read_arguments(arguments, config, error)
       if (.not. allocated(error)) call run_command(config, team, error)
+      if (.not. allocated(error)) call close_output_stream(error)
       code = 0
       if (.not. allocated(error)) return
       code = error%kind
       if (team%rank > 0 .and. code /= kind_file) return
-      write (error_unit, '(a)') "camroller: "//error%message
+      call tell("camroller: "//error%message//new_line("a"))
    end subroutine run_command_line
 
    !> Do one command.
@@ -76,7 +81,7 @@ contains
 
       if (team%rank > 0 .and. config%command /= "sweep") return
       if (config%is_help) then
-         write (output_unit, '(a)') help_for(config%command)
+         call print_lines(help_for(config%command), error)
          return
       end if
       select case (config%command)
@@ -85,7 +90,7 @@ contains
       case ("defaults")
          call show_defaults(config, error)
       case ("version")
-         call show_version()
+         call show_version(error)
       case ("help")
          call show_help(config, error)
       case ("run")
@@ -114,10 +119,14 @@ contains
       !> File error
       type(error_t), allocatable, intent(out) :: error
 
+      type(line_t) :: inputs(1)
       character(len=:), allocatable :: path
 
       path = config%output
       if (path == "") path = "-"
+      inputs(1)%text = config%subject
+      if (path /= "-") call check_place(path, inputs, error)
+      if (allocated(error)) return
       call export_csv(config%subject, merge(export_summary, export_series, config%is_summary), config%case_number, path, error)
    end subroutine export_table
 
@@ -132,15 +141,19 @@ contains
          call raise(error, kind_usage, "unknown command '"//config%subject//"'; see 'camroller help'")
          return
       end if
-      write (output_unit, '(a)') help_for(config%subject)
+      call print_lines(help_for(config%subject), error)
    end subroutine show_help
 
    !> Version and build.
-   subroutine show_version()
+   subroutine show_version(error)
+      !> File error of the output unit
+      type(error_t), allocatable, intent(out) :: error
+
+      character(len=*), parameter :: n = new_line("a")
       character(len=:), allocatable :: compiler, options
 
       call compiler_facts(compiler, options)
-      write (output_unit, '(a)') "camroller "//version_text, "commit "//build_commit, compiler, options
+      call print_lines("camroller "//version_text//n//"commit "//build_commit//n//compiler//n//options, error)
    end subroutine show_version
 
    !> A complete deck.
@@ -157,8 +170,7 @@ contains
       else
          call write_defaults(config%subject, text, error)
       end if
-      if (allocated(error)) return
-      write (output_unit, '(a)', advance="no") text
+      if (.not. allocated(error)) call print_text(text, error)
    end subroutine show_defaults
 
    !> Check a deck and print what it comes to.
@@ -187,16 +199,15 @@ contains
       end do
       text = "! "//config%subject//" is valid: "//cases_in_words(deck)
       if (checked < sweep_size(deck%sweep)) text = text//", of which "//integer_text(checked)//" were checked"
-      write (output_unit, '(a)') text
-      if (size(deck%sweep%axes) > 0) then
-         call cost_in_words(deck, text)
-         write (output_unit, '(a)', advance="no") text
-      end if
+      call print_lines(text, error)
+      text = ""
+      if (size(deck%sweep%axes) > 0) call cost_in_words(deck, text)
+      text = text//"! effects in the case: "//effects_in_words(deck, .true.)//new_line("a")// &
+         & "! effects not in the case: "//effects_in_words(deck, .false.)
+      if (.not. allocated(error)) call print_lines(text, error)
       call write_resolved(deck, text)
-      write (output_unit, '(a)') "! effects in the case: "//effects_in_words(deck, .true.)
-      write (output_unit, '(a)') "! effects not in the case: "//effects_in_words(deck, .false.)
-      write (output_unit, '(a)', advance="no") text
-      call check_effects(deck, error)
+      if (.not. allocated(error)) call print_text(text, error)
+      if (.not. allocated(error)) call check_effects(deck, error)
    end subroutine check_deck
 
    !> Print which effects the cases need, where the deck leaves that to the program.
@@ -206,6 +217,8 @@ contains
       !> Deck error
       type(error_t), allocatable, intent(out) :: error
 
+      character(len=*), parameter :: n = new_line("a")
+      character(len=:), allocatable :: text
       type(case_t) :: case, chosen
       type(choice_t) :: choice
       type(model_t), allocatable :: models(:)
@@ -220,9 +233,10 @@ contains
          if (.not. wants_choice(case)) cycle
          call choose_effects(case, models, chosen, choice, .false., error)
          if (allocated(error)) return
-         write (output_unit, '(a)') "! effects that matter for "//trim(case%effects%quantity)//", and changes expected without them"
-         if (size(deck%sweep%axes) > 0) write (output_unit, '(a)') "! "//case_in_words(deck%sweep, number)
-         write (output_unit, '(a)') "!    "//indented(choice_in_words(choice))
+         text = "! effects that matter for "//trim(case%effects%quantity)//", and changes expected without them"//n
+         if (size(deck%sweep%axes) > 0) text = text//"! "//case_in_words(deck%sweep, number)//n
+         call print_lines(text//"!    "//indented(choice_in_words(choice)), error)
+         if (allocated(error)) return
       end do
    end subroutine check_effects
 

@@ -182,6 +182,9 @@ contains
 
       do i = 1, size(outcomes)
          if (.not. allocated(outcomes(i)%series)) cycle
+         call read_numbers(self%file, "/series/cam_angle", [0], shape(layout%angle), stored, error)
+         if (allocated(error)) return
+         call compare_row(self, "series/cam_angle", first + i - 2, stored, layout%angle, differs(i))
          do k = 1, size(layout%series)
             call read_numbers(self%file, "/series/"//layout%series(k)%name, [0, first + i - 2], [size(layout%angle), 1], &
                & stored, error)

@@ -105,9 +105,8 @@ contains
       earlier%reason = "it has no status of each case"
       if (.not. has_member(file, "/summary")) return
       if (.not. has_member(file, "/summary/status")) return
-      call read_extents(file, "/summary/status", extents, error)
+      call read_extents(file, "/summary/status", 1, extents, error)
       if (allocated(error)) return
-      if (size(extents) /= 1) return
       if (extents(1) /= cases) return
       call read_numbers(file, "/summary/status", [0], extents, status, error)
       if (allocated(error)) return

@@ -3,9 +3,8 @@
 !> Layer: app. In: the command line. Out: tables on the output unit, pressure and film in a file. A case that cannot be solved
 !> is named and does not end the others; the program still ends with its kind of error.
 module camroller_ehl_command
-   use, intrinsic :: iso_fortran_env, only : output_unit, error_unit
    use camroller_kinds, only : wp
-   use camroller_error, only : error_t, raise, add_context, kind_usage
+   use camroller_error, only : error_t, add_context
    use camroller_case, only : case_t
    use camroller_cli, only : config_t
    use camroller_deck, only : deck_t, read_deck, make_sweep_case
@@ -19,8 +18,9 @@ module camroller_ehl_command
    use camroller_ehl_summary, only : make_ehl_summary
    use camroller_model, only : model_t
    use camroller_output, only : output_t, output_options_t, open_output, abandon_output
-   use camroller_run_command, only : check_cases, output_path
+   use camroller_run_command, only : check_cases, find_place
    use camroller_run_facts, only : write_facts
+   use camroller_streams, only : print_lines, tell
    use camroller_study_file, only : close_study
    implicit none
    private
@@ -44,24 +44,21 @@ contains
       type(ehl_file_t) :: file
       type(case_t) :: case
       type(line_t), allocatable :: lines(:)
-      type(error_t), allocatable :: failure
+      type(error_t), allocatable :: failure, unheard
       character(len=:), allocatable :: path
 
       call read_deck(deck, config%subject, config%overrides, error)
       if (.not. allocated(error)) call check_cases(deck, error)
       if (allocated(error)) return
-      path = output_path(config, "_ehl.h5")
-      if (path == config%subject) then
-         call raise(error, kind_usage, "the result would replace the deck '"//path//"'")
-         return
-      end if
+      call find_place(config, deck, "_ehl.h5", path, error)
+      if (allocated(error)) return
       call make_sweep_case(deck, 1, case, error)
       if (.not. allocated(error)) call open_output(writer, path, sweep_size(deck%sweep), output_options_t(), error)
       if (.not. allocated(error)) call write_facts(writer, deck, error)
       if (.not. allocated(error)) call open_ehl(file, writer, merge(2, 1, allocated(case%second_lift)), angle_count, &
          & fewest_nodes, error)
       if (allocated(error)) return
-      call solve_cases(deck, config%is_quiet, writer, file, lines, failure, error)
+      call solve_cases(deck, config%is_quiet, writer, file, lines, failure, unheard, error)
       call close_ehl(file)
       if (.not. allocated(error) .and. size(lines) == 0) call move_alloc(failure, error)
       if (allocated(error)) then
@@ -70,12 +67,14 @@ contains
       end if
       call close_study(writer, error)
       if (allocated(error)) return
-      if (.not. config%is_quiet) write (output_unit, "(a)") friction_page(lines), path//": pressure, film and friction in /ehl"
-      if (allocated(failure)) call move_alloc(failure, error)
+      if (.not. (config%is_quiet .or. allocated(unheard))) call print_lines(friction_page(lines)//new_line("a")//path// &
+         & ": pressure, film and friction in /ehl", unheard)
+      if (allocated(unheard)) call move_alloc(unheard, error)
+      if (allocated(failure) .and. .not. allocated(error)) call move_alloc(failure, error)
    end subroutine ehl_deck
 
    !> Solve, write and report every case.
-   subroutine solve_cases(deck, is_quiet, writer, file, lines, failure, error)
+   subroutine solve_cases(deck, is_quiet, writer, file, lines, failure, unheard, error)
       !> The deck
       type(deck_t), intent(in) :: deck
       !> Print nothing?
@@ -88,6 +87,8 @@ contains
       type(line_t), allocatable, intent(out) :: lines(:)
       !> What went wrong with the first case that was not solved
       type(error_t), allocatable, intent(out) :: failure
+      !> Error of the output unit: the cases go into the file all the same
+      type(error_t), allocatable, intent(out) :: unheard
       !> File error
       type(error_t), allocatable, intent(out) :: error
 
@@ -98,16 +99,16 @@ contains
       integer :: i, lobe
 
       allocate (lines(0))
-      if (.not. is_quiet) write (output_unit, "(a)") page_head()
+      if (.not. is_quiet) call print_lines(page_head(), unheard)
       do i = 1, sweep_size(deck%sweep)
          do lobe = 1, size(file%lobes)
             call make_sweep_case(deck, i, case, trouble)
             if (.not. allocated(trouble)) call solve_case(case, lobe == 2, record, line, trouble, without_steady)
-            if (allocated(without_steady) .and. .not. is_quiet) write (error_unit, "(a)") "remark: "// &
-               & case_in_words(deck%sweep, i)//" has no cycle with steady films to compare with: "//without_steady%message
+            if (allocated(without_steady) .and. .not. is_quiet) call tell("remark: "//case_in_words(deck%sweep, i)// &
+               & " has no cycle with steady films to compare with: "//without_steady%message//new_line("a"))
             if (allocated(trouble)) then
                if (size(deck%sweep%axes) > 0) call add_context(trouble, case_in_words(deck%sweep, i))
-               if (.not. is_quiet .and. sweep_size(deck%sweep) > 1) write (error_unit, "(a)") trouble%message
+               if (.not. is_quiet .and. sweep_size(deck%sweep) > 1) call tell(trouble%message//new_line("a"))
                if (.not. allocated(failure)) call move_alloc(trouble, failure)
                if (allocated(trouble)) deallocate (trouble)
                cycle
@@ -117,7 +118,7 @@ contains
             line%case_number = i - 1
             line%lobe = lobe
             lines = [lines, line]
-            if (.not. is_quiet) write (output_unit, "(a)") page_line(line)
+            if (.not. (is_quiet .or. allocated(unheard))) call print_lines(page_line(line), unheard)
          end do
       end do
    end subroutine solve_cases

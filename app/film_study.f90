@@ -4,7 +4,6 @@
 !> a message.
 module camroller_film_study
    use, intrinsic :: ieee_arithmetic, only : ieee_is_nan
-   use, intrinsic :: iso_fortran_env, only : output_unit
    use camroller_kinds, only : wp
    use camroller_error, only : error_t, raise, kind_convergence
    use camroller_case, only : case_t
@@ -14,6 +13,7 @@ module camroller_film_study
    use camroller_number_text, only : counted, fixed_text, scientific_text, integer_text, right_text
    use camroller_output, only : output_t, abandon_output
    use camroller_progress, only : progress_t, show_progress, end_progress, seconds_since
+   use camroller_streams, only : print_lines
    use camroller_study_contact, only : new_contact_table, study_contacts
    use camroller_study_file, only : write_study, close_study
    use camroller_study_film, only : new_film_table_table, study_film_table, new_cycle_table, study_cycle
@@ -79,8 +79,8 @@ contains
       call write_study(writer, table_names, table_titles, tables, error)
       if (.not. allocated(error)) call close_study(writer, error)
       if (allocated(error) .or. config%is_quiet) return
-      write (output_unit, "(a)") contact_page(tables(contacts)), table_page(tables(film_tables)), cycle_page(tables(cycles)), &
-         & path//": "//counted(sweep_size(deck%sweep), "case")//" in "//seconds_since(progress)
+      call print_lines(contact_page(tables(contacts))//n//table_page(tables(film_tables))//n//cycle_page(tables(cycles))//n// &
+         & path//": "//counted(sweep_size(deck%sweep), "case")//" in "//seconds_since(progress), error)
    end subroutine study_films
 
    !> Steady films: one line for each contact and number of nodes.

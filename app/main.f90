@@ -1,6 +1,7 @@
 !> The program: do what the command line says, end with an exit code by kind of error.
 program main
    use camroller_commands, only : run_command_line
+   use camroller_end_process, only : end_process
    use camroller_team, only : team_t
    implicit none
 
@@ -8,5 +9,5 @@ program main
    integer :: code
 
    call run_command_line(alone, code)
-   if (code /= 0) stop code, quiet = .true.
+   call end_process(code)
 end program main

@@ -4,9 +4,10 @@
 !> a log where no interval is given.
 module camroller_progress
    use, intrinsic :: iso_c_binding, only : c_int
-   use, intrinsic :: iso_fortran_env, only : error_unit, int64
+   use, intrinsic :: iso_fortran_env, only : int64
    use camroller_kinds, only : wp
    use camroller_number_text, only : counted, number_text, fixed_text, integer_text
+   use camroller_streams, only : tell
    implicit none
    private
 
@@ -75,14 +76,13 @@ contains
       if (progress%is_terminal) then
          if (now - progress%start < rate .or. now - progress%last < rate/5) return
          line = state_in_words(done, total, real(now - progress%start, wp)/real(rate, wp))
-         write (error_unit, '(2a)', advance="no") achar(13), line
+         call tell(achar(13)//line)
          progress%is_shown = .true.
       else
          if (real(now - progress%last, wp) < progress%interval*real(rate, wp) .or. done >= total) return
-         write (error_unit, '(a)') state_in_words(done, total, real(now - progress%start, wp)/real(rate, wp))
+         call tell(state_in_words(done, total, real(now - progress%start, wp)/real(rate, wp))//new_line("a"))
       end if
       progress%last = now
-      flush (error_unit)
    end subroutine show_progress
 
    !> Cases done, cases in a second, time left.
@@ -122,8 +122,7 @@ contains
       type(progress_t), intent(inout) :: progress
 
       if (.not. progress%is_shown) return
-      write (error_unit, '(3a)', advance="no") achar(13), repeat(" ", width), achar(13)
-      flush (error_unit)
+      call tell(achar(13)//repeat(" ", width)//achar(13))
       progress%is_shown = .false.
    end subroutine end_progress
 

@@ -3,7 +3,6 @@
 !> Layer: app. In: the command line, a result file. Out: a line that says that nothing differs, or what does and which build made
 !> the file. The deck, the values given beside it and its tables are taken from the file, so that nothing else is needed.
 module camroller_rerun_command
-   use, intrinsic :: iso_fortran_env, only : output_unit
    use camroller_kinds, only : wp
    use camroller_error, only : error_t, raise, kind_difference, kind_file, kind_unfinished
    use camroller_case_loop, only : compute_cases, ended_all, loop_t, number_of_cores
@@ -23,6 +22,7 @@ module camroller_rerun_command
    use camroller_progress, only : end_progress, seconds_since, start_progress
    use camroller_run_facts, only : find_other_build
    use camroller_settings, only : get_word, take
+   use camroller_streams, only : print_lines
    use camroller_stop_signal, only : heed_stop_signals
    use camroller_table_file, only : table_t
    use camroller_team, only : team_t
@@ -126,7 +126,7 @@ contains
       if (.not. allocated(error)) call read_table(file, "second_lift", tables%second_lift, error)
       if (.not. allocated(error)) call read_table(file, "gas_force", tables%pressure, error)
       if (.not. allocated(error)) call parse_deck(deck, text, path//":/deck/text", "", overrides, error, tables)
-      if (.not. allocated(error)) call read_extents(file, "/case", extents, error)
+      if (.not. allocated(error)) call read_extents(file, "/case", 1, extents, error)
       if (allocated(error)) return
       if (extents(1) /= sweep_size(deck%sweep)) then
          call raise(error, kind_file, "'"//path//"' has "//counted(extents(1), "case")//", its deck "// &
@@ -151,7 +151,7 @@ contains
 
       allocate (overrides(0))
       if (has_member(file, "/deck/overrides")) then
-         call read_extents(file, "/deck/overrides", extents, error)
+         call read_extents(file, "/deck/overrides", 1, extents, error)
          if (allocated(error)) return
          do i = 1, extents(1)
             call read_text(file, "/deck/overrides", [i - 1], text, error)
@@ -180,7 +180,10 @@ contains
 
       name = "/deck/table_"//group
       if (.not. has_member(file, name)) return
-      call read_extents(file, name, extents, error)
+      call read_extents(file, name, 2, extents, error)
+      if (.not. allocated(error)) then
+         if (extents(2) /= 2) call raise(error, kind_file, "'"//name//"' of '"//file%file//"' does not have two columns")
+      end if
       if (.not. allocated(error)) call read_numbers(file, name, [0, 0], extents, numbers, error)
       ! the path as the deck names it is what is looked for, the deck having no folder
       if (.not. allocated(error)) call read_text(file, "/deck/values/"//group//".table", [integer ::], folder, error)
@@ -238,7 +241,7 @@ contains
          text = config%subject//": "//counted(sink%cases, "case")//agreeing(sink%cases, " is", " are")// &
             & " the same to the last bit, "
          if (missing > 0) text = text//integer_text(missing)//agreeing(missing, " is", " are")//" not in the file, "
-         if (.not. config%is_quiet) write (output_unit, '(a)') text//"in "//seconds_since(loop%progress)
+         if (.not. config%is_quiet) call print_lines(text//"in "//seconds_since(loop%progress), error)
          return
       else if (sink%differing == 0) then
          call raise(error, kind_unfinished, "stopped after "//counted(sink%cases, "case")//agreeing(sink%cases, &

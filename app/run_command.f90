@@ -3,8 +3,7 @@
 !> Layer: app. In: the command line. Out: a result file, a line about it. A case that fails is recorded and does not end the
 !> others; the program still ends with its kind of error. Where no case has a result, there is no file.
 module camroller_run_command
-   use, intrinsic :: iso_fortran_env, only : error_unit, output_unit
-   use camroller_error, only : error_t, raise, add_context, kind_usage
+   use camroller_error, only : error_t, add_context
    use camroller_case, only : case_t
    use camroller_ehl_profiles, only : find_profiles
    use camroller_ehl_record, only : ehl_record_t
@@ -14,8 +13,11 @@ module camroller_run_command
    use camroller_kept_models, only : kept_models_t
    use camroller_cli, only : config_t
    use camroller_deck, only : deck_t, read_deck, make_sweep_case
+   use camroller_deck_files, only : list_deck_files
    use camroller_deck_sweep, only : sweep_size, case_in_words
    use camroller_earlier_result, only : failures_in_words
+   use camroller_mistakes, only : line_t
+   use camroller_new_file, only : check_place
    use camroller_number_text, only : counted, integer_text
    use camroller_output, only : output_t, output_options_t, open_output, write_case, write_failure, close_output, &
       & abandon_output
@@ -24,10 +26,11 @@ module camroller_run_command
    use camroller_remarks, only : remarks_t, note_remarks
    use camroller_run_facts, only : write_facts
    use camroller_settings, only : take
+   use camroller_streams, only : print_lines, tell
    implicit none
    private
 
-   public :: run_deck, check_cases, options_of, output_path, tell_remarks, tell_unused_values
+   public :: run_deck, check_cases, options_of, find_place, tell_remarks, tell_unused_values
 
    !> What happened to the cases
    type :: tally_t
@@ -60,11 +63,8 @@ contains
       if (.not. config%is_quiet) call tell_unused_values(deck)
       call check_cases(deck, error)
       if (allocated(error)) return
-      path = output_path(config, ".h5")
-      if (path == config%subject) then
-         call raise(error, kind_usage, "the result would replace the deck '"//path//"'")
-         return
-      end if
+      call find_place(config, deck, ".h5", path, error)
+      if (allocated(error)) return
       cases = sweep_size(deck%sweep)
       call start_progress(progress, config%is_quiet)
       call open_output(writer, path, cases, options_of(deck), error)
@@ -79,8 +79,8 @@ contains
       end if
       call close_output(writer, error)
       if (allocated(error)) return
-      if (.not. config%is_quiet) call report(deck, path, seconds_since(progress), tally)
-      if (tally%failed == 0) return
+      if (.not. config%is_quiet) call report(deck, path, seconds_since(progress), tally, error)
+      if (allocated(error) .or. tally%failed == 0) return
       call move_alloc(tally%failure, error)
       error%message = failures_in_words(tally%failed, cases, error%message)
    end subroutine run_deck
@@ -96,7 +96,7 @@ contains
          do j = 1, size(deck%sweep%axes)
             associate (key => deck%sweep%axes(j)%key, text => deck%overrides(i)%text)
                if (trim(adjustl(text(:index(text, "=") - 1))) /= key) cycle
-               write (error_unit, '(a)') "remark: '"//text//"' is not used, since &sweep varies "//key
+               call tell("remark: '"//text//"' is not used, since &sweep varies "//key//new_line("a"))
             end associate
          end do
       end do
@@ -173,6 +173,26 @@ contains
       call take(deck%settings, "output", "compression", options%compression)
    end function options_of
 
+   !> File to write, which must not be one that the deck is read from.
+   subroutine find_place(config, deck, ending, path, error)
+      !> What to do
+      type(config_t), intent(in) :: config
+      !> The deck
+      type(deck_t), intent(in) :: deck
+      !> Ending in place of the deck's, where no file is asked for
+      character(len=*), intent(in) :: ending
+      !> Path of the file
+      character(len=:), allocatable, intent(out) :: path
+      !> Usage or file error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(line_t), allocatable :: inputs(:)
+
+      path = output_path(config, ending)
+      call list_deck_files(deck, inputs)
+      call check_place(path, inputs, error)
+   end subroutine find_place
+
    !> File to write: as asked for, or the deck's name with another ending in the present folder.
    pure function output_path(config, ending) result(path)
       !> What to do
@@ -193,7 +213,7 @@ contains
    end function output_path
 
    !> Say what was done.
-   subroutine report(deck, path, time, tally)
+   subroutine report(deck, path, time, tally, error)
       !> The deck
       type(deck_t), intent(in) :: deck
       !> Path of the result file
@@ -202,10 +222,12 @@ contains
       character(len=*), intent(in) :: time
       !> What happened
       type(tally_t), intent(in) :: tally
+      !> File error of the output unit
+      type(error_t), allocatable, intent(out) :: error
 
       character(len=:), allocatable :: words
 
-      write (output_unit, '(a)') path//": "//counted(sweep_size(deck%sweep), "case")//" in "//time
+      call print_lines(path//": "//counted(sweep_size(deck%sweep), "case")//" in "//time, error)
       call tell_remarks(tally%remarks, deck)
    end subroutine report
 
@@ -225,10 +247,10 @@ contains
             words = "remark"
             if (cases > 1) words = "remark on "//integer_text(group%cases)//" of "//integer_text(cases)//" cases, the worst is "// &
                & case_in_words(deck%sweep, group%case_number)
-            write (error_unit, '(a)') words//": "//group%worst
+            call tell(words//": "//group%worst//new_line("a"))
          end associate
       end do
-      if (size(remarks%groups) > 0) write (error_unit, '(a)') "all remarks are in /run/warnings of the result file"
+      if (size(remarks%groups) > 0) call tell("all remarks are in /run/warnings of the result file"//new_line("a"))
    end subroutine tell_remarks
 
 end module camroller_run_command

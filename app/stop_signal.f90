@@ -1,17 +1,28 @@
-!> Signals that ask the program to stop: taken note of, so that it can be asked for them where stopping does no harm.
+!> Signals that ask the program to stop or that a library broke down: they end it, and files that are not finished are removed before; or they are taken note of,
+!> so that it can be asked for them where stopping does no harm.
 !>
 !> Layer: app. In: nothing. Out: whether somebody wants the program to end. A handler can be given nothing to write to, hence
 !> the one saved variable of the program. Holding the signals back and asking what is pending would need none, but other
 !> libraries start threads of their own, to which the system then hands them.
 module camroller_stop_signal
    use, intrinsic :: iso_c_binding, only : c_funloc, c_funptr, c_int, c_intptr_t
+   use camroller_end_process, only : end_process
+   use camroller_error, only : kind_file
+   use camroller_library_watch, only : is_in_call, tell_call, watch_library
+   use camroller_unfinished, only : remove_remembered
    implicit none
    private
 
-   public :: heed_stop_signals, is_stop_wanted, release_stop_signals
+   public :: end_on_signals, heed_stop_signals, is_stop_wanted, release_stop_signals
 
    !> Interrupt from the terminal, first user signal, end
    integer(c_int), parameter :: stop_signals(*) = [2_c_int, 10_c_int, 15_c_int]
+   !> Those that end the program, and the end of its terminal
+   integer(c_int), parameter :: end_signals(*) = [1_c_int, 2_c_int, 15_c_int]
+   !> Those of a library that breaks down or does not come back: abort, wrong address (two of them), time
+   integer(c_int), parameter :: break_signals(*) = [6_c_int, 7_c_int, 11_c_int, 14_c_int]
+   !> What `signal` takes for what a signal does by itself, and gives for one that is ignored
+   integer(c_intptr_t), parameter :: by_itself = 0_c_intptr_t, ignored_signal = 1_c_intptr_t
 
    interface
       function c_signal(number, handler) bind(C, name="signal") result(former)
@@ -27,9 +38,76 @@ module camroller_stop_signal
          integer(c_intptr_t), value :: handler
          integer(c_intptr_t) :: former
       end function c_signal_default
+
+      function c_raise(number) bind(C, name="raise") result(status)
+         import :: c_int
+         integer(c_int), value :: number
+         integer(c_int) :: status
+      end function c_raise
    end interface
 
 contains
+
+   !> Let signals end the program, files that are not finished removed; what was to be ignored still is.
+   subroutine end_on_signals()
+      integer(c_intptr_t) :: former
+      integer :: i
+
+      do i = 1, size(end_signals)
+         former = c_signal(end_signals(i), c_funloc(end_by_signal))
+         if (former == ignored_signal) former = c_signal_default(end_signals(i), ignored_signal)
+      end do
+      do i = 1, size(break_signals)
+         former = handler_before(i, c_signal(break_signals(i), c_funloc(end_by_break)))
+      end do
+      call watch_library()
+   end subroutine end_on_signals
+
+   !> What was done about a signal of a library that breaks down.
+   function handler_before(place, handler) result(kept)
+      !> Place of the signal in the list
+      integer, intent(in) :: place
+      !> What was done about it, to be kept; left out to ask
+      integer(c_intptr_t), intent(in), optional :: handler
+      !> What is kept
+      integer(c_intptr_t) :: kept
+
+      integer(c_intptr_t), save :: handlers(size(break_signals)) = by_itself
+
+      if (present(handler)) handlers(place) = handler
+      kept = handlers(place)
+   end function handler_before
+
+   !> End the program where a library breaks down, as the handler of signals: with words where it was reading a file, otherwise as it
+   !> would end without this handler, which is with a list of the calls that led there.
+   subroutine end_by_break(number) bind(C)
+      !> Number of the signal
+      integer(c_int), value :: number
+
+      integer(c_intptr_t) :: ignored_handler
+      integer(c_int) :: ignored
+
+      call remove_remembered()
+      if (is_in_call()) then
+         call tell_call()
+         call end_process(kind_file)
+      end if
+      ignored_handler = c_signal_default(number, handler_before(findloc(break_signals, number, dim=1)))
+      ignored = c_raise(number)
+   end subroutine end_by_break
+
+   !> End the program by a signal, as its handler.
+   subroutine end_by_signal(number) bind(C)
+      !> Number of the signal
+      integer(c_int), value :: number
+
+      integer(c_intptr_t) :: former
+      integer(c_int) :: ignored
+
+      call remove_remembered()
+      former = c_signal_default(number, by_itself)
+      ignored = c_raise(number)
+   end subroutine end_by_signal
 
    !> Take note of the signals from now on.
    subroutine heed_stop_signals()
@@ -47,8 +125,9 @@ contains
       integer :: i
 
       do i = 1, size(stop_signals)
-         ignored = c_signal_default(stop_signals(i), 0_c_intptr_t)
+         ignored = c_signal_default(stop_signals(i), by_itself)
       end do
+      call end_on_signals()
    end subroutine release_stop_signals
 
    !> Has one of the signals come?

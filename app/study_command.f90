@@ -3,8 +3,7 @@
 !> Layer: app. In: the command line. Out: tables on the output unit and in a file. A case without a reference is recorded and does
 !> not end the others; the program still ends with its kind of error.
 module camroller_study_command
-   use, intrinsic :: iso_fortran_env, only : output_unit
-   use camroller_error, only : error_t, raise, add_context, kind_usage
+   use camroller_error, only : error_t, add_context
    use camroller_case, only : case_t
    use camroller_cli, only : config_t
    use camroller_deck, only : deck_t, read_deck, make_sweep_case
@@ -13,8 +12,9 @@ module camroller_study_command
    use camroller_number_text, only : counted
    use camroller_output, only : output_t, output_options_t, open_output, abandon_output
    use camroller_progress, only : progress_t, start_progress, show_progress, end_progress, seconds_since
-   use camroller_run_command, only : check_cases, output_path
+   use camroller_run_command, only : check_cases, find_place
    use camroller_run_facts, only : write_facts
+   use camroller_streams, only : print_lines
    use camroller_study, only : reference_t, make_reference, new_method_table, new_reference_table, study_methods, &
       & add_reference
    use camroller_study_accuracy, only : new_accuracy_table, study_accuracy
@@ -53,13 +53,12 @@ contains
       call read_deck(deck, config%subject, config%overrides, error)
       if (.not. allocated(error)) call check_cases(deck, error)
       if (allocated(error)) return
-      path = "_study.h5"
-      if (config%is_film) path = "_film_study.h5"
-      path = output_path(config, path)
-      if (path == config%subject) then
-         call raise(error, kind_usage, "the result would replace the deck '"//path//"'")
-         return
+      if (config%is_film) then
+         call find_place(config, deck, "_film_study.h5", path, error)
+      else
+         call find_place(config, deck, "_study.h5", path, error)
       end if
+      if (allocated(error)) return
       call start_progress(progress, config%is_quiet)
       call open_output(writer, path, sweep_size(deck%sweep), output_options_t(), error)
       if (.not. allocated(error)) call write_facts(writer, deck, error)
@@ -78,8 +77,8 @@ contains
       call write_study(writer, table_names, table_titles, tables, error)
       if (.not. allocated(error)) call close_study(writer, error)
       if (allocated(error)) return
-      if (.not. config%is_quiet) call report(path, tables, seconds_since(progress))
-      if (allocated(failure)) call move_alloc(failure, error)
+      if (.not. config%is_quiet) call report(path, tables, seconds_since(progress), error)
+      if (allocated(failure) .and. .not. allocated(error)) call move_alloc(failure, error)
    end subroutine study_deck
 
    !> Study every case.
@@ -121,17 +120,21 @@ contains
    end subroutine study_cases
 
    !> Print the tables.
-   subroutine report(path, tables, time)
+   subroutine report(path, tables, time, error)
       !> Path of the file
       character(len=*), intent(in) :: path
       !> The tables
       type(study_table_t), intent(in) :: tables(:)
       !> Time taken, in words
       character(len=*), intent(in) :: time
+      !> File error of the output unit
+      type(error_t), allocatable, intent(out) :: error
 
-      write (output_unit, '(a)') reference_page(tables(references)), method_page(tables(methods)), &
-         & accuracy_page(tables(accuracies)), model_page(tables(models)), &
-         & path//": "//counted(tables(references)%rows, "case")//" in "//time
+      character(len=*), parameter :: n = new_line("a")
+
+      call print_lines(reference_page(tables(references))//n//method_page(tables(methods))//n// &
+         & accuracy_page(tables(accuracies))//n//model_page(tables(models))//n// &
+         & path//": "//counted(tables(references)%rows, "case")//" in "//time, error)
    end subroutine report
 
 end module camroller_study_command

@@ -5,7 +5,7 @@
 !> result file when nothing is.
 module camroller_sweep_command
    use, intrinsic :: iso_c_binding, only : c_intptr_t
-   use, intrinsic :: iso_fortran_env, only : error_unit, int64, output_unit
+   use, intrinsic :: iso_fortran_env, only : int64
    use camroller_kinds, only : wp
    use camroller_error, only : error_t, raise, kind_file, kind_unfinished, kind_usage
    use camroller_case_loop, only : compute_cases, ended_all, ended_by_time, loop_t, number_of_cores
@@ -21,6 +21,7 @@ module camroller_sweep_command
    use camroller_run_command, only : tell_unused_values
    use camroller_run_facts, only : study_facts
    use camroller_settings, only : take
+   use camroller_streams, only : print_lines, tell
    use camroller_stop_signal, only : heed_stop_signals, release_stop_signals
    use camroller_sweep_result, only : make_result, tell_complete
    use camroller_sweep_study, only : begin_study, scan_all, series_choice, sweep_run_t, tell_damages
@@ -143,7 +144,7 @@ contains
       call missing_runs(index, run%first, run%last, run%runs)
       if (size(index%damages) == 0) return
       call tell_damages(index)
-      if (run_total(run%runs) > 0) write (error_unit, '(a)') "remark: to be computed: "//runs_in_words(run%runs)
+      if (run_total(run%runs) > 0) call tell("remark: to be computed: "//runs_in_words(run%runs)//new_line("a"))
    end subroutine find_work
 
    !> Say what becomes of a file that is there.
@@ -159,11 +160,11 @@ contains
 
       if (config%is_quiet) return
       if (earlier%state == other_there) then
-         write (error_unit, '(a)') "remark: '"//run%path//"' is there, and it is no result of this sweep: "//earlier%reason// &
-            & new_line("a")//"it is replaced when all cases are done"
+         call tell("remark: '"//run%path//"' is there, and it is no result of this sweep: "//earlier%reason// &
+            & new_line("a")//"it is replaced when all cases are done"//new_line("a"))
       else if (earlier%state == partial_there .and. parts == 0 .and. config%is_resumed) then
-         write (error_unit, '(a)') "remark: '"//run%path//"' has "//integer_text(earlier%computed)//" of "// &
-            & counted(run%facts%cases, "case")//", and their part files are gone: all cases are computed"
+         call tell("remark: '"//run%path//"' has "//integer_text(earlier%computed)//" of "// &
+            & counted(run%facts%cases, "case")//", and their part files are gone: all cases are computed"//new_line("a"))
       end if
    end subroutine tell_earlier
 
@@ -256,9 +257,9 @@ contains
          call raise(error, kind_unfinished, "the sweep "//reason//" with "//integer_text(run_total(missing))//" of "// &
             & counted(run%last - run%first + 1, "case")//" to do; go on with it by --resume")
       else if (config%shards > 1) then
-         if (.not. config%is_quiet) write (output_unit, '(a)') run%path//": shard "//integer_text(config%shard)//" of "// &
+         if (.not. config%is_quiet) call print_lines(run%path//": shard "//integer_text(config%shard)//" of "// &
             & integer_text(config%shards)//" is done, "//counted(run%last - run%first + 1, "case")//" in "// &
-            & seconds_since(loop%progress)
+            & seconds_since(loop%progress), error)
       else
          call make_result(config, run, "go on by --resume", loop%progress, error)
       end if

@@ -4,7 +4,6 @@
 !> all cases are in it. One process at a time does this, so that none sees the parts while another removes them: parts go only
 !> when the complete file has its name, and a partial file never takes the place of a complete one of the same study.
 module camroller_sweep_result
-   use, intrinsic :: iso_fortran_env, only : error_unit, output_unit
    use camroller_error, only : error_t, raise, kind_file, kind_unfinished
    use camroller_assemble, only : assemble, tally_t
    use camroller_case_runs, only : missing_runs, run_total, runs_t
@@ -20,6 +19,7 @@ module camroller_sweep_result
    use camroller_result_claim, only : claim_result, claim_t, give_up_claim, remove_unfinished
    use camroller_run_command, only : options_of, tell_remarks
    use camroller_run_facts, only : write_facts
+   use camroller_streams, only : print_lines, tell
    use camroller_sweep_study, only : scan_all, series_choice, sweep_run_t, tell_damages
    use camroller_system_file, only : remove_file
    implicit none
@@ -47,7 +47,7 @@ contains
 
       call claim_result(claim, run%path, .false., is_mine, error)
       if (.not. (is_mine .or. allocated(error))) then
-         if (.not. config%is_quiet) write (error_unit, '(a)') "waiting for another process that makes '"//run%path//"'"
+         if (.not. config%is_quiet) call tell("waiting for another process that makes '"//run%path//"'"//new_line("a"))
          call claim_result(claim, run%path, .true., is_mine, error)
       end if
       if (allocated(error)) return
@@ -95,7 +95,7 @@ contains
             & "away first")
       else
          if (config%command == "merge" .and. earlier%state == other_there .and. .not. config%is_quiet) then
-            write (error_unit, '(a)') "remark: '"//run%path//"' is replaced, which is no result of this sweep: "//earlier%reason
+            call tell("remark: '"//run%path//"' is replaced, which is no result of this sweep: "//earlier%reason//new_line("a"))
          end if
          call write_result(config, run, index, paths, progress, error)
       end if
@@ -112,7 +112,7 @@ contains
       !> The same
       type(error_t), allocatable, intent(out) :: error
 
-      if (.not. config%is_quiet) write (output_unit, '(a)') path//" is there with all cases"
+      if (.not. config%is_quiet) call print_lines(path//" is there with all cases", error)
       if (allocated(failure)) error = failure
    end subroutine tell_complete
 
@@ -155,26 +155,28 @@ contains
             call remove_file(paths(i)%text)
          end do
       end if
-      if (.not. config%is_quiet) call report(run, tally, seconds_since(progress))
-      if (tally%failed == 0) return
+      if (.not. config%is_quiet) call report(run, tally, seconds_since(progress), error)
+      if (allocated(error) .or. tally%failed == 0) return
       call move_alloc(tally%failure, error)
       error%message = failures_in_words(tally%failed, tally%cases, error%message)
    end subroutine write_result
 
    !> Say what was done.
-   subroutine report(run, tally, time)
+   subroutine report(run, tally, time, error)
       !> The sweep
       type(sweep_run_t), intent(in) :: run
       !> What happened
       type(tally_t), intent(in) :: tally
       !> Time taken, in words
       character(len=*), intent(in) :: time
+      !> File error of the output unit
+      type(error_t), allocatable, intent(out) :: error
 
       character(len=:), allocatable :: words
 
       words = run%path//": "//counted(tally%cases - tally%missing, "case")//" in "//time
       if (tally%missing > 0) words = words//", "//integer_text(tally%missing)//" missing"
-      write (output_unit, '(a)') words
+      call print_lines(words, error)
       call tell_remarks(tally%remarks, run%deck)
    end subroutine report
 

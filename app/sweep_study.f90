@@ -2,17 +2,17 @@
 !>
 !> Layer: app. In: the command line. Out: `sweep_run_t`, and what the deck says of series and profiles; part files read.
 module camroller_sweep_study
-   use, intrinsic :: iso_fortran_env, only : error_unit
-   use camroller_error, only : error_t, raise, kind_deck, kind_usage
+   use camroller_error, only : error_t, raise, kind_deck
    use camroller_case_runs, only : runs_t
    use camroller_cli, only : config_t
    use camroller_deck, only : deck_t, read_deck
    use camroller_mistakes, only : line_t
    use camroller_part_file, only : scan_part
    use camroller_part_scan, only : index_t, study_facts_t
-   use camroller_run_command, only : output_path
+   use camroller_run_command, only : find_place
    use camroller_run_facts, only : study_facts
    use camroller_settings, only : get_word, take
+   use camroller_streams, only : tell
    implicit none
    private
 
@@ -48,10 +48,9 @@ contains
       call read_deck(run%deck, config%subject, config%overrides, error)
       if (allocated(error)) return
       call study_facts(run%deck, run%facts)
-      run%path = output_path(config, ".h5")
-      if (run%path == config%subject) then
-         call raise(error, kind_usage, "the result would replace the deck '"//run%path//"'")
-      else if (wants_profiles(run%deck) .and. series_choice(run%deck) == "none") then
+      call find_place(config, run%deck, ".h5", run%path, error)
+      if (allocated(error)) return
+      if (wants_profiles(run%deck) .and. series_choice(run%deck) == "none") then
          call raise(error, kind_deck, "'ehl.profiles' has no cases: a sweep keeps profiles of the cases whose series it keeps, "// &
             & "1.6 MB each at 720 cam angles; choose them by 'sweep.series', or leave 'ehl.profiles' out")
       end if
@@ -107,7 +106,7 @@ contains
       integer :: i
 
       do i = 1, size(index%damages)
-         write (error_unit, '(a)') "remark: "//index%damages(i)%text//"; its cases have to be computed again"
+         call tell("remark: "//index%damages(i)%text//"; its cases have to be computed again"//new_line("a"))
       end do
    end subroutine tell_damages
 

@@ -1,6 +1,7 @@
 !> The program for many nodes: the same commands, a sweep shared by all processes.
 program main
    use camroller_commands, only : run_command_line
+   use camroller_end_process, only : end_process
    use camroller_team_mpi, only : end_team, start_team, team_mpi_t
    implicit none
 
@@ -11,5 +12,5 @@ program main
    call run_command_line(team, code)
    call team%largest(code)
    call end_team(team)
-   if (code /= 0) stop code, quiet = .true.
+   call end_process(code)
 end program main

@@ -3,16 +3,17 @@
 !> Layer: io. In: a result file. Out: a line of names, a line of units, one line for each cam angle or case, numbers with the
 !> 17 significant digits that keep them exactly. Like a result file, the table appears under its name when it is complete.
 module camroller_export
-   use, intrinsic :: iso_fortran_env, only : output_unit
    use camroller_kinds, only : wp
    use camroller_error, only : error_t, raise, kind_file, kind_usage
    use camroller_hdf5_object, only : hdf5_object_t
    use camroller_hdf5_file, only : discard_file
-   use camroller_hdf5_read, only : has_member, is_text_dataset, list_members, member_length, open_file, read_extents, &
-      & read_integer_attribute, read_numbers, read_text, read_text_attribute
+   use camroller_hdf5_read, only : check_extents, has_member, is_text_dataset, list_members, member_length, open_file, &
+      & read_extents, read_integer_attribute, read_numbers, read_text, read_text_attribute
+   use camroller_new_file, only : begin_new_file, drop_new_file, end_new_file, new_file_t
    use camroller_number_text, only : integer_text, write_number, number_length
    use camroller_output_file, only : format_version, result_format
-   use camroller_system_file, only : is_folder, process_number, remove_file, rename_file
+   use camroller_raw_file, only : append_text, close_raw, create_raw, raw_file_t
+   use camroller_streams, only : print_text
    implicit none
    private
 
@@ -22,6 +23,8 @@ module camroller_export
    integer, parameter :: export_series = 1, export_summary = 2
    !> Digits after the first one: 17 tell any two numbers apart
    integer, parameter :: decimals = 16
+   !> Letters that are handed over at a time
+   integer, parameter :: block_length = 65536
 
    !> A word of the table
    type :: word_t
@@ -71,7 +74,7 @@ contains
       call discard_file(file)
       if (allocated(error)) return
       if (path_out == "-") then
-         call write_table(output_unit, "the output", table, error)
+         call write_rows(table, error)
       else
          call write_file(trim(path_out), table, error)
       end if
@@ -113,7 +116,7 @@ contains
       if (.not. allocated(error) .and. version > format_version) then
          call raise(error, kind_file, "cannot read '"//path//"': it was written by a newer camroller")
       end if
-      if (.not. allocated(error)) call read_extents(file, "/case", cases, error)
+      if (.not. allocated(error)) call read_extents(file, "/case", 1, cases, error)
    end subroutine open_result
 
    !> Series of one case.
@@ -136,14 +139,16 @@ contains
 
       call check_case(file, cases, case, error)
       if (.not. allocated(error)) call list_members(file, "/series", names, error)
-      if (.not. allocated(error)) call read_extents(file, "/series/cam_angle", angles, error)
+      if (.not. allocated(error)) call read_extents(file, "/series/cam_angle", 1, angles, error)
       if (allocated(error)) return
       call make_columns(table, angles(1), size(names))
       do i = 1, size(names)
          if (names(i) == "cam_angle") then
             call read_numbers(file, "/series/"//trim(names(i)), [0], angles, column, error)
          else
-            call read_numbers(file, "/series/"//trim(names(i)), [0, case], [angles(1), 1], column, error)
+            call check_extents(file, "/series/"//trim(names(i)), [angles(1), cases], error)
+            if (.not. allocated(error)) call read_numbers(file, "/series/"//trim(names(i)), [0, case], [angles(1), 1], column, &
+               & error)
          end if
          if (allocated(error)) return
          table%numbers(:, i) = column
@@ -195,6 +200,8 @@ contains
       real(wp), allocatable :: column(:) ! [unit of the dataset]
       integer :: row
 
+      call check_extents(file, name, [size(table%numbers, 1)], error)
+      if (allocated(error)) return
       table%has_words(position) = is_text_dataset(file, name)
       if (table%has_words(position)) then
          do row = 1, size(table%words, 1)
@@ -280,57 +287,65 @@ contains
       !> File error
       type(error_t), allocatable, intent(out) :: error
 
-      character(len=:), allocatable :: temporary
-      character(len=200) :: message
-      integer :: unit, status
-      logical :: done
+      type(new_file_t) :: place
+      type(raw_file_t) :: file
 
-      if (is_folder(path)) then
-         call raise(error, kind_file, "cannot write '"//path//"': it is a folder")
-         return
+      call begin_new_file(place, path, error)
+      if (.not. allocated(error)) call create_raw(file, place%temporary, path, error)
+      if (.not. allocated(error)) call write_rows(table, error, file)
+      call close_raw(file)
+      if (allocated(error)) then
+         call drop_new_file(place)
+      else
+         call end_new_file(place, file%bytes, error)
       end if
-      temporary = path//".unfinished-"//integer_text(process_number())
-      open (newunit=unit, file=temporary, status="replace", action="write", iostat=status, iomsg=message)
-      if (status /= 0) then
-         call raise(error, kind_file, "cannot write '"//path//"': "//trim(message))
-         return
-      end if
-      call write_table(unit, path, table, error)
-      close (unit, iostat=status, iomsg=message)
-      if (.not. allocated(error) .and. status /= 0) then
-         call raise(error, kind_file, "cannot write '"//path//"': "//trim(message))
-      end if
-      done = .not. allocated(error)
-      if (done) call rename_file(temporary, path, done)
-      if (done) return
-      call remove_file(temporary)
-      if (.not. allocated(error)) call raise(error, kind_file, "cannot write '"//path//"'")
    end subroutine write_file
 
-   !> Write a table to a unit.
-   subroutine write_table(unit, shown, table, error)
-      !> An open unit
-      integer, intent(in) :: unit
-      !> What messages call it
-      character(len=*), intent(in) :: shown
+   !> Write all rows, many at a time.
+   subroutine write_rows(table, error, file)
       !> The table
       type(table_t), intent(in) :: table
       !> File error
       type(error_t), allocatable, intent(out) :: error
+      !> The open file; without it the output unit
+      type(raw_file_t), intent(inout), optional :: file
 
       character(len=:), allocatable :: line
-      character(len=200) :: message
-      integer :: status, row
+      character(len=block_length) :: block
+      integer :: row, length
 
+      length = 0
       do row = -1, size(table%numbers, 1)
          call row_text(table, row, line)
-         write (unit, '(a)', iostat=status, iomsg=message) line
-         if (status /= 0) then
-            call raise(error, kind_file, "cannot write '"//shown//"': "//trim(message))
-            return
+         line = line//new_line("a")
+         if (length + len(line) > block_length) call write_piece(block(:length))
+         if (allocated(error)) return
+         if (len(line) > block_length) then
+            call write_piece(line)
+         else
+            block(length + 1:length + len(line)) = line
+            length = length + len(line)
          end if
+         if (allocated(error)) return
       end do
-   end subroutine write_table
+      call write_piece(block(:length))
+
+   contains
+
+      !> Write a piece of text; what was gathered is gone.
+      subroutine write_piece(text)
+         !> The text
+         character(len=*), intent(in) :: text
+
+         length = 0
+         if (present(file)) then
+            call append_text(file, text, error)
+         else
+            call print_text(text, error)
+         end if
+      end subroutine write_piece
+
+   end subroutine write_rows
 
    !> One line of a table.
    pure subroutine row_text(table, row, line)

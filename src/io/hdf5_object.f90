@@ -23,6 +23,8 @@ module camroller_hdf5_object
       character(len=:), allocatable :: file
       !> Space on the device set aside for a file [byte]
       integer(c_int64_t) :: reserved = 0_c_int64_t
+      !> Size of a file that is read [byte]
+      integer(c_int64_t) :: bytes = 0_c_int64_t
    end type hdf5_object_t
 
 contains

@@ -11,7 +11,7 @@ module camroller_hdf5_status
    implicit none
    private
 
-   public :: start_hdf5, raise_hdf5
+   public :: start_hdf5, quiet_hdf5, raise_hdf5
 
    !> Letters kept of an entry of the error stack
    integer, parameter :: reason_length = 400
@@ -71,8 +71,15 @@ contains
             return
          end if
       end if
-      call h5eset_auto_f(0, status)
+      call quiet_hdf5()
    end subroutine start_hdf5
+
+   !> Switch the library's own printing of errors off, which it does for each thread apart.
+   subroutine quiet_hdf5()
+      integer :: ignored
+
+      call h5eset_auto_f(0, ignored)
+   end subroutine quiet_hdf5
 
    !> Make an error out of what was tried and of what the library has to say; to be called right after the failing call.
    subroutine raise_hdf5(error, what)

@@ -3,19 +3,19 @@
 !> Layer: io. In: path, number of cases, options. Out: `output_t` with the frame of the file (format, groups, axis of
 !> cases) written; the finished file under its name, or no trace of it. Its format is described in `camroller_output`.
 module camroller_output_file
-   use, intrinsic :: iso_c_binding, only : c_intptr_t
+   use, intrinsic :: iso_fortran_env, only : int64
    use camroller_kinds, only : wp
    use camroller_error, only : error_t, raise, kind_file, kind_internal, kind_usage
    use camroller_names, only : find_name, name_length
-   use camroller_number_text, only : integer_text
    use camroller_result, only : quantity_t
    use camroller_hdf5_object, only : hdf5_object_t
    use camroller_hdf5_file, only : close_file, create_file, create_group, create_integers, discard_file, &
       & flush_file, hand_over_file, reserve_file, write_integers
    use camroller_hdf5_attribute, only : make_scale, put_attribute
-   use camroller_system_file, only : ignore_size_signal, is_folder, process_number, remove_file, rename_file, &
-      & restore_size_signal
-   use camroller_text_file, only : folder_of
+   use camroller_new_file, only : begin_new_file, drop_new_file, end_new_file, new_file_t
+   use camroller_raw_file, only : append_text, close_raw, create_raw, raw_file_t, settle_raw
+   use camroller_seal, only : seal_file
+   use camroller_system_file, only : remove_file
    implicit none
    private
 
@@ -32,8 +32,8 @@ module camroller_output_file
    real(wp), parameter :: number_size = 8.0_wp
    !> Space that a text takes besides its letters, generously [byte]
    real(wp), parameter :: text_size = 64.0_wp
-   !> Blocks of 4 KiB that a new file must be able to take
-   integer, parameter :: tried_blocks = 128
+   !> What a new file must be able to take [byte]
+   integer, parameter :: tried_bytes = 524288
    !> Goes up when readers have to change
    integer, parameter :: format_version = 1
    !> Order of the axes, for readers in any language
@@ -55,8 +55,8 @@ module camroller_output_file
       type(output_options_t) :: options
       !> Path of the finished file
       character(len=:), allocatable :: path
-      !> Path while it is not finished, in the same folder
-      character(len=:), allocatable :: temporary
+      !> Its place, and its path until then
+      type(new_file_t) :: place
       type(hdf5_object_t) :: file, case_axis, deck, run, series_group, summary_group, sweep, warnings, messages, &
          & effects, reasons
       !> Status of each case: 0, the kind of its error, or `not_written`
@@ -110,14 +110,14 @@ contains
       if (allocated(error)) call abandon_output(writer)
    end subroutine start_file
 
-   !> Mark the file complete, or partial where cases were not computed, close it and give it its name.
+   !> Mark the file complete, or partial where cases were not computed, close it, seal it and give it its name.
    subroutine finish_file(writer, error)
       !> The writer
       type(output_t), intent(inout) :: writer
       !> File error
       type(error_t), allocatable, intent(out) :: error
 
-      logical :: done
+      integer(int64) :: bytes
       integer :: missing
 
       missing = count(writer%status == not_computed)
@@ -127,14 +127,8 @@ contains
       if (.not. allocated(error)) call put_attribute(writer%file, "complete", merge(0, 1, missing > 0), error)
       if (.not. allocated(error)) call flush_file(writer%file, error)
       if (.not. allocated(error)) call close_file(writer%file, error)
-      if (allocated(error)) return
-      call rename_file(writer%temporary, writer%path, done)
-      if (.not. done) then
-         call raise(error, kind_file, "cannot write '"//writer%path//"': '"//writer%temporary// &
-            & "' could not be given that name")
-         return
-      end if
-      deallocate (writer%temporary)
+      if (.not. allocated(error)) call seal_file(writer%place%temporary, writer%path, bytes, error)
+      if (.not. allocated(error)) call end_new_file(writer%place, bytes, error)
    end subroutine finish_file
 
    !> An error where the writer has no open file.
@@ -144,7 +138,7 @@ contains
       !> Internal error
       type(error_t), allocatable, intent(out) :: error
 
-      if (.not. allocated(writer%temporary)) call raise(error, kind_internal, "no result file is open")
+      if (.not. allocated(writer%place%temporary)) call raise(error, kind_internal, "no result file is open")
    end subroutine check_open
 
    !> Give up: the unfinished file is removed. Does no harm where nothing is open.
@@ -153,10 +147,7 @@ contains
       type(output_t), intent(inout) :: writer
 
       call discard_file(writer%file)
-      if (allocated(writer%temporary)) then
-         call remove_file(writer%temporary)
-         deallocate (writer%temporary)
-      end if
+      call drop_new_file(writer%place)
    end subroutine abandon_output
 
    !> Create the unfinished file beside the finished one's place.
@@ -166,29 +157,9 @@ contains
       !> File error
       type(error_t), allocatable, intent(out) :: error
 
-      character(len=:), allocatable :: path
-      integer :: attempt
-      logical :: taken
-
-      if (writer%path == "") then
-         call raise(error, kind_usage, "a result file needs a name")
-         return
-      else if (is_folder(writer%path)) then
-         call raise(error, kind_file, "cannot write '"//writer%path//"': it is a folder")
-         return
-      else if (.not. is_folder(folder_of(writer%path)//".")) then
-         call raise(error, kind_file, "cannot write '"//writer%path//"': there is no folder '"// &
-            & folder_of(writer%path)//"'")
-         return
-      end if
-      do attempt = 0, 99
-         path = writer%path//".unfinished-"//integer_text(process_number())//"-"//integer_text(attempt)
-         inquire (file=path, exist=taken)
-         if (.not. taken) exit
-      end do
-      writer%temporary = path
-      call try_path(writer, error)
-      if (.not. allocated(error)) call create_file(writer%file, path, writer%path, error)
+      call begin_new_file(writer%place, writer%path, error)
+      if (.not. allocated(error)) call try_path(writer, error)
+      if (.not. allocated(error)) call create_file(writer%file, writer%place%temporary, writer%path, error)
       if (allocated(error)) call abandon_output(writer)
    end subroutine create_temporary
 
@@ -199,28 +170,17 @@ contains
       !> File error in the system's words
       type(error_t), allocatable, intent(out) :: error
 
-      character(len=4096) :: block
-      character(len=200) :: message, closing_message
-      integer(c_intptr_t) :: former
-      integer :: unit, status, closing, i
+      type(raw_file_t) :: file
 
-      block = ""
-      call ignore_size_signal(former)
-      open (newunit=unit, file=writer%temporary, access="stream", form="unformatted", status="new", action="write", &
-         & iostat=status, iomsg=message)
-      if (status == 0) then
-         do i = 1, tried_blocks
-            if (status == 0) write (unit, iostat=status, iomsg=message) block
-         end do
-         close (unit, iostat=closing, iomsg=closing_message)
-         if (status == 0 .and. closing /= 0) then
-            status = closing
-            message = closing_message
-         end if
-         call remove_file(writer%temporary)
+      call create_raw(file, writer%place%temporary, writer%path, error)
+      if (allocated(error)) return
+      call append_text(file, repeat(" ", tried_bytes), error)
+      if (allocated(error)) then
+         call close_raw(file)
+      else
+         call settle_raw(file, error)
       end if
-      call restore_size_signal(former)
-      if (status /= 0) call raise(error, kind_file, "cannot write '"//writer%path//"': "//trim(message))
+      call remove_file(writer%place%temporary)
    end subroutine try_path
 
    !> Write what every result file has: format, groups, the axis of cases.

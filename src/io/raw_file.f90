@@ -1,25 +1,29 @@
 !> Files of bytes as the operating system has them: appended to, read at any place, cut, locked, put on the device.
 !>
-!> Layer: io. In: paths, 64-bit words. Out: words, errors in the system's words. Nothing is held back in the program: what was
-!> appended survives the end of the process, whatever ends it, and what is on the device survives the end of the machine.
+!> Layer: io. In: paths, texts, 64-bit words. Out: words, errors in the system's words. Nothing is held back in the program: what
+!> was appended survives the end of the process, whatever ends it, and what is on the device survives the end of the machine.
+!> `settle_raw` is what every file that this program writes has to pass before it counts as written.
 module camroller_raw_file
-   use, intrinsic :: iso_c_binding, only : c_associated, c_char, c_f_pointer, c_int, c_int64_t, c_loc, c_null_char, &
+   use, intrinsic :: iso_c_binding, only : c_associated, c_char, c_f_pointer, c_int, c_int64_t, c_intptr_t, c_loc, c_null_char, &
       & c_null_ptr, c_ptr, c_size_t
    use, intrinsic :: iso_fortran_env, only : int64
    use camroller_error, only : error_t, raise, kind_file
+   use camroller_file_facts, only : facts_of_descriptor, file_facts_t
    use camroller_mistakes, only : line_t
-   use camroller_system_file, only : set_file_size, sync_descriptor, system_words, text_at_address
+   use camroller_system_file, only : ignore_size_signal, restore_size_signal, set_file_size, sync_descriptor, system_words, &
+      & text_at_address
    implicit none
    private
 
-   public :: raw_file_t, open_raw, append_words, read_words, cut_raw, sync_raw, close_raw, find_files, is_locked, wait_for_lock
+   public :: raw_file_t, open_raw, create_raw, append_words, append_text, read_words, cut_raw, sync_raw, settle_raw, close_raw
+   public :: find_files, is_locked, wait_for_lock, write_letters
 
    !> Bytes of a word
    integer(int64), parameter, public :: word_size = 8_int64
    !> What `lseek` takes for the end of a file; `flock` for an exclusive lock, with and without waiting, and for giving it back
    integer(c_int), parameter :: from_end = 2_c_int, lock_exclusive = 2_c_int, lock_at_once = 6_c_int, unlock = 8_c_int
-   !> Error number that says that another process has the lock: EWOULDBLOCK
-   integer(c_int), parameter :: would_block = 11_c_int
+   !> Error numbers: another process has the lock (EWOULDBLOCK); a signal came before anything was done; nobody reads
+   integer(c_int), parameter :: would_block = 11_c_int, interrupted = 4_c_int, broken_pipe = 32_c_int
 
    !> An open file
    type :: raw_file_t
@@ -181,6 +185,77 @@ contains
       if (.not. verdict) ignored = c_flock(file%descriptor, unlock)
    end function is_locked
 
+   !> Create a file to append to; one of that name must not be there.
+   subroutine create_raw(file, path, shown, error)
+      !> The file
+      type(raw_file_t), intent(out) :: file
+      !> Its path, and what messages call it
+      character(len=*), intent(in) :: path, shown
+      !> File error
+      type(error_t), allocatable, intent(out) :: error
+
+      file%path = shown
+      file%stream = c_fopen(path//c_null_char, "wbx"//c_null_char)
+      if (c_associated(file%stream)) then
+         file%descriptor = c_fileno(file%stream)
+      else
+         call raise(error, kind_file, "cannot write '"//shown//"': "//last_words())
+      end if
+   end subroutine create_raw
+
+   !> Append a text; where that fails, the file has to be given up.
+   subroutine append_text(file, text, error)
+      !> A file that is open for appending
+      type(raw_file_t), intent(inout) :: file
+      !> What to append
+      character(len=*), intent(in) :: text
+      !> File error
+      type(error_t), allocatable, intent(out) :: error
+
+      character(len=:), allocatable :: reason
+      logical :: is_unread
+
+      call write_letters(file%descriptor, text, reason, is_unread)
+      if (reason == "") then
+         file%bytes = file%bytes + len(text)
+      else
+         call raise(error, kind_file, "cannot write '"//file%path//"': "//reason)
+      end if
+   end subroutine append_text
+
+   !> Hand a text to the system, all of it, however many pieces it takes it in.
+   subroutine write_letters(descriptor, text, reason, is_unread)
+      !> Where it goes
+      integer(c_int), intent(in) :: descriptor
+      !> The text
+      character(len=*), intent(in), target :: text
+      !> Why it was not taken, in the system's words; empty where it was
+      character(len=:), allocatable, intent(out) :: reason
+      !> Is that because nobody reads any more what is written there?
+      logical, intent(out) :: is_unread
+
+      integer(c_intptr_t) :: former
+      integer(int64) :: done, written
+
+      reason = ""
+      is_unread = .false.
+      call ignore_size_signal(former)
+      done = 0
+      do while (done < len(text, int64))
+         written = c_write(descriptor, c_loc(text(done + 1:done + 1)), int(len(text, int64) - done, c_size_t))
+         if (written > 0) then
+            done = done + written
+         else if (written == 0) then
+            reason = "not all of it was taken"
+         else if (last_number() /= interrupted) then
+            reason = last_words()
+            is_unread = last_number() == broken_pipe
+         end if
+         if (reason /= "") exit
+      end do
+      call restore_size_signal(former)
+   end subroutine write_letters
+
    !> Append words in one piece; where that fails the file is as it was before.
    subroutine append_words(file, words, error)
       !> A file that is open for appending
@@ -255,18 +330,45 @@ contains
       end if
    end subroutine cut_raw
 
-   !> Have all that was appended put on the device.
+   !> Have all that was appended put on the device, and see that all of it is there.
    subroutine sync_raw(file, error)
       !> An open file
       type(raw_file_t), intent(in) :: file
       !> File error
       type(error_t), allocatable, intent(out) :: error
 
+      type(file_facts_t) :: facts
       logical :: done
 
       call sync_descriptor(file%descriptor, done)
-      if (.not. done) call raise(error, kind_file, "cannot write '"//file%path//"': "//last_words())
+      if (.not. done) then
+         call raise(error, kind_file, "cannot write '"//file%path//"': "//last_words())
+         return
+      end if
+      facts = facts_of_descriptor(file%descriptor)
+      if (facts%bytes /= file%bytes) call raise(error, kind_file, "cannot write '"//file%path// &
+         & "': the device has not taken all of it")
    end subroutine sync_raw
+
+   !> Close a file that is complete: it counts as written where the device has taken all of it and closing finds nothing wrong.
+   subroutine settle_raw(file, error)
+      !> An open file; closed in any case
+      type(raw_file_t), intent(inout) :: file
+      !> File error
+      type(error_t), allocatable, intent(out) :: error
+
+      integer(c_int) :: status
+
+      call sync_raw(file, error)
+      if (allocated(error)) then
+         call close_raw(file)
+         return
+      end if
+      status = c_fclose(file%stream)
+      if (status /= 0) call raise(error, kind_file, "cannot write '"//file%path//"': "//last_words())
+      file%stream = c_null_ptr
+      file%descriptor = -1
+   end subroutine settle_raw
 
    !> Close a file, open or not; its lock ends.
    subroutine close_raw(file)

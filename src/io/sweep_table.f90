@@ -225,10 +225,9 @@ contains
       integer, allocatable :: extents(:)
       integer :: i, n
 
-      call read_extents(file, name, extents, error)
+      call read_extents(file, name, 1, extents, error)
       if (allocated(error)) return
-      n = 0
-      if (size(extents) == 1) n = extents(1)
+      n = extents(1)
       if (allocated(column%lines)) deallocate (column%lines)
       allocate (column%lines(n), source=0)
       if (is_text_dataset(file, name)) then

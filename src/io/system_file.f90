@@ -1,5 +1,5 @@
 !> What the operating system is needed for when files are replaced: process number, space, rename, sync,
-!> remove, date.
+!> remove, resolve links, date.
 !>
 !> Layer: io. In: paths. Out: thin interfaces to the C library of POSIX systems, with logical results instead of
 !> numbers.
@@ -9,10 +9,12 @@ module camroller_system_file
    implicit none
    private
 
-   public :: process_number, is_folder, rename_file, remove_file
+   public :: process_number, is_folder, rename_file, remove_file, resolve_path
    public :: reserve_space, set_file_size, sync_descriptor, utc_date
    public :: ignore_size_signal, restore_size_signal, system_words, text_at_address
 
+   !> Longest path that the system resolves, with the null character that ends it
+   integer, parameter :: longest_path = 4096
    !> Signal that a file outgrew its limit; what `signal` takes for ignoring and gives for an error
    integer(c_int), parameter :: signal_file_size = 25_c_int
    integer(c_intptr_t), parameter :: ignore_signal = 1_c_intptr_t
@@ -37,6 +39,13 @@ module camroller_system_file
          character(kind=c_char), intent(in) :: path(*)
          integer(c_int) :: status
       end function c_remove
+
+      function c_realpath(path, resolved) bind(C, name="realpath") result(address)
+         import :: c_char, c_ptr
+         character(kind=c_char), intent(in) :: path(*)
+         character(kind=c_char), intent(out) :: resolved(*)
+         type(c_ptr) :: address
+      end function c_realpath
 
       function c_opendir(path) bind(C, name="opendir") result(folder)
          import :: c_char, c_ptr
@@ -147,6 +156,25 @@ contains
 
       done = c_rename(old//c_null_char, new//c_null_char) == 0
    end subroutine rename_file
+
+   !> Path of a file without links.
+   function resolve_path(path) result(resolved)
+      !> Path of a file that is there
+      character(len=*), intent(in) :: path
+      !> The path from the root; the given one where the system has none
+      character(len=:), allocatable :: resolved
+
+      character(kind=c_char) :: letters(longest_path)
+      integer :: i
+
+      resolved = path
+      if (.not. c_associated(c_realpath(path//c_null_char, letters))) return
+      resolved = ""
+      do i = 1, longest_path
+         if (letters(i) == c_null_char) exit
+         resolved = resolved//letters(i)
+      end do
+   end function resolve_path
 
    !> Have the content of an open file written to the device.
    subroutine sync_descriptor(descriptor, done)

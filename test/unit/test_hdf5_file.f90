@@ -82,7 +82,7 @@ contains
       if (allocated(error)) return
 
       call open_file(file, path, raised)
-      call read_extents(file, "/rows", extents, raised)
+      call read_extents(file, "/rows", 2, extents, raised)
       call check(error, all(extents == [3, 4]), "other extents")
       call read_numbers(file, "/rows", [0, 1], [3, 2], again, raised)
       if (.not. allocated(error)) call check(error, same_bits(again, reshape(rows, [6])), "other rows")

@@ -1,0 +1,63 @@
+"""How the program ends: by a signal without a trace, and in any address space that it starts in."""
+
+import os
+import pathlib
+import resource
+import signal
+import subprocess
+import time
+
+import pytest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+COARSE = ["--set", "output.angle_step_deg=20", "--set", "numerics.accuracy=1e-3"]
+KILOBYTE = 1024
+# Where OpenBLAS starts a thread that cannot get its memory, and ends only with it
+SMALL_SPACES = [100_000, 150_000, 200_000, 300_000]
+
+
+@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGINT, signal.SIGHUP])
+@pytest.mark.parametrize("deck", ["thesis", "three_cam_head"])
+def test_a_signal_leaves_nothing_behind(camroller, tmp_path, number, deck):
+    """Its own unfinished file goes; the earlier one stays, and those that others write or that have such a name."""
+    others = [tmp_path / "new.h5.unfinished-1-0", tmp_path / "new.h5.unfinished-notes"]
+    for path in [tmp_path / "new.h5", *others]:
+        path.write_text("earlier")
+    words = [camroller, "run", str(ROOT / f"decks/{deck}.nml"), "-o", "new.h5", "--set", "output.angle_step_deg=0.002"]
+    before = sorted(os.listdir(tmp_path))
+    with subprocess.Popen(words, cwd=tmp_path, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as running:
+        until = time.monotonic() + 30.0
+        while len(os.listdir(tmp_path)) == len(before) and running.poll() is None and time.monotonic() < until:
+            time.sleep(0.001)
+        running.send_signal(number)
+        output, errors = running.communicate(timeout=60)
+    assert running.returncode == -number, (running.returncode, errors)
+    assert (output, errors) == (b"", b"")
+    assert sorted(os.listdir(tmp_path)) == before
+    assert all(path.read_text() == "earlier" for path in others)
+    assert (tmp_path / "new.h5").read_text() == "earlier"
+
+
+def test_a_signal_that_is_to_be_ignored_still_is(camroller, tmp_path):
+    """As `nohup` asks for."""
+    words = [camroller, "run", str(ROOT / "decks/thesis.nml"), "-o", "new.h5", "--set", "output.angle_step_deg=0.02", "--quiet"]
+    with subprocess.Popen(words, cwd=tmp_path, stdin=subprocess.DEVNULL,
+                          preexec_fn=lambda: signal.signal(signal.SIGHUP, signal.SIG_IGN)) as running:
+        while not os.listdir(tmp_path) and running.poll() is None:
+            time.sleep(0.001)
+        running.send_signal(signal.SIGHUP)
+        assert running.wait(timeout=120) == 0
+    assert os.listdir(tmp_path) == ["new.h5"]
+
+
+@pytest.mark.parametrize("space", SMALL_SPACES)
+@pytest.mark.parametrize("words", [["help"], ["check", "none.nml"], ["run", ROOT / "decks/thesis.nml", "-o", "new.h5", *COARSE]],
+                         ids=["help", "an error", "run"])
+def test_the_program_ends_in_a_small_address_space(camroller, tmp_path, space, words):
+    def restrict():
+        resource.setrlimit(resource.RLIMIT_AS, (space*KILOBYTE, space*KILOBYTE))
+
+    environment = {name: value for name, value in os.environ.items() if name != "OPENBLAS_NUM_THREADS"}
+    finished = subprocess.run([camroller, *map(str, words)], cwd=tmp_path, stdin=subprocess.DEVNULL, capture_output=True, text=True,
+                              check=False, timeout=60, preexec_fn=restrict, env=environment)
+    assert finished.returncode == (6 if "none.nml" in words else 0), finished.stderr

@@ -1,0 +1,167 @@
+"""No result replaces what it was computed from, nor anything that is no regular file."""
+
+import os
+import pathlib
+import shutil
+import socket
+import stat
+import subprocess
+
+import h5py
+import pytest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+USAGE, FILE_ERROR = 2, 6  # exit codes
+COARSE = ["--set", "output.angle_step_deg=20", "--set", "numerics.accuracy=1e-3"]
+WRITERS = ["run", "sweep", "merge", "study", "audit", "ehl"]
+DEVICE_NULL = (1, 3)  # the numbers of the device that swallows everything
+SWEEP = "&sweep kind = 'table' table = 'tables/cases.{0}' /\n"
+SWEPT_TABLES = ("&sweep kind = 'zip' key_1 = 'gas_force.table' values_1 = 'tables/cylinder_pressure.txt', 'tables/other.txt' "
+                "key_2 = 'operating_point.speed_rpm' values_2 = 300, 600 /\n")
+
+
+def run(camroller, *arguments, folder):
+    """Run the program in a folder."""
+    return subprocess.run([camroller, *map(str, arguments)], cwd=folder, stdin=subprocess.DEVNULL, capture_output=True, text=True,
+                          check=False, timeout=60)
+
+
+@pytest.fixture
+def folder(tmp_path):
+    """Decks with every kind of table."""
+    shutil.copytree(ROOT / "decks/tables", tmp_path / "tables")
+    cams = (ROOT / "decks/three_cam_head.nml").read_text().partition("&sweep")[0]
+    lift = (ROOT / "decks/tabulated_lift.nml").read_text().partition("&sweep")[0]
+    (tmp_path / "tables/cases.csv").write_text("operating_point.speed_rpm\n300\n600\n")
+    with h5py.File(tmp_path / "tables/cases.h5", "w") as file:
+        file["operating_point.speed_rpm"] = [300.0, 600.0]
+    pressure = next((tmp_path / "tables").glob("*pressure*"))
+    (tmp_path / "tables/other.txt").write_text(pressure.read_text())
+    (tmp_path / "cams.nml").write_text(cams)
+    (tmp_path / "lift.nml").write_text(lift)
+    (tmp_path / "csv.nml").write_text(lift + SWEEP.format("csv"))
+    (tmp_path / "h5.nml").write_text(lift + SWEEP.format("h5"))
+    (tmp_path / "swept.nml").write_text(cams + SWEPT_TABLES.replace("cylinder_pressure.txt", pressure.name))
+    return tmp_path
+
+
+def everything(folder):
+    """All files of a folder and what is in them."""
+    return {path.relative_to(folder): path.read_bytes() for path in folder.rglob("*") if path.is_file()}
+
+
+def refused(camroller, folder, words, target, code):
+    """The message of a refusal that changes nothing."""
+    before = everything(folder)
+    result = run(camroller, *words, "-o", target, folder=folder)
+    assert result.returncode == code, result.stderr
+    assert result.stdout == "" and result.stderr.startswith("camroller: ") and result.stderr.count("\n") == 1
+    assert everything(folder) == before
+    return result.stderr
+
+
+@pytest.mark.parametrize("spelling", ["lift.nml", "./lift.nml", "tables/../lift.nml", "absolute", "link", "hard link", "link to link"])
+def test_the_deck_stays_however_it_is_called(camroller, folder, spelling):
+    target = spelling
+    if spelling == "absolute":
+        target = folder / "lift.nml"
+    elif spelling == "hard link":
+        os.link(folder / "lift.nml", folder / target)
+    elif "link" in spelling:
+        (folder / "one").symlink_to("lift.nml")
+        target = "one"
+        if spelling == "link to link":
+            (folder / "two").symlink_to(folder / "one")
+            target = "two"
+    words = refused(camroller, folder, ["run", "lift.nml", *COARSE], target, USAGE)
+    assert words == f"camroller: '{target}' would replace 'lift.nml', which is read; give the result another name by --output\n"
+
+
+@pytest.mark.parametrize("command", WRITERS)
+def test_every_command_lets_the_deck_stay(camroller, folder, command):
+    refused(camroller, folder, [command, "lift.nml", *COARSE], "./lift.nml", USAGE)
+
+
+@pytest.mark.parametrize("command", WRITERS)
+@pytest.mark.parametrize("deck, table", [("lift", "lift"), ("cams", "pressure"), ("csv", "cases.csv"), ("h5", "cases.h5"),
+                                         ("swept", "other")])
+def test_every_table_stays(camroller, folder, deck, table, command):
+    target = next(path for path in sorted((folder / "tables").iterdir()) if table in path.name)
+    assert "which is read" in refused(camroller, folder, [command, f"{deck}.nml", *COARSE], target, USAGE)
+
+
+def test_a_table_that_is_given_beside_the_deck_stays(camroller, folder):
+    table = next((folder / "tables").glob("*lift*"))
+    shutil.copy(table, folder / "mine.txt")
+    refused(camroller, folder, ["run", "lift.nml", *COARSE, "--set", "lift.table=mine.txt"], "./mine.txt", USAGE)
+
+
+@pytest.mark.parametrize("spelling", ["r.h5", "./r.h5", "link.h5"])
+def test_an_exported_result_stays(camroller, folder, spelling):
+    assert run(camroller, "run", "lift.nml", "-o", "r.h5", *COARSE, folder=folder).returncode == 0
+    (folder / "link.h5").symlink_to("r.h5")
+    refused(camroller, folder, ["export", "r.h5"], spelling, USAGE)
+    refused(camroller, folder, ["export", "./r.h5", "--summary"], spelling, USAGE)
+
+
+def odd_target(folder, kind):
+    """Something that is no regular file."""
+    path = folder / "odd"
+    if kind == "a folder":
+        path.mkdir()
+    elif kind == "a pipe":
+        os.mkfifo(path)
+    elif kind == "a socket":
+        with socket.socket(socket.AF_UNIX) as server:
+            server.bind("odd")  # in the present folder, since the path of a socket is short
+    elif kind == "a link that leads nowhere":
+        path.symlink_to("nowhere")
+    elif kind == "a device":
+        try:
+            os.mknod(path, stat.S_IFCHR | 0o666, os.makedev(*DEVICE_NULL))
+        except PermissionError:
+            pytest.skip("only root can make a device")
+    return path
+
+
+@pytest.mark.parametrize("command", [*WRITERS, "export"])
+@pytest.mark.parametrize("kind", ["a folder", "a pipe", "a socket", "a link that leads nowhere", "a device", "a link to a device"])
+def test_only_regular_files_are_replaced(camroller, folder, command, kind, monkeypatch):
+    monkeypatch.chdir(folder)
+    path = odd_target(folder, kind.removeprefix("a link to "))
+    target = path
+    if kind == "a link to a device":
+        target = folder / "link"
+        target.symlink_to("odd")
+        kind = "a device"
+    before = path.lstat()
+    deck = "lift.nml"
+    if command == "export":
+        assert run(camroller, "run", "lift.nml", "-o", "r.h5", *COARSE, folder=folder).returncode == 0
+        deck = "r.h5"
+    words = refused(camroller, folder, [command, deck], target, FILE_ERROR)
+    assert words == f"camroller: cannot write '{target}': it is {kind}, and only regular files are replaced\n"
+    after = path.lstat()
+    assert (after.st_mode, after.st_ino, after.st_rdev) == (before.st_mode, before.st_ino, before.st_rdev)
+
+
+@pytest.mark.parametrize("command", ["run", "export"])
+def test_a_link_is_followed(camroller, folder, command):
+    (folder / "store").mkdir()
+    (folder / "store/old").write_text("earlier")
+    (folder / "new").symlink_to("store/old")
+    words = ["run", "lift.nml", *COARSE]
+    if command == "export":
+        assert run(camroller, *words, "-o", "r.h5", folder=folder).returncode == 0
+        words = ["export", "r.h5"]
+    assert run(camroller, *words, "-o", "new", folder=folder).returncode == 0
+    assert (folder / "new").is_symlink()
+    assert os.listdir(folder / "store") == ["old"]
+    assert (folder / "store/old").read_bytes() != b"earlier"
+
+
+def test_what_is_no_file_is_not_read_as_a_result(camroller, tmp_path):
+    os.mkfifo(tmp_path / "pipe")
+    for command in ("export", "rerun"):
+        result = run(camroller, command, "pipe", folder=tmp_path)
+        assert (result.returncode, result.stderr) == (FILE_ERROR, "camroller: cannot read 'pipe': it is a pipe\n")
