@@ -1,14 +1,15 @@
 !> Smallest and largest values of the series of a cycle, between the angles at which they were sampled as well.
 !>
-!> Layer: solver. In: rows of series at cam angles, in any order. Out: for each series its smallest and largest value, and before that
-!> the angles at which rows are wanted: where the parabola through the lowest or highest row and its neighbours has its vertex. A
-!> value counts only where a row has it, so that an extreme is never outside what the series takes.
+!> Layer: solver. In: rows of series at cam angles, in any order. Out: for each series the search for its smallest and largest value
+!> near the row that has it, for which the caller evaluates the series. A value counts only where it was evaluated, so that an extreme
+!> is never outside what the series takes.
 module camroller_extremes
    use camroller_kinds, only : wp, pi, two_pi
+   use camroller_extremum, only : extremum_t, start_extremum
    implicit none
    private
 
-   public :: samples_t, start_samples, add_sample, next_sample, smallest_of, largest_of
+   public :: samples_t, start_samples, add_sample, start_search, most_steps
 
    !> Sectors of a turn by which rows are found
    integer, parameter :: sectors = 720
@@ -26,15 +27,15 @@ module camroller_extremes
       !> Rows by their angles: the last row of each sector of the turn, and for each row the one before it in its sector; 0 for none
       integer, private :: last(0:sectors - 1) = 0
       integer, allocatable, private :: before(:)
-      !> Extreme that is being refined: series twice over, smallest before largest; and rows asked for it
-      integer, private :: extreme = 1, tries = 0
+      !> Is the row one at which the slope of series jumps?
+      logical, allocatable, private :: is_kink(:)
    end type samples_t
 
-   !> Rows that are asked for each extreme at most
-   integer, parameter :: most_tries = 3
-   !> Gain of an extreme over the range of its series that is worth a row [-]
-   real(wp), parameter :: worth_a_row = 1.0e-7_wp
-   !> Widest distance to a neighbour that a parabola may bridge, in sectors
+   !> Values of an extreme that are asked for at most
+   integer, parameter :: most_steps = 8
+   !> Gain of an extreme that is not worth a value, over the extent of its series [-]
+   real(wp), parameter :: worth = 1.0e-6_wp
+   !> Widest distance to a neighbour that a search may begin with, in sectors
    integer, parameter :: widest = 10
    !> Rows for which there is room at first
    integer, parameter :: first_room = 1536
@@ -49,19 +50,22 @@ contains
       integer, intent(in) :: series
 
       allocate (samples%angle(first_room), samples%values(series, first_room), samples%before(first_room))
+      allocate (samples%is_kink(first_room))
       allocate (samples%lowest(series), samples%highest(series))
       samples%lowest = 1
       samples%highest = 1
    end subroutine start_samples
 
    !> Add a row.
-   pure subroutine add_sample(samples, angle, values)
+   pure subroutine add_sample(samples, angle, values, is_kink)
       !> The rows
       type(samples_t), intent(inout) :: samples
       !> Cam angle, of any turn [rad]
       real(wp), intent(in) :: angle
       !> Value of each series [unit of the series]
       real(wp), intent(in) :: values(:)
+      !> Does the slope of series jump there?
+      logical, intent(in) :: is_kink
 
       integer :: row, sector, i
 
@@ -70,6 +74,7 @@ contains
       samples%count = row
       samples%angle(row) = modulo(angle, two_pi)
       samples%values(:, row) = values
+      samples%is_kink(row) = is_kink
       sector = sector_of(samples%angle(row))
       samples%before(row) = samples%last(sector)
       samples%last(sector) = row
@@ -87,16 +92,19 @@ contains
       ! Longer lists [rad], [unit of the series]
       real(wp), allocatable :: angles(:), rows(:, :)
       integer, allocatable :: before(:)
+      logical, allocatable :: kinks(:)
 
       associate (n => samples%count)
-         allocate (angles(2*n), rows(size(samples%values, 1), 2*n), before(2*n))
+         allocate (angles(2*n), rows(size(samples%values, 1), 2*n), before(2*n), kinks(2*n))
          angles(:n) = samples%angle
          rows(:, :n) = samples%values
          before(:n) = samples%before
+         kinks(:n) = samples%is_kink
       end associate
       call move_alloc(angles, samples%angle)
       call move_alloc(rows, samples%values)
       call move_alloc(before, samples%before)
+      call move_alloc(kinks, samples%is_kink)
    end subroutine make_room
 
    !> Sector of the turn that an angle is in.
@@ -109,58 +117,34 @@ contains
       sector = min(int(angle/two_pi*sectors), sectors - 1)
    end function sector_of
 
-   !> The next angle at which a row may lower or raise an extreme.
-   pure subroutine next_sample(samples, angle, is_wanted)
-      !> The rows
-      type(samples_t), intent(inout) :: samples
-      !> The angle [rad]
-      real(wp), intent(out) :: angle
-      !> Is a row wanted?
-      logical, intent(out) :: is_wanted
-
-      do while (samples%extreme <= 2*size(samples%values, 1))
-         call try_extreme(samples, angle, is_wanted)
-         samples%tries = samples%tries + 1
-         if (is_wanted) return
-         samples%extreme = samples%extreme + 1
-         samples%tries = 0
-      end do
-      angle = 0.0_wp
-      is_wanted = .false.
-   end subroutine next_sample
-
-   !> Where the extreme in hand may have its place.
-   pure subroutine try_extreme(samples, angle, is_wanted)
+   !> Begin the search for the smallest or largest value of a series near the row that has it. Each series is searched by itself, so
+   !> that what else is sampled changes no bit of it.
+   pure subroutine start_search(samples, series, sense, search)
       !> The rows
       type(samples_t), intent(in) :: samples
-      !> The angle [rad]
-      real(wp), intent(out) :: angle
-      !> Is a row there worth its while?
-      logical, intent(out) :: is_wanted
+      !> The series
+      integer, intent(in) :: series
+      !> 1 for the smallest value, -1 for the largest
+      integer, intent(in) :: sense
+      !> The search, with the signs of all values changed for the largest; nothing is wanted where the row that has it is a kink or has
+      !> no row close by on a side
+      type(extremum_t), intent(out) :: search
 
-      ! Angles of the extreme row and its neighbours, from that row [rad]; values there, the extreme one lowest
-      ! [unit of the series]; slopes away from it [unit of the series/rad]; range [unit of the series]
-      real(wp) :: x(3), f(3), slopes(2), range
-      integer :: rows(3), series
+      ! Angles from that of the extreme row [rad]; extent of the series [unit of the series]
+      real(wp) :: x(3), extent
+      integer :: rows(3)
 
-      angle = 0.0_wp
-      is_wanted = .false.
-      if (samples%tries == most_tries) return
-      series = (samples%extreme + 1)/2
-      range = samples%values(series, samples%highest(series)) - samples%values(series, samples%lowest(series))
-      rows(2) = samples%lowest(series)
-      if (modulo(samples%extreme, 2) == 0) rows(2) = samples%highest(series)
-      call find_neighbours(samples, rows, x)
-      if (any(rows == 0)) return
-      f = samples%values(series, rows)
-      if (modulo(samples%extreme, 2) == 0) f = -f
-      ! what the parabola loses from its middle point to its vertex
-      slopes = [(f(1) - f(2))/(x(2) - x(1)), (f(3) - f(2))/(x(3) - x(2))]
-      if (.not. sum(slopes) > 0.0_wp) return
-      angle = 0.5_wp*(x(3)*slopes(1) + x(1)*slopes(2))/sum(slopes)
-      is_wanted = angle**2*sum(slopes)/(x(3) - x(1)) > worth_a_row*range
-      angle = samples%angle(rows(2)) + angle
-   end subroutine try_extreme
+      rows = merge(samples%lowest(series), samples%highest(series), sense > 0)
+      extent = samples%values(series, samples%highest(series)) - samples%values(series, samples%lowest(series))
+      if (.not. samples%is_kink(rows(2))) then
+         call find_neighbours(samples, rows, x)
+         if (all(rows > 0)) then
+            call start_extremum(search, samples%angle(rows(2)) + x, sense*samples%values(series, rows), worth*extent)
+            return
+         end if
+      end if
+      search%value(2) = sense*samples%values(series, rows(2))
+   end subroutine start_search
 
    !> Rows next to one, on either side and round the turn.
    pure subroutine find_neighbours(samples, rows, x)
@@ -196,29 +180,5 @@ contains
          if (all(rows > 0)) return
       end do
    end subroutine find_neighbours
-
-   !> Smallest value of each series.
-   pure function smallest_of(samples) result(values)
-      !> The rows
-      type(samples_t), intent(in) :: samples
-      !> One for each series [unit of the series]
-      real(wp) :: values(size(samples%values, 1))
-
-      integer :: i
-
-      values = [(samples%values(i, samples%lowest(i)), i=1, size(values))]
-   end function smallest_of
-
-   !> Largest value of each series.
-   pure function largest_of(samples) result(values)
-      !> The rows
-      type(samples_t), intent(in) :: samples
-      !> One for each series [unit of the series]
-      real(wp) :: values(size(samples%values, 1))
-
-      integer :: i
-
-      values = [(samples%values(i, samples%highest(i)), i=1, size(values))]
-   end function largest_of
 
 end module camroller_extremes

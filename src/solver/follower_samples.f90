@@ -92,7 +92,7 @@ contains
       self%largest_sliding = max(self%largest_sliding, abs(self%state%contact%sliding_speed))
       if (associated(self%case)) then
          call series_values(self%case, self%model, self%state, torques, 0.0_wp, values(:self%series))
-         call add_sample(self%rows, x, values(:self%first_torque - 1))
+         call add_sample(self%rows, x, values(:self%first_torque - 1), .false.)
          values(self%first_torque:self%series) = 0.0_wp
       end if
       torques(1) = 0.0_wp

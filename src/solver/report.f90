@@ -11,7 +11,8 @@ module camroller_report
    use camroller_cycle_remarks, only : judge_lobe
    use camroller_catalogue, only : list_series, follower_values, camshaft_values, follower_count, camshaft_count, lobe_columns, &
       & camshaft_columns, torque_count
-   use camroller_extremes, only : samples_t, start_samples, add_sample, next_sample, smallest_of, largest_of
+   use camroller_extremes, only : samples_t, start_samples, add_sample, start_search, most_steps
+   use camroller_extremum, only : extremum_t, narrow_extremum
    use camroller_margins, only : margins_t, find_margins
    use camroller_result, only : result_t, find_quantity, check_numbers
    use camroller_shaft, only : shaft_t, new_shaft, shaft_torques
@@ -162,14 +163,14 @@ contains
          columns = lobe_columns(case, lobe)
          associate (samples => statistics(lobe)%rows)
             call add_output_rows(result, columns, samples)
-            call complete_lobe(case, models(lobe), cycles(lobe), margins(lobe), samples, error)
+            call add_stops(case, models(lobe), cycles(lobe), margins(lobe), samples, error)
+            if (.not. allocated(error)) call search_lobe(case, models(lobe), cycles(lobe), samples, &
+               & extremes%lowest(columns(1):columns(2)), extremes%highest(columns(1):columns(2)), error)
             if (allocated(error)) return
-            extremes%lowest(columns(1):columns(2)) = smallest_of(samples)
-            extremes%highest(columns(1):columns(2)) = largest_of(samples)
             extremes%event_load(lobe) = smallest_event_load(models(lobe), result, samples)
          end associate
       end do
-      call complete_camshaft(case, models, cycles, shaft, result, extremes, error)
+      call search_camshaft(case, models, cycles, shaft, result, extremes, error)
    end subroutine find_extremes
 
    !> Rows at the output angles.
@@ -184,12 +185,12 @@ contains
       integer :: i
 
       do i = 1, size(result%angle)
-         call add_sample(samples, (result%angle(i) - 180.0_wp)*degree, result%series_values(i, columns(1):columns(2)))
+         call add_sample(samples, (result%angle(i) - 180.0_wp)*degree, result%series_values(i, columns(1):columns(2)), .false.)
       end do
    end subroutine add_output_rows
 
-   !> Rows of a lobe's follower at the stops, at the smallest load without friction, and where extremes are.
-   subroutine complete_lobe(case, model, cycle, margins, samples, error)
+   !> Rows of a lobe's follower at the stops, and at the smallest load of the event without friction.
+   subroutine add_stops(case, model, cycle, margins, samples, error)
       !> The case
       type(case_t), intent(in) :: case
       !> Model of the lobe
@@ -205,33 +206,59 @@ contains
 
       type(state_t) :: state
       ! Cam angles from full lift [rad]; a row [unit of the series]
-      real(wp), allocatable :: angles(:)
-      real(wp) :: angle, values(size(samples%values, 1))
+      real(wp) :: angles(size(cycle%stops) + 1), values(size(samples%values, 1))
       integer :: hint, i
-      logical :: is_wanted
 
       hint = 1
       angles = [cycle%stops, margins%event%angle]
-      i = 0
-      do
-         i = i + 1
-         if (i <= size(angles)) then
-            angle = angles(i)
-         else if (cycle%is_linear) then
-            exit
-         else
-            call next_sample(samples, angle, is_wanted)
-            if (.not. is_wanted) exit
-         end if
-         call state_at(cycle, model, angle, hint, state, error)
+      do i = 1, size(angles)
+         call state_at(cycle, model, angles(i), hint, state, error)
          if (allocated(error)) return
          call follower_values(case, model, state, values)
-         call add_sample(samples, angle, values)
+         call add_sample(samples, angles(i), values, i <= size(cycle%stops))
       end do
-   end subroutine complete_lobe
+   end subroutine add_stops
 
-   !> Extremes of the camshaft's series.
-   subroutine complete_camshaft(case, models, cycles, shaft, result, extremes, error)
+   !> Smallest and largest values of a lobe's follower, from its rows and between them; the rows alone where the solution itself is only
+   !> linear between its points.
+   subroutine search_lobe(case, model, cycle, samples, lowest, highest, error)
+      !> The case
+      type(case_t), intent(in) :: case
+      !> Model of the lobe
+      type(model_t), intent(in) :: model
+      !> Its cycle
+      type(cycle_t), intent(in) :: cycle
+      !> The rows
+      type(samples_t), intent(in) :: samples
+      !> The values [unit of the series]
+      real(wp), intent(out) :: lowest(:), highest(:)
+      !> Convergence error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(extremum_t) :: search
+      type(state_t) :: state
+      ! Series at a cam angle [unit of the series]
+      real(wp) :: values(size(lowest))
+      integer :: hint, series, sense
+
+      hint = 1
+      do series = 1, size(lowest)
+         do sense = -1, 1, 2
+            call start_search(samples, series, sense, search)
+            do while (search%is_wanted .and. search%steps < most_steps .and. .not. cycle%is_linear)
+               call state_at(cycle, model, search%trial, hint, state, error)
+               if (allocated(error)) return
+               call follower_values(case, model, state, values)
+               call narrow_extremum(search, sense*values(series))
+            end do
+            if (sense > 0) lowest(series) = search%value(2)
+            if (sense < 0) highest(series) = -search%value(2)
+         end do
+      end do
+   end subroutine search_lobe
+
+   !> Smallest and largest values of the camshaft's series.
+   subroutine search_camshaft(case, models, cycles, shaft, result, extremes, error)
       !> The case
       type(case_t), intent(in) :: case
       !> Model of each lobe shape
@@ -248,34 +275,60 @@ contains
       type(error_t), allocatable, intent(out) :: error
 
       type(samples_t) :: samples
-      type(state_t) :: state
-      ! Stops of all cams [rad]; torques [N m]; a row [unit of the series]; cam angle from full lift [rad]
+      type(extremum_t) :: search
+      ! Stops of all cams [rad]; a row [unit of the series]
       real(wp), allocatable :: stops(:)
-      real(wp) :: torques(torque_count), bearing_torque, values(camshaft_count(case)), angle
-      integer :: columns(2), i
-      logical :: is_wanted
+      real(wp) :: values(camshaft_count(case))
+      integer :: columns(2), i, series, sense
 
       columns = camshaft_columns(case)
       call start_samples(samples, size(values))
       call add_output_rows(result, columns, samples)
       stops = [(cycles(shaft%lobes(i))%stops + shaft%phases(i), i=1, size(shaft%lobes))]
-      i = 0
-      do
-         i = i + 1
-         if (i <= size(stops)) then
-            angle = stops(i)
-         else
-            call next_sample(samples, angle, is_wanted)
-            if (.not. is_wanted) exit
-         end if
-         call shaft_torques(shaft, models, cycles, angle, state, torques, bearing_torque, error)
+      do i = 1, size(stops)
+         call camshaft_row(case, models, cycles, shaft, stops(i), values, error)
          if (allocated(error)) return
-         call camshaft_values(case, torques, bearing_torque, values)
-         call add_sample(samples, angle, values)
+         call add_sample(samples, stops(i), values, .true.)
       end do
-      extremes%lowest(columns(1):columns(2)) = smallest_of(samples)
-      extremes%highest(columns(1):columns(2)) = largest_of(samples)
-   end subroutine complete_camshaft
+      do series = 1, size(values)
+         do sense = -1, 1, 2
+            call start_search(samples, series, sense, search)
+            do while (search%is_wanted .and. search%steps < most_steps .and. .not. any(cycles%is_linear))
+               call camshaft_row(case, models, cycles, shaft, search%trial, values, error)
+               if (allocated(error)) return
+               call narrow_extremum(search, sense*values(series))
+            end do
+            if (sense > 0) extremes%lowest(columns(1) + series - 1) = search%value(2)
+            if (sense < 0) extremes%highest(columns(1) + series - 1) = -search%value(2)
+         end do
+      end do
+   end subroutine search_camshaft
+
+   !> The camshaft's series at a cam angle.
+   subroutine camshaft_row(case, models, cycles, shaft, angle, values, error)
+      !> The case
+      type(case_t), intent(in) :: case
+      !> Model of each lobe shape
+      type(model_t), intent(in) :: models(:)
+      !> Cycle of each lobe shape
+      type(cycle_t), intent(in) :: cycles(:)
+      !> The camshaft
+      type(shaft_t), intent(inout) :: shaft
+      !> Cam angle of the first cam from full lift [rad]
+      real(wp), intent(in) :: angle
+      !> The series [unit of the series]
+      real(wp), intent(out) :: values(:)
+      !> Convergence or domain error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(state_t) :: state
+      ! Torques of all followers [N m], of all bearings [N m]
+      real(wp) :: torques(torque_count), bearing_torque
+
+      call shaft_torques(shaft, models, cycles, angle, state, torques, bearing_torque, error)
+      if (allocated(error)) return
+      call camshaft_values(case, torques, bearing_torque, values)
+   end subroutine camshaft_row
 
    !> Smallest contact load with the valve off its seat; over the whole cycle where it never leaves it.
    pure function smallest_event_load(model, result, samples) result(load)

@@ -71,7 +71,7 @@ contains
       call evaluate_state(samples%model, angle, 2.0_wp*samples%state%contact%cam_surface_speed, samples%state, status)
       if (status /= 0) return
       call follower_values(samples%case, samples%model, samples%state, values)
-      call add_sample(samples%rows, angle, values)
+      call add_sample(samples%rows, angle, values, .true.)
    end subroutine add_state_at_rest
 
 end module camroller_standstills

@@ -8,6 +8,7 @@ from scipy.integrate import quad
 from scipy.special import erfc
 
 import contact_laws as laws
+import pivot
 from cycle_reference import Point, Train, integrate
 from kinematics_reference import DIGITS, Construction, exact
 from mechanism import closed_form, skewed_geometry, thesis_geometry
@@ -139,3 +140,12 @@ def test_two_solvers_agree_on_a_cycle():
 
 def test_roller_problem_gives_the_stated_loss():
     assert loss('a', 'Radau', 1e-8)[0] == pytest.approx(5.4713973743e-2, rel=1e-9)
+
+
+def test_speeds_at_which_the_train_parts():
+    """The numbers of `test_margins.f90`."""
+    lost, opened, pumped, adjuster = pivot.speeds(3001)
+    assert lost == pytest.approx(2937.17, abs=0.006)
+    assert opened == pytest.approx(2470.90, abs=0.006)
+    assert pumped == pytest.approx(2357.51, abs=0.006)
+    assert adjuster == pytest.approx(26.3802, abs=6e-5)

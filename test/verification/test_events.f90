@@ -237,7 +237,7 @@ contains
 
       case = thesis_case()
       case%spring%stiffness = 2500.0_wp
-      call refused(case, kind_deck, "37.5 N, the closed spring holds 21.0 N", error)
+      call refused(case, kind_deck, "37.507 N, the closed spring holds 21 N", error)
       if (allocated(error)) return
       case = source_case()
       case%spring%stiffness = 2500.0_wp
