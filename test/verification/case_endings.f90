@@ -31,14 +31,15 @@ module case_endings
       & "bearing law has no solution", "camshaft bearing without solution", &
       & "ehl:", "numerical film"], [2, 15])
    !> What a remark says, and its class
-   character(len=*), parameter :: remark_phrases(2, 7) = reshape([character(len=44) :: &
+   character(len=*), parameter :: remark_phrases(2, 8) = reshape([character(len=44) :: &
       & "accuracy asked for was not reached", "accuracy not reached", &
       & "outside its published range", "film law outside its range", &
       & "the tolerance", "tolerance does not hold the error", &
       & "sliding speed is not resolved", "sliding speed not resolved", &
+      & "entrainment speed changes its sign", "entrainment reverses", &
       & "contact", "contact lost", &
       & "film", "other remark on the film", &
-      & "mean", "remark on means"], [2, 7])
+      & "mean", "remark on means"], [2, 8])
 
 contains
 

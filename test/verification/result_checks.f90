@@ -9,7 +9,7 @@ module result_checks
    implicit none
    private
 
-   public :: check_result, compare_results, series_of, scalar_of, promised_error, words_of_difference
+   public :: check_result, compare_results, promised_error, series_of, scalar_of, words_of_difference
 
    !> Energy left over, over the sum of the sizes of all powers: see `cycle_checks`. A camshaft adds up to a handful of followers
    real(wp), parameter :: energy_tolerance = 1000.0_wp*epsilon(1.0_wp)
@@ -17,11 +17,8 @@ module result_checks
    real(wp), parameter :: rounding = 1.0e-11_wp
    !> Part of the speed of pure rolling that counts as no slip [-]
    real(wp), parameter :: least_slip = 1.0e-5_wp
-   !> Means that are judged by themselves, since they are what a result is asked for; others are judged by their largest value
-   character(len=*), parameter :: losses(*) = [character(len=21) :: "torque_contact", "torque_needle", "torque_guide", &
-      & "torque_bearings", "torque_friction", "friction_contact"]
    !> Means that are judged by the mean of all losses
-   character(len=*), parameter :: drives(*) = [character(len=21) :: "torque_drive", "torque_roller_inertia"]
+   character(len=*), parameter :: drives(*) = [character(len=21) :: "torque_drive", "torque_geometric", "torque_roller_inertia"]
    !> Extremes that are compared
    character(len=*), parameter :: extremes(*) = [character(len=26) :: "min_film_thickness_min", "min_film_thickness_central", &
       & "min_contact_load", "max_contact_load", "max_hertz_pressure"]
@@ -149,53 +146,53 @@ contains
    end function check_energy
 
    !> Two results of one case: sliding speed, means and extremes within what both promise.
-   subroutine compare_results(one, other, allowed, trouble)
+   subroutine compare_results(case, one, other, trouble)
+      !> The case, but for its method
+      type(case_t), intent(in) :: case
       !> The results
       type(result_t), intent(in) :: one, other
-      !> Sum of what both promise [-]
-      real(wp), intent(in) :: allowed
       !> What is wrong
       character(len=:), allocatable, intent(out) :: trouble
-      ! Sliding speeds and their scale [m/s], difference over the scale
+      ! Sliding speeds and their scale [m/s], difference over the scale, sum of what both promise [-]
       real(wp), allocatable :: first(:), second(:)
-      real(wp) :: scale, found
+      real(wp) :: scale, found, allowed
 
       trouble = ""
+      allowed = promised_error(case, one, "estimated_error") + promised_error(case, other, "estimated_error")
       first = series_of(one, "sliding_speed")
       second = series_of(other, "sliding_speed")
       scale = max(maxval(abs(first)), maxval(abs(second)), least_slip*maxval(abs(series_of(one, "rolling_speed"))))
       found = maxval(abs(first - second))/scale
       if (.not. found <= allowed) trouble = " sliding speeds"//words_of_difference(found, allowed)
       if (abs(variation(first) - variation(second)) > 2.0_wp*scale*allowed) trouble = trouble//" the sliding speed chatters;"
-      call compare_means(one, other, allowed, trouble)
+      call compare_means(one, other, promised_error(case, one, "estimated_error_of_means") &
+         & + promised_error(case, other, "estimated_error_of_means"), trouble)
       call compare_extremes(one, other, allowed, trouble)
    end subroutine compare_results
 
-   !> Means of all series: losses within the promise of themselves, the rest of their largest value.
+   !> Means of all series, over the mean size of each; torques that store and give back, over the mean of all losses.
    subroutine compare_means(one, other, allowed, trouble)
       !> The results
       type(result_t), intent(in) :: one, other
-      !> Sum of what both promise [-]
+      !> Sum of what both promise of their means [-]
       real(wp), intent(in) :: allowed
       !> What is wrong so far
       character(len=:), allocatable, intent(inout) :: trouble
-      ! Means, their scale, difference over it
-      real(wp) :: first, second, scale, found
+      ! Difference of the means, their scale, what rounding leaves [unit of the series]; difference over scale
+      real(wp) :: difference, scale, least, found
       integer :: i
 
       do i = 1, size(one%series)
          associate (name => one%series(i)%name)
             if (name == "energy_residual") cycle
-            first = scalar_of(one, "mean_"//name)
-            second = scalar_of(other, "mean_"//name)
-            scale = maxval(abs(one%series_values(:, i)))
+            difference = abs(scalar_of(one, "mean_"//name) - scalar_of(other, "mean_"//name))
+            least = rounding*maxval(abs(one%series_values(:, i)))
+            scale = sum(abs(one%series_values(:, i)))/size(one%angle)
+            if (any(drives == name)) scale = abs(scalar_of(one, "mean_torque_friction"))
             ! A slip of next to nothing is as good as none
             if (name == "sliding_speed") scale = max(scale, least_slip*maxval(abs(series_of(one, "rolling_speed"))))
             if (name == "slip_ratio") scale = max(scale, least_slip)
-            found = rounding*scale
-            if (any(losses == name)) scale = max(abs(first), abs(second))
-            if (any(drives == name)) scale = abs(scalar_of(one, "mean_torque_friction"))
-            found = max(0.0_wp, abs(first - second) - found)/max(scale, tiny(1.0_wp))
+            found = max(0.0_wp, difference - least)/max(scale, tiny(1.0_wp))
             if (.not. found <= allowed) trouble = trouble//" mean_"//name//words_of_difference(found, allowed)
          end associate
       end do
@@ -248,16 +245,18 @@ contains
       variation = sum(abs(values(2:) - values(:size(values) - 1)))
    end function variation
 
-   !> What a result promises of its sliding speed.
-   function promised_error(case, result) result(promised)
+   !> What a result promises of its sliding speed or of its means.
+   function promised_error(case, result, estimate) result(promised)
       !> The case
       type(case_t), intent(in) :: case
       !> Its result
       type(result_t), intent(in) :: result
+      !> Name of its estimate
+      character(len=*), intent(in) :: estimate
       ! [-]
       real(wp) :: promised
 
-      promised = max(scalar_of(result, "estimated_error"), case%numerics%tolerance)
+      promised = max(scalar_of(result, estimate), case%numerics%tolerance)
       if (is_checked(case%numerics)) promised = max(promised, case%numerics%accuracy)
    end function promised_error
 

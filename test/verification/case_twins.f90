@@ -1,0 +1,178 @@
+!> Twins of a case: the same train in other units, or told in another way. Their results mean the same.
+module case_twins
+   use camroller_kinds, only : wp
+   use camroller_case, only : case_t
+   use camroller_lift, only : lift_t
+   use camroller_result, only : result_t
+   use unit_systems, only : units_t, dimension_t, scaled, number, angular_speed, area, force, inertia, length, mass, &
+      & per_pressure, pressure, speed, stiffness, viscosity
+   implicit none
+   private
+
+   public :: leave_constants_out, rescale_case, compare_twins, dimension_of_unit
+
+contains
+
+   !> Take laws that hold no constants with dimensions, in place of those that do: Roelands' and Cameron's reference pressure, the
+   !> temperatures of Vogel's and Walther's oils, the range of numerical films.
+   subroutine leave_constants_out(case)
+      !> The case
+      type(case_t), intent(inout) :: case
+
+      if (case%lubricant%temperature_law /= "direct") case%lubricant%viscosity = case%lubricant%viscosity_points(2)
+      case%lubricant%temperature_law = "direct"
+      case%lubricant%pressure_law = "barus"
+      if (.not. case%lubricant%pressure_viscosity > 0.0_wp) case%lubricant%pressure_viscosity = 2.0e-8_wp
+      case%lubricant%roelands_index = 0.0_wp
+      if (allocated(case%ehl)) deallocate (case%ehl)
+   end subroutine leave_constants_out
+
+   !> The same case in other units.
+   subroutine rescale_case(case, units)
+      !> The case
+      type(case_t), intent(inout) :: case
+      !> The units
+      type(units_t), intent(in) :: units
+
+      call change(case%operating_point%speed, angular_speed)
+      call change(case%mechanism%pivot_to_roller, length)
+      call change(case%mechanism%pivot_to_pad, length)
+      call change(case%mechanism%pivot_to_cam, length)
+      call change(case%mechanism%base_radius, length)
+      call change(case%mechanism%roller_radius, length)
+      call change(case%mechanism%contact_width, length)
+      call change(case%mechanism%grinding_wheel_radius, length)
+      call change(case%roller%mass, mass)
+      call change(case%roller%wall_thickness, length)
+      call change_lift(case%lift)
+      if (allocated(case%second_lift)) call change_lift(case%second_lift)
+      call change(case%masses%valve, mass)
+      call change(case%masses%finger, mass)
+      call change(case%masses%finger_inertia, inertia)
+      call change(case%spring%stiffness, stiffness)
+      call change(case%spring%precompression, length)
+      call change(case%spring%base_circle_load, force)
+      call change(case%spring%seat_stiffness, stiffness)
+      if (allocated(case%gas_force)) call change(case%gas_force%valve_area, area)
+      if (allocated(case%gas_force)) call change(case%gas_force%pressure, pressure)
+      call change(case%materials%cam_modulus, pressure)
+      call change(case%materials%roller_modulus, pressure)
+      call change(case%materials%hardness, pressure)
+      call change(case%surface%cam_roughness, length)
+      call change(case%surface%roller_roughness, length)
+      call change(case%lubricant%viscosity, viscosity)
+      call change(case%lubricant%pressure_viscosity, per_pressure)
+      call change(case%traction%eyring_stress, pressure)
+      if (allocated(case%asperity)) call change(case%asperity%film_shear_strength, pressure)
+      if (allocated(case%asperity)) call change(case%asperity%mobilising_speed, speed)
+      if (allocated(case%needle_bearing)) call change(case%needle_bearing%needle_radius, length)
+      if (allocated(case%valve_guide)) call change(case%valve_guide%length, length)
+      if (allocated(case%valve_guide)) call change(case%valve_guide%stem_diameter, length)
+      if (allocated(case%valve_guide)) call change(case%valve_guide%radial_clearance, length)
+      if (allocated(case%cam_bearings)) then
+         call change(case%cam_bearings%diameter, length)
+         call change(case%cam_bearings%width, length)
+         call change(case%cam_bearings%radial_clearance, length)
+         call change(case%cam_bearings%bearing_positions, length)
+         call change(case%cam_bearings%cam_positions, length)
+      end if
+
+   contains
+
+      !> A number in other units.
+      elemental subroutine change(value, dimension)
+         !> The number [any]
+         real(wp), intent(inout) :: value
+         !> Its dimension
+         type(dimension_t), intent(in) :: dimension
+
+         value = scaled(units, value, dimension)
+      end subroutine change
+
+      !> A lift in other units.
+      subroutine change_lift(lift)
+         !> The lift
+         type(lift_t), intent(inout) :: lift
+
+         call change(lift%max_lift, length)
+         call change(lift%smoothing, length)
+         if (allocated(lift%table_lift)) call change(lift%table_lift, length)
+      end subroutine change_lift
+
+   end subroutine rescale_case
+
+   !> Do two results mean the same, one of them in other units? By the units that the result itself names.
+   function compare_twins(one, other, units, allowed) result(trouble)
+      !> Result in SI, result in other units
+      type(result_t), intent(in) :: one, other
+      !> The units
+      type(units_t), intent(in) :: units
+      !> Difference allowed, over the largest value of a series [-]
+      real(wp), intent(in) :: allowed
+      !> What is wrong; blank where all is well
+      character(len=:), allocatable :: trouble
+      ! Difference, largest value [unit of the series]
+      real(wp) :: found, largest
+      character(len=12) :: buffer
+      integer :: i
+
+      trouble = ""
+      if (size(one%series) /= size(other%series) .or. size(one%summary) /= size(other%summary)) trouble = "other quantities"
+      if (trouble /= "") return
+      do i = 1, size(one%series)
+         if (one%series(i)%name == "energy_residual") cycle
+         largest = maxval(abs(one%series_values(:, i)))
+         found = maxval(abs(scaled(units, one%series_values(:, i), dimension_of_unit(one%series(i)%unit)) &
+            & - other%series_values(:, i)))/scaled(units, max(largest, tiny(1.0_wp)), dimension_of_unit(one%series(i)%unit))
+         write (buffer, "(es9.2)") found
+         if (.not. found <= allowed) trouble = trouble//" "//one%series(i)%name//buffer
+      end do
+   end function compare_twins
+
+   !> Dimension of a unit as results name it.
+   pure function dimension_of_unit(unit) result(dimension)
+      !> The unit
+      character(len=*), intent(in) :: unit
+      !> Its dimension
+      type(dimension_t) :: dimension
+      character(len=*), parameter :: letters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
+      character(len=:), allocatable :: rest, word
+      type(dimension_t) :: one
+      integer :: last, power, status
+
+      dimension = number
+      rest = trim(unit)
+      do while (rest /= "")
+         last = index(rest//" ", " ")
+         word = rest(:last - 1)
+         rest = adjustl(rest(min(last, len(rest) + 1):))
+         last = verify(word, letters)
+         power = 1
+         if (last > 1) read (word(last:), *, iostat=status) power
+         if (last > 1) word = word(:last - 1)
+         select case (word)
+         case ("m")
+            one = length
+         case ("kg")
+            one = mass
+         case ("s")
+            one = dimension_t(0, 0, 1)
+         case ("N")
+            one = force
+         case ("Pa")
+            one = pressure
+         case ("J")
+            one = dimension_t(2, 1, -2)
+         case ("W")
+            one = dimension_t(2, 1, -3)
+         case ("1", "rad", "deg", "degree")
+            one = number
+         case default
+            one = dimension_t(100, 100, 100)
+         end select
+         dimension = dimension_t(dimension%length + power*one%length, dimension%mass + power*one%mass, &
+            & dimension%time + power*one%time)
+      end do
+   end function dimension_of_unit
+
+end module case_twins
