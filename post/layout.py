@@ -182,8 +182,9 @@ class Layout:
 
 
 def _has_lost_contact(result, case):
-    share = result.summary.get("lost_contact_share")
-    return share is not None and np.shape(share.values) == (result.cases,) and float(share.values[case]) > 0.0
+    """Is contact lost for a part of the cycle, by any lobe?"""
+    return any(name.endswith("lost_contact_share") and np.shape(share.values) == (result.cases,) and share.values[case] > 0.0
+               for name, share in result.summary.items())
 
 
 def _example(layout):

@@ -273,6 +273,7 @@ def test_where_contact_is_lost_there_is_no_film(tmp_path):
             values[:, lost] = 0.0
             file[f"series/{name}"][...] = values
         file["summary/lost_contact_share"] = np.full(9, lost.mean())
+        file["summary/lobe_2_lost_contact_share"] = np.zeros(9)
     figure = draw("film", Layout([read_result(path)]))
     for line in curves(figure.axes[0]):
         assert np.isnan(line.get_ydata()[:-1][lost]).all() and np.nanmin(line.get_ydata()) > 0.0

@@ -25,7 +25,8 @@ from test_cases import without_series
 from test_post import write_result
 
 HERE = pathlib.Path(__file__).resolve().parent
-SCRIPTS = {"plot": (plot, ["--figure", "load"]), "table": (table, []), "plot_sweep": (plot_sweep, ["--quantity", "mean_torque_drive"]),
+SCRIPTS = {"plot": (plot, ["--figure", "load"]), "table": (table, []),
+           "plot_sweep": (plot_sweep, ["--quantity", "mean_torque_drive"]),
            "plot_study": (plot_study, []), "plot_audit": (plot_audit, []), "ehl": (ehl, ["--output", "OUT/x.png"]),
            "ehl_map": (ehl_map, ["OUT/x.png"]), "thesis_comparison": (thesis_comparison, ["--page", "OUT/page.md"])}
 made_ehl, made_audit, made_study = (module.made_up for module in (test_ehl, test_plot_audit, test_plot_study))

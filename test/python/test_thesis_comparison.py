@@ -6,11 +6,12 @@ import re
 import subprocess
 import sys
 
+import numpy
 import pytest
 
 from comparison_claims import STATEMENTS, band, falls, rises, verdict
 from comparison_reasons import REASONS, UNEXPLAINED
-from comparison_runs import RUNS, command_lines
+from comparison_runs import RUNS, Points, command_lines
 from units import significant
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -107,6 +108,40 @@ def test_one_in_the_last_digit_is_let_pass_and_two_are_not(text, other, differ):
 
 def test_verdict_follows_from_the_claims():
     assert [verdict(held) for held in ([True, True], [True, False], [False, False])] == ["agrees", "partly", "differs"]
+
+
+class MadeUp:
+    """Points whose share of asperities is the same at each speed and temperature."""
+
+    def __init__(self, share):
+        self.angle = numpy.arange(0.0, 360.0, 0.5)
+        self._share = numpy.broadcast_to(share(self.angle - 180.0), (3, 3, self.angle.size))
+
+    def series(self, name):
+        """The share."""
+        assert name == "asperity_friction_share"
+        return self._share
+
+    within = Points.within
+
+
+def bump(height, place, width):
+    """A share with one peak."""
+    return lambda angle: height * numpy.exp(-((angle - place) / width) ** 2)
+
+
+@pytest.mark.parametrize("share, shape, value", [
+    (bump(0.60, 0.0, 20.0), True, True),
+    (bump(0.60, 10.0, 20.0), True, False),
+    # largest near the nose 60 %, but on the way down from a peak on a flank
+    (lambda angle: numpy.clip(0.5 - 0.1 / 15.0 * angle, 0.0, 0.67), False, True),
+    (lambda angle: 0.55 + 0.05 * numpy.cos(numpy.radians(angle)), False, True),
+    (bump(0.60, 40.0, 20.0), False, False)])
+def test_the_share_of_asperities_has_to_have_the_shape_that_the_source_shows(share, shape, value):
+    claims = {claim.name: claim for statement in STATEMENTS for claim in statement.claims}
+    points = MadeUp(share)
+    assert claims["share_shape_60"].check(points)[0] == claims["share_shape_95"].check(points)[0] == shape
+    assert claims["share_60"].check(points)[0] == value
 
 
 def test_trends_are_strict():
