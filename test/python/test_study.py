@@ -102,7 +102,7 @@ def test_films_over_accuracies_and_nodes(camroller, tmp_path):
     rows = table["dial"] != "reference"
     assert list(table["way"][~rows]) == ["numerical film", "solved over cycle"]
     assert list(table["way"][rows]) == ["dowson_higginson", *2 * ["numerical film"], *2 * ["solved over cycle"], "steady film"]
-    errors = table["error_smallest_film"][rows]
+    errors = table["error_sliding_speed"][rows]
     assert errors[0] > errors[1] > errors[2]
     assert errors[5] > errors[3] > errors[4]
     assert (table["time"][rows] > 0).all()
