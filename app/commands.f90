@@ -3,7 +3,6 @@
 !> Layer: app. In: the command line. Out: files, text, an exit code.
 module camroller_commands
    use camroller_error, only : error_t, raise, add_context, kind_file, kind_usage
-   use camroller_audit_command, only : audit_deck
    use camroller_blas_threads, only : use_one_blas_thread
    use camroller_case, only : case_t
    use camroller_cli, only : config_t, command_names, get_arguments, read_arguments
@@ -17,6 +16,7 @@ module camroller_commands
    use camroller_ehl_command, only : ehl_deck
    use camroller_export, only : export_csv, export_series, export_summary
    use camroller_help_text, only : help_for
+   use camroller_measure_command, only : audit_deck, study_deck
    use camroller_mistakes, only : line_t
    use camroller_model, only : model_t
    use camroller_names, only : index_of_name
@@ -27,7 +27,6 @@ module camroller_commands
    use camroller_run_command, only : run_deck
    use camroller_stop_signal, only : end_on_signals
    use camroller_streams, only : close_output_stream, hold_streams, print_lines, print_text, tell
-   use camroller_study_command, only : study_deck
    use camroller_sweep_command, only : merge_deck, sweep_deck
    use camroller_sweep_cost, only : case_to_try, cost_in_words
    use camroller_team, only : team_t

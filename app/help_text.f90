@@ -82,20 +82,19 @@ contains
             & "compare mean torque, smallest film, slip and time, and the changes with what is expected before a run."//n// &
             & "Prints a table and writes one HDF5 file: the deck's name with _audit.h5 in the present folder, or FILE."//n//n// &
             & "  -o, --output FILE          file to write"//n// &
-            & "  --repeats N                runs of which the quickest counts; 5 where not given"//n// &
+            & "  --repeats N                runs whose median time counts; 5 where not given"//n// &
             & "  -s, --set group.key=value  other value than the deck's; may be repeated"//n// &
             & "  -q, --quiet                say nothing but errors"
       case ("study")
          text = "camroller study DECK [-o FILE] [--repeats N] [--quick] [--set group.key=value]..."//n//n// &
-            & "Measure what accuracy costs: every method over a ladder of tolerances or steps, against a reference from two"// &
-            & n// &
-            & "unrelated methods, and what simpler models change and save. Prints tables and writes one HDF5 file: the"//n// &
-            & "deck's name with _study.h5 in the present folder, or FILE."//n//n// &
+            & "Measure what accuracy costs: the accuracy asked for, and every method over its tolerances or steps, each"//n// &
+            & "with its errors against a reference by two unlike methods, its work and its time. Prints a table and writes"//n// &
+            & "one HDF5 file: the deck's name with _study.h5 in the present folder, or FILE."//n//n// &
             & "  -o, --output FILE          file to write"//n// &
             & "  --repeats N                runs whose median time counts; 5 where not given"//n// &
             & "  --quick                    a few trials of each method only"//n// &
-            & "  --film                     the numerical film instead: steady over nodes, as a law over its accuracy,"//n// &
-            & "                             and solved over the cycle over nodes and steps, beside the film law;"//n// &
+            & "  --film                     the numerical film instead: as a law over the accuracy of its table, and solved"//n// &
+            & "                             over the cycle over the number of nodes, beside the film law of the deck;"//n// &
             & "                             into the deck's name with _film_study.h5"//n// &
             & "  -s, --set group.key=value  other value than the deck's; may be repeated"//n// &
             & "  -q, --quiet                say nothing but errors"

@@ -1,7 +1,6 @@
-!> Tables of a study in a result file.
+!> The table of a study in a result file.
 !>
-!> Layer: io. In: an open result file, tables. Out: `/study/<table>` with one dataset for each column; all columns of a table
-!> share the dimension `row`.
+!> Layer: io. In: an open result file, a table. Out: `/study/<table>` with one dataset for each column; all share the dimension `row`.
 module camroller_study_file
    use camroller_kinds, only : wp
    use camroller_error, only : error_t
@@ -19,28 +18,24 @@ module camroller_study_file
 
 contains
 
-   !> Write all tables of a study.
-   subroutine write_study(writer, names, titles, tables, error)
+   !> Write the table of a study.
+   subroutine write_study(writer, name, title, table, error)
       !> The writer
       type(output_t), intent(inout) :: writer
-      !> Name of each table below `/study`, and what it holds
-      character(len=*), intent(in) :: names(:), titles(:)
-      !> The tables
-      type(study_table_t), intent(in) :: tables(:)
+      !> Name of the table below `/study`, and what it holds
+      character(len=*), intent(in) :: name, title
+      !> The table
+      type(study_table_t), intent(in) :: table
       !> File error
       type(error_t), allocatable, intent(out) :: error
 
       type(hdf5_object_t) :: study
-      integer :: i
 
       call check_open(writer, error)
       if (allocated(error)) return
       call reserve_file(writer%file, object_size, error)
       if (.not. allocated(error)) call create_group(writer%file, "study", study, error)
-      do i = 1, size(tables)
-         if (allocated(error)) exit
-         call write_table(writer, study, trim(names(i)), trim(titles(i)), tables(i), error)
-      end do
+      if (.not. allocated(error)) call write_table(writer, study, name, title, table, error)
       call close_object(study)
       if (allocated(error)) call abandon_output(writer)
    end subroutine write_study

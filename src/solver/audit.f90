@@ -11,9 +11,10 @@ module camroller_audit
    use camroller_effect_list, only : choice_t, decision_t, effect_names, effect_count, effect_bearings, effect_rolling, &
       & has_effect, leave_all_but
    use camroller_model, only : model_t
-   use camroller_result, only : result_t, quantity_t, find_quantity
-   use camroller_run, only : run_case, build_models
+   use camroller_result, only : quantity_t
+   use camroller_run, only : build_models
    use camroller_study_table, only : study_table_t, word_length, new_table, add_row
+   use camroller_study_trial, only : trial_t, run_trial
    implicit none
    private
 
@@ -23,24 +24,6 @@ module camroller_audit
    !> Runs of an audit: everything; without an effect; without all; with one alone; with those that are needed
    character(len=*), parameter :: run_listed = "listed", run_without = "without", run_none = "none", run_alone = "alone", &
       & run_needed = "needed"
-   !> Repetitions end after this time [s]
-   real(wp), parameter :: patience = 0.5_wp
-   !> Number of quantities
-   integer, parameter :: quantity_count = size(quantity_names)
-
-   !> What came of a run
-   type :: outcome_t
-      !> 0, or the kind of the error
-      integer :: status = 0
-      !> What went wrong, or nothing
-      character(len=:), allocatable :: message
-      !> Mean torque for losses [N m], smallest film [m], slip per revolution [-]
-      real(wp) :: values(quantity_count) = 0.0_wp
-      !> Shortest processor time of a run [s]
-      real(wp) :: time = 0.0_wp
-      !> Evaluations of the roller equation [-]
-      real(wp) :: evaluations = 0.0_wp
-   end type outcome_t
 
 contains
 
@@ -66,7 +49,7 @@ contains
          & quantity_t("estimate_slip", "1", "largest change of the slip expected before the run", "audit"), &
          & quantity_t("is_left_out", "1", "1 where the choice of needed effects leaves it out", "audit"), &
          & quantity_t("evaluations", "1", "evaluations of the roller equation", "audit"), &
-         & quantity_t("time", "s", "shortest processor time of a run", "audit"), &
+         & quantity_t("time", "s", "median processor time of a run", "audit"), &
          & quantity_t("time_share", "1", "part of the time of the run with all effects that it saves", "audit")])
    end subroutine new_audit_table
 
@@ -88,7 +71,7 @@ contains
       type(case_t) :: listed, variant
       type(choice_t) :: choice
       type(model_t), allocatable :: models(:)
-      type(outcome_t) :: full, none, outcome
+      type(trial_t) :: full, none, outcome
       integer :: i
 
       listed = case
@@ -96,67 +79,31 @@ contains
       call build_models(listed, models, error)
       if (.not. allocated(error)) call choose_effects(listed, models, variant, choice, .true., error)
       if (allocated(error)) return
-      call measure(listed, repeats, full)
+      call run_trial(listed, repeats, full)
       call add_outcome(table, position, run_listed, full, full, full)
       variant = listed
       variant%effects%select = select_names(2)
-      call measure(variant, repeats, outcome)
+      call run_trial(variant, repeats, outcome)
       call add_outcome(table, position, run_needed, full, full, outcome, choice=choice)
       do i = 1, size(choice%decisions)
          variant = listed
          call remove_effect(variant, choice%decisions(i)%effect)
-         call measure(variant, repeats, outcome)
+         call run_trial(variant, repeats, outcome)
          call add_outcome(table, position, run_without, full, full, outcome, choice%decisions(i))
       end do
       if (.not. with_alone) return
       variant = listed
       call leave_all_but(variant, 0)
-      call measure(variant, repeats, none)
+      call run_trial(variant, repeats, none)
       call add_outcome(table, position, run_none, full, full, none)
       do i = 1, effect_count
          if (.not. has_effect(listed, i) .or. i > effect_rolling .or. i == effect_bearings) cycle
          variant = listed
          call leave_all_but(variant, i)
-         call measure(variant, repeats, outcome)
+         call run_trial(variant, repeats, outcome)
          call add_outcome(table, position, run_alone, full, none, outcome, effect=i)
       end do
    end subroutine audit_case
-
-   !> Run a case several times.
-   subroutine measure(case, repeats, outcome)
-      !> The case
-      type(case_t), intent(in) :: case
-      !> Runs of which the quickest counts
-      integer, intent(in) :: repeats
-      !> What came of it
-      type(outcome_t), intent(out) :: outcome
-
-      type(result_t) :: result
-      type(error_t), allocatable :: error
-      ! Processor time of each run, at the start of the first and of one [s]
-      real(wp) :: times(max(repeats, 1)), first, start, now
-      integer :: run
-
-      outcome%message = ""
-      call cpu_time(first)
-      do run = 1, size(times)
-         call cpu_time(start)
-         call run_case(case, result, error)
-         call cpu_time(now)
-         times(run) = now - start
-         if (allocated(error)) then
-            outcome%status = error%kind
-            outcome%message = error%message
-            return
-         end if
-         if (now - first > patience) exit
-      end do
-      outcome%time = minval(times(:min(run, size(times))))
-      outcome%values(1) = result%summary_values(find_quantity(result%summary, "mean_torque_friction"))
-      outcome%values(2) = minval(result%series_values(:, find_quantity(result%series, "film_thickness_min")))
-      outcome%values(3) = result%summary_values(find_quantity(result%summary, "revolution_slip"))
-      outcome%evaluations = result%summary_values(find_quantity(result%summary, "counter_evaluations"))
-   end subroutine measure
 
    !> Row of a run.
    subroutine add_outcome(table, position, run, full, base, outcome, decision, effect, choice)
@@ -167,7 +114,7 @@ contains
       !> Name of the run
       character(len=*), intent(in) :: run
       !> What came of the run with all effects, of the one that it is compared with, of itself
-      type(outcome_t), intent(in) :: full, base, outcome
+      type(trial_t), intent(in) :: full, base, outcome
       !> What was decided about the effect that is left out
       type(decision_t), intent(in), optional :: decision
       !> Effect that is alone, position in `effect_names`
@@ -185,10 +132,10 @@ contains
       numbers = ieee_value(1.0_wp, ieee_quiet_nan)
       numbers(1:2) = [real(position - 1, wp), real(outcome%status, wp)]
       if (outcome%status == 0) then
-         numbers(3:5) = outcome%values
+         numbers(3:5) = quantities_of(outcome)
          numbers(13:14) = [outcome%evaluations, outcome%time]
          if (full%status == 0 .and. base%status == 0) then
-            numbers(6:8) = (outcome%values - base%values)/max(abs(full%values), tiny(1.0_wp))
+            numbers(6:8) = (quantities_of(outcome) - quantities_of(base))/max(abs(quantities_of(full)), tiny(1.0_wp))
             numbers(15) = (base%time - outcome%time)/max(full%time, tiny(1.0_wp))
          end if
       end if
@@ -202,5 +149,15 @@ contains
       if (present(choice)) numbers(8 + choice%quantity) = choice%bound
       call add_row(table, words, numbers)
    end subroutine add_outcome
+
+   !> What effects are judged by, in the order of `quantity_names`.
+   pure function quantities_of(trial) result(values)
+      !> A trial
+      type(trial_t), intent(in) :: trial
+      !> Mean torque for all losses [N m], smallest film [m], slip per revolution [-]
+      real(wp) :: values(3)
+
+      values = [trial%mean_friction, trial%smallest_film, trial%revolution_slip]
+   end function quantities_of
 
 end module camroller_audit

@@ -1,292 +1,329 @@
-!> What accuracy costs: every method over a ladder of tolerances or steps, against a reference from two unrelated methods.
+!> What accuracy costs: a case computed in many ways, each with its errors against one reference, its work and its time.
 !>
-!> Layer: solver. In: a case. Out: rows of `study_table_t`: errors, work, time. A trial that fails is a row with a message.
-!>
-!> The reference is a Rosenbrock solution; it counts only where an explicit Runge-Kutta solution, which shares nothing with it
-!> but the equation, agrees to a tenth of the smallest error that the study shows.
+!> Layer: solver. In: a case. Out: rows of one table. Each family of ways has a reference of its own: two unlike integration methods
+!> that must agree, the finest table of numerical films, or the finest solution of the contact over the cycle.
 module camroller_study
-   use, intrinsic :: ieee_arithmetic, only : ieee_quiet_nan, ieee_value
    use camroller_kinds, only : wp, degree
+   use camroller_names, only : name_length
    use camroller_error, only : error_t, raise, add_context, kind_convergence
-   use camroller_case, only : case_t, numerics_t
+   use camroller_case, only : case_t, automatic_method, quasi_static
+   use camroller_ehl_table, only : ehl_t
    use camroller_number_text, only : number_text
+   use camroller_ode_methods, only : method_facts
    use camroller_result, only : quantity_t
-   use camroller_run, only : build_models
-   use camroller_model, only : model_t
-   use camroller_report, only : output_angles
-   use camroller_spin, only : spin_problem_t
-   use camroller_study_errors, only : errors_t, errors_against, largest_error, total_variation
-   use camroller_study_ladder, only : rung_t, make_ladder, numerics_of
-   use camroller_study_probe, only : probe_t, run_probe, loss_names, loss_count
    use camroller_study_table, only : study_table_t, new_table, add_row
+   use camroller_study_trial, only : trial_t, run_trial, solve_trial, errors_against, no_number, smallest_error
    implicit none
    private
 
-   public :: reference_t, smallest_error, make_reference, check_reference, new_method_table, study_methods, largest_rate
-   public :: new_reference_table, add_reference
+   public :: way_t, new_study_table, study_case, study_film, make_reference, check_agreement, list_ways, apply_way
+   public :: dial_reference
 
-   !> Smallest error shown; what is below counts as this much [-]
-   real(wp), parameter :: smallest_error = 1.0e-8_wp
-   !> The two solutions must agree to this part of it [-]
+   !> A way to compute a case
+   type :: way_t
+      !> Method, film law or model
+      character(len=name_length) :: name = ""
+      !> What its setting is: one of the names below
+      character(len=name_length) :: dial = ""
+      !> The setting; a fixed step in degrees, not a number where there is none [-]
+      real(wp) :: setting = 0.0_wp
+   end type way_t
+
+   !> Dials of the ways
+   character(len=*), parameter :: dial_accuracy = "accuracy", dial_tolerance = "tolerance", dial_step = "step [deg]", &
+      & dial_film = "film accuracy", dial_nodes = "nodes", dial_none = "", dial_reference = "reference"
+
+   !> Methods of the reference and their tolerances [-]; periodicity of both [-]
+   character(len=*), parameter :: reference_methods(2) = [character(len=name_length) :: "rodas5p", "dormand_prince"]
+   real(wp), parameter :: reference_tolerances(2) = [1.0e-11_wp, 1.0e-13_wp], reference_periodicity = 1.0e-10_wp
+   !> Part of the smallest error shown by which the two may differ [-]
    real(wp), parameter :: agreement = 0.1_wp
-   !> Two unrelated ways to integrate, far below the smallest error
-   type(rung_t), parameter :: reference_rungs(*) = [rung_t("rodas5p", tolerance=1.0e-11_wp), &
-      & rung_t("dormand_prince", tolerance=1.0e-13_wp)]
-   !> Periodicity of a reference [-]
-   real(wp), parameter :: reference_periodicity = 1.0e-10_wp
-
-   !> What counts as right
-   type :: reference_t
-      !> The solution
-      type(probe_t) :: probe
-      !> How far the two solutions are apart [-]
-      real(wp) :: disagreement = 0.0_wp
-      !> Fastest decay of a disturbance over the cycle [1/rad]
-      real(wp) :: fastest_decay = 0.0_wp
-      !> Total variation of the slip ratio [-]
-      real(wp) :: variation = 0.0_wp
-   end type reference_t
+   !> Accuracies asked for, tolerances, fixed steps [deg]; those of a quick study
+   real(wp), parameter :: accuracies(*) = [1.0e-2_wp, 1.0e-3_wp, 1.0e-4_wp, 1.0e-5_wp, 1.0e-6_wp, 1.0e-7_wp], &
+      & tolerances(*) = [1.0e-1_wp, 1.0e-2_wp, 1.0e-3_wp, 1.0e-4_wp, 1.0e-5_wp, 1.0e-6_wp, 1.0e-7_wp, 1.0e-8_wp], &
+      & steps(*) = [2.0_wp, 1.0_wp, 0.5_wp, 0.2_wp, 0.1_wp, 0.05_wp, 0.02_wp, 0.01_wp, 0.005_wp, 0.002_wp, 0.001_wp], &
+      & few_tolerances(*) = [1.0e-2_wp, 1.0e-4_wp, 1.0e-6_wp], few_steps(*) = [1.0_wp, 0.1_wp]
+   !> Accuracies of a table of numerical films, that of the reference [-]
+   real(wp), parameter :: film_accuracies(*) = [1.0e-1_wp, 3.0e-2_wp, 1.0e-2_wp, 3.0e-3_wp], film_reference = 1.0e-3_wp
+   !> Nodes of contacts solved over the cycle, those of the reference; errors of a step of both [-]
+   integer, parameter :: nodes(*) = [33, 65, 129], reference_nodes = 257
+   real(wp), parameter :: step_error = 1.0e-3_wp, reference_step_error = 3.0e-4_wp
+   !> Trials of a quick study of films, its nodes of the reference
+   integer, parameter :: quick_trials = 2, quick_nodes = 129
 
 contains
 
-   !> Reference of a case; refuses where two unrelated methods disagree.
-   subroutine make_reference(case, reference, error)
+   !> The empty table.
+   subroutine new_study_table(table)
+      !> The table
+      type(study_table_t), intent(out) :: table
+
+      call new_table(table, [quantity_t("way", "", "method, film law or model", "study"), &
+         & quantity_t("dial", "", "what the setting is; 'reference' for what counts as right", "study"), &
+         & quantity_t("message", "", "what went wrong, or nothing", "study")], [ &
+         & quantity_t("case", "1", "case of the sweep", "study"), &
+         & quantity_t("status", "1", "0, or the kind of the error", "study"), &
+         & quantity_t("setting", "1", "accuracy, tolerance, fixed step in degrees, or nodes", "study"), &
+         & quantity_t("error_sliding_speed", "1", "largest error of the sliding speed relative to its largest value", "study"), &
+         & quantity_t("error_mean_friction", "1", "relative error of the mean torque for all losses", "study"), &
+         & quantity_t("error_smallest_film", "1", "relative error of the smallest film", "study"), &
+         & quantity_t("estimated_error", "1", "error of the sliding speed as the program estimates it", "study"), &
+         & quantity_t("evaluations", "1", "evaluations of the roller equation", "study"), &
+         & quantity_t("steps", "1", "accepted steps", "study"), &
+         & quantity_t("time", "s", "median processor time of a whole run", "study")])
+   end subroutine new_study_table
+
+   !> Every method over its tolerances or steps, and the accuracy that a deck asks for.
+   subroutine study_case(table, position, case, repeats, is_quick, error)
+      !> Table to extend
+      type(study_table_t), intent(inout) :: table
+      !> Number of the case, from 1
+      integer, intent(in) :: position
       !> The case
       type(case_t), intent(in) :: case
-      !> Its reference
-      type(reference_t), intent(out) :: reference
-      !> Convergence error where the two solutions disagree, or what went wrong with one of them
+      !> Runs whose median time counts
+      integer, intent(in) :: repeats
+      !> A few trials only?
+      logical, intent(in) :: is_quick
+      !> Why there is no reference
       type(error_t), allocatable, intent(out) :: error
 
-      type(case_t) :: trial
-      type(probe_t) :: other
+      type(trial_t) :: reference, trial
+      type(way_t), allocatable :: ways(:)
+      ! What the two references differ by [-]
+      real(wp) :: disagreement
+      integer :: i
 
-      trial = case
-      trial%numerics = numerics_of(reference_rungs(1), case%numerics)
-      trial%numerics%periodicity = min(case%numerics%periodicity, reference_periodicity)
-      call run_probe(trial, 1, reference%probe)
-      call pass_failure(reference%probe, trial%numerics, error)
+      call make_reference(case, reference, disagreement, error)
+      call add_reference(table, position, "two methods", reference, disagreement, error)
       if (allocated(error)) return
-      trial%numerics = numerics_of(reference_rungs(2), trial%numerics)
-      call run_probe(trial, 1, other)
-      call pass_failure(other, trial%numerics, error)
-      if (allocated(error)) return
-      reference%disagreement = largest_error(errors_against(reference%probe, other))
-      call check_reference(reference%disagreement, error)
-      if (allocated(error)) return
-      reference%variation = total_variation(reference%probe%slip_ratio)
-      call largest_rate(case, reference%probe%sliding_speed, reference%fastest_decay, error)
+      call list_ways(ways, is_quick)
+      do i = 1, size(ways)
+         call run_trial(apply_way(ways(i), case), repeats, trial)
+         call add_trial(table, position, ways(i), reference, trial)
+      end do
+   end subroutine study_case
+
+   !> The result by two unlike methods at tight tolerances; an error where they disagree.
+   subroutine make_reference(case, reference, disagreement, error)
+      !> The case
+      type(case_t), intent(in) :: case
+      !> What counts as right
+      type(trial_t), intent(out) :: reference
+      !> Largest of the errors of one against the other [-]
+      real(wp), intent(out) :: disagreement
+      !> Error of a trial, convergence error where they disagree
+      type(error_t), allocatable, intent(out) :: error
+
+      type(case_t) :: variant
+      type(trial_t) :: trials(2)
+      integer :: i
+
+      disagreement = no_number()
+      variant = case
+      variant%numerics%periodicity = min(case%numerics%periodicity, reference_periodicity)
+      do i = 1, size(trials)
+         variant%numerics%method = reference_methods(i)
+         variant%numerics%tolerance = reference_tolerances(i)
+         call run_trial(variant, 1, trials(i))
+         call raise_failure(trials(i), trim(reference_methods(i)), error)
+         if (allocated(error)) return
+      end do
+      reference = trials(1)
+      disagreement = maxval(errors_against(trials(1), trials(2)))
+      call check_agreement(disagreement, error)
    end subroutine make_reference
 
-   !> Refuse a reference whose two solutions disagree.
-   subroutine check_reference(disagreement, error)
-      !> How far they are apart [-]
+   !> Refuse references that differ by too much of the smallest error that is shown.
+   subroutine check_agreement(disagreement, error)
+      !> What two methods differ by [-]
       real(wp), intent(in) :: disagreement
       !> Convergence error
       type(error_t), allocatable, intent(out) :: error
 
       if (disagreement <= agreement*smallest_error) return
-      call raise(error, kind_convergence, "no reference: "//trim(reference_rungs(1)%method)//" and "// &
-         & trim(reference_rungs(2)%method)//" differ by "//number_text(disagreement, 2)//", allowed is "// &
-         & number_text(agreement*smallest_error, 2))
-   end subroutine check_reference
+      call raise(error, kind_convergence, "no reference: the results of "//trim(reference_methods(1))//" and "// &
+         & trim(reference_methods(2))//" differ by "//trim(number_text(disagreement, 2))//"; "// &
+         & trim(number_text(agreement*smallest_error, 2))//" is allowed")
+   end subroutine check_agreement
 
-   !> The failure of a trial as an error.
-   subroutine pass_failure(probe, numerics, error)
+   !> The failure of a reference as an error.
+   subroutine raise_failure(trial, name, error)
       !> The trial
-      type(probe_t), intent(in) :: probe
-      !> How it was integrated
-      type(numerics_t), intent(in) :: numerics
-      !> Its error, if any
+      type(trial_t), intent(in) :: trial
+      !> Its method or model
+      character(len=*), intent(in) :: name
+      !> Its error, if it has one
       type(error_t), allocatable, intent(out) :: error
 
-      if (probe%status == 0) return
-      call raise(error, probe%status, probe%message)
-      call add_context(error, "reference by "//trim(numerics%method))
-   end subroutine pass_failure
+      if (trial%status == 0) return
+      call raise(error, trial%status, trial%message)
+      call add_context(error, "reference by "//name)
+   end subroutine raise_failure
 
-   !> Fastest decay of a disturbance of the spin at the output angles.
-   subroutine largest_rate(case, sliding_speed, fastest, error)
-      !> The case
-      type(case_t), intent(in) :: case
-      !> Sliding speed at the output angles [m/s]
-      real(wp), intent(in) :: sliding_speed(:)
-      !> Fastest decay rate [1/rad]
-      real(wp), intent(out) :: fastest
-      !> Deck or domain error
-      type(error_t), allocatable, intent(out) :: error
-
-      type(model_t), allocatable, target :: models(:)
-      type(spin_problem_t) :: problem
-      ! Output angles from full lift [rad]; decay rate there [1/rad]
-      real(wp), allocatable :: angles(:)
-      real(wp) :: rate
-      integer :: i
-
-      fastest = 0.0_wp
-      call build_models(case, models, error)
-      if (allocated(error)) return
-      problem%model => models(1)
-      angles = (output_angles(case%numerics%output_step) - 180.0_wp)*degree
-      do i = 1, size(angles)
-         call problem%get_decay_rate(angles(i), sliding_speed(i:i), rate)
-         fastest = max(fastest, rate)
-      end do
-   end subroutine largest_rate
-
-   !> Table of references, one row a case.
-   subroutine new_reference_table(table)
-      !> The table
-      type(study_table_t), intent(out) :: table
-
-      call new_table(table, [quantity_t("message", "", "what went wrong, or nothing", "study")], [ &
-         & quantity_t("case", "1", "case of the sweep", "study"), &
-         & quantity_t("status", "1", "0, or the kind of the error", "study"), &
-         & quantity_t("speed", "rad s-1", "cam speed", "operating_point"), &
-         & quantity_t("oil_temperature", "K", "temperature of the oil", "operating_point"), &
-         & quantity_t("disagreement", "1", "largest deviation between two unrelated methods", "study"), &
-         & quantity_t("fastest_decay", "1", "largest decay rate of a disturbance of the spin, per radian of the cam", "roller"), &
-         & quantity_t("largest_sliding_speed", "m s-1", "largest size of the sliding speed", "roller"), &
-         & quantity_t("revolution_slip", "1", "part of its turns that the roller loses per cam revolution", "roller"), &
-         & quantity_t("mean_torque_friction", "N m", "mean torque for all losses", "torque"), &
-         & quantity_t("min_film_thickness", "m", "smallest film", "film")])
-   end subroutine new_reference_table
-
-   !> Row of a reference, or of what went wrong with it.
-   subroutine add_reference(table, position, case, reference, failure)
-      !> Table of references
-      type(study_table_t), intent(inout) :: table
-      !> Number of the case, from 1; the table counts from 0
-      integer, intent(in) :: position
-      !> The case
-      type(case_t), intent(in) :: case
-      !> Its reference
-      type(reference_t), intent(in) :: reference
-      !> What went wrong
-      type(error_t), allocatable, intent(in) :: failure
-
-      ! Numbers of the row [unit of the column]
-      real(wp) :: numbers(10)
-
-      numbers = ieee_value(1.0_wp, ieee_quiet_nan)
-      numbers(1) = position - 1
-      numbers(2) = 0.0_wp
-      numbers(3:4) = [case%operating_point%speed, case%operating_point%oil_temperature]
-      if (allocated(failure)) then
-         numbers(2) = failure%kind
-         call add_row(table, [failure%message], numbers)
-         return
-      end if
-      associate (probe => reference%probe)
-         numbers(5:) = [reference%disagreement, reference%fastest_decay, maxval(abs(probe%sliding_speed)), &
-            & probe%revolution_slip, probe%losses(loss_count), probe%film_min]
-      end associate
-      call add_row(table, [""], numbers)
-   end subroutine add_reference
-
-   !> Table of methods, one row a trial.
-   subroutine new_method_table(table)
-      !> The table
-      type(study_table_t), intent(out) :: table
-
-      type(quantity_t), allocatable :: losses(:)
-      integer :: i
-
-      allocate (losses(loss_count))
-      do i = 1, loss_count
-         losses(i) = quantity_t("error_torque_"//trim(loss_names(i)), "1", &
-            & "error of the mean torque lost over its value, "//trim(loss_names(i)), "study")
-      end do
-      call new_table(table, [quantity_t("method", "", "way to integrate", "study"), &
-         & quantity_t("message", "", "what went wrong, or nothing", "study")], [ &
-         & quantity_t("case", "1", "case of the sweep", "study"), &
-         & quantity_t("status", "1", "0, or the kind of the error", "study"), &
-         & quantity_t("tolerance", "1", "error of the sliding speed aimed at, over its largest value", "study"), &
-         & quantity_t("step", "degree", "fixed step", "study"), &
-         & quantity_t("error_sliding_speed", "1", "largest error of the sliding speed over its largest value", "study"), &
-         & losses, &
-         & quantity_t("error_film_min", "1", "error of the smallest film over its value", "study"), &
-         & quantity_t("estimated_error", "1", "error of the sliding speed as the program estimates it", "study"), &
-         & quantity_t("variation", "1", "total variation of the slip ratio over that of the reference", "study"), &
-         & quantity_t("rate_times_step", "1", "fastest decay rate times fixed step", "study"), &
-         & quantity_t("evaluations", "1", "evaluations of the roller equation", "study"), &
-         & quantity_t("jacobians", "1", "Jacobians", "study"), &
-         & quantity_t("steps", "1", "accepted steps", "study"), &
-         & quantity_t("rejected", "1", "rejected steps", "study"), &
-         & quantity_t("cycles", "1", "cycles until periodic", "study"), &
-         & quantity_t("time", "s", "median time for the periodic cycle and its sliding speeds", "study"), &
-         & quantity_t("series_time", "s", "time for all series and means", "study")])
-   end subroutine new_method_table
-
-   !> Every method and every rung for a case.
-   subroutine study_methods(table, position, case, reference, repeats, is_quick)
-      !> Table of methods
-      type(study_table_t), intent(inout) :: table
-      !> Number of the case, from 1; the table counts from 0
-      integer, intent(in) :: position
-      !> The case
-      type(case_t), intent(in) :: case
-      !> Its reference
-      type(reference_t), intent(in) :: reference
-      !> Runs whose median time counts
-      integer, intent(in) :: repeats
-      !> A few rungs only?
+   !> All ways to integrate a case.
+   subroutine list_ways(ways, is_quick)
+      !> The ways
+      type(way_t), allocatable, intent(out) :: ways(:)
+      !> A few only?
       logical, intent(in) :: is_quick
 
-      type(rung_t), allocatable :: rungs(:)
-      type(case_t) :: trial
-      type(probe_t) :: probe
+      ! Settings of the ways [unit of the dial]
+      real(wp), allocatable :: fine(:), fixed(:)
+      integer :: method, i
+
+      fine = tolerances
+      fixed = steps
+      if (is_quick) then
+         fine = few_tolerances
+         fixed = few_steps
+      end if
+      ways = [(way_t(automatic_method, dial_accuracy, accuracies(i)), i=1, size(accuracies))]
+      do method = 1, size(method_facts)
+         if (method_facts(method)%companion_order > 0) then
+            ways = [ways, (way_t(method_facts(method)%name, dial_tolerance, fine(i)), i=1, size(fine))]
+         else
+            ways = [ways, (way_t(method_facts(method)%name, dial_step, fixed(i)), i=1, size(fixed))]
+         end if
+      end do
+      ways = [ways, way_t(quasi_static, dial_tolerance, few_tolerances(1))]
+   end subroutine list_ways
+
+   !> A case that is to be computed in some way.
+   pure function apply_way(way, case) result(variant)
+      !> The way
+      type(way_t), intent(in) :: way
+      !> The case
+      type(case_t), intent(in) :: case
+      !> The case, with other numerics or another film
+      type(case_t) :: variant
+
+      variant = case
+      select case (way%dial)
+      case (dial_accuracy)
+         variant%numerics%method = way%name
+         variant%numerics%tolerance = 0.0_wp
+         variant%numerics%accuracy = way%setting
+      case (dial_tolerance)
+         variant%numerics%method = way%name
+         variant%numerics%tolerance = way%setting
+      case (dial_step)
+         variant%numerics%method = way%name
+         variant%numerics%step = way%setting*degree
+      case (dial_film)
+         if (.not. allocated(variant%ehl)) allocate (variant%ehl)
+         variant%ehl%accuracy = way%setting
+      case (dial_none)
+         if (allocated(variant%ehl)) deallocate (variant%ehl)
+      end select
+   end function apply_way
+
+   !> The numerical film: as a law over the accuracy of its table, and solved over the cycle over nodes, beside the film law.
+   subroutine study_film(table, position, case, repeats, is_quick, error)
+      !> Table to extend
+      type(study_table_t), intent(inout) :: table
+      !> Number of the case, from 1
+      integer, intent(in) :: position
+      !> The case
+      type(case_t), intent(in) :: case
+      !> Trials whose median time counts
+      integer, intent(in) :: repeats
+      !> A few trials only?
+      logical, intent(in) :: is_quick
+      !> Why there is no reference
+      type(error_t), allocatable, intent(out) :: error
+
+      type(case_t) :: follower
+      type(trial_t) :: reference, trial
+      type(way_t) :: law
+      type(error_t), allocatable :: failure
       integer :: i
 
-      call make_ladder(rungs, is_quick)
-      trial = case
-      do i = 1, size(rungs)
-         trial%numerics = numerics_of(rungs(i), case%numerics)
-         call run_probe(trial, repeats, probe)
-         call add_trial(table, position, rungs(i), reference, probe)
-      end do
-   end subroutine study_methods
+      follower = case
+      if (allocated(follower%cam_bearings)) deallocate (follower%cam_bearings)
+      if (.not. allocated(follower%ehl)) allocate (follower%ehl)
+      follower%ehl%profiles = .false.
+      law = way_t(case%film%law, dial_none, no_number())
 
-   !> Row of a trial.
-   subroutine add_trial(table, position, rung, reference, probe)
-      !> Table of methods
-      type(study_table_t), intent(inout) :: table
-      !> Number of the case, from 1; the table counts from 0
-      integer, intent(in) :: position
-      !> How it was integrated
-      type(rung_t), intent(in) :: rung
-      !> What counts as right
-      type(reference_t), intent(in) :: reference
-      !> What came of it
-      type(probe_t), intent(in) :: probe
-
-      type(errors_t) :: errors
-      ! Numbers of the row [unit of the column]; not a number [-]
-      real(wp) :: numbers(size(table%number_columns)), nothing
-      character(len=max(len(rung%method), len(probe%message))) :: words(2)
-
-      nothing = ieee_value(1.0_wp, ieee_quiet_nan)
-      words(1) = rung%method
-      words(2) = probe%message
-      numbers = nothing
-      numbers(1:2) = [real(position - 1, wp), real(probe%status, wp)]
-      if (rung%tolerance > 0.0_wp) numbers(3) = rung%tolerance
-      if (rung%step > 0.0_wp) numbers(4) = rung%step/degree
-      associate (values => numbers(5 + loss_count:))
-         if (rung%step > 0.0_wp) values(5) = rung%step*reference%fastest_decay
-         if (probe%status == 0) then
-            errors = errors_against(reference%probe, probe)
-            numbers(5) = max(errors%sliding_speed, smallest_error)
-            numbers(6:5 + loss_count) = merge(max(errors%losses, smallest_error), nothing, probe%has_loss)
-            values(2:4) = [max(errors%film_min, smallest_error), probe%estimated_error, &
-               & total_variation(probe%slip_ratio)/max(reference%variation, tiny(1.0_wp))]
-            associate (counters => probe%counters)
-               values(6:) = [real(counters%evaluations, wp), real(counters%jacobians, wp), real(counters%accepted, wp), &
-                  & real(counters%rejected, wp), real(probe%cycles, wp), probe%time, probe%series_time]
+      call run_trial(apply_way(way_t("", dial_film, film_reference), follower), 1, reference)
+      call raise_failure(reference, "numerical film", error)
+      call add_reference(table, position, "numerical film", reference, no_number(), error)
+      if (.not. allocated(error)) then
+         call run_trial(apply_way(law, follower), repeats, trial)
+         call add_trial(table, position, law, reference, trial)
+         do i = 1, merge(quick_trials, size(film_accuracies), is_quick)
+            associate (way => way_t("numerical film", dial_film, film_accuracies(i)))
+               call run_trial(apply_way(way, follower), repeats, trial)
+               call add_trial(table, position, way, reference, trial)
             end associate
-         end if
-      end associate
-      call add_row(table, words, numbers)
+         end do
+      end if
+
+      call solve_trial(follower, merge(quick_nodes, reference_nodes, is_quick), reference_step_error, 1, reference)
+      call raise_failure(reference, "film solved over the cycle", failure)
+      call add_reference(table, position, "solved over cycle", reference, no_number(), failure)
+      if (allocated(failure)) then
+         if (.not. allocated(error)) call move_alloc(failure, error)
+         return
+      end if
+      do i = 1, merge(quick_trials, size(nodes), is_quick)
+         call solve_trial(follower, nodes(i), step_error, repeats, trial)
+         call add_trial(table, position, way_t("solved over cycle", dial_nodes, real(nodes(i), wp)), reference, trial)
+      end do
+      call run_trial(follower, repeats, trial)
+      call add_trial(table, position, way_t("steady film", dial_film, follower%ehl%accuracy), reference, trial)
+   end subroutine study_film
+
+   !> Add what counts as right, or why nothing does.
+   subroutine add_reference(table, position, name, reference, disagreement, error)
+      !> Table to extend
+      type(study_table_t), intent(inout) :: table
+      !> Number of the case, from 1
+      integer, intent(in) :: position
+      !> Name of the reference
+      character(len=*), intent(in) :: name
+      !> What counts as right
+      type(trial_t), intent(in) :: reference
+      !> What two methods differ by; not a number where there is one [-]
+      real(wp), intent(in) :: disagreement
+      !> Why there is no reference, if there is none
+      type(error_t), allocatable, intent(in) :: error
+
+      character(len=:), allocatable :: words(:)
+
+      if (allocated(error)) then
+         words = [character(len=max(len(error%message), name_length)) :: name, dial_reference, error%message]
+         call add_row(table, words, [real(position - 1, wp), real(error%kind, wp), spread(no_number(), 1, 8)])
+      else
+         words = [character(len=name_length) :: name, dial_reference, ""]
+         call add_row(table, words, [real(position - 1, wp), 0.0_wp, no_number(), disagreement, spread(no_number(), 1, 2), &
+            & reference%estimated_error, reference%evaluations, reference%steps, reference%time])
+      end if
+   end subroutine add_reference
+
+   !> Add a trial with its errors.
+   subroutine add_trial(table, position, way, reference, trial)
+      !> Table to extend
+      type(study_table_t), intent(inout) :: table
+      !> Number of the case, from 1
+      integer, intent(in) :: position
+      !> The way
+      type(way_t), intent(in) :: way
+      !> What counts as right
+      type(trial_t), intent(in) :: reference
+      !> What came of the trial
+      type(trial_t), intent(in) :: trial
+
+      character(len=:), allocatable :: words(:)
+
+      words = [character(len=max(len(trial%message), name_length)) :: way%name, way%dial, trial%message]
+      if (trial%status /= 0) then
+         call add_row(table, words, [real(position - 1, wp), real(trial%status, wp), way%setting, spread(no_number(), 1, 7)])
+      else
+         call add_row(table, words, [real(position - 1, wp), 0.0_wp, way%setting, &
+            & max(errors_against(reference, trial), smallest_error), trial%estimated_error, trial%evaluations, trial%steps, &
+            & trial%time])
+      end if
    end subroutine add_trial
 
 end module camroller_study

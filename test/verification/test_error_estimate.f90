@@ -9,8 +9,7 @@ module test_error_estimate
    use camroller_result, only : result_t, get_series, get_summary
    use camroller_run, only : run_case
    use camroller_error_estimate, only : estimate_t, add_defect, end_interval, estimated_error
-   use camroller_study_errors, only : largest_deviation
-   use camroller_study_probe, only : probe_t, run_probe
+   use camroller_study_trial, only : trial_t, errors_against, largest_deviation, run_trial
    use reference_cases, only : thesis_case, source_case, skewed_case, set_point, point_speeds, point_viscosities
    implicit none
    private
@@ -110,9 +109,9 @@ contains
       type(error_type), allocatable, intent(out) :: error
       character(len=16), parameter :: methods(*) = [character(len=16) :: "rodas5p", "radau5", "hermite", "dormand_prince"]
       type(case_t) :: cases(4)
-      type(probe_t) :: reference, probe
+      type(trial_t) :: reference, trial
       ! Error found, sum of the logarithms of the estimate over it [-]
-      real(wp) :: true_error, logarithms
+      real(wp) :: true_error, logarithms, errors(3)
       character(len=120) :: words
       integer :: i, method, power
 
@@ -126,19 +125,20 @@ contains
          cases(i)%numerics%method = "rodas5p"
          cases(i)%numerics%tolerance = 1.0e-10_wp
          cases(i)%numerics%output_step = 0.05_wp*degree
-         call run_probe(cases(i), 1, reference)
+         call run_trial(cases(i), 1, reference)
          do method = 1, size(methods)
             do power = 3, 6
                cases(i)%numerics%method = methods(method)
                cases(i)%numerics%tolerance = 10.0_wp**(-power)
-               call run_probe(cases(i), 1, probe)
-               true_error = largest_deviation(probe%sliding_speed, reference%sliding_speed)
+               call run_trial(cases(i), 1, trial)
+               errors = errors_against(reference, trial)
+               true_error = errors(1)
                write (words, "(a, i2, 1x, a, 3es10.2)") "case", i, methods(method), cases(i)%numerics%tolerance, true_error, &
-                  & probe%estimated_error
+                  & trial%estimated_error
                ! Above the true error; the reference itself is good to 1e-9
-               call check(error, true_error <= probe%estimated_error + 1.0e-9_wp, words)
+               call check(error, true_error <= trial%estimated_error + 1.0e-9_wp, words)
                if (allocated(error)) return
-               logarithms = logarithms + log(probe%estimated_error/true_error)
+               logarithms = logarithms + log(trial%estimated_error/true_error)
             end do
          end do
       end do

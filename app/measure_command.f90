@@ -1,0 +1,154 @@
+!> The commands `study` and `audit`: every case of a deck measured, into one table on the screen and in a file.
+!>
+!> Layer: app. In: the command line. Out: the table. A case that cannot be measured is recorded and does not end the others; the
+!> program still ends with its kind of error.
+module camroller_measure_command
+   use camroller_error, only : error_t, add_context
+   use camroller_audit, only : new_audit_table, audit_case
+   use camroller_audit_page, only : audit_page
+   use camroller_case, only : case_t
+   use camroller_cli, only : config_t
+   use camroller_deck, only : deck_t, read_deck, make_sweep_case
+   use camroller_deck_sweep, only : sweep_size, case_in_words
+   use camroller_number_text, only : counted
+   use camroller_output, only : output_t, output_options_t, open_output, abandon_output
+   use camroller_progress, only : progress_t, start_progress, show_progress, end_progress, seconds_since
+   use camroller_run_command, only : check_cases, find_place
+   use camroller_run_facts, only : write_facts
+   use camroller_streams, only : print_lines
+   use camroller_study, only : new_study_table, study_case, study_film
+   use camroller_study_file, only : write_study, close_study
+   use camroller_study_page, only : study_page
+   use camroller_study_table, only : study_table_t, column_of
+   implicit none
+   private
+
+   public :: study_deck, audit_deck
+
+   !> What can be measured, and what its table holds
+   integer, parameter :: of_accuracy = 1, of_film = 2, of_effects = 3
+   character(len=*), parameter :: endings(*) = [character(len=14) :: "_study.h5", "_film_study.h5", "_audit.h5"]
+   character(len=*), parameter :: names(*) = [character(len=5) :: "study", "study", "audit"]
+   character(len=*), parameter :: titles(*) = [character(len=48) :: "errors, work and time of every method", &
+      & "errors, work and time of numerical films", "what each effect is worth and costs"]
+
+contains
+
+   !> What accuracy costs: of the integration, or of the numerical film.
+   subroutine study_deck(config, error)
+      !> What to do
+      type(config_t), intent(in) :: config
+      !> What went wrong; the first case without a reference where there are several
+      type(error_t), allocatable, intent(out) :: error
+
+      call measure_deck(config, merge(of_film, of_accuracy, config%is_film), error)
+   end subroutine study_deck
+
+   !> What each effect is worth and costs.
+   subroutine audit_deck(config, error)
+      !> What to do
+      type(config_t), intent(in) :: config
+      !> What went wrong; the first failure where there are several
+      type(error_t), allocatable, intent(out) :: error
+
+      call measure_deck(config, of_effects, error)
+   end subroutine audit_deck
+
+   !> Measure every case of a deck.
+   subroutine measure_deck(config, what, error)
+      !> What to do
+      type(config_t), intent(in) :: config
+      !> What is measured
+      integer, intent(in) :: what
+      !> What went wrong; the first failure where there are several
+      type(error_t), allocatable, intent(out) :: error
+
+      type(deck_t) :: deck
+      type(output_t) :: writer
+      type(progress_t) :: progress
+      type(study_table_t) :: table
+      type(error_t), allocatable :: failure
+      character(len=:), allocatable :: path
+
+      call read_deck(deck, config%subject, config%overrides, error)
+      if (.not. allocated(error)) call check_cases(deck, error)
+      if (allocated(error)) return
+      call find_place(config, deck, trim(endings(what)), path, error)
+      if (allocated(error)) return
+      call start_progress(progress, config%is_quiet)
+      call open_output(writer, path, sweep_size(deck%sweep), output_options_t(), error)
+      if (.not. allocated(error)) call write_facts(writer, deck, error)
+      if (allocated(error)) return
+      call measure_cases(deck, config, what, progress, table, failure)
+      call end_progress(progress)
+      if (.not. any(column_of(table, "status") <= 0.0)) then
+         call abandon_output(writer)
+         call move_alloc(failure, error)
+         return
+      end if
+      call write_study(writer, trim(names(what)), trim(titles(what)), table, error)
+      if (.not. allocated(error)) call close_study(writer, error)
+      if (allocated(error)) return
+      if (.not. config%is_quiet) call print_lines(page_of(table, what)//new_line("a")//path//": "// &
+         & counted(sweep_size(deck%sweep), "case")//" in "//seconds_since(progress), error)
+      if (allocated(failure) .and. .not. allocated(error)) call move_alloc(failure, error)
+   end subroutine measure_deck
+
+   !> Measure every case.
+   subroutine measure_cases(deck, config, what, progress, table, failure)
+      !> The deck
+      type(deck_t), intent(in) :: deck
+      !> What to do
+      type(config_t), intent(in) :: config
+      !> What is measured
+      integer, intent(in) :: what
+      !> How far the command is
+      type(progress_t), intent(inout) :: progress
+      !> The table
+      type(study_table_t), intent(out) :: table
+      !> The first failure
+      type(error_t), allocatable, intent(out) :: failure
+
+      type(case_t) :: case
+      type(error_t), allocatable :: error
+      integer :: i
+
+      if (what == of_effects) call new_audit_table(table)
+      if (what /= of_effects) call new_study_table(table)
+      do i = 1, sweep_size(deck%sweep)
+         call make_sweep_case(deck, i, case, error)
+         if (.not. allocated(error)) then
+            select case (what)
+            case (of_accuracy)
+               call study_case(table, i, case, config%repeats, config%is_quick, error)
+            case (of_film)
+               call study_film(table, i, case, config%repeats, config%is_quick, error)
+            case default
+               call audit_case(table, i, case, config%repeats, .true., error)
+            end select
+         end if
+         if (allocated(error)) then
+            if (size(deck%sweep%axes) > 0) call add_context(error, case_in_words(deck%sweep, i))
+            if (.not. allocated(failure)) call move_alloc(error, failure)
+         end if
+         call show_progress(progress, i, sweep_size(deck%sweep))
+      end do
+   end subroutine measure_cases
+
+   !> The table for the screen.
+   function page_of(table, what) result(text)
+      !> The table
+      type(study_table_t), intent(in) :: table
+      !> What was measured
+      integer, intent(in) :: what
+      !> Lines with a heading
+      character(len=:), allocatable :: text
+
+      if (what == of_effects) then
+         text = audit_page(table)
+      else
+         text = study_page(table)
+      end if
+   end function page_of
+
+end module camroller_measure_command
