@@ -1,6 +1,7 @@
 !> The table of a study in a result file.
 !>
-!> Layer: io. In: an open result file, a table. Out: `/study/<table>` with one dataset for each column; all share the dimension `row`.
+!> Layer: io. In: an open result file, a table. Out: `/study/<table>` with one dataset for each column; all share the dimension
+!> `row`.
 module camroller_study_file
    use camroller_kinds, only : wp
    use camroller_error, only : error_t

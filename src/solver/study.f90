@@ -35,7 +35,7 @@ module camroller_study
 
    !> Methods of the reference and their tolerances [-]; periodicity of both [-]
    character(len=*), parameter :: reference_methods(2) = [character(len=name_length) :: "rodas5p", "dormand_prince"]
-   real(wp), parameter :: reference_tolerances(2) = [1.0e-11_wp, 1.0e-13_wp], reference_periodicity = 1.0e-10_wp
+   real(wp), parameter :: reference_tolerances(2) = [1.0e-11_wp, 1.0e-13_wp], reference_periodicity = 1.0e-10_wp ! [-]
    !> Part of the smallest error shown by which the two may differ [-]
    real(wp), parameter :: agreement = 0.1_wp
    !> Accuracies asked for, tolerances, fixed steps [deg]; those of a quick study
@@ -47,7 +47,7 @@ module camroller_study
    real(wp), parameter :: film_accuracies(*) = [1.0e-1_wp, 3.0e-2_wp, 1.0e-2_wp, 3.0e-3_wp], film_reference = 1.0e-3_wp
    !> Nodes of contacts solved over the cycle, those of the reference; errors of a step of both [-]
    integer, parameter :: nodes(*) = [33, 65, 129], reference_nodes = 257
-   real(wp), parameter :: step_error = 1.0e-3_wp, reference_step_error = 3.0e-4_wp
+   real(wp), parameter :: step_error = 1.0e-3_wp, reference_step_error = 3.0e-4_wp ! [-]
    !> Trials of a quick study of films, its nodes of the reference
    integer, parameter :: quick_trials = 2, quick_nodes = 129
 

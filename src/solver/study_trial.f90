@@ -172,7 +172,7 @@ contains
       end do
    end function at_angles
 
-   !> Errors of a trial: of the sliding speed, relative to its largest value, of mean friction and smallest film, relative to theirs.
+   !> Errors of a trial: of the sliding speed relative to its largest value, of mean friction and smallest film relative to theirs.
    pure function errors_against(reference, trial) result(errors)
       !> What counts as right
       type(trial_t), intent(in) :: reference
