@@ -3,7 +3,7 @@
 !> Layer: app. In: the arguments of the program. Out: what to do, or a usage error.
 module camroller_cli
    use camroller_error, only : error_t, raise, kind_usage
-   use camroller_deck, only : override_t
+   use camroller_deck, only : override_t, add_override
    use camroller_mistakes, only : line_t, nearest_name
    use camroller_names, only : list_names, index_of_name
    use camroller_number_text, only : integer_text
@@ -205,7 +205,7 @@ contains
          config%output = value
          if (value == "") call raise(error, kind_usage, "option '--output' needs the name of a file"//see(config))
       case ("--set")
-         config%overrides = [config%overrides, override_t(value)]
+         call add_override(config%overrides, value)
       case ("--case")
          call read_whole_number(option, value, "the number of a case, from 0", see(config), 0, huge(1), config%case_number, error)
       case ("--repeats")

@@ -6,7 +6,7 @@ module camroller_commands
    use camroller_blas_threads, only : use_one_blas_thread
    use camroller_case, only : case_t
    use camroller_cli, only : config_t, command_names, get_arguments, read_arguments
-   use camroller_deck, only : deck_t, read_deck, make_sweep_case
+   use camroller_deck, only : deck_t, read_deck, make_sweep_case, add_places
    use camroller_deck_document, only : write_defaults, write_page, write_resolved
    use camroller_deck_schema, only : group_effect
    use camroller_deck_sweep, only : axis_size, case_in_words, sweep_size
@@ -194,6 +194,7 @@ contains
          if (allocated(error)) return
          call build_models(case, models, error)
          if (size(deck%sweep%axes) > 0) call add_context(error, case_in_words(deck%sweep, number))
+         call add_places(deck, error)
          if (allocated(error)) return
       end do
       text = "! "//config%subject//" is valid: "//cases_in_words(deck)

@@ -9,7 +9,7 @@ module camroller_rerun_command
    use camroller_case_runs, only : runs_t
    use camroller_cli, only : config_t
    use camroller_comparison_sink, only : comparison_sink_t
-   use camroller_deck, only : deck_t, override_t, parse_deck
+   use camroller_deck, only : deck_t, override_t, add_override, parse_deck
    use camroller_deck_sweep, only : sweep_size
    use camroller_deck_tables, only : deck_tables_t
    use camroller_ehl_rerun, only : is_ehl_file, rerun_contacts
@@ -156,10 +156,10 @@ contains
          do i = 1, extents(1)
             call read_text(file, "/deck/overrides", [i - 1], text, error)
             if (allocated(error)) return
-            overrides = [overrides, override_t(text)]
+            call add_override(overrides, text)
          end do
       end if
-      if (has_member(file, "/deck/values/sweep.table")) overrides = [overrides, override_t("sweep.table="//path)]
+      if (has_member(file, "/deck/values/sweep.table")) call add_override(overrides, "sweep.table="//path)
    end subroutine read_overrides
 
    !> A table of the deck, where the file has it.

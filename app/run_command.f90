@@ -12,7 +12,7 @@ module camroller_run_command
    use camroller_run, only : run_next_case
    use camroller_kept_models, only : kept_models_t
    use camroller_cli, only : config_t
-   use camroller_deck, only : deck_t, read_deck, make_sweep_case
+   use camroller_deck, only : deck_t, read_deck, make_sweep_case, add_places
    use camroller_deck_files, only : list_deck_files
    use camroller_deck_sweep, only : sweep_size, case_in_words
    use camroller_earlier_result, only : failures_in_words
@@ -75,6 +75,7 @@ contains
       if (tally%failed == cases) then
          call abandon_output(writer)
          call move_alloc(tally%failure, error)
+         call add_places(deck, error)
          return
       end if
       call close_output(writer, error)
@@ -83,6 +84,7 @@ contains
       if (allocated(error) .or. tally%failed == 0) return
       call move_alloc(tally%failure, error)
       error%message = failures_in_words(tally%failed, cases, error%message)
+      call add_places(deck, error)
    end subroutine run_deck
 
    !> Say which values given beside the deck are not used, since the sweep varies their keys.

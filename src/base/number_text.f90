@@ -9,7 +9,8 @@ module camroller_number_text
    implicit none
    private
 
-   public :: number_text, fixed_text, scientific_text, integer_text, hexadecimal_text, right_text, counted, agreeing
+   public :: number_text, fixed_text, scientific_text, millimetres_text, integer_text, hexadecimal_text, right_text
+   public :: counted, agreeing
    public :: write_number, number_length
    public :: is_number, is_beyond_range
 
@@ -126,6 +127,16 @@ contains
       call write_plain(value, digits, digits, buffer, length)
       text = buffer
    end function rounded_text
+
+   !> A length as decks have it, for messages.
+   pure function millimetres_text(length) result(text)
+      !> The length [m]
+      real(wp), intent(in) :: length
+      !> Five digits of it in mm
+      character(len=rounded_length(1.0e3_wp*length, 5)) :: text
+
+      text = rounded_text(1.0e3_wp*length, 5)
+   end function millimetres_text
 
    !> A number with so many digits after the point; with an exponent where it is too large for that.
    pure function fixed_text(value, decimals) result(text)

@@ -7,13 +7,13 @@ module camroller_deck
    use camroller_error, only : error_t, raise, add_context, kind_usage
    use camroller_case, only : case_t
    use camroller_number_text, only : integer_text
-   use camroller_mistakes, only : mistakes_t, raise_mistakes
+   use camroller_mistakes, only : mistakes_t, raise_mistakes, override_place
    use camroller_text_file, only : read_text_file, folder_of
    use camroller_deck_text, only : deck_text_t, read_shape
    use camroller_deck_schema, only : schema_t
    use camroller_deck_keys, only : new_schema
    use camroller_settings, only : settings_t
-   use camroller_deck_matching, only : override_t, new_settings, match_deck, apply_override, demand_required, &
+   use camroller_deck_matching, only : override_t, add_override, new_settings, match_deck, apply_override, demand_required, &
       & fill_dependent_defaults
    use camroller_deck_relations, only : check_relations
    use camroller_deck_tables, only : deck_tables_t, obtain_tables
@@ -23,7 +23,7 @@ module camroller_deck
    implicit none
    private
 
-   public :: deck_t, override_t, read_deck, parse_deck, make_case, make_sweep_case
+   public :: deck_t, override_t, add_override, read_deck, parse_deck, make_case, make_sweep_case, add_places
 
    !> A deck without mistakes
    type :: deck_t
@@ -173,5 +173,65 @@ contains
       call make_case(deck, overrides, case, error)
       if (size(overrides) > 0) call add_context(error, case_in_words(deck%sweep, case_number))
    end subroutine make_sweep_case
+
+   !> Add to an error the places of the keys that it names, as `group.key`: where the deck gives them.
+   subroutine add_places(deck, error)
+      !> The deck
+      type(deck_t), intent(in) :: deck
+      !> An error on its way up; left alone where not allocated
+      type(error_t), allocatable, intent(inout) :: error
+
+      character(len=:), allocatable :: name, places
+      integer :: i
+
+      if (.not. allocated(error)) return
+      places = ""
+      do i = 1, deck%schema%key_count
+         associate (key => deck%schema%keys(i), value => deck%settings%values(i))
+            name = trim(deck%schema%groups(key%group)%name)//"."//trim(key%name)
+            if (.not. names_key(error%message, name) .or. is_swept(deck%sweep, name)) cycle
+            if (allocated(value%source)) then
+               places = places//new_line("a")//override_place//": "//value%source
+            else if (value%line > 0) then
+               places = places//new_line("a")//deck%name//":"//integer_text(value%line)//": "//name//" = "//value%text
+            end if
+         end associate
+      end do
+      error%message = error%message//places
+   end subroutine add_places
+
+   !> Does a sentence name a key, and not one whose name only begins alike?
+   pure function names_key(sentence, name) result(verdict)
+      !> The sentence
+      character(len=*), intent(in) :: sentence
+      !> As `group.key`
+      character(len=*), intent(in) :: name
+      !> Does it?
+      logical :: verdict
+
+      integer :: place, behind
+
+      place = index(sentence, name)
+      verdict = place > 0
+      behind = place + len(name)
+      if (verdict .and. behind <= len(sentence)) verdict = scan(sentence(behind:behind), "_=") == 0
+   end function names_key
+
+   !> Does a key vary?
+   pure function is_swept(sweep, name) result(verdict)
+      !> The sweep
+      type(sweep_t), intent(in) :: sweep
+      !> As `group.key`
+      character(len=*), intent(in) :: name
+      !> Does it?
+      logical :: verdict
+
+      integer :: i
+
+      verdict = .false.
+      do i = 1, size(sweep%axes)
+         verdict = verdict .or. sweep%axes(i)%key == name
+      end do
+   end function is_swept
 
 end module camroller_deck

@@ -143,8 +143,9 @@ contains
          & "cam angle from the start of lift to full lift; every law but 'table'", example="70", is_optional=.true.)
       call add_number(schema, "closing_half_angle_deg", up_to(180.0_wp), &
          & "cam angle from full lift to the end of lift; as opening_half_angle_deg where not given", is_optional=.true.)
-      call add_integers(schema, "exponents", one_or_more, &
-         & "'power': n of (1 - x^2)^n, 3 or more; 'polydyne': four exponents of x, increasing", example="4", &
+      call add_integers(schema, "exponents", from_to(1.0_wp, real(largest_exponent, wp)), &
+         & "'power': n of (1 - x^2)^n, 3 or more; 'polydyne': four exponents of x, increasing; with more than 200 the lift "// &
+         & "would bend within less than a 200th of the half angle, to which no cam is ground", example="4", &
          & is_optional=.true.)
       call add_text(schema, "table", "law 'table': file with two columns, cam angle in degrees and lift; "// &
          & "its path starts at the deck's folder", is_optional=.true.)

@@ -15,7 +15,7 @@ module camroller_deck_matching
    implicit none
    private
 
-   public :: override_t, new_settings, match_deck, apply_override, find_override, demand_required, &
+   public :: override_t, add_override, new_settings, match_deck, apply_override, find_override, demand_required, &
       & fill_dependent_defaults
 
    !> A value given beside the deck
@@ -25,6 +25,19 @@ module camroller_deck_matching
    end type override_t
 
 contains
+
+   !> Lengthen a list of values given beside the deck. A constructor within a list would leak its text with gfortran.
+   pure subroutine add_override(overrides, text)
+      !> The list
+      type(override_t), allocatable, intent(inout) :: overrides(:)
+      !> As `group.key=value`
+      character(len=*), intent(in) :: text
+
+      type(override_t) :: new
+
+      new%text = text
+      overrides = [overrides, new]
+   end subroutine add_override
 
    !> Settings with the defaults of all keys.
    subroutine new_settings(schema, settings)

@@ -8,9 +8,10 @@
 !> D = CO; gamma angle between CO and the pad arm, s = gamma + lambda angle OCR; a dash is d/d(cam angle).
 !> Tangential speeds and the roller's spin count positive in the sense of normal rolling, for either sense of rotation.
 module camroller_kinematics
-   use camroller_kinds, only : wp
+   use camroller_kinds, only : wp, degree
    use camroller_error, only : error_t, raise, kind_domain
    use camroller_names, only : name_length, find_name
+   use camroller_number_text, only : number_text, in_mm => millimetres_text
    implicit none
    private
 
@@ -159,15 +160,20 @@ contains
       arm_cosine = (linkage%a**2 + linkage%d**2 - (mechanism%base_radius + mechanism%roller_radius)**2) &
          & /(2.0_wp*linkage%a*linkage%d)
       if (abs(arm_cosine) >= 1.0_wp) then
-         call raise(error, kind_domain, "mechanism: no closed triangle of pivot_to_roller, pivot_to_cam and "// &
-            "base_radius + roller radius on the base circle")
+         call raise(error, kind_domain, "no closed triangle on the base circle: mechanism.pivot_to_roller_mm = "// &
+            & in_mm(linkage%a)//", mechanism.pivot_to_cam_mm = "//in_mm(linkage%d)//" and mechanism.base_radius_mm + "// &
+            & "roller.radius_mm = "//in_mm(mechanism%base_radius)//" + "//in_mm(mechanism%roller_radius)// &
+            & "; each must be less than the sum of both others")
          return
       end if
       linkage%base_angle = acos(arm_cosine) - mechanism%roller_arm_angle
       pad_angle = linkage%base_angle + mechanism%valve_axis_angle
       if (sin(pad_angle) <= 0.0_wp) then
-         call raise(error, kind_domain, "mechanism: on the base circle the valve pad stands on the wrong side of the "// &
-            "valve's axis (sine of gamma_B + chi is not positive)")
+         call raise(error, kind_domain, "on the base circle the valve pad stands on the wrong side of the valve's axis: the "// &
+            & "triangle's angle at the pivot, "//number_text(acos(arm_cosine)/degree, 6)// &
+            & " deg, less mechanism.roller_arm_angle_deg = "//number_text(mechanism%roller_arm_angle/degree, 6)// &
+            & ", plus mechanism.valve_axis_angle_deg = "//number_text(mechanism%valve_axis_angle/degree, 6)// &
+            & " must be between 0 and 180 deg")
          return
       end if
       linkage%base_cosine = cos(pad_angle)

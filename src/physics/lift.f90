@@ -15,7 +15,7 @@ module camroller_lift
    private
 
    public :: lift_t, lift_law_t, lift_law_names
-   public :: new_lift_law, evaluate_lift, is_at_rest, stop_angles
+   public :: new_lift_law, evaluate_lift, is_at_rest, stop_angles, finest_bend, largest_exponent
 
    !> Lift laws that can be chosen by name
    character(len=*), parameter :: lift_law_names(*) = [character(len=name_length) :: &
@@ -25,6 +25,8 @@ module camroller_lift
 
    !> Smallest exponent of `power` with a continuous curvature at the ends of the event
    integer, parameter :: min_power = 3
+   !> Largest exponent: with it the lift bends within a 200th of the half angle, a third of a degree, which no cam is ground to
+   integer, parameter :: largest_exponent = 200
    !> Exponents of `polydyne` beside the constant and the square
    integer, parameter :: n_polydyne = 4
    !> Difference of the half angles that counts as none [rad]
@@ -179,6 +181,25 @@ contains
       angles = law%stops
    end function stop_angles
 
+   !> Shortest angle over which the lift bends: in it the largest derivatives change by a part of themselves.
+   pure function finest_bend(law) result(angle)
+      !> The law
+      type(lift_law_t), intent(in) :: law
+      !> The angle; large where the ends of the event and a scan of it say as much [rad]
+      real(wp) :: angle
+
+      select case (law%law)
+      case (law_power)
+         ! Near the nose the law is exp(-n y^2)
+         angle = minval(law%half_angle)/sqrt(2.0_wp*law%exponents(0))
+      case (law_polydyne)
+         ! Near the end of the event the last term is exp(-s (1 - y))
+         angle = minval(law%half_angle)/law%exponents(n_polydyne + 1)
+      case default
+         angle = two_pi
+      end select
+   end function finest_bend
+
    !> `(1 - y^2)^n`.
    pure subroutine power_shape(n, y, f)
       !> Exponent, at least 3
@@ -330,6 +351,8 @@ contains
       !> What is wrong
       type(error_t), allocatable, intent(out) :: error
 
+      character(len=*), parameter :: too_large = "an exponent of a lift law is at most 200: with a larger one the lift bends "// &
+         & "within less than a 200th of the half angle"
       integer :: i, j
       integer, allocatable :: given(:)
 
@@ -341,6 +364,8 @@ contains
          else if (given(1) < min_power) then
             call raise(error, kind_deck, "exponent of lift law 'power' must be at least 3, "// &
                "or the acceleration would jump at the ends of the event")
+         else if (given(1) > largest_exponent) then
+            call raise(error, kind_deck, too_large)
          else
             law%exponents(0) = given(1)
          end if
@@ -348,6 +373,10 @@ contains
       end if
       if (size(given) /= n_polydyne) then
          call raise(error, kind_deck, "lift law 'polydyne' needs four exponents")
+         return
+      end if
+      if (any(given > largest_exponent)) then
+         call raise(error, kind_deck, too_large)
          return
       end if
       law%exponents = [0, 2, given]

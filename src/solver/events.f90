@@ -6,11 +6,12 @@ module camroller_events
    use camroller_kinds, only : wp, pi, two_pi, degree
    use camroller_error, only : error_t, raise, kind_domain
    use camroller_model, only : model_t
-   use camroller_lift, only : is_at_rest
+   use camroller_lift, only : is_at_rest, finest_bend
    use camroller_kinematics, only : position_t
    use camroller_dynamics, only : moments_t
-   use camroller_number_text, only : fixed_text
+   use camroller_number_text, only : fixed_text, in_mm => millimetres_text
    use camroller_state, only : evaluate_loading
+   use camroller_extremum, only : extremum_t, start_extremum, narrow_extremum
    use camroller_roots, only : bracket_t, start_bracket, narrow_bracket, root_wanted
    implicit none
    private
@@ -21,6 +22,10 @@ module camroller_events
    real(wp), parameter :: longest_step = 0.25_wp*degree
    !> Least number of steps of a scan, shared out evenly between the pieces of the lift: an event may be shorter than a step
    integer, parameter :: least_steps = 256
+   !> Steps of a scan in the shortest angle over which a lift bends [-]
+   real(wp), parameter :: steps_of_bend = 4.0_wp
+   !> Part of the bend that a path may have from which on the scan is refined [-]
+   real(wp), parameter :: nearly_too_much = 0.5_wp
    !> Accuracy of an angle [rad]: a few roundings of a turn
    real(wp), parameter :: angle_tolerance = 4.0e-15_wp
 
@@ -81,14 +86,16 @@ contains
       !> Angles, increasing, with both ends [rad]
       real(wp), allocatable :: angles(:)
 
-      ! Ends of the pieces [rad]
+      ! Ends of the pieces, step [rad]
       real(wp), allocatable :: edges(:)
+      real(wp) :: step
       integer, allocatable :: steps(:)
       integer :: piece, last, i
 
+      step = min(longest_step, finest_bend(model%lift_law)/steps_of_bend)
       edges = lift_stops_between(model, start, finish)
       edges = [start, pack(edges, edges > start), finish]
-      steps = max(ceiling((edges(2:) - edges(:size(edges) - 1))/longest_step), 1 + least_steps/size(edges))
+      steps = max(ceiling((edges(2:) - edges(:size(edges) - 1))/step), 1 + least_steps/size(edges))
       allocate (angles(1 + sum(steps)))
       angles(1) = start
       last = 1
@@ -236,7 +243,8 @@ contains
       intervals = reshape(ends, [2, size(ends)/2])
    end function contact_losses
 
-   !> Refuse a cam that cannot be: lift out of reach, undercut, a hollow flank that the grinding wheel does not fit.
+   !> Refuse a cam that cannot be: lift out of reach, undercut, a hollow flank that the grinding wheel does not fit. Where the
+   !> path of the roller's centre is bent most and nearly as much as it may be, that place is looked for between the steps.
    subroutine check_geometry(model, grinding_wheel_radius, error)
       !> The model
       type(model_t), intent(in) :: model
@@ -245,34 +253,92 @@ contains
       !> Domain error that names the cam angle
       type(error_t), allocatable, intent(out) :: error
 
-      type(position_t) :: position
-      type(moments_t) :: moments
-      ! Angles of the scan, angle [rad]; gas force [N]
+      ! Angles of the scan [rad]
       real(wp), allocatable :: scan(:)
-      real(wp) :: angle, force
-      integer :: i, status
+      ! How much the path is bent at three neighbouring angles, over what it may be [-]
+      real(wp) :: bends(3)
+      integer :: i
 
       scan = scan_angles(model, -pi, pi)
+      bends = 0.0_wp
       do i = 1, size(scan)
-         angle = scan(i)
-         call evaluate_loading(model, angle, position, force, moments, status)
-         if (status /= 0) then
-            call raise(error, kind_domain, "mechanism: the finger cannot reach the lift"//trim(at_angle(angle)))
-         else if (position%normal_arm <= 0.0_wp) then
-            call raise(error, kind_domain, "mechanism: the roller passes the line from pivot to cam centre"//trim(at_angle(angle)))
-         else if (position%equivalent_radius <= 0.0_wp) then
-            call raise(error, kind_domain, "cam undercut: the pitch curve's radius of curvature is smaller than the roller"// &
-               & trim(at_angle(angle)))
-         else if (grinding_wheel_radius > 0.0_wp) then
-            ! Hollow where the pitch curvature is negative: |R_c| = -1/kappa + r_R
-            if (-position%pitch_curvature*(grinding_wheel_radius - model%roller_radius) > 1.0_wp) then
-               call raise(error, kind_domain, "hollow flank: the grinding wheel is larger than the cam's radius of curvature"// &
-                  & trim(at_angle(angle)))
-            end if
-         end if
+         bends(:2) = bends(2:)
+         call check_position(model, grinding_wheel_radius, scan(i), bends(3), error)
+         if (allocated(error)) return
+         if (i < 3 .or. bends(2) < max(nearly_too_much, bends(1), bends(3))) cycle
+         call check_summit(model, grinding_wheel_radius, scan(i - 2:i), bends, error)
          if (allocated(error)) return
       end do
    end subroutine check_geometry
+
+   !> Refuse a cam whose roller path bends too sharply at its sharpest place between two angles.
+   subroutine check_summit(model, grinding_wheel_radius, angles, bends, error)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> Radius of the grinding wheel, zero where not given [m]
+      real(wp), intent(in) :: grinding_wheel_radius
+      !> Three angles of the scan [rad]
+      real(wp), intent(in) :: angles(3)
+      !> How much the path is bent there, over what it may be, the middle one largest [-]
+      real(wp), intent(in) :: bends(3)
+      !> Domain error that names the cam angle
+      type(error_t), allocatable, intent(out) :: error
+
+      type(extremum_t) :: search
+      real(wp) :: bend ! [-]
+
+      call start_extremum(search, angles, -bends, epsilon(1.0_wp))
+      do while (search%is_wanted)
+         call check_position(model, grinding_wheel_radius, search%trial, bend, error)
+         if (allocated(error)) return
+         call narrow_extremum(search, -bend)
+      end do
+   end subroutine check_summit
+
+   !> Refuse a cam that cannot be at one angle.
+   subroutine check_position(model, grinding_wheel_radius, angle, bend, error)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> Radius of the grinding wheel, zero where not given [m]
+      real(wp), intent(in) :: grinding_wheel_radius
+      !> Cam angle from full lift [rad]
+      real(wp), intent(in) :: angle
+      !> Curvature of the path of the roller's centre over that at which it undercuts, or the wheel does not fit [-]
+      real(wp), intent(out) :: bend
+      !> Domain error that names the cam angle
+      type(error_t), allocatable, intent(out) :: error
+
+      type(position_t) :: position
+      type(moments_t) :: moments
+      ! Gas force [N]
+      real(wp) :: force
+      integer :: status
+
+      bend = 0.0_wp
+      call evaluate_loading(model, angle, position, force, moments, status)
+      if (status /= 0) then
+         call raise(error, kind_domain, "the finger cannot reach the lift of "//in_mm(position%lift)//" mm"// &
+            & trim(at_angle(angle))//"; mechanism.pivot_to_pad_mm = "//in_mm(model%linkage%b)//" is too short for it")
+         return
+      end if
+      ! Hollow where the curvature is negative: |R_c| = -1/kappa + r_R
+      bend = position%pitch_curvature*model%roller_radius
+      if (grinding_wheel_radius > 0.0_wp) bend = max(bend, -position%pitch_curvature*(grinding_wheel_radius - model%roller_radius))
+      if (position%normal_arm <= 0.0_wp) then
+         call raise(error, kind_domain, "the roller passes the line from pivot to cam centre"//trim(at_angle(angle))// &
+            & ", at a lift of "//in_mm(position%lift)//" mm, with mechanism.pivot_to_roller_mm = "//in_mm(model%linkage%a)// &
+            & " and mechanism.pivot_to_cam_mm = "//in_mm(model%linkage%d))
+      else if (position%equivalent_radius <= 0.0_wp) then
+         call raise(error, kind_domain, "cam undercut: the path of the roller's centre has a radius of curvature of "// &
+            & in_mm(1.0_wp/position%pitch_curvature)//" mm"//trim(at_angle(angle))//", smaller than roller.radius_mm = "// &
+            & in_mm(model%roller_radius)//"; a larger mechanism.base_radius_mm, a smaller roller or a longer or lower lift "// &
+            & "avoids it")
+      else if (bend > 1.0_wp) then
+         call raise(error, kind_domain, "hollow flank: the cam's radius of curvature is "// &
+            & in_mm(model%roller_radius - 1.0_wp/position%pitch_curvature)//" mm"//trim(at_angle(angle))// &
+            & ", less than the grinding wheel's, mechanism.grinding_wheel_radius_mm = "//in_mm(grinding_wheel_radius))
+      end if
+   end subroutine check_position
 
    !> Words that name a cam angle as files do: the nose at 180 deg.
    function at_angle(angle) result(text)

@@ -20,7 +20,7 @@ module camroller_model
    use camroller_ehl_table, only : ehl_t, build_film_table
    use camroller_asperity, only : asperity_law_names, law_zhao_maietta_chang, smallest_product, boundary_names, &
       & mobilisation_names, asperity_constants_t, new_asperity_constants
-   use camroller_number_text, only : number_text
+   use camroller_number_text, only : fixed_text
    use camroller_traction, only : traction_t, shear_law_names, cap_names, rolling_law_names
    use camroller_needle, only : friction_radius, roller_bearing_names
    use camroller_guide, only : guide_drag_coefficient
@@ -408,10 +408,10 @@ contains
       tip_force = model%base_circle_load*merge(closed%normal_arm, closed%parallel_arm, model%has_exact_arm)/closed%valve_arm
       model%train%closed_seat_force = model%train%stiffness*model%train%precompression - tip_force
       if (model%train%closed_seat_force <= 0.0_wp) then
-         call raise(error, kind_deck, "spring: the lash adjuster lifts the valve off its seat: base_circle_load presses the "// &
-            & "valve with "//number_text(tip_force, 6)//" N, the closed spring holds "// &
-            & number_text(model%train%stiffness*model%train%precompression, 6)//" N; lower base_circle_load, "// &
-            & "raise stiffness or precompression, or choose seating = 'maximum' with energy = 'source'")
+         call raise(error, kind_deck, "the lash adjuster lifts the valve off its seat: spring.base_circle_load_N presses the "// &
+            & "valve with "//fixed_text(tip_force, 1)//" N, the closed spring holds "// &
+            & fixed_text(model%train%stiffness*model%train%precompression, 1)//" N; lower it, raise "// &
+            & "spring.stiffness_N_m or spring.precompression_mm, or choose seating = 'maximum' with energy = 'source'")
          return
       end if
       model%train%seat_lift = 2.0_wp*model%train%closed_seat_force/case%spring%seat_stiffness
@@ -428,7 +428,6 @@ contains
 
       ! Radius of gyration about the pivot [m]
       real(wp) :: gyration
-      character(len=12) :: texts(2)
 
       gyration = sqrt(model%train%finger_inertia/case%masses%finger)
       allocate (model%pivot)
@@ -438,10 +437,9 @@ contains
       model%pivot%tilt = case%mechanism%adjuster_tilt
       model%pivot%axis_angle = case%mechanism%valve_axis_angle + case%mechanism%adjuster_tilt
       if (model%pivot%centre <= gyration) return
-      write (texts, "(f0.3)") 1.0e3_wp*model%pivot%centre, 1.0e3_wp*gyration
-      call raise(error, kind_deck, "masses: the finger's centre of mass, finger_centre of "//trim(texts(1))// &
-         & " mm, lies beyond its radius of gyration about the pivot, "//trim(texts(2))//" mm; lower finger_centre or "// &
-         & "finger_kg, or raise finger_inertia_kg_m2")
+      call raise(error, kind_deck, "the finger's centre of mass, masses.finger_centre_mm = "// &
+         & fixed_text(1.0e3_wp*model%pivot%centre, 3)//", lies beyond its radius of gyration about the pivot, "// &
+         & fixed_text(1.0e3_wp*gyration, 3)//" mm; lower it or masses.finger_kg, or raise masses.finger_inertia_kg_m2")
    end subroutine set_pivot
 
    !> Effects that the case has.

@@ -119,3 +119,55 @@ def test_mistakes_in_a_table_of_cases_name_its_lines(camroller, tmp_path):
     assert f"{table}:3: a row has 2 columns, not 1" in check(camroller, tmp_path / "deck.nml").stderr
     table.write_text("roller.mass_kg\n", encoding="utf-8")
     assert f"{table}: the table has no cases" in check(camroller, tmp_path / "deck.nml").stderr
+
+
+@pytest.mark.parametrize(("options", "words", "keys"), [
+    (["mechanism.pivot_to_cam_mm=60"], "no closed triangle on the base circle: mechanism.pivot_to_roller_mm = 20.8, "
+     "mechanism.pivot_to_cam_mm = 60 and mechanism.base_radius_mm + roller.radius_mm = 18 + 8.5",
+     ["mechanism.pivot_to_roller_mm = 20.8", "mechanism.base_radius_mm = 18", "roller.radius_mm = 8.5"]),
+    (["mechanism.valve_axis_angle_deg=-120"], "the triangle's angle at the pivot, 56.5324 deg",
+     ["mechanism.roller_arm_angle_deg = -3.5"]),
+    (["lift.max_lift_mm=30"], "smaller than roller.radius_mm = 8.5", ["mechanism.base_radius_mm = 18", "roller.radius_mm = 8.5"]),
+    (["spring.precompression_mm=0.01"], "the closed spring holds 0.2 N", ["spring.stiffness_N_m = 25000"]),
+])
+def test_an_impossible_geometry_is_told_with_values_keys_and_lines(camroller, tmp_path, options, words, keys):
+    path = ROOT / "decks/thesis.nml"
+    changes = [word for option in options for word in ("--set", option)]
+    for command in (["check", path], ["run", path, "-o", tmp_path / "x.h5"]):
+        result = subprocess.run([camroller, *map(str, command), *changes], cwd=ROOT, capture_output=True, text=True,
+                                stdin=subprocess.DEVNULL, timeout=60)
+        assert result.returncode in (DECK, 4)
+        lines = result.stderr.splitlines()
+        assert words in lines[0]
+        for key in keys:
+            number = next(int(line.split(":")[1]) for line in lines[1:] if line.startswith(f"{path}:") and line.endswith(key))
+            name, value = key.split(".", 1)[1].split(" = ")
+            assert THESIS.splitlines()[number - 1].split("!")[0].split("=")[0].strip() == name
+            assert float(THESIS.splitlines()[number - 1].split("!")[0].split("=")[1]) == float(value)
+        if options[0].split("=")[0] in result.stderr.split("; ")[0]:
+            assert f"override: {options[0]}" in lines
+
+
+def test_numbers_have_bounds_by_unit(camroller):
+    for option, words in {
+        "materials.cam_modulus_GPa=1e-310": "'cam_modulus_GPa' must be from 1e-12 to 1000000, not 1e-310",
+        "materials.cam_modulus_GPa=1e300": "'cam_modulus_GPa' must be from 1e-12 to 1000000, not 1e300",
+        "output.angle_step_deg=1e-310": "'angle_step_deg' must be from 1e-9 to 100000, not 1e-310",
+        "cam_bearings.diameter_mm=1e300": "'diameter_mm' must be from 1e-9 to 1000000, not 1e300",
+        "cam_bearings.cam_positions_mm=-1e300": "'cam_positions_mm' must be 0, or from 1e-9 to 1000000 in size, not -1e300",
+        "lift.exponents=50000": "'exponents' must be from 1 to 200, not 50000",
+    }.items():
+        result = check(camroller, ROOT / "decks/thesis.nml", "--set", option)
+        assert result.returncode == DECK
+        assert words in result.stderr
+
+
+def test_reading_a_deck_leaks_nothing(camroller):
+    """With a sweep, and a value beside the deck that is wrong, so that nothing is computed."""
+    valgrind = shutil.which("valgrind")
+    if not valgrind:
+        pytest.skip("valgrind is not there")
+    result = subprocess.run([valgrind, "--leak-check=full", "--errors-for-leak-kinds=definite", "--error-exitcode=99", "-q", camroller,
+                             "check", "decks/thesis.nml", "--set", "nothing=1"], cwd=ROOT, capture_output=True, text=True,
+                            stdin=subprocess.DEVNULL, timeout=300)
+    assert result.returncode == DECK, result.stderr

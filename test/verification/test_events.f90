@@ -27,6 +27,7 @@ contains
          new_unittest("stops of a cycle begin anywhere and keep their order", test_cycle_stops), &
          new_unittest("stops between two angles over several turns", test_stops_between), &
          new_unittest("an undercut cam is refused with its angle", test_undercut), &
+         new_unittest("a hollow narrower than a quarter of a degree is found", test_narrow_hollow), &
          new_unittest("a hollow flank refuses a large grinding wheel and takes a small one", test_wheel), &
          new_unittest("a lift out of reach is refused with its angle", test_reach), &
          new_unittest("a closed energy balance refuses what it cannot have, all at once", test_contradictions), &
@@ -155,6 +156,46 @@ contains
       if (allocated(error)) return
       call check(error, index(failure%message, " at cam angle 1") > 0 .and. index(failure%message, " deg") > 0, failure%message)
    end subroutine test_undercut
+
+   !> Laws that bend most within a small part of their event; the radius of the hollow is taken from 200 000 angles.
+   subroutine test_narrow_hollow(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: case
+      type(error_t), allocatable :: failure
+      type(model_t) :: model
+      type(position_t) :: position
+      type(moments_t) :: moments
+      ! Smallest pitch curvature [1/m]; largest wheel [m]; gas force [N]
+      real(wp) :: hollow, largest, force
+      integer :: law, i, status
+      integer, parameter :: angles = 200000
+      ! The hollow is a third of a degree wide, and two of the angles are 0.002 degrees apart: half of that squared [-]
+      real(wp), parameter :: allowed = 1.0e-4_wp
+      integer, parameter :: exponents(4, 3) = reshape([60, 100, 150, 200, 100, 140, 180, 200, 40, 80, 120, 160], [4, 3])
+
+      do law = 1, size(exponents, 2)
+         case = thesis_case()
+         case%lift%law = "polydyne"
+         case%lift%exponents = exponents(:, law)
+         case%lift%max_lift = 3.0e-3_wp
+         call make_model(case, model, error)
+         if (allocated(error)) return
+         hollow = 0.0_wp
+         do i = 0, angles - 1
+            call evaluate_loading(model, -pi + i*two_pi/angles, position, force, moments, status)
+            hollow = min(hollow, position%pitch_curvature)
+         end do
+         if (hollow >= 0.0_wp) call test_failed(error, "this geometry has no hollow flank")
+         if (allocated(error)) return
+         largest = -1.0_wp/hollow + case%mechanism%roller_radius
+         call check_geometry(model, (1.0_wp - allowed)*largest, failure)
+         call expect_success(error, failure)
+         if (allocated(error)) return
+         call check_geometry(model, (1.0_wp + allowed)*largest, failure)
+         call expect_error(error, failure, kind_domain, "grinding wheel")
+         if (allocated(error)) return
+      end do
+   end subroutine test_narrow_hollow
 
    subroutine test_wheel(error)
       type(error_type), allocatable, intent(out) :: error
