@@ -1,5 +1,5 @@
-!> Signals that ask the program to stop or that a library broke down: they end it, and files that are not finished are removed before; or they are taken note of,
-!> so that it can be asked for them where stopping does no harm.
+!> Signals that ask the program to stop or say that a library broke down: they end it, and files that are not finished are removed
+!> before; or they are taken note of, so that it can be asked for them where stopping does no harm.
 !>
 !> Layer: app. In: nothing. Out: whether somebody wants the program to end. A handler can be given nothing to write to, hence
 !> the one saved variable of the program. Holding the signals back and asking what is pending would need none, but other
@@ -78,8 +78,8 @@ contains
       kept = handlers(place)
    end function handler_before
 
-   !> End the program where a library breaks down, as the handler of signals: with words where it was reading a file, otherwise as it
-   !> would end without this handler, which is with a list of the calls that led there.
+   !> End the program where a library breaks down, as the handler of signals: with words where it was reading a file, otherwise as
+   !> it would end without this handler, which is with a list of the calls that led there.
    subroutine end_by_break(number) bind(C)
       !> Number of the signal
       integer(c_int), value :: number

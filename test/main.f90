@@ -25,6 +25,7 @@ program main
    use test_hdf5_file, only : collect_hdf5_file
    use test_output, only : collect_output
    use test_export, only : collect_export
+   use test_new_file, only : collect_new_file
    use test_deck_document, only : collect_deck_document
    use test_deck_tables, only : collect_deck_tables
    use test_number_text, only : collect_number_text
@@ -157,6 +158,7 @@ contains
          new_testsuite("hdf5_file", collect_hdf5_file), &
          new_testsuite("output", collect_output), &
          new_testsuite("export", collect_export), &
+         new_testsuite("new_file", collect_new_file), &
          new_testsuite("deck_document", collect_deck_document), &
          new_testsuite("deck_tables", collect_deck_tables), &
          new_testsuite("number_text", collect_number_text), &

@@ -54,10 +54,14 @@ def commands(file: str) -> dict[str, list[str]]:
             "rerun": ["rerun", file, "--threads", "1", "--quiet"], "check": ["check", "table.nml"]}
 
 
+def table_deck() -> str:
+    """A deck whose cases are those of a damaged file."""
+    return (ROOT / "decks/thesis.nml").read_text(encoding="utf-8").partition("&sweep")[0] + TABLE_DECK
+
+
 def make_bases(program: str, folder: pathlib.Path) -> list[Base]:
     """Run the decks; keep the files and what is exported from them."""
-    deck = "".join((ROOT / "decks/thesis.nml").read_text(encoding="utf-8").partition("&sweep")[:1])
-    (folder / "table.nml").write_text(deck + TABLE_DECK, encoding="utf-8")
+    (folder / "table.nml").write_text(table_deck(), encoding="utf-8")
     bases = []
     for name, (command, path, *options) in BASES.items():
         target = folder / f"{name}.h5"
@@ -198,7 +202,7 @@ def judge(ending: Ending, label: str, kind: str, words: str, base: Base) -> Endi
 
 
 def try_file(program: str, bases: list[Base], number: int, seed: int, folder: pathlib.Path) -> list[tuple[str, str, Ending]]:
-    """All commands on one damaged file; a second run of `check` is not needed, since it changes nothing."""
+    """All commands on one damaged file."""
     with tempfile.TemporaryDirectory(dir=folder) as place:
         here = pathlib.Path(place)
         base, kind, words = make_file(bases, number, seed, here / "damaged.h5")

@@ -61,6 +61,8 @@ def test_good_code_passes(tmp_path, capsys):
     ("      !> Half of it [m]\n      real(wp) :: answer", "      !> Half of it\n      character(len=:), allocatable :: answer", "text"),
     ("      answer =", "      print *, length\n      answer =", "print"),
     ("      answer =", "      if (length < 0) write (*, *) length\n      answer =", "print"),
+    ("      answer =", "      write (output_unit, '(a)') words\n      answer =", "output"),
+    ("module camroller_sample", "module camroller_sample\n   use, intrinsic :: iso_fortran_env, only : error_unit", "output"),
     ("      answer =", "      error stop 1\n      answer =", "stop"),
     ("      answer =", "      if (length < 0) stop\n      answer =", "stop"),
     ("      answer =", "      write (buffer, '(f0.1)') length\n      answer =", "write"),
@@ -97,13 +99,13 @@ def test_one_comment_speaks_for_declarations_that_follow_each_other(tmp_path, ca
     assert faults(tmp_path / "other", capsys, GOOD.replace(line, apart)) == ["unit"]
 
 
-def test_programs_may_print_and_stop(tmp_path, capsys):
+def test_programs_may_stop_and_print_where_it_is_noticed(tmp_path, capsys):
     text = "program main\n   implicit none\n   print *, 1\n   stop\nend program\n"
-    assert faults(tmp_path, capsys, text, "app/main.f90") == []
+    assert faults(tmp_path, capsys, text, "app/main.f90") == ["print"]
 
 
 def test_writing_to_units_is_no_write_into_a_text(tmp_path, capsys):
-    lines = "".join(f"      write ({unit}, '(a)') words\n" for unit in ("unit", "self%unit", "error_unit", "unit=output_unit"))
+    lines = "".join(f"      write ({unit}, '(a)') words\n" for unit in ("unit", "self%unit", "unit=file_unit"))
     assert faults(tmp_path, capsys, GOOD.replace("      answer =", lines + "      answer =")) == []
 
 
