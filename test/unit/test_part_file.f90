@@ -347,6 +347,8 @@ contains
       if (allocated(error)) return
       call check(error, index%count == 2 .and. size(index%damages) == 2)
       if (allocated(error)) return
+      call check(error, all(index%entries(:2)%first == [1, 7]), "the cases of the damaged layout are left out")
+      if (allocated(error)) return
       do i = 1, 2
          associate (entry => index%entries(i))
             call check(error, index%layouts%items(entry%layout)%summary(1)%name, merge("a", "c", entry%first == 1))
