@@ -428,7 +428,6 @@ contains
 
       ! Radius of gyration about the pivot [m]
       real(wp) :: gyration
-      character(len=12) :: texts(2)
 
       gyration = sqrt(model%train%finger_inertia/case%masses%finger)
       allocate (model%pivot)
@@ -438,10 +437,9 @@ contains
       model%pivot%tilt = case%mechanism%adjuster_tilt
       model%pivot%axis_angle = case%mechanism%valve_axis_angle + case%mechanism%adjuster_tilt
       if (model%pivot%centre <= gyration) return
-      write (texts, "(f0.3)") 1.0e3_wp*model%pivot%centre, 1.0e3_wp*gyration
-      call raise(error, kind_deck, "masses: the finger's centre of mass, finger_centre of "//trim(texts(1))// &
-         & " mm, lies beyond its radius of gyration about the pivot, "//trim(texts(2))//" mm; lower finger_centre or "// &
-         & "finger_kg, or raise finger_inertia_kg_m2")
+      call raise(error, kind_deck, "masses: the finger's centre of mass, finger_centre of "// &
+         & number_text(1.0e3_wp*model%pivot%centre, 4)//" mm, lies beyond its radius of gyration about the pivot, "// &
+         & number_text(1.0e3_wp*gyration, 4)//" mm; lower finger_centre or finger_kg, or raise finger_inertia_kg_m2")
    end subroutine set_pivot
 
    !> Effects that the case has.
