@@ -1,7 +1,7 @@
 !> Remarks of many cases by kind: how many cases have one, and which has the worst.
 !>
-!> Layer: io. In: remarks of cases, one after the other. Out: one group for each kind. A remark's kind are its words before its first
-!> number, behind the lobe that it may begin with; that number says how bad it is.
+!> Layer: io. In: remarks of cases, one after the other. Out: one group for each kind. A remark's kind are its words before its
+!> first number, behind the lobe that it may begin with; that number says how bad it is.
 module camroller_remarks
    use camroller_kinds, only : wp
    use camroller_number_text, only : is_number, is_beyond_range
@@ -14,9 +14,11 @@ module camroller_remarks
    type :: remark_group_t
       !> Words before the first number
       character(len=:), allocatable :: kind
-      !> The worst remark, its number [-] and its case, from 1
+      !> The worst remark
       character(len=:), allocatable :: worst
+      !> Its number [any]
       real(wp) :: size = 0.0_wp
+      !> Its case, from 1
       integer :: case_number = 0
       !> Cases with a remark of this kind, and the last of them
       integer :: cases = 0, last_case = 0

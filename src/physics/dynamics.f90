@@ -28,8 +28,8 @@ module camroller_dynamics
       real(wp) :: finger = 0.0_wp
       !> Moment of inertia of the finger about its pivot [kg m^2]; zero where not given
       real(wp) :: finger_inertia = 0.0_wp
-      !> Distance from the pivot to the finger's centre of mass, on the roller arm [m]; 20 mm, or the radius of gyration where that is
-      !> less, where it is zero
+      !> Distance from the pivot to the finger's centre of mass, on the roller arm [m]; where it is zero 20 mm, or the radius of
+      !> gyration if that is less
       real(wp) :: finger_centre = 0.0_wp
    end type masses_t
 

@@ -1,8 +1,8 @@
 !> Smallest and largest values of the series of a cycle, between the angles at which they were sampled as well.
 !>
-!> Layer: solver. In: rows of series at cam angles, in any order. Out: for each series the search for its smallest and largest value
-!> near the row that has it, for which the caller evaluates the series. A value counts only where it was evaluated, so that an extreme
-!> is never outside what the series takes.
+!> Layer: solver. In: rows of series at cam angles, in any order. Out: for each series the search for its smallest and largest
+!> value near the row that has it, for which the caller evaluates the series. A value counts only where it was evaluated, so that
+!> an extreme is never outside what the series takes.
 module camroller_extremes
    use camroller_kinds, only : wp, pi, two_pi
    use camroller_extremum, only : extremum_t, start_extremum
@@ -126,8 +126,8 @@ contains
       integer, intent(in) :: series
       !> 1 for the smallest value, -1 for the largest
       integer, intent(in) :: sense
-      !> The search, with the signs of all values changed for the largest; nothing is wanted where the row that has it is a kink or has
-      !> no row close by on a side
+      !> The search, with the signs of all values changed for the largest; nothing is wanted where the row that has it is a kink or
+      !> has no row close by on a side
       type(extremum_t), intent(out) :: search
 
       ! Angles from that of the extreme row [rad]; extent of the series [unit of the series]

@@ -1,8 +1,9 @@
 !> Margins against loss of contact and against opening of the pivot's joint: smallest force, where, and the cam speed at which
 !> it would be zero. Without friction, so they depend on the cam angle alone.
 !>
-!> Layer: solver. In: model, stops of a cycle. Out: margins of the event, of the base circle and of the pivot. Between two stops every force is a
-!> smooth function of the cam angle; each such piece is scanned with its ends, and the lowest point inside is found to round-off.
+!> Layer: solver. In: model, stops of a cycle. Out: margins of the event, of the base circle and of the pivot. Between two stops
+!> every force is a smooth function of the cam angle; each such piece is scanned with its ends, and the lowest point inside is found
+!> to round-off.
 module camroller_margins
    use, intrinsic :: ieee_arithmetic, only : ieee_value, ieee_positive_inf
    use camroller_kinds, only : wp, pi, degree
@@ -39,8 +40,9 @@ module camroller_margins
       real(wp) :: adjuster_force = 0.0_wp, pump_up_speed = huge(1.0_wp)
    end type margins_t
 
-   !> A force that depends on the square of the speed: without inertia [N], and what inertia adds at the model's speed [N]
+   !> A force that depends on the square of the speed
    type :: split_t
+      !> Without inertia, and what inertia adds at the model's speed [N]
       real(wp) :: static = 0.0_wp, inertia = 0.0_wp
    end type split_t
 

@@ -219,8 +219,8 @@ contains
       end do
    end subroutine add_stops
 
-   !> Smallest and largest values of a lobe's follower, from its rows and between them; the rows alone where the solution itself is only
-   !> linear between its points.
+   !> Smallest and largest values of a lobe's follower, from its rows and between them; the rows alone where the solution itself is
+   !> only linear between its points.
    subroutine search_lobe(case, model, cycle, samples, lowest, highest, error)
       !> The case
       type(case_t), intent(in) :: case

@@ -1,7 +1,8 @@
 !> Standstills of the contact: cam angles at which the entrainment speed changes its sign.
 !>
-!> Layer: solver. In: a cycle with the points met on the way round it. Out: the angles, and the states there among the rows of series.
-!> There a film formula gives no film, or where asperities carry the load the gap of the dry surfaces; whatever the points, they miss it.
+!> Layer: solver. In: a cycle with the points met on the way round it. Out: the angles, and the states there among the rows of
+!> series. There a film formula gives no film, or where asperities carry the load the gap of the dry surfaces; whatever the points,
+!> they miss it.
 module camroller_standstills
    use camroller_kinds, only : wp
    use camroller_error, only : error_t

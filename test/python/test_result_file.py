@@ -83,7 +83,8 @@ def test_every_case_has_numbers(result_file):
         assert file["summary/status"][:].tolist() == [0] * CASES
         for group in ("series", "summary"):
             for name, dataset in file[group].items():
-                assert numpy.isfinite(dataset[:]).all(), name
+                # a speed at which something that never happens would happen is infinite
+                assert numpy.isfinite(dataset[:]).all() or name.endswith("_speed") and numpy.isposinf(dataset[:]).all(), name
 
 
 def test_deck_and_run_are_kept(result_file):

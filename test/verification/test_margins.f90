@@ -1,4 +1,4 @@
-!> Margins against loss of contact and opening of the pivot's joint: against closed numbers, a fine scan at many speeds, and statics.
+!> Margins against loss of contact and opening of the pivot's joint: against closed numbers, fine scans at many speeds, statics.
 module test_margins
    use testdrive, only : unittest_type, new_unittest, error_type, check, test_failed
    use camroller_kinds, only : wp, pi, two_pi, degree
@@ -100,8 +100,8 @@ contains
       type(model_t) :: model
       type(margins_t) :: margins
 
-      ! test/reference/pivot.py has these numbers from positions of the bodies, by differences; printed to six digits. Finger of 41.8 g,
-      ! taken at the pad for its inertia, centre of mass 20 mm out on the roller arm, adjuster parallel to the valve
+      ! test/reference/pivot.py has these numbers from positions of the bodies, by differences; printed to six digits. Finger of
+      ! 41.8 g, taken at the pad for its inertia, centre of mass 20 mm out on the roller arm, adjuster parallel to the valve
       case = thesis_case()
       case%masses%finger_centre = 20.0e-3_wp
       call margins_of(case, model, margins, error)
@@ -135,8 +135,8 @@ contains
             call margins_of(case, model, margins, error)
             if (allocated(error)) return
             call scan_forces(model, event, pivot, base_circle)
-            ! a hundredth of a degree beside the lowest point: within it forces of 500 N change by less than 0.1 N at the edge of the
-            ! event, where they have a slope, and by far less in a valley
+            ! a hundredth of a degree beside the lowest point: within it forces of 500 N change by less than 0.1 N at the edge of
+            ! the event, where they have a slope, and by far less in a valley
             call check(error, margins%event%force <= event .and. margins%event%force > event - 0.1_wp, "event")
             if (allocated(error)) return
             call check(error, margins%pivot%force <= pivot .and. margins%pivot%force > pivot - 0.1_wp, "pivot")

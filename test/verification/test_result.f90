@@ -1,6 +1,7 @@
 !> Results as a whole: every lobe's series, extremes against a fine scan, loss of contact in words, finite numbers alone.
 module test_result
    use, intrinsic :: ieee_arithmetic, only : ieee_is_finite, ieee_positive_inf, ieee_quiet_nan, ieee_value
+   use, intrinsic :: ieee_exceptions, only : ieee_all, ieee_get_halting_mode, ieee_set_flag, ieee_set_halting_mode
    use, intrinsic :: iso_fortran_env, only : int64
    use testdrive, only : unittest_type, new_unittest, error_type, check, test_failed
    use camroller_kinds, only : wp, pi, two_pi, degree
@@ -43,6 +44,7 @@ contains
          new_unittest("the lobe that loses contact is named", test_lobe_remark), &
          new_unittest("contact_policy 'stop' refuses loss of contact alone", test_policy), &
          new_unittest("what is not a finite number is refused by name, angle and value", test_gate), &
+         new_unittest("a case whose formulas overflow has no result", test_overflow), &
          new_unittest("lift that dips below zero meets no seat where there is none", test_dip) &
          ]
    end subroutine collect_result
@@ -414,6 +416,24 @@ contains
       call check_numbers(changed, failure)
       call expect_error(error, failure, kind_domain, "margin_base_circle_speed is not a number")
    end subroutine test_gate
+
+   subroutine test_overflow(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: case
+      type(result_t) :: result
+      type(error_t), allocatable :: failure
+      logical :: halting(size(ieee_all))
+
+      ! journals as wide as no number allows: their torque is not finite, and everything else is
+      case = two_lobes(thesis_lift(), low_lift(), [1, 2])
+      case%cam_bearings%diameter = 1.0e200_wp
+      call ieee_get_halting_mode(ieee_all, halting)
+      call ieee_set_halting_mode(ieee_all, .false.)
+      call run_case(case, result, failure)
+      call ieee_set_flag(ieee_all, .false.)
+      call ieee_set_halting_mode(ieee_all, halting)
+      call expect_error(error, failure, kind_domain, "torque_bearings at cam angle 0.000 deg is ")
+   end subroutine test_overflow
 
    subroutine test_dip(error)
       type(error_type), allocatable, intent(out) :: error

@@ -1,0 +1,112 @@
+"""Loads from outside: lost contact is said and can be refused, every lobe is in the file, and no number is written that is none."""
+
+import pathlib
+import subprocess
+
+import h5py
+import numpy
+import pytest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+DECKS = ROOT / "decks"
+DOMAIN = 4
+COARSE = ["--set", "output.angle_step_deg=5"]
+FAST = ["--set", "sweep.values_1=2000,3600,5000", "--set", "film.law=moes"]
+SHARP = ["--set", "film.law=moes", "--set", "second_lift.opening_half_angle_deg=48", "--set", "second_lift.closing_half_angle_deg=48",
+         "--set", "second_lift.max_lift_mm=10"]
+
+
+def run(camroller, *arguments, folder):
+    """Run the program without a terminal."""
+    return subprocess.run([camroller, *map(str, arguments)], cwd=folder, capture_output=True, text=True,
+                          stdin=subprocess.DEVNULL, timeout=300)
+
+
+def remarks_of(path):
+    """Remarks of each case."""
+    with h5py.File(path) as file:
+        return [text.decode() for text in file["run/warnings"][...].ravel()]
+
+
+def test_a_lift_that_dips_below_zero_gives_numbers(camroller, tmp_path):
+    done = run(camroller, "run", DECKS / "tabulated_lift.nml", "--set", "case.energy=source", "--set", "spring.seating=maximum",
+               "-o", "r.h5", folder=tmp_path)
+    assert done.returncode == 0, done.stderr
+    with h5py.File(tmp_path / "r.h5") as file:
+        for name, values in file["series"].items():
+            assert numpy.isfinite(values[...]).all(), name
+        for name, values in file["summary"].items():
+            assert not numpy.isnan(values[...]).any(), name
+            assert numpy.isfinite(values[...]).all() or name.endswith("_speed"), name
+
+
+def test_a_stored_nan_is_not_certified(camroller, tmp_path):
+    assert run(camroller, "run", DECKS / "tabulated_lift.nml", *COARSE, "-o", "r.h5", folder=tmp_path).returncode == 0
+    with h5py.File(tmp_path / "r.h5", "r+") as file:
+        file["series/contact_load"][0, 7] = numpy.nan
+    again = run(camroller, "rerun", "r.h5", folder=tmp_path)
+    assert again.returncode != 0
+    assert "series/contact_load" in again.stderr or "seal" in again.stderr or "damaged" in again.stderr, again.stderr
+
+
+@pytest.mark.parametrize("command", ["run", "sweep"])
+def test_lost_contact_is_said_for_every_case_and_once_on_the_screen(camroller, tmp_path, command):
+    done = run(camroller, command, DECKS / "thesis.nml", *FAST, *COARSE, "-o", "r.h5", folder=tmp_path)
+    assert done.returncode == 0, done.stderr
+    lines = [line for line in done.stderr.splitlines() if "contact is lost" in line]
+    assert len(lines) == 1, done.stderr
+    assert lines[0].startswith("remark on 6 of 9 cases, the worst is case 6 (operating_point.speed_rpm=5000, ")
+    assert "of the cycle at 5000 rev/min, at cam angles 159.7 to 201.3 deg; it is lost from 2937 rev/min on" in lines[0]
+    texts = remarks_of(tmp_path / "r.h5")
+    with h5py.File(tmp_path / "r.h5") as file:
+        shares = file["summary/lost_contact_share"][...].ravel()
+    assert [bool("contact is lost for" in text) for text in texts] == [share > 0 for share in shares]
+    # the finger leaves its adjuster before the roller leaves the cam
+    assert all("the joint of finger and lash adjuster opens" in text for text in texts[3:])
+
+
+def test_contact_policy_stop_refuses_the_cases_that_lose_contact(camroller, tmp_path):
+    done = run(camroller, "run", DECKS / "thesis.nml", *FAST, *COARSE, "--set", "spring.contact_policy=stop", "-o", "r.h5",
+               folder=tmp_path)
+    assert done.returncode == DOMAIN
+    assert "6 of 9 cases have no result" in done.stderr and "(contact_policy = 'stop')" in done.stderr
+    with h5py.File(tmp_path / "r.h5") as file:
+        assert file["summary/status"][...].ravel().tolist() == [0] * 3 + [DOMAIN] * 6
+
+
+def test_the_second_lobe_is_in_file_and_remarks(camroller, tmp_path):
+    done = run(camroller, "run", DECKS / "three_cam_head.nml", *SHARP, *COARSE, "-o", "r.h5", folder=tmp_path)
+    assert done.returncode == 0, done.stderr
+    assert "lobe 2: contact is lost for 3.5" in done.stderr and "lobe 1: contact" not in done.stderr
+    with h5py.File(tmp_path / "r.h5") as file:
+        summary, series = file["summary"], file["series"]
+        # the same lift as &lift is at -138 N and loses 3.5 % of the cycle
+        assert summary["lobe_2_spring_margin"][...].min() == pytest.approx(-138, abs=1)
+        assert summary["lobe_2_lost_contact_share"][...].max() == pytest.approx(0.035, abs=0.001)
+        assert summary["min_lobe_2_contact_load"][...].min() == 0
+        assert summary["min_contact_load"][...].min() > 50
+        assert series["contact_load"].attrs["scope"] in (b"lobe 1", "lobe 1")
+        assert series["lobe_2_contact_load"].attrs["scope"] in (b"lobe 2", "lobe 2")
+        assert series["torque_drive"].attrs["scope"] in (b"camshaft", "camshaft")
+        assert summary["estimated_error"].attrs["scope"] in (b"case", "case")
+        lost = series["lobe_2_contact_load"][...].reshape(-1, 72)[-1] == 0
+        angles = series["cam_angle"][...][lost]
+        assert 160 < angles.min() and angles.max() < 200
+
+
+def test_one_lobe_alone_keeps_its_names(camroller, tmp_path):
+    assert run(camroller, "run", DECKS / "tabulated_lift.nml", *COARSE, "-o", "r.h5", folder=tmp_path).returncode == 0
+    with h5py.File(tmp_path / "r.h5") as file:
+        assert not [name for group in ("series", "summary") for name in file[group] if "lobe" in name]
+
+
+def test_infinite_speeds_are_those_of_what_never_happens(camroller, tmp_path):
+    assert run(camroller, "run", DECKS / "thesis.nml", *COARSE, "-o", "r.h5", folder=tmp_path).returncode == 0
+    with h5py.File(tmp_path / "r.h5") as file:
+        summary = file["summary"]
+        assert numpy.isinf(summary["margin_base_circle_speed"][...]).all()
+        rpm = 30 / numpy.pi
+        assert summary["margin_event_speed"][...].ravel() * rpm == pytest.approx([2937.17] * 9, abs=0.01)
+        assert summary["margin_pivot_speed"][...].ravel() * rpm == pytest.approx([2470.90] * 9, abs=0.01)
+        assert summary["pump_up_speed"][...].ravel() * rpm == pytest.approx([2357.51] * 9, abs=0.01)
+        assert (summary["margin_event"][...] > 300).all() and summary["spring_margin"][...].ravel() == pytest.approx([64] * 9)
