@@ -7,7 +7,7 @@ module camroller_deck_keys
    use camroller_kinds, only : wp, pi
    use camroller_units, only : length_unit_names, pressure_unit_names
    use camroller_case, only : case_t, energy_names, method_choices, select_names, quantity_names
-   use camroller_lift, only : lift_t, lift_law_names
+   use camroller_lift, only : lift_t, lift_law_names, largest_exponent
    use camroller_kinematics, only : rotation_names
    use camroller_dynamics, only : contact_policy_names, load_arm_names, seating_names
    use camroller_lubricant, only : temperature_law_names, pressure_law_names
