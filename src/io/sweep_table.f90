@@ -124,6 +124,7 @@ contains
                rows = rows - 1
                if (pass == 1) call add_mistake(mistakes, "a table of cases has at most "//integer_text(most_columns)// &
                   & " columns", i, 0, 0, path, line_at(lines, i))
+               if (rows < 0) return
             else if (pass == 1 .and. rows == 0) then
                deallocate (columns)
                allocate (columns(n), widths(n))

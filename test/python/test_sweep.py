@@ -88,7 +88,7 @@ def test_a_table_of_cases_with_too_many_columns_is_refused(camroller, tmp_path):
     (tmp_path / "wide.csv").write_text(",".join(keys) + "\n" + ",".join(["300"] * 65) + "\n")
     result = run(camroller, "sweep", write_deck(tmp_path / "deck.nml", "kind = 'table' table = 'wide.csv'"), folder=tmp_path)
     assert result.returncode == DECK
-    assert "a table of cases has at most 64 columns" in result.stderr
+    assert "wide.csv:1: a table of cases has at most 64 columns" in result.stderr
 
 
 def test_check_tells_what_it_costs(camroller, deck):
