@@ -46,7 +46,7 @@ contains
             & "  --series                   series over the cam angle (the default)"//n// &
             & "  --case N                   case, from 0 as in the file; 0 where not given"//n// &
             & "  --summary                  one row for each case"//n// &
-            & "  -o, --output FILE          file to write; the output unit where not given"
+            & "  -o, --output FILE          file to write; printed where not given, or where FILE is -"
       case ("version")
          text = "camroller version"//n//n//"Print version, commit, compiler and compiler options."
       case default

@@ -230,7 +230,8 @@ contains
 
       integer :: status
 
-      if (product(real(extents, wp)) > real(file%bytes, wp)*largest_ratio) then
+      ! a file that is being written has no size yet
+      if (file%bytes > 0 .and. product(real(extents, wp)) > real(file%bytes, wp)*largest_ratio) then
          call raise(error, kind_file, "'"//name//"' of '"//file%file//"' cannot have so many values: the file is too small")
          return
       end if

@@ -15,7 +15,8 @@
 !> `missing_cases` too.
 !>
 !> Cases are gathered in memory and written in blocks, so that the memory needed does not depend on their number.
-!> Whatever fails, the unfinished file is removed, and an earlier file of the same name stays as it was.
+!> Whatever fails, the unfinished file is removed, and an earlier file of the same name stays as it was. Behind what HDF5 reads
+!> stands a seal, `camroller_seal`, by which a damaged file is known.
 module camroller_output
    use camroller_kinds, only : wp
    use camroller_error, only : error_t, raise, kind_internal

@@ -10,7 +10,7 @@ module test_new_file
    use camroller_seal, only : check_seal, seal_file
    use camroller_system_file, only : remove_file
    use camroller_unfinished, only : remove_remembered
-   use sample_result, only : expect_error, is_old_file, scratch_path, write_old_file
+   use sample_result, only : expect_error, scratch_path, write_old_file
    implicit none
    private
 
@@ -70,7 +70,7 @@ contains
       if (allocated(error)) return
       temporary = place%temporary
       call write_letters_to(temporary, "1234567890")
-      call check(error, is_old_file(path), "the earlier file went too early")
+      call check(error, is_earlier(path), "the earlier file went too early")
       call end_new_file(place, 10_int64, raised)
       if (.not. allocated(error)) call check(error, .not. allocated(raised), "not put in its place")
       facts = facts_of_path(path)
@@ -97,7 +97,7 @@ contains
          call end_new_file(place, int(i, int64), raised)
          call expect_error(error, raised, kind_file, "the device has not taken all of it")
          if (allocated(error)) return
-         call check(error, is_old_file(path) .and. .not. allocated(place%temporary), "the earlier file is gone")
+         call check(error, is_earlier(path) .and. .not. allocated(place%temporary), "the earlier file is gone")
          if (allocated(error)) return
       end do
       call create_raw(file, path//"-part", path, raised)
@@ -125,7 +125,7 @@ contains
       call drop_new_file(place)
       call drop_new_file(place)
       facts = facts_of_path(temporary)
-      call check(error, is_old_file(path) .and. .not. facts%is_there, "something is left, or the earlier file is gone")
+      call check(error, is_earlier(path) .and. .not. facts%is_there, "something is left, or the earlier file is gone")
       call remove_file(path)
       if (allocated(error)) return
       call begin_new_file(place, path//"/none/x", raised)
@@ -215,6 +215,19 @@ contains
          call remove_file(path)
       end do
    end subroutine seals_tell_damage
+
+   !> Is the file that was there before still there, of the length that it had?
+   function is_earlier(path) result(verdict)
+      !> Its path
+      character(len=*), intent(in) :: path
+      !> Is it?
+      logical :: verdict
+
+      type(file_facts_t) :: facts
+
+      facts = facts_of_path(path)
+      verdict = facts%bytes == len("old content") + 1
+   end function is_earlier
 
    !> Write a file.
    subroutine write_letters_to(path, text)
