@@ -55,8 +55,9 @@ module camroller_means
       real(wp) :: mean_error = 0.0_wp
       !> The mean that has it
       character(len=name_length) :: worst_mean = ""
-      !> Standstills of the contact, where nothing is entrained, and cam angle from full lift of the first [rad]
+      !> Number of standstills of the contact, where nothing is entrained
       integer :: standstills = 0
+      !> Cam angle from full lift of the first of them [rad]
       real(wp) :: first_standstill = 0.0_wp
    end type statistics_t
 

@@ -248,24 +248,21 @@ contains
       if (.not. has_tolerance(numerics)) return
       call get_estimates(result, estimates, error)
       if (allocated(error)) return
-      if (estimates(1) > numerics%tolerance*far_beyond) call add_remark(result%warnings, far_words("the error", estimates(1)))
-      if (estimates(2) > numerics%tolerance*far_beyond) call add_remark(result%warnings, far_words("the error of mean_"// &
-         & trim(result%worst_mean), estimates(2)))
+      if (estimates(1) > numerics%tolerance*far_beyond) call say_far("the error", estimates(1))
+      if (estimates(2) > numerics%tolerance*far_beyond) call say_far("the error of mean_"//trim(result%worst_mean), estimates(2))
 
    contains
 
       !> The remark on one of the errors.
-      function far_words(what, estimate) result(words)
+      subroutine say_far(what, estimate)
          !> The error in words
          character(len=*), intent(in) :: what
          !> Its estimate [-]
          real(wp), intent(in) :: estimate
-         !> The remark
-         character(len=:), allocatable :: words
 
-         words = "the tolerance "//number_text(numerics%tolerance, 2)//" does not hold "//what//": that is estimated as "// &
-            & number_text(estimate, 2)//"; leave the tolerance out and give the accuracy wanted instead"
-      end function far_words
+         call add_remark(result%warnings, "the tolerance "//number_text(numerics%tolerance, 2)//" does not hold "//what// &
+            & ": that is estimated as "//number_text(estimate, 2)//"; leave the tolerance out and give the accuracy wanted instead")
+      end subroutine say_far
 
    end subroutine judge_tolerance
 
