@@ -16,6 +16,8 @@ program main
    use test_spline, only : collect_spline
    use test_lift, only : collect_lift
    use test_quadrature, only : collect_quadrature
+   use test_panels, only : collect_panels
+   use test_extremum, only : collect_extremum
    use test_asperity, only : collect_asperity
    use test_zhao_maietta_chang, only : collect_zhao_maietta_chang
    use test_deck, only : collect_deck
@@ -67,6 +69,7 @@ program main
    use test_film_literature, only : collect_film_literature
    use test_study, only : collect_study
    use test_error_estimate, only : collect_error_estimate
+   use test_means, only : collect_means
    use test_roller_problem, only : collect_roller_problem
    use test_spin_slopes, only : collect_spin_slopes
    use test_simulation, only : collect_simulation
@@ -191,6 +194,9 @@ contains
          new_testsuite("film_literature", collect_film_literature), &
          new_testsuite("study", collect_study), &
          new_testsuite("error_estimate", collect_error_estimate), &
+         new_testsuite("means", collect_means), &
+         new_testsuite("panels", collect_panels), &
+         new_testsuite("extremum", collect_extremum), &
          new_testsuite("roller_problem", collect_roller_problem), &
          new_testsuite("simulation", collect_simulation), &
          new_testsuite("simulation_faults", collect_simulation_faults), &

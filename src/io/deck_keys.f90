@@ -410,7 +410,8 @@ contains
 
       call add_group(schema, "numerics", group_standard, "how the roller's spin is integrated")
       call add_number(schema, "accuracy", range_t(1.0e-10_wp, 0.1_wp), &
-         & "largest error of the sliding speed over its largest value; mean losses are better than that", &
+         & "largest error of the sliding speed over its largest value, or over 1e-5 of the largest speed in pure rolling where "// &
+         & "that is more; and of the mean of each loss over itself", &
          & default=standard%numerics%accuracy)
       call add_name(schema, "method", method_choices, standard%numerics%method, "way to integrate; 'automatic' takes the "// &
          & "one with the least work")

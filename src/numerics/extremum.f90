@@ -16,8 +16,8 @@ module camroller_extremum
 
    public :: extremum_t, start_extremum, narrow_extremum
 
-   !> Values asked for at most: with each the bracket shrinks by a fifth at least, or the parabola has the extremum
-   integer, parameter :: most_steps = 30
+   !> Values asked for at most: a smooth function takes two to four, a kink one for each halving of its error
+   integer, parameter :: most_steps = 12
    !> Smallest distance of a trial from a point over the part of the bracket on that side [-]
    real(wp), parameter :: least_part = 0.05_wp
    !> Where the larger part of a bracket is cut, from its middle point [-]: golden section
@@ -33,6 +33,8 @@ module camroller_extremum
       real(wp) :: point(3) = 0.0_wp, value(3) = 0.0_wp
       !> Gain that is not worth a value [f]
       real(wp), private :: tolerance = 0.0_wp
+      !> Value that the parabola has at the trial, and how far the last one was from that [f]
+      real(wp), private :: expected = 0.0_wp, missed = huge(1.0_wp)
       !> Values asked for so far
       integer :: steps = 0
    end type extremum_t
@@ -68,6 +70,7 @@ contains
       integer :: side
 
       search%steps = search%steps + 1
+      search%missed = abs(value - search%expected)
       side = merge(1, 3, search%trial < search%point(2))
       if (value < search%value(2)) then
          search%point(4 - side) = search%point(2)
@@ -81,8 +84,8 @@ contains
       call choose_trial(search)
    end subroutine narrow_extremum
 
-   !> Next trial: the lowest point of the parabola, or a cut of the larger part where that is too close to a point. Nothing is wanted
-   !> any more where the parabola gains next to nothing, after one value at least.
+   !> Next trial: the lowest point of the parabola, or a cut of the larger part where that is too close to a point. Nothing is
+   !> wanted any more where the parabola has told the last value and gains next to nothing.
    pure subroutine choose_trial(search)
       !> The search
       type(extremum_t), intent(inout) :: search
@@ -101,7 +104,7 @@ contains
       if (.not. search%is_wanted) return
       shift = 0.5_wp*(slopes(1)*right - slopes(2)*left)/(slopes(1) + slopes(2))
       gain = shift**2*(slopes(1) + slopes(2))/(left + right)
-      if (gain <= search%tolerance .and. search%steps > 0) then
+      if (max(gain, search%missed) <= search%tolerance) then
          search%is_wanted = .false.
          return
       end if
@@ -109,6 +112,7 @@ contains
       if (shift > 0.0_wp) shift = min(shift, (1.0_wp - least_part)*right)
       if (shift < 0.0_wp) shift = max(shift, -(1.0_wp - least_part)*left)
       search%trial = search%point(2) + shift
+      search%expected = search%value(2) + shift*(shift*(slopes(1) + slopes(2)) + slopes(2)*left - slopes(1)*right)/(left + right)
    end subroutine choose_trial
 
 end module camroller_extremum

@@ -151,8 +151,10 @@ contains
       !> Why there is no value at a place
       type(error_t), allocatable, intent(out) :: error
 
-      ! Sums of the doubts [unit of each times x]; values in both halves [unit of each]; middle [x]
-      real(wp) :: sums(size(allowed)), values(size(allowed), panel_points, 2), middle
+      ! Sums of the doubts [unit of each times x]; values in both halves [unit of each]
+      real(wp) :: sums(size(allowed)), values(size(allowed), panel_points, 2)
+      ! Ends and middle of a panel [x]
+      real(wp) :: left, right, middle
       integer :: quantity, panel
 
       sums = sum(panels%doubts(:, :panels%count), 2)
@@ -161,19 +163,19 @@ contains
          if (all(sums <= allowed)) return
          quantity = maxloc(sums/allowed, 1)
          panel = maxloc(panels%doubts(quantity, :panels%count), 1)
-         associate (left => panels%left(panel), right => panels%right(panel))
-            if (right - left <= shortest*max(abs(left), abs(right))) then
-               halvings = 0
-               return
-            end if
-            middle = 0.5_wp*(left + right)
-            call sample_places(sampled, left, middle, values(:, :, 1), error)
-            if (.not. allocated(error)) call sample_places(sampled, middle, right, values(:, :, 2), error)
-         end associate
+         left = panels%left(panel)
+         right = panels%right(panel)
+         if (right - left <= shortest*max(abs(left), abs(right))) then
+            halvings = 0
+            return
+         end if
+         middle = 0.5_wp*(left + right)
+         call sample_places(sampled, left, middle, values(:, :, 1), error)
+         if (.not. allocated(error)) call sample_places(sampled, middle, right, values(:, :, 2), error)
          if (allocated(error)) return
          sums = sums - panels%doubts(:, panel)
-         call add_panel(panels, middle, panels%right(panel), values(:, :, 2))
-         call set_panel(panels, panel, panels%left(panel), middle, values(:, :, 1))
+         call set_panel(panels, panel, left, middle, values(:, :, 1))
+         call add_panel(panels, middle, right, values(:, :, 2))
          sums = sums + panels%doubts(:, panel) + panels%doubts(:, panels%count)
          halvings = halvings - 1
       end do

@@ -66,7 +66,7 @@ module camroller_case
 
    !> How the case is integrated and reported
    type :: numerics_t
-      !> Error of the sliding speed over its largest value that is allowed, and of mean losses [-]
+      !> Error that is allowed, of the sliding speed over its largest value and of mean losses over themselves [-]
       real(wp) :: accuracy = 1.0e-4_wp
       !> One of `method_choices`
       character(len=name_length) :: method = automatic_method

@@ -139,7 +139,7 @@ contains
       character(len=:), allocatable, intent(inout) :: warnings
 
       if (statistics%standstills == 0) return
-      call add_remark(warnings, lobe//"the entrainment speed changes its sign "//integer_text(statistics%standstills)// &
+      call add_remark(warnings, lobe//"the entrainment speed passes through zero "//integer_text(statistics%standstills)// &
          & " times in contact, first at cam angle "//fixed_text(file_angle(statistics%first_standstill), 1)// &
          & " deg; the smallest film is that of the standstill there, without what squeeze would leave")
    end subroutine check_entrainment

@@ -61,7 +61,7 @@ contains
       !> The changes, not negative [N m s/m]
       real(wp) :: slopes(2)
 
-      ! Change of the traction with the sliding speed [N s/m]; change of the bearing's torque with the spin [N m s], with the load [m]
+      ! Change of the traction with the sliding speed [N s/m]; of the bearing's torque with the spin [N m s], with the load [m]
       real(wp) :: by_slip, by_spin, arm
       ! Sum of entrainment speed and sliding speed [m/s]
       real(wp) :: speeds

@@ -11,7 +11,6 @@ module camroller_means
    use camroller_kinds, only : wp
    use camroller_error, only : error_t
    use camroller_case, only : case_t
-   use camroller_names, only : name_length
    use camroller_model, only : model_t
    use camroller_state, only : state_t
    use camroller_contact_forces, only : film_groups
@@ -22,6 +21,7 @@ module camroller_means
    use camroller_error_estimate, only : estimate_t, add_defect, end_interval, estimated_error, loss_errors
    use camroller_extremes, only : samples_t
    use camroller_follower_samples, only : follower_samples_t, start_samples, look_t, look_of
+   use camroller_names, only : name_length
    use camroller_panels, only : panels_t, panel_points, panel_places, panel_weights, gauss_points, start_panels, add_panel, &
       & add_trapezoid, refine_panels
    use camroller_result, only : quantity_t, find_quantity
@@ -55,8 +55,9 @@ module camroller_means
       real(wp) :: mean_error = 0.0_wp
       !> The mean that has it
       character(len=name_length) :: worst_mean = ""
-      !> Changes of sign of the entrainment speed in contact, and cam angle from full lift of the first [rad]
+      !> Number of standstills of the contact, where nothing is entrained
       integer :: standstills = 0
+      !> Cam angle from full lift of the first of them [rad]
       real(wp) :: first_standstill = 0.0_wp
    end type statistics_t
 
@@ -69,8 +70,8 @@ module camroller_means
    !> Least tolerance of a mean: below it rounding counts [-]
    real(wp), parameter :: least_tolerance = 1.0e-10_wp
    !> Names of the torques that are integrated, as series have them; the one that spins the roller up is not
-   character(len=*), parameter :: torque_names(torque_count) = [character(len=name_length) :: "torque_drive", "torque_contact", &
-      & "torque_needle", "torque_guide", "", "energy_residual"]
+   character(len=*), parameter :: torque_names(torque_count) = [character(len=name_length) :: "torque_drive", &
+      & "torque_contact", "torque_needle", "torque_guide", "", "energy_residual"]
 
 contains
 
@@ -97,13 +98,17 @@ contains
       type(quantity_t), allocatable :: series(:)
       ! Length of the cycle [rad]
       real(wp) :: span
+      ! First and last series that is a film without a mean
+      integer :: films(2)
 
       call list_series(case, series)
       call start_samples(samples, model, cycle, case, series_count, find_quantity(series, "torque_geometric"))
       call walk_round(samples, statistics, panels, estimate, work, looks, error)
       if (allocated(error)) return
+      films = [1, 0]
+      if (statistics%lost_share > 0.0_wp) films = [find_quantity(series, "film_thickness_min"), find_quantity(series, "film_ratio")]
       if (.not. cycle%is_linear) then
-         call refine_means(panels, samples, cycle%tolerance, series_count, error)
+         call refine_means(panels, samples, cycle%tolerance, series_count, films, error)
          if (.not. allocated(error)) call add_standstills(samples, looks, statistics%standstills, statistics%first_standstill, &
             & error)
          if (allocated(error)) return
@@ -112,7 +117,8 @@ contains
       statistics%largest_sliding = samples%largest_sliding
       span = cycle%trajectory%time(cycle%trajectory%count) - cycle%trajectory%time(1)
       call take_means(panels, samples, work, span, statistics)
-      call judge_means(panels, loss_errors(estimate, cycle%closure*cycle%scale), span, series(:series_count), statistics)
+      call judge_means(panels, loss_errors(estimate, cycle%closure*cycle%scale), span, series(:series_count), films, &
+         & statistics)
       ! What start and end differ by comes again in every cycle that the periodic one is away
       statistics%error = cycle%closure/max(1.0_wp - estimate%contraction, epsilon(1.0_wp)) &
          & + estimated_error(estimate)/max(statistics%largest_sliding, cycle%scale, tiny(1.0_wp))
@@ -242,7 +248,7 @@ contains
    end subroutine close_interval
 
    !> Halve panels until the means are within the tolerance.
-   subroutine refine_means(panels, samples, tolerance, series, error)
+   subroutine refine_means(panels, samples, tolerance, series, films, error)
       !> The panels
       type(panels_t), intent(inout) :: panels
       !> The samples
@@ -251,6 +257,8 @@ contains
       real(wp), intent(in) :: tolerance
       !> Number of series that stand before the torques
       integer, intent(in) :: series
+      !> First and last series that is a film without a mean
+      integer, intent(in) :: films(2)
       !> Convergence error
       type(error_t), allocatable, intent(out) :: error
 
@@ -260,7 +268,7 @@ contains
 
       halvings = most_halvings
       do pass = 1, most_passes
-         allowed = mean_tolerance(tolerance)*mean_sizes(panels, series)
+         allowed = mean_tolerance(tolerance)*mean_sizes(panels, series, films)
          if (all(sum(panels%doubts(:, :panels%count), 2) <= allowed)) return
          call refine_panels(panels, samples, allowed, halvings, error)
          if (allocated(error) .or. halvings == 0) return
@@ -277,19 +285,23 @@ contains
       error = max(tolerance, least_tolerance)
    end function mean_tolerance
 
-   !> What the errors of the integrals are relative to: the integrals of the sizes, and for the torque against gas, which adds to what
-   !> drives the camshaft, that of all losses. The energy residual is a matter of rounding.
-   pure function mean_sizes(panels, series) result(sizes)
+   !> What the errors of the integrals are relative to: the integrals of the sizes, and for the torque against gas, which adds to
+   !> what drives the camshaft, that of all losses. The energy residual is a matter of rounding. Films grow without bound where
+   !> contact is lost, and have no mean then.
+   pure function mean_sizes(panels, series, films) result(sizes)
       !> The panels
       type(panels_t), intent(in) :: panels
       !> Number of series that stand before the torques
       integer, intent(in) :: series
+      !> First and last series that is a film without a mean; the second is less where there is none
+      integer, intent(in) :: films(2)
       !> Sizes, positive [unit of each times rad]
       real(wp) :: sizes(series + torque_count)
 
       sizes = max(sum(panels%sizes(:, :panels%count), 2), tiny(1.0_wp)/least_tolerance)
       sizes(series + 1) = sum(sizes(series + 2:series + 4))
       sizes(series + torque_count) = huge(1.0_wp)
+      sizes(films(1):films(2)) = huge(1.0_wp)
    end function mean_sizes
 
    !> Means of series and torques from the integrals and the stored energy.
@@ -331,7 +343,7 @@ contains
    end function stored_torques
 
    !> Largest error of a mean, over the mean size of its quantity.
-   subroutine judge_means(panels, loss_errors, span, series, statistics)
+   subroutine judge_means(panels, loss_errors, span, series, films, statistics)
       !> The panels
       type(panels_t), intent(in) :: panels
       !> Integrals of the errors of the losses in contact and bearing that come of the sliding speed [N m rad]
@@ -340,6 +352,8 @@ contains
       real(wp), intent(in) :: span
       !> The series
       type(quantity_t), intent(in) :: series(:)
+      !> First and last series that is a film without a mean
+      integer, intent(in) :: films(2)
       !> The means; out: with the largest error
       type(statistics_t), intent(inout) :: statistics
 
@@ -352,7 +366,7 @@ contains
          errors(first + 1:first + 2) = errors(first + 1:first + 2) + loss_errors
          ! The drive has the errors of all losses, and what the spin of the roller differs by between start and end
          errors(first) = sum(errors(first:first + 3)) + abs(statistics%torques(5))*span
-         relative = errors/mean_sizes(panels, size(series))
+         relative = errors/mean_sizes(panels, size(series), films)
          ! What is not there has no error
          where (errors <= 0.0_wp) relative = 0.0_wp
          worst = maxloc(relative, 1)
@@ -382,7 +396,7 @@ contains
       torques = 0.0_wp
       call start_samples(samples, model, cycle)
       call walk_along(samples, panels, work, error)
-      if (.not. (allocated(error) .or. cycle%is_linear)) call refine_means(panels, samples, cycle%tolerance, 0, error)
+      if (.not. (allocated(error) .or. cycle%is_linear)) call refine_means(panels, samples, cycle%tolerance, 0, [1, 0], error)
       if (allocated(error)) return
       span = cycle%trajectory%time(cycle%trajectory%count) - cycle%trajectory%time(1)
       torques = sum(panels%integrals(:, :panels%count), 2)/span + stored_torques(samples, work, span)

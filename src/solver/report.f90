@@ -71,6 +71,7 @@ contains
          statistics%mean_error = bearing_error
          statistics%worst_mean = "torque_bearings"
       end if
+      result%worst_mean = statistics(maxloc(statistics%mean_error, 1))%worst_mean
       call find_extremes(case, models, cycles, shaft, margins, statistics, result, extremes, error)
       if (allocated(error)) return
       call make_summary(case, models, cycles, shaft, statistics, bearing_torque, margins, extremes, result)

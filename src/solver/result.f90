@@ -6,6 +6,7 @@ module camroller_result
    use camroller_kinds, only : wp
    use camroller_error, only : error_t, raise, kind_domain, kind_usage
    use camroller_effect_list, only : choice_t
+   use camroller_names, only : name_length
    use camroller_number_text, only : fixed_text, integer_text
    implicit none
    private
@@ -48,6 +49,8 @@ module camroller_result
       real(wp), allocatable :: summary_values(:)
       !> Remarks that do not make the result wrong, one per line; empty where there are none
       character(len=:), allocatable :: warnings
+      !> Name of the series whose mean has the largest estimated error; blank where means have none
+      character(len=name_length) :: worst_mean = ""
       !> Were profiles across the contact asked for that could not be solved? The reason is among the remarks
       logical :: lacks_profiles = .false.
       !> Which effects took part and why; allocated where the program chose them

@@ -16,7 +16,7 @@ module camroller_run
    use camroller_cycle, only : cycle_t, integrate_cycle
    use camroller_number_text, only : number_text, fixed_text
    use camroller_report, only : make_result
-   use camroller_result, only : result_t, get_summary
+   use camroller_result, only : result_t, add_remark, get_summary
    implicit none
    private
 
@@ -91,9 +91,9 @@ contains
 
    !> Run a case with all its effects.
    !>
-   !> Where the estimated error is above the accuracy asked for, the cycles are integrated again with a smaller tolerance; so they
-   !> are with another method and another tolerance where they could not be. What a later try cannot do leaves the result of an
-   !> earlier one, with a remark; without any figure that is right there is no result.
+   !> Where the estimated error of the sliding speed or of a mean is above the accuracy asked for, the cycles are integrated again
+   !> with a smaller tolerance; so they are with another method and another tolerance where they could not be. What a later try
+   !> cannot do leaves the result of an earlier one, with a remark; without any figure that is right there is no result.
    subroutine run_listed(case, models, result, error)
       !> The case
       type(case_t), intent(in) :: case
@@ -106,8 +106,8 @@ contains
 
       type(numerics_t) :: numerics
       type(result_t) :: latest
-      ! Estimated error, tolerance of the next try, smallest tolerance that may work [-]
-      real(wp) :: estimate, other, least
+      ! Estimated errors of sliding speed and means, tolerance of the next try, smallest tolerance that may work [-]
+      real(wp) :: estimates(2), other, least
       integer :: attempt
       logical :: has_result, has_way_out
 
@@ -130,16 +130,29 @@ contains
          end if
          result = latest
          has_result = .true.
-         call get_summary(result, "estimated_error", estimate, error)
-         if (allocated(error) .or. estimate <= case%numerics%accuracy) return
-         other = refine_tolerance(numerics%tolerance, case%numerics%accuracy, estimate, least)
+         call get_estimates(result, estimates, error)
+         if (allocated(error) .or. maxval(estimates) <= case%numerics%accuracy) return
+         other = refine_tolerance(numerics%tolerance, case%numerics%accuracy, maxval(estimates), least)
          if (.not. other < numerics%tolerance) exit
          numerics%tolerance = other
       end do
       if (.not. has_result) return
       if (allocated(error)) deallocate (error)
-      call judge(result, estimate, error)
+      call judge(result, case%numerics%accuracy, estimates, error)
    end subroutine run_listed
+
+   !> Estimated errors of a result: of the sliding speed and of the means.
+   subroutine get_estimates(result, estimates, error)
+      !> The result
+      type(result_t), intent(in) :: result
+      !> Errors [-]
+      real(wp), intent(out) :: estimates(2)
+      !> Usage error where they are not in the summary
+      type(error_t), allocatable, intent(out) :: error
+
+      call get_summary(result, "estimated_error", estimates(1), error)
+      if (.not. allocated(error)) call get_summary(result, "estimated_error_of_means", estimates(2), error)
+   end subroutine get_estimates
 
    !> Numerics for another try where a cycle could not be integrated: another method, unless one is named, then another tolerance.
    pure subroutine take_way_out(given, numerics, least, has_way_out)
@@ -191,33 +204,36 @@ contains
       call make_result(case, models, cycles, result, error)
    end subroutine run_models
 
-   !> Remark on an accuracy that was not reached, or an error where nothing of the result can be right.
-   subroutine judge(result, estimate, error)
+   !> Remarks on an accuracy that was not reached, or an error where nothing of the result can be right.
+   subroutine judge(result, accuracy, estimates, error)
       !> The result
       type(result_t), intent(inout) :: result
-      !> Estimated error [-]
-      real(wp), intent(in) :: estimate
+      !> Accuracy wanted [-]
+      real(wp), intent(in) :: accuracy
+      !> Estimated errors of sliding speed and means [-]
+      real(wp), intent(in) :: estimates(2)
       !> Convergence error
       type(error_t), allocatable, intent(out) :: error
 
       ! Cam angle where the estimate is largest [deg]
       real(wp) :: angle
 
-      if (estimate >= 1.0_wp) then
+      if (estimates(1) >= 1.0_wp) then
          call get_summary(result, "estimated_error_angle", angle, error)
          if (allocated(error)) return
-         call raise(error, kind_convergence, "the cycle was not found: its estimated error is "//number_text(estimate, 2)// &
+         call raise(error, kind_convergence, "the cycle was not found: its estimated error is "//number_text(estimates(1), 2)// &
             & " of the sliding speed, largest at cam angle "//fixed_text(angle, 3)//" deg; the spin is hardly damped there, or "// &
             & "friction gives way at once")
          return
       end if
-      if (len(result%warnings) > 0) result%warnings = result%warnings//new_line("a")
-      result%warnings = result%warnings//"the accuracy asked for was not reached; the estimated error is "// &
-         & number_text(estimate, 2)
+      if (estimates(1) > accuracy) call add_remark(result%warnings, "the accuracy asked for was not reached; the "// &
+         & "estimated error is "//number_text(estimates(1), 2))
+      if (estimates(2) > accuracy) call add_remark(result%warnings, "means have not the accuracy asked for; the largest "// &
+         & "estimated error, of mean_"//trim(result%worst_mean)//", is "//number_text(estimates(2), 2))
    end subroutine judge
 
    !> Remark on a tolerance given by hand that says nothing of the error: steps keep to it and the curve between them does not, or
-   !> errors of steps pile up where hardly anything damps.
+   !> errors of steps pile up where hardly anything damps, or means follow the sliding speed too strongly.
    subroutine judge_tolerance(numerics, result, error)
       !> Numerics as given
       type(numerics_t), intent(in) :: numerics
@@ -226,17 +242,28 @@ contains
       !> Domain error where there is no estimate
       type(error_t), allocatable, intent(out) :: error
 
-      ! Estimated error [-]
-      real(wp) :: estimate
+      ! Estimated errors [-]
+      real(wp) :: estimates(2)
 
       if (.not. has_tolerance(numerics)) return
-      call get_summary(result, "estimated_error", estimate, error)
+      call get_estimates(result, estimates, error)
       if (allocated(error)) return
-      if (estimate <= numerics%tolerance*far_beyond) return
-      if (len(result%warnings) > 0) result%warnings = result%warnings//new_line("a")
-      result%warnings = result%warnings//"the tolerance "//number_text(numerics%tolerance, 2)// &
-         & " does not hold the error: that is estimated as "//number_text(estimate, 2)// &
-         & "; leave the tolerance out and give the accuracy wanted instead"
+      if (estimates(1) > numerics%tolerance*far_beyond) call say_far("the error", estimates(1))
+      if (estimates(2) > numerics%tolerance*far_beyond) call say_far("the error of mean_"//trim(result%worst_mean), estimates(2))
+
+   contains
+
+      !> The remark on one of the errors.
+      subroutine say_far(what, estimate)
+         !> The error in words
+         character(len=*), intent(in) :: what
+         !> Its estimate [-]
+         real(wp), intent(in) :: estimate
+
+         call add_remark(result%warnings, "the tolerance "//number_text(numerics%tolerance, 2)//" does not hold "//what// &
+            & ": that is estimated as "//number_text(estimate, 2)//"; leave the tolerance out and give the accuracy wanted instead")
+      end subroutine say_far
+
    end subroutine judge_tolerance
 
    !> Models of the lobe shapes of a case, geometry checked over the whole cycle.

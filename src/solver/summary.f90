@@ -66,12 +66,14 @@ contains
          call add_shares(lobe, models(lobe), statistics(lobe), quantities, values, count)
       end do
       call add(quantities, values, count, "estimated_error", "1", &
-         & "estimate of the largest error of the sliding speed over its largest value", "numerics", maxval(statistics%error))
+         & "estimate of the largest error of the sliding speed over its largest value, or over 1e-5 of the largest speed in "// &
+         & "pure rolling where that is more", "numerics", maxval(statistics%error))
       worst = maxloc(statistics%error, 1)
       call add(quantities, values, count, "estimated_error_angle", "deg", "cam angle where the estimated error is largest", &
          & "numerics", modulo(180.0_wp + statistics(worst)%error_angle/degree, 360.0_wp))
       call add(quantities, values, count, "estimated_error_of_means", "1", "estimate of the largest error of a mean over the "// &
-         & "mean size of its quantity; of geometric and drive torque, over the mean friction torque", "numerics", &
+         & "mean size of its quantity, of geometric and drive torque over the mean friction torque; without films where "// &
+         & "contact is lost", "numerics", &
          & maxval(statistics%mean_error))
       call add_counters(cycles, quantities, values, count)
       result%summary = quantities(:count)
@@ -204,8 +206,8 @@ contains
          & "part of its turns in pure rolling that the roller loses per cam revolution", "roller", sliding/rolling, &
          & lobe_scope(lobe))
       call add(quantities, values, count, trim(lobe_prefix(lobe))//"entrainment_reversals", "1", &
-         & "times per cam revolution that the entrainment speed changes its sign in contact; the smallest film is that of the "// &
-         & "standstill there", "film", real(statistics%standstills, wp), lobe_scope(lobe))
+         & "times per cam revolution that the entrainment speed passes through zero in contact or stays there; the smallest "// &
+         & "film is then that of a standstill", "film", real(statistics%standstills, wp), lobe_scope(lobe))
    end subroutine add_slip
 
    !> Margins of a lobe against loss of contact and opening of the pivot's joint.

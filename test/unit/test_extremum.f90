@@ -1,0 +1,105 @@
+!> Smallest values near three points: parabolas, smooth functions, kinks, and brackets without one.
+module test_extremum
+   use testdrive, only : unittest_type, new_unittest, error_type, check
+   use camroller_kinds, only : wp
+   use camroller_extremum, only : extremum_t, start_extremum, narrow_extremum
+   implicit none
+   private
+
+   public :: collect_extremum
+
+contains
+
+   subroutine collect_extremum(testsuite)
+      type(unittest_type), allocatable, intent(out) :: testsuite(:)
+
+      testsuite = [ &
+         new_unittest("one value finds the lowest point of a parabola", test_parabola), &
+         new_unittest("a smooth function is at its lowest within the tolerance after a few values", test_smooth), &
+         new_unittest("a kink is approached", test_kink), &
+         new_unittest("without a lowest point in the middle nothing is wanted", test_none) &
+         ]
+   end subroutine collect_extremum
+
+   subroutine test_parabola(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(extremum_t) :: search
+
+      call start_extremum(search, [0.0_wp, 1.0_wp, 3.0_wp], parabola([0.0_wp, 1.0_wp, 3.0_wp]), 1.0e-9_wp)
+      do while (search%is_wanted)
+         call narrow_extremum(search, parabola(search%trial))
+      end do
+      call check(error, search%point(2), 1.25_wp, thr=1.0e-12_wp)
+      if (allocated(error)) return
+      call check(error, search%steps, 1)
+   end subroutine test_parabola
+
+   subroutine test_smooth(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(extremum_t) :: search
+      ! Shift of the three points [-]
+      real(wp) :: shift
+      integer :: i
+
+      do i = 1, 50
+         shift = 0.9_wp*(2*i - 51)/51.0_wp
+         call start_extremum(search, shift + [-1.5_wp, 0.0_wp, 1.0_wp], hill(shift + [-1.5_wp, 0.0_wp, 1.0_wp]), 1.0e-6_wp)
+         if (.not. search%is_wanted) cycle
+         do while (search%is_wanted)
+            call narrow_extremum(search, hill(search%trial))
+         end do
+         ! The lowest value is -1 at 0
+         call check(error, search%value(2) + 1.0_wp <= 1.0e-6_wp .and. search%steps <= 8)
+         if (allocated(error)) return
+      end do
+   end subroutine test_smooth
+
+   subroutine test_kink(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(extremum_t) :: search
+      real(wp), parameter :: points(3) = [0.0_wp, 0.2_wp, 1.0_wp]
+
+      call start_extremum(search, points, kink(points), 1.0e-6_wp)
+      do while (search%is_wanted)
+         call narrow_extremum(search, kink(search%trial))
+      end do
+      ! Twelve values at most, each of which about halves the bracket
+      call check(error, search%value(2) <= 1.0e-2_wp)
+   end subroutine test_kink
+
+   subroutine test_none(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(extremum_t) :: search
+
+      call start_extremum(search, [0.0_wp, 1.0_wp, 2.0_wp], [0.0_wp, 1.0_wp, 2.0_wp], 1.0e-6_wp)
+      call check(error, .not. search%is_wanted)
+      if (allocated(error)) return
+      call start_extremum(search, [0.0_wp, 1.0_wp, 2.0_wp], [1.0_wp, 1.0_wp, 1.0_wp], 1.0e-6_wp)
+      call check(error, .not. search%is_wanted)
+   end subroutine test_none
+
+   !> Lowest at 1.25.
+   elemental function parabola(x) result(f)
+      real(wp), intent(in) :: x
+      real(wp) :: f
+
+      f = 2.0_wp*(x - 1.25_wp)**2 - 7.0_wp
+   end function parabola
+
+   !> Lowest at 0, not even.
+   elemental function hill(x) result(f)
+      real(wp), intent(in) :: x
+      real(wp) :: f
+
+      f = -exp(-x**2) + 0.1_wp*x**3*max(x, 0.0_wp)
+   end function hill
+
+   !> Lowest at 0.3.
+   elemental function kink(x) result(f)
+      real(wp), intent(in) :: x
+      real(wp) :: f
+
+      f = abs(x - 0.3_wp) + 2.0_wp*max(x - 0.3_wp, 0.0_wp)
+   end function kink
+
+end module test_extremum

@@ -1,0 +1,442 @@
+!> Means over the cycle: those of the curve, with an estimate that bounds their errors; work of what is stored; extremes and
+!> standstills of the curve and not of the points.
+module test_means
+   use testdrive, only : unittest_type, new_unittest, error_type, check, test_failed
+   use camroller_kinds, only : wp, pi, two_pi, degree
+   use camroller_dynamics, only : stored_energy
+   use camroller_error, only : error_t
+   use camroller_case, only : case_t, numerics_t
+   use camroller_catalogue, only : follower_torques, list_series, torque_count
+   use camroller_cycle, only : cycle_t, integrate_cycle, state_at
+   use camroller_deck, only : deck_t, override_t, read_deck, parse_deck, make_case, make_sweep_case
+   use camroller_means, only : statistics_t, integrate_lobe, integrate_torques
+   use camroller_model, only : model_t
+   use camroller_result, only : result_t, quantity_t, get_summary
+   use camroller_run, only : build_models, run_case
+   use camroller_simulation, only : simulation_t, outcome_t, start_simulation, advance
+   use camroller_state, only : state_t
+   use random_decks, only : random_t, start_random, random_deck
+   use reference_cases, only : thesis_case, source_case, set_point, point_viscosities
+   use run_settings, only : has_checks
+   implicit none
+   private
+
+   public :: collect_means
+
+   !> Torques that are losses: contact, roller bearing, guide
+   integer, parameter :: losses(3) = [2, 3, 4]
+   !> Rule of three points of Gauss on [0, 1] [-]
+   real(wp), parameter :: nodes(3) = 0.5_wp*[1.0_wp - sqrt(0.6_wp), 1.0_wp, 1.0_wp + sqrt(0.6_wp)]
+   real(wp), parameter :: weights(3) = [5.0_wp, 8.0_wp, 5.0_wp]/18.0_wp
+
+contains
+
+   subroutine collect_means(testsuite)
+      type(unittest_type), allocatable, intent(out) :: testsuite(:)
+
+      testsuite = [ &
+         new_unittest("mean torques are those of the curve within the tolerance of the cycle", test_curve), &
+         new_unittest("the estimated error of means bounds the error", test_estimate), &
+         new_unittest("without gas and loss of contact the mean of the geometric torque is zero", test_closed), &
+         new_unittest("stored energy is given back where contact is lost", test_lost), &
+         new_unittest("what drives a follower over a step of a host goes into losses, store and spin", test_step), &
+         new_unittest("losses of a result have the accuracy asked for", test_accuracy), &
+         new_unittest("means whose accuracy is not reached are remarked on", test_remark), &
+         new_unittest("where nothing is entrained the smallest film does not depend on the accuracy", test_standstill), &
+         new_unittest("extremes are those of the curve whatever the output step", test_extremes) &
+         ]
+   end subroutine collect_means
+
+   !> Cases whose integrands are hard: the bookkeeping of the source, whose contact torque changes its sign; a few rows of cylinder
+   !> pressure that take the contact away and give it back; a roller that is stuck.
+   subroutine hard_case(number, the_case, error)
+      integer, intent(in) :: number
+      type(case_t), intent(out) :: the_case
+      type(error_type), allocatable, intent(out) :: error
+      type(deck_t) :: deck
+      type(override_t) :: none(0)
+      type(error_t), allocatable :: failure
+
+      select case (number)
+      case (1, 2)
+         call read_deck(deck, "decks/thesis_source.nml", none, failure)
+         if (.not. allocated(failure)) call make_sweep_case(deck, 6 + number, the_case, failure)
+      case (3)
+         the_case = gas_case()
+      case (4)
+         call read_deck(deck, "decks/hard/stuck_roller.nml", none, failure)
+         if (.not. allocated(failure)) call make_case(deck, none, the_case, failure)
+      case default
+         the_case = thesis_case()
+         call set_point(the_case, 94.0_wp, point_viscosities(1))
+      end select
+      if (allocated(failure)) call test_failed(error, failure%message)
+      if (allocated(the_case%cam_bearings)) deallocate (the_case%cam_bearings)
+      the_case%numerics = numerics_t()
+   end subroutine hard_case
+
+   !> At 4000 rev/min contact is lost beside the nose; the gas presses before it.
+   function gas_case() result(the_case)
+      type(case_t) :: the_case
+      ! Rows of the table: every 40 degrees
+      integer, parameter :: rows = 10
+
+      the_case = thesis_case()
+      the_case%numerics = numerics_t()
+      call set_point(the_case, 420.0_wp, point_viscosities(3))
+      allocate (the_case%gas_force)
+      the_case%gas_force%angle = [-180.0_wp, -140.0_wp, -100.0_wp, -60.0_wp, -20.0_wp, 20.0_wp, 60.0_wp, 100.0_wp, 140.0_wp, &
+         & 180.0_wp]*degree
+      the_case%gas_force%pressure = [0.0_wp, 0.0_wp, 0.0_wp, 4.0e5_wp, 6.0e5_wp, -0.3e5_wp, 1.0e5_wp, 2.0e6_wp, 0.0_wp, 0.0_wp]
+      the_case%gas_force%valve_area = 6.0e-4_wp
+   end function gas_case
+
+   !> Cycle and means of a case without camshaft bearings.
+   subroutine take_statistics(the_case, models, cycle, statistics, error)
+      type(case_t), intent(in) :: the_case
+      type(model_t), allocatable, intent(out) :: models(:)
+      type(cycle_t), intent(out) :: cycle
+      type(statistics_t), intent(out) :: statistics
+      type(error_type), allocatable, intent(out) :: error
+      type(quantity_t), allocatable :: series(:)
+      type(error_t), allocatable :: failure
+
+      call list_series(the_case, series)
+      call build_models(the_case, models, failure)
+      if (.not. allocated(failure)) call integrate_cycle(cycle, models(1), the_case%numerics, failure)
+      if (.not. allocated(failure)) call integrate_lobe(the_case, models(1), cycle, size(series), statistics, failure)
+      if (allocated(failure)) call test_failed(error, failure%message)
+   end subroutine take_statistics
+
+   !> Means of torques and of their sizes by many panels in each interval.
+   subroutine brute_force(model, cycle, parts, torques, sizes, error)
+      type(model_t), intent(in) :: model
+      type(cycle_t), intent(in) :: cycle
+      !> Panels in an interval
+      integer, intent(in) :: parts
+      !> [N m]
+      real(wp), intent(out) :: torques(torque_count), sizes(torque_count)
+      type(error_type), allocatable, intent(out) :: error
+      type(state_t) :: state
+      type(error_t), allocatable :: failure
+      ! Length of a panel, of the cycle [rad]
+      real(wp) :: length, span
+      integer :: interval, part, node, hint
+
+      torques = 0.0_wp
+      sizes = 0.0_wp
+      hint = 1
+      associate (times => cycle%trajectory%time(:cycle%trajectory%count))
+         span = times(size(times)) - times(1)
+         do interval = 1, size(times) - 1
+            length = (times(interval + 1) - times(interval))/parts
+            if (.not. length > 0.0_wp) cycle
+            do part = 0, parts - 1
+               do node = 1, size(nodes)
+                  call state_at(cycle, model, times(interval) + (part + nodes(node))*length, hint, state, failure)
+                  if (allocated(failure)) then
+                     call test_failed(error, failure%message)
+                     return
+                  end if
+                  torques = torques + weights(node)*length/span*follower_torques(state)
+                  sizes = sizes + weights(node)*length/span*abs(follower_torques(state))
+               end do
+            end do
+         end do
+      end associate
+   end subroutine brute_force
+
+   subroutine test_curve(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: the_case
+      type(model_t), allocatable :: models(:)
+      type(cycle_t) :: cycle
+      type(statistics_t) :: statistics
+      type(error_t), allocatable :: failure
+      ! Torques by brute force and their sizes, by the routine for pieces [N m]
+      real(wp) :: torques(torque_count), sizes(torque_count), of_piece(torque_count)
+      character(len=80) :: words
+      integer :: number, i
+
+      do number = 1, 5
+         call hard_case(number, the_case, error)
+         if (allocated(error)) return
+         ! The cycle of a result, and one whose spin is known far better than what is made of it
+         the_case%numerics%accuracy = merge(1.0e-4_wp, 1.0e-7_wp, number <= 2)
+         call take_statistics(the_case, models, cycle, statistics, error)
+         if (.not. allocated(error)) call brute_force(models(1), cycle, merge(16, 64, has_checks()), torques, sizes, error)
+         if (allocated(error)) return
+         call integrate_torques(models(1), cycle, of_piece, failure)
+         if (allocated(failure)) call test_failed(error, failure%message)
+         if (allocated(error)) return
+         do i = 1, size(losses)
+            associate (loss => losses(i))
+               write (words, "(a, 2i2, 3es11.2)") "case, torque, errors, tolerance", number, loss, &
+                  & abs([statistics%torques(loss), of_piece(loss)] - torques(loss))/max(sizes(loss), tiny(1.0_wp)), cycle%tolerance
+               ! Brute force has errors of its own: kinks within a panel, of the square of its part of an interval
+               call check(error, all(abs([statistics%torques(loss), of_piece(loss)] - torques(loss)) &
+                  & <= 1.1_wp*cycle%tolerance*sizes(loss)), words)
+               if (allocated(error)) return
+            end associate
+         end do
+      end do
+   end subroutine test_curve
+
+   subroutine test_estimate(error)
+      type(error_type), allocatable, intent(out) :: error
+      character(len=8), parameter :: methods(*) = [character(len=8) :: "hermite", "rodas5p", "radau5"]
+      type(case_t) :: the_case
+      type(model_t), allocatable :: models(:)
+      type(cycle_t) :: cycle
+      type(statistics_t) :: right, statistics
+      ! Sizes of the mean torques [N m]; largest error of a mean [-], sum of the logarithms of the estimate over it
+      real(wp) :: torques(torque_count), sizes(torque_count), largest, logarithms
+      character(len=80) :: words
+      integer :: number, method, power, tries
+
+      logarithms = 0.0_wp
+      tries = 0
+      do number = 1, 5
+         call hard_case(number, the_case, error)
+         if (allocated(error)) return
+         the_case%numerics%method = "rodas5p"
+         the_case%numerics%tolerance = 1.0e-9_wp
+         call take_statistics(the_case, models, cycle, right, error)
+         if (.not. allocated(error)) call brute_force(models(1), cycle, 1, torques, sizes, error)
+         if (allocated(error)) return
+         do method = 1, size(methods)
+            do power = 3, 5
+               the_case%numerics%method = methods(method)
+               the_case%numerics%tolerance = 10.0_wp**(-power)
+               call take_statistics(the_case, models, cycle, statistics, error)
+               if (allocated(error)) return
+               largest = maxval(abs(statistics%torques(losses) - right%torques(losses))/sizes(losses), mask=sizes(losses) > 0.0_wp)
+               largest = max(largest, abs(sum(statistics%torques(1:5) - right%torques(1:5)))/sum(sizes(losses)))
+               write (words, "(2a, 2i2, 2es10.2)") "case, power, error, estimate: ", methods(method), number, power, largest, &
+                  & statistics%mean_error
+               ! The reference itself is good to a few times its tolerance
+               call check(error, largest <= statistics%mean_error + 1.0e-8_wp, words)
+               if (allocated(error)) return
+               logarithms = logarithms + log(statistics%mean_error/max(largest, 1.0e-9_wp))
+               tries = tries + 1
+            end do
+         end do
+      end do
+      ! An estimate of everything as wrong would not pass: a bound of sizes, where errors of both signs cancel, and not a guess
+      call check(error, logarithms/tries <= log(300.0_wp))
+   end subroutine test_estimate
+
+   subroutine test_closed(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: the_case
+      type(model_t), allocatable :: models(:)
+      type(cycle_t) :: cycle
+      type(statistics_t) :: statistics
+      ! Largest difference of the kinetic energy of the roller between start and end, of its spin at any angle [J]
+      real(wp) :: closed
+      ! The roller turns at most so much faster than the cam [-]: its radius is less than half that of the base circle with the lift
+      real(wp), parameter :: fastest = 6.0_wp
+
+      the_case = thesis_case()
+      the_case%numerics = numerics_t()
+      call take_statistics(the_case, models, cycle, statistics, error)
+      if (allocated(error)) return
+      call check(error, abs(statistics%torques(1)) <= 0.0_wp, "mean of the geometric torque")
+      if (allocated(error)) return
+      closed = models(1)%roller_inertia*cycle%closure*cycle%scale/models(1)%roller_radius*fastest*models(1)%speed
+      call check(error, abs(statistics%torques(5))*two_pi <= closed*(1.0_wp + 1.0e-6_wp) + 1.0e-15_wp, "spin of the roller")
+   end subroutine test_closed
+
+   subroutine test_lost(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: the_case
+      type(model_t), allocatable :: models(:)
+      type(cycle_t) :: cycle
+      type(statistics_t) :: statistics
+      ! Torques by brute force and their sizes [N m]
+      real(wp) :: torques(torque_count), sizes(torque_count)
+      character(len=60) :: words
+      integer :: i
+
+      do i = 1, 2
+         the_case = gas_case()
+         if (i == 2) deallocate (the_case%gas_force)
+         call take_statistics(the_case, models, cycle, statistics, error)
+         if (.not. allocated(error)) call brute_force(models(1), cycle, 16, torques, sizes, error)
+         if (allocated(error)) return
+         call check(error, statistics%lost_share > 0.01_wp, "contact is not lost")
+         if (allocated(error)) return
+         write (words, "(4es13.5)") statistics%torques(1), torques(1), sizes(1), sum(sizes(losses))
+         ! Brute force has 16 panels of three points in each interval, whose ends are all kinks there are: rounding of the large
+         ! torque that goes to and fro is what is left
+         call check(error, abs(statistics%torques(1) - torques(1)) <= 1.0e-9_wp*sizes(1) + cycle%tolerance*sum(sizes(losses)), &
+            & words)
+         if (allocated(error)) return
+         ! The lift is even: without gas contact comes back with the energy that it was lost with
+         call check(error, (abs(statistics%torques(1)) > 1.0e-3_wp*sizes(1)) .eqv. i == 1, "what is lost or gained")
+         if (allocated(error)) return
+      end do
+   end subroutine test_lost
+
+   subroutine test_step(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: the_case
+      type(model_t), allocatable :: models(:)
+      type(simulation_t) :: simulation
+      type(outcome_t) :: outcome
+      type(error_t), allocatable :: failure
+      ! Step [rad]
+      real(wp), parameter :: step = 7.3_wp*degree
+      ! Energy stored before and after the step, work that is stored, largest energy met [J]
+      real(wp) :: before, after, work, largest
+      integer :: i
+
+      the_case = thesis_case()
+      call build_models(the_case, models, failure)
+      if (.not. allocated(failure)) call start_simulation(simulation, the_case, 0.5_wp*pi, failure)
+      largest = 0.0_wp
+      do i = 1, 25
+         if (.not. allocated(failure)) call advance(simulation, 0.5_wp*pi + i*step, the_case%operating_point%speed, &
+            & the_case%operating_point%oil_temperature, outcome, failure)
+         if (allocated(failure)) call test_failed(error, failure%message)
+         if (allocated(error)) return
+         after = stored_energy(models(1)%train, outcome%state%position, models(1)%speed) &
+            & + 0.5_wp*models(1)%roller_inertia*outcome%state%contact%roller_spin**2
+         largest = max(largest, after)
+         work = step*(outcome%mean_torque_drive - outcome%mean_torque_friction)
+         ! Sums and differences of some energies
+         if (i > 1) call check(error, abs(work - (after - before)) <= 100.0_wp*epsilon(1.0_wp)*largest)
+         if (allocated(error)) return
+         before = after
+      end do
+   end subroutine test_step
+
+   subroutine test_accuracy(error)
+      type(error_type), allocatable, intent(out) :: error
+      character(len=*), parameter :: names(*) = [character(len=20) :: "mean_torque_contact", "mean_torque_needle", &
+         & "mean_torque_friction", "mean_torque_drive"]
+      type(case_t) :: the_case
+      type(result_t) :: result, right
+      type(error_t), allocatable :: failure
+      ! Means [N m], friction torque [N m], estimate [-]
+      real(wp) :: found, expected, friction, estimate
+      character(len=100) :: words
+      integer :: number, power, i
+
+      do number = 1, 3
+         call hard_case(number, the_case, error)
+         if (allocated(error)) return
+         the_case%numerics%accuracy = 1.0e-8_wp
+         call run_case(the_case, right, failure)
+         do power = 3, 5
+            the_case%numerics%accuracy = 10.0_wp**(-power)
+            if (.not. allocated(failure)) call run_case(the_case, result, failure)
+            if (.not. allocated(failure)) call get_summary(result, "estimated_error_of_means", estimate, failure)
+            if (.not. allocated(failure)) call get_summary(right, "mean_torque_friction", friction, failure)
+            do i = 1, size(names)
+               if (.not. allocated(failure)) call get_summary(result, trim(names(i)), found, failure)
+               if (.not. allocated(failure)) call get_summary(right, trim(names(i)), expected, failure)
+               if (allocated(failure)) call test_failed(error, failure%message)
+               if (allocated(error)) return
+               write (words, "(a, 2i3, 3es10.2)") trim(names(i)), number, power, found, expected, estimate
+               call check(error, abs(found - expected) <= the_case%numerics%accuracy*merge(friction, expected, i == 4), words)
+               if (allocated(error)) return
+            end do
+            call check(error, estimate <= the_case%numerics%accuracy .and. index(result%warnings, "means have not") == 0, words)
+            if (allocated(error)) return
+         end do
+      end do
+   end subroutine test_accuracy
+
+   subroutine test_remark(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: the_case
+      type(result_t) :: result
+      type(error_t), allocatable :: failure
+
+      the_case = source_case()
+      the_case%numerics = numerics_t()
+      the_case%numerics%accuracy = 1.0e-15_wp
+      call run_case(the_case, result, failure)
+      if (allocated(failure)) call test_failed(error, failure%message)
+      if (allocated(error)) return
+      call check(error, index(result%warnings, "means have not the accuracy asked for; the largest estimated error, of mean_") &
+         & > 0, result%warnings)
+      if (allocated(error)) return
+      the_case%numerics%accuracy = 1.0e-4_wp
+      call run_case(the_case, result, failure)
+      if (allocated(failure)) call test_failed(error, failure%message)
+      if (allocated(error)) return
+      call check(error, index(result%warnings, "means have not") == 0, result%warnings)
+   end subroutine test_remark
+
+   !> The entrainment speed of this random deck passes through zero twice.
+   subroutine test_standstill(error)
+      type(error_type), allocatable, intent(out) :: error
+      integer, parameter :: seed = 700090
+      type(random_t) :: random
+      type(deck_t) :: deck
+      type(override_t) :: none(0)
+      type(case_t) :: the_case
+      type(result_t) :: result
+      type(error_t), allocatable :: failure
+      character(len=:), allocatable :: text
+      ! Smallest film [m]; of the first accuracy; number of standstills
+      real(wp) :: film, first, standstills
+      character(len=60) :: words
+      integer :: power
+
+      call start_random(random, seed)
+      call random_deck(random, text)
+      call parse_deck(deck, text, "random deck", "", none, failure)
+      if (.not. allocated(failure)) call make_case(deck, none, the_case, failure)
+      do power = 3, 6
+         the_case%numerics%accuracy = 10.0_wp**(-power)
+         if (.not. allocated(failure)) call run_case(the_case, result, failure)
+         if (.not. allocated(failure)) call get_summary(result, "min_film_thickness_min", film, failure)
+         if (.not. allocated(failure)) call get_summary(result, "entrainment_reversals", standstills, failure)
+         if (allocated(failure)) call test_failed(error, failure%message)
+         if (allocated(error)) return
+         if (power == 3) first = film
+         write (words, "(3es12.4)") film, first, standstills
+         ! The place of the standstill is known within the accuracy, and the load, which the film of dry surfaces follows, changes
+         ! little over that
+         call check(error, nint(standstills) == 2 .and. abs(film - first) <= 1.0e-3_wp*first + 1.0e-15_wp, words)
+         if (allocated(error)) return
+         call check(error, index(result%warnings, "the entrainment speed passes through zero 2 times in contact") > 0, &
+            & result%warnings)
+         if (allocated(error)) return
+      end do
+   end subroutine test_standstill
+
+   subroutine test_extremes(error)
+      type(error_type), allocatable, intent(out) :: error
+      character(len=*), parameter :: names(*) = [character(len=24) :: "min_film_thickness_min", "max_film_thickness_min", &
+         & "max_hertz_pressure", "max_contact_load", "max_sliding_speed", "min_sliding_speed"]
+      type(case_t) :: the_case
+      type(result_t) :: fine, coarse
+      type(error_t), allocatable :: failure
+      ! With points every 0.02 and 10 degrees [unit of the quantity]
+      real(wp) :: values(2)
+      character(len=80) :: words
+      integer :: i
+
+      the_case = thesis_case()
+      call set_point(the_case, 94.0_wp, point_viscosities(2))
+      the_case%numerics%output_step = 0.02_wp*degree
+      call run_case(the_case, fine, failure)
+      the_case%numerics%output_step = 10.0_wp*degree
+      if (.not. allocated(failure)) call run_case(the_case, coarse, failure)
+      do i = 1, size(names)
+         if (.not. allocated(failure)) call get_summary(fine, trim(names(i)), values(1), failure)
+         if (.not. allocated(failure)) call get_summary(coarse, trim(names(i)), values(2), failure)
+         if (allocated(failure)) call test_failed(error, failure%message)
+         if (allocated(error)) return
+         write (words, "(a, 2es17.9)") trim(names(i)), values
+         ! A millionth of the range is stated, and no range here is more than a few times the largest value
+         call check(error, abs(values(2) - values(1)) <= 3.0e-6_wp*maxval(abs(values)), words)
+         if (allocated(error)) return
+      end do
+   end subroutine test_extremes
+
+end module test_means
