@@ -48,11 +48,11 @@ contains
       if (.not. allocated(error)) call check(error, is_same_file(facts, other), "not the same by another name")
       other = facts_of_path("/")
       if (.not. allocated(error)) call check(error, kind_in_words(other), "a folder")
-      if (.not. allocated(error)) call check(error,.not. is_same_file(facts, other), "the same as a folder")
+      if (.not. allocated(error)) call check(error, .not. is_same_file(facts, other), "the same as a folder")
       call remove_file(path)
       facts = facts_of_path(path)
-      if (.not. allocated(error)) call check(error,.not. facts%is_there, "still there")
-      if (.not. allocated(error)) call check(error,.not. is_same_file(facts, facts), "what is not there is the same as itself")
+      if (.not. allocated(error)) call check(error, .not. facts%is_there, "still there")
+      if (.not. allocated(error)) call check(error, .not. is_same_file(facts, facts), "what is not there is the same as itself")
    end subroutine files_are_known
 
    subroutine complete_file_takes_place(error)
@@ -76,7 +76,7 @@ contains
       facts = facts_of_path(path)
       if (.not. allocated(error)) call check(error, facts%bytes == 10_int64, "not the new file")
       facts = facts_of_path(temporary)
-      if (.not. allocated(error)) call check(error,.not. facts%is_there, "the unfinished file is there")
+      if (.not. allocated(error)) call check(error, .not. facts%is_there, "the unfinished file is there")
       call remove_file(path)
    end subroutine complete_file_takes_place
 

@@ -134,7 +134,7 @@ contains
       integer :: count
 
       count = 0
-      if (allocated(tally%names)) count = sum(tally%counts, mask=tally%names(:)(:len(name)) == name)
+      if (allocated(tally%names)) count = sum(tally%counts, mask=tally%names(:) (:len(name)) == name)
    end function ending_count
 
    !> All classes with their counts, a line each.

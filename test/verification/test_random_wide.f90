@@ -238,8 +238,8 @@ contains
       call run_case(twin, other, twin_error)
       is_tested = .not. (allocated(error) .or. allocated(twin_error))
       if (allocated(error) .neqv. allocated(twin_error)) then
-         if (allocated(error)) trouble = " in SI only: "//error%message
-         if (allocated(twin_error)) trouble = " in other units only: "//twin_error%message
+         if (allocated(error)) trouble = " in SI alone: "//error%message
+         if (allocated(twin_error)) trouble = " in other units alone: "//twin_error%message
       else if (is_tested) then
          trouble = compare_twins(one, other, unit_systems_tried(size(unit_systems_tried)), &
             & allowed*promised_error(case, one, "estimated_error"))
