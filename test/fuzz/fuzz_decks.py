@@ -35,7 +35,7 @@ BLANK = b" \t\r\n"
 
 def number_near(chance: random.Random, text: bytes) -> bytes:
     """A number changed by a factor, or an odd one."""
-    if chance.random() < 0.4:
+    if chance.random() < 0.15:
         return chance.choice(NUMBERS)
     try:
         value = float(text.lower().replace(b"d", b"e"))
