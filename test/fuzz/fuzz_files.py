@@ -36,6 +36,8 @@ BASES = {
     "sweep": ["sweep", "thesis.nml", "--threads", "1", "--set", "sweep.values_1=300,900", "--set", "sweep.values_2=60,95", "--set",
               "sweep.series=chosen", "--set", "sweep.series_cases=1"],
 }
+FILE_ERROR = 6  # exit code
+BROKEN = "it is damaged, the HDF5 library does not come back from it"
 TABLE_DECK = "&sweep kind = 'table' table = 'damaged.h5' /\n"
 
 
@@ -65,6 +67,7 @@ def make_bases(program: str, folder: pathlib.Path) -> list[Base]:
     bases = []
     for name, (command, path, *options) in BASES.items():
         target = folder / f"{name}.h5"
+        target.unlink(missing_ok=True)
         subprocess.run([program, command, str(ROOT / "decks" / path), "-o", str(target), *COARSE, *options], check=True)
         outputs = {label: subprocess.run([program, *words], check=False, capture_output=True, text=True).stdout
                    for label, words in commands(str(target)).items() if label.startswith("export")}
@@ -191,12 +194,18 @@ def make_file(bases: list[Base], number: int, seed: int, path: pathlib.Path) -> 
 
 
 def judge(ending: Ending, label: str, kind: str, words: str, base: Base) -> Ending:
-    """An ending as the harness sees it; other numbers without a word are a fault where they could be told."""
+    """An ending as the harness sees it; other numbers without a word are a fault where they could be told.
+
+    Where a file without a seal has the HDF5 library spoil its memory, the C library says so before the program can, which is none.
+    """
+    without_seal = kind in ("bytes", "pieces without seal")
+    if without_seal and ending.kind == "words of a library" and ending.code == FILE_ERROR and BROKEN in ending.errors:
+        return dataclasses.replace(ending, kind="6 file, behind words of the C library", is_fault=False)
     if ending.code != 0 or label not in base.outputs or ending.output == base.outputs[label]:
         return ending
     if words.endswith((": gone", ": a group", ": whole numbers", ": small numbers")):
         return dataclasses.replace(ending, kind="0, what was changed on purpose")
-    if kind in ("bytes", "pieces without seal"):
+    if without_seal:
         return dataclasses.replace(ending, kind="0, other numbers, no seal to tell")
     return dataclasses.replace(ending, kind="0, other numbers in silence", is_fault=True)
 
@@ -226,8 +235,14 @@ def main() -> int:
     numbers = range(chosen.cases) if chosen.only is None else [chosen.only]
     with tempfile.TemporaryDirectory() as place:
         folder = pathlib.Path(place)
-        bases = make_bases(programs[0], folder)
-        tally = campaign(numbers, lambda number: try_file(programs[number//4 % len(programs)], bases, number, chosen.seed, folder))
+        bases = {program: make_bases(program, folder) for program in programs}
+
+        def work(number: int) -> list[tuple[str, str, Ending]]:
+            """One case; kinds of damage change from case to case, programs from four to four."""
+            program = programs[number//4 % len(programs)]
+            return try_file(program, bases[program], number, chosen.seed, folder)
+
+        tally = campaign(numbers, work)
     print(tally.text())
     return 1 if tally.faults else 0
 
