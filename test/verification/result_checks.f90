@@ -17,8 +17,8 @@ module result_checks
    real(wp), parameter :: rounding = 1.0e-11_wp
    !> Part of the speed of pure rolling that counts as no slip [-]
    real(wp), parameter :: least_slip = 1.0e-5_wp
-   !> Forces of friction. Where the slip is held by a force that rises steeply with it, a rightful error of the slip is a large one of
-   !> the force, and no estimate says so: differences beyond the promise are told apart from all others
+   !> Forces of friction. Where the slip is held by a force that rises steeply with it, a rightful error of the slip is a large one
+   !> of the force, and no estimate says so: differences beyond the promise are told apart from all others
    character(len=*), parameter :: steep(*) = [character(len=26) :: "friction_hydrodynamic", "friction_boundary_mobilised", &
       & "traction", "friction_contact", "asperity_friction_share"]
    !> Load and friction of asperities over the mean load that count as none: with a thick film they are exponentials of it [-]
