@@ -17,10 +17,11 @@ module result_checks
    real(wp), parameter :: rounding = 1.0e-11_wp
    !> Part of the speed of pure rolling that counts as no slip [-]
    real(wp), parameter :: least_slip = 1.0e-5_wp
-   !> Forces of friction. Where the slip is held by a force that rises steeply with it, a rightful error of the slip is a large one
-   !> of the force, and no estimate says so: differences beyond the promise are told apart from all others
-   character(len=*), parameter :: steep(*) = [character(len=26) :: "friction_hydrodynamic", "friction_boundary_mobilised", &
-      & "traction", "friction_contact", "asperity_friction_share"]
+   !> Forces of friction, and asperities. Where the slip is held by a force that rises steeply with it, a rightful error of the slip
+   !> is a large one of the force, as one of the film is of the asperities' load, and no estimate says so: differences beyond the
+   !> promise are told apart from all others
+   character(len=*), parameter :: steep(*) = [character(len=27) :: "friction_hydrodynamic", "friction_boundary_mobilised", &
+      & "friction_boundary", "traction", "friction_contact", "asperity_friction_share", "asperity_load", "real_contact_area"]
    !> Load and friction of asperities over the mean load that count as none: with a thick film they are exponentials of it [-]
    real(wp), parameter :: least_part = 1.0e-6_wp
    !> Means that are judged by the mean of all losses

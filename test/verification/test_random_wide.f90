@@ -36,7 +36,7 @@ module test_random_wide
    integer, parameter :: ends_stride = 4
    real(wp), parameter :: ends_share = 0.03_wp
    !> Results that two methods have otherwise than promised where no estimate looks; with a doubt of their means and no remark on it
-   character(len=*), parameter :: open_class = "OPEN: friction force or film at standstill by two methods", &
+   character(len=*), parameter :: open_class = "OPEN: friction force, asperities or film at standstill by two methods", &
       & doubtful_class = "OPEN: estimate of the means above the accuracy, no remark"
    !> Part of the results that they may be: one in eight among the first 300 decks [-]
    real(wp), parameter :: open_share = 0.2_wp
