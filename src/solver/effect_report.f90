@@ -170,9 +170,9 @@ contains
       !> Position of the scalar
       integer, intent(in) :: position
 
-      associate (scalar => result%summary(position))
-         call append(list, scalar%name, scalar%unit, scalar%description, scalar%source, result%summary_values(position))
-      end associate
+      list%count = list%count + 1
+      list%quantities(list%count) = result%summary(position)
+      list%values(list%count) = result%summary_values(position)
    end subroutine copy_scalar
 
    !> Append a scalar.

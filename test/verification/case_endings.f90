@@ -14,7 +14,7 @@ module case_endings
    end type tally_t
 
    !> What the message of an error of a run says, and its class
-   character(len=*), parameter :: error_phrases(2, 15) = reshape([character(len=44) :: &
+   character(len=*), parameter :: error_phrases(2, 16) = reshape([character(len=44) :: &
       & "at several loads", "several balances at once", &
       & "did not become periodic", "not periodic", &
       & "was not found", "estimate beyond the slip itself", &
@@ -28,18 +28,21 @@ module case_endings
       & "a fixed step failed", "fixed step failed", &
       & "quasi-static limit", "no quasi-static limit", &
       & "range_policy = 'stop'", "film law outside its range, which stops", &
+      & "contact_policy = 'stop'", "contact lost, which stops", &
       & "bearing law has no solution", "camshaft bearing without solution", &
-      & "ehl:", "numerical film"], [2, 15])
+      & "ehl:", "numerical film"], [2, 16])
    !> What a remark says, and its class
-   character(len=*), parameter :: remark_phrases(2, 8) = reshape([character(len=44) :: &
+   character(len=*), parameter :: remark_phrases(2, 10) = reshape([character(len=44) :: &
       & "accuracy asked for was not reached", "accuracy not reached", &
       & "outside its published range", "film law outside its range", &
       & "the tolerance", "tolerance does not hold the error", &
       & "sliding speed is not resolved", "sliding speed not resolved", &
       & "entrainment speed changes its sign", "entrainment reverses", &
+      & "joint of finger and lash adjuster opens", "joint of the pivot opens", &
+      & "lash adjuster pumps up", "lash adjuster pumps up", &
       & "contact", "contact lost", &
       & "film", "other remark on the film", &
-      & "mean", "remark on means"], [2, 8])
+      & "mean", "remark on means"], [2, 10])
 
 contains
 
@@ -91,7 +94,6 @@ contains
          return
       end do
       call count_ending(tally, prefix//kind//"of another cause")
-      write (6, '(a)') "OTHER "//prefix//kind//error%message
       if (error%kind == kind_convergence) trouble = trouble//" an error without a known cause: "//error%message
    end subroutine count_error
 

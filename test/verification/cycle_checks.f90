@@ -119,7 +119,8 @@ contains
       associate (contact => state%contact)
          is_possible = all(ieee_is_finite([contact%sliding_speed, contact%traction, contact%traction_slope, contact%load, &
             & contact%film_min, contact%film_central, contact%asperity_load, contact%rolling_resistance, contact%bearing_torque, &
-            & state%torque_drive, state%torque_friction, state%spin_acceleration]))
+            & state%torque_drive, state%torque_friction, state%torque_geometric, state%torque_contact, state%torque_needle, &
+            & state%torque_guide, state%torque_roller_inertia, state%energy_residual, state%spin_acceleration]))
          if (.not. is_possible) return
          is_possible = min(contact%load, contact%film_min, contact%asperity_load, contact%real_area, &
             & contact%boundary_capacity, contact%traction_slope) >= 0.0_wp .and. contact%asperity_load <= contact%load &

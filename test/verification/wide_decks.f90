@@ -278,9 +278,12 @@ contains
       case ("table_nose_angle_deg")
          is_given = is_given .and. (law == "table" .or. group == "gas_force")
       case ("finger_kg")
-         is_given = draft%is_first
+         is_given = is_given .or. draft%is_first
       case ("finger_inertia_kg_m2")
-         is_given = .not. draft%is_first
+         is_given = (is_given .and. .not. draft%is_first) .or. index(text, "finger_kg") == 0
+      case ("finger_centre_mm")
+         ! Beyond the radius of gyration it is refused; without an inertia that is the pad's radius
+         is_given = is_given .and. index(text, "finger_inertia_kg_m2") == 0
       case ("hardness_GPa")
          ! Where it is not there, laws that need it are not drawn
          is_given = is_given .or. draft%has_lobes
@@ -328,7 +331,7 @@ contains
       select case (group//"."//trim(key%name))
       case ("case.energy")
          share = source_share
-      case ("film.range_policy")
+      case ("film.range_policy", "spring.contact_policy")
          share = stop_share
       case ("numerics.method")
          share = style%method_share

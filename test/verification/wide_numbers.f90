@@ -30,6 +30,7 @@ module wide_numbers
       & usual_t("mechanism.pivot_to_cam_mm", 28.0_wp, 38.0_wp), &
       & usual_t("mechanism.roller_arm_angle_deg", -8.0_wp, 8.0_wp), &
       & usual_t("mechanism.valve_axis_angle_deg", 25.0_wp, 45.0_wp), &
+      & usual_t("mechanism.adjuster_tilt_deg", -30.0_wp, 30.0_wp), &
       & usual_t("mechanism.base_radius_mm", 14.0_wp, 20.0_wp), &
       & usual_t("mechanism.contact_width_mm", 3.0_wp, 30.0_wp, .true.), &
       & usual_t("mechanism.grinding_wheel_radius_mm", 20.0_wp, 200.0_wp, .true.), &
@@ -44,6 +45,7 @@ module wide_numbers
       & usual_t("masses.valve_kg", 0.01_wp, 0.15_wp, .true.), &
       & usual_t("masses.finger_kg", 0.01_wp, 0.15_wp, .true.), &
       & usual_t("masses.finger_inertia_kg_m2", 5.0e-6_wp, 3.0e-4_wp, .true.), &
+      & usual_t("masses.finger_centre_mm", 1.0_wp, 20.0_wp, .true.), &
       & usual_t("spring.stiffness_N_m", 1.0e4_wp, 1.0e5_wp, .true.), &
       & usual_t("spring.precompression_mm", 5.0_wp, 15.0_wp), &
       & usual_t("spring.base_circle_load_N", 0.1_wp, 60.0_wp, .true.), &
