@@ -92,3 +92,11 @@ def test_the_table_of_throughput_is_the_one_that_was_measured():
     text = (ROOT / "doc/notes/batch.md").read_text(encoding="utf-8")
     shown = re.search(r"<!-- table: (\S+) -->\n```\n(.*?)```\n<!-- end of table -->", text, re.DOTALL)
     assert shown[2] == (ROOT / shown[1]).read_text(encoding="utf-8")
+
+
+def test_every_folder_of_the_source_is_in_the_table_of_folders():
+    text = (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8")
+    table = re.search(r"<!-- folders -->\n(.*?)<!-- end of folders -->", text, re.DOTALL)[1]
+    listed = re.findall(r"^\| `([\w/]+)` \|", table, re.MULTILINE)
+    folders = {str(path.parent.relative_to(ROOT)) for path in (ROOT / "src").rglob("*.f90")} - {"src"}
+    assert sorted(listed) == sorted(folders | {"app"})
