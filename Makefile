@@ -53,7 +53,7 @@ comparison: build ## compare with the source thesis: doc/thesis_comparison.md an
 	@$(PYTHON) post/plot.py results/comparison/thesis.h5 --figure mean_torque --dpi 90 --output doc/figures
 	@$(PYTHON) post/plot.py results/comparison/thesis.h5 --figure overview --dpi 72 --output doc/figures
 
-study: build ## what accuracy costs on decks/thesis.nml: tables and figures of doc/accuracy_and_cost.md, three minutes
+study: build ## what accuracy costs on decks/thesis.nml: table and figure of doc/accuracy_and_cost.md, three minutes
 	@mkdir -p results
 	build/release/bin/camroller study decks/thesis.nml -o results/thesis_study.h5 > results/thesis_study.txt
 	cp results/thesis_study.txt doc/accuracy_tables.txt
@@ -99,7 +99,7 @@ sanitize: commit ## every deck and the Fortran tests with checks of memory and u
 	  { cat build/sanitize-build.log; exit 1; }
 	@DECKS="$(DECKS)" SUITES="$(SUITES)" $(PYTHON) tools/sanitize.py
 
-rough-rows: commit ## rough contacts of Masjedi and Khonsari beside ours: bench/tables/ehl_rough.txt, for doc/ehl.md
+rough-rows: commit ## rough contacts of Masjedi and Khonsari beside ours: bench/tables/ehl_rough.txt, for doc/notes/numerical_film.md
 	@ROUGH_TABLE=bench/tables/ehl_rough.txt $(FPM) test --flag "$(RELEASE_FLAGS)" -- ehl_rough
 
 bless: build ## take key results and counters of the decks as they are: the table that test_regression.py compares with

@@ -31,7 +31,7 @@ contains
       character(len=width) :: line
       integer :: row
 
-      text = "Changes against the run with all effects, of a single one against none, and what was expected before the run"//n// &
+      text = "Changes relative to the run with all effects (for a single one: with none), and estimates before the run"//n// &
          & "case run      effect              mean torque          smallest film        slip per turn        time   share  "// &
          & "needed"//n// &
          & "                                  change   expected    change   expected    change   expected    [ms]   [%]"
@@ -92,7 +92,7 @@ contains
          held = held + count(is_known .and. abs(changes) <= estimates + accuracy_left)
          known = known + count(is_known)
       end do
-      text = integer_text(held)//" of "//integer_text(known)//" changes are within what was expected"
+      text = integer_text(held)//" of "//integer_text(known)//" changes are within their estimates"
    end function sizes
 
 end module camroller_audit_page

@@ -1,4 +1,4 @@
-!> Where computed cases go: records of runs of cases, with the layouts they refer to.
+!> Receiver of computed cases: records of runs of cases, with the layouts they refer to.
 !>
 !> Layer: app. In: records, one at a time. Out: `sink_t`, which is extended by what is done with them.
 module camroller_case_sink

@@ -1,4 +1,4 @@
-!> What is there already under the name of a result.
+!> What already has the name of a result.
 !>
 !> Layer: app. In: a path, the study that is to be written there. Out: whether a file is there, and whether it is a result of this
 !> very study, complete or partial; how its study ended. What a file is follows from what it says of itself, not from its name.
@@ -35,7 +35,7 @@ module camroller_earlier_result
 
 contains
 
-   !> Look at what is there.
+   !> Examine the file that has the name.
    subroutine look_at_earlier(earlier, path, facts)
       !> What is there
       type(earlier_t), intent(out) :: earlier
@@ -82,7 +82,7 @@ contains
       else if (builds /= "") then
          earlier%reason = "another build made it"//builds
       else
-         earlier%reason = "its deck, a table or a value given beside it is another"
+         earlier%reason = "its deck, a table or a value of --set differs"
       end if
    end subroutine compare_study
 

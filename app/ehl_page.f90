@@ -55,7 +55,7 @@ contains
       !> Three lines
       character(len=:), allocatable :: text
 
-      text = "Contacts solved over the cycle, on as many nodes as it takes"//n// &
+      text = "Contacts solved over the cycle, on as many nodes as the accuracy requires"//n// &
          & "case lobe  smallest   mean of    mean of    mean slip  | half of the nodes   "// &
          & "| steady films  | nodes   steps    time"//n// &
          & "           film [um]  min. [um]  cent. [um] [m/s]      | film [%]   slip [%] "// &
@@ -98,7 +98,7 @@ contains
       character(len=width) :: buffer
       integer :: i, k
 
-      text = n//"Means over the cycle, solved, and by how much the closed formulas differ at the same load and slip"//n// &
+      text = n//"Means over the cycle, and deviation of the closed formulas at the same load and slip"//n// &
          & "case lobe  smallest film        central film         rolling resistance   shear of the film"//n// &
          & "           [um]      formula    [um]      formula    [N]       formula    [N]       formula"
       do i = 1, size(lines)

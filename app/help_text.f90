@@ -1,4 +1,4 @@
-!> What `help` says.
+!> Texts of the command `help`.
 !>
 !> Layer: app. In: the name of a command. Out: text.
 module camroller_help_text
@@ -26,11 +26,11 @@ contains
             & "or FILE. An earlier file of that name is replaced only when the new one is complete."//n//n// &
             & "  -o, --output FILE          file to write"//n// &
             & "  -s, --set group.key=value  other value than the deck's; may be repeated"//n// &
-            & "  -q, --quiet                say nothing but errors"
+            & "  -q, --quiet                print errors only"
       case ("check")
          text = "camroller check DECK [--set group.key=value]..."//n//n// &
-            & "Read a deck, check every case of it, and print the values it comes to. Of many cases a few are run, to tell what"// &
-            & n//"all of them will cost in time, memory and space on the device."//n//n// &
+            & "Read a deck, check every case of it, and print the resulting values. Of many cases a few are run, to estimate"// &
+            & n//"the time, the memory and the disk space of all of them."//n//n// &
             & "  -s, --set group.key=value  other value than the deck's; may be repeated"
       case ("audit", "study")
          text = study_help(command)
@@ -55,7 +55,7 @@ contains
             & "  camroller sweep DECK       compute many cases in threads, restartable"//n// &
             & "  camroller merge DECK       one file from the parts of a sweep"//n// &
             & "  camroller rerun FILE.h5    compute a file again and compare every bit"//n// &
-            & "  camroller check DECK       read and check a deck, print what it comes to"//n// &
+            & "  camroller check DECK       read and check a deck, print the resulting values"//n// &
             & "  camroller study DECK       measure what accuracy costs"//n// &
             & "  camroller audit DECK       measure what each effect is worth and costs"//n// &
             & "  camroller ehl DECK         solve the contact over the cycle, with squeeze"//n// &
@@ -63,7 +63,7 @@ contains
             & "  camroller export FILE.h5   print results as comma-separated values"//n// &
             & "  camroller version          version and build"//n// &
             & "  camroller help [COMMAND]   this, or more about a command"//n//n// &
-            & "Exit codes: 0 fine, 2 command line, 3 deck or table, 4 impossible values or a law out of range,"//n// &
+            & "Exit codes: 0 success, 2 command line, 3 deck or table, 4 impossible values or a law out of range,"//n// &
             & "5 no convergence, 6 file, 7 a rerun differs, 8 stopped before the end, 70 mistake in the program."
       end select
    end function help_for
@@ -78,26 +78,26 @@ contains
       select case (command)
       case ("audit")
          text = "camroller audit DECK [-o FILE] [--repeats N] [--set group.key=value]..."//n//n// &
-            & "Run every case with all its effects, without each of them, with each alone and with those that it needs, and"//n// &
-            & "compare mean torque, smallest film, slip and time, and the changes with what is expected before a run."//n// &
+            & "Run every case with all its effects, without each of them, with each alone and with those that it needs."//n// &
+            & "Compare mean torque, smallest film, slip and time, and the changes with the estimates made before a run."//n// &
             & "Prints a table and writes one HDF5 file: the deck's name with _audit.h5 in the present folder, or FILE."//n//n// &
             & "  -o, --output FILE          file to write"//n// &
             & "  --repeats N                runs whose median time counts; 5 where not given"//n// &
             & "  -s, --set group.key=value  other value than the deck's; may be repeated"//n// &
-            & "  -q, --quiet                say nothing but errors"
+            & "  -q, --quiet                print errors only"
       case ("study")
          text = "camroller study DECK [-o FILE] [--repeats N] [--quick] [--set group.key=value]..."//n//n// &
-            & "Measure what accuracy costs: the accuracy asked for, and every method over its tolerances or steps, each"//n// &
-            & "with its errors against a reference by two unlike methods, its work and its time. Prints a table and writes"//n// &
-            & "one HDF5 file: the deck's name with _study.h5 in the present folder, or FILE."//n//n// &
+            & "Measure what accuracy costs: the default method for several accuracies, each other one for several tolerances"//n// &
+            & "or steps, with errors relative to a reference by two unrelated methods, work and time. Prints a table and"//n// &
+            & "writes one HDF5 file: the deck's name with _study.h5 in the present folder, or FILE."//n//n// &
             & "  -o, --output FILE          file to write"//n// &
             & "  --repeats N                runs whose median time counts; 5 where not given"//n// &
-            & "  --quick                    a few trials of each method only"//n// &
-            & "  --film                     the numerical film instead: as a law over the accuracy of its table, and solved"//n// &
-            & "                             over the cycle over the number of nodes, beside the film law of the deck;"//n// &
-            & "                             into the deck's name with _film_study.h5"//n// &
+            & "  --quick                    a few settings of each method only"//n// &
+            & "  --film                     the numerical film instead: as a film law with tables of several accuracies, and"//n// &
+            & "                             solved over the cycle on several grids, beside the film law of the deck;"//n// &
+            & "                             writes the deck's name with _film_study.h5"//n// &
             & "  -s, --set group.key=value  other value than the deck's; may be repeated"//n// &
-            & "  -q, --quiet                say nothing but errors"
+            & "  -q, --quiet                print errors only"
       case default
          text = ""
       end select
@@ -113,31 +113,31 @@ contains
       select case (command)
       case ("ehl")
          text = "camroller ehl DECK [-o FILE] [--set group.key=value]..."//n//n// &
-            & "Solve the contact itself over the cycle, with a film that remembers, and find the roller's slip with it."//n// &
-            & "Prints film and slip of every case and lobe shape, with what two grids and steady films differ by, film and"//n// &
-            & "friction beside the closed formulas, and writes one HDF5 file with pressure and film across the contact:"//n// &
-            & "the deck's name with _ehl.h5 in the present folder, or FILE. 129 to 513 nodes are taken,"// &
-            & n//"until film and mean slip on two grids differ by less than ehl.accuracy; a case where they do not is an error,"// &
-            & n//"without numbers."//n//n// &
+            & "Solve the contact over the cycle with a transient film (squeeze), together with the roller's slip."//n// &
+            & "Prints film and slip of every case and lobe shape, their differences between two grids and from steady"//n// &
+            & "films, and film and friction beside the closed formulas. Writes one HDF5 file with pressure and film across"//n// &
+            & "the contact: the deck's name with _ehl.h5 in the present folder, or FILE. The number of nodes grows from"//n// &
+            & "129 to 513 until film and mean slip on two grids differ by less than ehl.accuracy; a case in which they"//n// &
+            & "never do is an error and has no numbers."//n//n// &
             & "  -o, --output FILE          file to write"//n// &
             & "  -s, --set group.key=value  other value than the deck's; may be repeated"//n// &
-            & "  -q, --quiet                say nothing but errors"
+            & "  -q, --quiet                print errors only"
       case ("sweep")
          text = "camroller sweep DECK [-o FILE] [--threads N] [--shard K/N] [--resume] [--log-every S] [--set ...] [--quiet]"// &
             & n//n// &
-            & "Compute every case of a deck with a &sweep, in threads, and write one HDF5 file. While it runs, what is done is"// &
+            & "Compute every case of a deck with a &sweep, in threads, and write one HDF5 file. While it runs, results are in"// &
             & n// &
-            & "in FILE.part-*; however it ends, --resume computes what is missing. The file does not depend on threads,"//n// &
-            & "shards and interruptions. Without --resume an earlier FILE is replaced when all cases are done; one of"//n// &
-            & "another study not without a word."//n//n// &
+            & "FILE.part-*; after any kind of end, --resume computes the missing cases. The file does not depend on threads,"//n// &
+            & "shards and interruptions. Without --resume an earlier FILE is replaced when all cases are done; a remark says"//n// &
+            & "so where it is of another study."//n//n// &
             & "  -o, --output FILE          file to write: the deck's name with .h5 in the present folder where not given"//n// &
             & "  -j, --threads N            threads, 1 to 1024; as many as there are cores where not given"//n// &
             & "  --shard K/N                only the K-th of N equal parts of the cases; 'camroller merge' makes the file"//n// &
-            & "  --resume                   go on with what is there; begin where nothing is; end as before where FILE has"//n// &
-            & "                             every case of this study; an error where FILE is anything else"//n// &
+            & "  --resume                   continue from part files, or start where there are none; nothing to do where"//n// &
+            & "                             FILE has every case of this study; an error where FILE is anything else"//n// &
             & "  --log-every S              seconds between lines in a log; 60 where not given"//n// &
             & "  -s, --set group.key=value  other value than the deck's; may be repeated"//n// &
-            & "  -q, --quiet                say nothing but errors"
+            & "  -q, --quiet                print errors only"
       case ("merge")
          text = "camroller merge DECK [-o FILE] [--partial] [--set group.key=value]... [--quiet]"//n//n// &
             & "Make the one file of a sweep from its parts FILE.part-*, and remove them. Takes the deck, FILE and values that"// &
@@ -145,20 +145,20 @@ contains
             & "the sweep was given."//n//n// &
             & "  -o, --output FILE          file to write: the deck's name with .h5 in the present folder where not given"//n// &
             & "  --partial                  also where cases are missing: they have status -1, FILE has the"//n// &
-            & "                             attributes 'complete' 0 and 'missing_cases'; the parts stay, as 'camroller sweep"//n// &
-            & "                             --resume' goes on from them"//n// &
+            & "                             attributes 'complete' 0 and 'missing_cases'; the parts stay for 'camroller sweep"//n// &
+            & "                             --resume'"//n// &
             & "  -s, --set group.key=value  other value than the deck's; may be repeated"//n// &
-            & "  -q, --quiet                say nothing but errors"
+            & "  -q, --quiet                print errors only"
       case default
          text = "camroller rerun FILE.h5 [--threads N] [--log-every S] [--quiet]"//n//n// &
-            & "Compute the cases of a result file, also one of 'ehl', again, from the deck that is stored in it, and compare"// &
+            & "Compute the cases of a result file (of 'ehl' too) again from the deck stored in it, and compare every bit."// &
             & n// &
-            & "every bit. Where something differs, says what and by how much, and which build made the file; the exit code is"// &
+            & "Reports what differs and by how much, and which build made the file; where something differs, the exit code is"// &
             & n// &
             & "then 7."//n//n// &
             & "  -j, --threads N            threads, 1 to 1024; as many as there are cores where not given"//n// &
             & "  --log-every S              seconds between lines in a log; 60 where not given"//n// &
-            & "  -q, --quiet                say nothing but errors"
+            & "  -q, --quiet                print errors only"
       end select
    end function help_for_many
 

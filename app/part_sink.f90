@@ -1,6 +1,6 @@
 !> Cases that go to a part file.
 !>
-!> Layer: app. In: records. Out: the same in a part file, kept by the device from time to time.
+!> Layer: app. In: records. Out: the same in a part file, flushed to disk from time to time.
 module camroller_part_sink
    use, intrinsic :: iso_fortran_env, only : int64
    use camroller_kinds, only : wp
@@ -19,7 +19,7 @@ module camroller_part_sink
    !> The sink
    type, extends(sink_t) :: part_sink_t
       type(part_t) :: part
-      !> Time after which the device keeps what is written [s]
+      !> Interval at which what is written is flushed to disk [s]
       real(wp) :: interval = 30.0_wp
       !> Clock when it did last
       integer(int64) :: last = 0

@@ -256,7 +256,7 @@ contains
             if (difference%largest < huge(1.0_wp)) then
                text = text//"at most by "//number_text(difference%largest, 2)//" of its value, in case "
             else
-               text = text//"a number before or now only, in case "
+               text = text//"a number in only one of the files, in case "
             end if
             text = text//integer_text(difference%case_number)
          end associate

@@ -1,4 +1,4 @@
-!> What every result file says of its run: the deck, values given beside it, tables, what varies, the build.
+!> Facts of the run in every result file: the deck, values given beside it, tables, what varies, the build.
 !>
 !> Layer: app. In: a deck. Out: groups of a result file, from which the run can be repeated; a text that two runs of one sweep
 !> have to agree on.

@@ -123,7 +123,7 @@ contains
       own = part_name(run%path, config%shard, config%shards)
       call find_parts(run%path, own, paths)
       if (size(paths) > 0 .and. .not. config%is_resumed) then
-         call raise(error, kind_file, "'"//paths(1)%text//"' is there from a sweep that was stopped; go on with it by "// &
+         call raise(error, kind_file, "'"//paths(1)%text//"' exists from a sweep that was stopped; continue it with "// &
             & "--resume, or remove "//own//"*")
          return
       end if
@@ -244,7 +244,7 @@ contains
          return
       end if
       if (loop%ended == ended_all .and. config%shards == 1) then
-         call make_result(config, run, "go on by --resume", loop%progress, error)
+         call make_result(config, run, "continue with --resume", loop%progress, error)
          return
       end if
       reason = "was stopped"
@@ -255,13 +255,13 @@ contains
       call missing_runs(index, run%first, run%last, missing)
       if (run_total(missing) > 0) then
          call raise(error, kind_unfinished, "the sweep "//reason//" with "//integer_text(run_total(missing))//" of "// &
-            & counted(run%last - run%first + 1, "case")//" to do; go on with it by --resume")
+            & counted(run%last - run%first + 1, "case")//" to do; continue with --resume")
       else if (config%shards > 1) then
          if (.not. config%is_quiet) call print_lines(run%path//": shard "//integer_text(config%shard)//" of "// &
             & integer_text(config%shards)//" is done, "//counted(run%last - run%first + 1, "case")//" in "// &
             & seconds_since(loop%progress), error)
       else
-         call make_result(config, run, "go on by --resume", loop%progress, error)
+         call make_result(config, run, "continue with --resume", loop%progress, error)
       end if
    end subroutine finish
 
@@ -278,7 +278,7 @@ contains
       call begin_study(config, run, error)
       if (allocated(error)) return
       call start_progress(progress, .true.)
-      call make_result(config, run, "compute them by 'camroller sweep --resume', or merge what is there by --partial", progress, &
+      call make_result(config, run, "compute them with 'camroller sweep --resume', or merge the others with --partial", progress, &
          & error)
    end subroutine merge_deck
 

@@ -1,4 +1,4 @@
-!> What a sweep will cost, from a few of its cases: time, memory, space on the device.
+!> What a sweep will cost, from a few of its cases: time, memory, disk space.
 !>
 !> Layer: app. In: a deck with many cases. Out: lines of text. The cases tried lie evenly between the first and the last.
 module camroller_sweep_cost
@@ -69,11 +69,11 @@ contains
          call take(deck%settings, "sweep", "series_cases", chosen)
          space = space + number_size*real(cost%words_with_series - cost%words, wp)*size(chosen)
       end if
-      text = text//"! memory about "//megabytes(peak_memory() + cores*thread_size)//"; on the device at most "// &
-         & megabytes(space)//" in parts while it runs, and as much again for the file at its end"//new_line("a")
+      text = text//"! memory about "//megabytes(peak_memory() + cores*thread_size)//"; on disk at most "// &
+         & megabytes(space)//" in parts while it runs, and as much again for the result file at the end"//new_line("a")
    end subroutine cost_in_words
 
-   !> The so-manyth case of those that stand for all.
+   !> The n-th case of the sample that stands for all.
    pure function case_to_try(position, trials, cases) result(number)
       !> Position, from 1; how many are tried; number of cases
       integer, intent(in) :: position, trials, cases

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Cases in a second, and what they cost beside the solver: threads, processes, shards, size of the study.
 
-Usage: make bench-batch      rewrites bench/tables/throughput.txt and .png and the table in doc/batch.md; ten minutes at most, on an
+Usage: make bench-batch      rewrites bench/tables/throughput.txt and .png and the table in doc/notes/batch.md; ten minutes at most, on an
                              idle machine
        bench/throughput.py --cases 100 --sizes 100,1000 --repeats 1 --output FOLDER
 
@@ -27,7 +27,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[1]
 PROGRAM = ROOT / "build/release/bin/camroller"
 MPI_PROGRAM = ROOT / "build/mpi/bin/camroller-mpi"
 TABLES = ROOT / "bench/tables"
-PAGE = ROOT / "doc/batch.md"
+PAGE = ROOT / "doc/notes/batch.md"
 LIKE_THESIS = "&numerics accuracy = 1e-3 /\n"
 ENVIRONMENT = os.environ | {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OPENBLAS_NUM_THREADS": "1"}
 # Times to open a file and read a column by h5py, and to open the summary by xarray [s], libraries being loaded. In a process of its

@@ -1,4 +1,4 @@
-!> Linear equations of Newton's method for a line contact, by factors of a derivative that was.
+!> Linear equations of Newton's method for a line contact, by factors of an earlier derivative.
 !>
 !> Layer: ehl. In: derivatives of the equations, full nodes, right-hand side. Out: change of pressure, level and film.
 !> Each equation depends on pressure and film at four nodes, and the film on all pressures, so the matrix is dense and its factors

@@ -1,4 +1,4 @@
-!> What a solution of a line contact says: films, friction, and how well it keeps what must be kept.
+!> Results of a solution of a line contact: films, friction, errors of the conserved quantities.
 !>
 !> Layer: ehl. In: problem, grid, solution. Out: `ehl_films_t`, with dimension.
 module camroller_ehl_films

@@ -1,4 +1,4 @@
-!> A line contact that is left alone until nothing changes any more.
+!> A line contact integrated in time until it is steady.
 !>
 !> Layer: ehl. In: problem, grid, a start from which Newton's method does not find the steady film. Out: that film. The film stores
 !> and gives off oil as it does in a contact that changes with time, in steps that grow as long as Newton's method solves them.

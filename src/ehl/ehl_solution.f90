@@ -1,4 +1,4 @@
-!> Solution of a line contact from nothing or from one nearby, on two grids, and what it says about film and friction.
+!> Solution of a line contact from a cold start or from one nearby, on two grids, with film and friction.
 !>
 !> Layer: ehl. In: contact, number of nodes. Out: films, friction, and the difference of two grids; or a status.
 !> From nothing: the pressure of a dry contact, or that of a rigid one, whichever the expected film calls for; where Newton's method

@@ -1,4 +1,4 @@
-!> Film of an oil between two bodies over speed and load, from numerical solutions.
+!> Film of an oil between two bodies as a function of speed and load, from numerical solutions.
 !>
 !> Layer: ehl. In: oil, modulus, ranges of the groups U and W*. Out: `film_table_t`. With oil and modulus given, the film over
 !> the radius depends on U and W* alone, so some hundred solutions, each compared on two grids, serve every contact of a

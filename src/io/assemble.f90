@@ -144,7 +144,7 @@ contains
          if (allocated(error)) return
       end do
       next = first + count
-      if (record%is_short) call raise(error, kind_internal, "'"//file%path//"' holds a record that is shorter than it says")
+      if (record%is_short) call raise(error, kind_internal, "'"//file%path//"' holds a record shorter than its stated length")
    end subroutine write_entry
 
    !> Write one case, its quantities at their places among those of all cases.

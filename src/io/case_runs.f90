@@ -1,4 +1,4 @@
-!> Runs of consecutive cases: which cases of a sweep are still to be computed, and which of them is the so-manyth.
+!> Runs of consecutive cases: which cases of a sweep are still to be computed, and the n-th of them.
 !>
 !> Layer: io. In: what part files hold. Out: runs, few integers however many cases there are.
 module camroller_case_runs
@@ -81,7 +81,7 @@ contains
       if (size(runs%first) > most_named) words = words//" and others"
    end function runs_in_words
 
-   !> Consecutive cases from the so-manyth case of runs on.
+   !> Consecutive cases from the n-th case of runs on.
    pure subroutine piece_of(runs, position, wanted, first, count)
       !> The runs
       type(runs_t), intent(in) :: runs

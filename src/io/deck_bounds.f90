@@ -130,8 +130,8 @@ contains
       logical :: is_known
       integer :: i
 
-      text = text//n//"## Bounds of numbers"//n//n//"A number that is not 0 has a size that some machine could have, with room "// &
-         & "to spare. One outside of these bounds is a slip of the pen, and formulas would leave the range of numbers."//n//n// &
+      text = text//n//"## Bounds of numbers"//n//n//"The magnitude of a number that is not 0 must lie within these "// &
+         & "bounds, which are wider than any machine needs. Outside of them formulas could overflow."//n//n// &
          & "| quantity | in | smallest size | largest size |"//n//"|---|---|---|---|"//n
       do i = 1, size(known_bounds)
          bounds = known_bounds(i)

@@ -195,7 +195,7 @@ contains
       case (group_standard)
          words = "may be left out"
       case default
-         words = "in the case only where the group is given"
+         words = "computed only where the group is given"
       end select
    end function kind_in_words
 
@@ -286,8 +286,8 @@ contains
       if (allocated(error)) return
       text = "# The deck"//new_line("a")//new_line("a")
       text = text//"A deck is a file of Fortran namelist groups, `&group key = value ... /`; `!` begins a comment. "// &
-         & "Numbers are in SI units unless the last word of the key is a unit. A group that stands for an effect puts it "// &
-         & "into the case by being there. This page is the output of `camroller defaults --markdown`; "// &
+         & "Numbers are in SI units unless the last word of the key is a unit. The group of an effect switches the effect "// &
+         & "on. This page is the output of `camroller defaults --markdown`; "// &
          & "`camroller defaults` prints the same as a deck."//new_line("a")
       do i = 1, schema%group_count
          if (wanted > 0 .and. wanted /= i) cycle

@@ -44,7 +44,7 @@ contains
       call add_case_keys(schema, standard)
       call add_mechanism_keys(schema, standard)
       call add_roller_keys(schema, standard)
-      call add_group(schema, "lift", group_required, "lift of the valve over the angle of the cam")
+      call add_group(schema, "lift", group_required, "valve lift as a function of the cam angle")
       call add_lift_keys(schema, standard%lift)
       call add_group(schema, "second_lift", group_effect, &
          & "lift of the camshaft's second lobe shape, for cams with lobe 2")
@@ -73,8 +73,8 @@ contains
       !> Case with all its defaults
       type(case_t), intent(in) :: standard
 
-      call add_group(schema, "case", group_standard, "what the run is")
-      call add_text(schema, "title", "one line that says what the case is; legend of its plots", default="untitled")
+      call add_group(schema, "case", group_standard, "title and bookkeeping of the case")
+      call add_text(schema, "title", "one line that describes the case; legend of its plots", default="untitled")
       call add_name(schema, "energy", energy_names, standard%energy, &
          & "closed balance of forces and losses, or the bookkeeping of Islam (2019)")
       call add_group(schema, "operating_point", group_required, "speed and temperature")
@@ -126,7 +126,7 @@ contains
       call add_number(schema, "mass_kg", positive, "mass of the ring", example="0.0088")
       call add_number(schema, "wall_thickness_mm", positive, "thickness of the ring's wall", example="2.4")
       call add_name(schema, "spin", spin_names, standard%roller%spin, &
-         & "what pure rolling is: with the turning of the contact's normal, or as in Islam (2019)")
+         & "definition of pure rolling: with the rotation of the contact normal, or as in Islam (2019)")
    end subroutine add_roller_keys
 
    !> Keys of a lift, for the first and the second lobe shape.
@@ -168,8 +168,8 @@ contains
       call add_number(schema, "valve_kg", not_negative, &
          & "everything that moves with the valve: valve, retainer, a third of the spring", example="0.0432")
       call add_number(schema, "finger_kg", not_negative, &
-         & "mass of the finger with its roller; for the force in the pivot's joint, and taken at the pad for the inertia where "// &
-         & "none is given", example="0.0418", is_optional=.true.)
+         & "mass of the finger with its roller; for the force in the pivot's joint, and placed at the pad for the inertia "// &
+         & "where that is not given", example="0.0418", is_optional=.true.)
       call add_number(schema, "finger_inertia_kg_m2", positive, &
          & "moment of inertia of the finger about its pivot", is_optional=.true.)
       call add_number(schema, "finger_centre_mm", positive, &
@@ -183,14 +183,14 @@ contains
          & "contact load on the base circle, from the lash adjuster", &
          & example="64")
       call add_name(schema, "seating", seating_names, standard%spring%seating, &
-         & "how the load passes from base circle to event: through train and seat, or the larger of both")
+         & "transition of the load from base circle to event: by the stiffness of train and seat, or the larger of both loads")
       call add_number(schema, "seat_stiffness_N_m", positive, &
          & "stiffness of train and seat seen at the valve; 'continuous'", &
          & default=standard%spring%seat_stiffness)
       call add_name(schema, "load_arm", load_arm_names, standard%spring%load_arm, &
          & "arm of the contact's normal about the pivot: exact, or with the normal parallel to the valve's axis")
       call add_name(schema, "contact_policy", contact_policy_names, standard%spring%contact_policy, &
-         & "what to do where cam and roller lose contact: a remark, or no result")
+         & "what to do where cam and roller lose contact: a warning, or an error")
    end subroutine add_load_keys
 
    !> Cylinder pressure.
@@ -225,7 +225,7 @@ contains
       call add_number(schema, "hardness_GPa", positive, &
          & "hardness of the softer body; for film law 'masjedi_khonsari_rough' and asperity law 'zhao_maietta_chang'", &
          & is_optional=.true.)
-      call add_group(schema, "surface", group_required, "finish of cam and roller")
+      call add_group(schema, "surface", group_required, "roughness of cam and roller")
       call add_number(schema, "cam_roughness_um", not_negative, "root mean square roughness of the cam", example="0.1")
       call add_number(schema, "roller_roughness_um", not_negative, "root mean square roughness of the roller", &
          & example="0.1")
@@ -240,7 +240,7 @@ contains
 
       call add_group(schema, "lubricant", group_required, "oil")
       call add_name(schema, "temperature_law", temperature_law_names, standard%lubricant%temperature_law, &
-         & "viscosity over temperature: given directly, or by a law through given points")
+         & "viscosity as a function of temperature: given directly, or by a law through given points")
       call add_number(schema, "viscosity_Pa_s", positive, "dynamic viscosity at the oil temperature; law 'direct'", &
          & example="0.0305", is_optional=.true.)
       call add_numbers(schema, "temperature_points_degC", range_t(smallest=-273.15_wp, with_smallest=.false.), &
@@ -252,7 +252,7 @@ contains
       call add_number(schema, "thermal_expansion_per_K", not_negative, "thermal expansion of the density; 'walther'", &
          & default=standard%lubricant%thermal_expansion)
       call add_name(schema, "pressure_law", pressure_law_names, standard%lubricant%pressure_law, &
-         & "viscosity over pressure")
+         & "viscosity as a function of pressure")
       call add_number(schema, "pressure_viscosity_coefficient_per_GPa", positive, &
          & "pressure-viscosity coefficient at ambient pressure; from roelands_index where not given", example="22", &
          & is_optional=.true.)
@@ -293,7 +293,8 @@ contains
 
       call add_group(schema, "ehl", group_effect, "film by numerical solution of the contact, in place of the film law")
       call add_number(schema, "accuracy", proper_fraction, "largest relative error of the film; "// &
-         & "with 'camroller ehl' what the last two grids may differ by in films and mean slip", default=standard%accuracy)
+         & "with 'camroller ehl' the largest difference of films and mean slip between the last two grids", &
+         & default=standard%accuracy)
       call add_logical(schema, "compressible", standard%compressible, &
          & "does the density of the oil grow with the pressure?")
       call add_logical(schema, "profiles", standard%profiles, &
@@ -311,7 +312,7 @@ contains
 
       type(asperity_t) :: standard
 
-      call add_group(schema, "asperity", group_effect, "asperities that carry load and rub")
+      call add_group(schema, "asperity", group_effect, "asperities that share the load, and boundary friction")
       call add_name(schema, "law", asperity_law_names, standard%law, &
          & "elastic asperities of both surfaces, or asperities of one that yield; the latter needs materials.hardness_GPa")
       call add_number(schema, "roughness_product", positive, "asperity density times tip radius times roughness", &
@@ -323,9 +324,9 @@ contains
       call add_number(schema, "film_shear_strength_MPa", not_negative, &
          & "shear strength of the surface film on the real contact area", default=standard%film_shear_strength)
       call add_name(schema, "boundary", boundary_names, standard%boundary, &
-         & "boundary friction that is counted: what the slip mobilises, or all of it")
+         & "boundary friction that counts as a loss: the part mobilised by slip, or all of it")
       call add_name(schema, "mobilisation", mobilisation_names, standard%mobilisation, &
-         & "boundary friction grows with the sliding speed, or the roller sticks and slides")
+         & "boundary friction as a function of slip: it grows with the sliding speed, or the roller sticks and slides")
       call add_number(schema, "mobilising_speed_m_s", positive, "sliding speed that mobilises regularised boundary friction", &
          & default=standard%mobilising_speed)
    end subroutine add_asperity_keys
@@ -338,12 +339,12 @@ contains
       type(needle_bearing_t) :: standard
 
       call add_group(schema, "needle_bearing", group_effect, "bearing between roller and pin")
-      call add_name(schema, "kind", roller_bearing_names, standard%kind, "what the roller turns on")
+      call add_name(schema, "kind", roller_bearing_names, standard%kind, "needle bearing or plain pin")
       call add_number(schema, "friction_coefficient", not_negative, "friction coefficient", example="0.0015")
       call add_number(schema, "needle_radius_mm", positive, "radius of a needle; kind 'needles'", example="0.99", &
          & is_optional=.true.)
       call add_number(schema, "reversal_ratio", proper_fraction, &
-         & "part of the cam's speed over which a reversal of the torque is spread", default=standard%reversal_ratio)
+         & "fraction of the cam's speed within which the bearing torque changes its sign smoothly", default=standard%reversal_ratio)
    end subroutine add_needle_keys
 
    !> Camshaft bearings.
@@ -392,13 +393,13 @@ contains
       !> Case with all its defaults
       type(case_t), intent(in) :: standard
 
-      call add_group(schema, "effects", group_standard, "which of the listed effects take part")
+      call add_group(schema, "effects", group_standard, "which effects of the deck are computed")
       call add_name(schema, "select", select_names, standard%effects%select, &
-         & "all that are listed, or those of them that a quick look round the cycle finds to matter")
+         & "all effects of the deck, or only those that a survey of the cycle estimates to be needed")
       call add_number(schema, "negligible", range_t(0.0_wp, 0.1_wp), &
-         & "relative change of the quantity that all effects left out may make together", default=standard%effects%negligible)
+         & "largest relative change of the quantity by all effects left out together", default=standard%effects%negligible)
       call add_name(schema, "quantity", quantity_names, standard%effects%quantity, &
-         & "what they have to matter for: mean torque for all losses, smallest film, or slip per revolution")
+         & "quantity that decides: mean torque for all losses, smallest film, or slip per revolution")
    end subroutine add_selection_keys
 
    !> Integration.
@@ -410,23 +411,23 @@ contains
 
       call add_group(schema, "numerics", group_standard, "how the roller's spin is integrated")
       call add_number(schema, "accuracy", range_t(1.0e-10_wp, 0.1_wp), &
-         & "largest error of the sliding speed over its largest value, or over 1e-5 of the largest speed in pure rolling where "// &
-         & "that is more; and of the mean of each loss over itself", &
+         & "largest error of the sliding speed relative to its largest value (at least 1e-5 of the largest speed in pure "// &
+         & "rolling), and of the mean of each loss relative to that mean", &
          & default=standard%numerics%accuracy)
-      call add_name(schema, "method", method_choices, standard%numerics%method, "way to integrate; 'automatic' takes the "// &
-         & "one with the least work")
+      call add_name(schema, "method", method_choices, standard%numerics%method, "integration method; 'automatic' takes "// &
+         & "the one with the least work")
       call add_number(schema, "tolerance", range_t(1.0e-13_wp, 0.1_wp), &
-         & "in place of accuracy: error of the sliding speed aimed at, over its largest value; nobody checks what comes of it", &
+         & "in place of accuracy: error of a step relative to the largest sliding speed; the result's error is not controlled", &
          & is_optional=.true.)
       call add_number(schema, "step_deg", up_to(90.0_wp), "cam angle of a step; method 'euler'", &
          & default=standard%numerics%step)
       call add_number(schema, "periodicity", up_to(1.0_wp), &
-         & "largest difference between start and end of the reported "// &
-         & "cycle, relative to the largest sliding speed, beside a tolerance, a tenth of which is enough; "// &
-         & "without one it is 0.01 accuracy", &
+         & "largest difference of the sliding speed between start and "// &
+         & "end of the reported cycle, relative to its largest value; only with 'tolerance', of which a tenth suffices; "// &
+         & "with 'accuracy' it is 0.01 of that", &
          & default=standard%numerics%periodicity)
       call add_integer(schema, "max_cycles", one_or_more, &
-         & "cycles after which a case that is not periodic is given up", &
+         & "largest number of cycles integrated until the cycle is periodic; a case that is not periodic then fails", &
          & default=standard%numerics%max_cycles)
    end subroutine add_numerics_keys
 
@@ -439,13 +440,13 @@ contains
 
       type(output_options_t) :: options
 
-      call add_group(schema, "output", group_standard, "what is written")
+      call add_group(schema, "output", group_standard, "contents of the result file")
       call add_number(schema, "angle_step_deg", up_to(90.0_wp), &
-         & "cam angle between reported points; a whole part of 360", &
+         & "cam angle between output points; 360 is a whole multiple of it", &
          & default=standard%numerics%output_step)
       call add_logical(schema, "series", options%series, "are the series over the cam angle written, or the summary alone?")
       call add_name(schema, "compression", compression_names, options%compression, &
-         & "when series are compressed; 'auto' does it where the file would be large")
+         & "whether series are compressed; 'auto' compresses large files")
    end subroutine add_output_keys
 
 end module camroller_deck_keys

@@ -293,7 +293,7 @@ contains
       if (key == 0) then
          reason = unknown_key(schema, group, trim(adjustl(text(point + 1:equals - 1))))
       else if (schema%groups(group)%kind == group_effect .and. .not. settings%groups(group)%is_present) then
-         reason = "&"//trim(schema%groups(group)%name)//" is not in the deck; put the group there to have its effect"
+         reason = "&"//trim(schema%groups(group)%name)//" is not in the deck; add the group to switch its effect on"
       end if
    end subroutine find_override
 

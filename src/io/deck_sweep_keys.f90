@@ -27,7 +27,7 @@ contains
 
       call add_group(schema, "sweep", group_effect, "many cases in one run, over up to eight keys or the columns of a table")
       call add_name(schema, "kind", sweep_kind_names, sweep_kind_names(1), &
-         & "every value with every other, the last key fastest; lists side by side; rows of a table; samples")
+         & "how cases are made: all combinations, the last key fastest; lists side by side; rows of a table; samples")
       call add_integer(schema, "cases", from_to(1.0_wp, real(most_cases, wp)), "number of cases of a sample", &
          & is_optional=.true.)
       call add_integer(schema, "seed", not_negative, "seed of a sample; with 0 the Sobol sequence is as published", default=1)
@@ -36,11 +36,11 @@ contains
       call add_axis_keys(schema)
       call add_name(schema, "series", series_choice_names, series_choice_names(1), &
          & "cases whose series over the cam angle 'camroller sweep' writes; the summary is written for every case")
-      call add_integers(schema, "series_cases", not_negative, "those cases, from 0; series 'chosen'", is_optional=.true.)
+      call add_integers(schema, "series_cases", not_negative, "numbers of these cases, from 0; series 'chosen'", is_optional=.true.)
       call add_number(schema, "wall_time_limit_s", positive, &
          & "time after which 'camroller sweep' stops, to be continued with --resume", is_optional=.true.)
-      call add_number(schema, "checkpoint_s", not_negative, "time after which 'camroller sweep' has the device keep what "// &
-         & "is written", default=30.0_wp)
+      call add_number(schema, "checkpoint_s", not_negative, "interval at which 'camroller sweep' flushes its "// &
+         & "results to disk", default=30.0_wp)
    end subroutine add_sweep_keys
 
    !> Keys that vary, and their values.
@@ -54,7 +54,7 @@ contains
       do i = 1, sweep_key_count
          digit = integer_text(i)
          call add_text(schema, "key_"//digit, "key that is varied, as 'group.key'", is_optional=.true.)
-         call add_words(schema, "values_"//digit, "its values; or from, to and count; samples take no count")
+         call add_words(schema, "values_"//digit, "its values; or give from, to and count (no count for samples)")
          call add_number(schema, "from_"//digit, anything, "its first value", is_optional=.true.)
          call add_number(schema, "to_"//digit, anything, "its last value", is_optional=.true.)
          call add_integer(schema, "count_"//digit, from_to(2.0_wp, 1.0e6_wp), "number of values at equal distances", &

@@ -119,7 +119,7 @@ contains
       end do
       if (.not. allocated(error)) call create_numbers(lobe%group, "x", over_nodes, chunk_of(writer, over_nodes), 0, &
          & lobe%places, error)
-      if (.not. allocated(error)) call describe(lobe%places, "1", "place of the nodes over half_width, inlet first", error)
+      if (.not. allocated(error)) call describe(lobe%places, "1", "nodes relative to half_width, inlet first", error)
       if (.not. allocated(error)) call attach_scale(lobe%places, lobe%nodes, 1, 2, error)
       if (.not. allocated(error)) call attach_scale(lobe%places, writer%case_axis, 2, 2, error)
       if (.not. allocated(error)) call create_profile(lobe, writer, "pressure", "Pa", "pressure of film and asperities", &

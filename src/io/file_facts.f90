@@ -1,4 +1,4 @@
-!> What the system knows of a file: whether it is there, of which kind, how large, and whether two names lead to the same one.
+!> Facts of a file from the operating system: is it there, its kind, its size, and whether two names lead to the same one.
 !>
 !> Layer: io. In: paths, descriptors. Out: `file_facts_t`. Links are followed. The call that is asked has one layout of its answer
 !> on every machine that runs Linux.

@@ -1,4 +1,4 @@
-!> HDF5 attributes and dimension scales, as far as we write them.
+!> HDF5 attributes and dimension scales that the program writes.
 !>
 !> Layer: io. In: open objects. Out: attributes with one value; dimensions after the HDF5 Dimension Scale Specification,
 !> which is what netCDF-4 files use.

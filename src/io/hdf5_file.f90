@@ -82,7 +82,7 @@ contains
       call h5pclose_f(access, ignored)
    end subroutine create_file
 
-   !> Make sure that there is space on the device for what comes next. The library does not survive a failed write: it
+   !> Make sure that there is disk space for what comes next. The library does not survive a failed write: it
    !> goes
    !> astray when it closes the file or when the program ends. So space is set aside before it is used.
    subroutine reserve_file(file, bytes, error)
@@ -125,7 +125,7 @@ contains
       if (status /= 0) call raise_hdf5(error, "cannot write '"//file%file//"'")
    end subroutine hand_over_file
 
-   !> Have everything written so far put on the device; space set aside and not used is given back.
+   !> Flush everything written so far to disk; space set aside and not used is given back.
    subroutine flush_file(file, error)
       !> An open file
       type(hdf5_object_t), intent(inout) :: file
@@ -148,7 +148,7 @@ contains
       file%reserved = int(extent, c_int64_t)
       call set_file_size(descriptor, file%reserved, done)
       if (done) call sync_descriptor(descriptor, done)
-      if (.not. done) call raise(error, kind_file, "cannot write '"//file%file//"': the device did not take it")
+      if (.not. done) call raise(error, kind_file, "cannot write '"//file%file//"': the write did not reach the disk")
    end subroutine flush_file
 
    !> Close a file and all that is open in it.

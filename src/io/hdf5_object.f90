@@ -1,4 +1,4 @@
-!> What every HDF5 object of ours has in common: handle, names, the type of texts, the error of not being written.
+!> Parts common to all HDF5 objects: handle, names, the type of texts, the error of a failed write.
 !>
 !> Layer: io. In: extents, texts. Out: `hdf5_object_t` and helpers that the modules on files, attributes and reading
 !> share.
@@ -21,7 +21,7 @@ module camroller_hdf5_object
       character(len=:), allocatable :: name
       !> File as messages call it
       character(len=:), allocatable :: file
-      !> Space on the device set aside for a file [byte]
+      !> Disk space set aside for a file [byte]
       integer(c_int64_t) :: reserved = 0_c_int64_t
       !> Size of a file that is read [byte]
       integer(c_int64_t) :: bytes = 0_c_int64_t

@@ -1,4 +1,4 @@
-!> What the numbers of a case are: names, units and meanings of its scalars and series, and the cam angles.
+!> Layout of the numbers of a case: names, units and meanings of its scalars and series, and the cam angles.
 !>
 !> Layer: io. In: results. Out: layouts that cases with the same quantities share, packed for part files, joined for the file
 !> of all cases.

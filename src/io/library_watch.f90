@@ -1,10 +1,10 @@
-!> Reading that a library may not come back from: which file it is at, and a limit on the time that a call may compute.
+!> Reading from which a library may not return: the file being read, and a limit on the computing time of a call.
 !>
 !> Layer: io. In: the path of a file. Out: whether one is being read, words for a signal handler. HDF5 checks a file while it
-!> goes through it, but not all of it: of a file that is damaged and has no seal, it may follow a list that never ends, or an
-!> address that is none. A program can have that turned into an error (`watch_library`); a host of the library is left alone. What
-!> counts is the time that the calling thread computes, so that neither slow devices nor a stopped process are taken for a loop.
-!> Waiting without end for a device is not noticed. A handler can be given nothing, hence the saved variables.
+!> reads it, but not all of it: in a damaged file without a seal, it may follow a list that never ends or an invalid address. A
+!> program can turn that into an error (`watch_library`); a host of the library is not affected. Only the computing time of the
+!> calling thread counts, so that neither a slow disk nor a stopped process is taken for a loop. Waiting without end for a disk is
+!> not noticed. A handler takes no argument, hence the saved variables.
 module camroller_library_watch
    use, intrinsic :: iso_c_binding, only : c_char, c_int, c_long, c_null_ptr, c_ptr, c_size_t
    implicit none

@@ -92,7 +92,7 @@ contains
       call remember_unfinished(file%temporary)
    end subroutine begin_new_file
 
-   !> Give a complete file its name; it has to be on the device with all that was written. Where that fails, it is removed.
+   !> Give a complete file its name; it has to be on disk with all that was written. Where that fails, it is removed.
    subroutine end_new_file(file, bytes, error)
       !> A file whose content is written, and that is closed
       type(new_file_t), intent(inout) :: file

@@ -1,4 +1,4 @@
-!> What a result file says about its run: the deck, the swept keys, who computed it and how.
+!> Facts of its run in a result file: the deck, the swept keys, who computed it and how.
 !>
 !> Layer: io. In: texts and numbers, nothing that knows decks. Out: groups `/deck`, `/sweep` and attributes of `/run`.
 module camroller_output_facts

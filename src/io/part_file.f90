@@ -184,7 +184,7 @@ contains
       call append_words(part%file, words, error)
    end subroutine append_record
 
-   !> Have the device keep what was appended.
+   !> Flush what was appended to disk.
    subroutine sync_part(part, error)
       !> The part file
       type(part_t), intent(in) :: part

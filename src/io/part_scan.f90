@@ -1,4 +1,4 @@
-!> What part files of a sweep hold: which runs of cases stand where, which layouts they have, what is damaged.
+!> Index of the part files of a sweep: which runs of cases stand where, which layouts they have, what is damaged.
 !>
 !> Layer: io. In: part files, as `camroller_part_file` writes them. Out: an index of their records. A record is a mark with its
 !> kind, its length, a checksum and its words. The first one says what sweep the file belongs to; the others hold layouts and runs

@@ -1,7 +1,7 @@
-!> Files of bytes as the operating system has them: appended to, read at any place, cut, locked, put on the device.
+!> Files of bytes of the operating system: appended to, read at any place, cut, locked, flushed to disk.
 !>
 !> Layer: io. In: paths, texts, 64-bit words. Out: words, errors in the system's words. Nothing is held back in the program: what
-!> was appended survives the end of the process, whatever ends it, and what is on the device survives the end of the machine.
+!> was appended survives the end of the process, whatever ends it, and what is on disk survives the end of the machine.
 !> `settle_raw` is what every file that this program writes has to pass before it counts as written.
 module camroller_raw_file
    use, intrinsic :: iso_c_binding, only : c_associated, c_char, c_f_pointer, c_int, c_int64_t, c_intptr_t, c_loc, c_null_char, &
@@ -246,7 +246,7 @@ contains
          if (written > 0) then
             done = done + written
          else if (written == 0) then
-            reason = "not all of it was taken"
+            reason = "only a part of it was written"
          else if (last_number() /= interrupted) then
             reason = last_words()
             is_unread = last_number() == broken_pipe
@@ -277,7 +277,7 @@ contains
             done = done + written
             cycle
          end if
-         reason = "not all of it was taken"
+         reason = "only a part of it was written"
          if (written < 0) reason = last_words()
          call set_file_size(file%descriptor, file%bytes, ignored)
          call raise(error, kind_file, "cannot write '"//file%path//"': "//reason)
@@ -330,7 +330,7 @@ contains
       end if
    end subroutine cut_raw
 
-   !> Have all that was appended put on the device, and see that all of it is there.
+   !> Flush all that was appended to disk, and check that all of it is there.
    subroutine sync_raw(file, error)
       !> An open file
       type(raw_file_t), intent(in) :: file
@@ -347,10 +347,10 @@ contains
       end if
       facts = facts_of_descriptor(file%descriptor)
       if (facts%bytes /= file%bytes) call raise(error, kind_file, "cannot write '"//file%path// &
-         & "': the device has not taken all of it")
+         & "': not all of it reached the disk")
    end subroutine sync_raw
 
-   !> Close a file that is complete: it counts as written where the device has taken all of it and closing finds nothing wrong.
+   !> Close a file that is complete: it counts as written where all of it is on disk and closing it succeeds.
    subroutine settle_raw(file, error)
       !> An open file; closed in any case
       type(raw_file_t), intent(inout) :: file

@@ -1,4 +1,4 @@
-!> Seal of a result file: a checksum of all its bytes behind its end, so that a damaged file is told and never read.
+!> Seal of a result file: a checksum of all its bytes behind its end, so that a damaged file is recognised and never read.
 !>
 !> Layer: io. In: the path of a file. Out: the same with a seal; whether a seal and what it stands for go together. HDF5 does not
 !> look beyond its own end of a file, and cuts what is there when a program changes the file: a file that was changed on purpose has

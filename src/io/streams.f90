@@ -1,8 +1,8 @@
-!> The two streams that every program has to write to: what it was asked for, and what it has to tell.
+!> The two streams of the program: output and errors.
 !>
 !> Layer: io. In: texts. Out: the same on the output unit or the error unit, with an error where the output did not take it. All
-!> text of the program goes this way and none by Fortran's units, which keep text back and lose it in silence where the device
-!> is full. Output that nobody reads any more (`camroller help | head -1`) is no error: who reads decides how much.
+!> text of the program goes this way and none by Fortran's units, which keep text back and lose it in silence where the disk
+!> is full. A closed pipe (`camroller help | head -1`) is no error: the reader decides how much is read.
 module camroller_streams
    use, intrinsic :: iso_c_binding, only : c_char, c_int, c_intptr_t, c_null_char
    use camroller_error, only : error_t, raise, kind_file
@@ -95,7 +95,7 @@ contains
       !> File error
       type(error_t), allocatable, intent(out) :: error
 
-      if (c_close(output_descriptor) /= 0) call raise(error, kind_file, "cannot write to the output: the device did not take it")
+      if (c_close(output_descriptor) /= 0) call raise(error, kind_file, "cannot write to the output: the write failed")
    end subroutine close_output_stream
 
 end module camroller_streams

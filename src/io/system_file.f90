@@ -1,4 +1,4 @@
-!> What the operating system is needed for when files are replaced: process number, space, rename, sync,
+!> Calls of the operating system for replacing files: process number, space, rename, sync,
 !> remove, resolve links, date.
 !>
 !> Layer: io. In: paths. Out: thin interfaces to the C library of POSIX systems, with logical results instead of
@@ -176,7 +176,7 @@ contains
       end do
    end function resolve_path
 
-   !> Have the content of an open file written to the device.
+   !> Flush the content of an open file to disk.
    subroutine sync_descriptor(descriptor, done)
       !> Descriptor of the file
       integer(c_int), intent(in) :: descriptor
@@ -186,7 +186,7 @@ contains
       done = c_fsync(descriptor) == 0
    end subroutine sync_descriptor
 
-   !> Set space on the device aside for a file, which grows to that size.
+   !> Set disk space aside for a file, which grows to that size.
    subroutine reserve_space(descriptor, first, length, reason)
       !> Descriptor of the file
       integer(c_int), intent(in) :: descriptor

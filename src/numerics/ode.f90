@@ -226,7 +226,7 @@ contains
       real(wp), intent(in) :: finish
       !> Size of the step that is to be made; out: of the next, after a bridge [time]
       real(wp), intent(inout) :: step
-      !> How the integration gets along
+      !> Progress of the integration
       type(footing_t), intent(inout) :: footing
       !> Time, from start to end [time]
       real(wp), intent(inout) :: time

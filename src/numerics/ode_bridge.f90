@@ -24,9 +24,9 @@ module camroller_ode_bridge
       logical :: is_found = .false.
    end type bridge_t
 
-   !> How an integration gets along
+   !> Progress of an integration
    type :: footing_t
-      !> Times the limits below which a method gets nowhere; one where it has got along by itself [-]
+      !> Factor on the limits below which a method makes no progress; one where it has progressed by itself [-]
       real(wp) :: reach = 1.0_wp
       !> How often the rate has changed its sign of late [-]
       real(wp) :: turns = 0.0_wp
@@ -36,14 +36,14 @@ module camroller_ode_bridge
       logical :: is_fresh = .true.
    end type footing_t
 
-   !> Change of the state that the largest rate makes in a step, over the error allowed, below which a method gets nowhere [-]
+   !> Change of the state that the largest rate makes in a step, over the error allowed, below which a method makes no progress [-]
    real(wp), parameter :: slow = 100.0_wp
    !> Step over the spacing of numbers near its time, below which the same holds [-]
    real(wp), parameter :: short = 1.0e4_wp
    !> Factors of the limits after a bridge and after a step without one; the largest product. Where bridges follow each other, with
    !> next to nothing between, they grow longer [-]
    real(wp), parameter :: wider = 4.0_wp, closer = 0.5_wp, farthest = 1.0e4_wp
-   !> Step over the one before from which on a method gets along well [-]
+   !> Step relative to the one before from which on a method makes good progress [-]
    real(wp), parameter :: growing = 2.0_wp
    !> Part of the count of turns that a step leaves, count from which on a solution is restless: three turns in five steps, say [-]
    real(wp), parameter :: fading = 0.75_wp, restless = 2.0_wp
@@ -68,7 +68,7 @@ contains
       real(wp), intent(in) :: time, step
       !> Error allowed per step [state]
       real(wp), intent(in) :: tolerance(:)
-      !> How the integration gets along
+      !> Progress of the integration
       type(footing_t), intent(in) :: footing
       !> Does it? Never where nothing saturates
       logical :: verdict
@@ -84,7 +84,7 @@ contains
 
    !> Look at a point that an integration has reached by a step.
    pure subroutine watch(footing, here, time, step)
-      !> How the integration gets along
+      !> Progress of the integration
       type(footing_t), intent(inout) :: footing
       !> Rate with its derivatives at the point
       type(linear_t), intent(in) :: here
@@ -108,7 +108,7 @@ contains
 
    !> Take note of a bridge.
    pure subroutine note_bridge(footing, time, rate)
-      !> How the integration gets along
+      !> Progress of the integration
       type(footing_t), intent(inout) :: footing
       !> Time at its end [time], rate there [state/time]
       real(wp), intent(in) :: time, rate

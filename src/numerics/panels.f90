@@ -1,13 +1,14 @@
-!> Integrals of several quantities at once, sampled together, over panels that are halved where it takes.
+!> Integrals of several quantities at once, sampled together, over panels that are halved where necessary.
 !>
-!> Layer: numerics. In: panels, the values of all quantities at seven places in each. Out: integrals, integrals of the sizes, and
-!> doubts of the integrals, which bound their errors as a rule. What is to be integrated is a type that extends `sampled_t`.
+!> Layer: numerics. In: panels, the values of all quantities at seven places in each. Out: integrals, integrals of the magnitudes,
+!> and error estimates of the integrals (`doubts`), which bound the errors as a rule. The integrand is a type that extends
+!> `sampled_t`.
 !>
-!> The rule is that of Gauss with three places and Kronrod's extension to seven: exact for polynomials of degree 11. A doubt joins
-!> the difference of both rules with the fifth and the sixth coefficient of the polynomial through the seven values over Legendre's
-!> polynomials, in the root of the sum of squares: a kink or a jump that leaves one of them zero by chance shows in the others,
-!> however large the smooth part is. Sources: Kronrod (1965), Nodes and Weights of Quadrature Formulas; Berntsen and Espelid, ACM
-!> Trans. Math. Software 17 (1991) 233, on several such rules together.
+!> The rule is that of Gauss with three places and Kronrod's extension to seven: exact for polynomials of degree 11. The error
+!> estimate is the root of the sum of squares of three terms: the difference of both rules, and the fifth and the sixth coefficient
+!> of the polynomial through the seven values in Legendre's polynomials. A kink or a jump that makes one of them zero by chance
+!> shows in the others. Sources: Kronrod (1965), Nodes and Weights of Quadrature Formulas; Berntsen and Espelid, ACM Trans. Math.
+!> Software 17 (1991) 233, on several such rules together.
 module camroller_panels
    use camroller_kinds, only : wp
    use camroller_error, only : error_t
@@ -67,7 +68,7 @@ module camroller_panels
       integer :: count = 0
       !> Ends of each [x]
       real(wp), allocatable :: left(:), right(:)
-      !> Integral of each quantity, of its size, and doubt of the integral, shape (quantity, panel) [unit of each times x]
+      !> Integral of each quantity, of its size, and error estimate of the integral, shape (quantity, panel) [unit of each times x]
       real(wp), allocatable :: integrals(:, :), sizes(:, :), doubts(:, :)
    end type panels_t
 
@@ -102,7 +103,7 @@ contains
 
    !> Append a panel by the trapezoidal rule, for a solution that is known at its ends alone.
    !>
-   !> The doubt is that of a quantity that rises or falls all the way from one end to the other.
+   !> The error estimate is that of a quantity that rises or falls all the way from one end to the other.
    pure subroutine add_trapezoid(panels, left, right, values)
       !> The panels
       type(panels_t), intent(inout) :: panels
@@ -138,20 +139,20 @@ contains
       if (.not. allocated(error)) call add_panel(panels, left, right, values)
    end subroutine sample_panel
 
-   !> Halve the panel of the largest doubt until the sums of the doubts are within what is allowed.
+   !> Halve the panel of the largest error estimate until the sums of the estimates are within what is allowed.
    subroutine refine_panels(panels, sampled, allowed, halvings, error)
       !> The panels
       type(panels_t), intent(inout) :: panels
       !> What is integrated
       class(sampled_t), intent(inout) :: sampled
-      !> Doubt allowed of each quantity, positive [unit of each times x]
+      !> Error estimate allowed of each quantity, positive [unit of each times x]
       real(wp), intent(in) :: allowed(:)
-      !> Halvings that are left; zero afterwards where the doubts are not within what is allowed
+      !> Halvings that are left; zero afterwards where the error estimates are not within what is allowed
       integer, intent(inout) :: halvings
       !> Why there is no value at a place
       type(error_t), allocatable, intent(out) :: error
 
-      ! Sums of the doubts [unit of each times x]; values in both halves [unit of each]
+      ! Sums of the error estimates [unit of each times x]; values in both halves [unit of each]
       real(wp) :: sums(size(allowed)), values(size(allowed), panel_points, 2)
       ! Ends and middle of a panel [x]
       real(wp) :: left, right, middle
@@ -200,7 +201,7 @@ contains
       end do
    end subroutine sample_places
 
-   !> Integrals and doubts of a panel.
+   !> Integrals and error estimates of a panel.
    pure subroutine set_panel(panels, panel, left, right, values)
       !> The panels
       type(panels_t), intent(inout) :: panels
@@ -213,7 +214,7 @@ contains
 
       ! Length of the panel [x]; sums and differences of values at opposite places [unit of the quantity]
       real(wp) :: length, sums(4), differences(3)
-      ! Doubts apart [unit of the quantity]
+      ! Error estimates one by one [unit of the quantity]
       real(wp) :: by_rules, by_odd, by_even
       integer :: i
 

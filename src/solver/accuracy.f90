@@ -69,7 +69,7 @@ contains
       if (.not. is_within(numerics%accuracy, above_zero, largest_accuracy)) then
          call raise(error, kind_deck, "numerics: the accuracy must be above 0, and 0.1 at most")
       else if (.not. is_within(numerics%tolerance, 0.0_wp, largest_accuracy)) then
-         call raise(error, kind_deck, "numerics: the tolerance must be 0, which leaves it to the accuracy, or above, to 0.1")
+         call raise(error, kind_deck, "numerics: the tolerance must be 0 (the accuracy decides), or above 0 and 0.1 at most")
       else if (.not. is_within(numerics%step, above_zero, largest_step)) then
          call raise(error, kind_deck, "numerics: the step must be above 0, and 90 degrees (in radians) at most")
       else if (.not. is_within(numerics%periodicity, above_zero, largest_periodicity)) then

@@ -34,23 +34,23 @@ contains
 
       call new_table(table, [quantity_t("effect", "", "effect that is left out or alone", "audit"), &
          & quantity_t("run", "", "all effects, without one, none, one alone, or those that are needed", "audit"), &
-         & quantity_t("reason", "", "what decides about the effect", "audit"), &
-         & quantity_t("message", "", "what went wrong, or nothing", "audit")], [ &
+         & quantity_t("reason", "", "indicator that decides about the effect", "audit"), &
+         & quantity_t("message", "", "error message, or empty", "audit")], [ &
          & quantity_t("case", "1", "case of the sweep", "audit"), &
          & quantity_t("status", "1", "0, or the kind of the error", "audit"), &
          & quantity_t("mean_torque", "N m", "mean torque for all losses", "torque"), &
          & quantity_t("minimum_film", "m", "smallest film", "film"), &
-         & quantity_t("slip", "1", "part of its turns that the roller loses per cam revolution", "roller"), &
-         & quantity_t("change_mean_torque", "1", "change of the mean torque over the value with all effects", "audit"), &
-         & quantity_t("change_minimum_film", "1", "change of the smallest film over the value with all effects", "audit"), &
-         & quantity_t("change_slip", "1", "change of the slip over the size of the value with all effects", "audit"), &
+         & quantity_t("slip", "1", "slip per cam revolution, relative to the turns of the roller in pure rolling", "roller"), &
+         & quantity_t("change_mean_torque", "1", "change of the mean torque relative to the value with all effects", "audit"), &
+         & quantity_t("change_minimum_film", "1", "change of the smallest film relative to the value with all effects", "audit"), &
+         & quantity_t("change_slip", "1", "change of the slip relative to the magnitude of the value with all effects", "audit"), &
          & quantity_t("estimate_mean_torque", "1", "largest change of the mean torque expected before the run", "audit"), &
          & quantity_t("estimate_minimum_film", "1", "largest change of the smallest film expected before the run", "audit"), &
          & quantity_t("estimate_slip", "1", "largest change of the slip expected before the run", "audit"), &
          & quantity_t("is_left_out", "1", "1 where the choice of needed effects leaves it out", "audit"), &
          & quantity_t("evaluations", "1", "evaluations of the roller equation", "audit"), &
          & quantity_t("time", "s", "median processor time of a run", "audit"), &
-         & quantity_t("time_share", "1", "part of the time of the run with all effects that it saves", "audit")])
+         & quantity_t("time_share", "1", "fraction of the time of the run with all effects that is saved", "audit")])
    end subroutine new_audit_table
 
    !> Every run of a case.

@@ -66,11 +66,11 @@ module camroller_case
 
    !> How the case is integrated and reported
    type :: numerics_t
-      !> Error that is allowed, of the sliding speed over its largest value and of mean losses over themselves [-]
+      !> Error allowed, of the sliding speed relative to its largest value and of mean losses relative to themselves [-]
       real(wp) :: accuracy = 1.0e-4_wp
       !> One of `method_choices`
       character(len=name_length) :: method = automatic_method
-      !> Error of the sliding speed aimed at, over its largest value; follows from the accuracy where zero [-]
+      !> Error of a step relative to the largest sliding speed; follows from the accuracy where zero [-]
       real(wp) :: tolerance = 0.0_wp
       !> Cam angle of a step [rad]; method `euler`
       real(wp) :: step = degree

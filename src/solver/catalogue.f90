@@ -202,23 +202,23 @@ contains
       call add(list, "sliding_speed", "m s-1", "sliding speed, positive where the roller lags", "roller", &
          & state%contact%sliding_speed)
       call add(list, "entrainment_speed", "m s-1", "mean of both surface speeds", "roller", state%contact%entrainment_speed)
-      call add(list, "slip_ratio", "1", "sliding speed over speed in pure rolling", "roller", &
+      call add(list, "slip_ratio", "1", "sliding speed relative to the speed in pure rolling", "roller", &
          & ratio(state%contact%sliding_speed, state%contact%rolling_speed))
       call add(list, "hertz_half_width", "m", "half width of the dry contact", "hertz", state%contact%half_width)
       call add(list, "hertz_pressure", "Pa", "peak pressure of the dry contact", "hertz", &
          & peak_pressure(state%contact%load, state%position%equivalent_radius, model%contact_width, model%modulus))
       call add(list, "film_thickness_min", "m", "minimum film thickness", "film", state%contact%film_min)
       call add(list, "film_thickness_central", "m", "central film thickness", "film", state%contact%film_central)
-      call add(list, "film_ratio", "1", "minimum film thickness over composite roughness", "film", state%contact%film_ratio)
+      call add(list, "film_ratio", "1", "minimum film thickness relative to composite roughness", "film", state%contact%film_ratio)
       if (allocated(case%asperity)) then
          call add(list, "asperity_load", "N", "load carried by asperities", "asperity", state%contact%asperity_load)
          call add(list, "real_contact_area", "m2", "contact area of the asperities", "asperity", state%contact%real_area)
       end if
       call add(list, "friction_hydrodynamic", "N", "shear force of the film", "traction", state%contact%shear)
       if (allocated(case%asperity)) then
-         call add(list, "friction_boundary", "N", "boundary friction that the asperities can bear", "asperity", &
+         call add(list, "friction_boundary", "N", "limit of the boundary friction", "asperity", &
             & state%contact%boundary_capacity)
-         call add(list, "friction_boundary_mobilised", "N", "boundary friction that the slip mobilises", "asperity", &
+         call add(list, "friction_boundary_mobilised", "N", "boundary friction mobilised by slip", "asperity", &
             & state%contact%boundary_mobilised)
       end if
       if (has_rolling(case)) call add(list, "friction_rolling", "N", "rolling resistance of each surface", "traction", &
@@ -227,7 +227,7 @@ contains
       call add(list, "friction_contact", "N", "friction of the contact: shear, boundary and rolling", "traction", &
          & state%contact_friction)
       if (allocated(case%asperity)) then
-         call add(list, "asperity_friction_share", "1", "part of boundary friction in the friction of the contact", "asperity", &
+         call add(list, "asperity_friction_share", "1", "fraction of boundary friction in contact friction", "asperity", &
             & ratio(state%boundary_friction, state%contact_friction))
       end if
    end subroutine add_follower
@@ -254,12 +254,12 @@ contains
          call add(list, "torque_bearings", "N m", "torque for the camshaft bearings", "cam_bearings", bearing_torque)
       end if
       if (case%energy == energy_names(1)) then
-         call add(list, "torque_roller_inertia", "N m", "torque that spins the roller up", "roller", torques(5))
+         call add(list, "torque_roller_inertia", "N m", "torque for the inertia of the roller", "roller", torques(5))
       end if
       call add(list, "torque_friction", "N m", "torque for all losses", "torque", sum(torques(2:4)) + bearing_torque)
       call add(list, "torque_drive", "N m", "torque that drives the camshaft", "torque", sum(torques(1:5)) + bearing_torque)
       if (case%energy == energy_names(1)) then
-         call add(list, "energy_residual", "W", "power by the cam's equilibrium less losses less stored power", "torque", &
+         call add(list, "energy_residual", "W", "drive power less losses less stored power", "torque", &
             & torques(6))
       end if
    end subroutine add_camshaft

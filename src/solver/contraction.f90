@@ -1,4 +1,4 @@
-!> What one cycle leaves of a disturbance of the roller's spin.
+!> Fraction of a disturbance of the roller's spin that is left after one cycle.
 !>
 !> Layer: solver. In: a cycle's trajectory. Out: the contraction c. A cycle whose end differs from its start by d is `d/(1 - c)`
 !> away from the periodic one at its start: where hardly anything damps the spin, a small difference is no sign of periodicity.

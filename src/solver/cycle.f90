@@ -150,7 +150,7 @@ contains
       end do
       call raise(error, kind_convergence, "the cycle did not become periodic: after the cycles that max_cycles allows, its "// &
          & "start at "//trim(problem%name_time(cycle%start))//" is still further from the periodic one than periodicity; a "// &
-         & "spin that hardly anything damps does this, and explicit steps beyond the stability limit")
+         & "spin that is hardly damped has this effect, and explicit steps beyond the stability limit")
    end subroutine integrate_cycle
 
    !> Start of the next turn: the end of this one, or where two turns tell how fast starts and ends approach each other, the point

@@ -96,8 +96,8 @@ contains
       if (size(intervals, 2) > 0) text = text//" deg"
       if (size(intervals, 2) > most_intervals) text = text//" and others"
       speed = min(margins%event%speed, margins%base_circle%speed)
-      if (speed < model%speed) text = text//"; it is lost from "//number_text(speed*per_minute, 4)//" rev/min on"
-      text = text//"; there the valve train is not rigid any more, and loads and friction are not those of a real one"
+      if (speed < model%speed) text = text//"; it is lost above "//number_text(speed*per_minute, 4)//" rev/min"
+      text = text//"; rigid kinematics does not hold there, and computed loads and friction are not realistic"
       if (model%stops_without_contact) then
          call raise(error, kind_domain, text//" (contact_policy = 'stop')")
       else
@@ -141,7 +141,7 @@ contains
       if (statistics%standstills == 0) return
       call add_remark(warnings, lobe//"the entrainment speed passes through zero "//integer_text(statistics%standstills)// &
          & " times in contact, first at cam angle "//fixed_text(file_angle(statistics%first_standstill), 1)// &
-         & " deg; the smallest film is that of the standstill there, without what squeeze would leave")
+         & " deg; the smallest film is that at standstill there, without a squeeze film")
    end subroutine check_entrainment
 
    !> Say that the lash adjuster pumps up or its joint opens, which the model leaves out.
@@ -159,14 +159,14 @@ contains
 
       if (.not. allocated(margins%pivot)) return
       place = " N at cam angle "//fixed_text(file_angle(margins%pivot%angle), 1)//" deg at "// &
-         & number_text(model%speed*per_minute, 6)//" rev/min, from "
+         & number_text(model%speed*per_minute, 6)//" rev/min; this begins at "
       if (margins%pivot%force < 0.0_wp) then
          call add_remark(warnings, lobe//"the joint of finger and lash adjuster opens: it lacks "// &
-            & number_text(-margins%pivot%force, 3)//place//number_text(margins%pivot%speed*per_minute, 4)//" rev/min on")
+            & number_text(-margins%pivot%force, 3)//place//number_text(margins%pivot%speed*per_minute, 4)//" rev/min")
       else if (margins%pivot%force < margins%adjuster_force) then
          call add_remark(warnings, lobe//"a hydraulic lash adjuster pumps up: the force in its joint is below its own by "// &
             & number_text(margins%adjuster_force - margins%pivot%force, 3)//place// &
-            & number_text(margins%pump_up_speed*per_minute, 4)//" rev/min on")
+            & number_text(margins%pump_up_speed*per_minute, 4)//" rev/min")
       end if
    end subroutine check_pivot
 

@@ -1,4 +1,4 @@
-!> What a cycle's curve leaves over of the roller equation, how a disturbance of it decays, and what losses make of it.
+!> Defect of the roller equation for the curve of a cycle, decay rate of a disturbance, and slopes of the losses.
 !>
 !> Layer: solver. In: model, cycle, state at a point. Out: defect, decay rate, slopes of the losses over the sliding speed, for
 !> `error_estimate`.

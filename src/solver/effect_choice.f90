@@ -3,9 +3,9 @@
 !> Layer: solver. In: a case. Out: what leaving each effect out would change, at most, and the case without those that together
 !> change the quantity of interest by less than what is negligible.
 !>
-!> The estimates come from a look round the cycle (`camroller_effect_survey`) at a fraction of the work of a run. They are bounds by
-!> experience, not by proof: sizes of changes are added up round the cycle, with a margin, and where the look cannot follow
-!> what happens the effect stays.
+!> The estimates come from a survey of the cycle (`camroller_effect_survey`) at a fraction of the work of a run. They are empirical
+!> bounds, not proved ones: magnitudes of changes are added over the cycle, with a margin, and where the survey has no estimate
+!> the effect stays.
 module camroller_effect_choice
    use camroller_kinds, only : wp
    use camroller_error, only : error_t
@@ -27,9 +27,9 @@ module camroller_effect_choice
 
    !> Method that may be far from the solution
    character(len=*), parameter :: fixed_step = "euler"
-   !> Margin of the estimates over the changes that the look round the cycle finds [-]
+   !> Factor of the estimates on the changes that the survey of the cycle finds [-]
    real(wp), parameter :: margin = 5.0_wp
-   !> A rough look decides where it finds so many times what is negligible [-]
+   !> A coarse survey decides where it finds so many times what is negligible [-]
    real(wp), parameter :: clearly = 10.0_wp
    !> Changes beyond this are too large to be estimated from small ones [-]
    real(wp), parameter :: largest_estimate = 1.0_wp
@@ -38,7 +38,7 @@ module camroller_effect_choice
 
    !> Mean torque for losses
    type :: mean_torque_t
-      !> Of the followers, what that may be wrong by, of the bearings [N m]
+      !> Of the followers, its uncertainty, of the bearings [N m]
       real(wp) :: followers = 0.0_wp, error = 0.0_wp, bearings = 0.0_wp
    end type mean_torque_t
 
@@ -152,7 +152,7 @@ contains
       allocate (choice%decisions(0), surveys(size(models)))
       do lobe = 1, size(models)
          call make_survey(models(lobe), surveys(lobe))
-         if (case%numerics%method == fixed_step) surveys(lobe)%trouble = "the fixed step may not resolve what happens"
+         if (case%numerics%method == fixed_step) surveys(lobe)%trouble = "a fixed step may not resolve the cycle"
          choice%evaluations = choice%evaluations + surveys(lobe)%evaluations
          if (allocated(surveys(lobe)%trouble)) cycle
          torque%followers = torque%followers + followers_of(case, lobe)*surveys(lobe)%torque
@@ -263,7 +263,7 @@ contains
       type(survey_t), intent(in) :: surveys(:)
       !> Position in `effect_names`
       integer, intent(in) :: effect
-      !> A rough look alone?
+      !> A coarse survey alone?
       logical, intent(in) :: is_rough
       !> The answers
       type(response_t), allocatable, intent(out) :: responses(:)
@@ -356,7 +356,7 @@ contains
       end do
    end subroutine mean_bearing_torque
 
-   !> Mean torque for all losses, less what it may be wrong by.
+   !> Mean torque for all losses, less its uncertainty.
    pure function least_torque(torque) result(least)
       !> Mean torque for losses
       type(mean_torque_t), intent(in) :: torque

@@ -1,8 +1,8 @@
-!> Angles of a quick look round the cycle, means over them, and how a quantity follows its balance from one to the next.
+!> Angles of a survey of the cycle, means over them, and how a quantity follows its balance from one to the next.
 !>
 !> Layer: solver. In: a model. Out: angles between the kinks of the lift, evenly spread in the event; where the valve rests and
 !> nothing but the sliding speed changes, further and further apart, so that a decay after the event is seen whether it takes a
-!> degree or a turn. Each piece between two kinks has an even number, so that every second angle makes a look of its own.
+!> degree or a turn. Each piece between two kinks has an even number, so that every second angle makes a survey of its own.
 !>
 !> A quantity follows its balance with `dy/dtheta = -lambda (y - q)`. Inside a piece q is linear between two angles; up to a kink
 !> and after it, q and lambda are those of the angle on the same side.

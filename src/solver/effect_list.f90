@@ -33,7 +33,7 @@ module camroller_effect_list
       integer :: effect
       !> Is it part of the run?
       logical :: is_used
-      !> Largest relative change expected without it, one per name in `quantity_names` [-]; huge where nothing can be said
+      !> Largest relative change expected without it, one per name in `quantity_names` [-]; huge where there is no estimate
       real(wp) :: estimates(size(quantity_names))
       !> Why, in words
       character(len=reason_length) :: reason

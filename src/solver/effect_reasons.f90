@@ -1,6 +1,6 @@
 !> Why an effect matters or does not, in words and numbers.
 !>
-!> Layer: solver. In: a look round the cycle. Out: one line for each effect: the film ratio that decides about asperities, Moes'
+!> Layer: solver. In: a survey of the cycle. Out: one line for each effect: the film ratio that decides about asperities, Moes'
 !> numbers that decide about the film law, and so on.
 module camroller_effect_reasons
    use camroller_kinds, only : wp, degree
@@ -59,7 +59,7 @@ contains
             lost = mean_over(survey%grid, losses)
             reason = "takes "//trim(percent(lost/all_lost))//" of the follower's friction torque"
          case (effect_bearings)
-            reason = "take "//trim(percent(share))//" of the friction torque; film and slip do not feel them"
+            reason = "take "//trim(percent(share))//" of the friction torque; film and slip do not depend on them"
          case (effect_gas)
             reason = "presses the valve with up to "//trim(text(maxval(abs(states%gas_force))))//" N"
          case (effect_rolling)

@@ -1,7 +1,7 @@
-!> What a choice of effects leaves in a result: its scalars, and places for what was left out.
+!> What a choice of effects adds to a result: its scalars, and places for what was left out.
 !>
 !> Layer: solver. In: a result, the choice. Out: the result with scalars of source `effects`; on request with the series and scalars
-!> of everything that is listed, so that the cases of a sweep look alike whatever each of them needed.
+!> of everything that is listed, so that the cases of a sweep have the same quantities whatever each of them needed.
 module camroller_effect_report
    use, intrinsic :: ieee_arithmetic, only : ieee_quiet_nan, ieee_value
    use camroller_kinds, only : wp
@@ -58,7 +58,7 @@ contains
                & merge(1.0_wp, 0.0_wp, decision%is_used))
             do k = 1, size(quantity_names)
                call append(list, name//"_estimate_"//trim(quantity_names(k)), "1", &
-                  & "largest relative change expected without the effect; huge where nothing can be said", choice_source, &
+                  & "largest relative change expected without the effect; huge where there is no estimate", choice_source, &
                   & decision%estimates(k))
             end do
          end associate

@@ -1,14 +1,14 @@
-!> A quick look round the cycle: what the roller does by its algebraic balance, and how that answers to a change of the model.
+!> A survey of the cycle: the roller by its algebraic balance, and its response to a change of the model.
 !>
 !> Layer: solver. In: a model, and one that lacks an effect. Out: changes of torque, film and sliding speed round the cycle.
 !>
 !> The sliding speed follows the balance with the delay of its decay: between the angles looked at, `dy/dtheta = -lambda (y - q)`
 !> is solved with q linear. A change of the model disturbs it by `dv/dtheta = b - lambda v`, with b the difference of the rates at
-!> the same sliding speed; a second look at the disturbed state gives the changes to second order.
+!> the same sliding speed; a second evaluation at the disturbed state gives the changes to second order.
 !>
-!> What the look itself may be wrong by is found beside it, without another evaluation: what the sliding speed would be with the
-!> decay that the roller equation has between balance and delayed sliding speed, with half the angles, and with the slower decay of
-!> two angles; and by how much means differ between all angles and half of them.
+!> The uncertainty of the survey is estimated without further evaluations: from the sliding speed with the mean decay of the roller
+!> equation between balance and delayed sliding speed, with half of the angles, and with the slower decay of two angles; and from
+!> the difference of means over all angles and over half of them.
 module camroller_effect_survey
    use camroller_kinds, only : wp, two_pi
    use camroller_effect_grid, only : grid_t, points, slowest_decay, make_grid, delay, delay_from_half, delay_slowly, mean_over, &
@@ -26,7 +26,7 @@ module camroller_effect_survey
 
    public :: survey_t, response_t, make_survey, respond, respond_roughly, respond_at_once
 
-   !> Angles from one to the next in a rough look
+   !> Angles from one to the next in a coarse survey
    integer, parameter :: stride = 4
    !> Distance between the angles, about [rad]
    real(wp), parameter :: spacing_angle = two_pi/points
@@ -61,9 +61,9 @@ module camroller_effect_survey
       real(wp) :: decay(points)
       !> State at the delayed sliding speed
       type(state_t) :: states(points)
-      !> Mean torque for losses, and what it may be wrong by [N m]
+      !> Mean torque for losses, and its uncertainty [N m]
       real(wp) :: torque, torque_error
-      !> Mean sliding speed, and what it may be wrong by [m/s]
+      !> Mean sliding speed, and its uncertainty [m/s]
       real(wp) :: slip, slip_error
       !> Evaluations of the contact
       integer :: evaluations
@@ -85,7 +85,7 @@ module camroller_effect_survey
 
 contains
 
-   !> Look round the cycle.
+   !> Survey the cycle.
    subroutine make_survey(model, survey)
       !> The model
       type(model_t), intent(in) :: model
@@ -133,13 +133,13 @@ contains
       call doubt_survey(model, balance_decay, survey)
    end subroutine make_survey
 
-   !> What a look may be wrong by.
+   !> Uncertainty of a survey.
    subroutine doubt_survey(model, balance_decay, survey)
       !> The model
       type(model_t), intent(in) :: model
       !> Decay rates at the balance, with which the sliding speed was delayed [1/rad]
       real(wp), intent(in) :: balance_decay(points)
-      !> The look; its errors are set
+      !> The survey; its errors are set
       type(survey_t), intent(inout) :: survey
 
       ! Decay rates from the balance to the sliding speed [1/rad]; balances that go with them, sliding speed that follows from both,
@@ -158,7 +158,7 @@ contains
       call delay_slowly(survey%grid, balance_decay, survey%balance, slow)
       survey%error = max(abs(again - survey%sliding), abs(coarse - survey%sliding), abs(slow - survey%sliding))
       if (mean_over(survey%grid, survey%error) > largest_error*mean_over(survey%grid, abs(survey%sliding))) then
-         survey%trouble = "the look round the cycle misses the slip"
+         survey%trouble = "the survey of the cycle does not resolve the slip"
       end if
       torques = survey%states%torque_friction
       survey%torque = mean_over(survey%grid, torques)
@@ -172,7 +172,7 @@ contains
    subroutine refine_decay(model, survey, point, balance_decay, decay, balance)
       !> The model
       type(model_t), intent(in) :: model
-      !> The look
+      !> The survey
       type(survey_t), intent(in) :: survey
       !> Which of its angles
       integer, intent(in) :: point
@@ -180,7 +180,7 @@ contains
       real(wp), intent(in) :: balance_decay
       !> Decay rate between balance and delayed sliding speed [1/rad]
       real(wp), intent(out) :: decay
-      !> Balance, found anew where that of the look does not go with the rate [m/s]
+      !> Balance, found anew where that of the survey does not agree with the rate [m/s]
       real(wp), intent(out) :: balance
 
       ! What a decay between two sliding speeds may be outside those at both [-]

@@ -1,4 +1,4 @@
-!> A cycle of solved contacts on as many nodes as its accuracy takes.
+!> A cycle of solved contacts on as many nodes as its accuracy requires.
 !>
 !> Layer: solver. In: model. Out: the cycle on the finer of two grids that agree, the numbers of both; an error where none do.
 module camroller_ehl_converged

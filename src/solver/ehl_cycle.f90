@@ -1,9 +1,9 @@
-!> The cam cycle with a film that remembers.
+!> The cam cycle with a transient film.
 !>
 !> Layer: solver. In: model, accuracy. Out: film, load share, sliding speed at every accepted angle, with profiles on request.
 !> Steps are as long as the error allows: the film and the sliding speed found are compared with those extrapolated from the
 !> steps before, and they end where lift, valve or contact have a kink, so that no event is passed over. Cycles are repeated until
-!> start and end agree. A contact that is lost forgets its film.
+!> start and end agree. The film of a contact that was lost starts anew.
 module camroller_ehl_cycle
    use camroller_kinds, only : wp, pi, two_pi, degree
    use camroller_error, only : error_t, raise, kind_convergence, kind_domain
@@ -193,9 +193,9 @@ contains
       if (last%status /= in_range) then
          call raise(error, kind_domain, "ehl: "//trim(range_text(last%status))//" at cam angle "//trim(angle_text(reached)))
       else if (cycle%tried >= most_steps .or. last%angle < start + two_pi - angle_tolerance) then
-         reason = "no film is found"
-         if (cycle%tried >= most_steps) reason = "the cycle takes more steps than any should"
-         if (last%rounds == max_rounds .and. options%is_transient) reason = "load and friction find no balance"
+         reason = "no film was found"
+         if (cycle%tried >= most_steps) reason = "the cycle takes too many steps"
+         if (last%rounds == max_rounds .and. options%is_transient) reason = "no balance of load and friction was found"
          if (last%rounds == max_rounds .and. .not. options%is_transient) reason = "the balance of load and friction, "// &
             & "where the spike of the pressure is narrower than the nodes, jumps with steady films (a film with squeeze does not)"
          call raise(error, kind_convergence, "ehl: no step is short enough at cam angle "//trim(angle_text(reached))//": "//reason)

@@ -1,4 +1,4 @@
-!> What solved contacts of a cycle say, as named quantities, beside what the closed formulas say at the same load and slip.
+!> Quantities of the solved contacts of a cycle by name, beside those of the closed formulas at the same load and slip.
 !>
 !> Layer: solver. In: model, cycle of solved contacts. Out: `ehl_record_t`: profiles and quantities over the cam angle. Torques and
 !> energy residual are those of every other state of the program, with the contact that was solved in it.
@@ -42,7 +42,7 @@ contains
 
       allocate (list(quantity_count))
       n = 0
-      call add("half_width", "m", "length that the nodes are given in")
+      call add("half_width", "m", "length unit of the node positions")
       call add("load", "N", "contact load")
       call add("sliding_speed", "m s-1", "sliding speed of the roller")
       call add("peak_pressure", "Pa", "largest pressure")
@@ -50,7 +50,7 @@ contains
       call add("film_min_formula", "m", "smallest film by the film law at this load and slip")
       call add("film_central", "m", "film in the middle of the dry contact")
       call add("film_central_formula", "m", "central film by the film law at this load and slip")
-      call add("asperity_share", "1", "part of the load that asperities carry")
+      call add("asperity_share", "1", "fraction of the load that asperities carry")
       call add("asperity_share_formula", "1", "the same with the load shared by the smallest film alone")
       call add("shear", "N", "shear of the film integrated over the contact, limited")
       call add("shear_formula", "N", "shear of the film by the closed formula at this load and slip, limited")
@@ -62,7 +62,7 @@ contains
       call add("torque_contact", "N m", "torque of this follower for the losses of the contact")
       call add("torque_friction", "N m", "torque of this follower for all losses")
       call add("torque_drive", "N m", "torque that drives the camshaft for this follower")
-      call add("energy_residual", "W", "power by the cam's equilibrium less losses less stored power")
+      call add("energy_residual", "W", "drive power minus losses minus stored power")
 
    contains
 

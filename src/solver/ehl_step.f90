@@ -1,4 +1,4 @@
-!> One step of a contact whose film remembers: film with squeeze, load, load share, friction and the roller's spin, solved together.
+!> One step of a contact with a transient film: squeeze, load, load share, friction and the roller's spin, solved together.
 !>
 !> Layer: solver. In: model, angle, what was before. Out: the contact at the angle. The film's equations have the rate at which
 !> oil is stored under the contact, on nodes that grow and shrink with the half width; the rates of film and roller are the same

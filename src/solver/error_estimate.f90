@@ -1,8 +1,8 @@
 !> Error of a cycle, estimated from the equation that its own curve leaves unsatisfied.
 !>
 !> Layer: solver. In: at the points of the rule for means, the slope of the curve less the rate of the roller equation there (its
-!> defect), the decay rate and the changes of the losses with the sliding speed. Out: the largest error of the sliding speed over
-!> the cycle, and the errors of the losses that come of it.
+!> defect), the decay rate and the changes of the losses with the sliding speed. Out: the largest error of the sliding speed in
+!> the cycle, and the resulting errors of the losses.
 !>
 !> The error obeys `d error/d angle = defect - decay_rate*error` in first order. Its terms are evaluated for the means anyway, so
 !> the estimate costs no evaluation, and it holds for any method, interpolation included. Source: Enright, SIAM J. Numer. Anal. 26

@@ -1,11 +1,10 @@
-!> Means over the cycle, integrated with the solution itself to a tolerance of their own.
+!> Means over the cycle: integrals of the solution with an error control of their own.
 !>
 !> Layer: solver. In: cycles. Out: mean and extremes of the series and torques of a lobe shape's follower, and an estimate of the
-!> largest error of a mean. Each interval between accepted points, and so each
-!> segment between stops, is a panel of `panels`, halved where the doubt of a mean asks for it; a solution that is only linear
-!> between its points gets the trapezoidal rule.
+!> largest error of a mean. Each interval between accepted points is a panel of `panels`, halved where the error estimate of a mean
+!> is too large. A solution that is only linear between its points gets the trapezoidal rule.
 !>
-!> The torque against spring, seat and inertia and the one that spins the roller up are not integrated over the angle: over a
+!> The torque against spring, seat and inertia and the one for the inertia of the roller are not integrated over the angle: over a
 !> cycle or a piece of one they are differences of stored energy, `stored_work`.
 module camroller_means
    use camroller_kinds, only : wp
@@ -262,7 +261,7 @@ contains
       !> Convergence error
       type(error_t), allocatable, intent(out) :: error
 
-      ! Doubts allowed [unit of each times rad]
+      ! Error estimates allowed [unit of each times rad]
       real(wp) :: allowed(series + torque_count)
       integer :: pass, halvings
 

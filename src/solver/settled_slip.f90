@@ -1,4 +1,4 @@
-!> The sliding speed that a curve stands for where traction saturates within less than the curve's error.
+!> The sliding speed of a curve where traction saturates within less than the curve's error.
 !>
 !> Layer: solver. In: model, cam angle, sliding speed and slope of a curve there. Out: the sliding speed nearby at which the roller
 !> equation has that slope. A slip of 1e-15 m/s decides whether the oil holds the roller or slides at its limit: errors that are

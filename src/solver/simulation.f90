@@ -95,8 +95,8 @@ contains
       call build_model(case, used_lobe, started%model, error)
       if (allocated(error)) return
       if (.not. has_error_control(case%numerics)) then
-         call raise(error, kind_usage, "start_simulation: with the method '"//trim(case%numerics%method)//"' nobody knows how "// &
-            & "wrong a step is; choose 'automatic' or another method with error control")
+         call raise(error, kind_usage, "start_simulation: the method '"//trim(case%numerics%method)//"' has no error "// &
+            & "control; choose 'automatic' or another method with error control")
          return
       end if
       started%numerics = resolve_numerics(case%numerics)

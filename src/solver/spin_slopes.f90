@@ -1,4 +1,4 @@
-!> The roller's angular acceleration and its exact derivatives over sliding speed and cam angle, from one solution of the contact.
+!> The roller's angular acceleration and its exact derivatives by sliding speed and cam angle, from one solution of the contact.
 !>
 !> Layer: solver. In: model, geometry, moments, sliding speed. Out: contact, acceleration, both derivatives. The load follows
 !> sliding speed and cam angle through the balance of the finger, whose own derivatives are the same that Newton's method solves

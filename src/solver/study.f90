@@ -1,4 +1,4 @@
-!> What accuracy costs: a case computed in many ways, each with its errors against one reference, its work and its time.
+!> What accuracy costs: a case computed in many ways, each with its errors relative to one reference, its work and its time.
 !>
 !> Layer: solver. In: a case. Out: rows of one table. Each family of ways has a reference of its own: two unlike integration methods
 !> that must agree, the finest table of numerical films, or the finest solution of the contact over the cycle.
@@ -60,7 +60,7 @@ contains
 
       call new_table(table, [quantity_t("way", "", "method, film law or model", "study"), &
          & quantity_t("dial", "", "what the setting is; 'reference' for what counts as right", "study"), &
-         & quantity_t("message", "", "what went wrong, or nothing", "study")], [ &
+         & quantity_t("message", "", "error message, or empty", "study")], [ &
          & quantity_t("case", "1", "case of the sweep", "study"), &
          & quantity_t("status", "1", "0, or the kind of the error", "study"), &
          & quantity_t("setting", "1", "accuracy, tolerance, fixed step in degrees, or nodes", "study"), &
@@ -311,7 +311,7 @@ contains
       type(way_t), intent(in) :: way
       !> What counts as right
       type(trial_t), intent(in) :: reference
-      !> What came of the trial
+      !> Outcome of the trial
       type(trial_t), intent(in) :: trial
 
       character(len=:), allocatable :: words(:)

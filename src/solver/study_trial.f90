@@ -1,4 +1,4 @@
-!> One trial of a study: a case computed in one way, what came of it, its time, and its errors against a reference.
+!> One trial of a study: a case computed in one way, its result, its time, and its errors relative to a reference.
 !>
 !> Layer: solver. In: a case. Out: `trial_t`. A trial that fails is a trial with a status and a message.
 module camroller_study_trial
@@ -24,7 +24,7 @@ module camroller_study_trial
    !> Processor time after which a trial is not repeated [s]
    real(wp), parameter :: patience = 0.5_wp
 
-   !> What came of a trial
+   !> Outcome of a trial
    type :: trial_t
       !> 0, or the kind of the error
       integer :: status = 0
@@ -54,7 +54,7 @@ contains
       type(case_t), intent(in) :: case
       !> Runs whose median time counts; fewer where they are long
       integer, intent(in) :: repeats
-      !> What came of it
+      !> Its outcome
       type(trial_t), intent(out) :: trial
 
       type(result_t) :: result
@@ -109,7 +109,7 @@ contains
       real(wp), intent(in) :: step_error
       !> Solutions whose median time counts; fewer where they are long
       integer, intent(in) :: repeats
-      !> What came of it
+      !> Its outcome
       type(trial_t), intent(out) :: trial
 
       type(model_t) :: model

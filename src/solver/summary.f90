@@ -66,14 +66,14 @@ contains
          call add_shares(lobe, models(lobe), statistics(lobe), quantities, values, count)
       end do
       call add(quantities, values, count, "estimated_error", "1", &
-         & "estimate of the largest error of the sliding speed over its largest value, or over 1e-5 of the largest speed in "// &
-         & "pure rolling where that is more", "numerics", maxval(statistics%error))
+         & "estimate of the largest error of the sliding speed relative to its largest value (at least 1e-5 of the largest "// &
+         & "speed in pure rolling)", "numerics", maxval(statistics%error))
       worst = maxloc(statistics%error, 1)
       call add(quantities, values, count, "estimated_error_angle", "deg", "cam angle where the estimated error is largest", &
          & "numerics", modulo(180.0_wp + statistics(worst)%error_angle/degree, 360.0_wp))
-      call add(quantities, values, count, "estimated_error_of_means", "1", "estimate of the largest error of a mean over the "// &
-         & "mean size of its quantity, of geometric and drive torque over the mean friction torque; without films where "// &
-         & "contact is lost", "numerics", &
+      call add(quantities, values, count, "estimated_error_of_means", "1", "estimate of the largest error of a mean relative "// &
+         & "to the mean magnitude of its quantity, of geometric and drive torque relative to the mean friction torque; "// &
+         & "without films where contact is lost", "numerics", &
          & maxval(statistics%mean_error))
       call add_counters(cycles, quantities, values, count)
       result%summary = quantities(:count)
@@ -175,7 +175,7 @@ contains
       if (case%energy /= energy_names(1)) return
       series = find_quantity(result%series, "energy_residual")
       call add(quantities, values, count, "relative_energy_residual", "1", &
-         & "largest energy residual over mean power lost", "torque", maxval(abs(result%series_values(:, series))) &
+         & "largest energy residual relative to the mean power lost", "torque", maxval(abs(result%series_values(:, series))) &
          & /max(tiny(1.0_wp), case%operating_point%speed*means(find_quantity(result%series, "torque_friction"))), &
          & scope_camshaft)
    end subroutine add_losses
@@ -203,7 +203,7 @@ contains
       sliding = means(find_quantity(result%series, trim(lobe_prefix(lobe))//"sliding_speed"))
       rolling = means(find_quantity(result%series, trim(lobe_prefix(lobe))//"rolling_speed"))
       call add(quantities, values, count, trim(lobe_prefix(lobe))//"revolution_slip", "1", &
-         & "part of its turns in pure rolling that the roller loses per cam revolution", "roller", sliding/rolling, &
+         & "slip per cam revolution, relative to the turns of the roller in pure rolling", "roller", sliding/rolling, &
          & lobe_scope(lobe))
       call add(quantities, values, count, trim(lobe_prefix(lobe))//"entrainment_reversals", "1", &
          & "times per cam revolution that the entrainment speed passes through zero in contact or stays there; the smallest "// &
@@ -287,9 +287,9 @@ contains
       integer, intent(inout) :: count
 
       call add(quantities, values, count, trim(lobe_prefix(lobe))//"lost_contact_share", "1", &
-         & "part of the cycle without contact", "dynamics", statistics%lost_share, lobe_scope(lobe))
+         & "fraction of the cycle without contact", "dynamics", statistics%lost_share, lobe_scope(lobe))
       call add(quantities, values, count, trim(lobe_prefix(lobe))//"outside_film_range_share", "1", &
-         & "part of the cycle outside the film law's published range", "film", statistics%outside_share, lobe_scope(lobe))
+         & "fraction of the cycle outside the film law's published range", "film", statistics%outside_share, lobe_scope(lobe))
       if (.not. allocated(model%film_table)) return
       call add(quantities, values, count, trim(lobe_prefix(lobe))//"film_table_error", "1", &
          & "largest error of the film: of the polynomials of its table, and of the solutions at its points", "film", &
@@ -318,7 +318,7 @@ contains
       call add(quantities, values, count, "counter_cycles", "1", "cycles integrated until periodic", "numerics", &
          & real(maxval(cycles%cycles), wp))
       call add(quantities, values, count, "periodicity", "1", &
-         & "difference of the sliding speed between end and start over its largest value", "numerics", maxval(cycles%closure))
+         & "difference of the sliding speed between end and start, relative to the largest", "numerics", maxval(cycles%closure))
    end subroutine add_counters
 
    !> Append a scalar.

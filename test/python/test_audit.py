@@ -37,7 +37,7 @@ def test_an_audit_has_a_run_without_each_effect(camroller, folder):
     result = start(camroller, "audit", "one.nml", "--repeats", "1", folder=folder)
     assert result.returncode == 0, result.stderr
     assert max(map(len, result.stdout.splitlines())) <= 132
-    assert "changes are within what was expected" in result.stdout
+    assert "changes are within their estimates" in result.stdout
     with h5py.File(folder / "one_audit.h5") as file:
         table = file["study/audit"]
         runs, effects = words(table["run"]), words(table["effect"])

@@ -56,7 +56,7 @@ def test_lost_contact_is_said_for_every_case_and_once_on_the_screen(camroller, t
     lines = [line for line in done.stderr.splitlines() if "contact is lost" in line]
     assert len(lines) == 1, done.stderr
     assert lines[0].startswith("remark on 6 of 9 cases, the worst is case 6 (operating_point.speed_rpm=5000, ")
-    assert "of the cycle at 5000 rev/min, at cam angles 159.7 to 201.3 deg; it is lost from 2937 rev/min on" in lines[0]
+    assert "of the cycle at 5000 rev/min, at cam angles 159.7 to 201.3 deg; it is lost above 2937 rev/min" in lines[0]
     texts = remarks_of(tmp_path / "r.h5")
     with h5py.File(tmp_path / "r.h5") as file:
         shares = file["summary/lost_contact_share"][...].ravel()

@@ -6,7 +6,7 @@ import re
 import pytest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "doc").glob("*.md")), *sorted((ROOT / "bench").glob("*.md"))]
+PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "doc").rglob("*.md")), *sorted((ROOT / "bench").glob("*.md"))]
 SPAN = re.compile(r"(?<!`)`([^`\n]+)`(?!`)")
 BLOCK = re.compile(r"^```[a-z]*[ \t]*\n(.*?)^```[ \t]*$", re.MULTILINE | re.DOTALL)
 FILE = re.compile(r"(?<![\w<*./-])[\w./-]+\.(?:f90|py|sh|md|nml|csv|txt|toml|png|h)(?![\w*.])")
@@ -89,6 +89,14 @@ def test_every_target_for_users_is_named():
 
 
 def test_the_table_of_throughput_is_the_one_that_was_measured():
-    text = (ROOT / "doc/batch.md").read_text(encoding="utf-8")
+    text = (ROOT / "doc/notes/batch.md").read_text(encoding="utf-8")
     shown = re.search(r"<!-- table: (\S+) -->\n```\n(.*?)```\n<!-- end of table -->", text, re.DOTALL)
     assert shown[2] == (ROOT / shown[1]).read_text(encoding="utf-8")
+
+
+def test_every_folder_of_the_source_is_in_the_table_of_folders():
+    text = (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8")
+    table = re.search(r"<!-- folders -->\n(.*?)<!-- end of folders -->", text, re.DOTALL)[1]
+    listed = re.findall(r"^\| `([\w/]+)` \|", table, re.MULTILINE)
+    folders = {str(path.parent.relative_to(ROOT)) for path in (ROOT / "src").rglob("*.f90")} - {"src"}
+    assert sorted(listed) == sorted(folders | {"app"})

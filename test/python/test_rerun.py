@@ -75,7 +75,7 @@ def test_profiles_are_compared(camroller, tmp_path):
     assert "  ehl/x: in 1 case, at most by " in result.stderr
     with h5py.File(tmp_path / "run.h5", "r+") as file:
         del file["ehl"]
-    assert "  ehl: in 2 cases, a number before or now only, in case " in run(camroller, "rerun", "run.h5", folder=tmp_path).stderr
+    assert "  ehl: in 2 cases, a number in only one of the files, in case " in run(camroller, "rerun", "run.h5", folder=tmp_path).stderr
 
 
 def test_what_is_no_result(camroller, tmp_path):

@@ -165,7 +165,7 @@ def test_time_limit_and_resume(camroller, deck, reference, tmp_path):
     result = run(camroller, "sweep", deck, "--set", "sweep.wall_time_limit_s=1e-3", folder=tmp_path)
     assert result.returncode == UNFINISHED
     assert "reached its time limit with " in result.stderr
-    assert "of 24 cases to do; go on with it by --resume" in result.stderr
+    assert "of 24 cases to do; continue with --resume" in result.stderr
     assert not (tmp_path / "deck.h5").exists()
     further = run(camroller, "sweep", deck, "--resume", "--set", "sweep.wall_time_limit_s=1e-3", folder=tmp_path)
     assert 0 < left(further) < left(result) < 24

@@ -124,8 +124,8 @@ def test_a_finished_sweep_ends_as_it_did(camroller, tmp_path, values, code):
 
 
 @pytest.mark.parametrize("change, words", [
-    ("roller.mass_kg=0.012", "its deck, a table or a value given beside it is another"),
-    ("sweep.count_1=7", "its deck, a table or a value given beside it is another"),
+    ("roller.mass_kg=0.012", "its deck, a table or a value of --set differs"),
+    ("sweep.count_1=7", "its deck, a table or a value of --set differs"),
     ("build", "commit: 'another' made the file, this is '"),
 ])
 def test_a_finished_file_of_another_study_stays(camroller, deck, reference, tmp_path, change, words):
@@ -205,7 +205,7 @@ def test_a_table_that_changed_is_refused(camroller, tables, deck, group):
     table.write_text(changed(before))
     finished = run(camroller, *study, "--resume", folder=tables)
     assert finished.returncode == FILE
-    assert "its deck, a table or a value given beside it is another" in finished.stderr
+    assert "its deck, a table or a value of --set differs" in finished.stderr
 
 
 def table_of(deck, group):

@@ -95,7 +95,7 @@ contains
          call begin_new_file(place, path, raised)
          call write_letters_to(place%temporary, "1234567890")
          call end_new_file(place, int(i, int64), raised)
-         call expect_error(error, raised, kind_file, "the device has not taken all of it")
+         call expect_error(error, raised, kind_file, "not all of it reached the disk")
          if (allocated(error)) return
          call check(error, is_earlier(path) .and. .not. allocated(place%temporary), "the earlier file is gone")
          if (allocated(error)) return
@@ -106,7 +106,7 @@ contains
       call settle_raw(file, raised)
       call remove_file(path//"-part")
       call remove_file(path)
-      call expect_error(error, raised, kind_file, "the device has not taken all of it")
+      call expect_error(error, raised, kind_file, "not all of it reached the disk")
    end subroutine lost_bytes_are_noticed
 
    subroutine dropped_file_leaves_nothing(error)

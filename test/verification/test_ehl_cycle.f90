@@ -1,4 +1,4 @@
-!> The cycle with a film that remembers: steady where nothing changes, convergence in step and nodes, loss of contact, coupling.
+!> The cycle with a transient film: steady where nothing changes, convergence in step and nodes, loss of contact, coupling.
 module test_ehl_cycle
    use testdrive, only : unittest_type, new_unittest, error_type, check, test_failed
    use camroller_kinds, only : wp, pi, degree
@@ -216,7 +216,7 @@ contains
       end associate
    end subroutine check_rest
 
-   !> Behind the nose the entrainment grows, and a film that remembers is thinner than the steady one; before it thicker.
+   !> Behind the nose the entrainment grows, and a transient film is thinner than the steady one; before it thicker.
    subroutine test_squeeze(error)
       type(error_type), allocatable, intent(out) :: error
       type(ehl_cycle_t) :: cycle

@@ -2,8 +2,8 @@
 !> say why there is none. How they end is counted and printed.
 !>
 !> The environment variables WIDE_CASES and WIDE_SEED choose how many and which; `make random-wide` sets them. WIDE_FOLDER names a
-!> folder for decks and tables of cases that fail and of a case run alone, WIDE_TRACE=1 has each seed printed before its case is
-!> run.
+!> folder for decks and tables of cases that fail and of a case run alone. With WIDE_TRACE=1 each seed is printed before its case
+!> is run.
 module test_random_wide
    use, intrinsic :: iso_fortran_env, only : error_unit
    use testdrive, only : new_unittest, unittest_type, error_type, test_failed

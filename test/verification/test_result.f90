@@ -337,7 +337,7 @@ contains
       call check(error, index(result%warnings, " % of the cycle at 3600 rev/min, at cam angles 165.4 to 194.7 deg") > 0, &
          result%warnings)
       if (allocated(error)) return
-      call check(error, index(result%warnings, "from 2937 rev/min on") > 0, result%warnings)
+      call check(error, index(result%warnings, "above 2937 rev/min") > 0, result%warnings)
       if (allocated(error)) return
       call set_point(case, 0.7_wp*fast, point_viscosities(3))
       call run(case, result, error)
