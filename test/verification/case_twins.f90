@@ -152,6 +152,7 @@ contains
          last = verify(word, letters)
          power = 1
          if (last > 1) read (word(last:), *, iostat=status) power
+         if (last > 1 .and. status /= 0) error stop "a unit that the test does not know"
          if (last > 1) word = word(:last - 1)
          select case (word)
          case ("m")

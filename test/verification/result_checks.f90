@@ -92,10 +92,12 @@ contains
                & //" is negative;"
          end associate
       end do
-      if (any(series_of(result, "film_thickness_min") > series_of(result, "film_thickness_central")*(1.0_wp + rounding))) &
-         & trouble = trouble//" minimum film above central film;"
-      if (any(series_of(result, "asperity_load") > maxval(series_of(result, "contact_load"))*(1.0_wp + rounding))) &
-         & trouble = trouble//" asperities carry more than the load;"
+      if (any(series_of(result, "film_thickness_min") > series_of(result, "film_thickness_central")*(1.0_wp + rounding))) then
+         trouble = trouble//" minimum film above central film;"
+      end if
+      if (any(series_of(result, "asperity_load") > maxval(series_of(result, "contact_load"))*(1.0_wp + rounding))) then
+         trouble = trouble//" asperities carry more than the load;"
+      end if
       do i = 1, size(result%series)
          ! Extremes of the camshaft's torques are those of the reported angles
          if (index(result%series(i)%name, "torque_") == 1 .or. result%series(i)%name == "energy_residual") cycle

@@ -250,8 +250,9 @@ contains
             & mask=loads > part*maxval(loads) .and. abs(speed) > part*maxval(abs(speed)))
          write (buffer, "(a, f9.4, a, f6.3)") trim(names(i)), found, " outside", outside
          outcome%words = outcome%words//"; "//trim(buffer)
-         if (.not. (found <= sum(accuracies) .and. found > -huge(1.0_wp) .and. all(ieee_is_finite([one, other])))) &
-            & outcome%trouble = outcome%trouble//" "//trim(names(i))//" by two tables"
+         if (.not. (found <= sum(accuracies) .and. found > -huge(1.0_wp) .and. all(ieee_is_finite([one, other])))) then
+            outcome%trouble = outcome%trouble//" "//trim(names(i))//" by two tables"
+         end if
       end do
    end subroutine compare_tables
 
