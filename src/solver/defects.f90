@@ -14,7 +14,7 @@ module camroller_defects
    implicit none
    private
 
-   public :: find_defect, loss_slopes
+   public :: find_defect, slip_slopes
 
 contains
 
@@ -47,19 +47,20 @@ contains
       if (decay_rate < 0.0_wp) call limit_growth(model, state, max(few*cycle%step_error, abs(error_so_far)), decay_rate)
    end subroutine find_defect
 
-   !> Changes of the losses with the sliding speed, as sizes: torque of the contact and of the roller's bearing.
+   !> Changes with the sliding speed, as sizes: torque of the contact and of the roller's bearing, traction,
+   !> mobilised boundary friction, its share in the friction of the contact.
    !>
    !> The traction changes with the sliding speed as the decay rate says, film and rolling resistance with the entrainment by about
    !> their size over that speed; the load follows the traction by the quotient of the arms about the pivot.
-   pure function loss_slopes(model, state, decay_rate) result(slopes)
+   pure function slip_slopes(model, state, decay_rate, reach) result(slopes)
       !> Model of the lobe
       type(model_t), intent(in) :: model
       !> State of the follower
       type(state_t), intent(in) :: state
-      !> Decay rate of a disturbance there [1/rad]
-      real(wp), intent(in) :: decay_rate
-      !> The changes, not negative [N m s/m]
-      real(wp) :: slopes(2)
+      !> Decay rate of a disturbance there [1/rad], size of an error of the sliding speed [m/s]
+      real(wp), intent(in) :: decay_rate, reach
+      !> The changes, not negative: of the torques [N m s/m], of the forces [N s/m], of the share [s/m]
+      real(wp) :: slopes(5)
 
       ! Change of the traction with the sliding speed [N s/m]; of the bearing's torque with the spin [N m s], with the load [m]
       real(wp) :: by_slip, by_spin, arm
@@ -70,6 +71,8 @@ contains
       associate (contact => state%contact, position => state%position)
          if (.not. contact%is_touching) return
          by_slip = max(decay_rate, 0.0_wp)*model%roller_inertia*model%speed/model%roller_radius**2
+         slopes(3) = by_slip
+         slopes(4:5) = boundary_slopes(model, state, by_slip, reach)
          if (model%is_consistent) then
             slopes(1) = (2.0_wp*(abs(contact%traction) + abs(contact%rolling_resistance)) + abs(contact%sliding_speed)*by_slip) &
                & /model%speed
@@ -90,7 +93,30 @@ contains
             slopes(2) = slopes(2) + abs(contact%roller_spin)/model%speed*by_spin/model%roller_radius
          end if
       end associate
-   end function loss_slopes
+   end function slip_slopes
+
+   !> Changes of the mobilised boundary friction and of its share in the friction of the contact with the sliding speed, as sizes.
+   pure function boundary_slopes(model, state, by_slip, reach) result(slopes)
+      !> Model of the lobe
+      type(model_t), intent(in) :: model
+      !> State of the follower
+      type(state_t), intent(in) :: state
+      !> Change of the traction with the sliding speed [N s/m], size of an error of the sliding speed [m/s]
+      real(wp), intent(in) :: by_slip, reach
+      !> The changes, not negative [N s/m] and [s/m]
+      real(wp) :: slopes(2)
+
+      slopes = 0.0_wp
+      if (.not. allocated(model%boundary)) return
+      if (model%boundary%is_set_valued) return
+      associate (contact => state%contact)
+         if (contact%boundary_capacity > 0.0_wp) slopes(1) = max(contact%boundary_capacity &
+            & - contact%boundary_mobilised**2/contact%boundary_capacity, 0.0_wp)/model%boundary%mobilising_speed
+         ! A share cannot be wrong by more than one
+         if (state%contact_friction > 0.0_wp) slopes(2) = min((slopes(1) + by_slip*state%boundary_friction &
+            & /state%contact_friction)/state%contact_friction, 1.0_wp/max(reach, tiny(1.0_wp)))
+      end associate
+   end function boundary_slopes
 
    !> Decay rate of a disturbance of the spin.
    !>

@@ -12,10 +12,10 @@ module camroller_error_estimate
    implicit none
    private
 
-   public :: estimate_t, add_defect, end_interval, estimated_error, loss_errors
+   public :: estimate_t, add_defect, end_interval, estimated_error, mean_errors
 
-   !> Most points of a rule in an interval; losses that follow the sliding speed
-   integer, parameter :: most_points = 3, losses = 2
+   !> Most points of a rule in an interval; quantities that follow the sliding speed: two losses, three forces
+   integer, parameter :: most_points = 3, followers = 5
    !> Places that cut an interval into parts [-]: shorter ones at its ends, where the defect of a stiff method is largest
    real(wp), parameter :: cuts(*) = [0.0_wp, 0.02_wp, 0.1_wp, 0.3_wp, 0.5_wp, 0.7_wp, 0.9_wp, 1.0_wp]
    !> The estimate is of first order; true errors were met at up to 1.25 times as much [-]
@@ -31,15 +31,15 @@ module camroller_error_estimate
       integer :: points = 0
       !> Defect [m/s/rad] and decay rate [1/rad] at each of them
       real(wp) :: defects(most_points) = 0.0_wp, rates(most_points) = 0.0_wp
-      !> Changes of the losses with the sliding speed there [N m s/m]
-      real(wp) :: slopes(losses, most_points) = 0.0_wp
+      !> Changes with the sliding speed there, as `slip_slopes` gives them [N m s/m], [N s/m] and [s/m]
+      real(wp) :: slopes(followers, most_points) = 0.0_wp
       !> Error at the end of the last interval, largest so far [m/s]
       real(wp) :: error = 0.0_wp, largest = 0.0_wp
       !> Part of an error at the start of the cycle that is left [-]
       real(wp) :: contraction = 1.0_wp
-      !> Integrals over the cycle of the changes of the losses with the sliding speed, times the size of the error [N m rad], and
-      !> times the part of an error at the start that is left there [N m s rad/m]
-      real(wp) :: losses(losses) = 0.0_wp, losses_of_start(losses) = 0.0_wp
+      !> Integrals over the cycle of these changes times the size of the error [N m rad], and times the part of an
+      !> error at the start that is left there [N m s rad/m]; forces likewise
+      real(wp) :: changes(followers) = 0.0_wp, changes_of_start(followers) = 0.0_wp
    end type estimate_t
 
 contains
@@ -52,8 +52,8 @@ contains
       real(wp), intent(in) :: defect
       !> Decay rate of a disturbance [1/rad]
       real(wp), intent(in) :: decay_rate
-      !> Changes of the losses with the sliding speed, as sizes; absent: none [N m s/m]
-      real(wp), intent(in), optional :: slopes(losses)
+      !> Changes with the sliding speed, as sizes; absent: none [N m s/m], [N s/m] and [s/m]
+      real(wp), intent(in), optional :: slopes(followers)
 
       estimate%points = estimate%points + 1
       estimate%defects(estimate%points) = defect
@@ -81,7 +81,7 @@ contains
       real(wp) :: places(size(nodes) + 2), values(size(nodes) + 2)
       ! Defect at start, middle and end of a part [m/s/rad]; its length over the interval [-]; decay over it, what it leaves, its
       ! mean weight [-]; size of the error in a part [m/s]; changes of the losses with the sliding speed there [N m s/m]
-      real(wp) :: defects(3), part, decay, left, weight, size_there, slopes(losses)
+      real(wp) :: defects(3), part, decay, left, weight, size_there, slopes(followers)
       integer :: i, j, known
 
       known = size(nodes)
@@ -107,11 +107,11 @@ contains
             & + left*(defects(1) - 2.0_wp*defects(2) + defects(3))/6.0_wp)
          estimate%error = sign(min(abs(estimate%error), lost), estimate%error)
          size_there = max(size_there, abs(estimate%error))
-         do j = 1, losses
+         do j = 1, followers
             slopes(j) = rate_at(nodes, estimate%slopes(j, :size(nodes)), cuts(i) + 0.5_wp*part)
          end do
-         estimate%losses = estimate%losses + length*part*slopes*size_there
-         estimate%losses_of_start = estimate%losses_of_start + length*part*slopes*estimate%contraction*max(1.0_wp, left)
+         estimate%changes = estimate%changes + length*part*slopes*size_there
+         estimate%changes_of_start = estimate%changes_of_start + length*part*slopes*estimate%contraction*max(1.0_wp, left)
          estimate%contraction = min(estimate%contraction*left, lost)
          estimate%largest = max(estimate%largest, abs(estimate%error))
       end do
@@ -128,18 +128,18 @@ contains
          & + abs(estimate%error)*estimate%contraction/max(1.0_wp - estimate%contraction, epsilon(1.0_wp)))
    end function estimated_error
 
-   !> Integrals of the errors of the losses over the cycle, with what the cycle passes on to itself, and a margin.
-   pure function loss_errors(estimate, closure) result(errors)
+   !> Integrals of the errors of losses and forces over the cycle, with what the cycle passes on to itself, and a margin.
+   pure function mean_errors(estimate, closure) result(errors)
       !> The estimate at the end of the cycle
       type(estimate_t), intent(in) :: estimate
       !> Difference of the sliding speed between end and start [m/s]
       real(wp), intent(in) :: closure
-      !> Errors of contact and roller bearing [N m rad]
-      real(wp) :: errors(losses)
+      !> Errors of the losses [N m rad], of the forces [N rad], of the share of asperities in the friction [rad]
+      real(wp) :: errors(followers)
 
-      errors = margin*estimate%losses + estimate%losses_of_start*(margin*abs(estimate%error) + closure) &
+      errors = margin*estimate%changes + estimate%changes_of_start*(margin*abs(estimate%error) + closure) &
          & /max(1.0_wp - estimate%contraction, epsilon(1.0_wp))
-   end function loss_errors
+   end function mean_errors
 
    !> Decay rate between two or three points, constant beyond them.
    pure function rate_at(nodes, rates, place) result(rate)

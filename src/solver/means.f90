@@ -16,8 +16,8 @@ module camroller_means
    use camroller_film, only : is_in_range
    use camroller_cycle, only : cycle_t
    use camroller_catalogue, only : list_series, series_values, torque_count
-   use camroller_defects, only : find_defect, loss_slopes
-   use camroller_error_estimate, only : estimate_t, add_defect, end_interval, estimated_error, loss_errors
+   use camroller_defects, only : find_defect, slip_slopes
+   use camroller_error_estimate, only : estimate_t, add_defect, end_interval, estimated_error, mean_errors
    use camroller_extremes, only : samples_t
    use camroller_follower_samples, only : follower_samples_t, start_samples, look_t, look_of
    use camroller_names, only : name_length
@@ -116,7 +116,7 @@ contains
       statistics%largest_sliding = samples%largest_sliding
       span = cycle%trajectory%time(cycle%trajectory%count) - cycle%trajectory%time(1)
       call take_means(panels, samples, work, span, statistics)
-      call judge_means(panels, loss_errors(estimate, cycle%closure*cycle%scale), span, series(:series_count), films, &
+      call judge_means(panels, mean_errors(estimate, cycle%closure*cycle%scale), span, series(:series_count), films, &
          & statistics)
       ! What start and end differ by comes again in every cycle that the periodic one is away
       statistics%error = cycle%closure/max(1.0_wp - estimate%contraction, epsilon(1.0_wp)) &
@@ -194,7 +194,8 @@ contains
       real(wp) :: defect, decay_rate
 
       call find_defect(samples%model, samples%cycle, angle, interval, samples%state, estimate%error, defect, decay_rate)
-      call add_defect(estimate, defect, decay_rate, loss_slopes(samples%model, samples%state, decay_rate))
+      call add_defect(estimate, defect, decay_rate, slip_slopes(samples%model, samples%state, &
+         & decay_rate, max(samples%cycle%step_error, abs(estimate%error))))
    end subroutine add_point
 
    !> Add the point that was sampled last to the shares of the cycle without contact and outside the film law's range.
@@ -342,11 +343,11 @@ contains
    end function stored_torques
 
    !> Largest error of a mean, over the mean size of its quantity.
-   subroutine judge_means(panels, loss_errors, span, series, films, statistics)
+   subroutine judge_means(panels, slip_errors, span, series, films, statistics)
       !> The panels
       type(panels_t), intent(in) :: panels
-      !> Integrals of the errors of the losses in contact and bearing that come of the sliding speed [N m rad]
-      real(wp), intent(in) :: loss_errors(2)
+      !> Integrals of the errors that come of the sliding speed, in the order of `slip_slopes` [N m rad], [N rad] and [rad]
+      real(wp), intent(in) :: slip_errors(5)
       !> Length of the cycle [rad]
       real(wp), intent(in) :: span
       !> The series
@@ -358,11 +359,14 @@ contains
 
       ! Errors of the integrals [unit of each times rad], over the sizes [-]
       real(wp) :: errors(size(panels%integrals, 1)), relative(size(panels%integrals, 1))
-      integer :: worst
+      integer :: worst, i
 
       associate (first => size(series) + 1)
          errors = sum(panels%doubts(:, :panels%count), 2)
-         errors(first + 1:first + 2) = errors(first + 1:first + 2) + loss_errors
+         errors(first + 1:first + 2) = errors(first + 1:first + 2) + slip_errors(:2)
+         do i = 1, first - 1
+            errors(i) = errors(i) + dot_product(slip_errors(3:), force_of(series(i)))
+         end do
          ! The drive has the errors of all losses, and what the spin of the roller differs by between start and end
          errors(first) = sum(errors(first:first + 3)) + abs(statistics%torques(5))*span
          relative = errors/mean_sizes(panels, size(series), films)
@@ -374,6 +378,20 @@ contains
          if (worst >= first) statistics%worst_mean = torque_names(worst - first + 1)
       end associate
    end subroutine judge_means
+
+   !> Which of traction, mobilised boundary friction and its share a series follows.
+   pure function force_of(series) result(parts)
+      !> The series, of any lobe
+      type(quantity_t), intent(in) :: series
+      !> One where it follows, else zero [-]
+      real(wp) :: parts(3)
+
+      parts = 0.0_wp
+      if (index(series%name, "traction") > 0 .or. index(series%name, "friction_hydrodynamic") > 0 .or. &
+         & index(series%name, "friction_contact") > 0) parts(1) = 1.0_wp
+      if (index(series%name, "friction_boundary_mobilised") > 0) parts(2) = 1.0_wp
+      if (index(series%name, "asperity_friction_share") > 0) parts(3) = 1.0_wp
+   end function force_of
 
    !> Mean torques of a follower over a cycle or a piece of one.
    subroutine integrate_torques(model, cycle, torques, error)
