@@ -31,7 +31,7 @@ contains
       self%given = 0
    end subroutine reset_alone
 
-   !> Take cases that nobody else has.
+   !> Take cases that no other process has.
    subroutine take_alone(self, wanted, position)
       !> The team
       class(team_t), intent(inout) :: self

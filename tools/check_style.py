@@ -7,7 +7,7 @@ Everywhere: no tabs, no trailing blanks, lines within 132 characters (the limit 
 `implicit none`, files within 500 lines, procedures within 60 lines of code. In src and app: one module a file, named after it
 with our prefix, `private` at its top, a unit in brackets on every real declaration, and no write into a text, which ends the program where the
 text is too short (src/base/number_text.f90 has the routines for that; a unit is known by its name, `...unit` or `*`); no print and
-no unit for output or errors, whose text is lost in silence where the device is full (src/io/streams.f90 has the routines for that).
+no unit for output or errors, whose text is lost without an error where the disk is full (src/io/streams.f90 has the routines for that).
 In src: no stop. In src below io, which threads run side by side: no function whose text has the length it finds, since gfortran
 keeps that length in a static variable of the caller.
 
@@ -128,7 +128,7 @@ def check_statements(report: Report, code: list[Statement], folder: str) -> None
         if folder in ("src", "app") and re.match(r"^(?:if\s*\(.*\)\s*)?(?:print\b(?!\s*=)|write\s*\(\s*\*\s*,)", text):
             report.add(statement.line, "print", "the library prints, or the program past camroller_streams")
         if folder in ("src", "app") and re.search(r"\b(?:output|error)_unit\b", text):
-            report.add(statement.line, "output", "text that is lost in silence where the device is full; take print_lines, "
+            report.add(statement.line, "output", "text that is lost without an error where the disk is full; take print_lines, "
                        "print_text or tell")
         if folder in ("src", "app") and (match := WRITE.match(text)) and not UNIT_NUMBER.match(match[1]):
             report.add(statement.line, "write", "a number is written into a text; take number_text or another of its module")

@@ -1,7 +1,8 @@
 !> Processes that share a sweep by MPI.
 !>
 !> In: a started MPI. Out: a team whose counter of cases given out lies with the first process. Any process takes from it without
-!> the first one having to answer, so nobody waits for a slow case. Everything else is said before and after the computation.
+!> the first one having to answer, so that no process waits for a slow case. All other messages are exchanged before and
+!> after the computation.
 module camroller_team_mpi
    use mpi_f08, only : mpi_address_kind, mpi_allreduce, mpi_bcast, mpi_comm_rank, mpi_comm_size, mpi_comm_world, &
       & mpi_fetch_and_op, mpi_finalize, mpi_info_null, mpi_init_thread, mpi_integer, mpi_iprobe, mpi_any_source, mpi_any_tag, &
@@ -70,7 +71,7 @@ contains
       call mpi_barrier(mpi_comm_world)
    end subroutine reset_window
 
-   !> Take cases that nobody else has.
+   !> Take cases that no other process has.
    subroutine take_from_window(self, wanted, position)
       !> The team
       class(team_mpi_t), intent(inout) :: self

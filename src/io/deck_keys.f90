@@ -317,7 +317,7 @@ contains
          & "elastic asperities of both surfaces, or asperities of one that yield; the latter needs materials.hardness_GPa")
       call add_number(schema, "roughness_product", positive, "asperity density times tip radius times roughness", &
          & default=standard%roughness_product)
-      call add_number(schema, "roughness_over_tip_radius", positive, "roughness over tip radius", &
+      call add_number(schema, "roughness_over_tip_radius", positive, "ratio of roughness to tip radius", &
          & default=standard%roughness_over_tip_radius)
       call add_number(schema, "boundary_coefficient", not_negative, "friction coefficient of touching asperities", &
          & example="0.2")

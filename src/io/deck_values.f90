@@ -88,7 +88,7 @@ contains
       if (value%is_wrong) call spend_read()
    end subroutine read_value
 
-   !> Read something that nobody wants, until it is read.
+   !> Read and discard a value.
    !>
    !> After some values that cannot be read (`3` for a logical, `1e` for a number) gfortran's library hands what it had of them to
    !> the next read, which then finds nothing and says that all is well.

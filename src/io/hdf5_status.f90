@@ -1,7 +1,7 @@
 !> State of the HDF5 library: started quietly, and its error stack turned into a few words.
 !>
 !> Layer: io. In: nothing. Out: `start_hdf5`, `raise_hdf5`. The library keeps its errors on a stack of its own; the
-!> entry that quotes the operating system says most, so that one is looked for first. The walk over the stack has no
+!> entry that quotes the operating system says most, so that entry is searched first. The walk over the stack has no
 !> Fortran wrapper, hence the C interface.
 module camroller_hdf5_status
    use, intrinsic :: iso_c_binding, only : c_char, c_int, c_int64_t, c_loc, c_f_pointer, c_funloc, c_funptr, &
@@ -55,7 +55,7 @@ module camroller_hdf5_status
 
 contains
 
-   !> Start the library where nobody has yet, and switch its own printing of errors off.
+   !> Start the library where it is not started yet, and switch its own printing of errors off.
    subroutine start_hdf5(error)
       !> File error where the library cannot be started
       type(error_t), allocatable, intent(out) :: error

@@ -22,7 +22,7 @@ module camroller_raw_file
    integer(int64), parameter, public :: word_size = 8_int64
    !> What `lseek` takes for the end of a file; `flock` for an exclusive lock, with and without waiting, and for giving it back
    integer(c_int), parameter :: from_end = 2_c_int, lock_exclusive = 2_c_int, lock_at_once = 6_c_int, unlock = 8_c_int
-   !> Error numbers: another process has the lock (EWOULDBLOCK); a signal came before anything was done; nobody reads
+   !> Error numbers: another process has the lock (EWOULDBLOCK); a signal came before anything was done; a closed pipe
    integer(c_int), parameter :: would_block = 11_c_int, interrupted = 4_c_int, broken_pipe = 32_c_int
 
    !> An open file
@@ -159,7 +159,7 @@ contains
 
    !> Wait until no other process has a lock on a file, and have one.
    subroutine wait_for_lock(file, error)
-      !> An open file; what it holds is looked at again
+      !> An open file; its content is read again
       type(raw_file_t), intent(inout) :: file
       !> File error where there are no locks
       type(error_t), allocatable, intent(out) :: error
@@ -231,7 +231,7 @@ contains
       character(len=*), intent(in), target :: text
       !> Why it was not taken, in the system's words; empty where it was
       character(len=:), allocatable, intent(out) :: reason
-      !> Is that because nobody reads any more what is written there?
+      !> Is that because the reader has closed the pipe?
       logical, intent(out) :: is_unread
 
       integer(c_intptr_t) :: former

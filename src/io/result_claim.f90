@@ -88,8 +88,8 @@ contains
       call close_raw(claim%file)
    end subroutine give_up_claim
 
-   !> Remove unfinished results of processes that are gone: those with the very name that we give them, which nobody writes and
-   !> which hold a result of ours or nothing yet.
+   !> Remove unfinished results of processes that are gone: those with the exact name that this program gives them,
+   !> which no process writes and which are empty or hold a result of this program.
    subroutine remove_unfinished(path)
       !> Path of the result file
       character(len=*), intent(in) :: path
@@ -105,7 +105,7 @@ contains
       end do
    end subroutine remove_unfinished
 
-   !> Is an unfinished file ours, and does nobody write it?
+   !> Is an unfinished file one of this program, and does no process write it?
    function is_ours(path) result(verdict)
       !> Its path
       character(len=*), intent(in) :: path

@@ -12,7 +12,7 @@ module camroller_streams
 
    public :: print_text, print_lines, tell, hold_streams, close_output_stream
 
-   !> Descriptors; signal of output that nobody reads; what `signal` takes for ignoring it; how files are opened that are read only
+   !> Descriptors; signal of a closed pipe; what `signal` takes for ignoring it; how files are opened that are read only
    integer(c_int), parameter :: output_descriptor = 1_c_int, error_descriptor = 2_c_int, signal_pipe = 13_c_int
    integer(c_intptr_t), parameter :: ignore_signal = 1_c_intptr_t
    integer(c_int), parameter :: read_only = 0_c_int
@@ -65,7 +65,7 @@ contains
       call print_text(text//new_line("a"), error)
    end subroutine print_lines
 
-   !> Write to the error unit; where it does not take it, there is nobody to tell.
+   !> Write to the error unit; a failure there cannot be reported.
    subroutine tell(text)
       !> The text, with the ends of its lines
       character(len=*), intent(in) :: text
@@ -76,7 +76,7 @@ contains
       call write_letters(error_descriptor, text, reason, is_unread)
    end subroutine tell
 
-   !> For a program, before anything else: output that nobody reads does not end it, and where one of the three streams is closed no
+   !> For a program, before anything else: a closed pipe does not end it, and where one of the three streams is closed no
    !> file gets its number, which then would be written to.
    subroutine hold_streams()
       integer(c_intptr_t) :: former

@@ -25,7 +25,7 @@ module camroller_ode
    !> Error over tolerance below which smaller ones make no difference [-]
    real(wp), parameter :: least_error = 1.0e-4_wp
    !> Fewest steps, shared out evenly between the segments: what happens within a segment shows between its ends only, and a
-   !> method may look at nothing but the ends of its steps
+   !> method may check nothing but the ends of its steps
    integer, parameter :: fewest_steps = 32
    !> Part of the stability limit that a step may use [-]
    real(wp), parameter :: stability_margin = 0.95_wp

@@ -325,7 +325,7 @@ contains
             b(3) = b(4) + step*sums(4)/24.0_wp
             b(2) = b(3) + step*sums(3)/6.0_wp
             b(1) = b(2) + step*sums(2)/2.0_wp
-            ! A layer that nobody can see is not worth its exponential function
+            ! A layer below round-off needs no exponential function
             if (abs(step*sums(0)) > least_layer*self%tolerance(1)) b(5:6) = [step*sums(0), z]
          else
             change = new_state - self%start%state

@@ -149,7 +149,7 @@ contains
       real(wp), intent(in) :: time
       !> State [state]
       real(wp), intent(in) :: state(:)
-      !> Time up to which the right-hand side is smooth; later times are not looked at [time]
+      !> Time up to which the right-hand side is smooth; later times are not evaluated [time]
       real(wp), intent(in) :: horizon
       !> Rate and derivatives; has its room
       type(linear_t), intent(inout) :: linear
@@ -166,7 +166,7 @@ contains
    end subroutine linearise_in_two
 
    !> From the first component to its barrier: a place about which the rate may differ so much within so narrow a range that the
-   !> state is held there, and that a step may cross without a look at it.
+   !> state is held there, and that a step may cross without an evaluation there.
    !>
    !> A barrier that is no straight line over time overrides this; `linearise` fills in `clearance` where it is overridden.
    subroutine clearance_of_line(self, time, state, clearance)
@@ -195,7 +195,7 @@ contains
       real(wp), intent(in) :: state(:)
       !> Rate there [state/time]
       real(wp), intent(in) :: rate(:)
-      !> Time up to which the right-hand side is smooth; later times are not looked at [time]
+      !> Time up to which the right-hand side is smooth; later times are not evaluated [time]
       real(wp), intent(in) :: horizon
       !> Derivative of the rates (row) with respect to the state (column) [1/time]
       real(wp), intent(out) :: jacobian(:, :)

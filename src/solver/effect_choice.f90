@@ -64,12 +64,12 @@ contains
       type(case_t), intent(out) :: chosen
       !> What was decided and why
       type(choice_t), intent(out) :: choice
-      !> Is every effect looked at in full, even those that matter at first sight?
+      !> Does every effect get the full survey, even those that the coarse one finds to matter?
       logical, intent(in) :: is_thorough
       !> Deck error
       type(error_t), allocatable, intent(out) :: error
 
-      ! Smallest estimate of what has not been looked at yet [-]
+      ! Smallest estimate of the effects not surveyed yet [-]
       real(wp) :: least
       integer :: i, next
       logical, allocatable :: is_open(:)
@@ -135,7 +135,7 @@ contains
       type(model_t), intent(in) :: models(:)
       !> Estimates and reasons; nothing is left out yet
       type(choice_t), intent(out) :: choice
-      !> Is every effect looked at in full?
+      !> Does every effect get the full survey?
       logical, intent(in) :: is_thorough
       !> Deck error
       type(error_t), allocatable, intent(out) :: error
@@ -181,7 +181,7 @@ contains
       integer, intent(in) :: effect
       !> Mean torque for losses
       type(mean_torque_t), intent(in) :: torque
-      !> Is every effect looked at in full?
+      !> Does every effect get the full survey?
       logical, intent(in) :: is_thorough
       !> Gets a decision
       type(choice_t), intent(inout) :: choice

@@ -15,7 +15,7 @@ module camroller_effect_grid
 
    public :: grid_t, points, slowest_decay, make_grid, delay, delay_from_half, delay_slowly, mean_over, sampling_error, bend_of
 
-   !> Angles looked at
+   !> Angles of the survey
    integer, parameter :: points = 48
    !> Pieces of a cycle at most; with more kinks none is respected
    integer, parameter :: most_pieces = 6
@@ -126,7 +126,7 @@ contains
       call follow(grid, 1, 1, .false., decay, balance, values)
    end subroutine delay
 
-   !> The same with every second angle to see by: two looks, each at half of the angles.
+   !> The same with every second angle: two surveys, each with half of the angles.
    pure subroutine delay_from_half(grid, decay, balance, values)
       !> The angles
       type(grid_t), intent(in) :: grid

@@ -31,7 +31,7 @@ contains
       integer, intent(in) :: effect
       !> The model of the first lobe
       type(model_t), intent(in) :: model
-      !> Its cycle, looked at
+      !> Survey of its cycle
       type(survey_t), intent(in) :: survey
       !> Part of the mean torque for losses that camshaft bearings take [-]
       real(wp), intent(in) :: share
@@ -86,7 +86,7 @@ contains
    subroutine find_moes_numbers(model, survey, reason)
       !> The model
       type(model_t), intent(in) :: model
-      !> Its cycle, looked at
+      !> Survey of its cycle
       type(survey_t), intent(in) :: survey
       !> A few words
       character(len=*), intent(out) :: reason

@@ -2,7 +2,7 @@
 !>
 !> Layer: solver. In: a model, and one that lacks an effect. Out: changes of torque, film and sliding speed round the cycle.
 !>
-!> The sliding speed follows the balance with the delay of its decay: between the angles looked at, `dy/dtheta = -lambda (y - q)`
+!> The sliding speed follows the balance with the delay of its decay: between its angles, `dy/dtheta = -lambda (y - q)`
 !> is solved with q linear. A change of the model disturbs it by `dv/dtheta = b - lambda v`, with b the difference of the rates at
 !> the same sliding speed; a second evaluation at the disturbed state gives the changes to second order.
 !>
@@ -47,11 +47,11 @@ module camroller_effect_survey
    !> Error of the sliding speed over the speed itself, means of sizes, above which nothing is said [-]
    real(wp), parameter :: largest_error = 0.5_wp
 
-   !> One lobe's cycle, looked at
+   !> Survey of the cycle of one lobe
    type :: survey_t
       !> Why nothing can be said; not allocated where something can
       character(len=:), allocatable :: trouble
-      !> Angles looked at
+      !> Angles of the survey
       type(grid_t) :: grid
       !> Sliding speed of the balance, and delayed; error that the latter may have [m/s]
       real(wp) :: balance(points), sliding(points), error(points)
@@ -322,7 +322,7 @@ contains
 
    !> States of a model round the cycle.
    subroutine look(survey, model, sliding, states, decay, is_fine)
-      !> Where to look
+      !> The angles
       type(survey_t), intent(in) :: survey
       !> The model
       type(model_t), intent(in) :: model

@@ -223,13 +223,13 @@ contains
          if (allocated(error)) return
          call raise(error, kind_convergence, "the cycle was not found: its estimated error is "//number_text(estimates(1), 2)// &
             & " of the sliding speed, largest at cam angle "//fixed_text(angle, 3)//" deg; the spin is hardly damped there, or "// &
-            & "friction gives way at once")
+            & "friction reaches its limit abruptly")
          return
       end if
       if (estimates(1) > accuracy) call add_remark(result%warnings, "the accuracy asked for was not reached; the "// &
          & "estimated error is "//number_text(estimates(1), 2))
-      if (estimates(2) > accuracy) call add_remark(result%warnings, "means have not the accuracy asked for; the largest "// &
-         & "estimated error, of mean_"//trim(result%worst_mean)//", is "//number_text(estimates(2), 2))
+      if (estimates(2) > accuracy) call add_remark(result%warnings, "the means did not reach the accuracy asked for; the "// &
+         & "largest estimated error, of mean_"//trim(result%worst_mean)//", is "//number_text(estimates(2), 2))
    end subroutine judge
 
    !> Remark on a tolerance given by hand that says nothing of the error: steps keep to it and the curve between them does not, or
@@ -260,8 +260,8 @@ contains
          !> Its estimate [-]
          real(wp), intent(in) :: estimate
 
-         call add_remark(result%warnings, "the tolerance "//number_text(numerics%tolerance, 2)//" does not hold "//what// &
-            & ": that is estimated as "//number_text(estimate, 2)//"; leave the tolerance out and give the accuracy wanted instead")
+         call add_remark(result%warnings, "the tolerance "//number_text(numerics%tolerance, 2)//" does not control "//what// &
+            & ": its estimate is "//number_text(estimate, 2)//"; give 'accuracy' instead of 'tolerance'")
       end subroutine say_far
 
    end subroutine judge_tolerance

@@ -48,7 +48,7 @@ module camroller_stick_slip
    real(wp), parameter :: longest_scan = 1.0_wp*degree, shortest_scan = 1.0e-3_wp*degree
    !> Distance of a rate in the middle of such a step from a straight line, over its size [-]: what happens between them is seen
    real(wp), parameter :: largest_bend = 1.0e-3_wp
-   !> Places at which the curve between two points is looked at
+   !> Places at which the curve between two points is evaluated
    integer, parameter :: places = 4
    !> Phases allowed in one integration: more than one a degree
    integer, parameter :: max_phases = 500

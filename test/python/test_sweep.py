@@ -171,7 +171,7 @@ def test_time_limit_and_resume(camroller, deck, reference, tmp_path):
     assert 0 < left(further) < left(result) < 24
     again = run(camroller, "sweep", deck, folder=tmp_path)
     assert again.returncode == FILE
-    assert "go on with it by --resume, or remove" in again.stderr
+    assert "continue it with --resume, or remove" in again.stderr
     done(camroller, "sweep", deck, "--resume", folder=tmp_path)
     assert same(reference, tmp_path / "deck.h5")
     finished = done(camroller, "sweep", deck, "--resume", folder=tmp_path)

@@ -218,7 +218,7 @@ contains
    !> allows, and an ordinary case.
    subroutine test_far_beyond(error)
       type(error_type), allocatable, intent(out) :: error
-      character(len=*), parameter :: remark = "does not hold the error"
+      character(len=*), parameter :: remark = "does not control the error"
       type(case_t) :: the_case
       type(result_t) :: result
       type(deck_t) :: deck
