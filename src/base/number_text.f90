@@ -172,7 +172,7 @@ contains
    pure subroutine write_number(value, form, decimals, text)
       !> The number [any unit]
       real(wp), intent(in) :: value
-      !> `f` without exponent, but not for large numbers, or `es` with one
+      !> `f` without exponent, but not for large numbers; `es` with one, or `e3` with one of three digits
       character(len=*), intent(in) :: form
       !> Digits after the point
       integer, intent(in) :: decimals
@@ -189,10 +189,10 @@ contains
          return
       end if
       used = form
-      if (abs(value) >= largest_fixed) used = "es"
+      if (form == "f" .and. abs(value) >= largest_fixed) used = "es"
       ! style: write because this is the place where numbers become text
-      write (text, "("//used//"40."//counts(places)//")") value
-      if (used == "f" .or. index(text, "E") > 0) return
+      if (used /= "e3") write (text, "("//used//"40."//counts(places)//")") value
+      if (used == "f" .or. used == "es" .and. index(text, "E") > 0) return
       ! style: write because this is the place where numbers become text
       write (text, "(es40."//counts(places)//"e3)") value
    end subroutine write_number

@@ -369,7 +369,7 @@ contains
          else if (table%has_words(i)) then
             line = line//quoted(table%words(row, i)%text)
          else
-            call write_number(table%numbers(row, i), "es", decimals, number)
+            call write_number(table%numbers(row, i), "e3", decimals, number)
             line = line//trim(adjustl(number))
          end if
       end do

@@ -86,16 +86,19 @@ contains
       !> Angles, increasing, with both ends [rad]
       real(wp), allocatable :: angles(:)
 
-      ! Ends of the pieces, step [rad]
-      real(wp), allocatable :: edges(:)
-      real(wp) :: step
+      ! Ends of the pieces, longest step in each [rad]
+      real(wp), allocatable :: edges(:), longest(:)
       integer, allocatable :: steps(:)
       integer :: piece, last, i
 
-      step = min(longest_step, finest_bend(model%lift_law)/steps_of_bend)
       edges = lift_stops_between(model, start, finish)
       edges = [start, pack(edges, edges > start), finish]
-      steps = max(ceiling((edges(2:) - edges(:size(edges) - 1))/step), 1 + least_steps/size(edges))
+      allocate (longest(size(edges) - 1), source=longest_step)
+      do piece = 1, size(longest)
+         if (is_at_rest(model%lift_law, 0.5_wp*(edges(piece) + edges(piece + 1)))) cycle
+         longest(piece) = min(longest_step, finest_bend(model%lift_law)/steps_of_bend)
+      end do
+      steps = max(ceiling((edges(2:) - edges(:size(edges) - 1))/longest), 1 + least_steps/size(edges))
       allocate (angles(1 + sum(steps)))
       angles(1) = start
       last = 1

@@ -20,7 +20,7 @@ module camroller_model
    use camroller_ehl_table, only : ehl_t, build_film_table
    use camroller_asperity, only : asperity_law_names, law_zhao_maietta_chang, smallest_product, boundary_names, &
       & mobilisation_names, asperity_constants_t, new_asperity_constants
-   use camroller_number_text, only : fixed_text
+   use camroller_number_text, only : number_text, fixed_text
    use camroller_traction, only : traction_t, shear_law_names, cap_names, rolling_law_names
    use camroller_needle, only : friction_radius, roller_bearing_names
    use camroller_guide, only : guide_drag_coefficient
@@ -409,8 +409,8 @@ contains
       model%train%closed_seat_force = model%train%stiffness*model%train%precompression - tip_force
       if (model%train%closed_seat_force <= 0.0_wp) then
          call raise(error, kind_deck, "the lash adjuster lifts the valve off its seat: spring.base_circle_load_N presses the "// &
-            & "valve with "//fixed_text(tip_force, 1)//" N, the closed spring holds "// &
-            & fixed_text(model%train%stiffness*model%train%precompression, 1)//" N; lower it, raise "// &
+            & "valve with "//number_text(tip_force, 6)//" N, the closed spring holds "// &
+            & number_text(model%train%stiffness*model%train%precompression, 6)//" N; lower it, raise "// &
             & "spring.stiffness_N_m or spring.precompression_mm, or choose seating = 'maximum' with energy = 'source'")
          return
       end if

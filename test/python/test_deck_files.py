@@ -128,7 +128,7 @@ def test_mistakes_in_a_table_of_cases_name_its_lines(camroller, tmp_path):
     (["mechanism.valve_axis_angle_deg=-120"], "the triangle's angle at the pivot, 56.5324 deg",
      ["mechanism.roller_arm_angle_deg = -3.5"]),
     (["lift.max_lift_mm=30"], "smaller than roller.radius_mm = 8.5", ["mechanism.base_radius_mm = 18", "roller.radius_mm = 8.5"]),
-    (["spring.precompression_mm=0.01"], "the closed spring holds 0.2 N", ["spring.stiffness_N_m = 25000"]),
+    (["spring.precompression_mm=0.01"], "the closed spring holds 0.25 N", ["spring.stiffness_N_m = 25000"]),
 ])
 def test_an_impossible_geometry_is_told_with_values_keys_and_lines(camroller, tmp_path, options, words, keys):
     path = ROOT / "decks/thesis.nml"

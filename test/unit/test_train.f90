@@ -284,8 +284,9 @@ contains
    pure function sample_mechanism() result(mechanism)
       type(mechanism_t) :: mechanism
 
-      mechanism = mechanism_t(20.8e-3_wp, 35.5e-3_wp, 31.5e-3_wp, -3.5_wp*degree, 37.5_wp*degree, 18.0e-3_wp, 8.5e-3_wp, &
-         13.7e-3_wp)
+      mechanism = mechanism_t(pivot_to_roller=20.8e-3_wp, pivot_to_pad=35.5e-3_wp, pivot_to_cam=31.5e-3_wp, &
+         & roller_arm_angle=-3.5_wp*degree, valve_axis_angle=37.5_wp*degree, base_radius=18.0e-3_wp, roller_radius=8.5e-3_wp, &
+         & contact_width=13.7e-3_wp)
    end function sample_mechanism
 
    subroutine test_mechanism_refusals(error)
