@@ -133,10 +133,13 @@ contains
       type(tally_t), intent(in) :: tally
       !> Beginning of the class
       character(len=*), intent(in) :: name
-      integer :: count
+      integer :: count, i
 
       count = 0
-      if (allocated(tally%names)) count = sum(tally%counts, mask=tally%names(:) (:len(name)) == name)
+      if (.not. allocated(tally%names)) return
+      do i = 1, size(tally%names)
+         if (index(tally%names(i), name) == 1) count = count + tally%counts(i)
+      end do
    end function ending_count
 
    !> All classes with their counts, a line each.

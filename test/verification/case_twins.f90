@@ -151,9 +151,11 @@ contains
          rest = adjustl(rest(min(last, len(rest) + 1):))
          last = verify(word, letters)
          power = 1
-         if (last > 1) read (word(last:), *, iostat=status) power
-         if (last > 1 .and. status /= 0) error stop "a unit that the test does not know"
-         if (last > 1) word = word(:last - 1)
+         if (last > 1) then
+            read (word(last:), *, iostat=status) power
+            if (status /= 0) power = 100
+            word = word(:last - 1)
+         end if
          select case (word)
          case ("m")
             one = length

@@ -2,8 +2,8 @@
 !> say why there is none. How they end is counted and printed.
 !>
 !> The environment variables WIDE_CASES and WIDE_SEED choose how many and which; `make random-wide` sets them. WIDE_FOLDER names a
-!> folder for decks and tables of cases that fail and of a case run alone. With WIDE_TRACE=1 each seed is printed before its case
-!> is run.
+!> folder for decks and tables of cases that fail and of a case run alone, WIDE_TRACE=1 has each seed printed before its case is
+!> run.
 module test_random_wide
    use, intrinsic :: iso_fortran_env, only : error_unit
    use testdrive, only : new_unittest, unittest_type, error_type, test_failed
@@ -244,8 +244,8 @@ contains
       call run_case(twin, other, twin_error)
       is_tested = .not. (allocated(error) .or. allocated(twin_error))
       if (allocated(error) .neqv. allocated(twin_error)) then
-         if (allocated(error)) trouble = " in SI alone: "//error%message
-         if (allocated(twin_error)) trouble = " in other units alone: "//twin_error%message
+         if (allocated(error)) trouble = " an error in SI and no other units: "//error%message
+         if (allocated(twin_error)) trouble = " an error in other units and not in SI: "//twin_error%message
       else if (is_tested) then
          trouble = compare_twins(one, other, unit_systems_tried(size(unit_systems_tried)), &
             & allowed*promised_error(case, one, "estimated_error"))
