@@ -10,7 +10,7 @@ module camroller_version
    public :: version_text, version_number, build_commit, compiler_facts
 
    !> Version as `major.minor.patch`
-   character(len=*), parameter :: version_text = "0.1.0"
+   character(len=*), parameter :: version_text = "0.2.0"
    !> Version as 10000*major + 100*minor + patch
    integer, parameter :: version_number = 100
    ! Commit of the sources, `build_commit`: known when built by make, "unknown" otherwise
