@@ -52,14 +52,21 @@ contains
       type(tally_t), intent(inout) :: tally
       !> The class
       character(len=*), intent(in) :: name
-      integer :: place
+      character(len=72), allocatable :: names(:)
+      integer :: place, known
 
-      if (.not. allocated(tally%names)) allocate (tally%names(0), tally%counts(0))
-      place = findloc(tally%names == name, .true., 1)
-      if (place == 0) then
-         tally%names = [tally%names, [character(len=len(tally%names)) :: name]]
+      known = 0
+      if (allocated(tally%names)) known = size(tally%names)
+      do place = 1, known
+         if (tally%names(place) == name) exit
+      end do
+      if (place > known) then
+         allocate (names(place))
+         if (known > 0) names(:known) = tally%names
+         names(place) = name
+         call move_alloc(names, tally%names)
+         if (known == 0) allocate (tally%counts(0))
          tally%counts = [tally%counts, 0]
-         place = size(tally%names)
       end if
       tally%counts(place) = tally%counts(place) + 1
    end subroutine count_ending
