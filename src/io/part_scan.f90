@@ -178,7 +178,16 @@ contains
       !> What is damaged
       character(len=*), intent(in) :: words
 
-      index%damages = [index%damages, line_t(words)]
+      type(line_t), allocatable :: longer(:)
+      integer :: i
+
+      ! one by one: the compiler loses texts of a list that is put together of others
+      allocate (longer(size(index%damages) + 1))
+      do i = 1, size(index%damages)
+         call move_alloc(index%damages(i)%text, longer(i)%text)
+      end do
+      longer(size(longer))%text = words
+      call move_alloc(longer, index%damages)
    end subroutine add_damage
 
    !> Read the record at a place.
