@@ -98,10 +98,10 @@ contains
       left = search%point(2) - search%point(1)
       right = search%point(3) - search%point(2)
       rises = [search%value(1) - search%value(2), search%value(3) - search%value(2)]
-      slopes = rises/[left, right]
       search%is_wanted = search%steps < most_steps .and. maxval(rises) > search%tolerance &
          & .and. min(left, right) > 16.0_wp*spacing(search%point(2))
       if (.not. search%is_wanted) return
+      slopes = rises/[left, right]
       shift = 0.5_wp*(slopes(1)*right - slopes(2)*left)/(slopes(1) + slopes(2))
       gain = shift**2*(slopes(1) + slopes(2))/(left + right)
       if (max(gain, search%missed) <= search%tolerance) then

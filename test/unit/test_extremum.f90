@@ -17,9 +17,21 @@ contains
          new_unittest("one value finds the lowest point of a parabola", test_parabola), &
          new_unittest("a smooth function is at its lowest within the tolerance after a few values", test_smooth), &
          new_unittest("a kink is approached", test_kink), &
-         new_unittest("without a lowest point in the middle nothing is wanted", test_none) &
+         new_unittest("without a lowest point in the middle nothing is wanted", test_none), &
+         new_unittest("where two of the points are one nothing is wanted, and nothing is divided by their distance", test_same) &
          ]
    end subroutine collect_extremum
+
+   !> With run-time checks a division of zero by zero ends the program.
+   subroutine test_same(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(extremum_t) :: search
+
+      call start_extremum(search, [1.0_wp, 1.0_wp, 2.0_wp], [3.0_wp, 3.0_wp, 4.0_wp], 1.0e-9_wp)
+      call check(error, .not. search%is_wanted)
+      if (allocated(error)) return
+      call check(error, search%value(2), 3.0_wp)
+   end subroutine test_same
 
    subroutine test_parabola(error)
       type(error_type), allocatable, intent(out) :: error
