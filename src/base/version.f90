@@ -12,7 +12,7 @@ module camroller_version
    !> Version as `major.minor.patch`
    character(len=*), parameter :: version_text = "0.2.0"
    !> Version as 10000*major + 100*minor + patch
-   integer, parameter :: version_number = 100
+   integer, parameter :: version_number = 200
    ! Commit of the sources, `build_commit`: known when built by make, "unknown" otherwise
    include "build_commit.inc"
 

@@ -375,7 +375,7 @@ contains
       if (allocated(error)) return
       coarse%smallest_film = 0.98_wp*fine%smallest_film
       call compare_cycles(coarse, fine, 0.01_wp, failure)
-      call expect_error(error, failure, kind_convergence, "2.0E-02 in the film")
+      call expect_error(error, failure, kind_convergence, "by 0.02 in the film")
       if (allocated(error)) return
       coarse%smallest_film = fine%smallest_film
       coarse%mean_slip = -fine%mean_slip
