@@ -25,6 +25,8 @@ module camroller_result_claim
    character(len=8), parameter :: hdf5_mark = char(137)//"HDF"//char(13)//char(10)//char(26)//char(10)
    !> What our result files say of themselves
    character(len=*), parameter :: own_words = "camroller result"
+   !> Byte with the version of HDF5's first block, and the word that says where the file ends in version 0
+   integer, parameter :: version_byte = 9, end_word = 6
 
    !> A claim
    type :: claim_t
@@ -89,7 +91,7 @@ contains
    end subroutine give_up_claim
 
    !> Remove unfinished results of processes that are gone: those with the exact name that this program gives them,
-   !> which no process writes and which are empty or hold a result of this program.
+   !> which no process writes and which are empty, not finished, or hold a result of this program.
    subroutine remove_unfinished(path)
       !> Path of the result file
       character(len=*), intent(in) :: path
@@ -127,7 +129,11 @@ contains
          letters = transfer(words(:count), letters)
          letters(word_size*count + 1:) = ""
          if (letters(:len(hdf5_mark)) == hdf5_mark) then
+            ! A file that HDF5 has not finished says that it ends elsewhere than it does
             verdict = index(letters, own_words) > 0
+            if (.not. verdict .and. count >= end_word .and. letters(version_byte:version_byte) == char(0)) then
+               verdict = words(end_word) /= file%bytes
+            end if
          else
             verdict = verify(letters, " "//char(0)) == 0
          end if

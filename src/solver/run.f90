@@ -75,17 +75,19 @@ contains
 
       type(case_t) :: chosen
       type(choice_t) :: choice
-      integer :: lobe
+      integer :: lobe, shapes
 
       if (.not. wants_choice(case)) then
          call run_listed(case, models, result, error)
          return
       end if
       call choose_effects(case, models, chosen, choice, .false., error)
-      do lobe = 1, size(models)
+      ! Without its camshaft bearings a case has one lobe shape
+      shapes = merge(size(models), 1, allocated(chosen%second_lift))
+      do lobe = 1, shapes
          if (.not. allocated(error)) call revise_model(models(lobe), chosen, error)
       end do
-      if (.not. allocated(error)) call run_listed(chosen, models, result, error)
+      if (.not. allocated(error)) call run_listed(chosen, models(:shapes), result, error)
       if (.not. allocated(error)) call add_choice(result, choice)
    end subroutine run_chosen
 

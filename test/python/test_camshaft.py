@@ -45,7 +45,8 @@ def deck(path, rotation, lifts, bearings=""):
     if bearings:
         text += (f"&cam_bearings\nlaw = 'long_full_sommerfeld'\ndiameter_mm = {JOURNAL['diameter'] * 1e3!r}\n"
                  f"width_mm = {JOURNAL['width'] * 1e3!r}\nradial_clearance_um = {JOURNAL['radial_clearance'] * 1e6!r}\n{bearings}\n/\n")
-    path.write_text(text + f"&output\nangle_step_deg = {STEP}\n/\n")
+    # a tolerance given by hand: an accuracy may have both shapes integrated again where one of them misses it
+    path.write_text(text + f"&numerics\ntolerance = 1e-5\n/\n&output\nangle_step_deg = {STEP}\n/\n")
     return path
 
 

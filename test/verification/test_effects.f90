@@ -24,7 +24,8 @@ contains
          new_unittest("the guide changes no bit of anything else in the source's bookkeeping", test_guide), &
          new_unittest("the needle bearing changes no bit of the load in the source's bookkeeping", test_needle), &
          new_unittest("an absent effect has no series and no scalar", test_absent), &
-         new_unittest("a case after others gives the bits that it gives alone", test_kept) &
+         new_unittest("a case after others gives the bits that it gives alone", test_kept), &
+         new_unittest("bearings that are left out take the second lobe shape with them", test_without_bearings) &
          ]
    end subroutine collect_effects
 
@@ -83,6 +84,34 @@ contains
       i = find_quantity(with%series, "sliding_speed")
       call check(error, .not. all(same_bits(with%series_values(:, i), without%series_values(:, i))), "the roller is not braked")
    end subroutine test_needle
+
+   subroutine test_without_bearings(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: the_case
+      type(result_t) :: with, without
+      type(error_t), allocatable :: failure
+
+      the_case = thesis_case()
+      the_case%numerics%method = "automatic"
+      call add_bearings(the_case)
+      the_case%second_lift = the_case%lift
+      call run_case(the_case, with, failure)
+      ! Bearings of a single cam change no bit of the slip
+      the_case%effects%select = "needed"
+      the_case%effects%quantity = "slip"
+      if (.not. allocated(failure)) call run_case(the_case, without, failure)
+      if (allocated(failure)) then
+         call test_failed(error, failure%message)
+         return
+      end if
+      call check(error, find_quantity(with%series, "lobe_2_contact_load") > 0 .and. find_quantity(with%series, &
+         & "torque_bearings") > 0, "the case has no second lobe shape or no bearings")
+      if (allocated(error)) return
+      call check(error, find_quantity(without%series, "torque_bearings") == 0, "the bearings are still there")
+      if (allocated(error)) return
+      call check(error, find_quantity(without%series, "lobe_2_contact_load") == 0 .and. &
+         & size(without%series_values, 2) == size(without%series), "the second lobe shape is still there")
+   end subroutine test_without_bearings
 
    subroutine test_kept(error)
       type(error_type), allocatable, intent(out) :: error
