@@ -305,7 +305,7 @@ contains
       type(decision_t), intent(inout) :: decision
 
       if (.not. has_single_bearings(case)) then
-         decision%reason = "not estimated: without them there is one cam, here are several"
+         decision%reason = "not estimated: without them there is one cam, of the first lobe shape, at phase 0; here is another"
          return
       end if
       decision%estimates([quantity_film, quantity_slip]) = 0.0_wp
@@ -314,15 +314,17 @@ contains
       end if
    end subroutine weigh_bearings
 
-   !> Are there camshaft bearings, and one cam between them?
+   !> Are there camshaft bearings, and between them one cam of the first lobe shape at phase 0, as a case without them has it?
    pure function has_single_bearings(case) result(has)
       !> The case
       type(case_t), intent(in) :: case
-      !> True for one cam
+      !> True for such a cam
       logical :: has
 
       has = .false.
-      if (allocated(case%cam_bearings)) has = size(case%cam_bearings%cam_positions) == 1
+      if (.not. allocated(case%cam_bearings)) return
+      if (size(case%cam_bearings%cam_positions) /= 1) return
+      has = case%cam_bearings%cam_lobes(1) == 1 .and. abs(case%cam_bearings%cam_phases(1)) <= 0.0_wp
    end function has_single_bearings
 
    !> Mean torque of the bearings of a single cam.

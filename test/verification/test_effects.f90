@@ -25,6 +25,7 @@ contains
          new_unittest("the needle bearing changes no bit of the load in the source's bookkeeping", test_needle), &
          new_unittest("an absent effect has no series and no scalar", test_absent), &
          new_unittest("a case after others gives the bits that it gives alone", test_kept), &
+         new_unittest("bearings of a single cam of the second lobe shape stay, since without them there is the first", test_lobe), &
          new_unittest("bearings that are left out take the second lobe shape with them", test_without_bearings) &
          ]
    end subroutine collect_effects
@@ -249,6 +250,27 @@ contains
    end function same_bits
 
    !> Camshaft bearings of Islam (2019), one cam midway.
+   subroutine test_lobe(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: case
+      type(result_t) :: result
+
+      case = thesis_case()
+      call set_point(case, point_speeds(2), point_viscosities(2))
+      call add_bearings(case)
+      case%second_lift = case%lift
+      case%second_lift%max_lift = 0.5_wp*case%lift%max_lift
+      case%cam_bearings%cam_lobes = [2]
+      ! The slip knows nothing of the bearings
+      case%effects%select = "needed"
+      case%effects%quantity = "slip"
+      call run(case, result, error)
+      if (allocated(error)) return
+      call check(error, find_quantity(result%series, "torque_bearings") > 0, "the bearings are left out")
+      if (allocated(error)) return
+      call check(error, find_quantity(result%series, "lobe_2_contact_load") > 0, "the second lobe shape is left out")
+   end subroutine test_lobe
+
    subroutine add_bearings(case)
       type(case_t), intent(inout) :: case
 
