@@ -227,8 +227,6 @@ contains
       !> File error of the output unit
       type(error_t), allocatable, intent(out) :: error
 
-      character(len=:), allocatable :: words
-
       call print_lines(path//": "//counted(sweep_size(deck%sweep), "case")//" in "//time, error)
       call tell_remarks(tally%remarks, deck)
    end subroutine report

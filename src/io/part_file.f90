@@ -169,11 +169,13 @@ contains
       type(error_t), allocatable, intent(out) :: error
 
       integer(int64), allocatable :: words(:)
+      integer(int64) :: most_bytes
 
+      most_bytes = longest_record*int(word_size, int64)
       if (record%length > longest_record) then
          call raise(error, kind_file, "cannot write '"//part%file%path//"': a case takes "// &
-            & integer_text(int(record%length*word_size/megabyte))//" MB, and "//integer_text(int(longest_record*word_size/ &
-            & megabyte))//" MB are allowed; take a larger 'output.angle_step_deg'")
+            & integer_text(int(record%length*word_size/megabyte))//" MB, and "//integer_text(int(most_bytes/megabyte))// &
+            & " MB are allowed; take a larger 'output.angle_step_deg'")
          return
       end if
       allocate (words(head_words + record%length))

@@ -16,6 +16,8 @@ module test_panels
 
    !> Powers of x
    type, extends(sampled_t) :: powers_t
+      !> Power of the first
+      integer :: lowest = 0
    contains
       procedure :: sample => sample_powers
    end type powers_t
@@ -49,7 +51,7 @@ contains
       type(error_t), allocatable, intent(out) :: error
       integer :: i
 
-      values = [(x**(i - 1), i=1, size(values))]
+      values = [(x**(self%lowest + i - 1), i=1, size(values))]
    end subroutine sample_powers
 
    subroutine sample_shapes(self, x, values, error)

@@ -78,8 +78,6 @@ contains
    !> At 4000 rev/min contact is lost beside the nose; the gas presses before it.
    function gas_case() result(the_case)
       type(case_t) :: the_case
-      ! Rows of the table: every 40 degrees
-      integer, parameter :: rows = 10
 
       the_case = thesis_case()
       the_case%numerics = numerics_t()

@@ -83,11 +83,17 @@ contains
          real(wp), intent(in) :: start, step
          real(wp) :: sums(count)
          integer :: k
+         ! Sum so far [unit of the key]
+         real(wp) :: so_far
 
          do k = 1, count
             call draw(random, number)
-            sums(k) = start + step*(0.5_wp + number)
-            if (k > 1) sums(k) = sums(k) + sums(k - 1) - start
+            if (k == 1) then
+               so_far = start + step*(0.5_wp + number)
+            else
+               so_far = start + step*(0.5_wp + number) + so_far - start
+            end if
+            sums(k) = so_far
          end do
       end function running_sum
 
