@@ -118,14 +118,15 @@ contains
       type(error_t), allocatable :: error
       character(len=word_size*examined_words) :: letters
       integer(int64) :: words(examined_words), count
-      logical :: is_read
+      logical :: is_read, is_free
 
       verdict = .false.
       call open_raw(file, path, .false., error)
       if (allocated(error)) return
       count = min(int(examined_words, int64), file%bytes/word_size)
       call read_words(file, 0_int64, words(:count), is_read)
-      if (is_read .and. .not. is_locked(file)) then
+      is_free = .not. is_locked(file)
+      if (is_read .and. is_free) then
          letters = transfer(words(:count), letters)
          letters(word_size*count + 1:) = ""
          if (letters(:len(hdf5_mark)) == hdf5_mark) then
