@@ -172,7 +172,13 @@ contains
       !> Tolerance of the next try [-]
       real(wp) :: finer
 
-      finer = tolerance*max(strongest_refinement, refinement*accuracy/estimated_error)
+      ! Reductions in a decade [-]
+      real(wp), parameter :: quarters = 4.0_wp
+
+      finer = max(strongest_refinement, refinement*accuracy/estimated_error)
+      ! Whole quarters of a decade: the rounding of an estimate does not change the steps that are taken
+      if (finer < 1.0_wp) finer = 10.0_wp**(real(floor(quarters*log10(finer)), wp)/quarters)
+      finer = tolerance*finer
       finer = max(finer, least, least_tolerance)
    end function refine_tolerance
 

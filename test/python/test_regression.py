@@ -18,9 +18,8 @@ RESULTS = ("mean_torque_drive", "mean_torque_friction", "mean_torque_contact", "
 COUNTERS = ("counter_evaluations", "counter_steps", "counter_rejected", "counter_cycles")
 # Five times what the build with run-time checks and the optimised one differ by at most, in the largest sliding speed
 RELATIVE = 1.2e-6
-# Rounding can decide whether a step is taken. A cycle that is integrated again takes its tolerance from an error estimate, which
-# rounding reaches as well: the two builds differ by up to 2.4 % in steps; twice that
-COUNTS = 0.05
+# Rounding can decide whether a step is taken
+COUNTS = 0.02
 HEADER = """# Key results and counters of the decks in `decks`, one row a quantity and case, in the units of result files.
 # Source: this program; written by `make bless`. A change here is a change of results and needs a reason.
 """
