@@ -1,6 +1,6 @@
 !> The table of an audit as text.
 !>
-!> Layer: app. In: the table. Out: lines, one for each run of each case.
+!> In: the table. Out: lines, one for each run of each case.
 module camroller_audit_page
    use, intrinsic :: ieee_arithmetic, only : ieee_is_nan
    use camroller_kinds, only : wp

@@ -1,6 +1,6 @@
 !> The loop over the cases of a sweep: threads take runs of cases and hand records of them to a sink.
 !>
-!> Layer: app. In: a deck, the cases to be computed, a team, a sink. Out: every case in the sink once, in runs whose length
+!> In: a deck, the cases to be computed, a team, a sink. Out: every case in the sink once, in runs whose length
 !> follows from the time that cases take; what ended the loop. Only one thread at a time takes cases and hands records over; a
 !> case itself shares nothing with others, so its numbers do not depend on any of this. Texts are the exception: gfortran keeps
 !> the length of a text that a function returns in a static variable of the caller, so one thread at a time turns a deck into

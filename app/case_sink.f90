@@ -1,6 +1,6 @@
 !> Receiver of computed cases: records of runs of cases, with the layouts they refer to.
 !>
-!> Layer: app. In: records, one at a time. Out: `sink_t`, which is extended by what is done with them.
+!> In: records, one at a time. Out: `sink_t`, which is extended by what is done with them.
 module camroller_case_sink
    use camroller_error, only : error_t
    use camroller_layout, only : find_layout, layout_list_t, layout_t

@@ -1,6 +1,6 @@
 !> The command line: words in, configuration out.
 !>
-!> Layer: app. In: the arguments of the program. Out: what to do, or a usage error.
+!> In: the arguments of the program. Out: what to do, or a usage error.
 module camroller_cli
    use camroller_error, only : error_t, raise, kind_usage
    use camroller_deck, only : override_t, add_override

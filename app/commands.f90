@@ -1,6 +1,6 @@
 !> The commands: each does one thing and prints on the output unit; errors go to the error unit.
 !>
-!> Layer: app. In: the command line. Out: files, text, an exit code.
+!> In: the command line. Out: files, text, an exit code.
 module camroller_commands
    use camroller_error, only : error_t, raise, add_context, kind_file, kind_usage
    use camroller_blas_threads, only : use_one_blas_thread

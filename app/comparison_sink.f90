@@ -1,6 +1,6 @@
 !> Cases that are compared with those of a result file, bit by bit.
 !>
-!> Layer: app. In: records, a result file. Out: which quantities differ, in how many cases, by how much.
+!> In: records, a result file. Out: which quantities differ, in how many cases, by how much.
 module camroller_comparison_sink
    use, intrinsic :: ieee_arithmetic, only : ieee_is_finite, ieee_is_nan, ieee_quiet_nan, ieee_value
    use, intrinsic :: iso_fortran_env, only : int64

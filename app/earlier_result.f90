@@ -1,6 +1,6 @@
 !> What already has the name of a result.
 !>
-!> Layer: app. In: a path, the study that is to be written there. Out: whether a file is there, and whether it is a result of this
+!> In: a path, the study that is to be written there. Out: whether a file is there, and whether it is a result of this
 !> very study, complete or partial; how its study ended. What a file is follows from what it says of itself, not from its name.
 module camroller_earlier_result
    use camroller_kinds, only : wp

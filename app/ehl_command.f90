@@ -1,6 +1,6 @@
 !> The command `ehl`: the contact itself solved over the cycle, for every case of a deck and every lobe shape of its camshaft.
 !>
-!> Layer: app. In: the command line. Out: tables on the output unit, pressure and film in a file. A case that cannot be solved
+!> In: the command line. Out: tables on the output unit, pressure and film in a file. A case that cannot be solved
 !> is named and does not end the others; the program still ends with its kind of error.
 module camroller_ehl_command
    use camroller_kinds, only : wp

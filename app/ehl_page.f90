@@ -1,6 +1,6 @@
 !> The tables of the command `ehl` as text.
 !>
-!> Layer: app. In: solved cycles. Out: lines.
+!> In: solved cycles. Out: lines.
 module camroller_ehl_page
    use camroller_kinds, only : wp
    use camroller_ehl_record, only : ehl_record_t, column

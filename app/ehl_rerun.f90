@@ -1,6 +1,6 @@
 !> A file of the command `ehl` computed again and compared bit by bit.
 !>
-!> Layer: app. In: the file, its deck. Out: which quantities differ, in how many cases and lobe shapes.
+!> In: the file, its deck. Out: which quantities differ, in how many cases and lobe shapes.
 module camroller_ehl_rerun
    use camroller_case, only : case_t
    use camroller_comparison_sink, only : comparison_sink_t, compare_missing, compare_record

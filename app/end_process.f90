@@ -1,6 +1,6 @@
 !> The end of the program, at once.
 !>
-!> Layer: app. In: an exit code. Libraries are not asked to end: OpenBLAS waits for its threads, and where there is little memory a
+!> In: an exit code. Libraries are not asked to end: OpenBLAS waits for its threads, and where there is little memory a
 !> thread of it never comes to its first line. So everything that is to be kept has to be written and closed before.
 module camroller_end_process
    use, intrinsic :: iso_c_binding, only : c_int

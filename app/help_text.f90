@@ -1,6 +1,6 @@
 !> Texts of the command `help`.
 !>
-!> Layer: app. In: the name of a command. Out: text.
+!> In: the name of a command. Out: text.
 module camroller_help_text
    implicit none
    private

@@ -1,6 +1,6 @@
 !> The commands `study` and `audit`: every case of a deck measured, into one table on the screen and in a file.
 !>
-!> Layer: app. In: the command line. Out: the table. A case that cannot be measured is recorded and does not end the others; the
+!> In: the command line. Out: the table. A case that cannot be measured is recorded and does not end the others; the
 !> program still ends with its kind of error.
 module camroller_measure_command
    use camroller_error, only : error_t, add_context

@@ -1,6 +1,6 @@
 !> Cases that go to a part file.
 !>
-!> Layer: app. In: records. Out: the same in a part file, flushed to disk from time to time.
+!> In: records. Out: the same in a part file, flushed to disk from time to time.
 module camroller_part_sink
    use, intrinsic :: iso_fortran_env, only : int64
    use camroller_kinds, only : wp

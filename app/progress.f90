@@ -1,6 +1,6 @@
 !> Progress of a long run: one line that is rewritten on a terminal, plain lines from time to time in a log.
 !>
-!> Layer: app. In: cases done. Out: a line on the error unit with rate and time left; nothing in the first second, and nothing in
+!> In: cases done. Out: a line on the error unit with rate and time left; nothing in the first second, and nothing in
 !> a log where no interval is given.
 module camroller_progress
    use, intrinsic :: iso_c_binding, only : c_int

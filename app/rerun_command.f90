@@ -1,6 +1,6 @@
 !> The command `rerun`: a result file, of `ehl` too, computed again from the deck that is stored in it, and compared bit by bit.
 !>
-!> Layer: app. In: the command line, a result file. Out: a line that says that nothing differs, or what does and which build made
+!> In: the command line, a result file. Out: a line that says that nothing differs, or what does and which build made
 !> the file. The deck, the values given beside it and its tables are taken from the file, so that nothing else is needed.
 module camroller_rerun_command
    use camroller_kinds, only : wp

@@ -1,6 +1,6 @@
 !> The command `run`: every case of a deck into one result file.
 !>
-!> Layer: app. In: the command line. Out: a result file, a line about it. A case that fails is recorded and does not end the
+!> In: the command line. Out: a result file, a line about it. A case that fails is recorded and does not end the
 !> others; the program still ends with its kind of error. Where no case has a result, there is no file.
 module camroller_run_command
    use camroller_error, only : error_t, add_context

@@ -1,6 +1,6 @@
 !> Facts of the run in every result file: the deck, values given beside it, tables, what varies, the build.
 !>
-!> Layer: app. In: a deck. Out: groups of a result file, from which the run can be repeated; a text that two runs of one sweep
+!> In: a deck. Out: groups of a result file, from which the run can be repeated; a text that two runs of one sweep
 !> have to agree on.
 module camroller_run_facts
    use, intrinsic :: iso_fortran_env, only : int64

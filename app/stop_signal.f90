@@ -1,7 +1,7 @@
 !> Signals that ask the program to stop or say that a library broke down: they end it, and files that are not finished are removed
 !> before; or they are taken note of, so that it can be asked for them where stopping does no harm.
 !>
-!> Layer: app. In: nothing. Out: whether somebody wants the program to end. A handler can be given nothing to write to, hence
+!> In: nothing. Out: whether somebody wants the program to end. A handler can be given nothing to write to, hence
 !> the one saved variable of the program. Holding the signals back and asking what is pending would need none, but other
 !> libraries start threads of their own, to which the system then hands them.
 module camroller_stop_signal

@@ -1,6 +1,6 @@
 !> The table of a study for the screen: one line for each way and setting, over all cases.
 !>
-!> Layer: app. In: the table of a study. Out: text.
+!> In: the table of a study. Out: text.
 module camroller_study_page
    use, intrinsic :: ieee_arithmetic, only : ieee_is_nan
    use camroller_kinds, only : wp

@@ -1,6 +1,6 @@
 !> The command `sweep`: many cases in threads, in processes, in shards; restartable; one file at the end.
 !>
-!> Layer: app. In: the command line, a team of processes. Out: part files while it runs, the result file at the end, an exit
+!> In: the command line, a team of processes. Out: part files while it runs, the result file at the end, an exit
 !> code. Each process appends to a part file of its own; the first one finds out what is still to be done, and makes the
 !> result file when nothing is.
 module camroller_sweep_command

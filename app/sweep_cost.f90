@@ -1,6 +1,6 @@
 !> What a sweep will cost, from a few of its cases: time, memory, disk space.
 !>
-!> Layer: app. In: a deck with many cases. Out: lines of text. The cases tried lie evenly between the first and the last.
+!> In: a deck with many cases. Out: lines of text. The cases tried lie evenly between the first and the last.
 module camroller_sweep_cost
    use, intrinsic :: iso_fortran_env, only : int64
    use camroller_kinds, only : wp

@@ -1,6 +1,6 @@
 !> The one result file of a sweep, made of its part files.
 !>
-!> Layer: app. In: a study, the part files of it that are there. Out: the result file, an exit code; the parts are removed where
+!> In: a study, the part files of it that are there. Out: the result file, an exit code; the parts are removed where
 !> all cases are in it. One process at a time does this, so that none sees the parts while another removes them: parts go only
 !> when the complete file has its name, and a partial file never takes the place of a complete one of the same study.
 module camroller_sweep_result

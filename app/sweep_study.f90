@@ -1,6 +1,6 @@
 !> The study that a sweep computes: its deck, the path of its result, what part files of it must agree on.
 !>
-!> Layer: app. In: the command line. Out: `sweep_run_t`, and what the deck says of series and profiles; part files read.
+!> In: the command line. Out: `sweep_run_t`, and what the deck says of series and profiles; part files read.
 module camroller_sweep_study
    use camroller_error, only : error_t, raise, kind_deck
    use camroller_case_runs, only : runs_t

@@ -1,6 +1,6 @@
 !> Processes that share a sweep: who takes which cases, and what all of them know.
 !>
-!> Layer: app. In: nothing. Out: `team_t`, a team of one process; the program for MPI extends it. The only thing that processes
+!> In: nothing. Out: `team_t`, a team of one process; the program for MPI extends it. The only thing that processes
 !> share while they compute is a counter of the cases given out.
 module camroller_team
    implicit none

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Check that `use` lines only point downwards and never run in a circle.
+"""Check that `use` lines point down the folders only and never run in a circle.
 
 Usage: tools/check_layers.py [--root DIR] [--show]
 
-The folder below src is the layer of a file; files directly in src stand on top with app. Inside physics a file may use
-files on lower floors only. A file that is not in the table of floors below fails the check: place it there when you add it.
+What each folder may use stands in the table of folders of CONTRIBUTING.md, and nowhere else: a folder may use itself and what
+its row names. Files directly in src stand on top with app.
 """
 
 from __future__ import annotations
@@ -16,42 +16,30 @@ import sys
 
 from fortran_source import ROOT, sources, statements
 
-# What each layer may use.
-MAY_USE = {
-    "base": {"base"},
-    "numerics": {"base", "numerics"},
-    "physics": {"base", "numerics", "physics"},
-    "ehl": {"base", "numerics", "physics", "ehl"},
-    "solver": {"base", "numerics", "physics", "ehl", "solver"},
-    "io": {"base", "physics", "ehl", "solver", "io"},
-    "app": {"base", "numerics", "physics", "ehl", "solver", "io", "app"},
-}
-
-# The floors of physics, lowest first: what does not depend on the valve train, then along the chain from the cam's shape
-# to the roller, last what adds up.
-PHYSICS_FLOORS = [
-    {"contact_rule", "materials"},
-    {"lubricant"},
-    {"lift_table", "greenwood_tripp", "zhao_maietta_chang"},
-    {"lift"},
-    {"kinematics"},
-    {"dynamics"},
-    {"hertz", "gas", "film_table"},
-    {"film", "asperity"},
-    {"load_share"},
-    {"traction"},
-    {"roller"},
-    {"torque", "camshaft"},
-]
-# Beside the chain: these use nothing of the chain but the bottom, only the top may use them.
-PHYSICS_BESIDE = {"needle", "journal", "guide", "pivot"}
-
 USE = re.compile(r"^use\s*(?:,\s*(?:non_)?intrinsic\s*)?(?:::)?\s*(\w+)")
 MODULE = re.compile(r"^module\s+(?!procedure\b|subroutine\b|function\b)(\w+)$")
+TABLE = re.compile(r"<!-- folders -->\n(.*?)<!-- end of folders -->", re.DOTALL)
+ROW = re.compile(r"^\| `(?:src/)?(\w+)` \|[^|]*\|([^|]*)\|$", re.MULTILINE)
 
 
-def layer_of(path: pathlib.Path, root: pathlib.Path) -> str:
-    """Name of the layer that a file is on."""
+def read_table(root: pathlib.Path) -> dict[str, set[str]]:
+    """What each folder may use, in the order of the table."""
+    table = TABLE.search((root / "CONTRIBUTING.md").read_text(encoding="utf-8"))
+    rows = ROW.findall(table[1] if table else "")
+    folders = [name for name, _ in rows]
+    named = {name: {word.strip() for word in uses.split(",")} - {"nothing"} for name, uses in rows}
+    return {name: {name} | (set(folders) if "all" in uses else uses) for name, uses in named.items()}
+
+
+def table_faults(table: dict[str, set[str]]) -> list[str]:
+    """Rows that name what is no folder, or a folder that does not stand below them."""
+    names = list(table)
+    return [f"CONTRIBUTING.md: folder '{name}' may not use '{used}', which is not further down in the table of folders"
+            for at, name in enumerate(names) for used in sorted(table[name] - set(names[at:]))]
+
+
+def folder_of(path: pathlib.Path, root: pathlib.Path) -> str:
+    """Folder that a file belongs to."""
     parts = path.relative_to(root).parts
     return parts[1] if parts[0] == "src" and len(parts) > 2 else "app"
 
@@ -74,44 +62,16 @@ def read_tree(root: pathlib.Path) -> dict[pathlib.Path, list[tuple[int, str, pat
     return tree
 
 
-def floor_of(name: str) -> float | None:
-    """Floor of a physics file; None where the file is not in the table."""
-    if name in PHYSICS_BESIDE:
-        return 1.5
-    for floor, names in enumerate(PHYSICS_FLOORS):
-        if name in names:
-            return float(floor)
-    return None
-
-
-def physics_fault(user: str, used: str) -> str:
-    """What is wrong with physics file `user` using physics file `used`; empty where nothing is."""
-    user_floor, used_floor = floor_of(user), floor_of(used)
-    if user_floor is None or used_floor is None:
-        return ""  # reported once per file
-    if used in PHYSICS_BESIDE and user not in PHYSICS_FLOORS[-1]:
-        return "stands beside the chain; only torque may use it"
-    if used_floor >= user_floor:
-        return "is not on a lower floor of physics"
-    return ""
-
-
-def find_faults(tree, root: pathlib.Path) -> list[str]:
-    """All arrows that point up or sideways, one line each."""
+def find_faults(tree, table: dict[str, set[str]], root: pathlib.Path) -> list[str]:
+    """All arrows that point up, one line each."""
     faults = []
     for path, uses in tree.items():
-        layer, short = layer_of(path, root), path.relative_to(root)
-        if layer not in MAY_USE:
-            faults.append(f"{short}: '{layer}' is no layer; layers are {', '.join(MAY_USE)}")
+        folder, short = folder_of(path, root), path.relative_to(root)
+        if folder not in table:
+            faults.append(f"{short}: folder '{folder}' is not in the table of folders of CONTRIBUTING.md")
             continue
-        if layer == "physics" and floor_of(path.stem) is None:
-            faults.append(f"{short}: has no floor in physics; add it to tools/check_layers.py")
-        for line, module, target in uses:
-            other = layer_of(target, root)
-            if other not in MAY_USE[layer]:
-                faults.append(f"{short}:{line}: {layer} may not use {module} of {other}")
-            elif layer == other == "physics" and (why := physics_fault(path.stem, target.stem)):
-                faults.append(f"{short}:{line}: {module} {why}")
+        faults += [f"{short}:{line}: {folder} may not use {module} of {folder_of(target, root)}"
+                   for line, module, target in uses if folder_of(target, root) not in table[folder]]
     return faults
 
 
@@ -138,21 +98,21 @@ def find_circle(tree) -> list[pathlib.Path]:
 
 def main(arguments=None) -> int:
     """Command line; returns the exit code."""
-    parser = argparse.ArgumentParser(description="check that use lines only point down the layers")
+    parser = argparse.ArgumentParser(description="check that use lines only point down the folders")
     parser.add_argument("--root", type=pathlib.Path, default=ROOT, help="top folder of the project")
     parser.add_argument("--show", action="store_true", help="list what each file uses")
     options = parser.parse_args(arguments)
     root = options.root.resolve()
-    tree = read_tree(root)
+    tree, table = read_tree(root), read_table(root)
     if options.show:
         for path in tree:
             print(path.relative_to(root), "->", ", ".join(sorted({t.stem for _, _, t in tree[path]})) or "nothing")
-    faults = find_faults(tree, root)
+    faults = table_faults(table) + find_faults(tree, table, root)
     if circle := find_circle(tree):
         faults.append("circle: " + " -> ".join(str(path.relative_to(root)) for path in circle))
     for fault in faults:
         print(fault, file=sys.stderr)
-    print(f"layers: {len(tree)} files, {len(faults)} faults")
+    print(f"layers: {len(tree)} files in {len(table)} folders, {len(faults)} faults")
     return 1 if faults else 0
 
 

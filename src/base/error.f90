@@ -1,6 +1,6 @@
 !> Errors as values: what went wrong, of which kind, where in the deck.
 !>
-!> Layer: base. A procedure that can fail has `type(error_t), allocatable, intent(out) :: error` as its last argument;
+!> A procedure that can fail has `type(error_t), allocatable, intent(out) :: error` as its last argument;
 !> not allocated means that all went well. The caller tests `allocated(error)` right after the call and returns, adding
 !> what it knows with `add_context`. The kind is at the same time the exit code of the program.
 module camroller_error

@@ -1,6 +1,6 @@
 !> Real kind and mathematical constants used everywhere.
 !>
-!> Layer: base. In: nothing. Out: the working precision `wp` and `pi`.
+!> In: nothing. Out: the working precision `wp` and `pi`.
 module camroller_kinds
    use, intrinsic :: iso_fortran_env, only : real64
    implicit none

@@ -1,6 +1,6 @@
 !> Numbers as text, and whether a text is a number: the only place where numbers are written into texts.
 !>
-!> Layer: base. In: numbers or words. Out: words or verdicts. A text is as long as its number needs, whatever the number: a
+!> In: numbers or words. Out: words or verdicts. A text is as long as its number needs, whatever the number: a
 !> buffer that a caller declares for it may be too short, and writing into that ends the program.
 module camroller_number_text
    use, intrinsic :: ieee_arithmetic, only : ieee_is_finite, ieee_is_nan

@@ -1,6 +1,6 @@
 !> Which camroller this is and how it was built.
 !>
-!> Layer: base. In: nothing. Out: the version as text and as one number, the commit, compiler and options for the metadata
+!> In: nothing. Out: the version as text and as one number, the commit, compiler and options for the metadata
 !> of a result file.
 module camroller_version
    use, intrinsic :: iso_fortran_env, only : compiler_version, compiler_options

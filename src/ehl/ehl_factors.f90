@@ -1,6 +1,6 @@
 !> Linear equations of Newton's method for a line contact, by factors of an earlier derivative.
 !>
-!> Layer: ehl. In: derivatives of the equations, full nodes, right-hand side. Out: change of pressure, level and film.
+!> In: derivatives of the equations, full nodes, right-hand side. Out: change of pressure, level and film.
 !> Each equation depends on pressure and film at four nodes, and the film on all pressures, so the matrix is dense and its factors
 !> are what large grids cost. A node that becomes full or dry changes its own row alone. So rows may be replaced without new
 !> factors, exactly: with `Z` the solutions for unit right-hand sides in the rows that are replaced, `y + Z w` fulfils all other

@@ -1,6 +1,6 @@
 !> Results of a solution of a line contact: films, friction, errors of the conserved quantities.
 !>
-!> Layer: ehl. In: problem, grid, solution. Out: `ehl_films_t`, with dimension.
+!> In: problem, grid, solution. Out: `ehl_films_t`, with dimension.
 module camroller_ehl_films
    use camroller_kinds, only : wp, pi
    use camroller_ehl_grid, only : ehl_grid_t, integral

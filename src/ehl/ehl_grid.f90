@@ -1,6 +1,6 @@
 !> Nodes across a line contact, and the elastic deformation that a pressure at the nodes causes.
 !>
-!> Layer: ehl. In: reach of the domain, width of the zones at the edges of the contact. Out: nodes, kernel, weights. Lengths are
+!> In: reach of the domain, width of the zones at the edges of the contact. Out: nodes, kernel, weights. Lengths are
 !> in half widths b, film in b^2/R, pressure in the peak pressure of the dry contact: then the gap of two parabolas is X^2/2 and
 !> the deformation `-(1/pi) int ln|X - X'| P(X') dX'`.
 !>

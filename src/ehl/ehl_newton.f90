@@ -1,6 +1,6 @@
 !> Newton's method for a line contact: pressure at all nodes and the level of the gap at once.
 !>
-!> Layer: ehl. In: problem, grid, a start. Out: solution, or a status. A node is full or dry: where the film would pull, its
+!> In: problem, grid, a start. Out: solution, or a status. A node is full or dry: where the film would pull, its
 !> pressure is zero instead, and more oil may leave than enters (complementarity). Which nodes are dry is decided anew in each
 !> iteration. The derivative is analytic and complete; its factors are kept while they still serve, and serve the next problem
 !> nearby as well. The row of a node that has become full or dry since then is always that of now.

@@ -1,6 +1,6 @@
 !> One line contact with a film between two rough elastic bodies: what is given, and the same without dimension.
 !>
-!> Layer: ehl. In: load, speeds, radius, modulus, oil, roughness. Out: `ehl_problem_t`. Scales: half width b, peak pressure p_H of
+!> In: load, speeds, radius, modulus, oil, roughness. Out: `ehl_problem_t`. Scales: half width b, peak pressure p_H of
 !> a dry contact under the reference load, film b^2/R. Then Reynolds' equation is
 !>
 !>     d/dX(rho H) = d/dX(rho H^3/(lambda eta) dP/dX),   lambda = 12 u eta0 R^2/(b^3 p_H)

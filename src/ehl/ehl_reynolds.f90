@@ -1,6 +1,6 @@
 !> Reynolds' equation on the nodes: film, flow between nodes, and the derivative of everything.
 !>
-!> Layer: ehl. In: problem, grid, total pressure at the nodes, level of the gap. Out: film, flow, and the coefficients of their
+!> In: problem, grid, total pressure at the nodes, level of the gap. Out: film, flow, and the coefficients of their
 !> derivatives. The total pressure P is that of film and asperities; the asperities' part follows from the film, so that
 !> `H = H0 + X^2/2 + K P` and the film's pressure is `P - P_a(H)`. Flow between two nodes:
 !>

@@ -1,6 +1,6 @@
 !> A line contact integrated in time until it is steady.
 !>
-!> Layer: ehl. In: problem, grid, a start from which Newton's method does not find the steady film. Out: that film. The film stores
+!> In: problem, grid, a start from which Newton's method does not find the steady film. Out: that film. The film stores
 !> and gives off oil as it does in a contact that changes with time, in steps that grow as long as Newton's method solves them.
 !> On the way from the start to the solution the derivative of the steady equations may be singular, which stops or scatters every
 !> method that follows it; the oil stored in a short step keeps it regular, and what is wrong in the start leaves with the oil.

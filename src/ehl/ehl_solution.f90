@@ -1,6 +1,6 @@
 !> Solution of a line contact from a cold start or from one nearby, on two grids, with film and friction.
 !>
-!> Layer: ehl. In: contact, number of nodes. Out: films, friction, and the difference of two grids; or a status.
+!> In: contact, number of nodes. Out: films, friction, and the difference of two grids; or a status.
 !> From nothing: the pressure of a dry contact, or that of a rigid one, whichever the expected film calls for; where Newton's method
 !> finds no solution from it, the film is left alone until nothing changes. No setting is asked for.
 module camroller_ehl_solution

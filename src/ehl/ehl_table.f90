@@ -1,6 +1,6 @@
 !> Film of an oil between two bodies as a function of speed and load, from numerical solutions.
 !>
-!> Layer: ehl. In: oil, modulus, ranges of the groups U and W*. Out: `film_table_t`. With oil and modulus given, the film over
+!> In: oil, modulus, ranges of the groups U and W*. Out: `film_table_t`. With oil and modulus given, the film over
 !> the radius depends on U and W* alone, so some hundred solutions, each compared on two grids, serve every contact of a
 !> cycle. Their number doubles over speed or load, whichever changes the table more, until solutions at new points agree with the
 !> table through the others.

@@ -1,6 +1,6 @@
 !> One thread for the linear algebra.
 !>
-!> Layer: numerics. OpenBLAS would take as many threads as there are cores, and round otherwise with each number of them: results
+!> OpenBLAS would take as many threads as there are cores, and round otherwise with each number of them: results
 !> have to be the same on every machine, and a sweep has its own threads. Where another library does the algebra, nothing is
 !> changed. The routine is looked up while the program runs, so that no library has to have it; where OpenBLAS is linked statically
 !> it may not be found, and the environment variable OPENBLAS_NUM_THREADS is left. The setting holds for the whole process, so the

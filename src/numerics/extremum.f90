@@ -1,6 +1,6 @@
 !> Smallest value of a function of one variable near three points of which the middle one is lowest.
 !>
-!> Layer: numerics. In: three points with their values, then the value at each point asked for. Out: the smallest value met. The
+!> In: three points with their values, then the value at each point asked for. Out: the smallest value met. The
 !> caller evaluates its own function between the calls, as with `roots`:
 !>
 !>     call start_extremum(search, points, values, tolerance)

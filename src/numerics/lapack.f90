@@ -1,6 +1,6 @@
 !> Interfaces of the LAPACK and BLAS routines in use, so that the compiler checks every call.
 !>
-!> Layer: numerics. The routines have no state, so they are declared pure; a positive `info` is the only way they fail.
+!> The routines have no state, so they are declared pure; a positive `info` is the only way they fail.
 module camroller_lapack
    use camroller_kinds, only : wp
    implicit none

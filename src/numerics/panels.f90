@@ -1,6 +1,6 @@
 !> Integrals of several quantities at once, sampled together, over panels that are halved where necessary.
 !>
-!> Layer: numerics. In: panels, the values of all quantities at seven places in each. Out: integrals, integrals of the magnitudes,
+!> In: panels, the values of all quantities at seven places in each. Out: integrals, integrals of the magnitudes,
 !> and error estimates of the integrals (`doubts`), which bound the errors as a rule. The integrand is a type that extends
 !> `sampled_t`.
 !>

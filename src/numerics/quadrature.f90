@@ -1,6 +1,6 @@
 !> Integrals: a fixed rule of any order and an adaptive rule with an error estimate.
 !>
-!> Layer: numerics. In: an order, or a function and its interval. Out: places and weights, or the integral. A function
+!> In: an order, or a function and its interval. Out: places and weights, or the integral. A function
 !> to be integrated is a type that extends `integrand_t` and carries what it needs.
 !> Sources: Davis and Rabinowitz (1984), Methods of Numerical Integration; Piessens and others (1983), QUADPACK.
 module camroller_quadrature

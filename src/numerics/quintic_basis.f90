@@ -1,6 +1,6 @@
 !> Quintic B-splines on given points: basis functions with all their derivatives, and conversion to Taylor coefficients.
 !>
-!> Layer: numerics. In: points, coefficients. Out: what a fit needs to set up its equations. Function number j is one of
+!> In: points, coefficients. Out: what a fit needs to set up its equations. Function number j is one of
 !> the six, j = m ... m + 5, that do not vanish between points m and m + 1. Source: de Boor (1978), A Practical Guide to
 !> Splines.
 module camroller_quintic_basis

@@ -1,6 +1,6 @@
 !> Bracketed root of a function of one variable.
 !>
-!> Layer: numerics. In: two points with values of opposite sign, then the value at each point asked for. Out: the root.
+!> In: two points with values of opposite sign, then the value at each point asked for. Out: the root.
 !> The caller evaluates its own function between the calls, so nothing is passed about and everything stays pure:
 !>
 !>     call start_bracket(bracket, lower, upper, f(lower), f(upper), tolerance)

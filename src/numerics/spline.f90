@@ -1,6 +1,6 @@
 !> Tabulated function with three derivatives: a quintic spline through a table, or a smooth one near it.
 !>
-!> Layer: numerics. In: points and values. Out: a function with four continuous derivatives, known between the first and
+!> In: points and values. Out: a function with four continuous derivatives, known between the first and
 !> the last point and nowhere else. Evaluation uses the Taylor coefficients of the pieces.
 !> Source: de Boor (1978), A Practical Guide to Splines.
 module camroller_spline

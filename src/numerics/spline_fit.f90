@@ -1,6 +1,6 @@
 !> Coefficients of a quintic spline: the equations of interpolation and of smoothing, for clamped ends and for a period.
 !>
-!> Layer: numerics; a part of `spline.f90`. In: points and values. Out: coefficients of B-splines. Both problems are
+!> A part of `spline.f90`. In: points and values. Out: coefficients of B-splines. Both problems are
 !> banded systems, solved by LAPACK. Sources: de Boor (1978), A Practical Guide to Splines, chapters XIII and XIV;
 !> Eilers and Marx (1996), Statistical Science 11(2), 89-121, for least squares with a penalty.
 module camroller_spline_fit

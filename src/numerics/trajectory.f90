@@ -1,6 +1,6 @@
 !> Points that an integration has accepted, and the curve through them.
 !>
-!> Layer: numerics. In: time, state and rate at each accepted point. Out: the state at any time between, by the
+!> In: time, state and rate at each accepted point. Out: the state at any time between, by the
 !> curve that the method left for each interval, by cubic Hermite interpolation on the rates where it left none, or linear where
 !> the method itself is no better.
 !>

@@ -58,14 +58,14 @@ def a_tree():
 
 
 def is_there(name, tree):
-    """Is it a path, or the end of one, as `io/deck.f90` is of `src/io/deck.f90`?"""
+    """Is it a path, or the end of one, as `deck/deck.f90` is of `src/deck/deck.f90`?"""
     return any(path.endswith("/" + name.rstrip("/").removeprefix("./")) for path in tree)
 
 
 def test_what_a_page_names_is_found():
-    text = "`make run` and ```sh\n```\n\n```sh\nmake check-style  # so\nsrc/io/deck.f90\n```\n`results/a.md` [x](y.md#z) `doc/b.md`\n"
+    text = "`make run` and ```sh\n```\n\n```sh\nmake check-style  # so\nsrc/deck/deck.f90\n```\n`results/a.md` [x](y.md#z) `doc/b.md`\n"
     assert targets_of(code_of(text)) == {"run", "check-style"}
-    assert files_of(code_of(text)) == {"src/io/deck.f90", "doc/b.md"}
+    assert files_of(code_of(text)) == {"src/deck/deck.f90", "doc/b.md"}
     assert links_of(text) == {"y.md"}
 
 

@@ -1,0 +1,226 @@
+!> Cases in records: a run of consecutive cases, each with its status, its remark or message, its numbers, and its
+!> profiles across the contact where they are kept.
+!>
+!> In: results and failures. Out: records of part files, and cases from them. A record holds the first case, the
+!> number of cases and their layout, then the cases one after the other.
+module camroller_case_record
+   use camroller_kinds, only : wp
+   use camroller_ehl_record, only : ehl_record_t, quantity_count
+   use camroller_error, only : error_t
+   use camroller_layout, only : layout_t
+   use camroller_result, only : result_t
+   use camroller_record, only : record_t, clear_record, put_integer, put_numbers, put_text, set_integer, take_integer, &
+      & take_numbers, take_text
+   implicit none
+   private
+
+   public :: outcome_t, begin_cases, put_result, put_failure, end_cases, take_header, take_case, case_words
+
+   !> Where count and layout stand among the words
+   integer, parameter :: count_place = 2, layout_place = 3
+   !> In the place of the number of nodes: profiles were asked for and could not be solved
+   integer, parameter :: unsolved = -1
+   !> Words of a case besides its numbers, with a remark of the usual length
+   integer, parameter :: words_of_case = 24
+
+   !> One case
+   type :: outcome_t
+      !> 0, or the kind of the error
+      integer :: status = 0
+      !> Message of the error, or remarks
+      character(len=:), allocatable :: text
+      !> Scalars [unit of the scalar]; none where there is no result
+      real(wp), allocatable :: summary(:)
+      !> Series, shape (angle, series) [unit of the series]; none where they are not kept
+      real(wp), allocatable :: series(:, :)
+      !> Profiles across the contact; none where they are not kept
+      type(ehl_record_t), allocatable :: profiles
+      !> Were they asked for, and could not be solved?
+      logical :: lacks_profiles = .false.
+   end type outcome_t
+
+contains
+
+   !> Begin a run of cases.
+   pure subroutine begin_cases(record, first)
+      !> The record
+      type(record_t), intent(inout) :: record
+      !> First case, from 1
+      integer, intent(in) :: first
+
+      call clear_record(record)
+      call put_integer(record, first)
+      call put_integer(record, 0)
+      call put_integer(record, 0)
+   end subroutine begin_cases
+
+   !> Add a result.
+   pure subroutine put_result(record, result, with_series, profiles)
+      !> The record
+      type(record_t), intent(inout) :: record
+      !> The result
+      type(result_t), intent(in) :: result
+      !> Are its series kept?
+      logical, intent(in) :: with_series
+      !> Profiles at the angles of the result, where they are kept
+      type(ehl_record_t), intent(in), optional :: profiles
+
+      integer :: i
+
+      call put_integer(record, 0)
+      call put_integer(record, merge(1, 0, with_series))
+      if (present(profiles)) then
+         call put_integer(record, size(profiles%nodes))
+      else
+         call put_integer(record, merge(unsolved, 0, result%lacks_profiles))
+      end if
+      if (allocated(result%warnings)) then
+         call put_text(record, result%warnings)
+      else
+         call put_text(record, "")
+      end if
+      call put_numbers(record, result%summary_values)
+      if (with_series) then
+         do i = 1, size(result%series_values, 2)
+            call put_numbers(record, result%series_values(:, i))
+         end do
+      end if
+      if (present(profiles)) call put_profiles(record, profiles)
+   end subroutine put_result
+
+   !> Add profiles.
+   pure subroutine put_profiles(record, profiles)
+      !> The record
+      type(record_t), intent(inout) :: record
+      !> The profiles
+      type(ehl_record_t), intent(in) :: profiles
+
+      integer :: i
+
+      call put_numbers(record, profiles%angle)
+      call put_numbers(record, profiles%nodes)
+      do i = 1, quantity_count
+         call put_numbers(record, profiles%values(:, i))
+      end do
+      do i = 1, size(profiles%angle)
+         call put_numbers(record, profiles%pressure(:, i))
+         call put_numbers(record, profiles%film(:, i))
+      end do
+   end subroutine put_profiles
+
+   !> Add a failure.
+   pure subroutine put_failure(record, failure)
+      !> The record
+      type(record_t), intent(inout) :: record
+      !> What went wrong
+      type(error_t), intent(in) :: failure
+
+      call put_integer(record, failure%kind)
+      call put_integer(record, 0)
+      call put_integer(record, 0)
+      call put_text(record, failure%message)
+   end subroutine put_failure
+
+   !> End a run of cases.
+   pure subroutine end_cases(record, count, layout)
+      !> The record
+      type(record_t), intent(inout) :: record
+      !> Number of cases in it
+      integer, intent(in) :: count
+      !> Their layout; 0 where none has a result
+      integer, intent(in) :: layout
+
+      call set_integer(record, count_place, count)
+      call set_integer(record, layout_place, layout)
+   end subroutine end_cases
+
+   !> Take what a record says of its cases.
+   pure subroutine take_header(record, first, count, layout)
+      !> The record
+      type(record_t), intent(inout) :: record
+      !> First case, from 1; number of cases; their layout
+      integer, intent(out) :: first, count, layout
+
+      record%position = 0
+      call take_integer(record, first)
+      call take_integer(record, count)
+      call take_integer(record, layout)
+   end subroutine take_header
+
+   !> Take the next case.
+   pure subroutine take_case(record, layout, outcome)
+      !> The record
+      type(record_t), intent(inout) :: record
+      !> Layout of its cases
+      type(layout_t), intent(in) :: layout
+      !> The case
+      type(outcome_t), intent(inout) :: outcome
+
+      integer :: has_series, nodes, i
+
+      call take_integer(record, outcome%status)
+      call take_integer(record, has_series)
+      call take_integer(record, nodes)
+      call take_text(record, outcome%text)
+      if (allocated(outcome%series)) deallocate (outcome%series)
+      if (allocated(outcome%profiles)) deallocate (outcome%profiles)
+      outcome%lacks_profiles = nodes == unsolved
+      if (outcome%status /= 0) return
+      if (allocated(outcome%summary)) then
+         if (size(outcome%summary) /= size(layout%summary)) deallocate (outcome%summary)
+      end if
+      if (.not. allocated(outcome%summary)) allocate (outcome%summary(size(layout%summary)))
+      call take_numbers(record, outcome%summary)
+      if (has_series > 0) then
+         allocate (outcome%series(size(layout%angle), size(layout%series)))
+         do i = 1, size(layout%series)
+            call take_numbers(record, outcome%series(:, i))
+         end do
+      end if
+      if (nodes <= 0) return
+      allocate (outcome%profiles)
+      call take_profiles(record, nodes, size(layout%angle), outcome%profiles)
+   end subroutine take_case
+
+   !> Take profiles.
+   pure subroutine take_profiles(record, nodes, angles, profiles)
+      !> The record
+      type(record_t), intent(inout) :: record
+      !> Nodes across the contact, cam angles
+      integer, intent(in) :: nodes, angles
+      !> The profiles
+      type(ehl_record_t), intent(inout) :: profiles
+
+      integer :: i
+
+      allocate (profiles%angle(angles), profiles%nodes(nodes), profiles%values(angles, quantity_count))
+      allocate (profiles%pressure(nodes, angles), profiles%film(nodes, angles))
+      call take_numbers(record, profiles%angle)
+      call take_numbers(record, profiles%nodes)
+      do i = 1, quantity_count
+         call take_numbers(record, profiles%values(:, i))
+      end do
+      do i = 1, angles
+         call take_numbers(record, profiles%pressure(:, i))
+         call take_numbers(record, profiles%film(:, i))
+      end do
+   end subroutine take_profiles
+
+   !> Words that a case takes.
+   pure function case_words(result, with_series, profiles) result(words)
+      !> A result
+      type(result_t), intent(in) :: result
+      !> Are its series kept?
+      logical, intent(in) :: with_series
+      !> Its profiles, where they are kept
+      type(ehl_record_t), intent(in), optional :: profiles
+      !> Number of words
+      integer :: words
+
+      words = words_of_case + size(result%summary_values)
+      if (with_series) words = words + size(result%series_values)
+      if (.not. present(profiles)) return
+      words = words + size(profiles%angle) + size(profiles%nodes) + size(profiles%values) + 2*size(profiles%pressure)
+   end function case_words
+
+end module camroller_case_record

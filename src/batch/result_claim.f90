@@ -1,0 +1,145 @@
+!> One process at a time makes a result file of part files: who does has a claim on it.
+!>
+!> In: the path of a result file. Out: a claim, once no other process has one; unfinished files of processes that are
+!> gone, removed. A claim is a lock on a file `<path>.part-lock`, which goes with it. The file says what it is, so that one of
+!> this name that is not ours stays as it is. The process that gives a claim up takes the name away first and then says so in
+!> the file, so that one that has waited for the lock of that file looks for the name again.
+module camroller_result_claim
+   use, intrinsic :: iso_fortran_env, only : int64
+   use camroller_error, only : error_t, raise, kind_file
+   use camroller_mistakes, only : line_t
+   use camroller_part_file, only : part_beginning
+   use camroller_raw_file, only : append_words, close_raw, find_files, is_locked, open_raw, raw_file_t, read_words, wait_for_lock, &
+      & word_size
+   use camroller_system_file, only : remove_file
+   implicit none
+   private
+
+   public :: claim_t, claim_result, give_up_claim, remove_unfinished
+
+   !> What a lock holds: letters that say what it is, and those behind them once it is given up
+   integer(int64), parameter :: lock_mark = int(z'436C6F636B727400', int64), end_mark = int(z'43656E6465647200', int64)
+   !> Words at the beginning of an unfinished file that say whose it is
+   integer, parameter :: examined_words = 2048
+   !> First word of an HDF5 file, in the order of this machine's bytes
+   character(len=8), parameter :: hdf5_mark = char(137)//"HDF"//char(13)//char(10)//char(26)//char(10)
+   !> What our result files say of themselves
+   character(len=*), parameter :: own_words = "camroller result"
+   !> Byte with the version of HDF5's first block, and the word that says where the file ends in version 0
+   integer, parameter :: version_byte = 9, end_word = 6
+
+   !> A claim
+   type :: claim_t
+      !> The lock, open
+      type(raw_file_t) :: file
+   end type claim_t
+
+contains
+
+   !> Have a claim on a result, once no other process has one.
+   subroutine claim_result(claim, path, is_waiting, is_mine, error)
+      !> The claim
+      type(claim_t), intent(out) :: claim
+      !> Path of the result file
+      character(len=*), intent(in) :: path
+      !> Wait for a process that has one?
+      logical, intent(in) :: is_waiting
+      !> Is it had? Where not, there is an error, or another process has it and was not waited for
+      logical, intent(out) :: is_mine
+      !> File error; also where a file that is no lock has its name
+      type(error_t), allocatable, intent(out) :: error
+
+      integer(int64) :: words(1)
+      logical :: is_lock
+
+      is_mine = .false.
+      do
+         call open_raw(claim%file, part_beginning(path)//"lock", .true., error, is_shared=.true.)
+         if (allocated(error)) exit
+         if (.not. is_waiting) then
+            if (is_locked(claim%file)) exit
+         end if
+         call wait_for_lock(claim%file, error)
+         if (allocated(error)) exit
+         if (claim%file%bytes == 0) then
+            call append_words(claim%file, [lock_mark], error)
+            is_mine = .not. allocated(error)
+            exit
+         end if
+         call read_words(claim%file, 0_int64, words, is_lock)
+         if (.not. (is_lock .and. words(1) == lock_mark)) then
+            call raise(error, kind_file, "'"//claim%file%path//"' is there and is no lock of camroller; give it another name")
+            exit
+         end if
+         is_mine = claim%file%bytes == word_size
+         if (is_mine) exit
+         call close_raw(claim%file)
+      end do
+      if (.not. is_mine) call close_raw(claim%file)
+   end subroutine claim_result
+
+   !> Let the next process have a claim.
+   subroutine give_up_claim(claim)
+      !> The claim
+      type(claim_t), intent(inout) :: claim
+
+      type(error_t), allocatable :: ignored
+
+      call remove_file(claim%file%path)
+      call append_words(claim%file, [end_mark], ignored)
+      call close_raw(claim%file)
+   end subroutine give_up_claim
+
+   !> Remove unfinished results of processes that are gone: those with the exact name that this program gives them,
+   !> which no process writes and which are empty, not finished, or hold a result of this program.
+   subroutine remove_unfinished(path)
+      !> Path of the result file
+      character(len=*), intent(in) :: path
+
+      character(len=*), parameter :: ending = ".unfinished-"
+      type(line_t), allocatable :: paths(:)
+      integer :: i
+
+      call find_files(path//ending, paths)
+      do i = 1, size(paths)
+         if (verify(paths(i)%text(len(path) + len(ending) + 1:), "0123456789-") > 0) cycle
+         if (is_ours(paths(i)%text)) call remove_file(paths(i)%text)
+      end do
+   end subroutine remove_unfinished
+
+   !> Is an unfinished file one of this program, and does no process write it?
+   function is_ours(path) result(verdict)
+      !> Its path
+      character(len=*), intent(in) :: path
+      !> Is it?
+      logical :: verdict
+
+      type(raw_file_t) :: file
+      type(error_t), allocatable :: error
+      character(len=word_size*examined_words) :: letters
+      integer(int64) :: words(examined_words), count
+      logical :: is_read, is_free
+
+      verdict = .false.
+      call open_raw(file, path, .false., error)
+      if (allocated(error)) return
+      count = min(int(examined_words, int64), file%bytes/word_size)
+      call read_words(file, 0_int64, words(:count), is_read)
+      is_free = .not. is_locked(file)
+      if (is_read .and. is_free) then
+         letters = transfer(words(:count), letters)
+         letters(word_size*count + 1:) = ""
+         if (letters(:len(hdf5_mark)) == hdf5_mark) then
+            ! A file that HDF5 has not finished says that it ends elsewhere than it does
+            verdict = index(letters, own_words) > 0
+            if (.not. verdict .and. count >= end_word .and. letters(version_byte:version_byte) == char(0)) then
+               verdict = words(end_word) /= file%bytes
+            end if
+         else
+            verdict = verify(letters, " "//char(0)) == 0
+         end if
+      end if
+      call close_raw(file)
+   end function is_ours
+
+end module camroller_result_claim

@@ -1,0 +1,116 @@
+!> A case: everything that defines one run, as plain validated numbers in SI units.
+!>
+!> In: component types of the sub-models. Out: `case_t`. An optional effect is an allocatable component:
+!> allocated means that it is part of the case. Whoever fills a case by hand gets it checked by `new_model`.
+module camroller_case
+   use camroller_kinds, only : wp, degree
+   use camroller_names, only : name_length
+   use camroller_ode_methods, only : ode_method_names => method_names
+   use camroller_lift, only : lift_t
+   use camroller_kinematics, only : mechanism_t
+   use camroller_dynamics, only : masses_t, spring_t, gas_force_t
+   use camroller_materials, only : materials_t, surface_t
+   use camroller_lubricant, only : lubricant_t
+   use camroller_ehl_table, only : ehl_t
+   use camroller_film, only : film_t
+   use camroller_asperity, only : asperity_t
+   use camroller_traction, only : traction_t
+   use camroller_needle, only : needle_bearing_t
+   use camroller_guide, only : valve_guide_t
+   use camroller_roller, only : roller_t
+   use camroller_journal, only : cam_bearings_t
+   implicit none
+   private
+
+   public :: case_t, operating_point_t, numerics_t, selection_t, energy_names, method_names, quasi_static, method_choices, &
+      & automatic_method, select_names, select_needed, quantity_names, quantity_torque, quantity_film, quantity_slip
+
+   !> Name of the model that takes the roller's spin from its algebraic balance
+   character(len=name_length), parameter :: quasi_static = "quasi_static"
+   !> Ways to find the roller's spin: the integration methods, and the quasi-static limit
+   character(len=name_length), parameter :: method_names(*) = [ode_method_names, quasi_static]
+   !> Bookkeeping of forces and losses: closed energy balance, or as in the source thesis
+   character(len=*), parameter :: energy_names(*) = [character(len=name_length) :: "consistent", "source"]
+
+   !> Let the program choose the method
+   character(len=*), parameter :: automatic_method = "automatic"
+   !> Methods that a case can name
+   character(len=*), parameter :: method_choices(*) = [character(len=name_length) :: automatic_method, method_names]
+
+   !> Effects that take part: all that are listed, or those of them that matter
+   character(len=*), parameter :: select_names(*) = [character(len=name_length) :: "listed", "needed"]
+   !> Position in `select_names`
+   integer, parameter :: select_needed = 2
+   !> What an effect has to matter for: mean torque for all losses, smallest film of the cycle, slip per revolution
+   character(len=*), parameter :: quantity_names(*) = [character(len=name_length) :: "mean_torque", "minimum_film", "slip"]
+   !> Positions in `quantity_names`
+   integer, parameter :: quantity_torque = 1, quantity_film = 2, quantity_slip = 3
+
+   !> Which effects take part
+   type :: selection_t
+      !> One of `select_names`
+      character(len=name_length) :: select = "listed"
+      !> Relative change of the quantity that all effects left out may make together [-]
+      real(wp) :: negligible = 1.0e-3_wp
+      !> One of `quantity_names`
+      character(len=name_length) :: quantity = "mean_torque"
+   end type selection_t
+
+   !> Speed and temperature
+   type :: operating_point_t
+      !> Speed of the camshaft [rad/s]
+      real(wp) :: speed = 0.0_wp
+      !> Temperature of the oil [K]
+      real(wp) :: oil_temperature = 0.0_wp
+   end type operating_point_t
+
+   !> How the case is integrated and reported
+   type :: numerics_t
+      !> Error allowed, of the sliding speed relative to its largest value and of mean losses relative to themselves [-]
+      real(wp) :: accuracy = 1.0e-4_wp
+      !> One of `method_choices`
+      character(len=name_length) :: method = automatic_method
+      !> Error of a step relative to the largest sliding speed; follows from the accuracy where zero [-]
+      real(wp) :: tolerance = 0.0_wp
+      !> Cam angle of a step [rad]; method `euler`
+      real(wp) :: step = degree
+      !> Largest difference between start and end of the reported cycle, relative to the largest sliding speed, beside a tolerance,
+      !> a tenth of which is enough; follows from the accuracy without one [-]
+      real(wp) :: periodicity = 1.0e-6_wp
+      !> Cycles after which a case that is not periodic is given up
+      integer :: max_cycles = 20
+      !> Cam angle between reported points [rad]
+      real(wp) :: output_step = 0.5_wp*degree
+   end type numerics_t
+
+   !> One case
+   type :: case_t
+      !> One line that says what the case is
+      character(len=:), allocatable :: title
+      !> One of `energy_names`
+      character(len=name_length) :: energy = "consistent"
+      type(operating_point_t) :: operating_point
+      type(mechanism_t) :: mechanism
+      type(lift_t) :: lift
+      !> Lift of the camshaft's second lobe shape
+      type(lift_t), allocatable :: second_lift
+      type(masses_t) :: masses
+      type(spring_t) :: spring
+      type(gas_force_t), allocatable :: gas_force
+      type(materials_t) :: materials
+      type(surface_t) :: surface
+      type(lubricant_t) :: lubricant
+      type(roller_t) :: roller
+      type(film_t) :: film
+      type(traction_t) :: traction
+      type(asperity_t), allocatable :: asperity
+      type(needle_bearing_t), allocatable :: needle_bearing
+      !> Numerical film in place of the film law
+      type(ehl_t), allocatable :: ehl
+      type(valve_guide_t), allocatable :: valve_guide
+      type(cam_bearings_t), allocatable :: cam_bearings
+      type(selection_t) :: effects
+      type(numerics_t) :: numerics
+   end type case_t
+
+end module camroller_case

@@ -1,0 +1,144 @@
+!> Effects that a case can do without: their names, how to leave one out, and what was decided about each.
+!>
+!> In: a case. Out: the case without an effect, or with the simpler law in its place.
+module camroller_effect_list
+   use camroller_kinds, only : wp
+   use camroller_names, only : name_length
+   use camroller_case, only : case_t, quasi_static, automatic_method, quantity_names
+   use camroller_film, only : film_law_names, law_dowson_higginson, law_masjedi_khonsari, law_masjedi_khonsari_rough, law_moes
+   use camroller_lubricant, only : pressure_law_names, law_cameron
+   use camroller_traction, only : rolling_law_names, rolling_none, shear_law_names, law_newtonian
+   implicit none
+   private
+
+   public :: effect_names, effect_count, decision_t, choice_t, leave_out, leave_all_but, has_effect
+   public :: effect_asperity, effect_needle, effect_guide, effect_bearings, effect_gas, effect_rolling, effect_film, &
+      & effect_pressure, effect_shear, effect_spin, effect_ehl
+
+   !> Effects: groups of the deck, and laws that have a simpler one beside them
+   character(len=*), parameter :: effect_names(*) = [character(len=name_length) :: "asperity", "needle_bearing", "valve_guide", &
+      & "cam_bearings", "gas_force", "rolling_resistance", "film_law", "pressure_law", "shear_law", "roller_equation", &
+      & "ehl"]
+   !> Positions in it
+   integer, parameter :: effect_asperity = 1, effect_needle = 2, effect_guide = 3, effect_bearings = 4, effect_gas = 5, &
+      & effect_rolling = 6, effect_film = 7, effect_pressure = 8, effect_shear = 9, effect_spin = 10, effect_ehl = 11
+   !> Their number
+   integer, parameter :: effect_count = size(effect_names)
+   !> Words of a reason
+   integer, parameter :: reason_length = 120
+
+   !> What was decided about an effect of a case
+   type :: decision_t
+      !> Position in `effect_names`
+      integer :: effect
+      !> Is it part of the run?
+      logical :: is_used
+      !> Largest relative change expected without it, one per name in `quantity_names` [-]; huge where there is no estimate
+      real(wp) :: estimates(size(quantity_names))
+      !> Why, in words
+      character(len=reason_length) :: reason
+   end type decision_t
+
+   !> What was decided about a case
+   type :: choice_t
+      !> Position in `quantity_names` of the quantity that counts
+      integer :: quantity
+      !> Change of it that may be neglected [-]
+      real(wp) :: negligible
+      !> Sum of the estimates of what is left out [-]
+      real(wp) :: bound
+      !> Evaluations of the contact that the estimates took
+      integer :: evaluations
+      !> One for each effect that the case has
+      type(decision_t), allocatable :: decisions(:)
+   end type choice_t
+
+contains
+
+   !> Leave an effect out, or put the simpler law in its place.
+   pure subroutine leave_out(variant, effect)
+      !> In: a case; out: the case without the effect, the same where it has not got it
+      type(case_t), intent(inout) :: variant
+      !> Position in `effect_names`
+      integer, intent(in) :: effect
+
+      select case (effect)
+      case (effect_asperity)
+         if (allocated(variant%asperity)) deallocate (variant%asperity)
+      case (effect_needle)
+         if (allocated(variant%needle_bearing)) deallocate (variant%needle_bearing)
+      case (effect_guide)
+         if (allocated(variant%valve_guide)) deallocate (variant%valve_guide)
+      case (effect_bearings)
+         if (allocated(variant%cam_bearings)) deallocate (variant%cam_bearings)
+         if (allocated(variant%second_lift)) deallocate (variant%second_lift)
+      case (effect_gas)
+         if (allocated(variant%gas_force)) deallocate (variant%gas_force)
+      case (effect_rolling)
+         variant%traction%rolling_law = rolling_law_names(rolling_none)
+      case (effect_film)
+         if (variant%film%law == film_law_names(law_moes)) variant%film%law = film_law_names(law_dowson_higginson)
+         if (variant%film%law == film_law_names(law_masjedi_khonsari_rough)) variant%film%law = film_law_names(law_masjedi_khonsari)
+      case (effect_pressure)
+         variant%lubricant%pressure_law = pressure_law_names(law_cameron)
+      case (effect_shear)
+         variant%traction%shear_law = shear_law_names(law_newtonian)
+      case (effect_spin)
+         variant%numerics%method = quasi_static
+      case (effect_ehl)
+         if (allocated(variant%ehl)) deallocate (variant%ehl)
+      end select
+   end subroutine leave_out
+
+   !> Leave out every effect but one; the roller's equation stays.
+   pure subroutine leave_all_but(case, effect)
+      !> In: a case; out: with one effect
+      type(case_t), intent(inout) :: case
+      !> Position in `effect_names`; 0: none at all
+      integer, intent(in) :: effect
+
+      integer :: other
+
+      do other = 1, effect_count
+         if (other /= effect .and. other /= effect_spin) call leave_out(case, other)
+      end do
+   end subroutine leave_all_but
+
+   !> Does a case have an effect that can be left out?
+   pure function has_effect(case, effect) result(has)
+      !> The case
+      type(case_t), intent(in) :: case
+      !> Position in `effect_names`
+      integer, intent(in) :: effect
+      !> True where the case would be another one without it
+      logical :: has
+
+      has = .false.
+      select case (effect)
+      case (effect_asperity)
+         has = allocated(case%asperity)
+      case (effect_needle)
+         has = allocated(case%needle_bearing)
+      case (effect_guide)
+         has = allocated(case%valve_guide)
+      case (effect_bearings)
+         has = allocated(case%cam_bearings)
+      case (effect_gas)
+         has = allocated(case%gas_force)
+      case (effect_rolling)
+         has = case%traction%rolling_law /= rolling_law_names(rolling_none)
+      case (effect_film)
+         has = case%film%law == film_law_names(law_moes) .or. case%film%law == film_law_names(law_masjedi_khonsari_rough)
+         has = has .and. .not. allocated(case%ehl)
+      case (effect_pressure)
+         has = case%lubricant%pressure_law /= pressure_law_names(law_cameron)
+      case (effect_shear)
+         has = case%traction%shear_law /= shear_law_names(law_newtonian)
+      case (effect_spin)
+         has = case%numerics%method == automatic_method
+      case (effect_ehl)
+         has = allocated(case%ehl)
+      end select
+   end function has_effect
+
+end module camroller_effect_list

@@ -1,0 +1,496 @@
+!> A model: the case made ready for evaluation, laws chosen and constants derived, for one lobe shape.
+!>
+!> In: `case_t`. Out: `model_t`, read-only while a cycle is integrated; only `set_operating_point` changes it
+!> between cycles or between the steps of a host program. An effect of the case is an allocated component here as well.
+module camroller_model
+   use camroller_kinds, only : wp, pi, degree
+   use camroller_error, only : error_t, raise, add_context, kind_deck, kind_domain
+   use camroller_names, only : name_length, find_name
+   use camroller_accuracy, only : check_numerics, is_within, above_zero
+   use camroller_case, only : case_t, energy_names
+   use camroller_lift, only : lift_t, lift_law_t, new_lift_law, evaluate_lift, stop_angles
+   use camroller_kinematics, only : linkage_t, position_t, new_linkage, evaluate_position
+   use camroller_dynamics, only : train_t, moments_t, evaluate_moments, seating_names, load_arm_names, contact_policy_names
+   use camroller_pivot, only : pivot_t, usual_centre
+   use camroller_materials, only : combined_modulus, combined_roughness
+   use camroller_lubricant, only : lubricant_t, oil_t, get_oil
+   use camroller_film, only : film_law_names, range_policy_names, law_masjedi_khonsari_rough, law_table
+   use camroller_film_table, only : film_table_t
+   use camroller_ehl_problem, only : largest_pressure, speed_range, load_range
+   use camroller_ehl_table, only : ehl_t, build_film_table
+   use camroller_asperity, only : asperity_law_names, law_zhao_maietta_chang, smallest_product, boundary_names, &
+      & mobilisation_names, asperity_constants_t, new_asperity_constants
+   use camroller_number_text, only : number_text, fixed_text
+   use camroller_traction, only : traction_t, shear_law_names, cap_names, rolling_law_names
+   use camroller_needle, only : friction_radius, roller_bearing_names
+   use camroller_guide, only : guide_drag_coefficient
+   use camroller_roller, only : spin_names, ring_inertia
+   use camroller_gas, only : gas_law_t, new_gas_law, gas_force
+   implicit none
+   private
+
+   public :: model_t, bearing_part_t, boundary_part_t, new_model, revise_model, set_operating_point, evaluate_geometry
+
+   !> Needle bearing or pin, ready for evaluation
+   type :: bearing_part_t
+      !> Friction coefficient, mu_p [-]
+      real(wp) :: friction_coefficient
+      !> Friction radius, r_p [m]
+      real(wp) :: radius
+      !> Spin over which the torque reverses [rad/s]
+      real(wp) :: reversal_spin
+      !> The same over the cam's speed [-]
+      real(wp) :: reversal_ratio
+   end type bearing_part_t
+
+   !> Asperities and their friction, ready for evaluation
+   type :: boundary_part_t
+      !> Constants of load and area
+      type(asperity_constants_t) :: constants
+      !> mu_B [-]
+      real(wp) :: coefficient
+      !> tau_0 [Pa]
+      real(wp) :: film_shear_strength
+      !> v_b [m/s]
+      real(wp) :: mobilising_speed
+      !> Is all of the boundary friction counted, whether mobilised or not?
+      logical :: is_full
+      !> Does friction take any value up to its limit where nothing slides, and its limit elsewhere?
+      logical :: is_set_valued
+   end type boundary_part_t
+
+   !> A model of one lobe and its follower
+   type :: model_t
+      !> Is the energy balance closed?
+      logical :: is_consistent
+      !> Is the contact normal's exact arm used?
+      logical :: has_exact_arm
+      !> Does pure rolling follow the turning of the contact normal?
+      logical :: has_exact_spin
+      !> Is the load the larger of base circle load and event load?
+      logical :: takes_maximum_load
+      !> Does rolling resistance act on the roller's spin?
+      logical :: has_rolling_in_balance
+      !> End with an error where the film law is used outside its range?
+      logical :: stops_outside_range
+      !> End with an error where contact is lost?
+      logical :: stops_without_contact
+      !> Positions in the lists of names of the laws
+      integer :: film_law, shear_law, cap, rolling_law
+      type(linkage_t) :: linkage
+      type(train_t) :: train
+      !> Joint between finger and adjuster; allocated where the finger's mass is known
+      type(pivot_t), allocatable :: pivot
+      type(lift_law_t) :: lift_law
+      type(gas_law_t), allocatable :: gas
+      type(lubricant_t) :: lubricant
+      type(oil_t) :: oil
+      type(boundary_part_t), allocatable :: boundary
+      type(bearing_part_t), allocatable :: bearing
+      !> Numerical film: how, and films over speed and load for the oil at its temperature
+      type(ehl_t), allocatable :: ehl
+      type(film_table_t), allocatable :: film_table
+      !> Drag of the valve guide per valve speed [N s/m]; allocated where the case has a guide
+      real(wp), allocatable :: guide_drag
+      !> The same over the viscosity [m]
+      real(wp) :: guide_factor = 0.0_wp
+      !> Equivalent modulus, E' [Pa]
+      real(wp) :: modulus
+      !> Composite roughness, sigma [m]
+      real(wp) :: roughness
+      !> Hardness of the softer body [Pa]
+      real(wp) :: hardness
+      !> Length of the contact, L [m]
+      real(wp) :: contact_width
+      !> Outer radius of the roller, r_R [m]
+      real(wp) :: roller_radius
+      !> Inertia of the roller about its axis, I_R [kg m^2]
+      real(wp) :: roller_inertia
+      !> Base circle load, W_base [N]
+      real(wp) :: base_circle_load
+      !> Limiting traction coefficient [-]
+      real(wp) :: limiting_coefficient
+      !> Eyring stress [Pa]
+      real(wp) :: eyring_stress
+      !> Cam speed, omega [rad/s]
+      real(wp) :: speed
+      !> Cam angles from full lift, within one turn, where the lift's third derivative jumps [rad]
+      real(wp), allocatable :: lift_stops(:)
+   end type model_t
+
+   !> Numerical film: by how much slip and asperities may lower or raise speed and load of the film, and the smallest part of the
+   !> largest that is solved for; beyond them the film goes on as a power law [-]
+   real(wp), parameter :: table_margins(2) = [0.4_wp, 1.3_wp], smallest_part = 1.0e-3_wp
+
+contains
+
+   !> Build a model from a case; refuses what cannot be put together.
+   subroutine new_model(model, case, lift, error)
+      !> The model
+      type(model_t), intent(out) :: model
+      !> A case
+      type(case_t), intent(in) :: case
+      !> Lift of the lobe: the case's lift or its second lift
+      type(lift_t), intent(in) :: lift
+      !> Deck or domain error
+      type(error_t), allocatable, intent(out) :: error
+
+      call choose_laws(model, case, error)
+      if (allocated(error)) return
+      call check_bookkeeping(model, case, error)
+      if (allocated(error)) return
+      call new_linkage(model%linkage, case%mechanism, error)
+      if (allocated(error)) return
+      call new_lift_law(model%lift_law, lift, error)
+      if (allocated(error)) return
+      model%lift_stops = stop_angles(model%lift_law)
+      call set_contact(model, case, error)
+      if (allocated(error)) return
+      call set_train(model, case, error)
+      if (allocated(error)) return
+      call set_effects(model, case, error)
+      if (allocated(error)) return
+      call set_operating_point(model, case%operating_point%speed, case%operating_point%oil_temperature, error)
+   end subroutine new_model
+
+   !> Give a model the effects and laws of another case with the same geometry, masses and spring: no spline is fitted again, and
+   !> films are not solved again where oil and solution stay as they are.
+   subroutine revise_model(model, case, error)
+      !> The model of a case that differs in effects and laws alone
+      type(model_t), intent(inout) :: model
+      !> A case
+      type(case_t), intent(in) :: case
+      !> Deck or domain error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(ehl_t), allocatable :: ehl
+      logical :: has_same_films
+
+      has_same_films = allocated(model%film_table) .and. allocated(case%ehl) .and. &
+         & model%lubricant%pressure_law == case%lubricant%pressure_law
+      if (allocated(model%boundary)) deallocate (model%boundary)
+      if (allocated(model%bearing)) deallocate (model%bearing)
+      if (allocated(model%guide_drag)) deallocate (model%guide_drag)
+      if (allocated(model%gas)) deallocate (model%gas)
+      if (allocated(model%ehl)) deallocate (model%ehl)
+      call choose_laws(model, case, error)
+      if (allocated(error)) return
+      call check_bookkeeping(model, case, error)
+      if (allocated(error)) return
+      call set_contact(model, case, error)
+      if (allocated(error)) return
+      call set_effects(model, case, error)
+      if (allocated(error)) return
+      if (has_same_films) then
+         call move_alloc(model%ehl, ehl)
+      else if (allocated(model%film_table)) then
+         deallocate (model%film_table)
+      end if
+      call set_operating_point(model, case%operating_point%speed, case%operating_point%oil_temperature, error)
+      if (allocated(ehl)) call move_alloc(ehl, model%ehl)
+   end subroutine revise_model
+
+   !> Speed and temperature: everything that follows from them. After an error the model is of no use.
+   subroutine set_operating_point(model, speed, oil_temperature, error)
+      !> The model
+      type(model_t), intent(inout) :: model
+      !> Cam speed [rad/s]
+      real(wp), intent(in) :: speed
+      !> Temperature of the oil [K]
+      real(wp), intent(in) :: oil_temperature
+      !> Deck or domain error
+      type(error_t), allocatable, intent(out) :: error
+
+      if (.not. is_within(speed, above_zero, huge(speed))) then
+         call raise(error, kind_deck, "operating point: the speed must be positive and finite")
+      else if (.not. is_within(oil_temperature, above_zero, huge(speed))) then
+         call raise(error, kind_deck, "operating point: the oil temperature must be finite and above -273.15 degC, 0 K")
+      end if
+      if (allocated(error)) return
+      model%speed = speed
+      call get_oil(model%lubricant, oil_temperature, model%oil, error)
+      if (allocated(error)) return
+      if (allocated(model%guide_drag)) model%guide_drag = model%guide_factor*model%oil%viscosity
+      if (allocated(model%bearing)) model%bearing%reversal_spin = model%bearing%reversal_ratio*speed
+      if (allocated(model%ehl)) call set_film_table(model, error)
+   end subroutine set_operating_point
+
+   !> Films for every speed and load that the cycle may have.
+   subroutine set_film_table(model, error)
+      !> The model
+      type(model_t), intent(inout) :: model
+      !> Domain error beyond the range of numerical solutions; convergence error where their accuracy is not reached
+      type(error_t), allocatable, intent(out) :: error
+
+      type(position_t) :: position
+      type(moments_t) :: moments
+      ! Groups U in pure rolling and W* without friction, smallest and largest [-]; gas force, load [N]; their scale [N]
+      real(wp) :: speeds(2), loads(2), force, load, scale
+      integer :: i, status
+
+      speeds = [huge(1.0_wp), 0.0_wp]
+      loads = [huge(1.0_wp), 0.0_wp]
+      force = 0.0_wp
+      do i = 1, 180
+         call evaluate_geometry(model, 2.0_wp*i*degree, position, status)
+         if (status /= 0) cycle
+         if (allocated(model%gas)) force = gas_force(model%gas, 2.0_wp*i*degree)
+         call evaluate_moments(model%train, position, model%speed, force, moments)
+         scale = model%modulus*position%equivalent_radius
+         load = model%oil%viscosity*model%speed*abs(position%surface_travel)/scale
+         speeds = [min(speeds(1), load), max(speeds(2), load)]
+         load = moments%total/position%normal_arm
+         if (model%takes_maximum_load) load = max(load, model%base_circle_load)
+         if (load <= 0.0_wp) cycle
+         load = load/(scale*model%contact_width)
+         loads = [min(loads(1), load), max(loads(2), load)]
+      end do
+      speeds = [max(speeds(1)*table_margins(1), speeds(2)*smallest_part, speed_range(1)), speeds(2)*table_margins(2)]
+      loads = [max(loads(1)*table_margins(1), loads(2)*smallest_part, load_range(1)), &
+         & max(loads(2), min(loads(2)*table_margins(2), 2.0_wp*pi*(largest_pressure/model%modulus)**2))]
+      if (allocated(model%film_table)) deallocate (model%film_table)
+      allocate (model%film_table)
+      call build_film_table(model%film_table, model%ehl, model%oil, model%modulus, speeds, loads, error)
+   end subroutine set_film_table
+
+   !> Geometry at a cam angle.
+   pure subroutine evaluate_geometry(model, angle, position, status)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> Cam angle from full lift [rad]
+      real(wp), intent(in) :: angle
+      !> Geometry there
+      type(position_t), intent(out) :: position
+      !> 0 fine, negative: the finger cannot reach this lift
+      integer, intent(out) :: status
+
+      ! Lift and its first three derivatives [m/rad^n]
+      real(wp) :: lift(0:3)
+
+      call evaluate_lift(model%lift_law, angle, lift)
+      call evaluate_position(model%linkage, lift, position, status)
+   end subroutine evaluate_geometry
+
+   !> Laws by name; numerics that mean nothing are refused.
+   subroutine choose_laws(model, case, error)
+      !> The model
+      type(model_t), intent(inout) :: model
+      !> A case
+      type(case_t), intent(in) :: case
+      !> Deck error that lists the known names
+      type(error_t), allocatable, intent(out) :: error
+
+      integer :: choice
+
+      call check_numerics(case%numerics, error)
+      if (allocated(error)) return
+      call find_name("energy bookkeeping", case%energy, energy_names, choice, error)
+      if (allocated(error)) return
+      model%is_consistent = choice == 1
+      call find_name("load arm", case%spring%load_arm, load_arm_names, choice, error)
+      if (allocated(error)) return
+      model%has_exact_arm = choice == 1
+      call find_name("spin", case%roller%spin, spin_names, choice, error)
+      if (allocated(error)) return
+      model%has_exact_spin = choice == 1
+      call find_name("seating", case%spring%seating, seating_names, choice, error)
+      if (allocated(error)) return
+      model%takes_maximum_load = choice == 2
+      call find_name("range policy", case%film%range_policy, range_policy_names, choice, error)
+      if (allocated(error)) return
+      model%stops_outside_range = choice == 2
+      call find_name("contact policy", case%spring%contact_policy, contact_policy_names, choice, error)
+      if (allocated(error)) return
+      model%stops_without_contact = choice == 2
+      call find_name("film law", case%film%law, film_law_names, model%film_law, error)
+      if (allocated(error)) return
+      if (allocated(case%ehl)) then
+         model%ehl = case%ehl
+         model%film_law = law_table
+      end if
+      call find_name("shear law", case%traction%shear_law, shear_law_names, model%shear_law, error)
+      if (allocated(error)) return
+      call find_name("traction cap", case%traction%cap, cap_names, model%cap, error)
+      if (allocated(error)) return
+      call find_name("rolling law", case%traction%rolling_law, rolling_law_names, model%rolling_law, error)
+   end subroutine choose_laws
+
+   !> A closed energy balance needs the exact arm and spin, mobilised friction and rolling resistance in the roller's balance.
+   subroutine check_bookkeeping(model, case, error)
+      !> The model with its laws chosen
+      type(model_t), intent(in) :: model
+      !> A case
+      type(case_t), intent(in) :: case
+      !> Deck error that names every contradiction
+      type(error_t), allocatable, intent(out) :: error
+
+      character(len=:), allocatable :: clashes
+
+      if (.not. model%is_consistent) return
+      clashes = ""
+      if (.not. model%has_exact_arm) clashes = clashes//", spring load_arm 'exact'"
+      if (.not. model%has_exact_spin) clashes = clashes//", roller spin 'exact'"
+      if (.not. case%traction%in_roller_balance) clashes = clashes//", traction in_roller_balance = .true."
+      if (model%takes_maximum_load) clashes = clashes//", spring seating 'continuous'"
+      if (allocated(case%asperity)) then
+         if (case%asperity%boundary /= boundary_names(1)) clashes = clashes//", asperity boundary 'mobilised'"
+      end if
+      if (len(clashes) > 0) call raise(error, kind_deck, "energy = 'consistent' needs "//clashes(3:))
+   end subroutine check_bookkeeping
+
+   !> Constants of the contact.
+   subroutine set_contact(model, case, error)
+      !> The model
+      type(model_t), intent(inout) :: model
+      !> A case
+      type(case_t), intent(in) :: case
+      !> Deck error
+      type(error_t), allocatable, intent(out) :: error
+
+      model%modulus = combined_modulus(case%materials%cam_modulus, case%materials%cam_poisson_ratio, &
+         & case%materials%roller_modulus, case%materials%roller_poisson_ratio)
+      model%roughness = combined_roughness(case%surface%cam_roughness, case%surface%roller_roughness)
+      model%hardness = case%materials%hardness
+      model%contact_width = case%mechanism%contact_width
+      model%roller_radius = case%mechanism%roller_radius
+      model%lubricant = case%lubricant
+      model%limiting_coefficient = case%traction%limiting_coefficient
+      model%eyring_stress = case%traction%eyring_stress
+      model%has_rolling_in_balance = case%traction%in_roller_balance
+      if (.not. model%roughness > 0.0_wp) then
+         call raise(error, kind_deck, "surface: the composite roughness must be positive")
+      else if (.not. (model%contact_width > 0.0_wp .and. model%modulus > 0.0_wp)) then
+         call raise(error, kind_deck, "mechanism and materials: contact width and moduli must be positive")
+      else if (.not. model%limiting_coefficient > 0.0_wp) then
+         call raise(error, kind_deck, "traction: the limiting coefficient must be positive")
+      else if (model%shear_law == 2 .and. .not. model%eyring_stress > 0.0_wp) then
+         call raise(error, kind_deck, "traction: the Eyring law needs a positive eyring stress")
+      else if (model%film_law == law_masjedi_khonsari_rough .and. .not. model%hardness > 0.0_wp) then
+         call raise(error, kind_deck, "materials: the film law 'masjedi_khonsari_rough' needs the hardness")
+      end if
+   end subroutine set_contact
+
+   !> Masses, spring and seat.
+   !>
+   !> The adjuster presses the closed valve's tip with `W_base h_W/(B sin(gamma_B + chi))`; the seat carries what is left of the
+   !> spring's preload, and needs some to carry.
+   subroutine set_train(model, case, error)
+      !> The model with its linkage
+      type(model_t), intent(inout) :: model
+      !> A case
+      type(case_t), intent(in) :: case
+      !> Deck error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(position_t) :: closed
+      ! Force of the adjuster at the valve's tip [N]
+      real(wp) :: tip_force
+      integer :: status
+
+      model%base_circle_load = case%spring%base_circle_load
+      model%train%valve_mass = case%masses%valve
+      model%train%finger_inertia = case%masses%finger_inertia
+      if (case%masses%finger_inertia <= 0.0_wp) then
+         model%train%finger_inertia = case%masses%finger*case%mechanism%pivot_to_pad**2
+      end if
+      model%train%stiffness = case%spring%stiffness
+      model%train%precompression = case%spring%precompression
+      model%roller_inertia = ring_inertia(case%roller%mass, model%roller_radius, &
+         & model%roller_radius - case%roller%wall_thickness)
+      if (.not. model%roller_inertia > 0.0_wp .or. case%roller%wall_thickness > model%roller_radius) then
+         call raise(error, kind_deck, "roller: the mass must be positive and the wall thinner than the radius")
+         return
+      end if
+      if (case%masses%finger > 0.0_wp) call set_pivot(model, case, error)
+      if (allocated(error) .or. model%takes_maximum_load) return
+
+      call evaluate_position(model%linkage, [0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp], closed, status)
+      tip_force = model%base_circle_load*merge(closed%normal_arm, closed%parallel_arm, model%has_exact_arm)/closed%valve_arm
+      model%train%closed_seat_force = model%train%stiffness*model%train%precompression - tip_force
+      if (model%train%closed_seat_force <= 0.0_wp) then
+         call raise(error, kind_deck, "the lash adjuster lifts the valve off its seat: spring.base_circle_load_N presses the "// &
+            & "valve with "//number_text(tip_force, 6)//" N, the closed spring holds "// &
+            & number_text(model%train%stiffness*model%train%precompression, 6)//" N; lower it, raise "// &
+            & "spring.stiffness_N_m or spring.precompression_mm, or choose seating = 'maximum' with energy = 'source'")
+         return
+      end if
+      model%train%seat_lift = 2.0_wp*model%train%closed_seat_force/case%spring%seat_stiffness
+   end subroutine set_train
+
+   !> The finger's joint with the lash adjuster.
+   subroutine set_pivot(model, case, error)
+      !> The model with the finger's inertia
+      type(model_t), intent(inout) :: model
+      !> A case
+      type(case_t), intent(in) :: case
+      !> Deck error where no finger of this mass and inertia has its centre of mass so far out
+      type(error_t), allocatable, intent(out) :: error
+
+      ! Radius of gyration about the pivot [m]
+      real(wp) :: gyration
+
+      gyration = sqrt(model%train%finger_inertia/case%masses%finger)
+      allocate (model%pivot)
+      model%pivot%mass = case%masses%finger
+      model%pivot%centre = min(usual_centre, gyration)
+      if (case%masses%finger_centre > 0.0_wp) model%pivot%centre = case%masses%finger_centre
+      model%pivot%tilt = case%mechanism%adjuster_tilt
+      model%pivot%axis_angle = case%mechanism%valve_axis_angle + case%mechanism%adjuster_tilt
+      if (model%pivot%centre <= gyration) return
+      call raise(error, kind_deck, "the finger's centre of mass, masses.finger_centre_mm = "// &
+         & fixed_text(1.0e3_wp*model%pivot%centre, 3)//", lies beyond its radius of gyration about the pivot, "// &
+         & fixed_text(1.0e3_wp*gyration, 3)//" mm; lower it or masses.finger_kg, or raise masses.finger_inertia_kg_m2")
+   end subroutine set_pivot
+
+   !> Effects that the case has.
+   subroutine set_effects(model, case, error)
+      !> The model
+      type(model_t), intent(inout) :: model
+      !> A case
+      type(case_t), intent(in) :: case
+      !> Deck error
+      type(error_t), allocatable, intent(out) :: error
+
+      integer :: choice
+
+      if (allocated(case%asperity)) then
+         call find_name("boundary friction", case%asperity%boundary, boundary_names, choice, error)
+         if (allocated(error)) return
+         allocate (model%boundary)
+         model%boundary%is_full = choice == 2
+         call find_name("mobilisation of boundary friction", case%asperity%mobilisation, mobilisation_names, choice, error)
+         if (allocated(error)) return
+         model%boundary%is_set_valued = choice == 2
+         model%boundary%coefficient = case%asperity%boundary_coefficient
+         model%boundary%film_shear_strength = case%asperity%film_shear_strength
+         model%boundary%mobilising_speed = case%asperity%mobilising_speed
+         call find_name("asperity law", case%asperity%law, asperity_law_names, choice, error)
+         if (allocated(error)) return
+         if (choice == law_zhao_maietta_chang .and. .not. model%hardness > 0.0_wp) then
+            call raise(error, kind_deck, "materials: the asperity law 'zhao_maietta_chang' needs the hardness")
+         else if (choice == law_zhao_maietta_chang .and. .not. case%asperity%roughness_product >= smallest_product) then
+            call raise(error, kind_deck, "asperity: the law 'zhao_maietta_chang' needs a roughness product of 0.025 or more")
+         end if
+         if (allocated(error)) return
+         call new_asperity_constants(model%boundary%constants, case%asperity, model%modulus, model%hardness)
+      end if
+      if (allocated(case%needle_bearing)) then
+         call find_name("roller bearing", case%needle_bearing%kind, roller_bearing_names, choice, error)
+         if (allocated(error)) return
+         allocate (model%bearing)
+         model%bearing%friction_coefficient = case%needle_bearing%friction_coefficient
+         model%bearing%radius = friction_radius(case%needle_bearing, model%roller_radius - case%roller%wall_thickness)
+         model%bearing%reversal_ratio = case%needle_bearing%reversal_ratio
+      end if
+      if (allocated(case%valve_guide)) then
+         allocate (model%guide_drag)
+         model%guide_factor = guide_drag_coefficient(1.0_wp, case%valve_guide%length, case%valve_guide%stem_diameter, &
+            & case%valve_guide%radial_clearance)
+      end if
+      if (allocated(case%gas_force)) then
+         allocate (model%gas)
+         call new_gas_law(model%gas, case%gas_force, error)
+      end if
+   end subroutine set_effects
+
+end module camroller_model

@@ -1,0 +1,207 @@
+!> Rough surfaces in contact: load and real area of the touching asperities.
+!>
+!> In: film thickness over roughness, roughness constants, equivalent modulus, apparent area. Out:
+!> asperity load and real contact area with their derivatives.
+!> Sources: Greenwood and Tripp (1970), Proc. Instn Mech. Engrs 185, 625-633; Islam (2019) eqs. (34)-(36) with
+!> (eta beta sigma) squared in the real area, too. Zhao, Maietta and Chang (2000), J. Tribol. 122, 86-93.
+module camroller_asperity
+   use camroller_kinds, only : wp, pi
+   use camroller_names, only : name_length
+   use camroller_greenwood_tripp, only : integral_2, integral_5_2, largest_film_ratio
+   use camroller_zhao_maietta_chang, only : summits_t, new_summits, summits_load, summits_area, first_yield, smallest_product
+   implicit none
+   private
+
+   public :: asperity_t, asperity_constants_t, asperity_law_names, boundary_names, mobilisation_names, largest_film_ratio
+   public :: law_greenwood_tripp, law_zhao_maietta_chang, smallest_product
+   public :: new_asperity_constants, asperity_load_function, asperity_area_function
+   public :: asperity_load, asperity_area
+
+   !> Laws of touching asperities: elastic summits of both surfaces, or summits of one surface that yield against a plane
+   character(len=*), parameter :: asperity_law_names(*) = [character(len=name_length) :: "greenwood_tripp", "zhao_maietta_chang"]
+   !> Their places in the list
+   integer, parameter :: law_greenwood_tripp = 1, law_zhao_maietta_chang = 2
+   !> Boundary friction that is counted: all of it, or what the slip mobilises
+   character(len=*), parameter :: boundary_names(*) = [character(len=name_length) :: "mobilised", "full"]
+   !> How slip mobilises boundary friction: growing with the sliding speed, or at once, with any part of it at rest
+   character(len=*), parameter :: mobilisation_names(*) = [character(len=name_length) :: "regularised", "stick_slip"]
+
+   !> Asperities and their friction
+   type :: asperity_t
+      !> Product of asperity density, tip radius and roughness, eta beta sigma [-]
+      real(wp) :: roughness_product = 0.04_wp
+      !> Roughness over tip radius, sigma/beta [-]
+      real(wp) :: roughness_over_tip_radius = 0.01_wp
+      !> Friction coefficient of touching asperities, mu_B [-]
+      real(wp) :: boundary_coefficient = 0.0_wp
+      !> Shear strength of the surface film on the real contact area, tau_0 [Pa]
+      real(wp) :: film_shear_strength = 0.0_wp
+      !> One of `boundary_names`
+      character(len=name_length) :: boundary = "mobilised"
+      !> One of `mobilisation_names`
+      character(len=name_length) :: mobilisation = "regularised"
+      !> Sliding speed that mobilises regularised boundary friction, v_b [m/s]
+      real(wp) :: mobilising_speed = 1.0e-3_wp
+      !> One of `asperity_law_names`
+      character(len=name_length) :: law = "greenwood_tripp"
+   end type asperity_t
+
+   !> What a contact needs of the asperities
+   type :: asperity_constants_t
+      !> One of the laws
+      integer :: law = law_greenwood_tripp
+      !> Asperity load over apparent area and over the law's function of the film ratio (F_5/2) [Pa]
+      real(wp) :: load_factor = 0.0_wp
+      !> Real over apparent area and over the law's function of the film ratio (F_2) [-]
+      real(wp) :: area_factor = 0.0_wp
+      !> Film ratio beyond which no asperity touches [-]
+      real(wp) :: reach = largest_film_ratio
+      !> Functions of the film ratio by Zhao, Maietta and Chang
+      type(summits_t) :: summits
+   end type asperity_constants_t
+
+contains
+
+   !> Derive the constants of a pair of surfaces.
+   pure subroutine new_asperity_constants(constants, asperity, modulus, hardness)
+      !> The constants
+      type(asperity_constants_t), intent(out) :: constants
+      !> Asperities; the law is one of the names
+      type(asperity_t), intent(in) :: asperity
+      !> Equivalent modulus, E' [Pa]
+      real(wp), intent(in) :: modulus
+      !> Hardness of the softer body, for Zhao, Maietta and Chang alone; absent: asperities do not yield [Pa]
+      real(wp), intent(in), optional :: hardness
+
+      ! Hardness over E' beyond which no asperity in reach yields [-]
+      real(wp), parameter :: hard = 10.0_wp
+      ! Hardness over E' [-]
+      real(wp) :: relative
+
+      associate (product => asperity%roughness_product, slenderness => asperity%roughness_over_tip_radius)
+         if (asperity%law == asperity_law_names(law_zhao_maietta_chang)) then
+            relative = hard
+            if (present(hardness)) relative = hardness/modulus
+            constants%law = law_zhao_maietta_chang
+            constants%load_factor = 2.0_wp/3.0_wp*product*sqrt(slenderness)*modulus
+            constants%area_factor = pi*product
+            call new_summits(constants%summits, product, first_yield(relative, slenderness))
+            constants%reach = constants%summits%reach
+         else
+            constants%load_factor = load_factor(product, slenderness, modulus)
+            constants%area_factor = area_factor(product)
+         end if
+      end associate
+   end subroutine new_asperity_constants
+
+   !> Asperity load over its factor, a function of the film ratio, and its derivative.
+   pure subroutine asperity_load_function(constants, film_ratio, value, slope)
+      !> Constants of the surfaces
+      type(asperity_constants_t), intent(in) :: constants
+      !> Film thickness over roughness, h/sigma >= 0 [-]
+      real(wp), intent(in) :: film_ratio
+      !> The function (F_5/2) [-]
+      real(wp), intent(out) :: value
+      !> Derivative with respect to the film ratio [-]
+      real(wp), intent(out) :: slope
+
+      if (constants%law == law_greenwood_tripp) then
+         call integral_5_2(film_ratio, value, slope)
+      else
+         call summits_load(constants%summits, film_ratio, value, slope)
+      end if
+   end subroutine asperity_load_function
+
+   !> Real over apparent area over its factor, a function of the film ratio, and its derivative.
+   pure subroutine asperity_area_function(constants, film_ratio, value, slope)
+      !> Constants of the surfaces
+      type(asperity_constants_t), intent(in) :: constants
+      !> Film thickness over roughness, h/sigma >= 0 [-]
+      real(wp), intent(in) :: film_ratio
+      !> The function (F_2) [-]
+      real(wp), intent(out) :: value
+      !> Derivative with respect to the film ratio [-]
+      real(wp), intent(out) :: slope
+
+      if (constants%law == law_greenwood_tripp) then
+         call integral_2(film_ratio, value, slope)
+      else
+         call summits_area(constants%summits, film_ratio, value, slope)
+      end if
+   end subroutine asperity_area_function
+
+   !> Load on the asperities by Greenwood and Tripp:
+   !> `W_a = (8 sqrt(2)/15) pi (eta beta sigma)^2 sqrt(sigma/beta) E' A_a F_5/2(h/sigma)`.
+   elemental subroutine asperity_load(film_ratio, roughness_product, roughness_over_tip_radius, modulus, area, &
+      load, slope)
+      !> Film thickness over roughness, h/sigma >= 0 [-]
+      real(wp), intent(in) :: film_ratio
+      !> eta beta sigma [-]
+      real(wp), intent(in) :: roughness_product
+      !> sigma/beta [-]
+      real(wp), intent(in) :: roughness_over_tip_radius
+      !> Equivalent modulus, E' [Pa]
+      real(wp), intent(in) :: modulus
+      !> Apparent contact area, A_a [m^2]
+      real(wp), intent(in) :: area
+      !> Load, W_a [N]
+      real(wp), intent(out) :: load
+      !> Derivative of the load with respect to the film ratio [N]
+      real(wp), intent(out) :: slope
+
+      !> Load for F_5/2 = 1 [N]
+      real(wp) :: scale
+
+      scale = load_factor(roughness_product, roughness_over_tip_radius, modulus)*area
+      call integral_5_2(film_ratio, load, slope)
+      load = scale*load
+      slope = scale*slope
+   end subroutine asperity_load
+
+   !> Real contact area by Greenwood and Tripp, `A_r = pi^2 (eta beta sigma)^2 A_a F_2(h/sigma)`.
+   elemental subroutine asperity_area(film_ratio, roughness_product, area, real_area, slope)
+      !> Film thickness over roughness, h/sigma >= 0 [-]
+      real(wp), intent(in) :: film_ratio
+      !> eta beta sigma [-]
+      real(wp), intent(in) :: roughness_product
+      !> Apparent contact area, A_a [m^2]
+      real(wp), intent(in) :: area
+      !> Real contact area, A_r [m^2]
+      real(wp), intent(out) :: real_area
+      !> Derivative of the real area with respect to the film ratio [m^2]
+      real(wp), intent(out) :: slope
+
+      !> Real area for F_2 = 1 [m^2]
+      real(wp) :: scale
+
+      scale = area_factor(roughness_product)*area
+      call integral_2(film_ratio, real_area, slope)
+      real_area = scale*real_area
+      slope = scale*slope
+   end subroutine asperity_area
+
+   !> Asperity load over apparent area and F_5/2, Greenwood and Tripp.
+   elemental function load_factor(roughness_product, roughness_over_tip_radius, modulus) result(factor)
+      !> eta beta sigma [-]
+      real(wp), intent(in) :: roughness_product
+      !> sigma/beta [-]
+      real(wp), intent(in) :: roughness_over_tip_radius
+      !> Equivalent modulus, E' [Pa]
+      real(wp), intent(in) :: modulus
+      !> The factor [Pa]
+      real(wp) :: factor
+
+      factor = 8.0_wp*sqrt(2.0_wp)/15.0_wp*pi*roughness_product**2*sqrt(roughness_over_tip_radius)*modulus
+   end function load_factor
+
+   !> Real over apparent area and F_2, Greenwood and Tripp.
+   elemental function area_factor(roughness_product) result(factor)
+      !> eta beta sigma [-]
+      real(wp), intent(in) :: roughness_product
+      !> The factor [-]
+      real(wp) :: factor
+
+      factor = (pi*roughness_product)**2
+   end function area_factor
+
+end module camroller_asperity

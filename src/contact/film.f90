@@ -1,0 +1,375 @@
+!> Film thickness of an elastohydrodynamic line contact: published regressions behind one signature.
+!>
+!> In: the dimensionless groups. Out: central and minimum film over equivalent radius, with their logarithmic
+!> slopes. Knows no cam. Groups: U = eta0 |V_e|/(E' R), G = alpha E', W* = w/(E' R L) with w the load carried by the film, V_e
+!> the mean surface speed; H = h/R.
+!>
+!> | law | sources |
+!> |---|---|
+!> | `dowson_higginson` | minimum: Dowson and Higginson (1966); central: Dowson and Toyoda (1978); Islam (2019) eqs. (29), (30) |
+!> | `pan_hamrock` | Pan and Hamrock, J. Tribol. 111 (1989) 246 |
+!> | `masjedi_khonsari` | Masjedi and Khonsari, J. Tribol. 134 (2012) 011503, smooth surfaces |
+!> | `masjedi_khonsari_rough` | the same, with its roughness factors; takes the whole load |
+!> | `moes` | Moes, Lubrication and Beyond (2000): joins rigid and elastic, isoviscous and piezoviscous asymptotes |
+module camroller_film
+   use camroller_kinds, only : wp
+   use camroller_names, only : name_length
+   use camroller_film_table, only : film_table_t, film_series_t, table_series, series_films, is_in_table
+   implicit none
+   private
+
+   public :: film_t, groups_t, film_shape_t, film_line_t, film_law_names, range_policy_names
+   public :: film_shape, new_film_line, film_at_load, log_films_at_load, is_in_range, takes_whole_load
+   public :: law_dowson_higginson, law_pan_hamrock, law_masjedi_khonsari, law_masjedi_khonsari_rough, law_moes, law_table
+
+   !> Film-thickness laws
+   character(len=*), parameter :: film_law_names(*) = [character(len=name_length) :: &
+      "dowson_higginson", "pan_hamrock", "masjedi_khonsari", "masjedi_khonsari_rough", "moes"]
+   !> Positions in `film_law_names`
+   integer, parameter :: law_dowson_higginson = 1, law_pan_hamrock = 2, law_masjedi_khonsari = 3, &
+      & law_masjedi_khonsari_rough = 4, law_moes = 5
+   !> Law that has no name: a table of numerical solutions
+   integer, parameter :: law_table = 6
+   !> What to do where a law is used outside its published range
+   character(len=*), parameter :: range_policy_names(*) = [character(len=name_length) :: "warn", "stop"]
+
+   !> Choice of the film law
+   type :: film_t
+      !> One of `film_law_names`
+      character(len=name_length) :: law = "dowson_higginson"
+      !> One of `range_policy_names`
+      character(len=name_length) :: range_policy = "warn"
+   end type film_t
+
+   !> Dimensionless groups of a line contact
+   type :: groups_t
+      !> Speed, U [-]
+      real(wp) :: speed
+      !> Material, G [-]
+      real(wp) :: material
+      !> Load, W* [-]
+      real(wp) :: load
+      !> Composite roughness over equivalent radius [-]; rough law
+      real(wp) :: roughness
+      !> Hardness over equivalent modulus [-]; rough law
+      real(wp) :: hardness
+   end type groups_t
+
+   !> Film thickness over equivalent radius, and how it follows speed and load
+   type :: film_shape_t
+      !> Central and minimum film [-]
+      real(wp) :: central, minimum
+      !> d ln(film)/d ln(W*) [-]
+      real(wp) :: central_load_slope, minimum_load_slope
+      !> d ln(film)/d ln(U) [-]
+      real(wp) :: central_speed_slope, minimum_speed_slope
+      !> d ln(film)/d ln(roughness over radius) [-]
+      real(wp) :: central_roughness_slope, minimum_roughness_slope
+   end type film_shape_t
+
+   !> Film over the load at one speed: what does not change with the load is worked out once
+   type :: film_line_t
+      !> Position in `film_law_names`
+      integer :: law
+      !> Is it a power law?
+      logical :: is_power
+      !> Groups; the load is that of the contact
+      type(groups_t) :: groups
+      !> Power laws: logarithm of the minimum and the central film at unit load [-]
+      real(wp) :: unit_logs(2)
+      !> Table: films over the load
+      type(film_series_t) :: series
+   end type film_line_t
+
+   !> Power laws `H = factor U^speed G^material W*^load`, columns: factor, speed, material, load [-]
+   !> rows: minimum and central film of Dowson, Pan, Masjedi
+   real(wp), parameter :: power_laws(4, 2, 3) = reshape([ &
+      2.65_wp, 0.70_wp, 0.54_wp, -0.13_wp, 3.06_wp, 0.69_wp, 0.56_wp, -0.10_wp, &
+      1.714_wp, 0.694_wp, 0.568_wp, -0.128_wp, 2.922_wp, 0.692_wp, 0.470_wp, -0.166_wp, &
+      1.652_wp, 0.716_wp, 0.695_wp, -0.077_wp, 2.691_wp, 0.705_wp, 0.556_wp, -0.135_wp], [4, 2, 3])
+   !> Logarithms of the factors [-]
+   real(wp), parameter :: log_factors(2, 3) = log(power_laws(1, :, :))
+   !> Roughness factors of Masjedi and Khonsari, `1 + factor s^a v^b W*^c U^d G^e`: factor, a, b, c, d, e [-];
+   !> first minimum, second central film
+   real(wp), parameter :: rough_factors(6, 2) = reshape([ &
+      0.026_wp, 1.120_wp, 0.185_wp, -0.312_wp, -0.809_wp, -0.977_wp, &
+      0.2_wp, 1.222_wp, 0.223_wp, -0.229_wp, -0.748_wp, -0.842_wp], [6, 2])
+   !> Part by which the minimum film lies below Moes' central film in the elastic regime: the 1.55/1.77 of the numerical
+   !> solution at U 1e-11, W* 1e-4, G 4500 in Masjedi and Khonsari (2012); ours, since Moes gives no minimum [-]
+   real(wp), parameter :: moes_elastic_dip = 0.124_wp
+
+   !> Published ranges of U, G and W*, lower and upper, one column a law [-]. Dowson and Higginson solved 1e-13 < U < 1e-10,
+   !> 2500 < G < 5000, 1.5e-5 < W* < 3e-4; Pan and Hamrock 1e-12 < U < 1e-8 with W* up to 5e-4; Masjedi and Khonsari as in their
+   !> abstract; Moes' formula has the four asymptotes as its limits and so no outer range.
+   real(wp), parameter :: ranges(2, 3, 5) = reshape([ &
+      1.0e-13_wp, 1.0e-10_wp, 2.5e3_wp, 5.0e3_wp, 1.5e-5_wp, 3.0e-4_wp, &
+      1.0e-13_wp, 1.0e-8_wp, 2.0e3_wp, 1.0e4_wp, 2.0e-5_wp, 5.0e-4_wp, &
+      1.0e-12_wp, 1.0e-10_wp, 2.5e3_wp, 7.5e3_wp, 2.0e-5_wp, 5.0e-4_wp, &
+      1.0e-12_wp, 1.0e-10_wp, 2.5e3_wp, 7.5e3_wp, 2.0e-5_wp, 5.0e-4_wp, &
+      0.0_wp, huge(1.0_wp), 0.0_wp, huge(1.0_wp), 0.0_wp, huge(1.0_wp)], [2, 3, 5])
+
+contains
+
+   !> Film thickness over equivalent radius by a law.
+   !>
+   !> Speed and load must be positive; the limits at standstill and at zero film load belong to the caller.
+   pure subroutine film_shape(law, groups, shape)
+      !> Position in `film_law_names`
+      integer, intent(in) :: law
+      !> Dimensionless groups
+      type(groups_t), intent(in) :: groups
+      !> Film thickness and its slopes
+      type(film_shape_t), intent(out) :: shape
+
+      type(film_line_t) :: line
+
+      if (law == law_moes) then
+         call moes_shape(groups, shape)
+         return
+      end if
+      call new_film_line(line, min(law, law_masjedi_khonsari), groups)
+      call power_at_load(line, groups%load, shape)
+      if (law == law_masjedi_khonsari_rough) call roughen(groups, shape)
+   end subroutine film_shape
+
+   !> Film over the load at the speed of the groups; at standstill there is no film to evaluate.
+   pure subroutine new_film_line(line, law, groups, table)
+      !> Film over the load
+      type(film_line_t), intent(out) :: line
+      !> Position in `film_law_names`
+      integer, intent(in) :: law
+      !> Dimensionless groups
+      type(groups_t), intent(in) :: groups
+      !> Films of numerical solutions, to go with `law_table`
+      type(film_table_t), intent(in), optional :: table
+
+      ! Logarithms of U and G [-]
+      real(wp) :: logs(2)
+
+      line%law = law
+      line%groups = groups
+      line%is_power = law <= law_masjedi_khonsari
+      line%unit_logs = 0.0_wp
+      if (present(table) .and. groups%speed > 0.0_wp) call table_series(table, log(groups%speed), line%series)
+      if (.not. line%is_power .or. groups%speed <= 0.0_wp) return
+      logs = [log(groups%speed), log(groups%material)]
+      line%unit_logs = log_factors(:, law) + power_laws(2, :, law)*logs(1) + power_laws(3, :, law)*logs(2)
+   end subroutine new_film_line
+
+   !> Film at a load that the film carries.
+   pure subroutine film_at_load(line, load, shape)
+      !> Film over the load
+      type(film_line_t), intent(in) :: line
+      !> Load group W*, positive [-]
+      real(wp), intent(in) :: load
+      !> Film thickness and its slopes
+      type(film_shape_t), intent(out) :: shape
+
+      type(groups_t) :: groups
+
+      if (line%is_power) then
+         call power_at_load(line, load, shape)
+      else if (line%law == law_table) then
+         call table_at_load(line, load, shape)
+      else
+         groups = line%groups
+         groups%load = load
+         call film_shape(line%law, groups, shape)
+      end if
+   end subroutine film_at_load
+
+   !> Logarithms of both films at a load that the film carries, and the slopes; the films themselves are left to the caller.
+   pure subroutine log_films_at_load(line, load, logs, shape)
+      !> Film over the load
+      type(film_line_t), intent(in) :: line
+      !> Load group W*, positive [-]
+      real(wp), intent(in) :: load
+      !> Logarithms of minimum and central film [-]
+      real(wp), intent(out) :: logs(2)
+      !> Slopes
+      type(film_shape_t), intent(inout) :: shape
+
+      if (line%is_power) then
+         call power_slopes(line%law, shape)
+         logs = line%unit_logs + power_laws(4, :, line%law)*log(load)
+      else
+         call film_at_load(line, load, shape)
+         logs = log([shape%minimum, shape%central])
+      end if
+   end subroutine log_films_at_load
+
+   !> Does the law take the whole load instead of the part that the film carries?
+   elemental function takes_whole_load(law) result(whole)
+      !> Position in `film_law_names`
+      integer, intent(in) :: law
+      !> True for the rough regression
+      logical :: whole
+
+      whole = law == law_masjedi_khonsari_rough
+   end function takes_whole_load
+
+   !> Are the groups inside the published range of a law?
+   pure function is_in_range(law, groups, table) result(inside)
+      !> Position in `film_law_names`
+      integer, intent(in) :: law
+      !> Dimensionless groups
+      type(groups_t), intent(in) :: groups
+      !> Films of numerical solutions, to go with `law_table`
+      type(film_table_t), intent(in), optional :: table
+      !> True inside
+      logical :: inside
+
+      ! The three groups [-]
+      real(wp) :: values(3)
+
+      if (present(table)) then
+         inside = is_in_table(table, groups%speed, groups%load)
+         return
+      end if
+      values = [groups%speed, groups%material, groups%load]
+      inside = all(values >= ranges(1, :, law) .and. values <= ranges(2, :, law))
+   end function is_in_range
+
+   !> Both films of a table.
+   pure subroutine table_at_load(line, load, shape)
+      !> Film over the load
+      type(film_line_t), intent(in) :: line
+      !> Load group W*, positive [-]
+      real(wp), intent(in) :: load
+      !> Film thickness and its slopes
+      type(film_shape_t), intent(out) :: shape
+
+      ! Logarithms of minimum and central film; their slopes over the logarithms of load and speed [-]
+      real(wp) :: films(2), load_slopes(2), speed_slopes(2)
+
+      call series_films(line%series, log(load), films, load_slopes, speed_slopes)
+      shape%minimum = exp(films(1))
+      shape%central = exp(films(2))
+      shape%minimum_load_slope = load_slopes(1)
+      shape%central_load_slope = load_slopes(2)
+      shape%minimum_speed_slope = speed_slopes(1)
+      shape%central_speed_slope = speed_slopes(2)
+      shape%minimum_roughness_slope = 0.0_wp
+      shape%central_roughness_slope = 0.0_wp
+   end subroutine table_at_load
+
+   !> Both films of a pair of power laws.
+   pure subroutine power_at_load(line, load, shape)
+      !> Film over the load
+      type(film_line_t), intent(in) :: line
+      !> Load group W*, positive [-]
+      real(wp), intent(in) :: load
+      !> Film thickness and its slopes
+      type(film_shape_t), intent(out) :: shape
+
+      ! ln W* [-]
+      real(wp) :: log_load
+
+      log_load = log(load)
+      call power_slopes(line%law, shape)
+      shape%minimum = exp(line%unit_logs(1) + shape%minimum_load_slope*log_load)
+      shape%central = exp(line%unit_logs(2) + shape%central_load_slope*log_load)
+   end subroutine power_at_load
+
+   !> Slopes of a pair of power laws.
+   pure subroutine power_slopes(law, shape)
+      !> Position in `film_law_names`
+      integer, intent(in) :: law
+      !> Its slopes are set
+      type(film_shape_t), intent(inout) :: shape
+
+      shape%minimum_load_slope = power_laws(4, 1, law)
+      shape%central_load_slope = power_laws(4, 2, law)
+      shape%minimum_speed_slope = power_laws(2, 1, law)
+      shape%central_speed_slope = power_laws(2, 2, law)
+      shape%minimum_roughness_slope = 0.0_wp
+      shape%central_roughness_slope = 0.0_wp
+   end subroutine power_slopes
+
+   !> Multiply both films by the roughness factors of Masjedi and Khonsari.
+   pure subroutine roughen(groups, shape)
+      !> Dimensionless groups
+      type(groups_t), intent(in) :: groups
+      !> In: smooth film; out: rough film
+      type(film_shape_t), intent(inout) :: shape
+
+      ! Rise of minimum and central film by roughness [-]
+      real(wp) :: rise(2)
+      integer :: i
+
+      do i = 1, 2
+         rise(i) = rough_factors(1, i)*groups%roughness**rough_factors(2, i)*groups%hardness**rough_factors(3, i) &
+            & *groups%load**rough_factors(4, i)*groups%speed**rough_factors(5, i)*groups%material**rough_factors(6, i)
+      end do
+      shape%minimum = shape%minimum*(1.0_wp + rise(1))
+      shape%central = shape%central*(1.0_wp + rise(2))
+      rise = rise/(1.0_wp + rise)
+      shape%minimum_load_slope = shape%minimum_load_slope + rise(1)*rough_factors(4, 1)
+      shape%central_load_slope = shape%central_load_slope + rise(2)*rough_factors(4, 2)
+      shape%minimum_speed_slope = shape%minimum_speed_slope + rise(1)*rough_factors(5, 1)
+      shape%central_speed_slope = shape%central_speed_slope + rise(2)*rough_factors(5, 2)
+      shape%minimum_roughness_slope = rise(1)*rough_factors(2, 1)
+      shape%central_roughness_slope = rise(2)*rough_factors(2, 2)
+   end subroutine roughen
+
+   !> Moes' formula for the central film; the minimum lies below it by `moes_elastic_dip` where elastic deformation rules.
+   !>
+   !> `H/sqrt(2U) = [(R^(7/3) + E^(7/3))^(3s/7) + (P^(-7/2) + Q^(-7/2))^(-2s/7)]^(1/s)`, `s = (7 + 8 exp(-2 E/R))/5`,
+   !> R = 3/M, E = 2.621 M^(-1/5), P = 1.287 L^(2/3), Q = 1.311 M^(-1/8) L^(3/4), M = W*/sqrt(2U), L = G (2U)^(1/4).
+   pure subroutine moes_shape(groups, shape)
+      !> Dimensionless groups
+      type(groups_t), intent(in) :: groups
+      !> Film thickness and its slopes
+      type(film_shape_t), intent(out) :: shape
+
+      ! Moes' numbers: load M, lubricant L [-]
+      real(wp) :: m, l
+      ! Asymptotes: rigid and elastic, isoviscous (R, E) and piezoviscous (P, Q) [-]
+      real(wp) :: rigid, elastic, rigid_piezo, elastic_piezo
+      ! Exponent s, and E/R [-]
+      real(wp) :: s, ratio
+      ! Isoviscous and piezoviscous branch, each to the power 1 in H [-]
+      real(wp) :: iso, piezo
+      ! Shares of the branches and of the asymptotes in them [-]
+      real(wp) :: iso_share, elastic_share, elastic_piezo_share
+      ! d ln/d ln M and d ln/d ln L of the film; d s/d ln M [-]
+      real(wp) :: slope_m, slope_l, s_slope
+      ! Film in Moes' units [-]
+      real(wp) :: film
+      ! Dip of the minimum film and its slope with ln M [-]
+      real(wp) :: dip, dip_slope
+
+      m = groups%load/sqrt(2.0_wp*groups%speed)
+      l = groups%material*sqrt(sqrt(2.0_wp*groups%speed))
+      rigid = 3.0_wp/m
+      elastic = 2.621_wp*m**(-0.2_wp)
+      rigid_piezo = 1.287_wp*l**(2.0_wp/3.0_wp)
+      elastic_piezo = 1.311_wp*m**(-0.125_wp)*l**0.75_wp
+      ratio = elastic/rigid
+      s = 0.2_wp*(7.0_wp + 8.0_wp*exp(-2.0_wp*ratio))
+      s_slope = -1.6_wp*exp(-2.0_wp*ratio)*2.0_wp*0.8_wp*ratio
+
+      elastic_share = 1.0_wp/(1.0_wp + ratio**(-7.0_wp/3.0_wp))
+      iso = rigid*(1.0_wp + ratio**(7.0_wp/3.0_wp))**(3.0_wp/7.0_wp)
+      elastic_piezo_share = 1.0_wp/(1.0_wp + (elastic_piezo/rigid_piezo)**3.5_wp)
+      piezo = elastic_piezo*elastic_piezo_share**(2.0_wp/7.0_wp)
+      iso_share = 1.0_wp/(1.0_wp + (piezo/iso)**s)
+      film = iso*iso_share**(-1.0_wp/s)
+
+      slope_m = iso_share*(-1.0_wp + 0.8_wp*elastic_share) + (1.0_wp - iso_share)*(-0.125_wp*elastic_piezo_share) &
+         & + s_slope/s*(iso_share*log(iso) + (1.0_wp - iso_share)*log(piezo) - log(film))
+      slope_l = (1.0_wp - iso_share)*(0.75_wp*elastic_piezo_share + 2.0_wp/3.0_wp*(1.0_wp - elastic_piezo_share))
+      shape%central = film*sqrt(2.0_wp*groups%speed)
+      shape%central_load_slope = slope_m
+      shape%central_speed_slope = 0.5_wp - 0.5_wp*slope_m + 0.25_wp*slope_l
+
+      dip = moes_elastic_dip*elastic_share
+      dip_slope = dip*(1.0_wp - elastic_share)*0.8_wp*7.0_wp/3.0_wp
+      shape%minimum = (1.0_wp - dip)*shape%central
+      shape%minimum_load_slope = slope_m - dip_slope/(1.0_wp - dip)
+      shape%minimum_speed_slope = shape%central_speed_slope + 0.5_wp*dip_slope/(1.0_wp - dip)
+      shape%central_roughness_slope = 0.0_wp
+      shape%minimum_roughness_slope = 0.0_wp
+   end subroutine moes_shape
+
+end module camroller_film

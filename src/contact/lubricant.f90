@@ -1,0 +1,363 @@
+!> Oil: viscosity over temperature and pressure.
+!>
+!> In: what the deck gives about the oil. Out: viscosity at ambient pressure,
+!> pressure-viscosity coefficient, and the mean of the viscosity over a Hertzian contact.
+!> Sources: Vogel (1921); Walther (1931) as in ASTM D341; Barus (1893); Chu and Cameron (1962); Roelands (1966).
+module camroller_lubricant
+   use camroller_kinds, only : wp, pi
+   use camroller_error, only : error_t, raise, kind_deck, kind_domain
+   use camroller_names, only : name_length, find_name
+   use camroller_contact_rule, only : rule_heights, rule_weights
+   use camroller_number_text, only : fixed_text
+   implicit none
+   private
+
+   public :: lubricant_t, oil_t, temperature_law_names, pressure_law_names
+   public :: get_oil, relative_viscosity, log_relative_viscosity, mean_relative_viscosity
+   public :: law_barus, law_cameron, law_roelands
+
+   !> Viscosity over temperature
+   character(len=*), parameter :: temperature_law_names(*) = [character(len=name_length) :: "direct", "vogel", "walther"]
+   !> Viscosity over pressure
+   character(len=*), parameter :: pressure_law_names(*) = [character(len=name_length) :: "barus", "cameron", "roelands"]
+   !> Positions in `pressure_law_names`
+   integer, parameter :: law_barus = 1, law_cameron = 2, law_roelands = 3
+
+   !> Reference pressure of Roelands' law [Pa]: 1/5.1e-9
+   real(wp), parameter :: roelands_pressure = 1.0_wp/5.1e-9_wp
+   !> ln of Roelands' reference viscosity, 6.315e-5 Pa s, with its sign changed [-]
+   real(wp), parameter :: roelands_constant = 9.67_wp
+   !> Temperature at which the density is given [K]
+   real(wp), parameter :: density_temperature = 288.15_wp
+   !> Walther's constant [mm^2/s]
+   real(wp), parameter :: walther_constant = 0.7_wp
+   !> Square metres per second in one square millimetre per second [-]
+   real(wp), parameter :: square_millimetre = 1.0e-6_wp
+
+   !> Oil: what is given about it
+   type :: lubricant_t
+      !> One of `temperature_law_names`
+      character(len=name_length) :: temperature_law = "direct"
+      !> Dynamic viscosity at ambient pressure at the oil temperature [Pa s]; law `direct`
+      real(wp) :: viscosity = 0.0_wp
+      !> Temperatures of the given points [K]; `vogel` three, `walther` two
+      real(wp), allocatable :: temperature_points(:)
+      !> Dynamic viscosities of the given points [Pa s]
+      real(wp), allocatable :: viscosity_points(:)
+      !> Density at 15 degC [kg/m^3]; `walther`
+      real(wp) :: density = 870.0_wp
+      !> Thermal expansion of the density [1/K]; `walther`
+      real(wp) :: thermal_expansion = 6.5e-4_wp
+      !> One of `pressure_law_names`
+      character(len=name_length) :: pressure_law = "cameron"
+      !> Pressure-viscosity coefficient at ambient pressure [1/Pa]; zero: derived from `roelands_index`
+      real(wp) :: pressure_viscosity = 0.0_wp
+      !> Roelands' index Z [-]; zero: derived from the pressure-viscosity coefficient
+      real(wp) :: roelands_index = 0.0_wp
+   end type lubricant_t
+
+   !> Oil at one temperature
+   type :: oil_t
+      !> Viscosity at ambient pressure, eta0 [Pa s]
+      real(wp) :: viscosity = 0.0_wp
+      !> Pressure-viscosity coefficient at ambient pressure, alpha [1/Pa]
+      real(wp) :: pressure_viscosity = 0.0_wp
+      !> Position in `pressure_law_names`
+      integer :: pressure_law = law_cameron
+      !> Roelands' index, Z [-]
+      real(wp) :: roelands_index = 0.0_wp
+      !> ln(eta0/6.315e-5 Pa s), Roelands [-]
+      real(wp) :: roelands_exponent = 0.0_wp
+   end type oil_t
+
+   !> Exponent at which a viscosity ratio is held: far above any shear that a limiting traction lets through, below overflow [-]
+   real(wp), parameter :: largest_exponent = 600.0_wp
+   !> Power of Cameron's law [-]
+   integer, parameter :: cameron_power = 16
+   !> Its powers of the pressure [-]
+   real(wp), parameter :: powers(0:cameron_power) = [0.0_wp, 1.0_wp, 2.0_wp, 3.0_wp, 4.0_wp, 5.0_wp, 6.0_wp, 7.0_wp, 8.0_wp, &
+      & 9.0_wp, 10.0_wp, 11.0_wp, 12.0_wp, 13.0_wp, 14.0_wp, 15.0_wp, 16.0_wp]
+   !> Coefficients of the polynomial in alpha p0 that Cameron's law integrates to: binomial(16, k)/16^k
+   !> int_0^1 (1 - u^2)^(k/2) du, the integral being sqrt(pi)/2 Gamma(k/2 + 1)/Gamma(k/2 + 3/2) [-]
+   real(wp), parameter :: cameron_coefficients(0:cameron_power) = &
+      & gamma(17.0_wp)/(gamma(powers + 1.0_wp)*gamma(17.0_wp - powers))/16.0_wp**powers &
+      & *0.5_wp*sqrt(pi)*gamma(0.5_wp*powers + 1.0_wp)/gamma(0.5_wp*powers + 1.5_wp)
+
+contains
+
+   !> Oil at a temperature: viscosity by the chosen law, and the constants of the pressure law.
+   subroutine get_oil(lubricant, temperature, oil, error)
+      !> What is given about the oil
+      type(lubricant_t), intent(in) :: lubricant
+      !> Temperature of the oil [K]
+      real(wp), intent(in) :: temperature
+      !> Oil at that temperature
+      type(oil_t), intent(out) :: oil
+      !> Deck error for an unknown law or missing data; domain error where the law has no value at this temperature
+      type(error_t), allocatable, intent(out) :: error
+
+      integer :: law
+
+      call find_name("viscosity-temperature law", lubricant%temperature_law, temperature_law_names, law, error)
+      if (allocated(error)) return
+      call find_name("viscosity-pressure law", lubricant%pressure_law, pressure_law_names, oil%pressure_law, error)
+      if (allocated(error)) return
+      if (law > 1) then
+         call check_points(lubricant, merge(3, 2, law == 2), error)
+         if (allocated(error)) return
+      end if
+      select case (law)
+      case (1)
+         oil%viscosity = lubricant%viscosity
+      case (2)
+         call vogel_viscosity(lubricant%temperature_points, lubricant%viscosity_points, temperature, oil%viscosity, error)
+      case (3)
+         call walther_viscosity(lubricant, temperature, oil%viscosity, error)
+      end select
+      if (allocated(error)) return
+      if (.not. oil%viscosity > 0.0_wp) then
+         call raise(error, kind_deck, "lubricant: the viscosity must be positive")
+         return
+      end if
+      call set_pressure_constants(lubricant, oil, error)
+   end subroutine get_oil
+
+   !> Enough viscosity points for the law?
+   subroutine check_points(lubricant, needed, error)
+      !> What is given about the oil
+      type(lubricant_t), intent(in) :: lubricant
+      !> Number of points that the law takes
+      integer, intent(in) :: needed
+      !> Deck error where the lists have another length
+      type(error_t), allocatable, intent(out) :: error
+
+      logical :: complete
+
+      complete = allocated(lubricant%temperature_points) .and. allocated(lubricant%viscosity_points)
+      if (complete) complete = size(lubricant%temperature_points) == needed .and. size(lubricant%viscosity_points) == needed
+      if (complete) return
+      call raise(error, kind_deck, "lubricant: law '"//trim(lubricant%temperature_law)//"' takes "// &
+         & trim(merge("three", "two  ", needed == 3))//" temperatures with as many viscosities")
+   end subroutine check_points
+
+   !> Alpha from Roelands' index or the index from alpha: `Z = alpha p_r/(ln eta0 + 9.67)`.
+   subroutine set_pressure_constants(lubricant, oil, error)
+      !> What is given about the oil
+      type(lubricant_t), intent(in) :: lubricant
+      !> Oil with its viscosity and law known
+      type(oil_t), intent(inout) :: oil
+      !> Deck error where neither is given, domain error where Roelands' law has no index for this oil
+      type(error_t), allocatable, intent(out) :: error
+
+      oil%pressure_viscosity = lubricant%pressure_viscosity
+      oil%roelands_index = lubricant%roelands_index
+      oil%roelands_exponent = log(oil%viscosity) + roelands_constant
+      if (oil%roelands_exponent <= 0.0_wp) then
+         if (oil%pressure_law == law_roelands .or. lubricant%roelands_index > 0.0_wp) then
+            call raise(error, kind_domain, "lubricant: Roelands' law needs a viscosity above 6.32e-5 Pa s")
+            return
+         end if
+      end if
+      if (lubricant%pressure_viscosity <= 0.0_wp .and. lubricant%roelands_index <= 0.0_wp) then
+         call raise(error, kind_deck, "lubricant: give the pressure-viscosity coefficient or Roelands' index")
+      else if (lubricant%pressure_viscosity <= 0.0_wp) then
+         oil%pressure_viscosity = oil%roelands_index*oil%roelands_exponent/roelands_pressure
+      else if (oil%pressure_law == law_roelands .and. lubricant%roelands_index <= 0.0_wp) then
+         oil%roelands_index = oil%pressure_viscosity*roelands_pressure/oil%roelands_exponent
+      else if (oil%pressure_law == law_roelands) then
+         call raise(error, kind_deck, "lubricant: Roelands' law takes the pressure-viscosity coefficient or the index, not both")
+      end if
+   end subroutine set_pressure_constants
+
+   !> Vogel's law `ln eta = a + b/(T - c)` through three points.
+   !>
+   !> Source: Vogel, Physikalische Zeitschrift 22 (1921) 645.
+   subroutine vogel_viscosity(temperatures, viscosities, temperature, viscosity, error)
+      !> Three temperatures, increasing [K]
+      real(wp), intent(in) :: temperatures(3)
+      !> Viscosities there [Pa s]
+      real(wp), intent(in) :: viscosities(3)
+      !> Temperature asked for [K]
+      real(wp), intent(in) :: temperature
+      !> Viscosity there [Pa s]
+      real(wp), intent(out) :: viscosity
+      !> Domain error where the points fit no such law, or the temperature lies at or below its pole
+      type(error_t), allocatable, intent(out) :: error
+
+      ! Logarithms of the viscosities; ratio of their divided differences [-]
+      real(wp) :: logs(3), ratio
+      ! Constants of the law: c [K], b [K], a [-]
+      real(wp) :: pole, slope, level
+
+      viscosity = 0.0_wp
+      logs = log(viscosities)
+      ! (ln eta1 - ln eta2)/(ln eta2 - ln eta3) = (T2 - T1)/(T3 - T2) (T3 - c)/(T1 - c)
+      ratio = (logs(1) - logs(2))/(logs(2) - logs(3))*(temperatures(3) - temperatures(2)) &
+         & /(temperatures(2) - temperatures(1))
+      if (.not. (logs(1) > logs(2) .and. logs(2) > logs(3) .and. ratio > 1.0_wp)) then
+         call raise(error, kind_domain, "lubricant: the three viscosity points fit no Vogel law (viscosity must fall, "// &
+            "less and less steeply on a logarithmic scale, as temperature rises)")
+         return
+      end if
+      pole = (ratio*temperatures(1) - temperatures(3))/(ratio - 1.0_wp)
+      slope = (logs(1) - logs(2))*(temperatures(1) - pole)*(temperatures(2) - pole)/(temperatures(2) - temperatures(1))
+      level = logs(1) - slope/(temperatures(1) - pole)
+      if (temperature <= pole + 1.0_wp) then
+         call raise(error, kind_domain, "lubricant: the oil temperature is at or below the pole of the Vogel law at "// &
+            & fixed_text(pole - 273.15_wp, 1)//" degC")
+         return
+      end if
+      viscosity = exp(level + slope/(temperature - pole))
+   end subroutine vogel_viscosity
+
+   !> Walther's law `log10 log10(nu + 0.7) = A - B log10 T`, nu in mm^2/s, through two points.
+   !>
+   !> Source: ASTM D341; density falls linearly with temperature.
+   subroutine walther_viscosity(lubricant, temperature, viscosity, error)
+      !> What is given about the oil
+      type(lubricant_t), intent(in) :: lubricant
+      !> Temperature asked for [K]
+      real(wp), intent(in) :: temperature
+      !> Dynamic viscosity there [Pa s]
+      real(wp), intent(out) :: viscosity
+      !> Domain error where the points are outside the law
+      type(error_t), allocatable, intent(out) :: error
+
+      ! Density at the points and at the temperature asked for [kg/m^3]
+      real(wp) :: densities(2), density
+      ! Kinematic viscosity plus Walther's constant [mm^2/s]; its double logarithm [-]
+      real(wp) :: shifted(2), double_log(2), value
+
+      viscosity = 0.0_wp
+      densities = lubricant%density*(1.0_wp - lubricant%thermal_expansion*(lubricant%temperature_points - density_temperature))
+      density = lubricant%density*(1.0_wp - lubricant%thermal_expansion*(temperature - density_temperature))
+      if (min(minval(densities), density) <= 0.0_wp) then
+         call raise(error, kind_domain, "lubricant: density not positive at the temperatures asked for")
+         return
+      end if
+      shifted = lubricant%viscosity_points/densities/square_millimetre + walther_constant
+      if (minval(shifted) <= 1.0_wp) then
+         call raise(error, kind_domain, "lubricant: Walther's law needs kinematic viscosities above 0.3 mm^2/s")
+         return
+      end if
+      double_log = log(log(shifted))
+      value = double_log(1) + (double_log(2) - double_log(1))*log(temperature/lubricant%temperature_points(1)) &
+         & /log(lubricant%temperature_points(2)/lubricant%temperature_points(1))
+      viscosity = (exp(exp(value)) - walther_constant)*square_millimetre*density
+   end subroutine walther_viscosity
+
+   !> Mean of the relative viscosity over a contact with pressure `p0 sqrt(1 - x^2/b^2)`: the integral in
+   !> Islam (2019) eq. (33) over `2 b`; and its logarithmic slope over p0.
+   !>
+   !> Cameron's law integrates to a polynomial of degree 16; the other laws go through Gauss-Legendre quadrature in the
+   !> angle phi, x = b sin(phi), with 24 points: better than 1e-12 up to `alpha p0` = 35.
+   pure subroutine mean_relative_viscosity(oil, peak, mean, log_slope)
+      !> Oil at its temperature
+      type(oil_t), intent(in) :: oil
+      !> Pressure in the middle of the contact, p0 [Pa]
+      real(wp), intent(in) :: peak
+      !> Mean viscosity ratio [-]
+      real(wp), intent(out) :: mean
+      !> d ln(mean)/d ln(p0) [-]
+      real(wp), intent(out) :: log_slope
+
+      integer :: i
+      ! alpha p0; derivative of the mean over it; viscosity ratio at a point and its logarithmic slope [-]
+      real(wp) :: exponent, derivative, ratio, point_slope
+      ! Square of alpha p0; polynomials of its even and odd powers, with each term times its power [-]
+      real(wp) :: square, even, odd, even_slope, odd_slope
+
+      mean = 0.0_wp
+      derivative = 0.0_wp
+      if (oil%pressure_law == law_cameron) then
+         exponent = oil%pressure_viscosity*peak
+         square = exponent**2
+         ! Even and odd powers apart, so that one need not wait for the other
+         even = cameron_coefficients(cameron_power)
+         even_slope = cameron_power*cameron_coefficients(cameron_power)
+         odd = 0.0_wp
+         odd_slope = 0.0_wp
+         do i = cameron_power - 1, 1, -2
+            odd = odd*square + cameron_coefficients(i)
+            odd_slope = odd_slope*square + powers(i)*cameron_coefficients(i)
+            even = even*square + cameron_coefficients(i - 1)
+            even_slope = even_slope*square + powers(i - 1)*cameron_coefficients(i - 1)
+         end do
+         mean = even + exponent*odd
+         log_slope = (even_slope + exponent*odd_slope)/mean
+         return
+      end if
+      do i = 1, size(rule_heights)
+         call relative_viscosity(oil, peak*rule_heights(i), ratio, point_slope)
+         mean = mean + rule_weights(i)*ratio
+         derivative = derivative + rule_weights(i)*ratio*point_slope
+      end do
+      log_slope = derivative/mean
+   end subroutine mean_relative_viscosity
+
+   !> Viscosity at a pressure over that at ambient pressure, and its logarithmic slope.
+   !>
+   !> Barus `exp(alpha p)`; Cameron `(1 + alpha p/16)^16`, good to about 1 GPa; Roelands
+   !> `exp((ln eta0 + 9.67) ((1 + 5.1e-9 p)^Z - 1))`.
+   pure subroutine relative_viscosity(oil, pressure, ratio, log_slope)
+      !> Oil at its temperature
+      type(oil_t), intent(in) :: oil
+      !> Pressure above ambient [Pa]
+      real(wp), intent(in) :: pressure
+      !> Viscosity ratio [-]
+      real(wp), intent(out) :: ratio
+      !> d ln(ratio)/d ln(pressure) [-]
+      real(wp), intent(out) :: log_slope
+
+      ! Base of the power in Cameron's and in Roelands' law; the latter's power [-]
+      real(wp) :: base, power
+
+      select case (oil%pressure_law)
+      case (law_barus)
+         log_slope = oil%pressure_viscosity*pressure
+         ratio = exp(min(log_slope, largest_exponent))
+      case (law_cameron)
+         base = 1.0_wp + oil%pressure_viscosity*pressure/cameron_power
+         ratio = base**cameron_power
+         log_slope = oil%pressure_viscosity*pressure/base
+      case default
+         base = 1.0_wp + pressure/roelands_pressure
+         power = base**oil%roelands_index
+         ratio = exp(min(oil%roelands_exponent*(power - 1.0_wp), largest_exponent))
+         log_slope = oil%roelands_exponent*oil%roelands_index*power*(1.0_wp - 1.0_wp/base)
+      end select
+   end subroutine relative_viscosity
+
+   !> Logarithm of the viscosity at a pressure over that at ambient pressure, however large, and its slope.
+   !>
+   !> Sources: as for `relative_viscosity`.
+   pure subroutine log_relative_viscosity(oil, pressure, value, slope)
+      !> Oil at its temperature
+      type(oil_t), intent(in) :: oil
+      !> Pressure above ambient [Pa]
+      real(wp), intent(in) :: pressure
+      !> ln of the viscosity ratio [-]
+      real(wp), intent(out) :: value
+      !> Its derivative over the pressure [1/Pa]
+      real(wp), intent(out) :: slope
+
+      ! Base of the power in Cameron's and in Roelands' law; the latter's power [-]
+      real(wp) :: base, power
+
+      select case (oil%pressure_law)
+      case (law_barus)
+         value = oil%pressure_viscosity*pressure
+         slope = oil%pressure_viscosity
+      case (law_cameron)
+         base = 1.0_wp + oil%pressure_viscosity*pressure/cameron_power
+         value = cameron_power*log(base)
+         slope = oil%pressure_viscosity/base
+      case default
+         base = 1.0_wp + pressure/roelands_pressure
+         power = base**oil%roelands_index
+         value = oil%roelands_exponent*(power - 1.0_wp)
+         slope = oil%roelands_exponent*oil%roelands_index*power/(base*roelands_pressure)
+      end select
+   end subroutine log_relative_viscosity
+
+end module camroller_lubricant

@@ -1,0 +1,263 @@
+!> Friction between cam and roller: shear of the film, boundary friction, rolling resistance.
+!>
+!> In: film, viscosity, load share, sliding speed. Out: forces, with their slope over the sliding speed where
+!> the roller's stiffness needs it. Sources: Islam (2019) eqs. (33), (37)-(41); Eyring (1936) as in Johnson and Tevaarwerk
+!> (1977); Goksem and Hargreaves (1978); Biboulet and Houpert (2010).
+module camroller_traction
+   use camroller_kinds, only : wp, pi
+   use camroller_names, only : name_length
+   use camroller_contact_rule, only : rule_heights, rule_weights
+   use camroller_lubricant, only : oil_t, relative_viscosity
+   implicit none
+   private
+
+   public :: traction_t, shear_law_names, cap_names, rolling_law_names
+   public :: film_pressure, newtonian_shear, eyring_shear, limit_shear, mobilised_share, sliding_direction, rolling_resistance, &
+      & resistance_speed_slope
+   public :: law_newtonian, law_eyring, cap_smooth, cap_sharp, rolling_biboulet_houpert, rolling_goksem_hargreaves, rolling_none
+
+   !> Shear of the film
+   character(len=*), parameter :: shear_law_names(*) = [character(len=name_length) :: "newtonian", "eyring"]
+   !> How the limiting traction is approached
+   character(len=*), parameter :: cap_names(*) = [character(len=name_length) :: "smooth", "sharp"]
+   !> Rolling resistance
+   character(len=*), parameter :: rolling_law_names(*) = [character(len=name_length) :: &
+      "biboulet_houpert", "goksem_hargreaves", "none"]
+   !> Positions in the lists of names
+   integer, parameter :: law_newtonian = 1, law_eyring = 2, cap_smooth = 1, cap_sharp = 2, &
+      & rolling_biboulet_houpert = 1, rolling_goksem_hargreaves = 2, rolling_none = 3
+
+   !> Friction of the film
+   type :: traction_t
+      !> One of `shear_law_names`
+      character(len=name_length) :: shear_law = "newtonian"
+      !> Eyring stress of the oil [Pa]; law `eyring`
+      real(wp) :: eyring_stress = 0.0_wp
+      !> Limiting traction coefficient of the film [-]
+      real(wp) :: limiting_coefficient = 0.08_wp
+      !> One of `cap_names`
+      character(len=name_length) :: cap = "smooth"
+      !> One of `rolling_law_names`
+      character(len=name_length) :: rolling_law = "biboulet_houpert"
+      !> Does rolling resistance act on the roller's spin?
+      logical :: in_roller_balance = .true.
+   end type traction_t
+
+contains
+
+   !> Pressure in the middle of the film, `(4/pi) (W - W_a)/(A_a - A_r)`: a half ellipse over the part of the contact that the
+   !> asperities leave. Source: Islam (2019) eq. (37), shaped as (25).
+   elemental function film_pressure(film_load, apparent_area, real_area) result(pressure)
+      !> Load carried by the film, W - W_a [N]
+      real(wp), intent(in) :: film_load
+      !> Apparent contact area [m^2]
+      real(wp), intent(in) :: apparent_area
+      !> Real contact area of the asperities [m^2]
+      real(wp), intent(in) :: real_area
+      !> Pressure in the middle [Pa]
+      real(wp) :: pressure
+
+      pressure = 4.0_wp/pi*film_load/(apparent_area - real_area)
+   end function film_pressure
+
+   !> Shear force of a Newtonian film, `V_s eta A/h_c`, before any limit. Source: Islam (2019) eq. (33).
+   elemental function newtonian_shear(sliding_speed, viscosity, area, film) result(force)
+      !> Sliding speed, V_s [m/s]
+      real(wp), intent(in) :: sliding_speed
+      !> Viscosity, mean over the contact [Pa s]
+      real(wp), intent(in) :: viscosity
+      !> Apparent contact area, 2 b L [m^2]
+      real(wp), intent(in) :: area
+      !> Central film thickness [m], positive
+      real(wp), intent(in) :: film
+      !> Shear force [N]
+      real(wp) :: force
+
+      force = sliding_speed*viscosity*area/film
+   end function newtonian_shear
+
+   !> Shear force of an Eyring film, `int tau_E asinh(eta V_s/(h_c tau_E)) dA`, and its slopes.
+   !>
+   !> Quadrature as for the mean viscosity; as the stress tends to infinity the force tends to the Newtonian one.
+   pure subroutine eyring_shear(sliding_speed, oil, peak, area, film, eyring_stress, force, slope, peak_slope)
+      !> Sliding speed, V_s [m/s]
+      real(wp), intent(in) :: sliding_speed
+      !> Oil at its temperature
+      type(oil_t), intent(in) :: oil
+      !> Pressure in the middle of the film [Pa]
+      real(wp), intent(in) :: peak
+      !> Apparent contact area, 2 b L [m^2]
+      real(wp), intent(in) :: area
+      !> Central film thickness [m], positive
+      real(wp), intent(in) :: film
+      !> Eyring stress, tau_E [Pa]
+      real(wp), intent(in) :: eyring_stress
+      !> Shear force [N]
+      real(wp), intent(out) :: force
+      !> d force/d sliding speed at constant film and pressure [N s/m]
+      real(wp), intent(out) :: slope
+      !> d force/d ln(peak) at constant film [N]
+      real(wp), intent(out) :: peak_slope
+
+      ! eta/(h_c tau_E) at a point, and over the viscosity ratio there [s/m]
+      real(wp) :: rate, unit_rate
+      ! Viscosity ratio at a point, its logarithmic slope, slope of asinh [-]
+      real(wp) :: ratio, log_slope, bend
+      integer :: i
+
+      force = 0.0_wp
+      slope = 0.0_wp
+      peak_slope = 0.0_wp
+      unit_rate = oil%viscosity/(film*eyring_stress)
+      do i = 1, size(rule_heights)
+         call relative_viscosity(oil, peak*rule_heights(i), ratio, log_slope)
+         rate = unit_rate*ratio
+         bend = rate/hypot(1.0_wp, rate*sliding_speed)
+         force = force + rule_weights(i)*asinh(rate*sliding_speed)
+         slope = slope + rule_weights(i)*bend
+         peak_slope = peak_slope + rule_weights(i)*bend*sliding_speed*log_slope
+      end do
+      force = force*area*eyring_stress
+      slope = slope*area*eyring_stress
+      peak_slope = peak_slope*area*eyring_stress
+   end subroutine eyring_shear
+
+   !> Limit a shear force to a limiting traction: sharply, or smoothly as `limit tanh(force/limit)`.
+   elemental subroutine limit_shear(cap, limit, force, force_slope, limit_slope)
+      !> Position in `cap_names`
+      integer, intent(in) :: cap
+      !> Limiting force, mu_lim W [N], positive
+      real(wp), intent(in) :: limit
+      !> Shear force, in and out [N]
+      real(wp), intent(inout) :: force
+      !> d(limited force)/d(force) [-]
+      real(wp), intent(out) :: force_slope
+      !> d(limited force)/d(limit) [-]
+      real(wp), intent(out) :: limit_slope
+
+      ! tanh(force/limit), force over limit [-]
+      real(wp) :: part, load_factor
+
+      force_slope = 1.0_wp
+      limit_slope = 0.0_wp
+      if (cap == cap_smooth) then
+         load_factor = force/limit
+         part = tanh(load_factor)
+         force = limit*part
+         force_slope = (1.0_wp - part)*(1.0_wp + part)
+         limit_slope = part - load_factor*force_slope
+      else if (abs(force) > limit) then
+         limit_slope = sign(1.0_wp, force)
+         force = limit*limit_slope
+         force_slope = 0.0_wp
+      end if
+   end subroutine limit_shear
+
+   !> Part of the boundary friction that the slip mobilises, `tanh(V_s/v_b)`, with its sign.
+   elemental function mobilised_share(sliding_speed, mobilising_speed) result(share)
+      !> Sliding speed, V_s [m/s]
+      real(wp), intent(in) :: sliding_speed
+      !> Mobilising speed, v_b [m/s], positive
+      real(wp), intent(in) :: mobilising_speed
+      !> Part between -1 and 1 [-]
+      real(wp) :: share
+
+      share = tanh(sliding_speed/mobilising_speed)
+   end function mobilised_share
+
+   !> The same in the limit of no mobilising speed: the sign of the sliding speed; zero at rest, where any part may be mobilised.
+   elemental function sliding_direction(sliding_speed) result(direction)
+      !> Sliding speed, V_s [m/s]
+      real(wp), intent(in) :: sliding_speed
+      !> -1, 0 or 1 [-]
+      real(wp) :: direction
+
+      direction = 0.0_wp
+      if (abs(sliding_speed) > 0.0_wp) direction = sign(1.0_wp, sliding_speed)
+   end function sliding_direction
+
+   !> Rolling resistance of each surface, its size, and its logarithmic slope over the load; zero at standstill or without load.
+   !>
+   !> Goksem and Hargreaves (1978), elastic regime: `F_r = 4.318 (G U)^0.658 W*^0.0126 L R/alpha`; Islam (2019) eq. (39).
+   !> Biboulet and Houpert (2010), doi 10.1243/13506501JET790, rigid to elastic: with U2 = 2 U and M2 = W*/sqrt(U2),
+   !> `F_r/(E' R L) = W*^1.5 T`, `T = 1.4/M2 / (1 + ((1.4/1.45) sqrt(M2))^10)^0.1`.
+   elemental subroutine rolling_resistance(law, speed_group, load_group, modulus, radius, length, pressure_viscosity, force, &
+      & log_slope)
+      !> Position in `rolling_law_names`
+      integer, intent(in) :: law
+      !> U [-]
+      real(wp), intent(in) :: speed_group
+      !> W/(E' R L): with the whole load for Goksem and Hargreaves, with the film's load for Biboulet and Houpert [-]
+      real(wp), intent(in) :: load_group
+      !> E' [Pa]
+      real(wp), intent(in) :: modulus
+      !> Equivalent radius, R [m]
+      real(wp), intent(in) :: radius
+      !> Length of the contact, L [m]
+      real(wp), intent(in) :: length
+      !> Pressure-viscosity coefficient, alpha [1/Pa]
+      real(wp), intent(in) :: pressure_viscosity
+      !> Rolling resistance [N]
+      real(wp), intent(out) :: force
+      !> d ln(force)/d ln(load group) [-]
+      real(wp), intent(out) :: log_slope
+
+      ! sqrt(2 U) [-]
+      real(wp) :: root
+      ! M2 (1.4/1.45)^2; its power 5 or -5, the smaller of both, then what it multiplies the force by [-]
+      real(wp) :: regime, blend
+      ! Blend whose fourth power is round-off [-]
+      real(wp), parameter :: small_blend = 1.0e-4_wp
+
+      force = 0.0_wp
+      log_slope = 0.0_wp
+      if (speed_group <= 0.0_wp .or. load_group <= 0.0_wp) return
+      select case (law)
+      case (rolling_goksem_hargreaves)
+         force = 4.318_wp*(pressure_viscosity*modulus*speed_group)**0.658_wp*load_group**0.0126_wp &
+            & *length*radius/pressure_viscosity
+         log_slope = 0.0126_wp
+      case (rolling_biboulet_houpert)
+         root = sqrt(2.0_wp*speed_group)
+         regime = load_group/root*(1.4_wp/1.45_wp)**2
+         if (regime < 1.0_wp) then
+            blend = regime**5
+            force = 1.4_wp*sqrt(load_group)*root
+            log_slope = 0.5_wp/(1.0_wp + blend)
+         else
+            blend = (1.0_wp/regime)**5
+            force = 1.45_wp*root*sqrt(root)
+            log_slope = 0.5_wp*blend/(1.0_wp + blend)
+         end if
+         if (blend < small_blend) then
+            ! the first terms of the series, exact there
+            blend = 1.0_wp - 0.1_wp*blend*(1.0_wp - 0.55_wp*blend*(1.0_wp - 0.7_wp*blend))
+         else
+            blend = (1.0_wp + blend)**(-0.1_wp)
+         end if
+         force = force*blend*modulus*radius*length
+      end select
+   end subroutine rolling_resistance
+
+   !> Logarithmic slope of the rolling resistance over the speed group, from the one over the load group.
+   !>
+   !> The law of Biboulet and Houpert is a power 3/2 of load and sqrt(2 U) together.
+   elemental function resistance_speed_slope(law, load_slope) result(slope)
+      !> Position in `rolling_law_names`
+      integer, intent(in) :: law
+      !> d ln(force)/d ln(load group) [-]
+      real(wp), intent(in) :: load_slope
+      !> d ln(force)/d ln(U) [-]
+      real(wp) :: slope
+
+      select case (law)
+      case (rolling_goksem_hargreaves)
+         slope = 0.658_wp
+      case (rolling_biboulet_houpert)
+         slope = 0.5_wp*(1.5_wp - load_slope)
+      case default
+         slope = 0.0_wp
+      end select
+   end function resistance_speed_slope
+
+end module camroller_traction

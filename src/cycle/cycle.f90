@@ -1,0 +1,415 @@
+!> The periodic cycle of one follower: where to start, the integration, and the state at any angle afterwards.
+!>
+!> In: model, numerics. Out: `cycle_t`, from which states, series and means are taken. The contraction over a
+!> cycle is so strong that a start from the algebraic balance at the angle of fastest decay is periodic after one cycle as a
+!> rule; it is checked, and further cycles are integrated where it is not.
+module camroller_cycle
+   use camroller_kinds, only : wp, pi, two_pi, degree
+   use camroller_error, only : error_t, raise, add_context, kind_convergence, kind_deck
+   use camroller_accuracy, only : resolve_numerics, evaluations_allowed
+   use camroller_case, only : numerics_t, quasi_static
+   use camroller_model, only : model_t, evaluate_geometry
+   use camroller_kinematics, only : position_t
+   use camroller_dynamics, only : moments_t
+   use camroller_number_text, only : fixed_text
+   use camroller_state, only : state_t, evaluate_state, evaluate_loading
+   use camroller_events, only : find_stops, cycle_stops
+   use camroller_fold, only : explain_end
+   use camroller_spin, only : spin_problem_t, rolling_speed_at
+   use camroller_cycle_start, only : choose_start, run_up_stops, rolling_speed_at_angle
+   use camroller_settled_slip, only : settle
+   use camroller_quasi_static, only : quasi_static_cycle
+   use camroller_contraction, only : largest_contraction
+   use camroller_stick, only : has_stick, share_at_rest
+   use camroller_stick_slip, only : phase_t, integrate_phases, direction_at
+   use camroller_ode, only : method_t, options_t, counters_t, integrate
+   use camroller_ode_method, only : allow_more
+   use camroller_ode_methods, only : new_method
+   use camroller_trajectory, only : trajectory_t, interpolate_state, curve_slope
+   implicit none
+   private
+
+   public :: cycle_t, integrate_cycle, integrate_between, state_at
+
+   !> One periodic cycle
+   type :: cycle_t
+      type(trajectory_t) :: trajectory
+      !> Phases of sliding and sticking; allocated where boundary friction is set-valued
+      type(phase_t), allocatable :: phases(:)
+      type(counters_t) :: counters
+      !> Is the trajectory that of the roller's surface speed instead of the sliding speed?
+      logical :: has_surface_speed = .false.
+      !> Is nothing known about the solution between its points but that it may be taken as linear?
+      logical :: is_linear = .false.
+      !> Cam angle from full lift where the cycle starts [rad]
+      real(wp) :: start = 0.0_wp
+      !> Stops of the cycle, with start and end [rad]
+      real(wp), allocatable :: stops(:)
+      !> Cycles integrated until start and end agreed
+      integer :: cycles = 0
+      !> Difference of the sliding speed between end and start, relative to its largest value [-]
+      real(wp) :: closure = 0.0_wp
+      !> Largest sliding speed, or what counts as none where that is less [m/s]
+      real(wp) :: scale = 0.0_wp
+      !> Distance of the start from the periodic cycle, relative to the largest sliding speed [-]
+      real(wp) :: distance = 0.0_wp
+      !> Error allowed per step [m/s]; zero for methods without error control
+      real(wp) :: step_error = 0.0_wp
+      !> Error of the sliding speed that was aimed at, over its largest value; means are integrated to the same [-]
+      real(wp) :: tolerance = 0.0_wp
+   end type cycle_t
+
+   !> Part of the integration's tolerance to which the contact is solved at each evaluation [-]
+   real(wp), parameter :: contact_accuracy = 1.0e-3_wp
+   !> Error allowed per step over the error allowed in the cycle: errors of a few steps add up before they decay [-]
+   real(wp), parameter :: step_part = 0.2_wp
+   !> First step of a method with error control [rad]
+   real(wp), parameter :: first_step = 0.1_wp*degree
+   !> Steps after which a method that stiffness does not slow down is given up: several times what a lift table of thousands of rows
+   !> takes
+   integer, parameter :: most_implicit_steps = 100000
+   !> Scale over the largest sliding speed of a cycle, above which the cycle is integrated again with that as its scale: a balance
+   !> that the roller's inertia keeps it from may be far away [-]
+   real(wp), parameter :: scale_excess = 10.0_wp
+   !> Turns after which one that does not halve the closure is followed by one with a finer tolerance
+   integer, parameter :: patience = 4
+   !> The finer tolerance over the other; the finest [-]
+   real(wp), parameter :: finer = 0.1_wp, finest_tolerance = 1.0e-10_wp
+   !> Largest step [rad]
+   real(wp), parameter :: largest_step = 30.0_wp*degree
+
+contains
+
+   !> Integrate until the cycle is periodic.
+   subroutine integrate_cycle(cycle, model, numerics, error)
+      !> The cycle
+      type(cycle_t), intent(out) :: cycle
+      !> The model
+      type(model_t), intent(in), target :: model
+      !> Method, tolerance, criterion
+      type(numerics_t), intent(in) :: numerics
+      !> Deck error for an unknown method, convergence error where the cycle does not become periodic
+      type(error_t), allocatable, intent(out) :: error
+
+      type(spin_problem_t) :: problem
+      class(method_t), allocatable :: method
+      type(options_t) :: options
+      ! Stops within one turn [rad]
+      real(wp), allocatable :: stops(:)
+      ! Sliding speed or surface speed; at the start of the cycle; scale of the sliding speed, the least one, largest met [m/s]
+      real(wp) :: state(1), first(1), scale, least, largest
+      ! Start and end of the turn before [m/s]; smallest closure with this tolerance [-]
+      real(wp) :: last(2), best
+      type(numerics_t) :: resolved
+      type(options_t) :: turn_options
+      integer :: turn
+
+      resolved = resolve_numerics(numerics)
+      cycle%tolerance = resolved%tolerance
+      call find_stops(model, stops)
+      call choose_start(model, cycle%start, state(1), scale, least, cycle%counters%evaluations)
+      if (resolved%method == quasi_static) then
+         call check_mobilisation(model, error)
+         if (allocated(error)) return
+         cycle%stops = cycle_stops(stops, cycle%start)
+         cycle%cycles = 1
+         call quasi_static_cycle(model, cycle%stops, resolved%tolerance*scale, cycle%trajectory, cycle%counters, error)
+         return
+      end if
+      call choose_method(cycle, model, resolved, scale, problem, method, options, error)
+      if (allocated(error)) return
+      if (cycle%has_surface_speed) state(1) = rolling_speed_at_angle(model, cycle%start) - state(1)
+      cycle%stops = cycle_stops(stops, cycle%start)
+
+      ! The balance is not quite the periodic state: a short run up to the start lets the difference decay
+      call integrate_spin(cycle, problem, method, options, run_up_stops(cycle%stops), state, error)
+      if (allocated(error)) return
+      last = huge(1.0_wp)
+      best = huge(1.0_wp)
+      do turn = 1, resolved%max_cycles
+         cycle%cycles = turn
+         first = state
+         call allow_more(options, cycle%counters, turn_options)
+         call integrate_spin(cycle, problem, method, turn_options, cycle%stops, state, error)
+         if (allocated(error)) return
+         largest = scale
+         if (.not. cycle%has_surface_speed) largest = max(least, maxval(abs(cycle%trajectory%state(1, :cycle%trajectory%count))))
+         cycle%scale = largest
+         cycle%closure = abs(state(1) - first(1))/largest
+         if (scale > scale_excess*largest .and. turn < resolved%max_cycles) then
+            scale = largest
+            call take_scale(scale, resolved%tolerance, problem, options)
+         else if (is_periodic(cycle, problem, resolved%periodicity)) then
+            if (allocated(cycle%phases)) cycle%stops = cycle_stops([cycle%stops, cycle%phases%start], cycle%start)
+            if (.not. cycle%is_linear) cycle%step_error = options%tolerance(1)
+            return
+         end if
+         call approach(last, [first(1), state(1)], resolved%tolerance*largest, state(1))
+         if (turn > patience .and. cycle%closure > 0.5_wp*best) call refine(scale, resolved%tolerance, problem, options, best)
+         best = min(best, cycle%closure)
+      end do
+      call raise(error, kind_convergence, "the cycle did not become periodic: after the cycles that max_cycles allows, its "// &
+         & "start at "//trim(problem%name_time(cycle%start))//" is still further from the periodic one than periodicity; a "// &
+         & "spin that is hardly damped has this effect, and explicit steps beyond the stability limit")
+   end subroutine integrate_cycle
+
+   !> Start of the next turn: the end of this one, or where two turns tell how fast starts and ends approach each other, the point
+   !> where they would meet.
+   !>
+   !> What a turn makes of its start is a function of one variable, which keeps the order of starts since solutions do not cross; so
+   !> the secant between two turns finds its fixed point within a few, also where the spin is hardly damped.
+   pure subroutine approach(last, this, noise, next)
+      !> Start and end of the turn before; out: of this one [m/s]
+      real(wp), intent(inout) :: last(2)
+      !> Start and end of this turn [m/s]
+      real(wp), intent(in) :: this(2)
+      !> Error of an end [m/s]
+      real(wp), intent(in) :: noise
+      !> Start of the next turn [m/s]
+      real(wp), intent(out) :: next
+
+      ! Change of the end with the start [-]
+      real(wp) :: contraction
+
+      next = this(2)
+      if (abs(last(1)) < huge(1.0_wp) .and. abs(this(1) - last(1)) > noise) then
+         contraction = (this(2) - last(2))/(this(1) - last(1))
+         if (contraction > 0.0_wp .and. contraction < 1.0_wp) next = this(1) + (this(2) - this(1))/(1.0_wp - contraction)
+      end if
+      last = this
+   end subroutine approach
+
+   !> Is a cycle whose closure is known as close to the periodic one as it must be?
+   function is_periodic(cycle, problem, periodicity) result(verdict)
+      !> The cycle; its distance from the periodic one is set
+      type(cycle_t), intent(inout) :: cycle
+      !> The roller's spin
+      type(spin_problem_t), intent(in) :: problem
+      !> Largest distance [-]
+      real(wp), intent(in) :: periodicity
+      !> True where it is
+      logical :: verdict
+
+      ! What the cycle leaves of a disturbance [-]
+      real(wp) :: contraction
+
+      verdict = cycle%closure <= periodicity
+      if (.not. verdict) return
+      associate (path => cycle%trajectory)
+         call largest_contraction(problem, path, cycle%phases, sign(periodicity*cycle%scale, path%state(1, path%count) &
+            & - path%state(1, 1)), contraction, cycle%counters%evaluations)
+      end associate
+      cycle%distance = cycle%closure/max(1.0_wp - contraction, epsilon(1.0_wp))
+      verdict = cycle%distance <= periodicity
+   end function is_periodic
+
+   !> Integrate from one angle to another, less than a turn ahead, with the roller's spin given at the first.
+   subroutine integrate_between(piece, model, numerics, stops, scale, roller_spin, error)
+      !> The piece of a cycle
+      type(cycle_t), intent(out) :: piece
+      !> The model
+      type(model_t), intent(in), target :: model
+      !> Method and tolerance
+      type(numerics_t), intent(in) :: numerics
+      !> First angle, stops between, last angle [rad]
+      real(wp), intent(in) :: stops(:)
+      !> Scale of the sliding speed, to which the tolerance is relative [m/s]
+      real(wp), intent(in) :: scale
+      !> Spin of the roller, from first to last angle [rad/s]
+      real(wp), intent(inout) :: roller_spin
+      !> Deck error for an unknown method, convergence error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(spin_problem_t) :: problem
+      class(method_t), allocatable :: method
+      type(options_t) :: options
+      ! Sliding speed or surface speed [m/s]
+      real(wp) :: state(1)
+      integer :: last
+
+      last = size(stops)
+      piece%start = stops(1)
+      piece%stops = stops
+      call choose_method(piece, model, numerics, scale, problem, method, options, error)
+      if (allocated(error)) return
+      state = roller_spin*model%roller_radius
+      if (.not. piece%has_surface_speed) state = rolling_speed_at_angle(model, stops(1)) - state
+      call integrate_spin(piece, problem, method, options, stops, state, error)
+      if (allocated(error)) return
+      if (.not. piece%has_surface_speed) state = rolling_speed_at_angle(model, stops(last)) - state
+      roller_spin = state(1)/model%roller_radius
+   end subroutine integrate_between
+
+   !> Problem, method and options of an integration.
+   subroutine choose_method(cycle, model, numerics, scale, problem, method, options, error)
+      !> The cycle: how its trajectory is to be read
+      type(cycle_t), intent(inout) :: cycle
+      !> The model
+      type(model_t), intent(in), target :: model
+      !> Method and tolerance
+      type(numerics_t), intent(in) :: numerics
+      !> Scale of the sliding speed [m/s]
+      real(wp), intent(in) :: scale
+      !> The roller's spin
+      type(spin_problem_t), intent(out) :: problem
+      !> The method
+      class(method_t), allocatable, intent(out) :: method
+      !> Tolerance and steps
+      type(options_t), intent(out) :: options
+      !> Deck error for an unknown method
+      type(error_t), allocatable, intent(out) :: error
+
+      type(numerics_t) :: resolved
+
+      resolved = resolve_numerics(numerics)
+      cycle%tolerance = resolved%tolerance
+      call new_method(method, resolved%method, 1, error)
+      if (allocated(error)) return
+      cycle%has_surface_speed = method%error_order == 0
+      cycle%is_linear = cycle%has_surface_speed
+      if (cycle%has_surface_speed) call check_mobilisation(model, error)
+      cycle%trajectory%is_linear = cycle%is_linear
+      problem%model => model
+      problem%has_surface_speed = cycle%has_surface_speed
+      problem%accuracy = contact_accuracy*resolved%tolerance
+      if (cycle%is_linear) problem%accuracy = 0.0_wp
+      call take_scale(scale, resolved%tolerance, problem, options)
+      options%step = numerics%step
+      if (.not. cycle%is_linear) options%step = min(numerics%step, first_step)
+      options%max_step = largest_step
+      if (method%needs_jacobian) then
+         options%max_steps = most_implicit_steps
+         options%max_evaluations = evaluations_allowed(resolved%tolerance)
+      end if
+   end subroutine choose_method
+
+   !> Make tolerances relative to a scale of the sliding speed.
+   pure subroutine take_scale(scale, tolerance, problem, options)
+      !> Scale of the sliding speed [m/s]
+      real(wp), intent(in) :: scale
+      !> Tolerance of the cycle [-]
+      real(wp), intent(in) :: tolerance
+      !> The roller's spin
+      type(spin_problem_t), intent(inout) :: problem
+      !> Tolerance of a step
+      type(options_t), intent(inout) :: options
+
+      problem%small_state = [scale]
+      options%tolerance = [step_part*tolerance*scale]
+   end subroutine take_scale
+
+   !> Integrate with a finer tolerance from now on: errors of the integration keep start and end of a cycle apart.
+   pure subroutine refine(scale, tolerance, problem, options, best)
+      !> Scale of the sliding speed [m/s]
+      real(wp), intent(in) :: scale
+      !> Tolerance of the cycle [-]
+      real(wp), intent(inout) :: tolerance
+      !> The roller's spin
+      type(spin_problem_t), intent(inout) :: problem
+      !> Tolerance of a step
+      type(options_t), intent(inout) :: options
+      !> Smallest closure so far; out: none [-]
+      real(wp), intent(out) :: best
+
+      best = huge(1.0_wp)
+      tolerance = max(min(tolerance, finest_tolerance), finer*tolerance)
+      problem%accuracy = min(problem%accuracy, contact_accuracy*tolerance)
+      call take_scale(scale, tolerance, problem, options)
+   end subroutine refine
+
+   !> Refuse sticking and sliding with a method that cannot tell them apart.
+   subroutine check_mobilisation(model, error)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> Deck error
+      type(error_t), allocatable, intent(out) :: error
+
+      if (.not. has_stick(model)) return
+      call raise(error, kind_deck, "asperity mobilisation = 'stick_slip' needs an integration method with error control")
+   end subroutine check_mobilisation
+
+   !> Integrate between stops, in phases where boundary friction is set-valued.
+   subroutine integrate_spin(cycle, problem, method, options, stops, state, error)
+      !> The cycle or a piece of one: trajectory, phases, counters
+      type(cycle_t), intent(inout) :: cycle
+      !> The roller's spin
+      type(spin_problem_t), intent(inout) :: problem
+      !> The method
+      class(method_t), intent(inout) :: method
+      !> Tolerance and steps
+      type(options_t), intent(in) :: options
+      !> First angle, stops between, last angle [rad]
+      real(wp), intent(in) :: stops(:)
+      !> Sliding speed or surface speed, from first to last angle [m/s]
+      real(wp), intent(inout) :: state(1)
+      !> Convergence error
+      type(error_t), allocatable, intent(out) :: error
+
+      if (has_stick(problem%model)) then
+         call integrate_phases(problem, method, options, stops, state, cycle%trajectory, cycle%phases, cycle%counters, error)
+      else
+         call integrate(problem, method, options, stops, state, cycle%trajectory, cycle%counters, error)
+      end if
+      call add_context(error, "integrating the roller's spin")
+      associate (path => cycle%trajectory)
+         if (allocated(error) .and. path%count > 0) then
+            call explain_end(problem%model, path%time(path%count), maxval(abs(path%state(1, :path%count))), error)
+         end if
+      end associate
+   end subroutine integrate_spin
+
+   !> State of the follower at any cam angle.
+   subroutine state_at(cycle, model, angle, hint, state, error)
+      !> The cycle
+      type(cycle_t), intent(in) :: cycle
+      !> The model it was integrated with
+      type(model_t), intent(in), target :: model
+      !> Cam angle from full lift, any turn [rad]
+      real(wp), intent(in) :: angle
+      !> Interval of the trajectory where the search starts
+      integer, intent(inout) :: hint
+      !> State
+      type(state_t), intent(out) :: state
+      !> Convergence error where the contact has no balance
+      type(error_t), allocatable, intent(out) :: error
+
+      type(position_t) :: position
+      type(moments_t) :: moments
+      ! Angle within the cycle [rad], sliding speed or surface speed [m/s], gas force [N]
+      real(wp) :: inside, value(1), force
+      ! Slope of the curve [m/s/rad]
+      real(wp) :: slope(1)
+      ! Mobilised part of the boundary friction [-]
+      real(wp) :: share
+      integer :: status
+      logical :: is_moved
+
+      inside = cycle%start + modulo(angle - cycle%start, two_pi)
+      call interpolate_state(cycle%trajectory, inside, hint, value)
+      if (cycle%has_surface_speed) then
+         call evaluate_loading(model, inside, position, force, moments, status)
+         value = rolling_speed_at(model, position) - value
+      end if
+      if (allocated(cycle%phases)) then
+         share = real(direction_at(cycle%phases, inside), wp)
+         status = 0
+         if (abs(share) <= 0.0_wp) then
+            value = 0.0_wp
+            call share_at_rest(model, inside, share, status)
+         end if
+         if (status == 0) call evaluate_state(model, inside, value(1), state, status, share)
+      else
+         call evaluate_state(model, inside, value(1), state, status)
+         if (status == 0 .and. cycle%step_error > 0.0_wp) then
+            call curve_slope(cycle%trajectory, inside, hint, slope)
+            call settle(model, inside, slope(1), cycle%step_error, state, value(1), is_moved)
+            if (is_moved) call evaluate_state(model, inside, value(1), state, status)
+         end if
+      end if
+      if (status /= 0) then
+         call raise(error, kind_convergence, "load and friction of the contact have no common solution at cam angle "// &
+            & fixed_text(modulo(180.0_wp + angle/degree, 360.0_wp), 3)//" deg")
+      end if
+   end subroutine state_at
+
+end module camroller_cycle

@@ -1,0 +1,101 @@
+!> Where a cycle starts: the cam angle of fastest decay, the sliding speed in the algebraic balance there, and the run-up to it.
+!>
+!> In: model. Out: start, sliding speed, scale of the sliding speed, stops of the run-up.
+module camroller_cycle_start
+   use camroller_kinds, only : wp, pi, two_pi, degree
+   use camroller_model, only : model_t, evaluate_geometry
+   use camroller_kinematics, only : position_t
+   use camroller_spin, only : rolling_speed_at
+   use camroller_balance, only : follow_balance, least_slip
+   implicit none
+   private
+
+   public :: choose_start, run_up_stops, rolling_speed_at_angle
+
+   !> Angles at which the algebraic balance is tried
+   integer, parameter :: balance_points = 36
+   !> Accuracy of the balance over the speed of pure rolling: for a scale, and for the start of the run-up [-]
+   real(wp), parameter :: scan_tolerance = 1.0e-5_wp, start_tolerance = 1.0e-10_wp
+   !> Cam angle over which the difference between algebraic balance and periodic state decays before the cycle [rad]
+   real(wp), parameter :: run_up_angle = 5.0_wp*degree
+
+contains
+
+   !> Angle of fastest decay with the algebraic balance there, and the scale of the sliding speed.
+   subroutine choose_start(model, start, sliding_speed, scale, least_scale, evaluations)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> Cam angle from full lift [rad]
+      real(wp), intent(out) :: start
+      !> Sliding speed there [m/s]
+      real(wp), intent(out) :: sliding_speed
+      !> Largest sliding speed of the algebraic balance; sliding speed below which there is as good as none [m/s]
+      real(wp), intent(out) :: scale, least_scale
+      !> Evaluations of the contact, counted on
+      integer, intent(inout) :: evaluations
+
+      type(position_t) :: position
+      ! Angle [rad], sliding speed of the balance [m/s], decay rate [1/rad], fastest of them
+      real(wp) :: angle, balance, decay_rate, fastest
+      ! Largest speed of pure rolling, accuracy of the scan [m/s]
+      real(wp) :: largest_rolling, tolerance
+      integer :: i
+      logical :: is_found
+
+      start = 0.0_wp
+      sliding_speed = 0.0_wp
+      scale = 0.0_wp
+      fastest = -1.0_wp
+      largest_rolling = 0.0_wp
+      balance = 0.0_wp
+      tolerance = scan_tolerance*abs(rolling_speed_at_angle(model, -pi))
+      do i = 0, balance_points - 1
+         angle = -pi + (i + 0.5_wp)*two_pi/balance_points
+         call follow_balance(model, angle, tolerance, position, balance, decay_rate, evaluations, is_found)
+         largest_rolling = max(largest_rolling, abs(rolling_speed_at(model, position)))
+         if (.not. is_found) cycle
+         scale = max(scale, abs(balance))
+         if (decay_rate > fastest) then
+            fastest = decay_rate
+            start = angle
+            sliding_speed = balance
+         end if
+      end do
+      least_scale = least_slip*largest_rolling
+      scale = max(scale, least_scale)
+      if (.not. fastest >= 0.0_wp) return
+      tolerance = start_tolerance*max(abs(rolling_speed_at_angle(model, start)), scale)
+      call follow_balance(model, start, tolerance, position, sliding_speed, decay_rate, evaluations, is_found)
+   end subroutine choose_start
+
+   !> Stops of the run-up to a cycle: the last degrees before its start.
+   pure function run_up_stops(stops) result(run_up)
+      !> Stops of the cycle, with start and end [rad]
+      real(wp), intent(in) :: stops(:)
+      !> Stops of the run-up, with start and end [rad]
+      real(wp), allocatable :: run_up(:)
+
+      ! Stops one turn earlier [rad]
+      real(wp) :: earlier(size(stops))
+
+      earlier = stops - two_pi
+      run_up = [stops(1) - run_up_angle, pack(earlier, earlier > stops(1) - run_up_angle)]
+   end function run_up_stops
+
+   !> Speed of the roller's surface in pure rolling at a cam angle.
+   function rolling_speed_at_angle(model, angle) result(speed)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> Cam angle from full lift [rad]
+      real(wp), intent(in) :: angle
+      !> V_roll [m/s]
+      real(wp) :: speed
+
+      type(position_t) :: position
+      integer :: status
+
+      call evaluate_geometry(model, angle, position, status)
+      speed = rolling_speed_at(model, position)
+   end function rolling_speed_at_angle
+
+end module camroller_cycle_start

@@ -1,0 +1,246 @@
+!> Defect of the roller equation for the curve of a cycle, decay rate of a disturbance, and slopes of the losses.
+!>
+!> In: model, cycle, state at a point. Out: defect, decay rate, slopes of the losses over the sliding speed, for
+!> `error_estimate`.
+module camroller_defects
+   use camroller_kinds, only : wp
+   use camroller_model, only : model_t
+   use camroller_state, only : state_t, evaluate_spin
+   use camroller_contact_forces, only : contact_t
+   use camroller_cycle, only : cycle_t
+   use camroller_needle, only : bearing_torque_slope
+   use camroller_spin, only : decay_rate_of, full_decay_rate, rolling_speed_slope
+   use camroller_trajectory, only : curve_slope
+   implicit none
+   private
+
+   public :: find_defect, slip_slopes
+
+contains
+
+   !> Defect of the curve at a point, and the decay rate that holds over the distance that an error reaches there.
+   subroutine find_defect(model, cycle, angle, interval, state, error_so_far, defect, decay_rate)
+      !> Model of the lobe
+      type(model_t), intent(in) :: model
+      !> Cycle of the lobe
+      type(cycle_t), intent(in) :: cycle
+      !> Cam angle from full lift, in the trajectory [rad]
+      real(wp), intent(in) :: angle
+      !> Interval of the trajectory that holds it
+      integer, intent(in) :: interval
+      !> State there
+      type(state_t), intent(in) :: state
+      !> Error that the cycle has piled up before this interval [m/s]
+      real(wp), intent(in) :: error_so_far
+      !> Slope of the curve less rate of the equation [m/s/rad]
+      real(wp), intent(out) :: defect
+      !> Decay rate of a disturbance [1/rad]
+      real(wp), intent(out) :: decay_rate
+
+      ! Errors of steps that add up to one of the cycle [-]
+      real(wp), parameter :: few = 5.0_wp
+
+      defect = defect_at(model, cycle, angle, interval, state)
+      decay_rate = decay_rate_of(model, state%contact)
+      if (.not. allocated(cycle%phases)) decay_rate = decay_rate_at(model, angle, state)
+      if (.not. (cycle%is_linear .or. allocated(cycle%phases))) call weaken_decay(model, state, defect, decay_rate)
+      if (decay_rate < 0.0_wp) call limit_growth(model, state, max(few*cycle%step_error, abs(error_so_far)), decay_rate)
+   end subroutine find_defect
+
+   !> Changes with the sliding speed, as sizes: torque of the contact and of the roller's bearing, traction,
+   !> mobilised boundary friction, its share in the friction of the contact.
+   !>
+   !> The traction changes with the sliding speed as the decay rate says, film and rolling resistance with the entrainment by about
+   !> their size over that speed; the load follows the traction by the quotient of the arms about the pivot.
+   pure function slip_slopes(model, state, decay_rate, reach) result(slopes)
+      !> Model of the lobe
+      type(model_t), intent(in) :: model
+      !> State of the follower
+      type(state_t), intent(in) :: state
+      !> Decay rate of a disturbance there [1/rad], size of an error of the sliding speed [m/s]
+      real(wp), intent(in) :: decay_rate, reach
+      !> The changes, not negative: of the torques [N m s/m], of the forces [N s/m], of the share [s/m]
+      real(wp) :: slopes(5)
+
+      ! Change of the traction with the sliding speed [N s/m]; of the bearing's torque with the spin [N m s], with the load [m]
+      real(wp) :: by_slip, by_spin, arm
+      ! Sum of entrainment speed and sliding speed [m/s]
+      real(wp) :: speeds
+
+      slopes = 0.0_wp
+      associate (contact => state%contact, position => state%position)
+         if (.not. contact%is_touching) return
+         by_slip = max(decay_rate, 0.0_wp)*model%roller_inertia*model%speed/model%roller_radius**2
+         slopes(3) = by_slip
+         slopes(4:5) = boundary_slopes(model, state, by_slip, reach)
+         if (model%is_consistent) then
+            slopes(1) = (2.0_wp*(abs(contact%traction) + abs(contact%rolling_resistance)) + abs(contact%sliding_speed)*by_slip) &
+               & /model%speed
+         else
+            speeds = abs(contact%entrainment_speed) + abs(contact%sliding_speed)
+            slopes(1) = by_slip
+            if (speeds > 0.0_wp) slopes(1) = by_slip + state%contact_friction/speeds
+            slopes(1) = slopes(1)*abs(position%cam_arm)
+         end if
+         if (.not. allocated(model%bearing)) return
+         by_spin = bearing_torque_slope(model%bearing%friction_coefficient, contact%load, model%bearing%radius, &
+            & contact%relative_spin, model%bearing%reversal_spin)
+         arm = abs(contact%bearing_torque)/contact%load*abs(position%tangent_arm/position%normal_arm)
+         slopes(2) = abs(contact%bearing_torque)/(model%roller_radius*model%speed)
+         if (model%is_consistent) then
+            slopes(2) = slopes(2) + abs(contact%relative_spin)/model%speed*(by_spin/model%roller_radius + arm*by_slip)
+         else
+            slopes(2) = slopes(2) + abs(contact%roller_spin)/model%speed*by_spin/model%roller_radius
+         end if
+      end associate
+   end function slip_slopes
+
+   !> Changes of the mobilised boundary friction and of its share in the friction of the contact with the sliding speed, as sizes.
+   pure function boundary_slopes(model, state, by_slip, reach) result(slopes)
+      !> Model of the lobe
+      type(model_t), intent(in) :: model
+      !> State of the follower
+      type(state_t), intent(in) :: state
+      !> Change of the traction with the sliding speed [N s/m], size of an error of the sliding speed [m/s]
+      real(wp), intent(in) :: by_slip, reach
+      !> The changes, not negative [N s/m] and [s/m]
+      real(wp) :: slopes(2)
+
+      slopes = 0.0_wp
+      if (.not. allocated(model%boundary)) return
+      if (model%boundary%is_set_valued) return
+      associate (contact => state%contact)
+         if (contact%boundary_capacity > 0.0_wp) slopes(1) = max(contact%boundary_capacity &
+            & - contact%boundary_mobilised**2/contact%boundary_capacity, 0.0_wp)/model%boundary%mobilising_speed
+         ! A share cannot be wrong by more than one
+         if (state%contact_friction > 0.0_wp) slopes(2) = min((slopes(1) + by_slip*state%boundary_friction &
+            & /state%contact_friction)/state%contact_friction, 1.0_wp/max(reach, tiny(1.0_wp)))
+      end associate
+   end function boundary_slopes
+
+   !> Decay rate of a disturbance of the spin.
+   !>
+   !> Film and load follow the slip through the entrainment speed, which changes forces by about their size over that speed. Where
+   !> the slope of the traction at constant film is large against that, it is good enough; beyond a sharp limit of the traction it
+   !> is zero, and all decay there is comes from the film.
+   function decay_rate_at(model, angle, state) result(decay_rate)
+      !> Model of the lobe
+      type(model_t), intent(in) :: model
+      !> Cam angle from full lift [rad]
+      real(wp), intent(in) :: angle
+      !> State there
+      type(state_t), intent(in) :: state
+      !> Decay rate [1/rad]
+      real(wp) :: decay_rate
+
+      ! Slope at constant film over that of the film, from which on the first is good enough [-]; accuracy of the other [-]
+      real(wp), parameter :: large = 5.0_wp, accuracy = 1.0e-4_wp
+      ! Decay rate that the film may make, about [1/rad]
+      real(wp) :: by_film
+
+      decay_rate = decay_rate_of(model, state%contact)
+      associate (contact => state%contact)
+         if (.not. contact%is_touching) return
+         by_film = model%roller_radius**2*(abs(contact%traction) + abs(contact%rolling_resistance)) &
+            & /(model%roller_inertia*model%speed)
+         if (decay_rate*abs(contact%entrainment_speed) >= large*by_film) return
+         decay_rate = full_decay_rate(model, angle, state%position, state%moments, contact%sliding_speed, accuracy)
+      end associate
+   end function decay_rate_at
+
+   !> Slope of the cycle's curve less the rate of the roller equation.
+   pure function defect_at(model, cycle, angle, interval, state) result(defect)
+      !> Model of the lobe
+      type(model_t), intent(in) :: model
+      !> Cycle of the lobe
+      type(cycle_t), intent(in) :: cycle
+      !> Cam angle from full lift, in the trajectory [rad]
+      real(wp), intent(in) :: angle
+      !> Interval of the trajectory that holds it
+      integer, intent(in) :: interval
+      !> State there
+      type(state_t), intent(in) :: state
+      !> The defect [m/s/rad]
+      real(wp) :: defect
+
+      ! Slope of the curve, rate of the equation [m/s/rad]
+      real(wp) :: slope(1), rate
+
+      call curve_slope(cycle%trajectory, angle, interval, slope)
+      rate = model%roller_radius*state%spin_acceleration/model%speed
+      if (.not. cycle%has_surface_speed) rate = rolling_speed_slope(model, state%position) - rate
+      defect = slope(1) - rate
+   end function defect_at
+
+   !> Decay rate over the distance that a defect would move the sliding speed, where it is less than at the point itself.
+   !>
+   !> Traction saturates: what decays fast at the sliding speed of the curve may hardly decay at the right one, and a roller that
+   !> the curve takes as held by friction may have broken away.
+   pure subroutine weaken_decay(model, state, defect, decay_rate)
+      !> Model of the lobe
+      type(model_t), intent(in) :: model
+      !> State on the curve
+      type(state_t), intent(in) :: state
+      !> Defect there [m/s/rad]
+      real(wp), intent(in) :: defect
+      !> Decay rate, in: at the point; out: over the distance [1/rad]
+      real(wp), intent(inout) :: decay_rate
+
+      ! Part of a decay rate that is as good as all of it [-]; evaluations at most
+      real(wp), parameter :: good_part = 0.5_wp
+      integer, parameter :: most = 12
+      ! Part of the traction that may be rounding [-]
+      real(wp), parameter :: rounding = 1.0e-9_wp
+      type(contact_t) :: contact
+      ! Distance [m/s]; acceleration of the roller [rad/s^2]; decay rate over the distance [1/rad]
+      real(wp) :: distance, acceleration, secant
+      integer :: i, status
+
+      if (.not. state%contact%is_touching) return
+      if (abs(defect) <= rounding*(abs(state%contact%shear) + state%contact%boundary_capacity)*model%roller_radius**2 &
+         & /(model%roller_inertia*model%speed)) return
+      do i = 1, most
+         if (.not. decay_rate > 0.0_wp) return
+         distance = -defect/decay_rate
+         if (.not. abs(distance) > 4.0_wp*spacing(state%contact%sliding_speed)) return
+         if (abs(distance) > abs(state%contact%rolling_speed)) return
+         call evaluate_spin(model, state%position, state%moments, state%contact%sliding_speed + distance, contact, &
+            & acceleration, status)
+         if (status /= 0) return
+         secant = model%roller_radius*(acceleration - state%spin_acceleration)/(model%speed*distance)
+         if (secant >= good_part*decay_rate) return
+         decay_rate = max(secant, 0.0_wp)
+      end do
+   end subroutine weaken_decay
+
+   !> Growth rate over the range that an error reaches, where a disturbance grows at the point itself.
+   !>
+   !> Near zero entrainment the traction falls with the sliding speed, within a range that may be far less than any error; beyond it
+   !> errors do not grow on.
+   pure subroutine limit_growth(model, state, reach, decay_rate)
+      !> Model of the lobe
+      type(model_t), intent(in) :: model
+      !> State on the curve
+      type(state_t), intent(in) :: state
+      !> Size of an error [m/s]
+      real(wp), intent(in) :: reach
+      !> Decay rate, in: at the point, negative; out: over the range, negative or zero [1/rad]
+      real(wp), intent(inout) :: decay_rate
+
+      type(contact_t) :: contact
+      ! Accelerations of the roller [rad/s^2]
+      real(wp) :: accelerations(2)
+      integer :: i, status
+
+      do i = 1, 2
+         status = 1
+         if (reach > 4.0_wp*spacing(state%contact%sliding_speed)) call evaluate_spin(model, state%position, state%moments, &
+            & state%contact%sliding_speed + (2*i - 3)*reach, contact, accelerations(i), status)
+         if (status /= 0) decay_rate = 0.0_wp
+         if (status /= 0) return
+      end do
+      decay_rate = max(decay_rate, min(0.0_wp, 0.5_wp*model%roller_radius*(accelerations(2) - accelerations(1)) &
+         & /(model%speed*reach)))
+   end subroutine limit_growth
+
+end module camroller_defects

@@ -1,0 +1,196 @@
+!> Error of a cycle, estimated from the equation that its own curve leaves unsatisfied.
+!>
+!> In: at the points of the rule for means, the slope of the curve less the rate of the roller equation there (its
+!> defect), the decay rate and the changes of the losses with the sliding speed. Out: the largest error of the sliding speed in
+!> the cycle, and the resulting errors of the losses.
+!>
+!> The error obeys `d error/d angle = defect - decay_rate*error` in first order. Its terms are evaluated for the means anyway, so
+!> the estimate costs no evaluation, and it holds for any method, interpolation included. Source: Enright, SIAM J. Numer. Anal. 26
+!> (1989) 588, on defects as a measure of error.
+module camroller_error_estimate
+   use camroller_kinds, only : wp
+   implicit none
+   private
+
+   public :: estimate_t, add_defect, end_interval, estimated_error, mean_errors
+
+   !> Most points of a rule in an interval; quantities that follow the sliding speed: two losses, three forces
+   integer, parameter :: most_points = 3, followers = 5
+   !> Places that cut an interval into parts [-]: shorter ones at its ends, where the defect of a stiff method is largest
+   real(wp), parameter :: cuts(*) = [0.0_wp, 0.02_wp, 0.1_wp, 0.3_wp, 0.5_wp, 0.7_wp, 0.9_wp, 1.0_wp]
+   !> The estimate is of first order; true errors were met at up to 1.25 times as much [-]
+   real(wp), parameter :: margin = 2.0_wp
+   !> Exponent of the growth over a part of an interval beyond which more makes no difference [-]
+   real(wp), parameter :: largest_growth = 30.0_wp
+   !> Error, and growth over a cycle, beyond which more makes no difference [m/s] and [-]
+   real(wp), parameter :: lost = 1.0e30_wp
+
+   !> The estimate on its way round the cycle
+   type :: estimate_t
+      !> Points of the present interval so far
+      integer :: points = 0
+      !> Defect [m/s/rad] and decay rate [1/rad] at each of them
+      real(wp) :: defects(most_points) = 0.0_wp, rates(most_points) = 0.0_wp
+      !> Changes with the sliding speed there, as `slip_slopes` gives them [N m s/m], [N s/m] and [s/m]
+      real(wp) :: slopes(followers, most_points) = 0.0_wp
+      !> Error at the end of the last interval, largest so far [m/s]
+      real(wp) :: error = 0.0_wp, largest = 0.0_wp
+      !> Part of an error at the start of the cycle that is left [-]
+      real(wp) :: contraction = 1.0_wp
+      !> Integrals over the cycle of these changes times the size of the error [N m rad], and times the part of an
+      !> error at the start that is left there [N m s rad/m]; forces likewise
+      real(wp) :: changes(followers) = 0.0_wp, changes_of_start(followers) = 0.0_wp
+   end type estimate_t
+
+contains
+
+   !> Add a point of the present interval.
+   pure subroutine add_defect(estimate, defect, decay_rate, slopes)
+      !> The estimate
+      type(estimate_t), intent(inout) :: estimate
+      !> Slope of the curve less rate of the equation [m/s/rad]
+      real(wp), intent(in) :: defect
+      !> Decay rate of a disturbance [1/rad]
+      real(wp), intent(in) :: decay_rate
+      !> Changes with the sliding speed, as sizes; absent: none [N m s/m], [N s/m] and [s/m]
+      real(wp), intent(in), optional :: slopes(followers)
+
+      estimate%points = estimate%points + 1
+      estimate%defects(estimate%points) = defect
+      estimate%rates(estimate%points) = decay_rate
+      estimate%slopes(:, estimate%points) = 0.0_wp
+      if (present(slopes)) estimate%slopes(:, estimate%points) = slopes
+   end subroutine add_defect
+
+   !> Carry the error over an interval.
+   !>
+   !> The defect is taken as the polynomial through its points, the decay rate as changing by the same factor over the same length
+   !> between them, since it may span decades. Each part keeps the integral of the defect where the decay is slow and the quotient
+   !> of defect and decay rate where it is fast.
+   pure subroutine end_interval(estimate, nodes, length, ends)
+      !> The estimate; its points are used up
+      type(estimate_t), intent(inout) :: estimate
+      !> Places of the points in the interval, in order [-]
+      real(wp), intent(in) :: nodes(:)
+      !> Length of the interval [rad]
+      real(wp), intent(in) :: length
+      !> Defects at its start and at its end [m/s/rad], where the points are inside and these are known
+      real(wp), intent(in), optional :: ends(2)
+
+      ! Places [-] and defects [m/s/rad] that are known
+      real(wp) :: places(size(nodes) + 2), values(size(nodes) + 2)
+      ! Defect at start, middle and end of a part [m/s/rad]; its length over the interval [-]; decay over it, what it leaves, its
+      ! mean weight [-]; size of the error in a part [m/s]; changes of the losses with the sliding speed there [N m s/m]
+      real(wp) :: defects(3), part, decay, left, weight, size_there, slopes(followers)
+      integer :: i, j, known
+
+      known = size(nodes)
+      places(:known) = nodes
+      values(:known) = estimate%defects(:known)
+      if (present(ends)) then
+         places(known + 1:) = [0.0_wp, 1.0_wp]
+         values(known + 1:) = ends
+         known = known + 2
+      end if
+      estimate%points = 0
+      do i = 1, size(cuts) - 1
+         part = cuts(i + 1) - cuts(i)
+         do j = 0, 2
+            defects(j + 1) = value_at(places(:known), values(:known), cuts(i) + 0.5_wp*j*part)
+         end do
+         decay = max(rate_at(nodes, estimate%rates(:size(nodes)), cuts(i) + 0.5_wp*part)*length*part, -largest_growth)
+         left = exp(-decay)
+         weight = 1.0_wp
+         if (abs(decay) > epsilon(1.0_wp)) weight = (1.0_wp - left)/decay
+         size_there = abs(estimate%error)
+         estimate%error = left*estimate%error + length*part*(weight*defects(2) &
+            & + left*(defects(1) - 2.0_wp*defects(2) + defects(3))/6.0_wp)
+         estimate%error = sign(min(abs(estimate%error), lost), estimate%error)
+         size_there = max(size_there, abs(estimate%error))
+         do j = 1, followers
+            slopes(j) = rate_at(nodes, estimate%slopes(j, :size(nodes)), cuts(i) + 0.5_wp*part)
+         end do
+         estimate%changes = estimate%changes + length*part*slopes*size_there
+         estimate%changes_of_start = estimate%changes_of_start + length*part*slopes*estimate%contraction*max(1.0_wp, left)
+         estimate%contraction = min(estimate%contraction*left, lost)
+         estimate%largest = max(estimate%largest, abs(estimate%error))
+      end do
+   end subroutine end_interval
+
+   !> Largest error over the cycle, with what the cycle passes on to itself, and a margin.
+   pure function estimated_error(estimate) result(error)
+      !> The estimate at the end of the cycle
+      type(estimate_t), intent(in) :: estimate
+      !> The error [m/s]
+      real(wp) :: error
+
+      error = margin*(estimate%largest &
+         & + abs(estimate%error)*estimate%contraction/max(1.0_wp - estimate%contraction, epsilon(1.0_wp)))
+   end function estimated_error
+
+   !> Integrals of the errors of losses and forces over the cycle, with what the cycle passes on to itself, and a margin.
+   pure function mean_errors(estimate, closure) result(errors)
+      !> The estimate at the end of the cycle
+      type(estimate_t), intent(in) :: estimate
+      !> Difference of the sliding speed between end and start [m/s]
+      real(wp), intent(in) :: closure
+      !> Errors of the losses [N m rad], of the forces [N rad], of the share of asperities in the friction [rad]
+      real(wp) :: errors(followers)
+
+      errors = margin*estimate%changes + estimate%changes_of_start*(margin*abs(estimate%error) + closure) &
+         & /max(1.0_wp - estimate%contraction, epsilon(1.0_wp))
+   end function mean_errors
+
+   !> Decay rate between two or three points, constant beyond them.
+   pure function rate_at(nodes, rates, place) result(rate)
+      !> Places of the points, in order [-]
+      real(wp), intent(in) :: nodes(:)
+      !> Decay rates there, not negative [1/rad]
+      real(wp), intent(in) :: rates(:)
+      !> Place looked for [-]
+      real(wp), intent(in) :: place
+      !> Decay rate there [1/rad]
+      real(wp) :: rate
+
+      ! Place between two points [-]
+      real(wp) :: part
+      integer :: i
+
+      i = 1
+      do while (i < size(nodes) - 1 .and. place > nodes(i + 1))
+         i = i + 1
+      end do
+      part = min(1.0_wp, max(0.0_wp, (place - nodes(i))/(nodes(i + 1) - nodes(i))))
+      if (min(rates(i), rates(i + 1)) < 0.0_wp) then
+         rate = merge(rates(i), rates(i + 1), part < 0.5_wp)
+      else
+         rate = max(rates(i), tiny(1.0_wp))**(1.0_wp - part)*max(rates(i + 1), tiny(1.0_wp))**part
+      end if
+   end function rate_at
+
+   !> Value of the polynomial through some points.
+   pure function value_at(nodes, values, place) result(value)
+      !> Places of the points [-]
+      real(wp), intent(in) :: nodes(:)
+      !> Values there [any]
+      real(wp), intent(in) :: values(:)
+      !> Place looked for [-]
+      real(wp), intent(in) :: place
+      !> Value there [any]
+      real(wp) :: value
+
+      ! One point's polynomial [-]
+      real(wp) :: factor
+      integer :: i, j
+
+      value = 0.0_wp
+      do i = 1, size(nodes)
+         factor = 1.0_wp
+         do j = 1, size(nodes)
+            if (j /= i) factor = factor*(place - nodes(j))/(nodes(i) - nodes(j))
+         end do
+         value = value + factor*values(i)
+      end do
+   end function value_at
+
+end module camroller_error_estimate

@@ -1,0 +1,237 @@
+!> A deck: read, checked, and turned into cases.
+!>
+!> In: a file or a text, and overrides `group.key=value`. Out: `deck_t`, from which a case is made for the
+!> deck as
+!> it stands, for other overrides, or for each place of its sweep. All mistakes are reported at once.
+module camroller_deck
+   use camroller_error, only : error_t, raise, add_context, kind_usage
+   use camroller_case, only : case_t
+   use camroller_number_text, only : integer_text
+   use camroller_mistakes, only : mistakes_t, raise_mistakes, override_place
+   use camroller_text_file, only : read_text_file, folder_of
+   use camroller_deck_text, only : deck_text_t, read_shape
+   use camroller_deck_schema, only : schema_t
+   use camroller_deck_keys, only : new_schema
+   use camroller_settings, only : settings_t
+   use camroller_deck_matching, only : override_t, add_override, new_settings, match_deck, apply_override, demand_required, &
+      & fill_dependent_defaults
+   use camroller_deck_relations, only : check_relations
+   use camroller_deck_tables, only : deck_tables_t, obtain_tables
+   use camroller_deck_case, only : fill_case
+   use camroller_deck_sweep_read, only : read_sweep
+   use camroller_deck_sweep, only : sweep_t, sweep_size, sweep_overrides, case_in_words
+   implicit none
+   private
+
+   public :: deck_t, override_t, add_override, read_deck, parse_deck, make_case, make_sweep_case, add_places
+
+   !> A deck without mistakes
+   type :: deck_t
+      !> Name for messages, usually the path
+      character(len=:), allocatable :: name
+      !> Folder that the paths in it start at, with `/` at its end; blank for the present one
+      character(len=:), allocatable :: folder
+      !> The deck as given
+      character(len=:), allocatable :: text
+      !> What a deck may hold
+      type(schema_t) :: schema
+      !> Its lines, groups and keys
+      type(deck_text_t) :: shape
+      !> Its values, those given beside it included
+      type(settings_t) :: settings
+      !> Tables that it names
+      type(deck_tables_t) :: tables
+      !> Its cases
+      type(sweep_t) :: sweep
+      !> Values given beside it
+      type(override_t), allocatable :: overrides(:)
+   end type deck_t
+
+contains
+
+   !> Read a deck from a file.
+   subroutine read_deck(deck, path, overrides, error)
+      !> The deck
+      type(deck_t), intent(out) :: deck
+      !> Path of the file
+      character(len=*), intent(in) :: path
+      !> Values given beside the deck
+      type(override_t), intent(in) :: overrides(:)
+      !> File error where it cannot be read, deck error with all mistakes in it
+      type(error_t), allocatable, intent(out) :: error
+
+      character(len=:), allocatable :: text
+
+      call read_text_file(path, text, error)
+      if (allocated(error)) return
+      call parse_deck(deck, text, path, folder_of(path), overrides, error)
+   end subroutine read_deck
+
+   !> Read a deck from a text.
+   subroutine parse_deck(deck, text, name, folder, overrides, error, tables)
+      !> The deck
+      type(deck_t), intent(out) :: deck
+      !> Its text
+      character(len=*), intent(in) :: text
+      !> Name for messages
+      character(len=*), intent(in) :: name
+      !> Folder that the paths in it start at, with `/` at its end; blank for the present one
+      character(len=*), intent(in) :: folder
+      !> Values given beside the deck
+      type(override_t), intent(in) :: overrides(:)
+      !> Deck error with all mistakes
+      type(error_t), allocatable, intent(out) :: error
+      !> Tables that are at hand; others are read from their files
+      type(deck_tables_t), intent(in), optional :: tables
+
+      type(mistakes_t) :: mistakes
+      integer :: i
+
+      if (present(tables)) deck%tables = tables
+      allocate (deck%overrides, source=overrides)
+      deck%name = name
+      deck%folder = folder
+      deck%text = text
+      call new_schema(deck%schema)
+      call read_shape(text, deck%shape, mistakes)
+      call new_settings(deck%schema, deck%settings)
+      call match_deck(deck%schema, deck%shape, deck%settings, mistakes)
+      do i = 1, size(overrides)
+         call apply_override(deck%schema, overrides(i), deck%settings, mistakes)
+      end do
+      call demand_required(deck%schema, deck%settings, mistakes)
+      call complete(deck%settings, deck%folder, deck%tables, mistakes)
+      call read_sweep(deck%schema, deck%settings, deck%folder, deck%sweep, mistakes)
+      call raise_mistakes(mistakes, name, deck%shape%lines, error)
+   end subroutine parse_deck
+
+   !> Values that follow from others, rules, tables.
+   subroutine complete(settings, folder, tables, mistakes)
+      !> The settings
+      type(settings_t), intent(inout) :: settings
+      !> Folder of the deck
+      character(len=*), intent(in) :: folder
+      !> Tables at hand
+      type(deck_tables_t), intent(inout) :: tables
+      !> Mistakes so far
+      type(mistakes_t), intent(inout) :: mistakes
+
+      call fill_dependent_defaults(settings)
+      call check_relations(settings, mistakes)
+      call obtain_tables(settings, folder, tables, mistakes)
+   end subroutine complete
+
+   !> Case of a deck, with other values for some keys.
+   subroutine make_case(deck, overrides, case, error)
+      !> The deck
+      type(deck_t), intent(in) :: deck
+      !> Values other than the deck's
+      type(override_t), intent(in) :: overrides(:)
+      !> The case
+      type(case_t), intent(out) :: case
+      !> Deck error where the values do not fit the deck or each other
+      type(error_t), allocatable, intent(out) :: error
+
+      type(settings_t) :: settings
+      type(deck_tables_t) :: tables
+      type(mistakes_t) :: mistakes
+      integer :: i
+
+      if (size(overrides) == 0) then
+         call fill_case(deck%settings, deck%tables, case)
+         return
+      end if
+      settings = deck%settings
+      tables = deck%tables
+      do i = 1, size(overrides)
+         call apply_override(deck%schema, overrides(i), settings, mistakes)
+      end do
+      call complete(settings, deck%folder, tables, mistakes)
+      call raise_mistakes(mistakes, deck%name, deck%shape%lines, error)
+      if (allocated(error)) return
+      call fill_case(settings, tables, case)
+   end subroutine make_case
+
+   !> Case at a place of the deck's sweep.
+   subroutine make_sweep_case(deck, case_number, case, error)
+      !> The deck
+      type(deck_t), intent(in) :: deck
+      !> Number of the case, from 1 to `sweep_size(deck%sweep)`
+      integer, intent(in) :: case_number
+      !> The case
+      type(case_t), intent(out) :: case
+      !> Deck error where its values do not fit each other, usage error where there is no such case
+      type(error_t), allocatable, intent(out) :: error
+
+      type(override_t), allocatable :: overrides(:)
+
+      if (case_number < 1 .or. case_number > sweep_size(deck%sweep)) then
+         call raise(error, kind_usage, "the sweep has no case "//integer_text(case_number))
+         return
+      end if
+      call sweep_overrides(deck%sweep, case_number, overrides)
+      call make_case(deck, overrides, case, error)
+      if (size(overrides) > 0) call add_context(error, case_in_words(deck%sweep, case_number))
+   end subroutine make_sweep_case
+
+   !> Add to an error the places of the keys that it names, as `group.key`: where the deck gives them.
+   subroutine add_places(deck, error)
+      !> The deck
+      type(deck_t), intent(in) :: deck
+      !> An error on its way up; left alone where not allocated
+      type(error_t), allocatable, intent(inout) :: error
+
+      character(len=:), allocatable :: name, places
+      integer :: i
+
+      if (.not. allocated(error)) return
+      places = ""
+      do i = 1, deck%schema%key_count
+         associate (key => deck%schema%keys(i), value => deck%settings%values(i))
+            name = trim(deck%schema%groups(key%group)%name)//"."//trim(key%name)
+            if (.not. names_key(error%message, name) .or. is_swept(deck%sweep, name)) cycle
+            if (allocated(value%source)) then
+               places = places//new_line("a")//override_place//": "//value%source
+            else if (value%line > 0) then
+               places = places//new_line("a")//deck%name//":"//integer_text(value%line)//": "//name//" = "//value%text
+            end if
+         end associate
+      end do
+      error%message = error%message//places
+   end subroutine add_places
+
+   !> Does a sentence name a key, and not one whose name only begins alike?
+   pure function names_key(sentence, name) result(verdict)
+      !> The sentence
+      character(len=*), intent(in) :: sentence
+      !> As `group.key`
+      character(len=*), intent(in) :: name
+      !> Does it?
+      logical :: verdict
+
+      integer :: place, behind
+
+      place = index(sentence, name)
+      verdict = place > 0
+      behind = place + len(name)
+      if (verdict .and. behind <= len(sentence)) verdict = scan(sentence(behind:behind), "_=") == 0
+   end function names_key
+
+   !> Does a key vary?
+   pure function is_swept(sweep, name) result(verdict)
+      !> The sweep
+      type(sweep_t), intent(in) :: sweep
+      !> As `group.key`
+      character(len=*), intent(in) :: name
+      !> Does it?
+      logical :: verdict
+
+      integer :: i
+
+      verdict = .false.
+      do i = 1, size(sweep%axes)
+         verdict = verdict .or. sweep%axes(i)%key == name
+      end do
+   end function is_swept
+
+end module camroller_deck

@@ -1,0 +1,390 @@
+!> Decks described: the complete deck with every key explained, the same as a page, and the values that a deck comes to.
+!>
+!> In: the schema, or a deck. Out: text, or lists of strings.
+module camroller_deck_document
+   use camroller_deck_bounds, only : write_bounds
+   use camroller_deck_schema, only : schema_t, key_t, find_group, group_names, allowed_values, group_required, &
+      & group_standard, group_effect, type_number, type_integer, type_logical, type_name, type_text, type_numbers, &
+      & type_integers, key_length
+   use camroller_deck_keys, only : new_schema
+   use camroller_deck, only : deck_t
+   use camroller_deck_values, only : longest_text
+   use camroller_error, only : error_t, raise, kind_usage
+   use camroller_mistakes, only : nearest_name
+   use camroller_names, only : list_names
+   use camroller_units, only : unit_name_length
+   implicit none
+   private
+
+   public :: echo_t, get_echo, write_defaults, write_page, write_resolved
+
+   !> Width of a `key = value` before the comment on it
+   integer, parameter :: comment_column = 46
+   !> Length of a line of comment
+   integer, parameter :: comment_width = 118
+
+   !> Values that a deck comes to, as text: one place in each list for one key
+   type :: echo_t
+      !> As `group.key`
+      character(len=2*key_length), allocatable :: keys(:)
+      !> Value in the unit of the key
+      character(len=longest_text), allocatable :: values(:)
+      !> Unit; `1` for none
+      character(len=unit_name_length), allocatable :: units(:)
+      !> `given` or `default`
+      character(len=8), allocatable :: origins(:)
+   end type echo_t
+
+contains
+
+   !> Every value of the groups that a deck has or takes by default.
+   subroutine get_echo(deck, echo)
+      !> The deck
+      type(deck_t), intent(in) :: deck
+      !> Its values
+      type(echo_t), intent(out) :: echo
+
+      integer :: i, n
+
+      n = count(is_shown(deck, [(i, i=1, deck%schema%key_count)]))
+      allocate (echo%keys(n), echo%values(n), echo%units(n), echo%origins(n))
+      n = 0
+      do i = 1, deck%schema%key_count
+         if (.not. is_shown(deck, i)) cycle
+         n = n + 1
+         associate (key => deck%schema%keys(i), value => deck%settings%values(i))
+            echo%keys(n) = trim(deck%schema%groups(key%group)%name)//"."//key%name
+            echo%values(n) = value%text
+            echo%units(n) = key%unit%symbol
+            echo%origins(n) = merge("given  ", "default", value%is_given)
+         end associate
+      end do
+   end subroutine get_echo
+
+   !> Has a key a value in a group that is in use?
+   elemental function is_shown(deck, position) result(verdict)
+      !> The deck
+      type(deck_t), intent(in) :: deck
+      !> Position of the key
+      integer, intent(in) :: position
+      !> Has it?
+      logical :: verdict
+
+      integer :: group
+
+      group = deck%schema%keys(position)%group
+      verdict = deck%settings%values(position)%is_known .and. &
+         & (deck%settings%groups(group)%is_present .or. deck%schema%groups(group)%kind /= group_effect)
+   end function is_shown
+
+   !> The deck with every value that it comes to, as a deck; defaults are marked.
+   subroutine write_resolved(deck, text)
+      !> The deck
+      type(deck_t), intent(in) :: deck
+      !> A deck with the same cases
+      character(len=:), allocatable, intent(out) :: text
+
+      integer :: i, j
+
+      text = ""
+      do i = 1, deck%schema%group_count
+         associate (group => deck%schema%groups(i))
+            if (group%kind == group_effect .and. .not. deck%settings%groups(i)%is_present) cycle
+            text = text//"&"//trim(group%name)//new_line("a")
+            do j = group%first, group%last
+               if (.not. is_shown(deck, j)) cycle
+               text = text//with_comment("   "//trim(deck%schema%keys(j)%name)//" = "//deck%settings%values(j)%text, &
+                  & trim(merge("       ", "default", deck%settings%values(j)%is_given)))//new_line("a")
+            end do
+            text = text//"/"//new_line("a")
+         end associate
+      end do
+   end subroutine write_resolved
+
+   !> The complete deck with every key explained: ready to be run, with the effects as comments.
+   subroutine write_defaults(group, text, error)
+      !> The only group wanted; blank for all
+      character(len=*), intent(in) :: group
+      !> A deck
+      character(len=:), allocatable, intent(out) :: text
+      !> Usage error where there is no such group
+      type(error_t), allocatable, intent(out) :: error
+
+      type(schema_t) :: schema
+      integer :: i, wanted
+
+      call new_schema(schema)
+      call find_wanted(schema, group, wanted, error)
+      if (allocated(error)) return
+      text = ""
+      if (wanted > 0) then
+         call write_group(schema, wanted, "", text)
+         return
+      end if
+      text = "! Every key of a deck. Values are the defaults, or an example where there is none."//new_line("a")// &
+         & "! A key that is a comment may be given; a group that is a comment switches an effect on."// &
+         & new_line("a")//"! Numbers are in SI units unless the last word of the key is a unit."//new_line("a")
+      do i = 1, schema%group_count
+         text = text//new_line("a")
+         call write_group(schema, i, trim(merge("!", " ", schema%groups(i)%kind == group_effect)), text)
+      end do
+   end subroutine write_defaults
+
+   !> Position of the group that somebody wants to see.
+   subroutine find_wanted(schema, group, wanted, error)
+      !> The schema
+      type(schema_t), intent(in) :: schema
+      !> Name of the group; blank for all
+      character(len=*), intent(in) :: group
+      !> Its position; 0 for all
+      integer, intent(out) :: wanted
+      !> Usage error where there is no such group
+      type(error_t), allocatable, intent(out) :: error
+
+      character(len=:), allocatable :: nearest
+
+      wanted = 0
+      if (group == "") return
+      wanted = find_group(schema, group)
+      if (wanted > 0) return
+      nearest = nearest_name(group, group_names(schema))
+      if (nearest /= "") then
+         call raise(error, kind_usage, "no group '"//group//"'; did you mean '"//nearest//"'?")
+      else
+         call raise(error, kind_usage, "no group '"//group//"'; known are "//list_names(group_names(schema)))
+      end if
+   end subroutine find_wanted
+
+   !> One group of the complete deck.
+   subroutine write_group(schema, position, mark, text)
+      !> The schema
+      type(schema_t), intent(in) :: schema
+      !> Position of the group
+      integer, intent(in) :: position
+      !> What every line begins with
+      character(len=*), intent(in) :: mark
+      !> Text to add to
+      character(len=:), allocatable, intent(inout) :: text
+
+      character(len=:), allocatable :: line
+      integer :: i
+
+      associate (group => schema%groups(position))
+         text = text//"! "//group%meaning//" ("//kind_in_words(group%kind)//")"//new_line("a")
+         text = text//mark//"&"//trim(group%name)//new_line("a")
+         do i = group%first, group%last
+            line = mark//"   "
+            if (.not. has_shown_value(schema%keys(i)) .and. mark == "") line = "!  "
+            line = line//trim(schema%keys(i)%name)//" = "//shown_value(schema%keys(i))
+            text = text//with_comment(line, described(schema%keys(i)))//new_line("a")
+         end do
+         text = text//mark//"/"//new_line("a")
+      end associate
+   end subroutine write_group
+
+   !> What a kind of group means.
+   pure function kind_in_words(kind) result(words)
+      !> Kind of the group
+      integer, intent(in) :: kind
+      !> The words
+      character(len=:), allocatable :: words
+
+      select case (kind)
+      case (group_required)
+         words = "must be given"
+      case (group_standard)
+         words = "may be left out"
+      case default
+         words = "computed only where the group is given"
+      end select
+   end function kind_in_words
+
+   !> Has a key a value to show that is right as it stands?
+   pure function has_shown_value(key) result(verdict)
+      !> The key
+      type(key_t), intent(in) :: key
+      !> Has it?
+      logical :: verdict
+
+      verdict = allocated(key%default) .or. allocated(key%example)
+   end function has_shown_value
+
+   !> Default, example, or a sign for the kind of value.
+   pure function shown_value(key) result(value)
+      !> The key
+      type(key_t), intent(in) :: key
+      !> What to show
+      character(len=:), allocatable :: value
+
+      if (allocated(key%default)) then
+         value = key%default
+      else if (allocated(key%example)) then
+         value = key%example
+         if (key%type == type_text) value = "'"//value//"'"
+      else if (key%type == type_text) then
+         value = "''"
+      else
+         value = ""
+      end if
+   end function shown_value
+
+   !> Meaning of a key, its limits, and whether it must be given.
+   pure function described(key) result(words)
+      !> The key
+      type(key_t), intent(in) :: key
+      !> The words
+      character(len=:), allocatable :: words
+
+      words = key%meaning
+      if (allowed_values(key) /= "") words = words//"; "//allowed_values(key)
+      if (key%is_required) words = words//"; must be given"
+   end function described
+
+   !> A line with a comment beside it, in several lines where it is long.
+   pure function with_comment(line, comment) result(text)
+      !> The line
+      character(len=*), intent(in) :: line
+      !> The comment, without its mark
+      character(len=*), intent(in) :: comment
+      !> Both
+      character(len=:), allocatable :: text
+
+      integer :: first, last, room, start
+
+      text = line
+      if (comment == "") return
+      start = max(comment_column, len(line) + 2)
+      room = max(comment_width - start - 2, 40)
+      first = 1
+      do while (first <= len(comment))
+         last = len(comment)
+         if (last - first + 1 > room) last = first + index(comment(first:first + room), " ", back=.true.) - 2
+         if (first == 1) then
+            text = text//repeat(" ", start - len(line) - 1)
+         else
+            text = text//new_line("a")//repeat(" ", start - 1)
+         end if
+         text = text//"! "//comment(first:last)
+         first = last + 2
+      end do
+   end function with_comment
+
+   !> The same as a page with a table for each group.
+   subroutine write_page(group, text, error)
+      !> The only group wanted; blank for all
+      character(len=*), intent(in) :: group
+      !> Page in Markdown
+      character(len=:), allocatable, intent(out) :: text
+      !> Usage error where there is no such group
+      type(error_t), allocatable, intent(out) :: error
+
+      type(schema_t) :: schema
+      integer :: i, wanted
+
+      call new_schema(schema)
+      call find_wanted(schema, group, wanted, error)
+      if (allocated(error)) return
+      text = "# The deck"//new_line("a")//new_line("a")
+      text = text//"A deck is a file of Fortran namelist groups, `&group key = value ... /`; `!` begins a comment. "// &
+         & "Numbers are in SI units unless the last word of the key is a unit. The group of an effect switches the effect "// &
+         & "on. This page is the output of `camroller defaults --markdown`; "// &
+         & "`camroller defaults` prints the same as a deck."//new_line("a")
+      do i = 1, schema%group_count
+         if (wanted > 0 .and. wanted /= i) cycle
+         call write_table(schema, i, text)
+      end do
+      if (wanted == 0) call write_bounds(text)
+   end subroutine write_page
+
+   !> One group as a table.
+   subroutine write_table(schema, position, text)
+      !> The schema
+      type(schema_t), intent(in) :: schema
+      !> Position of the group
+      integer, intent(in) :: position
+      !> Text to add to
+      character(len=:), allocatable, intent(inout) :: text
+
+      integer :: i
+
+      associate (group => schema%groups(position))
+         text = text//new_line("a")//"## &"//trim(group%name)//new_line("a")//new_line("a")//capital(group%meaning)// &
+            & " ("//kind_in_words(group%kind)//")."//new_line("a")//new_line("a")// &
+            & "| key | unit | takes | default | meaning |"//new_line("a")//"|---|---|---|---|---|"//new_line("a")
+         do i = group%first, group%last
+            associate (key => schema%keys(i))
+               text = text//"| `"//trim(key%name)//"` | "//unit_in_words(key)//" | "//takes(key)//" | "// &
+                  & default_in_words(key)//" | "//key%meaning//" |"//new_line("a")
+            end associate
+         end do
+      end associate
+   end subroutine write_table
+
+   !> Unit of a key; a dash where it has none.
+   pure function unit_in_words(key) result(words)
+      !> The key
+      type(key_t), intent(in) :: key
+      !> The unit
+      character(len=:), allocatable :: words
+
+      words = trim(key%unit%symbol)
+      if (words == "1") words = "-"
+   end function unit_in_words
+
+   !> A sentence with a capital at its beginning.
+   pure function capital(words) result(sentence)
+      !> The words
+      character(len=*), intent(in) :: words
+      !> The sentence
+      character(len=len(words)) :: sentence
+
+      sentence = words
+      if (words(1:1) >= "a" .and. words(1:1) <= "z") sentence(1:1) = achar(iachar(words(1:1)) - 32)
+   end function capital
+
+   !> Kind of value and its limits.
+   pure function takes(key) result(words)
+      !> The key
+      type(key_t), intent(in) :: key
+      !> The words
+      character(len=:), allocatable :: words
+
+      select case (key%type)
+      case (type_number)
+         words = "number"
+      case (type_integer)
+         words = "whole number"
+      case (type_logical)
+         words = ".true. or .false."
+      case (type_name)
+         words = allowed_values(key)
+         return
+      case (type_text)
+         words = "text"
+      case (type_numbers)
+         words = "list of numbers"
+      case (type_integers)
+         words = "list of whole numbers"
+      case default
+         words = "list of values"
+      end select
+      if (allowed_values(key) /= "") words = words//", "//allowed_values(key)
+   end function takes
+
+   !> Default of a key.
+   pure function default_in_words(key) result(words)
+      !> The key
+      type(key_t), intent(in) :: key
+      !> The words
+      character(len=:), allocatable :: words
+
+      if (allocated(key%default)) then
+         words = "`"//key%default//"`"
+      else if (key%is_required) then
+         words = "must be given"
+      else
+         words = "none"
+      end if
+   end function default_in_words
+
+end module camroller_deck_document

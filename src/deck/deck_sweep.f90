@@ -1,0 +1,300 @@
+!> Cases of a sweep: which keys vary, over which values, and what each case has for them.
+!>
+!> In: a sweep as `camroller_deck_sweep_read` read it; the number of a case. Out: overrides, values, words. In a
+!> grid the last key varies fastest; in lists and tables every key takes its next value from case to case; in a sample a point
+!> of the unit cube is spread over the ranges. A deck without &sweep is a sweep of one case. Every case is found by its number
+!> alone, and nothing is held for cases but the lists that the deck gives.
+module camroller_deck_sweep
+   use, intrinsic :: iso_fortran_env, only : int64
+   use camroller_kinds, only : wp
+   use camroller_names, only : name_length
+   use camroller_units, only : unit_name_length
+   use camroller_number_text, only : number_text, integer_text
+   use camroller_text_list, only : text_list_t, text_at
+   use camroller_samples, only : sample_names, sample_sobol, sample_latin_hypercube, sample_independent
+   use camroller_deck_matching, only : override_t
+   implicit none
+   private
+
+   public :: sweep_t, sweep_axis_t, sweep_kind_names, scale_names, is_sample, most_cases
+   public :: sweep_size, axis_size, sweep_position, sweep_overrides, sweep_value, sweep_numbers, sweep_words, case_in_words
+
+   !> Ways to make cases of values
+   character(len=*), parameter :: sweep_kind_names(*) = [character(len=name_length) :: "grid", "zip", "table", sample_names]
+   !> Ways to divide a range
+   character(len=*), parameter :: scale_names(*) = [character(len=name_length) :: "linear", "logarithmic"]
+   !> Most cases: they are counted in default integers
+   integer, parameter :: most_cases = 2000000000
+   !> Digits of a value from a range: fewer than a number holds, so that text and number are the same
+   integer, parameter :: value_digits = 15
+
+   !> One key that varies: a list of values, or a range
+   type :: sweep_axis_t
+      !> As `group.key`
+      character(len=:), allocatable :: key
+      !> Unit of its values; `1` for none
+      character(len=unit_name_length) :: unit = "1"
+      !> Are the values numbers, and whole ones?
+      logical :: is_numeric = .false., is_whole = .false.
+      !> Its values as text; none for a range
+      type(text_list_t) :: values
+      !> Ends of the range [unit of the key]
+      real(wp) :: first = 0.0_wp, last = 0.0_wp
+      !> Number of values in the range; 0 in a sample
+      integer :: count = 0
+      !> Is the range divided by equal ratios?
+      logical :: is_logarithmic = .false.
+   end type sweep_axis_t
+
+   !> A sweep
+   type :: sweep_t
+      !> One of `sweep_kind_names`
+      character(len=name_length) :: kind = "grid"
+      !> Keys that vary
+      type(sweep_axis_t), allocatable :: axes(:)
+      !> Number of points of a sample
+      integer :: points = 0
+      !> Seed of a sample
+      integer :: seed = 0
+   end type sweep_t
+
+contains
+
+   !> Is a sweep a sample?
+   pure function is_sample(sweep) result(verdict)
+      !> The sweep
+      type(sweep_t), intent(in) :: sweep
+      !> Is it?
+      logical :: verdict
+
+      verdict = any(sweep%kind == sample_names)
+   end function is_sample
+
+   !> Number of values of a key.
+   pure function axis_size(axis) result(values)
+      !> The key
+      type(sweep_axis_t), intent(in) :: axis
+      !> Number of its values
+      integer :: values
+
+      values = axis%count
+      if (axis%values%count > 0) values = axis%values%count
+   end function axis_size
+
+   !> Number of cases; 0 where there are too many.
+   pure function sweep_size(sweep) result(cases)
+      !> The sweep
+      type(sweep_t), intent(in) :: sweep
+      !> Number of cases
+      integer :: cases
+
+      integer :: i
+
+      cases = 1
+      if (size(sweep%axes) == 0) return
+      if (is_sample(sweep)) then
+         cases = sweep%points
+      else if (sweep%kind /= "grid") then
+         cases = axis_size(sweep%axes(1))
+      else
+         do i = 1, size(sweep%axes)
+            if (int(cases, int64)*axis_size(sweep%axes(i)) > most_cases) then
+               cases = 0
+               return
+            end if
+            cases = cases*axis_size(sweep%axes(i))
+         end do
+      end if
+   end function sweep_size
+
+   !> Place of a case along each key of a grid, of lists or of a table.
+   pure function sweep_position(sweep, case_number) result(position)
+      !> The sweep, no sample
+      type(sweep_t), intent(in) :: sweep
+      !> Number of the case, from 1
+      integer, intent(in) :: case_number
+      !> Place among the values of each key, from 1
+      integer :: position(size(sweep%axes))
+
+      integer :: rest, i
+
+      position = case_number
+      if (sweep%kind /= "grid") return
+      rest = case_number - 1
+      do i = size(sweep%axes), 1, -1
+         position(i) = modulo(rest, axis_size(sweep%axes(i))) + 1
+         rest = rest/axis_size(sweep%axes(i))
+      end do
+   end function sweep_position
+
+   !> Value of a key in a case, as text: a number, or a name in quotes where the deck has them.
+   pure function sweep_value(sweep, axis, case_number) result(text)
+      !> The sweep
+      type(sweep_t), intent(in) :: sweep
+      !> Number of the key
+      integer, intent(in) :: axis
+      !> Number of the case, from 1
+      integer, intent(in) :: case_number
+      !> The value
+      character(len=:), allocatable :: text
+
+      integer :: position(size(sweep%axes))
+
+      if (is_sample(sweep)) then
+         text = spread_value(sweep%axes(axis), coordinate_of(sweep, axis, case_number))
+      else
+         position = sweep_position(sweep, case_number)
+         if (sweep%axes(axis)%values%count > 0) then
+            text = text_at(sweep%axes(axis)%values, position(axis))
+         else
+            text = range_value(sweep%axes(axis), real(position(axis) - 1, wp)/real(sweep%axes(axis)%count - 1, wp))
+         end if
+      end if
+   end function sweep_value
+
+   !> Coordinate of a case of a sample along a key.
+   pure function coordinate_of(sweep, axis, case_number) result(coordinate)
+      !> The sample
+      type(sweep_t), intent(in) :: sweep
+      !> Number of the key
+      integer, intent(in) :: axis
+      !> Number of the case, from 1
+      integer, intent(in) :: case_number
+      !> From 0 to 1 [-]
+      real(wp) :: coordinate
+
+      select case (sweep%kind)
+      case ("sobol")
+         coordinate = sample_sobol(case_number - 1, axis, sweep%seed)
+      case ("latin_hypercube")
+         coordinate = sample_latin_hypercube(case_number - 1, sweep%points, axis, sweep%seed)
+      case default
+         coordinate = sample_independent(case_number - 1, axis, sweep%seed)
+      end select
+   end function coordinate_of
+
+   !> Value of a key at a coordinate of the unit cube: lists and whole numbers have equal shares of it.
+   pure function spread_value(axis, coordinate) result(text)
+      !> The key
+      type(sweep_axis_t), intent(in) :: axis
+      !> From 0 to 1 [-]
+      real(wp), intent(in) :: coordinate
+      !> The value
+      character(len=:), allocatable :: text
+
+      !> Ends of a range of whole numbers [-]
+      real(wp) :: first, last
+
+      if (axis%values%count > 0) then
+         text = text_at(axis%values, 1 + min(axis%values%count - 1, int(coordinate*axis%values%count)))
+      else if (axis%is_whole .and. .not. axis%is_logarithmic) then
+         first = min(axis%first, axis%last)
+         last = max(axis%first, axis%last)
+         text = integer_text(int(min(last, first + aint(coordinate*(last - first + 1.0_wp)))))
+      else
+         text = range_value(axis, coordinate)
+      end if
+   end function spread_value
+
+   !> Value at a part of a range.
+   pure function range_value(axis, part) result(text)
+      !> The key
+      type(sweep_axis_t), intent(in) :: axis
+      !> From 0 at the first value to 1 at the last [-]
+      real(wp), intent(in) :: part
+      !> The value
+      character(len=:), allocatable :: text
+
+      !> The value [unit of the key]
+      real(wp) :: value
+
+      if (axis%is_logarithmic) then
+         value = axis%first*(axis%last/axis%first)**part
+      else
+         value = axis%first + (axis%last - axis%first)*part
+      end if
+      if (axis%is_whole) then
+         text = integer_text(nint(value))
+      else
+         text = number_text(value, value_digits)
+      end if
+   end function range_value
+
+   !> What is different in a case.
+   subroutine sweep_overrides(sweep, case_number, overrides)
+      !> The sweep
+      type(sweep_t), intent(in) :: sweep
+      !> Number of the case, from 1
+      integer, intent(in) :: case_number
+      !> One override for each key that varies
+      type(override_t), allocatable, intent(out) :: overrides(:)
+
+      integer :: i
+
+      allocate (overrides(size(sweep%axes)))
+      do i = 1, size(sweep%axes)
+         overrides(i)%text = sweep%axes(i)%key//"="//sweep_value(sweep, i, case_number)
+      end do
+   end subroutine sweep_overrides
+
+   !> A case in words: its number as in result files, from 0, and what is different in it.
+   function case_in_words(sweep, case_number) result(words)
+      !> The sweep
+      type(sweep_t), intent(in) :: sweep
+      !> Number of the case, from 1
+      integer, intent(in) :: case_number
+      !> The words
+      character(len=:), allocatable :: words
+
+      type(override_t), allocatable :: overrides(:)
+      integer :: i
+
+      words = "case "//integer_text(case_number - 1)
+      call sweep_overrides(sweep, case_number, overrides)
+      do i = 1, size(overrides)
+         words = words//merge(" (", ", ", i == 1)//overrides(i)%text
+      end do
+      if (size(overrides) > 0) words = words//")"
+   end function case_in_words
+
+   !> Values of one key that varies, for every case.
+   subroutine sweep_numbers(sweep, axis, numbers)
+      !> The sweep
+      type(sweep_t), intent(in) :: sweep
+      !> Number of the key
+      integer, intent(in) :: axis
+      !> Its value in each case [unit of the key]
+      real(wp), allocatable, intent(out) :: numbers(:)
+
+      character(len=:), allocatable :: text
+      integer :: i
+
+      allocate (numbers(sweep_size(sweep)))
+      do i = 1, size(numbers)
+         text = sweep_value(sweep, axis, i)
+         read (text, *) numbers(i)
+      end do
+   end subroutine sweep_numbers
+
+   !> Names of one key that varies, for every case, without quotes.
+   subroutine sweep_words(sweep, axis, words)
+      !> The sweep
+      type(sweep_t), intent(in) :: sweep
+      !> Number of the key
+      integer, intent(in) :: axis
+      !> Its value in each case
+      character(len=:), allocatable, intent(out) :: words(:)
+
+      character(len=:), allocatable :: word
+      integer :: i, length
+
+      length = sweep%axes(axis)%values%width
+      allocate (character(len=length) :: words(sweep_size(sweep)))
+      do i = 1, size(words)
+         word = sweep_value(sweep, axis, i)
+         if (scan(word, "'""") == 1) word = word(2:len(word) - 1)
+         words(i) = word
+      end do
+   end subroutine sweep_words
+
+end module camroller_deck_sweep

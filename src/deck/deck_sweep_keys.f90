@@ -1,0 +1,66 @@
+!> Keys of the group &sweep: what a study varies, and how it is run.
+!>
+!> In: a schema. Out: the same with the group in it.
+module camroller_deck_sweep_keys
+   use camroller_kinds, only : wp
+   use camroller_names, only : name_length
+   use camroller_deck_schema, only : schema_t, add_group, add_integer, add_integers, add_name, add_number, add_text, &
+      & add_words, anything, from_to, group_effect, not_negative, positive
+   use camroller_deck_sweep, only : most_cases, scale_names, sweep_kind_names
+   use camroller_number_text, only : integer_text
+   implicit none
+   private
+
+   public :: add_sweep_keys, sweep_key_count, series_choice_names
+
+   !> Keys that one sweep can vary without a table
+   integer, parameter :: sweep_key_count = 8
+   !> Cases whose series the command `sweep` writes
+   character(len=*), parameter :: series_choice_names(*) = [character(len=name_length) :: "none", "chosen", "all"]
+
+contains
+
+   !> Add the group.
+   subroutine add_sweep_keys(schema)
+      !> Schema to add to
+      type(schema_t), intent(inout) :: schema
+
+      call add_group(schema, "sweep", group_effect, "many cases in one run, over up to eight keys or the columns of a table")
+      call add_name(schema, "kind", sweep_kind_names, sweep_kind_names(1), &
+         & "how cases are made: all combinations, the last key fastest; lists side by side; rows of a table; samples")
+      call add_integer(schema, "cases", from_to(1.0_wp, real(most_cases, wp)), "number of cases of a sample", &
+         & is_optional=.true.)
+      call add_integer(schema, "seed", not_negative, "seed of a sample; with 0 the Sobol sequence is as published", default=1)
+      call add_text(schema, "table", "file with a column for each key, named 'group.key', and a row for each case; "// &
+         & "text or HDF5; kind 'table'", is_optional=.true.)
+      call add_axis_keys(schema)
+      call add_name(schema, "series", series_choice_names, series_choice_names(1), &
+         & "cases whose series over the cam angle 'camroller sweep' writes; the summary is written for every case")
+      call add_integers(schema, "series_cases", not_negative, "numbers of these cases, from 0; series 'chosen'", is_optional=.true.)
+      call add_number(schema, "wall_time_limit_s", positive, &
+         & "time after which 'camroller sweep' stops, to be continued with --resume", is_optional=.true.)
+      call add_number(schema, "checkpoint_s", not_negative, "interval at which 'camroller sweep' flushes its "// &
+         & "results to disk", default=30.0_wp)
+   end subroutine add_sweep_keys
+
+   !> Keys that vary, and their values.
+   subroutine add_axis_keys(schema)
+      !> Schema to add to
+      type(schema_t), intent(inout) :: schema
+
+      character(len=1) :: digit
+      integer :: i
+
+      do i = 1, sweep_key_count
+         digit = integer_text(i)
+         call add_text(schema, "key_"//digit, "key that is varied, as 'group.key'", is_optional=.true.)
+         call add_words(schema, "values_"//digit, "its values; or give from, to and count (no count for samples)")
+         call add_number(schema, "from_"//digit, anything, "its first value", is_optional=.true.)
+         call add_number(schema, "to_"//digit, anything, "its last value", is_optional=.true.)
+         call add_integer(schema, "count_"//digit, from_to(2.0_wp, 1.0e6_wp), "number of values at equal distances", &
+            & is_optional=.true.)
+         call add_name(schema, "scale_"//digit, scale_names, scale_names(1), "equal differences or equal ratios")
+      end do
+   end subroutine add_axis_keys
+
+end module camroller_deck_sweep_keys

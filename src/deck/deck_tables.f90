@@ -1,0 +1,238 @@
+!> Tables that a deck names: read once, checked for what they are to be used for, handed over in SI.
+!>
+!> In: settings and the deck's folder. Out: lift or pressure over the cam angle from full lift.
+module camroller_deck_tables
+   use camroller_kinds, only : wp, pi, two_pi, degree
+   use camroller_error, only : error_t
+   use camroller_units, only : unit_t, find_unit, to_si
+   use camroller_number_text, only : number_text, integer_text
+   use camroller_mistakes, only : mistakes_t, add_mistake
+   use camroller_settings, only : settings_t, take, get_word, has_group
+   use camroller_deck_complaint, only : complain
+   use camroller_text_file, only : join_path
+   use camroller_table_file, only : table_t, read_table, check_spacing
+   implicit none
+   private
+
+   public :: deck_tables_t, obtain_tables, get_lift_table, get_pressure_table
+
+   !> Fewest rows of a table
+   integer, parameter :: fewest_rows = 8
+   !> The largest lift must be so near to the nose [deg]
+   real(wp), parameter :: nose_distance = 30.0_wp
+   !> What counts as zero lift, relative to the largest lift [-]
+   real(wp), parameter :: zero_lift = 1.0e-9_wp
+
+   !> Difference of two pressures that are taken for the same, relative to the largest pressure [-]
+   real(wp), parameter :: same_pressure = 1.0e-6_wp
+
+   !> Tables of a deck; without a path where there is none
+   type :: deck_tables_t
+      !> Lift of the first and of the second lobe shape, cylinder pressure
+      type(table_t) :: lift, second_lift, pressure
+   end type deck_tables_t
+
+contains
+
+   !> Have the tables at hand that the settings name; those already at hand are not read again.
+   subroutine obtain_tables(settings, folder, tables, mistakes)
+      !> The settings
+      type(settings_t), intent(in) :: settings
+      !> Folder of the deck
+      character(len=*), intent(in) :: folder
+      !> Tables at hand
+      type(deck_tables_t), intent(inout) :: tables
+      !> Mistakes so far
+      type(mistakes_t), intent(inout) :: mistakes
+
+      if (get_word(settings, "lift", "law") == "table") then
+         call obtain(settings, "lift", folder, tables%lift, mistakes)
+         call check_lift(settings, "lift", tables%lift, mistakes)
+      end if
+      if (has_group(settings, "second_lift") .and. get_word(settings, "second_lift", "law") == "table") then
+         call obtain(settings, "second_lift", folder, tables%second_lift, mistakes)
+         call check_lift(settings, "second_lift", tables%second_lift, mistakes)
+      end if
+      if (has_group(settings, "gas_force")) then
+         call obtain(settings, "gas_force", folder, tables%pressure, mistakes)
+         call check_pressure(tables%pressure, mistakes)
+      end if
+   end subroutine obtain_tables
+
+   !> Have one table at hand.
+   subroutine obtain(settings, group, folder, table, mistakes)
+      !> The settings
+      type(settings_t), intent(in) :: settings
+      !> Group that names the table
+      character(len=*), intent(in) :: group
+      !> Folder of the deck
+      character(len=*), intent(in) :: folder
+      !> The table
+      type(table_t), intent(inout) :: table
+      !> Mistakes so far
+      type(mistakes_t), intent(inout) :: mistakes
+
+      character(len=:), allocatable :: path
+      type(error_t), allocatable :: error
+      integer :: before
+
+      path = get_word(settings, group, "table")
+      if (path == "") return
+      path = join_path(folder, path)
+      if (allocated(table%path)) then
+         if (table%path == path .and. size(table%x) > 0) return
+      end if
+      before = mistakes%count
+      call read_table(path, table, mistakes, error)
+      if (allocated(error)) then
+         call complain(mistakes, settings, group, "table", error%message)
+      else if (mistakes%count == before .and. size(table%x) < fewest_rows) then
+         call add_mistake(mistakes, "the table has "//integer_text(size(table%x))//" of at least "// &
+            & integer_text(fewest_rows)//" rows", 0, 0, 0, path)
+      else if (mistakes%count == before) then
+         call check_spacing(table, mistakes)
+      end if
+      if (mistakes%count > before) table%x = table%x(:0)
+   end subroutine obtain
+
+   !> Is a table a lift: from zero to zero, nowhere negative, around the nose, within one turn?
+   subroutine check_lift(settings, group, table, mistakes)
+      !> The settings
+      type(settings_t), intent(in) :: settings
+      !> Group that names the table
+      character(len=*), intent(in) :: group
+      !> The table
+      type(table_t), intent(in) :: table
+      !> Mistakes so far
+      type(mistakes_t), intent(inout) :: mistakes
+
+      !> Largest lift [unit of the file]
+      real(wp) :: largest
+      !> Cam angle of the nose in the table [rad] and [deg]
+      real(wp) :: nose, nose_degrees
+      integer :: n, top
+
+      if (.not. allocated(table%x)) return
+      n = size(table%x)
+      if (n == 0) return
+      nose = pi
+      call take(settings, group, "table_nose_angle_deg", nose)
+      nose_degrees = nose/degree
+      top = maxloc(table%y, dim=1)
+      largest = table%y(top)
+      if (largest <= 0.0_wp) then
+         call row_mistake(table, top, "the table has no lift above zero", mistakes)
+         return
+      end if
+      if (abs(table%y(1)) > zero_lift*largest) call row_mistake(table, 1, "the lift must start at zero", mistakes)
+      if (abs(table%y(n)) > zero_lift*largest) call row_mistake(table, n, "the lift must end at zero", mistakes)
+      if (any(table%y < -zero_lift*largest)) call row_mistake(table, minloc(table%y, dim=1), "negative lift", mistakes)
+      if (abs(table%x(top) - nose_degrees) > nose_distance) then
+         call row_mistake(table, top, "the largest lift, at "//number_text(table%x(top), 6)// &
+            & " degrees, is far from the "// &
+            & "nose at "//number_text(nose_degrees, 6)//"; see 'table_nose_angle_deg' of &"//group, mistakes)
+      else if (table%x(1) < nose_degrees - 180.0_wp .or. table%x(n) > nose_degrees + 180.0_wp) then
+         call row_mistake(table, n, "the table must lie within 180 degrees of the nose at "//number_text(nose_degrees, &
+            & 6), &
+            & mistakes)
+      end if
+   end subroutine check_lift
+
+   !> Is a table one turn of the cylinder pressure?
+   subroutine check_pressure(table, mistakes)
+      !> The table
+      type(table_t), intent(in) :: table
+      !> Mistakes so far
+      type(mistakes_t), intent(inout) :: mistakes
+
+      !> Length of the table, and the widest distance in it [deg]
+      real(wp) :: length, widest
+      integer :: n
+
+      if (.not. allocated(table%x)) return
+      n = size(table%x)
+      if (n == 0) return
+      length = table%x(n) - table%x(1)
+      widest = maxval(table%x(2:) - table%x(:n - 1))
+      if (length > 360.0_wp .or. length < 360.0_wp - 2.0_wp*widest) then
+         call row_mistake(table, n, "the table must cover one turn of the camshaft, 360 degrees, not "// &
+            & number_text(length, 6), mistakes)
+      else if (length >= 360.0_wp .and. abs(table%y(n) - table%y(1)) > same_pressure*maxval(abs(table%y))) then
+         call row_mistake(table, n, "the pressure must end as it begins, with "//number_text(table%y(1), 10), mistakes)
+      end if
+   end subroutine check_pressure
+
+   !> Take note of a mistake in a row.
+   subroutine row_mistake(table, row, message, mistakes)
+      !> The table
+      type(table_t), intent(in) :: table
+      !> The row
+      integer, intent(in) :: row
+      !> What is wrong
+      character(len=*), intent(in) :: message
+      !> Mistakes so far
+      type(mistakes_t), intent(inout) :: mistakes
+
+      call add_mistake(mistakes, message, table%line(row), 0, 0, table%path, &
+         & number_text(table%x(row))//"  "//number_text(table%y(row)))
+   end subroutine row_mistake
+
+   !> Lift over the angle from full lift; rows of zero lift before and after the event are left out but for one.
+   subroutine get_lift_table(settings, group, table, angle, lift)
+      !> The settings
+      type(settings_t), intent(in) :: settings
+      !> Group that names the table
+      character(len=*), intent(in) :: group
+      !> The table
+      type(table_t), intent(in) :: table
+      !> Cam angle from full lift [rad]
+      real(wp), allocatable, intent(out) :: angle(:)
+      !> Lift of the valve [m]
+      real(wp), allocatable, intent(out) :: lift(:)
+
+      type(unit_t) :: unit
+      logical :: is_known
+      !> Cam angle of the nose in the table [rad]
+      real(wp) :: nose
+      integer :: first, last
+
+      nose = pi
+      call take(settings, group, "table_nose_angle_deg", nose)
+      call find_unit(get_word(settings, group, "table_unit"), unit, is_known)
+      first = max(1, findloc(table%y > 0.0_wp, .true., dim=1) - 1)
+      last = min(size(table%y), findloc(table%y > 0.0_wp, .true., dim=1, back=.true.) + 1)
+      angle = table%x(first:last)*degree - nose
+      lift = to_si(unit, table%y(first:last))
+   end subroutine get_lift_table
+
+   !> Pressure over one turn from half a turn before full lift, increasing; a last row that repeats the first is left
+   !> out.
+   subroutine get_pressure_table(settings, table, angle, pressure)
+      !> The settings
+      type(settings_t), intent(in) :: settings
+      !> The table
+      type(table_t), intent(in) :: table
+      !> Cam angle from full lift, increasing [rad]
+      real(wp), allocatable, intent(out) :: angle(:)
+      !> Gauge pressure [Pa]
+      real(wp), allocatable, intent(out) :: pressure(:)
+
+      type(unit_t) :: unit
+      logical :: is_known
+      !> Cam angle of the nose in the table [rad]
+      real(wp) :: nose
+      integer :: n, first
+
+      nose = pi
+      call take(settings, "gas_force", "table_nose_angle_deg", nose)
+      call find_unit(get_word(settings, "gas_force", "pressure_unit"), unit, is_known)
+      n = size(table%x)
+      if (table%x(n) - table%x(1) >= 360.0_wp) n = n - 1
+      angle = modulo(table%x(:n)*degree - nose + pi, two_pi) - pi
+      first = minloc(angle, dim=1)
+      angle = [cshift(angle, first - 1), angle(first) + two_pi]
+      pressure = to_si(unit, table%y(:n))
+      pressure = [cshift(pressure, first - 1), pressure(first)]
+   end subroutine get_pressure_table
+
+end module camroller_deck_tables

@@ -1,0 +1,396 @@
+!> Which of the listed effects a case needs.
+!>
+!> In: a case. Out: what leaving each effect out would change, at most, and the case without those that together
+!> change the quantity of interest by less than what is negligible.
+!>
+!> The estimates come from a survey of the cycle (`camroller_effect_survey`) at a fraction of the work of a run. They are empirical
+!> bounds, not proved ones: magnitudes of changes are added over the cycle, with a margin, and where the survey has no estimate
+!> the effect stays.
+module camroller_effect_choice
+   use camroller_kinds, only : wp
+   use camroller_error, only : error_t
+   use camroller_names, only : find_name
+   use camroller_accuracy, only : resolve_numerics
+   use camroller_camshaft, only : bearing_loads
+   use camroller_case, only : case_t, numerics_t, select_names, select_needed, quantity_names, quantity_torque, quantity_film, &
+      & quantity_slip
+   use camroller_effect_list, only : choice_t, decision_t, effect_count, effect_bearings, effect_spin, has_effect, leave_out
+   use camroller_effect_reasons, only : find_reason
+   use camroller_effect_survey, only : survey_t, response_t, make_survey, respond, respond_roughly, respond_at_once
+   use camroller_journal, only : journal_t, new_journal, journal_torque
+   use camroller_model, only : model_t, revise_model
+   use camroller_state, only : cam_force
+   implicit none
+   private
+
+   public :: wants_choice, choose_effects, remove_effect
+
+   !> Method that may be far from the solution
+   character(len=*), parameter :: fixed_step = "euler"
+   !> Factor of the estimates on the changes that the survey of the cycle finds [-]
+   real(wp), parameter :: margin = 5.0_wp
+   !> A coarse survey decides where it finds so many times what is negligible [-]
+   real(wp), parameter :: clearly = 10.0_wp
+   !> Changes beyond this are too large to be estimated from small ones [-]
+   real(wp), parameter :: largest_estimate = 1.0_wp
+   !> Tolerance of the quasi-static limit over what is negligible, by quantity [-]
+   real(wp), parameter :: tolerance_parts(size(quantity_names)) = [0.5_wp, 0.1_wp, 0.01_wp]
+
+   !> Mean torque for losses
+   type :: mean_torque_t
+      !> Of the followers, its uncertainty, of the bearings [N m]
+      real(wp) :: followers = 0.0_wp, error = 0.0_wp, bearings = 0.0_wp
+   end type mean_torque_t
+
+contains
+
+   !> Does a case leave the choice to the program?
+   pure function wants_choice(case) result(wants)
+      !> The case
+      type(case_t), intent(in) :: case
+      !> True for `select = 'needed'`
+      logical :: wants
+
+      wants = case%effects%select == select_names(select_needed)
+   end function wants_choice
+
+   !> Leave out what a case does not need.
+   subroutine choose_effects(case, models, chosen, choice, is_thorough, error)
+      !> The case with all its effects
+      type(case_t), intent(in) :: case
+      !> Model of each lobe shape
+      type(model_t), intent(in) :: models(:)
+      !> The case with those that matter
+      type(case_t), intent(out) :: chosen
+      !> What was decided and why
+      type(choice_t), intent(out) :: choice
+      !> Does every effect get the full survey, even those that the coarse one finds to matter?
+      logical, intent(in) :: is_thorough
+      !> Deck error
+      type(error_t), allocatable, intent(out) :: error
+
+      ! Smallest estimate of the effects not surveyed yet [-]
+      real(wp) :: least
+      integer :: i, next
+      logical, allocatable :: is_open(:)
+
+      chosen = case
+      call weigh_effects(case, models, choice, is_thorough, error)
+      if (allocated(error)) return
+      choice%bound = 0.0_wp
+      allocate (is_open(size(choice%decisions)), source=.true.)
+      do while (any(is_open))
+         least = huge(1.0_wp)
+         next = 0
+         do i = 1, size(choice%decisions)
+            if (.not. is_open(i)) cycle
+            if (next > 0 .and. choice%decisions(i)%estimates(choice%quantity) >= least) cycle
+            least = choice%decisions(i)%estimates(choice%quantity)
+            next = i
+         end do
+         is_open(next) = .false.
+         ! The integration is as quick as its limit: there is nothing to be saved
+         if (choice%decisions(next)%effect == effect_spin) cycle
+         if (least > choice%negligible - choice%bound) cycle
+         choice%bound = choice%bound + least
+         choice%decisions(next)%is_used = .false.
+         call remove_effect(chosen, choice%decisions(next)%effect)
+      end do
+   end subroutine choose_effects
+
+   !> Leave an effect out; the quasi-static limit of the roller's equation is no more precise than need be.
+   subroutine remove_effect(case, effect)
+      !> In: a case; out: without the effect
+      type(case_t), intent(inout) :: case
+      !> Position in `effect_names`
+      integer, intent(in) :: effect
+
+      ! [-]
+      real(wp) :: tolerance
+
+      tolerance = quasi_static_tolerance(case)
+      call leave_out(case, effect)
+      if (effect == effect_spin) case%numerics%tolerance = tolerance
+   end subroutine remove_effect
+
+   !> Tolerance of the quasi-static limit where it takes the place of the roller's equation.
+   pure function quasi_static_tolerance(case) result(tolerance)
+      !> The case
+      type(case_t), intent(in) :: case
+      !> Error of the balance over the largest sliding speed [-]
+      real(wp) :: tolerance
+
+      type(numerics_t) :: resolved
+
+      resolved = resolve_numerics(case%numerics)
+      tolerance = max(resolved%tolerance, minval(tolerance_parts*case%effects%negligible, &
+         & mask=quantity_names == case%effects%quantity))
+   end function quasi_static_tolerance
+
+   !> What leaving each effect out would change.
+   subroutine weigh_effects(case, models, choice, is_thorough, error)
+      !> The case with all its effects
+      type(case_t), intent(in) :: case
+      !> Model of each lobe shape
+      type(model_t), intent(in) :: models(:)
+      !> Estimates and reasons; nothing is left out yet
+      type(choice_t), intent(out) :: choice
+      !> Does every effect get the full survey?
+      logical, intent(in) :: is_thorough
+      !> Deck error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(survey_t), allocatable :: surveys(:)
+      type(mean_torque_t) :: torque
+      integer :: lobe, effect
+
+      call find_name("quantity", case%effects%quantity, quantity_names, choice%quantity, error)
+      if (allocated(error)) return
+      choice%negligible = case%effects%negligible
+      choice%bound = 0.0_wp
+      choice%evaluations = 0
+      allocate (choice%decisions(0), surveys(size(models)))
+      do lobe = 1, size(models)
+         call make_survey(models(lobe), surveys(lobe))
+         if (case%numerics%method == fixed_step) surveys(lobe)%trouble = "a fixed step may not resolve the cycle"
+         choice%evaluations = choice%evaluations + surveys(lobe)%evaluations
+         if (allocated(surveys(lobe)%trouble)) cycle
+         torque%followers = torque%followers + followers_of(case, lobe)*surveys(lobe)%torque
+         torque%error = torque%error + followers_of(case, lobe)*surveys(lobe)%torque_error
+      end do
+      if (has_single_bearings(case) .and. .not. allocated(surveys(1)%trouble)) then
+         call mean_bearing_torque(case, models(1), surveys(1), torque%bearings, error)
+         if (allocated(error)) return
+      end if
+      do effect = 1, effect_count
+         if (.not. has_effect(case, effect)) cycle
+         call weigh_effect(case, models, surveys, effect, torque, is_thorough, choice, error)
+         if (allocated(error)) return
+      end do
+   end subroutine weigh_effects
+
+   !> What leaving one effect out would change.
+   subroutine weigh_effect(case, models, surveys, effect, torque, is_thorough, choice, error)
+      !> The case with all its effects
+      type(case_t), intent(in) :: case
+      !> Model of each lobe shape
+      type(model_t), intent(in) :: models(:)
+      !> Cycle of each
+      type(survey_t), intent(in) :: surveys(:)
+      !> Position in `effect_names`
+      integer, intent(in) :: effect
+      !> Mean torque for losses
+      type(mean_torque_t), intent(in) :: torque
+      !> Does every effect get the full survey?
+      logical, intent(in) :: is_thorough
+      !> Gets a decision
+      type(choice_t), intent(inout) :: choice
+      !> Deck error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(decision_t) :: decision
+      type(response_t), allocatable :: responses(:)
+      integer :: lobe
+      logical :: is_rough
+
+      decision%effect = effect
+      decision%is_used = .true.
+      decision%estimates = huge(1.0_wp)
+      decision%reason = ""
+      if (effect == effect_bearings) call weigh_bearings(case, surveys, torque, decision)
+      lobe = 1
+      do while (lobe < size(surveys) .and. .not. allocated(surveys(lobe)%trouble))
+         lobe = lobe + 1
+      end do
+      if (allocated(surveys(lobe)%trouble)) then
+         if (decision%reason == "") decision%reason = "not estimated: "//surveys(lobe)%trouble
+      else if (decision%reason == "") then
+         call find_reason(effect, models(1), surveys(1), torque%bearings/(torque%followers + torque%bearings), decision%reason)
+         if (effect /= effect_bearings) then
+            is_rough = .not. is_thorough .and. effect /= effect_spin
+            call find_responses(case, models, surveys, effect, is_rough, responses, error)
+            if (allocated(error)) return
+            call set_estimates(case, surveys(1), responses, torque, choice, decision)
+            if (is_rough .and. decision%estimates(choice%quantity) < clearly*choice%negligible) then
+               call find_responses(case, models, surveys, effect, .false., responses, error)
+               if (allocated(error)) return
+               call set_estimates(case, surveys(1), responses, torque, choice, decision)
+            end if
+         end if
+      end if
+      choice%decisions = [choice%decisions, decision]
+   end subroutine weigh_effect
+
+   !> Estimates from how every lobe's cycle answers.
+   subroutine set_estimates(case, survey, responses, torque, choice, decision)
+      !> The case with all its effects
+      type(case_t), intent(in) :: case
+      !> Cycle of the first lobe
+      type(survey_t), intent(in) :: survey
+      !> The answers
+      type(response_t), intent(in) :: responses(:)
+      !> Mean torque for losses
+      type(mean_torque_t), intent(in) :: torque
+      !> Counts the work
+      type(choice_t), intent(inout) :: choice
+      !> Gets the estimates
+      type(decision_t), intent(inout) :: decision
+
+      ! Change of the torque [N m]
+      real(wp) :: change
+      integer :: lobe
+
+      choice%evaluations = choice%evaluations + sum(responses%evaluations)
+      decision%estimates = huge(1.0_wp)
+      if (.not. all(responses%is_known)) return
+      change = 0.0_wp
+      do lobe = 1, size(responses)
+         change = change + followers_of(case, lobe)*responses(lobe)%torque
+      end do
+      decision%estimates(quantity_torque) = relative(change, least_torque(torque))
+      decision%estimates(quantity_film) = margin*responses(1)%film
+      decision%estimates(quantity_slip) = relative(responses(1)%sliding, abs(survey%slip) - survey%slip_error)
+      where (decision%estimates > largest_estimate) decision%estimates = huge(1.0_wp)
+   end subroutine set_estimates
+
+   !> How every lobe's cycle answers to a case without an effect.
+   subroutine find_responses(case, models, surveys, effect, is_rough, responses, error)
+      !> The case with all its effects
+      type(case_t), intent(in) :: case
+      !> Model of each lobe shape
+      type(model_t), intent(in) :: models(:)
+      !> Cycle of each
+      type(survey_t), intent(in) :: surveys(:)
+      !> Position in `effect_names`
+      integer, intent(in) :: effect
+      !> A coarse survey alone?
+      logical, intent(in) :: is_rough
+      !> The answers
+      type(response_t), allocatable, intent(out) :: responses(:)
+      !> Deck error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(case_t) :: variant
+      type(model_t) :: model
+      integer :: lobe
+
+      allocate (responses(size(models)))
+      variant = case
+      call leave_out(variant, effect)
+      do lobe = 1, size(models)
+         if (effect == effect_spin) then
+            call respond_at_once(surveys(lobe), models(lobe), quasi_static_tolerance(case), responses(lobe))
+            cycle
+         end if
+         model = models(lobe)
+         call revise_model(model, variant, error)
+         if (allocated(error)) return
+         if (is_rough) then
+            call respond_roughly(surveys(lobe), models(lobe), model, responses(lobe))
+         else
+            call respond(surveys(lobe), models(lobe), model, responses(lobe))
+         end if
+      end do
+   end subroutine find_responses
+
+   !> Camshaft bearings: they take torque and do nothing else, unless they carry several cams.
+   subroutine weigh_bearings(case, surveys, torque, decision)
+      !> The case
+      type(case_t), intent(in) :: case
+      !> Cycle of each lobe shape
+      type(survey_t), intent(in) :: surveys(:)
+      !> Mean torque for losses
+      type(mean_torque_t), intent(in) :: torque
+      !> The decision
+      type(decision_t), intent(inout) :: decision
+
+      if (.not. has_single_bearings(case)) then
+         decision%reason = "not estimated: without them there is one cam, of the first lobe shape, at phase 0; here is another"
+         return
+      end if
+      decision%estimates([quantity_film, quantity_slip]) = 0.0_wp
+      if (.not. allocated(surveys(1)%trouble)) then
+         decision%estimates(quantity_torque) = relative(torque%bearings, least_torque(torque))
+      end if
+   end subroutine weigh_bearings
+
+   !> Are there camshaft bearings, and between them one cam of the first lobe shape at phase 0, as a case without them has it?
+   pure function has_single_bearings(case) result(has)
+      !> The case
+      type(case_t), intent(in) :: case
+      !> True for such a cam
+      logical :: has
+
+      has = .false.
+      if (.not. allocated(case%cam_bearings)) return
+      if (size(case%cam_bearings%cam_positions) /= 1) return
+      has = case%cam_bearings%cam_lobes(1) == 1 .and. abs(case%cam_bearings%cam_phases(1)) <= 0.0_wp
+   end function has_single_bearings
+
+   !> Mean torque of the bearings of a single cam.
+   subroutine mean_bearing_torque(case, model, survey, mean, error)
+      !> The case
+      type(case_t), intent(in) :: case
+      !> Its model
+      type(model_t), intent(in) :: model
+      !> The cycle
+      type(survey_t), intent(in) :: survey
+      !> Mean torque [N m]
+      real(wp), intent(out) :: mean
+      !> Deck or domain error of the bearings
+      type(error_t), allocatable, intent(out) :: error
+
+      type(journal_t) :: journal
+      ! Force on the cam, load of each bearing [N]; torque of one [N m]
+      real(wp) :: forces(2, 1), loads(2, size(case%cam_bearings%bearing_positions)), torque
+      integer :: i, bearing, status
+
+      mean = 0.0_wp
+      call new_journal(journal, case%cam_bearings, model%oil%viscosity, model%speed, error)
+      if (allocated(error)) return
+      do i = 1, size(survey%states)
+         forces(:, 1) = cam_force(model, survey%states(i))
+         call bearing_loads(case%cam_bearings, forces, loads)
+         do bearing = 1, size(loads, 2)
+            call journal_torque(journal, norm2(loads(:, bearing)), torque, status)
+            if (status == 0) mean = mean + survey%grid%weights(i)*torque
+         end do
+      end do
+   end subroutine mean_bearing_torque
+
+   !> Mean torque for all losses, less its uncertainty.
+   pure function least_torque(torque) result(least)
+      !> Mean torque for losses
+      type(mean_torque_t), intent(in) :: torque
+      !> It may be as little as this [N m]
+      real(wp) :: least
+
+      least = torque%followers - torque%error + torque%bearings
+   end function least_torque
+
+   !> Number of followers that a lobe shape drives.
+   pure function followers_of(case, lobe) result(followers)
+      !> The case
+      type(case_t), intent(in) :: case
+      !> Lobe shape
+      integer, intent(in) :: lobe
+      !> Their number
+      integer :: followers
+
+      followers = merge(1, 0, lobe == 1)
+      if (allocated(case%cam_bearings)) followers = count(case%cam_bearings%cam_lobes == lobe)
+   end function followers_of
+
+   !> Relative change with the margin; huge where there is nothing, or perhaps nothing, that it could be relative to.
+   pure function relative(change, whole)
+      !> Change, and the least that it may be relative to [any]
+      real(wp), intent(in) :: change, whole
+      !> The change, with its margin [-]
+      real(wp) :: relative
+
+      relative = huge(1.0_wp)
+      if (change <= 0.0_wp) relative = 0.0_wp
+      if (whole > margin*change*tiny(1.0_wp)**0.25_wp) relative = margin*change/whole
+   end function relative
+
+end module camroller_effect_choice

@@ -1,0 +1,171 @@
+!> Pressure and film across the contact of a cycle that a film law has found: steady contacts at its loads and sliding speeds.
+!>
+!> In: case, its result. Out: `ehl_record_t` at the cam angles of the result. Nothing of the result changes; what the
+!> film law and the closed formulas of friction say at the same loads and speeds stands beside.
+module camroller_ehl_profiles
+   use camroller_kinds, only : wp, pi, degree
+   use camroller_error, only : error_t, raise, add_context, kind_convergence
+   use camroller_case, only : case_t
+   use camroller_dynamics, only : moments_t
+   use camroller_ehl_cycle, only : ehl_cycle_t, ehl_cycle_options_t, prepare_march
+   use camroller_ehl_newton, only : ehl_state_t
+   use camroller_ehl_record, only : ehl_record_t, make_ehl_record
+   use camroller_ehl_reynolds, only : new_ehl_fields
+   use camroller_ehl_step, only : ehl_march_t, moment_t, find_film, spin_excess
+   use camroller_ehl_table, only : ehl_t
+   use camroller_events, only : check_geometry
+   use camroller_kinematics, only : position_t
+   use camroller_model, only : model_t, new_model
+   use camroller_number_text, only : fixed_text
+   use camroller_result, only : result_t, find_quantity
+   use camroller_state, only : evaluate_loading
+   implicit none
+   private
+
+   public :: find_profiles, make_profiles, plain_model
+
+   !> Nodes across a contact
+   integer, parameter :: profile_nodes = 129
+
+contains
+
+   !> Profiles of a case, where it asks for them; a remark on the result where they cannot be solved.
+   subroutine find_profiles(record, case, result)
+      !> The record; not allocated where there is none
+      type(ehl_record_t), allocatable, intent(out) :: record
+      !> The case
+      type(case_t), intent(in) :: case
+      !> Its result
+      type(result_t), intent(inout) :: result
+
+      type(error_t), allocatable :: error
+
+      if (.not. allocated(case%ehl)) return
+      if (.not. case%ehl%profiles) return
+      allocate (record)
+      call make_profiles(record, case, result, error)
+      if (.not. allocated(error)) return
+      deallocate (record)
+      if (len(result%warnings) > 0) result%warnings = result%warnings//new_line("a")
+      result%warnings = result%warnings//"no profiles: "//error%message
+      result%lacks_profiles = .true.
+   end subroutine find_profiles
+
+   !> Profiles of a result.
+   subroutine make_profiles(record, case, result, error)
+      !> The record
+      type(ehl_record_t), intent(out) :: record
+      !> The case
+      type(case_t), intent(in) :: case
+      !> Its result
+      type(result_t), intent(in) :: result
+      !> Domain error beyond the range of solutions, convergence error that names the angle
+      type(error_t), allocatable, intent(out) :: error
+
+      type(model_t) :: model
+      type(ehl_cycle_t) :: cycle
+
+      call plain_model(model, case, .false., error)
+      if (.not. allocated(error)) call steady_contacts(cycle, model, result%angle*degree - pi, &
+         & result%series_values(:, find_quantity(result%series, "contact_load")), &
+         & result%series_values(:, find_quantity(result%series, "sliding_speed")), error)
+      if (.not. allocated(error)) call make_ehl_record(record, model, cycle)
+   end subroutine make_profiles
+
+   !> Model of a case with the film law of the deck, without a table of numerical films, for solved contacts.
+   subroutine plain_model(model, case, is_second, error)
+      !> The model; it knows how contacts are to be solved
+      type(model_t), intent(out) :: model
+      !> The case
+      type(case_t), intent(in) :: case
+      !> The second lobe shape?
+      logical, intent(in) :: is_second
+      !> Deck or domain error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(case_t) :: plain
+      type(ehl_t), allocatable :: setup
+
+      plain = case
+      call move_alloc(plain%ehl, setup)
+      if (is_second) then
+         call new_model(model, plain, plain%second_lift, error)
+      else
+         call new_model(model, plain, plain%lift, error)
+      end if
+      if (.not. allocated(error)) call check_geometry(model, plain%mechanism%grinding_wheel_radius, error)
+      if (allocated(error) .and. is_second) call add_context(error, "second lift")
+      if (allocated(setup)) call move_alloc(setup, model%ehl)
+   end subroutine plain_model
+
+   !> Steady contacts at given loads and sliding speeds, each from the one before.
+   subroutine steady_contacts(cycle, model, angles, loads, speeds, error)
+      !> The contacts
+      type(ehl_cycle_t), intent(out) :: cycle
+      !> The model
+      type(model_t), intent(in) :: model
+      !> Cam angles from full lift [rad], loads [N], sliding speeds [m/s]
+      real(wp), intent(in) :: angles(:), loads(:), speeds(:)
+      !> Domain or convergence error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(ehl_march_t) :: march
+      type(ehl_state_t) :: state
+      type(moment_t) :: before(1)
+      integer :: i
+      logical :: converged
+
+      call prepare_march(march, model, ehl_cycle_options_t(nodes=profile_nodes, is_transient=.false.), error)
+      if (allocated(error)) return
+      call new_ehl_fields(state%fields, march%grid%size)
+      cycle%angle = angles
+      cycle%nodes = march%grid%x
+      allocate (cycle%moments(size(angles)))
+      allocate (cycle%pressure(march%grid%size, size(angles)), cycle%film(march%grid%size, size(angles)), source=0.0_wp)
+      do i = 1, size(angles)
+         cycle%moments(i)%angle = angles(i)
+         cycle%moments(i)%load = loads(i)
+         cycle%moments(i)%sliding_speed = speeds(i)
+         call solve_at(model, march, before, state, cycle%moments(i), converged)
+         if (.not. converged) then
+            call raise(error, kind_convergence, "ehl: no film at cam angle "// &
+               & fixed_text(modulo(180.0_wp + angles(i)/degree, 360.0_wp), 3)//" deg")
+            return
+         end if
+         before(1) = cycle%moments(i)
+         if (.not. before(1)%has_film) cycle
+         cycle%pressure(:, i) = state%total*before(1)%pressure_scale
+         cycle%film(:, i) = state%fields%film*before(1)%film_scale
+      end do
+   end subroutine steady_contacts
+
+   !> Film and friction at one angle.
+   subroutine solve_at(model, march, before, state, now, converged)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> Nodes
+      type(ehl_march_t), intent(in) :: march
+      !> The contact before
+      type(moment_t), intent(in) :: before(1)
+      !> Its pressure, then that at the angle
+      type(ehl_state_t), intent(inout) :: state
+      !> The contact; angle, load and sliding speed are set
+      type(moment_t), intent(inout) :: now
+      !> Was a solution found?
+      logical, intent(out) :: converged
+
+      type(position_t) :: position
+      type(moments_t) :: moments
+      ! Gas force [N]; what the roller's equation would need, not used [m/s^2], [1/s]
+      real(wp) :: force, excess, slope
+      integer :: status
+
+      call evaluate_loading(model, now%angle, position, force, moments, status)
+      converged = status == 0
+      if (converged) call find_film(model, march, position, before, [0.0_wp, 0.0_wp, 0.0_wp], state, now, converged)
+      if (.not. converged) return
+      if (allocated(now%mass)) deallocate (now%mass)
+      call spin_excess(model, position, now, now%sliding_speed, 0.0_wp, excess, slope)
+   end subroutine solve_at
+
+end module camroller_ehl_profiles

@@ -1,0 +1,406 @@
+!> One step of a contact with a transient film: squeeze, load, load share, friction and the roller's spin, solved together.
+!>
+!> In: model, angle, what was before. Out: the contact at the angle. The film's equations have the rate at which
+!> oil is stored under the contact, on nodes that grow and shrink with the half width; the rates of film and roller are the same
+!> formula, backward differences of first or second order. Nothing is lagged: film, load and sliding speed are repeated until
+!> they agree.
+module camroller_ehl_step
+   use camroller_kinds, only : wp, pi
+   use camroller_model, only : model_t
+   use camroller_kinematics, only : position_t
+   use camroller_dynamics, only : moments_t
+   use camroller_state, only : evaluate_loading
+   use camroller_spin, only : rolling_speed_at, rolling_speed_slope
+   use camroller_stick, only : has_stick
+   use camroller_roller, only : spin_acceleration
+   use camroller_needle, only : bearing_torque
+   use camroller_traction, only : law_eyring, rolling_none, limit_shear, mobilised_share, sliding_direction
+   use camroller_ehl_grid, only : ehl_grid_t
+   use camroller_ehl_problem, only : ehl_contact_t, ehl_problem_t, new_ehl_problem, in_range
+   use camroller_ehl_reynolds, only : storage_t
+   use camroller_ehl_newton, only : ehl_state_t, solve_newton, contraction
+   use camroller_ehl_films, only : ehl_films_t, get_films
+   use camroller_ehl_solution, only : solve_cold
+   implicit none
+   private
+
+   public :: moment_t, ehl_march_t, make_step, contact_at, find_film, spin_excess, bearing_moment, max_rounds
+
+   !> What a step leaves behind
+   type :: moment_t
+      !> Cam angle from full lift [rad]
+      real(wp) :: angle = 0.0_wp
+      !> Sliding speed [m/s], load [N]
+      real(wp) :: sliding_speed = 0.0_wp, load = 0.0_wp
+      !> Half width that scales the nodes [m], scales of pressure [Pa] and film [m]
+      real(wp) :: length_scale = 0.0_wp, pressure_scale = 0.0_wp, film_scale = 0.0_wp
+      !> Is there a film, i.e. contact?
+      logical :: has_film = .false.
+      !> Oil in the cells over length and ambient density [m^2]
+      real(wp), allocatable :: mass(:)
+      !> Film, friction, load share
+      type(ehl_films_t) :: films
+      !> Traction and the part of it that is shear of the film, what asperities can bear, rolling resistance [N]
+      real(wp) :: traction = 0.0_wp, shear = 0.0_wp, boundary_capacity = 0.0_wp, rolling_resistance = 0.0_wp
+      !> Rate at which a change of the sliding speed decays, per radian of the cam [-]
+      real(wp) :: damping = 0.0_wp
+      !> Times that film and forces were found anew
+      integer :: rounds = 0
+      !> Is the contact one that solutions are given for? As `new_ehl_problem` has it
+      integer :: status = in_range
+   end type moment_t
+
+   !> What stays over the cycle
+   type :: ehl_march_t
+      !> Nodes
+      type(ehl_grid_t) :: grid
+      !> Largest load of the cycle without friction [N]; largest speed of pure rolling [m/s]
+      real(wp) :: largest_load = 0.0_wp, largest_rolling = 0.0_wp
+      !> Does the film remember? If not, each angle is a steady contact
+      logical :: is_transient = .true.
+      !> What may be left of film and forces [-], and of the sliding speed [m/s]
+      real(wp) :: tolerance = 1.0e-6_wp, slip_tolerance = 1.0_wp
+   end type ehl_march_t
+
+   !> Parts of the largest load: below the first the nodes no longer shrink with the load, below the second contact counts as lost
+   !> [-]
+   real(wp), parameter :: scaling_part = 0.02_wp, lost_part = 1.0e-3_wp
+   !> Entrainment over the cam's surface speed below which the film is that of this speed [-]
+   real(wp), parameter :: least_entrainment = 1.0e-3_wp
+   !> Rounds of film and forces, of which the first are not damped, iterations of Newton's method in each, and for the sliding speed
+   integer, parameter :: free_rounds = 4, max_rounds = 40, newton_iterations = 25, speed_iterations = 100
+
+contains
+
+   !> Load below which the nodes no longer follow the load.
+   pure function least_load_of(march) result(load)
+      !> What stays over the cycle
+      type(ehl_march_t), intent(in) :: march
+      !> The load [N]
+      real(wp) :: load
+
+      load = scaling_part*march%largest_load
+   end function least_load_of
+
+   !> A step from the last moment, and the one before it where there is one, to an angle.
+   subroutine make_step(model, march, before, angle, state, now, converged)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> What stays over the cycle
+      type(ehl_march_t), intent(in) :: march
+      !> Last moment and the one before it; one alone for a step of first order
+      type(moment_t), intent(in) :: before(:)
+      !> Cam angle from full lift [rad]
+      real(wp), intent(in) :: angle
+      !> Pressure nearby, then that at the angle
+      type(ehl_state_t), intent(inout) :: state
+      !> The contact at the angle
+      type(moment_t), intent(out) :: now
+      !> Was a solution found?
+      logical, intent(out) :: converged
+
+      type(position_t) :: position
+      type(moments_t) :: moments
+      ! Weights of the moments in the rate [1/s]
+      real(wp) :: rates(0:2)
+      ! Gas force [N]; sliding speed and load of the round before [m/s], [N]
+      real(wp) :: force, speed, load
+      integer :: status, round
+
+      converged = .false.
+      call evaluate_loading(model, angle, position, force, moments, status)
+      if (status /= 0) return
+      rates = rate_weights(model%speed, angle, before)
+      now%angle = angle
+      now%sliding_speed = before(1)%sliding_speed
+      state%factors%rate = contraction
+      now%load = balanced_load(model, position, moments, before(1)%traction, before(1)%rolling_resistance, 0.0_wp)
+      do round = 1, max_rounds
+         now%rounds = round
+         speed = now%sliding_speed
+         load = now%load
+         call find_film(model, march, position, before, rates, state, now, converged)
+         if (.not. converged) return
+         call find_sliding_speed(model, position, before, rates, now)
+         ! Where film and slip drive each other round in circles, meet in the middle
+         if (round > free_rounds) now%sliding_speed = 0.5_wp*(now%sliding_speed + speed)
+         now%load = balanced_load(model, position, moments, now%traction, now%rolling_resistance, now%sliding_speed)
+         converged = abs(now%sliding_speed - speed) <= min(march%slip_tolerance, march%tolerance*march%largest_rolling) &
+            & .and. abs(now%load - load) <= march%tolerance*march%largest_load
+         if (converged) exit
+         ! So may load and traction: with the shear of a pressure spike, either changes the other by more than its own change
+         if (round > free_rounds) now%load = 0.5_wp*(now%load + load)
+      end do
+   end subroutine make_step
+
+   !> Weights of now and before in a rate: backward differences.
+   pure function rate_weights(speed, angle, before) result(weights)
+      !> Cam speed [rad/s], angle [rad]
+      real(wp), intent(in) :: speed, angle
+      !> Moments before
+      type(moment_t), intent(in) :: before(:)
+      !> Weights of now, the last moment, the one before it [1/s]
+      real(wp) :: weights(0:2)
+
+      ! Length of the step and of that before [rad]; their ratio [-]
+      real(wp) :: step, last_step, ratio
+
+      step = angle - before(1)%angle
+      weights = [1.0_wp, -1.0_wp, 0.0_wp]
+      if (size(before) > 1) then
+         last_step = before(1)%angle - before(2)%angle
+         ratio = step/last_step
+         weights = [(1.0_wp + 2.0_wp*ratio)/(1.0_wp + ratio), -1.0_wp - ratio, ratio**2/(1.0_wp + ratio)]
+      end if
+      weights = weights*speed/step
+   end function rate_weights
+
+   !> The contact as it is given.
+   pure function contact_at(model, march, position, load, sliding_speed) result(contact)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> What stays over the cycle
+      type(ehl_march_t), intent(in) :: march
+      !> Geometry
+      type(position_t), intent(in) :: position
+      !> Load [N], sliding speed [m/s]
+      real(wp), intent(in) :: load, sliding_speed
+      !> The contact, under a load that scales the nodes
+      type(ehl_contact_t) :: contact
+
+      ! Speed of the cam's surface over the contact point [m/s]
+      real(wp) :: surface_speed
+
+      surface_speed = model%speed*position%surface_travel
+      contact%line_load = max(load, least_load_of(march))/model%contact_width
+      contact%radius = position%equivalent_radius
+      contact%modulus = model%modulus
+      contact%entrainment_speed = max(abs(surface_speed - 0.5_wp*sliding_speed), least_entrainment*abs(surface_speed))
+      contact%sliding_speed = sliding_speed
+      contact%oil = model%oil
+      if (model%shear_law == law_eyring) contact%eyring_stress = model%eyring_stress
+      if (allocated(model%ehl)) then
+         contact%is_compressible = model%ehl%compressible
+         contact%has_flow_factors = model%ehl%flow_factors
+         if (.not. model%ehl%shear_thinning) contact%eyring_stress = 0.0_wp
+      end if
+      if (allocated(model%boundary) .or. contact%has_flow_factors) contact%roughness = model%roughness
+      if (allocated(model%boundary)) contact%asperity = model%boundary%constants
+   end function contact_at
+
+   !> Film at a load and a sliding speed.
+   subroutine find_film(model, march, position, before, rates, state, now, converged)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> What stays over the cycle
+      type(ehl_march_t), intent(in) :: march
+      !> Geometry
+      type(position_t), intent(in) :: position
+      !> Moments before
+      type(moment_t), intent(in) :: before(:)
+      !> Weights in the rates [1/s]
+      real(wp), intent(in) :: rates(0:2)
+      !> Pressure nearby, then the solution
+      type(ehl_state_t), intent(inout) :: state
+      !> The contact; film and friction are set
+      type(moment_t), intent(inout) :: now
+      !> Was a solution found?
+      logical, intent(out) :: converged
+
+      type(ehl_contact_t) :: contact
+      type(ehl_problem_t) :: problem
+      type(storage_t) :: storage
+      ! Half width before, weighted as in the rate [m]
+      real(wp) :: length
+      integer :: status, k
+
+      contact = contact_at(model, march, position, now%load, now%sliding_speed)
+      call new_ehl_problem(problem, contact, status)
+      now%status = status
+      converged = status == in_range
+      if (.not. converged) return
+      now%length_scale = problem%length_scale
+      now%pressure_scale = problem%pressure_scale
+      now%film_scale = problem%film_scale
+      now%has_film = now%load > lost_part*march%largest_load
+      if (.not. now%has_film) then
+         now%films = ehl_films_t()
+         return
+      end if
+      problem%load = 0.5_wp*pi*now%load/max(now%load, least_load_of(march))
+      problem%expected_film = problem%expected_film*max(1.0_wp, least_load_of(march)/now%load)
+      if (march%is_transient .and. all(before%has_film)) then
+         storage%duration = contact%entrainment_speed/(rates(0)*problem%length_scale)
+         allocate (storage%mass(march%grid%size), source=0.0_wp)
+         length = 0.0_wp
+         do k = 1, size(before)
+            storage%mass = storage%mass - rates(k)/rates(0)*before(k)%mass
+            length = length - rates(k)/rates(0)*before(k)%length_scale
+         end do
+         storage%mass = storage%mass/(problem%film_scale*problem%length_scale)
+         storage%growth = 1.0_wp - length/problem%length_scale
+         call solve_newton(problem, march%grid, state, march%tolerance, newton_iterations, converged, storage)
+      else
+         converged = .false.
+         if (before(1)%has_film) call solve_newton(problem, march%grid, state, march%tolerance, newton_iterations, converged)
+         if (.not. converged) call solve_cold(problem, march%grid, march%tolerance, state, converged)
+      end if
+      if (.not. converged) return
+      call get_films(problem, march%grid, state, now%films)
+      now%mass = march%grid%weight*state%fields%density*state%fields%gap*problem%film_scale*problem%length_scale
+   end subroutine find_film
+
+   !> Sliding speed at which the roller's spin follows from film and load: rest where friction can hold the roller, else Newton's
+   !> method inside a bracket.
+   pure subroutine find_sliding_speed(model, position, before, rates, now)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> Geometry
+      type(position_t), intent(in) :: position
+      !> Moments before
+      type(moment_t), intent(in) :: before(:)
+      !> Weights in the rates [1/s]
+      real(wp), intent(in) :: rates(0:2)
+      !> The contact; sliding speed and forces are set
+      type(moment_t), intent(inout) :: now
+
+      ! Bracket, its end away from rest, trial [m/s]; excess of the rate [m/s^2], its slope [1/s]; what the moments before add to
+      ! the rate [m/s^2]
+      real(wp) :: low, high, reach, speed, excess, slope, past
+      integer :: iteration
+
+      past = dot_product(rates(1:size(before)), before%sliding_speed)
+      low = -10.0_wp*rolling_speed_at(model, position)
+      high = -low
+      speed = now%sliding_speed
+      ! With the law of rest in question the excess jumps there, so that rest is one end of the bracket unless it is the answer
+      if (has_stick(model)) speed = 0.0_wp
+      do iteration = 1, speed_iterations
+         call spin_excess(model, position, now, speed, rates(0)*speed + past, excess, slope)
+         slope = slope + rates(0)
+         if (excess > 0.0_wp) high = min(high, speed)
+         if (excess < 0.0_wp) low = max(low, speed)
+         reach = high
+         if (has_stick(model)) reach = max(high, -low)
+         if (abs(excess) <= 1.0e-12_wp*abs(slope*reach) .or. high - low <= 1.0e-13_wp*reach) exit
+         speed = speed - excess/slope
+         if (speed <= low .or. speed >= high) speed = 0.5_wp*(low + high)
+      end do
+      now%sliding_speed = speed
+      now%damping = (slope - rates(0))/model%speed
+   end subroutine find_sliding_speed
+
+   !> Rate of the sliding speed over what the roller's equation says, and its slope. Where friction may be anything up to a limit
+   !> at rest, it is what comes next to no excess there.
+   pure subroutine spin_excess(model, position, now, speed, rate, excess, slope)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> Geometry
+      type(position_t), intent(in) :: position
+      !> The contact; traction and rolling resistance are set
+      type(moment_t), intent(inout) :: now
+      !> Sliding speed [m/s]
+      real(wp), intent(in) :: speed
+      !> Its rate [m/s^2]
+      real(wp), intent(in) :: rate
+      !> Excess of the rate [m/s^2]
+      real(wp), intent(out) :: excess
+      !> Derivative over the sliding speed, without the rate's own [1/s]
+      real(wp), intent(out) :: slope
+
+      ! Slopes of the limited over the free shear and over the limit [-]; slope of traction [N s/m]; torque of the bearing [N m]
+      real(wp) :: by_shear, by_limit, traction_slope, torque
+      ! Mobilised part of boundary friction [-]; excess over traction [1/kg]; friction that leaves no excess [N]
+      real(wp) :: part, by_traction, holding
+
+      now%traction = 0.0_wp
+      now%shear = 0.0_wp
+      now%boundary_capacity = 0.0_wp
+      now%rolling_resistance = 0.0_wp
+      traction_slope = 0.0_wp
+      torque = bearing_moment(model, position, now%load, speed)
+      if (now%has_film) then
+         if (model%rolling_law /= rolling_none) now%rolling_resistance = now%films%rolling*model%contact_width
+         traction_slope = now%films%shear_slope*model%contact_width
+         now%traction = traction_slope*speed
+         call limit_shear(model%cap, model%limiting_coefficient*now%load, now%traction, by_shear, by_limit)
+         now%shear = now%traction
+         traction_slope = traction_slope*by_shear
+         if (allocated(model%boundary)) then
+            now%boundary_capacity = model%boundary%film_shear_strength*now%films%real_area*model%contact_width &
+               & + model%boundary%coefficient*now%films%asperity_share*now%load
+            if (has_stick(model)) then
+               part = sliding_direction(speed)
+            else
+               part = mobilised_share(speed, model%boundary%mobilising_speed)
+               traction_slope = traction_slope + now%boundary_capacity*(1.0_wp - part)*(1.0_wp + part) &
+                  & /model%boundary%mobilising_speed
+            end if
+            now%traction = now%traction + now%boundary_capacity*part
+         end if
+      end if
+      excess = rate - model%speed*rolling_speed_slope(model, position) + model%roller_radius*spin_acceleration(now%traction, &
+         & merge(now%rolling_resistance, 0.0_wp, model%has_rolling_in_balance), model%roller_radius, torque, model%roller_inertia)
+      by_traction = model%roller_radius**2/model%roller_inertia
+      slope = by_traction*traction_slope
+      if (abs(speed) > 0.0_wp .or. .not. has_stick(model)) return
+      holding = -excess/by_traction
+      now%traction = now%traction + sign(min(abs(holding), now%boundary_capacity), holding)
+      excess = sign(by_traction*max(0.0_wp, abs(holding) - now%boundary_capacity), excess)
+   end subroutine spin_excess
+
+   !> Torque of the roller's bearing.
+   pure function bearing_moment(model, position, load, sliding_speed) result(torque)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> Geometry
+      type(position_t), intent(in) :: position
+      !> Load [N], sliding speed [m/s]
+      real(wp), intent(in) :: load, sliding_speed
+      !> Torque [N m]
+      real(wp) :: torque
+
+      ! Spin of the roller over the finger [rad/s]
+      real(wp) :: spin
+
+      torque = 0.0_wp
+      if (.not. allocated(model%bearing)) return
+      spin = (rolling_speed_at(model, position) - sliding_speed)/model%roller_radius &
+         & - model%linkage%sense*position%finger_slope*model%speed
+      torque = bearing_torque(model%bearing%friction_coefficient, max(load, 0.0_wp), model%bearing%radius, spin, &
+         & model%bearing%reversal_spin)
+   end function bearing_moment
+
+   !> Load at which the finger is in balance with the friction given.
+   pure function balanced_load(model, position, moments, traction, rolling, sliding_speed) result(load)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> Geometry
+      type(position_t), intent(in) :: position
+      !> Moments about the pivot
+      type(moments_t), intent(in) :: moments
+      !> Traction and rolling resistance [N]
+      real(wp), intent(in) :: traction, rolling
+      !> Sliding speed [m/s]
+      real(wp), intent(in) :: sliding_speed
+      !> Load; zero where the moments would lift the roller off [N]
+      real(wp) :: load
+
+      ! Moment that the contact balances [N m]; arm [m]; net tangential force on the roller [N]
+      real(wp) :: moment, arm, tangential
+
+      arm = merge(position%normal_arm, position%parallel_arm, model%has_exact_arm)
+      moment = moments%total
+      if (model%is_consistent) then
+         if (allocated(model%guide_drag)) moment = moment &
+            & + model%guide_drag*model%speed*position%lift_slope*position%valve_arm
+         tangential = traction + rolling*(2.0_wp*position%equivalent_radius/model%roller_radius - 1.0_wp)
+         moment = moment - model%linkage%sense*tangential*position%tangent_arm
+         arm = arm + model%linkage%sense*bearing_moment(model, position, 1.0_wp, sliding_speed)
+      end if
+      load = moment/arm
+      if (model%takes_maximum_load) load = max(load, model%base_circle_load)
+      load = max(load, 0.0_wp)
+   end function balanced_load
+
+end module camroller_ehl_step

@@ -1,0 +1,137 @@
+!> A file that appears under its name when it is complete: where it may stand, what it is called until then, how it gets its name.
+!>
+!> In: the path of a file to be written, files that are read. Out: a path to write to; the file in its place, or an
+!> error and no trace. Only a regular file is ever replaced, never one that the program reads. A link is followed: the file that it
+!> leads to is replaced, the link stays.
+module camroller_new_file
+   use, intrinsic :: iso_fortran_env, only : int64
+   use camroller_error, only : error_t, raise, kind_file, kind_usage
+   use camroller_file_facts, only : facts_of_path, file_facts_t, is_same_file, kind_in_words
+   use camroller_mistakes, only : line_t
+   use camroller_number_text, only : integer_text
+   use camroller_raw_file, only : open_raw, raw_file_t, settle_raw
+   use camroller_system_file, only : is_folder, process_number, remove_file, rename_file, resolve_path
+   use camroller_text_file, only : folder_of
+   use camroller_unfinished, only : forget_unfinished, remember_unfinished
+   implicit none
+   private
+
+   public :: new_file_t, check_place, begin_new_file, end_new_file, drop_new_file
+
+   !> Names that are tried for an unfinished file
+   integer, parameter :: most_attempts = 100
+
+   !> A file being written
+   type :: new_file_t
+      !> Its path, as messages call it
+      character(len=:), allocatable :: path
+      !> Its place: the path, or where a link of that name leads
+      character(len=:), allocatable :: place
+      !> Path while it is not finished, in the folder of its place; not allocated where nothing is being written
+      character(len=:), allocatable :: temporary
+   end type new_file_t
+
+contains
+
+   !> An error where a file may not be written: it would replace one that is read, or something that is no regular file.
+   subroutine check_place(path, inputs, error)
+      !> Path of the file
+      character(len=*), intent(in) :: path
+      !> Files that are read
+      type(line_t), intent(in) :: inputs(:)
+      !> Usage or file error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(file_facts_t) :: facts
+      integer :: i
+
+      facts = facts_of_path(path)
+      if (.not. facts%is_there) return
+      do i = 1, size(inputs)
+         if (.not. is_same_file(facts, facts_of_path(inputs(i)%text))) cycle
+         call raise(error, kind_usage, "'"//path//"' would replace '"//inputs(i)%text//"', which is read; give the result "// &
+            & "another name by --output")
+         return
+      end do
+      if (.not. facts%is_regular) call raise(error, kind_file, "cannot write '"//path//"': it is "//kind_in_words(facts)// &
+         & ", and only regular files are replaced")
+   end subroutine check_place
+
+   !> Find out where to write; the file is still to be created.
+   subroutine begin_new_file(file, path, error)
+      !> The file
+      type(new_file_t), intent(out) :: file
+      !> Path of the finished file
+      character(len=*), intent(in) :: path
+      !> Usage error without a name; file error where no file can be there
+      type(error_t), allocatable, intent(out) :: error
+
+      type(file_facts_t) :: facts
+      type(line_t) :: inputs(0)
+      integer :: attempt
+
+      file%path = path
+      file%place = path
+      if (path == "") then
+         call raise(error, kind_usage, "a file to be written needs a name")
+         return
+      end if
+      call check_place(path, inputs, error)
+      if (allocated(error)) return
+      facts = facts_of_path(path)
+      if (facts%is_there) file%place = resolve_path(path)
+      if (.not. is_folder(folder_of(file%place)//".")) then
+         call raise(error, kind_file, "cannot write '"//path//"': there is no folder '"//folder_of(path)//"'")
+         return
+      end if
+      do attempt = 0, most_attempts - 1
+         file%temporary = file%place//".unfinished-"//integer_text(process_number())//"-"//integer_text(attempt)
+         facts = facts_of_path(file%temporary)
+         if (.not. facts%is_there) exit
+      end do
+      call remember_unfinished(file%temporary)
+   end subroutine begin_new_file
+
+   !> Give a complete file its name; it has to be on disk with all that was written. Where that fails, it is removed.
+   subroutine end_new_file(file, bytes, error)
+      !> A file whose content is written, and that is closed
+      type(new_file_t), intent(inout) :: file
+      !> What was written [byte]
+      integer(int64), intent(in) :: bytes
+      !> File error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(raw_file_t) :: content
+      logical :: done
+
+      call open_raw(content, file%temporary, .false., error)
+      if (.not. allocated(error)) then
+         content%path = file%path
+         content%bytes = bytes
+         call settle_raw(content, error)
+      end if
+      if (.not. allocated(error)) then
+         call rename_file(file%temporary, file%place, done)
+         if (.not. done) call raise(error, kind_file, "cannot write '"//file%path//"': '"//file%temporary// &
+            & "' could not be given that name")
+      end if
+      if (allocated(error)) then
+         call drop_new_file(file)
+      else
+         call forget_unfinished(file%temporary)
+         deallocate (file%temporary)
+      end if
+   end subroutine end_new_file
+
+   !> Give up: what was written is removed. Does no harm where nothing is being written.
+   subroutine drop_new_file(file)
+      !> The file
+      type(new_file_t), intent(inout) :: file
+
+      if (.not. allocated(file%temporary)) return
+      call remove_file(file%temporary)
+      call forget_unfinished(file%temporary)
+      deallocate (file%temporary)
+   end subroutine drop_new_file
+
+end module camroller_new_file

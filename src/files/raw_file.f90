@@ -1,0 +1,432 @@
+!> Files of bytes of the operating system: appended to, read at any place, cut, locked, flushed to disk.
+!>
+!> In: paths, texts, 64-bit words. Out: words, errors in the system's words. Nothing is held back in the program: what
+!> was appended survives the end of the process, whatever ends it, and what is on disk survives the end of the machine.
+!> `settle_raw` is what every file that this program writes has to pass before it counts as written.
+module camroller_raw_file
+   use, intrinsic :: iso_c_binding, only : c_associated, c_char, c_f_pointer, c_int, c_int64_t, c_intptr_t, c_loc, c_null_char, &
+      & c_null_ptr, c_ptr, c_size_t
+   use, intrinsic :: iso_fortran_env, only : int64
+   use camroller_error, only : error_t, raise, kind_file
+   use camroller_file_facts, only : facts_of_descriptor, file_facts_t
+   use camroller_mistakes, only : line_t
+   use camroller_system_file, only : ignore_size_signal, restore_size_signal, set_file_size, sync_descriptor, system_words, &
+      & text_at_address
+   implicit none
+   private
+
+   public :: raw_file_t, open_raw, create_raw, append_words, append_text, read_words, cut_raw, sync_raw, settle_raw, close_raw
+   public :: find_files, is_locked, wait_for_lock, write_letters
+
+   !> Bytes of a word
+   integer(int64), parameter, public :: word_size = 8_int64
+   !> What `lseek` takes for the end of a file; `flock` for an exclusive lock, with and without waiting, and for giving it back
+   integer(c_int), parameter :: from_end = 2_c_int, lock_exclusive = 2_c_int, lock_at_once = 6_c_int, unlock = 8_c_int
+   !> Error numbers: another process has the lock (EWOULDBLOCK); a signal came before anything was done; a closed pipe
+   integer(c_int), parameter :: would_block = 11_c_int, interrupted = 4_c_int, broken_pipe = 32_c_int
+
+   !> An open file
+   type :: raw_file_t
+      !> Its path
+      character(len=:), allocatable :: path
+      !> Its stream in the C library; null where it is not open
+      type(c_ptr) :: stream = c_null_ptr
+      !> Its descriptor
+      integer(c_int) :: descriptor = -1
+      !> Bytes that are in it
+      integer(int64) :: bytes = 0
+   end type raw_file_t
+
+   !> Result of `glob`, as C libraries lay it out, with room for what follows
+   type, bind(C) :: glob_t
+      integer(c_size_t) :: count
+      type(c_ptr) :: paths
+      integer(c_size_t) :: rest(32)
+   end type glob_t
+
+   interface
+      function c_fopen(path, mode) bind(C, name="fopen") result(stream)
+         import :: c_char, c_ptr
+         character(kind=c_char), intent(in) :: path(*), mode(*)
+         type(c_ptr) :: stream
+      end function c_fopen
+
+      function c_fclose(stream) bind(C, name="fclose") result(status)
+         import :: c_int, c_ptr
+         type(c_ptr), value :: stream
+         integer(c_int) :: status
+      end function c_fclose
+
+      function c_fileno(stream) bind(C, name="fileno") result(descriptor)
+         import :: c_int, c_ptr
+         type(c_ptr), value :: stream
+         integer(c_int) :: descriptor
+      end function c_fileno
+
+      function c_write(descriptor, bytes, count) bind(C, name="write") result(written)
+         import :: c_int, c_int64_t, c_ptr, c_size_t
+         integer(c_int), value :: descriptor
+         type(c_ptr), value :: bytes
+         integer(c_size_t), value :: count
+         integer(c_int64_t) :: written
+      end function c_write
+
+      function c_pread(descriptor, bytes, count, offset) bind(C, name="pread") result(found)
+         import :: c_int, c_int64_t, c_ptr, c_size_t
+         integer(c_int), value :: descriptor
+         type(c_ptr), value :: bytes
+         integer(c_size_t), value :: count
+         integer(c_int64_t), value :: offset
+         integer(c_int64_t) :: found
+      end function c_pread
+
+      function c_lseek(descriptor, offset, whence) bind(C, name="lseek") result(position)
+         import :: c_int, c_int64_t
+         integer(c_int), value :: descriptor, whence
+         integer(c_int64_t), value :: offset
+         integer(c_int64_t) :: position
+      end function c_lseek
+
+      function c_flock(descriptor, operation) bind(C, name="flock") result(status)
+         import :: c_int
+         integer(c_int), value :: descriptor, operation
+         integer(c_int) :: status
+      end function c_flock
+
+      function c_errno() bind(C, name="__errno_location") result(address)
+         import :: c_ptr
+         type(c_ptr) :: address
+      end function c_errno
+
+      function c_glob(pattern, flags, on_error, found) bind(C, name="glob") result(status)
+         import :: c_char, c_int, c_ptr, glob_t
+         character(kind=c_char), intent(in) :: pattern(*)
+         integer(c_int), value :: flags
+         type(c_ptr), value :: on_error
+         type(glob_t), intent(inout) :: found
+         integer(c_int) :: status
+      end function c_glob
+
+      subroutine c_globfree(found) bind(C, name="globfree")
+         import :: glob_t
+         type(glob_t), intent(inout) :: found
+      end subroutine c_globfree
+   end interface
+
+contains
+
+   !> Open a file: to read, or to append to, with a lock that no other process has unless it is shared.
+   subroutine open_raw(file, path, is_writable, error, is_shared)
+      !> The file
+      type(raw_file_t), intent(out) :: file
+      !> Its path; created where it is to be written and is not there
+      character(len=*), intent(in) :: path
+      !> Is it to be appended to?
+      logical, intent(in) :: is_writable
+      !> File error
+      type(error_t), allocatable, intent(out) :: error
+      !> May other processes have it open to be appended to? Not where this is left out
+      logical, intent(in), optional :: is_shared
+
+      logical :: is_alone
+
+      file%path = path
+      is_alone = is_writable
+      if (present(is_shared)) is_alone = is_alone .and. .not. is_shared
+      if (is_writable) then
+         file%stream = c_fopen(path//c_null_char, "a+b"//c_null_char)
+      else
+         file%stream = c_fopen(path//c_null_char, "rb"//c_null_char)
+      end if
+      if (.not. c_associated(file%stream)) then
+         call raise(error, kind_file, "cannot open '"//path//"': "//last_words())
+         return
+      end if
+      file%descriptor = c_fileno(file%stream)
+      if (is_alone) then
+         if (c_flock(file%descriptor, lock_at_once) /= 0) then
+            if (last_number() == would_block) then
+               call raise(error, kind_file, "another process is writing '"//path//"'")
+            else
+               call raise(error, kind_file, "cannot lock '"//path//"': "//last_words())
+            end if
+            call close_raw(file)
+            return
+         end if
+      end if
+      file%bytes = c_lseek(file%descriptor, 0_c_int64_t, from_end)
+   end subroutine open_raw
+
+   !> Wait until no other process has a lock on a file, and have one.
+   subroutine wait_for_lock(file, error)
+      !> An open file; its content is read again
+      type(raw_file_t), intent(inout) :: file
+      !> File error where there are no locks
+      type(error_t), allocatable, intent(out) :: error
+
+      if (c_flock(file%descriptor, lock_exclusive) /= 0) then
+         call raise(error, kind_file, "cannot lock '"//file%path//"': "//last_words())
+      else
+         file%bytes = c_lseek(file%descriptor, 0_c_int64_t, from_end)
+      end if
+   end subroutine wait_for_lock
+
+   !> Has another process a lock on a file?
+   function is_locked(file) result(verdict)
+      !> An open file
+      type(raw_file_t), intent(in) :: file
+      !> Has it?
+      logical :: verdict
+
+      integer(c_int) :: ignored
+
+      verdict = c_flock(file%descriptor, lock_at_once) /= 0
+      if (verdict) verdict = last_number() == would_block
+      if (.not. verdict) ignored = c_flock(file%descriptor, unlock)
+   end function is_locked
+
+   !> Create a file to append to; one of that name must not be there.
+   subroutine create_raw(file, path, shown, error)
+      !> The file
+      type(raw_file_t), intent(out) :: file
+      !> Its path, and what messages call it
+      character(len=*), intent(in) :: path, shown
+      !> File error
+      type(error_t), allocatable, intent(out) :: error
+
+      file%path = shown
+      file%stream = c_fopen(path//c_null_char, "wbx"//c_null_char)
+      if (c_associated(file%stream)) then
+         file%descriptor = c_fileno(file%stream)
+      else
+         call raise(error, kind_file, "cannot write '"//shown//"': "//last_words())
+      end if
+   end subroutine create_raw
+
+   !> Append a text; where that fails, the file has to be given up.
+   subroutine append_text(file, text, error)
+      !> A file that is open for appending
+      type(raw_file_t), intent(inout) :: file
+      !> What to append
+      character(len=*), intent(in) :: text
+      !> File error
+      type(error_t), allocatable, intent(out) :: error
+
+      character(len=:), allocatable :: reason
+      logical :: is_unread
+
+      call write_letters(file%descriptor, text, reason, is_unread)
+      if (reason == "") then
+         file%bytes = file%bytes + len(text)
+      else
+         call raise(error, kind_file, "cannot write '"//file%path//"': "//reason)
+      end if
+   end subroutine append_text
+
+   !> Hand a text to the system, all of it, however many pieces it takes it in.
+   subroutine write_letters(descriptor, text, reason, is_unread)
+      !> Where it goes
+      integer(c_int), intent(in) :: descriptor
+      !> The text
+      character(len=*), intent(in), target :: text
+      !> Why it was not taken, in the system's words; empty where it was
+      character(len=:), allocatable, intent(out) :: reason
+      !> Is that because the reader has closed the pipe?
+      logical, intent(out) :: is_unread
+
+      integer(c_intptr_t) :: former
+      integer(int64) :: done, written
+
+      reason = ""
+      is_unread = .false.
+      call ignore_size_signal(former)
+      done = 0
+      do while (done < len(text, int64))
+         written = c_write(descriptor, c_loc(text(done + 1:done + 1)), int(len(text, int64) - done, c_size_t))
+         if (written > 0) then
+            done = done + written
+         else if (written == 0) then
+            reason = "only a part of it was written"
+         else if (last_number() /= interrupted) then
+            reason = last_words()
+            is_unread = last_number() == broken_pipe
+         end if
+         if (reason /= "") exit
+      end do
+      call restore_size_signal(former)
+   end subroutine write_letters
+
+   !> Append words in one piece; where that fails the file is as it was before.
+   subroutine append_words(file, words, error)
+      !> A file that is open for appending
+      type(raw_file_t), intent(inout) :: file
+      !> What to append
+      integer(int64), intent(in), target, contiguous :: words(:)
+      !> File error
+      type(error_t), allocatable, intent(out) :: error
+
+      character(len=:), allocatable :: reason
+      integer(int64) :: done, written
+      logical :: ignored
+
+      done = 0
+      do while (done < word_size*size(words))
+         written = c_write(file%descriptor, c_loc(words(1 + done/word_size)), &
+            & int(word_size*size(words) - done, c_size_t))
+         if (written > 0 .and. modulo(written, word_size) == 0) then
+            done = done + written
+            cycle
+         end if
+         reason = "only a part of it was written"
+         if (written < 0) reason = last_words()
+         call set_file_size(file%descriptor, file%bytes, ignored)
+         call raise(error, kind_file, "cannot write '"//file%path//"': "//reason)
+         return
+      end do
+      file%bytes = file%bytes + done
+   end subroutine append_words
+
+   !> Read words at a place.
+   subroutine read_words(file, offset, words, is_complete)
+      !> An open file
+      type(raw_file_t), intent(in) :: file
+      !> Where they start [byte]
+      integer(int64), intent(in) :: offset
+      !> What is there
+      integer(int64), intent(out), target, contiguous :: words(:)
+      !> Were there so many?
+      logical, intent(out) :: is_complete
+
+      integer(int64) :: done, found
+
+      done = 0
+      words = 0
+      is_complete = .true.
+      do while (done < word_size*size(words))
+         found = c_pread(file%descriptor, c_loc(words(1 + done/word_size)), &
+            & int(word_size*size(words) - done, c_size_t), offset + done)
+         is_complete = found > 0 .and. modulo(found, word_size) == 0
+         if (.not. is_complete) return
+         done = done + found
+      end do
+   end subroutine read_words
+
+   !> Cut a file.
+   subroutine cut_raw(file, bytes, error)
+      !> A file that is open for appending
+      type(raw_file_t), intent(inout) :: file
+      !> What is to be left of it [byte]
+      integer(int64), intent(in) :: bytes
+      !> File error
+      type(error_t), allocatable, intent(out) :: error
+
+      logical :: done
+
+      call set_file_size(file%descriptor, bytes, done)
+      if (done) then
+         file%bytes = bytes
+      else
+         call raise(error, kind_file, "cannot cut '"//file%path//"': "//last_words())
+      end if
+   end subroutine cut_raw
+
+   !> Flush all that was appended to disk, and check that all of it is there.
+   subroutine sync_raw(file, error)
+      !> An open file
+      type(raw_file_t), intent(in) :: file
+      !> File error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(file_facts_t) :: facts
+      logical :: done
+
+      call sync_descriptor(file%descriptor, done)
+      if (.not. done) then
+         call raise(error, kind_file, "cannot write '"//file%path//"': "//last_words())
+         return
+      end if
+      facts = facts_of_descriptor(file%descriptor)
+      if (facts%bytes /= file%bytes) call raise(error, kind_file, "cannot write '"//file%path// &
+         & "': not all of it reached the disk")
+   end subroutine sync_raw
+
+   !> Close a file that is complete: it counts as written where all of it is on disk and closing it succeeds.
+   subroutine settle_raw(file, error)
+      !> An open file; closed in any case
+      type(raw_file_t), intent(inout) :: file
+      !> File error
+      type(error_t), allocatable, intent(out) :: error
+
+      integer(c_int) :: status
+
+      call sync_raw(file, error)
+      if (allocated(error)) then
+         call close_raw(file)
+         return
+      end if
+      status = c_fclose(file%stream)
+      if (status /= 0) call raise(error, kind_file, "cannot write '"//file%path//"': "//last_words())
+      file%stream = c_null_ptr
+      file%descriptor = -1
+   end subroutine settle_raw
+
+   !> Close a file, open or not; its lock ends.
+   subroutine close_raw(file)
+      !> The file
+      type(raw_file_t), intent(inout) :: file
+
+      integer(c_int) :: ignored
+
+      if (c_associated(file%stream)) ignored = c_fclose(file%stream)
+      file%stream = c_null_ptr
+      file%descriptor = -1
+   end subroutine close_raw
+
+   !> Files whose path begins with a text, sorted.
+   subroutine find_files(beginning, paths)
+      !> Beginning of the paths
+      character(len=*), intent(in) :: beginning
+      !> The paths
+      type(line_t), allocatable, intent(out) :: paths(:)
+
+      type(glob_t) :: found
+      type(c_ptr), pointer :: addresses(:)
+      character(len=:), allocatable :: pattern
+      integer :: i
+
+      pattern = ""
+      do i = 1, len(beginning)
+         if (index("*?[]\", beginning(i:i)) > 0) pattern = pattern//"\"
+         pattern = pattern//beginning(i:i)
+      end do
+      found%count = 0
+      if (c_glob(pattern//"*"//c_null_char, 0_c_int, c_null_ptr, found) /= 0) found%count = 0
+      allocate (paths(found%count))
+      if (size(paths) == 0) return
+      call c_f_pointer(found%paths, addresses, [found%count])
+      do i = 1, size(paths)
+         paths(i)%text = text_at_address(addresses(i))
+      end do
+      call c_globfree(found)
+   end subroutine find_files
+
+   !> The system's words for what went wrong last.
+   function last_words() result(words)
+      !> The words
+      character(len=:), allocatable :: words
+
+      words = system_words(last_number())
+   end function last_words
+
+   !> The system's number for what went wrong last.
+   function last_number() result(number)
+      !> The number
+      integer(c_int) :: number
+
+      integer(c_int), pointer :: place
+
+      call c_f_pointer(c_errno(), place)
+      number = place
+   end function last_number
+
+end module camroller_raw_file

@@ -1,0 +1,101 @@
+!> The two streams of the program: output and errors.
+!>
+!> In: texts. Out: the same on the output unit or the error unit, with an error where the output did not take it. All
+!> text of the program goes this way and none by Fortran's units, which keep text back and lose it in silence where the disk
+!> is full. A closed pipe (`camroller help | head -1`) is no error: the reader decides how much is read.
+module camroller_streams
+   use, intrinsic :: iso_c_binding, only : c_char, c_int, c_intptr_t, c_null_char
+   use camroller_error, only : error_t, raise, kind_file
+   use camroller_raw_file, only : write_letters
+   implicit none
+   private
+
+   public :: print_text, print_lines, tell, hold_streams, close_output_stream
+
+   !> Descriptors; signal of a closed pipe; what `signal` takes for ignoring it; how files are opened that are read only
+   integer(c_int), parameter :: output_descriptor = 1_c_int, error_descriptor = 2_c_int, signal_pipe = 13_c_int
+   integer(c_intptr_t), parameter :: ignore_signal = 1_c_intptr_t
+   integer(c_int), parameter :: read_only = 0_c_int
+
+   interface
+      function c_open(path, flags) bind(C, name="open") result(descriptor)
+         import :: c_char, c_int
+         character(kind=c_char), intent(in) :: path(*)
+         integer(c_int), value :: flags
+         integer(c_int) :: descriptor
+      end function c_open
+
+      function c_close(descriptor) bind(C, name="close") result(status)
+         import :: c_int
+         integer(c_int), value :: descriptor
+         integer(c_int) :: status
+      end function c_close
+
+      function c_signal(number, handler) bind(C, name="signal") result(former)
+         import :: c_int, c_intptr_t
+         integer(c_int), value :: number
+         integer(c_intptr_t), value :: handler
+         integer(c_intptr_t) :: former
+      end function c_signal
+   end interface
+
+contains
+
+   !> Write to the output unit.
+   subroutine print_text(text, error)
+      !> The text, with the ends of its lines
+      character(len=*), intent(in) :: text
+      !> File error where the output did not take it
+      type(error_t), allocatable, intent(out) :: error
+
+      character(len=:), allocatable :: reason
+      logical :: is_unread
+
+      call write_letters(output_descriptor, text, reason, is_unread)
+      if (reason /= "" .and. .not. is_unread) call raise(error, kind_file, "cannot write to the output: "//reason)
+   end subroutine print_text
+
+   !> Write a line, or lines without the end of the last one, to the output unit.
+   subroutine print_lines(text, error)
+      !> The text
+      character(len=*), intent(in) :: text
+      !> File error where the output did not take it
+      type(error_t), allocatable, intent(out) :: error
+
+      call print_text(text//new_line("a"), error)
+   end subroutine print_lines
+
+   !> Write to the error unit; a failure there cannot be reported.
+   subroutine tell(text)
+      !> The text, with the ends of its lines
+      character(len=*), intent(in) :: text
+
+      character(len=:), allocatable :: reason
+      logical :: is_unread
+
+      call write_letters(error_descriptor, text, reason, is_unread)
+   end subroutine tell
+
+   !> For a program, before anything else: a closed pipe does not end it, and where one of the three streams is closed no
+   !> file gets its number, which then would be written to.
+   subroutine hold_streams()
+      integer(c_intptr_t) :: former
+      integer(c_int) :: descriptor, ignored
+
+      former = c_signal(signal_pipe, ignore_signal)
+      do
+         descriptor = c_open("/"//c_null_char, read_only)
+         if (descriptor < 0 .or. descriptor > error_descriptor) exit
+      end do
+      if (descriptor > error_descriptor) ignored = c_close(descriptor)
+   end subroutine hold_streams
+
+   !> Close the output unit: some devices tell only then that they have not taken all of it.
+   subroutine close_output_stream(error)
+      !> File error
+      type(error_t), allocatable, intent(out) :: error
+
+      if (c_close(output_descriptor) /= 0) call raise(error, kind_file, "cannot write to the output: the write failed")
+   end subroutine close_output_stream
+
+end module camroller_streams

@@ -1,0 +1,295 @@
+!> Calls of the operating system for replacing files: process number, space, rename, sync,
+!> remove, resolve links, date.
+!>
+!> In: paths. Out: thin interfaces to the C library of POSIX systems, with logical results instead of
+!> numbers.
+module camroller_system_file
+   use, intrinsic :: iso_c_binding, only : c_associated, c_char, c_f_pointer, c_int, c_int64_t, c_intptr_t, c_long, &
+      & c_null_char, c_null_ptr, c_ptr, c_size_t
+   implicit none
+   private
+
+   public :: process_number, is_folder, rename_file, remove_file, resolve_path
+   public :: reserve_space, set_file_size, sync_descriptor, utc_date
+   public :: ignore_size_signal, restore_size_signal, system_words, text_at_address
+
+   !> Longest path that the system resolves, with the null character that ends it
+   integer, parameter :: longest_path = 4096
+   !> Signal that a file outgrew its limit; what `signal` takes for ignoring and gives for an error
+   integer(c_int), parameter :: signal_file_size = 25_c_int
+   integer(c_intptr_t), parameter :: ignore_signal = 1_c_intptr_t
+   integer(c_intptr_t), parameter :: signal_error = -1_c_intptr_t
+   !> Error numbers that say that the file system does not reserve space: ENODEV, EINVAL, ESPIPE, ENOSYS, EOPNOTSUPP
+   integer(c_int), parameter :: cannot_tell(*) = [19_c_int, 22_c_int, 29_c_int, 38_c_int, 95_c_int]
+
+   interface
+      function c_getpid() bind(C, name="getpid") result(number)
+         import :: c_int
+         integer(c_int) :: number
+      end function c_getpid
+
+      function c_rename(old, new) bind(C, name="rename") result(status)
+         import :: c_char, c_int
+         character(kind=c_char), intent(in) :: old(*), new(*)
+         integer(c_int) :: status
+      end function c_rename
+
+      function c_remove(path) bind(C, name="remove") result(status)
+         import :: c_char, c_int
+         character(kind=c_char), intent(in) :: path(*)
+         integer(c_int) :: status
+      end function c_remove
+
+      function c_realpath(path, resolved) bind(C, name="realpath") result(address)
+         import :: c_char, c_ptr
+         character(kind=c_char), intent(in) :: path(*)
+         character(kind=c_char), intent(out) :: resolved(*)
+         type(c_ptr) :: address
+      end function c_realpath
+
+      function c_opendir(path) bind(C, name="opendir") result(folder)
+         import :: c_char, c_ptr
+         character(kind=c_char), intent(in) :: path(*)
+         type(c_ptr) :: folder
+      end function c_opendir
+
+      function c_closedir(folder) bind(C, name="closedir") result(status)
+         import :: c_int, c_ptr
+         type(c_ptr), value :: folder
+         integer(c_int) :: status
+      end function c_closedir
+
+      function c_fallocate(descriptor, first, length) bind(C, name="posix_fallocate") result(status)
+         import :: c_int, c_int64_t
+         integer(c_int), value :: descriptor
+         integer(c_int64_t), value :: first, length
+         integer(c_int) :: status
+      end function c_fallocate
+
+      function c_ftruncate(descriptor, length) bind(C, name="ftruncate") result(status)
+         import :: c_int, c_int64_t
+         integer(c_int), value :: descriptor
+         integer(c_int64_t), value :: length
+         integer(c_int) :: status
+      end function c_ftruncate
+
+      function c_signal(number, handler) bind(C, name="signal") result(former)
+         import :: c_int, c_intptr_t
+         integer(c_int), value :: number
+         integer(c_intptr_t), value :: handler
+         integer(c_intptr_t) :: former
+      end function c_signal
+
+      function c_strerror(number) bind(C, name="strerror") result(text)
+         import :: c_int, c_ptr
+         integer(c_int), value :: number
+         type(c_ptr) :: text
+      end function c_strerror
+
+      function c_strlen(text) bind(C, name="strlen") result(length)
+         import :: c_ptr, c_size_t
+         type(c_ptr), value :: text
+         integer(c_size_t) :: length
+      end function c_strlen
+
+      function c_fsync(descriptor) bind(C, name="fsync") result(status)
+         import :: c_int
+         integer(c_int), value :: descriptor
+         integer(c_int) :: status
+      end function c_fsync
+
+      function c_time(store) bind(C, name="time") result(seconds)
+         import :: c_long, c_ptr
+         type(c_ptr), value :: store
+         integer(c_long) :: seconds
+      end function c_time
+
+      function c_gmtime(seconds) bind(C, name="gmtime") result(moment)
+         import :: c_long, c_ptr
+         integer(c_long), intent(in) :: seconds
+         type(c_ptr) :: moment
+      end function c_gmtime
+
+      function c_strftime(text, length, form, moment) bind(C, name="strftime") result(written)
+         import :: c_char, c_ptr, c_size_t
+         character(kind=c_char), intent(out) :: text(*)
+         integer(c_size_t), value :: length
+         character(kind=c_char), intent(in) :: form(*)
+         type(c_ptr), value :: moment
+         integer(c_size_t) :: written
+      end function c_strftime
+   end interface
+
+contains
+
+   !> Number of this process.
+   function process_number() result(number)
+      !> The number
+      integer :: number
+
+      number = int(c_getpid())
+   end function process_number
+
+   !> Whether a path names a folder that can be opened.
+   function is_folder(path) result(answer)
+      !> The path
+      character(len=*), intent(in) :: path
+      !> True for a folder
+      logical :: answer
+
+      type(c_ptr) :: folder
+      integer(c_int) :: status
+
+      folder = c_opendir(path//c_null_char)
+      answer = c_associated(folder)
+      if (answer) status = c_closedir(folder)
+   end function is_folder
+
+   !> Give a file another name; a file of that name is replaced in one step.
+   subroutine rename_file(old, new, done)
+      !> Present path
+      character(len=*), intent(in) :: old
+      !> New path, on the same file system
+      character(len=*), intent(in) :: new
+      !> False where the system refused
+      logical, intent(out) :: done
+
+      done = c_rename(old//c_null_char, new//c_null_char) == 0
+   end subroutine rename_file
+
+   !> Path of a file without links.
+   function resolve_path(path) result(resolved)
+      !> Path of a file that is there
+      character(len=*), intent(in) :: path
+      !> The path from the root; the given one where the system has none
+      character(len=:), allocatable :: resolved
+
+      character(kind=c_char) :: letters(longest_path)
+      integer :: i
+
+      resolved = path
+      if (.not. c_associated(c_realpath(path//c_null_char, letters))) return
+      resolved = ""
+      do i = 1, longest_path
+         if (letters(i) == c_null_char) exit
+         resolved = resolved//letters(i)
+      end do
+   end function resolve_path
+
+   !> Flush the content of an open file to disk.
+   subroutine sync_descriptor(descriptor, done)
+      !> Descriptor of the file
+      integer(c_int), intent(in) :: descriptor
+      !> False where the system refused
+      logical, intent(out) :: done
+
+      done = c_fsync(descriptor) == 0
+   end subroutine sync_descriptor
+
+   !> Set disk space aside for a file, which grows to that size.
+   subroutine reserve_space(descriptor, first, length, reason)
+      !> Descriptor of the file
+      integer(c_int), intent(in) :: descriptor
+      !> Where the space starts [byte]
+      integer(c_int64_t), intent(in) :: first
+      !> How much there is to be [byte]
+      integer(c_int64_t), intent(in) :: length
+      !> Why there is no space, in the system's words; empty where all went well or the file system cannot tell
+      character(len=:), allocatable, intent(out) :: reason
+
+      integer(c_intptr_t) :: former
+      integer(c_int) :: status
+
+      reason = ""
+      call ignore_size_signal(former)
+      status = c_fallocate(descriptor, first, length)
+      call restore_size_signal(former)
+      if (status /= 0 .and. all(status /= cannot_tell)) reason = system_words(status)
+   end subroutine reserve_space
+
+   !> Let a file that outgrows the limit on the size of files be an error like others, not the end of the program.
+   subroutine ignore_size_signal(former)
+      !> What was done about it so far
+      integer(c_intptr_t), intent(out) :: former
+
+      former = c_signal(signal_file_size, ignore_signal)
+   end subroutine ignore_size_signal
+
+   !> Let the signal do what it did before.
+   subroutine restore_size_signal(former)
+      !> What was done about it before
+      integer(c_intptr_t), intent(in) :: former
+
+      integer(c_intptr_t) :: ignored
+
+      if (former /= signal_error) ignored = c_signal(signal_file_size, former)
+   end subroutine restore_size_signal
+
+   !> Cut a file to a size, or let it grow to it.
+   subroutine set_file_size(descriptor, length, done)
+      !> Descriptor of the file
+      integer(c_int), intent(in) :: descriptor
+      !> The size [byte]
+      integer(c_int64_t), intent(in) :: length
+      !> False where the system refused
+      logical, intent(out) :: done
+
+      done = c_ftruncate(descriptor, length) == 0
+   end subroutine set_file_size
+
+   !> The system's words for an error number.
+   function system_words(number) result(words)
+      !> The number
+      integer(c_int), intent(in) :: number
+      !> The words
+      character(len=:), allocatable :: words
+
+      words = text_at_address(c_strerror(number))
+   end function system_words
+
+   !> A text of the C library as one of Fortran.
+   function text_at_address(address) result(text)
+      !> Where it starts
+      type(c_ptr), intent(in) :: address
+      !> The text, as long as it is there
+      character(len=:), allocatable :: text
+
+      character(kind=c_char), pointer :: letters(:)
+      integer :: i
+
+      call c_f_pointer(address, letters, [c_strlen(address)])
+      text = repeat(" ", size(letters))
+      do i = 1, size(letters)
+         text(i:i) = letters(i)
+      end do
+   end function text_at_address
+
+   !> Remove a file; nothing happens where there is none.
+   subroutine remove_file(path)
+      !> The path
+      character(len=*), intent(in) :: path
+
+      integer(c_int) :: status
+
+      status = c_remove(path//c_null_char)
+   end subroutine remove_file
+
+   !> Now, as `2030-01-31T23:59:59Z`.
+   function utc_date() result(text)
+      !> Date and time of day in universal time, blank where the system has none
+      character(len=20) :: text
+
+      character(kind=c_char) :: letters(21)
+      type(c_ptr) :: moment
+      integer :: i
+
+      text = ""
+      moment = c_gmtime(c_time(c_null_ptr))
+      if (.not. c_associated(moment)) return
+      if (c_strftime(letters, 21_c_size_t, "%Y-%m-%dT%H:%M:%SZ"//c_null_char, moment) /= 20) return
+      do i = 1, 20
+         text(i:i) = letters(i)
+      end do
+   end function utc_date
+
+end module camroller_system_file

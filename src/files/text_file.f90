@@ -1,0 +1,107 @@
+!> A whole text file as one string.
+!>
+!> In: a path. Out: the text, or an error that says why there is none.
+module camroller_text_file
+   use, intrinsic :: iso_fortran_env, only : int64
+   use camroller_error, only : error_t, raise, kind_file
+   implicit none
+   private
+
+   public :: read_text_file, join_path, folder_of
+
+   !> Marks of a text at its first bytes: of UTF-8, which is skipped, and of UTF-16, which is not read
+   character(len=*), parameter :: utf8_mark = char(239)//char(187)//char(191), utf16_marks(*) = &
+      & [char(255)//char(254), char(254)//char(255)]
+   !> Larger files are no decks and no tables [bytes]
+   integer(int64), parameter :: largest_size = 64_int64*1024_int64*1024_int64
+
+contains
+
+   !> Read a file into a string.
+   subroutine read_text_file(path, text, error)
+      !> Path of the file
+      character(len=*), intent(in) :: path
+      !> All that is in it
+      character(len=:), allocatable, intent(out) :: text
+      !> File error where it cannot be read
+      type(error_t), allocatable, intent(out) :: error
+
+      character(len=256) :: message
+      integer :: unit, status
+      integer(int64) :: bytes
+      logical :: is_there
+
+      inquire (file=path, exist=is_there)
+      if (.not. is_there) then
+         call raise(error, kind_file, "there is no file '"//path//"'")
+         return
+      end if
+      open (newunit=unit, file=path, access="stream", form="unformatted", action="read", status="old", iostat=status, &
+         & iomsg=message)
+      if (status /= 0) then
+         call raise(error, kind_file, "cannot read '"//path//"': "//trim(message))
+         return
+      end if
+      inquire (unit=unit, size=bytes)
+      if (bytes > largest_size .or. bytes < 0) then
+         close (unit)
+         call raise(error, kind_file, "'"//path//"' is no text file of a sensible size")
+         return
+      end if
+      allocate (character(len=bytes) :: text)
+      if (bytes > 0) read (unit, iostat=status, iomsg=message) text
+      close (unit)
+      if (status /= 0) then
+         call raise(error, kind_file, "cannot read '"//path//"': "//trim(message))
+      else if (any(text(:min(2, len(text))) == utf16_marks)) then
+         call raise(error, kind_file, "'"//path//"' is a text in UTF-16; save it in UTF-8")
+      else if (.not. is_text(text)) then
+         call raise(error, kind_file, "'"//path//"' is no text file: it holds bytes that no text has")
+      else if (index(text, utf8_mark) == 1) then
+         text = text(len(utf8_mark) + 1:)
+      end if
+   end subroutine read_text_file
+
+   !> Are there no control characters but tabulators and those between lines and pages?
+   pure function is_text(text) result(verdict)
+      !> The text
+      character(len=*), intent(in) :: text
+      !> Are there none?
+      logical :: verdict
+
+      integer :: i
+
+      verdict = .false.
+      do i = 1, len(text)
+         select case (iachar(text(i:i)))
+         case (:8, 14:31, 127)
+            return
+         end select
+      end do
+      verdict = .true.
+   end function is_text
+
+   !> Path of a file named in another file: relative to that file's folder unless it begins at the root.
+   pure function join_path(folder, name) result(path)
+      !> Folder, with `/` at its end or blank
+      character(len=*), intent(in) :: folder
+      !> Name of the file
+      character(len=*), intent(in) :: name
+      !> Path of the file
+      character(len=:), allocatable :: path
+
+      path = folder//name
+      if (name(1:1) == "/") path = name
+   end function join_path
+
+   !> Folder of a file, with `/` at its end; blank for the present one.
+   pure function folder_of(path) result(folder)
+      !> Path of the file
+      character(len=*), intent(in) :: path
+      !> Its folder
+      character(len=:), allocatable :: folder
+
+      folder = path(:index(path, "/", back=.true.))
+   end function folder_of
+
+end module camroller_text_file

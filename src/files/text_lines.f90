@@ -1,0 +1,67 @@
+!> The lines of a text, found once: where each begins and ends.
+!>
+!> In: a text. Out: `text_lines_t`, which keeps the text in one piece, so that a text of millions of lines needs little
+!> more room than itself.
+module camroller_text_lines
+   implicit none
+   private
+
+   public :: text_lines_t, split_lines, line_at
+
+   !> A text and its lines; carriage returns before the ends of lines belong to none
+   type :: text_lines_t
+      !> The text
+      character(len=:), allocatable :: text
+      !> Number of lines
+      integer :: count = 0
+      !> First and last character of each line; the last is before the first in an empty one
+      integer, allocatable :: first(:), last(:)
+   end type text_lines_t
+
+contains
+
+   !> Find the lines of a text.
+   pure subroutine split_lines(text, lines)
+      !> The text
+      character(len=*), intent(in) :: text
+      !> Its lines
+      type(text_lines_t), intent(out) :: lines
+
+      integer :: i, n, first
+
+      lines%text = text
+      n = 0
+      do i = 1, len(text)
+         if (text(i:i) == new_line("a")) n = n + 1
+      end do
+      if (len(text) > 0) then
+         if (text(len(text):) /= new_line("a")) n = n + 1
+      end if
+      lines%count = n
+      allocate (lines%first(n), lines%last(n))
+      first = 1
+      n = 0
+      do i = 1, len(text)
+         if (text(i:i) /= new_line("a") .and. i < len(text)) cycle
+         n = n + 1
+         lines%first(n) = first
+         lines%last(n) = merge(i - 1, i, text(i:i) == new_line("a"))
+         first = i + 1
+         if (lines%last(n) < lines%first(n)) cycle
+         if (text(lines%last(n):lines%last(n)) == char(13)) lines%last(n) = lines%last(n) - 1
+      end do
+   end subroutine split_lines
+
+   !> One line.
+   pure function line_at(lines, number) result(line)
+      !> The lines
+      type(text_lines_t), intent(in) :: lines
+      !> Number of the line, from 1
+      integer, intent(in) :: number
+      !> Its characters, without the end of line
+      character(len=:), allocatable :: line
+
+      line = lines%text(lines%first(number):lines%last(number))
+   end function line_at
+
+end module camroller_text_lines

@@ -1,0 +1,216 @@
+!> The contact at one cam angle and one sliding speed: load, film, load share, traction and torque of the roller's bearing, solved
+!> together.
+!>
+!> In: model, geometry, moments, sliding speed. Out: `contact_t`. The finger is in balance at the load whose own
+!> traction, rolling resistance and bearing torque leave it there: one equation in the load, solved by Newton's method with the
+!> derivative of everything in `contact_forces`, inside a bracket that cannot be left. Nothing is lagged.
+module camroller_contact
+   use camroller_kinds, only : wp
+   use camroller_model, only : model_t
+   use camroller_kinematics, only : position_t
+   use camroller_dynamics, only : moments_t
+   use camroller_contact_forces, only : contact_t, setting_t, parts_t, motion_t, slopes_t, set_speeds, prepare_contact, &
+      & evaluate_contact, follow_contact, release_contact
+   implicit none
+   private
+
+   public :: solve_contact, prepare_and_solve, finger_moment
+
+   !> Balance of the finger: loss of figures allowed against the moment [-]; a few roundings
+   real(wp), parameter :: balance_tolerance = 8.0_wp*epsilon(1.0_wp)
+   !> Change of the film ratio below which its square is round-off [-]
+   real(wp), parameter :: share_tolerance = 1.0e-8_wp
+   !> Curvature of the balance over the load: the error after a step is about this times the square of the relative change [-]
+   real(wp), parameter :: step_curvature = 5.0_wp
+   !> Iterations that a bracketed search may take: bisection alone would need about 60
+   integer, parameter :: max_iterations = 100
+   !> Iterations after which the share is found to round-off in each
+   integer, parameter :: usual_iterations = 8
+   !> Loads below this part of the frictionless load count as lost contact [-]
+   real(wp), parameter :: lost_load = 1.0e-12_wp
+
+contains
+
+   !> Solve the contact.
+   pure subroutine solve_contact(model, position, moments, sliding_speed, contact, status, accuracy, mobilised)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> Geometry at this angle
+      type(position_t), intent(in) :: position
+      !> Moments about the pivot at this angle
+      type(moments_t), intent(in) :: moments
+      !> Sliding speed, V_s [m/s]
+      real(wp), intent(in) :: sliding_speed
+      !> State of the contact
+      type(contact_t), intent(out) :: contact
+      !> 0 fine, positive where the balance was not reached
+      integer, intent(out) :: status
+      !> Relative error of load and forces that is good enough; absent: round-off [-]
+      real(wp), intent(in), optional :: accuracy
+      !> Mobilised part of the boundary friction; absent: as the sliding speed has it [-]
+      real(wp), intent(in), optional :: mobilised
+
+      type(setting_t) :: setting
+      type(parts_t) :: parts
+
+      call prepare_and_solve(model, position, moments, sliding_speed, contact, setting, parts, status, accuracy, mobilised)
+   end subroutine solve_contact
+
+   !> Solve the contact and keep what its slopes are made of.
+   pure subroutine prepare_and_solve(model, position, moments, sliding_speed, contact, setting, parts, status, accuracy, mobilised)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> Geometry at this angle
+      type(position_t), intent(in) :: position
+      !> Moments about the pivot at this angle
+      type(moments_t), intent(in) :: moments
+      !> Sliding speed, V_s [m/s]
+      real(wp), intent(in) :: sliding_speed
+      !> State of the contact
+      type(contact_t), intent(out) :: contact
+      !> What does not change with the load, where there is a load
+      type(setting_t), intent(out) :: setting
+      !> What slopes are made of, where there is a load
+      type(parts_t), intent(out) :: parts
+      !> 0 fine, positive where the balance was not reached
+      integer, intent(out) :: status
+      !> Relative error of load and forces that is good enough; absent: round-off [-]
+      real(wp), intent(in), optional :: accuracy
+      !> Mobilised part of the boundary friction; absent: as the sliding speed has it [-]
+      real(wp), intent(in), optional :: mobilised
+
+      ! Moment that the contact load balances [N m]; load without friction [N]
+      real(wp) :: moment, load
+      ! Relative change of the film ratio in the last step; relative error that is good enough [-]
+      real(wp) :: change, enough
+
+      status = 0
+      call set_speeds(model, position, sliding_speed, contact)
+      moment = finger_moment(model, position, moments)
+      load = moment/merge(position%normal_arm, position%parallel_arm, model%has_exact_arm)
+      if (model%takes_maximum_load) load = max(model%base_circle_load, load)
+      if (.not. load > 0.0_wp) then
+         call release_contact(contact)
+         return
+      end if
+      contact%load = load
+      enough = 0.0_wp
+      if (present(accuracy)) enough = accuracy
+      call prepare_contact(model, position, contact, enough, setting, mobilised)
+      contact%film_ratio = 0.0_wp
+      if (model%is_consistent) then
+         call balance_finger(model, position, setting, moment, enough, contact, parts, status)
+      else
+         call evaluate_contact(model, position, setting, load, contact, parts, change)
+      end if
+   end subroutine prepare_and_solve
+
+   !> Moment about the pivot that the contact balances; with the drag of the guide where the bookkeeping is closed.
+   pure function finger_moment(model, position, moments) result(moment)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> Geometry at this angle
+      type(position_t), intent(in) :: position
+      !> Moments about the pivot at this angle
+      type(moments_t), intent(in) :: moments
+      !> Moment [N m]
+      real(wp) :: moment
+
+      moment = moments%total
+      if (model%is_consistent .and. allocated(model%guide_drag)) then
+         moment = moment + model%guide_drag*model%speed*position%lift_slope*position%valve_arm
+      end if
+   end function finger_moment
+
+   !> Load at which `W h_W + sense (T' h_t + T_B) = moment`, by Newton's method inside a bracket.
+   !>
+   !> Friction changes the load by a few per cent at most, so the second evaluation is good to about 1e-5 and the third to
+   !> 1e-10. Without a load at which friction lets the balance be, contact is lost.
+   pure subroutine balance_finger(model, position, setting, moment, enough, contact, parts, status)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> Geometry at this angle
+      type(position_t), intent(in) :: position
+      !> What does not change with the load
+      type(setting_t), intent(in) :: setting
+      !> Moment to be balanced, positive [N m]
+      real(wp), intent(in) :: moment
+      !> Relative error of load and forces that is good enough [-]
+      real(wp), intent(in) :: enough
+      !> State of the contact
+      type(contact_t), intent(inout) :: contact
+      !> What slopes are made of
+      type(parts_t), intent(out) :: parts
+      !> 0 fine, positive where the balance was not reached
+      integer, intent(out) :: status
+
+      type(slopes_t) :: slopes
+      ! Load, next load, bracket [N]
+      real(wp) :: load, next_load, low, high
+      ! Moment too much, and its derivative over ln(load) [N m]
+      real(wp) :: excess, slope
+      ! Relative change of the film ratio in the last step, of the load in the next [-]
+      real(wp) :: change, shift
+      type(setting_t) :: in_use
+      integer :: iteration
+
+      status = 0
+      in_use = setting
+      load = moment/position%normal_arm
+      low = 0.0_wp
+      high = huge(1.0_wp)
+      do iteration = 1, max_iterations
+         ! A share that is not quite found narrows no bracket: what has taken so long needs all of its figures
+         if (iteration > usual_iterations) in_use%coarse = 0.0_wp
+         call evaluate_contact(model, position, in_use, load, contact, parts, change)
+         slopes = follow_contact(model, in_use, contact, parts, motion_t(load=1.0_wp))
+         excess = load*position%normal_arm - moment &
+            & + model%linkage%sense*(contact%tangential_force*position%tangent_arm + contact%bearing_torque)
+         slope = load*position%normal_arm &
+            & + model%linkage%sense*(slopes%tangential_force*position%tangent_arm + slopes%bearing_torque)
+         shift = -1.0_wp
+         if (slope > 0.0_wp) shift = -excess/slope
+         if (abs(shift)*step_curvature*max(abs(shift), share_tolerance) + change**2 <= enough) then
+            call shift_contact(contact, slopes, shift)
+            return
+         end if
+         ! Only a converged share tells on which side of the root the load lies
+         if (abs(change) <= share_tolerance) then
+            if (abs(excess) <= balance_tolerance*moment) return
+            if (excess > 0.0_wp) high = load
+            if (excess < 0.0_wp) low = load
+         end if
+         if (high - low <= 2.0_wp*epsilon(1.0_wp)*load) return
+         if (high < lost_load*moment/position%normal_arm) then
+            call release_contact(contact)
+            return
+         end if
+         next_load = load*(1.0_wp + shift)
+         if (next_load <= low .or. next_load >= high) then
+            next_load = merge(2.0_wp*load, low + 0.5_wp*(high - low), high >= huge(1.0_wp))
+            contact%film_ratio = 0.0_wp
+         else
+            contact%film_ratio = contact%film_ratio*(1.0_wp + slopes%film_ratio*shift)
+         end if
+         load = next_load
+      end do
+      status = 1
+   end subroutine balance_finger
+
+   !> Move a contact along its slopes by the last, small step.
+   pure subroutine shift_contact(contact, slopes, shift)
+      !> State of the contact
+      type(contact_t), intent(inout) :: contact
+      !> Derivatives over ln(load)
+      type(slopes_t), intent(in) :: slopes
+      !> Relative change of the load [-]
+      real(wp), intent(in) :: shift
+
+      contact%load = contact%load*(1.0_wp + shift)
+      contact%bearing_torque = contact%bearing_torque*(1.0_wp + shift)
+      contact%traction = contact%traction + slopes%traction*shift
+      contact%rolling_resistance = contact%rolling_resistance + slopes%rolling_resistance*shift
+      contact%tangential_force = contact%tangential_force + slopes%tangential_force*shift
+   end subroutine shift_contact
+
+end module camroller_contact

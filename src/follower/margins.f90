@@ -1,0 +1,276 @@
+!> Margins against loss of contact and against opening of the pivot's joint: smallest force, where, and the cam speed at which
+!> it would be zero. Without friction, so they depend on the cam angle alone.
+!>
+!> In: model, stops of a cycle. Out: margins of the event, of the base circle and of the pivot. Between two stops
+!> every force is a smooth function of the cam angle; each such piece is scanned with its ends, and the lowest point inside is found
+!> to round-off.
+module camroller_margins
+   use, intrinsic :: ieee_arithmetic, only : ieee_value, ieee_positive_inf
+   use camroller_kinds, only : wp, pi, degree
+   use camroller_model, only : model_t, evaluate_geometry
+   use camroller_lift, only : is_at_rest
+   use camroller_extremum, only : extremum_t, start_extremum, narrow_extremum
+   use camroller_kinematics, only : position_t, evaluate_position
+   use camroller_dynamics, only : moments_t
+   use camroller_pivot, only : pivot_force
+   use camroller_state, only : evaluate_loading
+   use camroller_torque, only : normal_direction
+   implicit none
+   private
+
+   public :: margin_t, margins_t, find_margins
+
+   !> One margin
+   type :: margin_t
+      !> Smallest force [N]; negative: so much is missing to keep the bodies together
+      real(wp) :: force = huge(1.0_wp)
+      !> Cam angle from full lift where it is smallest [rad]
+      real(wp) :: angle = -pi
+      !> Cam speed at which a force is first zero, infinite if never [rad/s]
+      real(wp) :: speed = huge(1.0_wp)
+   end type margin_t
+
+   !> Margins of one lobe and its follower
+   type :: margins_t
+      !> Contact load while the valve is off its seat, and while it is on it or about to leave or reach it
+      type(margin_t) :: event, base_circle
+      !> Force in the pivot's joint while the valve is off its seat; allocated where the finger's mass is known
+      type(margin_t), allocatable :: pivot
+      !> Force of the lash adjuster on the base circle [N], and the cam speed at which the pivot's force first falls to it [rad/s]
+      real(wp) :: adjuster_force = 0.0_wp, pump_up_speed = huge(1.0_wp)
+   end type margins_t
+
+   !> A force that depends on the square of the speed
+   type :: split_t
+      !> Without inertia, and what inertia adds at the model's speed [N]
+      real(wp) :: static = 0.0_wp, inertia = 0.0_wp
+   end type split_t
+
+   !> Forces of a split: contact load, pivot force, pivot force above the adjuster's
+   integer, parameter :: contact_load = 1, pivot_load = 2, above_adjuster = 3, split_count = 3
+   !> Longest step of a scan [rad], and least number of steps of a piece
+   real(wp), parameter :: longest_step = 0.5_wp*degree
+   integer, parameter :: least_steps = 16
+   !> Gain of a lowest value that is not worth an evaluation, over the largest value of the piece [-]
+   real(wp), parameter :: worth = 1.0e-13_wp
+
+contains
+
+   !> All margins of a model.
+   subroutine find_margins(model, ends, margins)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> Stops of a cycle, with its start and its end a turn later: ends of the pieces [rad]
+      real(wp), intent(in) :: ends(:)
+      !> The margins
+      type(margins_t), intent(out) :: margins
+
+      ! Pivot force above the adjuster's
+      type(margin_t) :: pump_up
+      logical, allocatable :: in_event(:)
+      integer :: i
+
+      in_event = is_event(model, ends)
+      if (allocated(model%pivot)) then
+         allocate (margins%pivot)
+         margins%adjuster_force = adjuster_force(model)
+      end if
+      do i = 1, size(in_event)
+         if (.not. in_event(i)) then
+            call scan_piece(model, contact_load, margins%adjuster_force, ends(i:i + 1), margins%base_circle)
+            cycle
+         end if
+         call scan_piece(model, contact_load, margins%adjuster_force, ends(i:i + 1), margins%event)
+         if (.not. allocated(model%pivot)) cycle
+         call scan_piece(model, pivot_load, margins%adjuster_force, ends(i:i + 1), margins%pivot)
+         call scan_piece(model, above_adjuster, margins%adjuster_force, ends(i:i + 1), pump_up)
+      end do
+      ! with 'maximum' the adjuster holds the base circle load whatever the train does
+      if (model%takes_maximum_load .or. all(in_event)) margins%base_circle = margin_t(model%base_circle_load)
+      margins%pump_up_speed = infinite_if_huge(pump_up%speed)
+      margins%event%speed = infinite_if_huge(margins%event%speed)
+      margins%base_circle%speed = infinite_if_huge(margins%base_circle%speed)
+      if (allocated(margins%pivot)) margins%pivot%speed = infinite_if_huge(margins%pivot%speed)
+   end subroutine find_margins
+
+   !> Which pieces between stops belong to the event: those with the valve off its seat; where it never leaves it, those without a
+   !> valve at rest; else all.
+   function is_event(model, ends) result(in_event)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> Ends of the pieces [rad]
+      real(wp), intent(in) :: ends(:)
+      !> One for each piece
+      logical, allocatable :: in_event(:)
+
+      type(position_t) :: position
+      logical :: is_resting(size(ends) - 1)
+      integer :: i, status
+
+      allocate (in_event(size(ends) - 1))
+      do i = 1, size(in_event)
+         associate (middle => 0.5_wp*(ends(i) + ends(i + 1)))
+            is_resting(i) = is_at_rest(model%lift_law, middle)
+            call evaluate_geometry(model, middle, position, status)
+            in_event(i) = .not. is_resting(i) .and. position%lift > model%train%seat_lift
+         end associate
+      end do
+      if (.not. any(in_event)) in_event = .not. is_resting
+      if (.not. any(in_event)) in_event = .true.
+   end function is_event
+
+   !> Lower a margin to what one of the forces has between two angles.
+   subroutine scan_piece(model, kind, adjuster, ends, margin)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> Which of the forces
+      integer, intent(in) :: kind
+      !> Force of the adjuster [N]
+      real(wp), intent(in) :: adjuster
+      !> The angles [rad]
+      real(wp), intent(in) :: ends(2)
+      !> The margin
+      type(margin_t), intent(inout) :: margin
+
+      ! Angles of the scan [rad]; forces [N] and relative inertia [-] there
+      real(wp), allocatable :: angles(:), forces(:), ratios(:)
+      ! Lowest force [N] or relative inertia [-], and its place [rad]
+      real(wp) :: lowest, place
+      type(split_t) :: split
+      integer :: i, steps
+
+      steps = max(least_steps, ceiling((ends(2) - ends(1))/longest_step))
+      if (is_at_rest(model%lift_law, 0.5_wp*(ends(1) + ends(2)))) steps = 1
+      angles = [(ends(1) + (ends(2) - ends(1))*i/steps, i=0, steps - 1), ends(2)]
+      allocate (forces(steps + 1), ratios(steps + 1))
+      do i = 1, steps + 1
+         split = force_at(model, kind, adjuster, angles(i))
+         forces(i) = split%static + split%inertia
+         if (split%static <= 0.0_wp) margin%speed = 0.0_wp
+         ratios(i) = relative_inertia(split)
+      end do
+      call find_lowest(model, kind, adjuster, .false., angles, forces, lowest, place)
+      if (lowest < margin%force) then
+         margin%force = lowest
+         margin%angle = place
+      end if
+      if (margin%speed <= 0.0_wp) return
+      call find_lowest(model, kind, adjuster, .true., angles, ratios, lowest, place)
+      if (lowest < -epsilon(1.0_wp)) margin%speed = min(margin%speed, model%speed/sqrt(-lowest))
+   end subroutine scan_piece
+
+   !> Lowest value of a scan and between its points.
+   subroutine find_lowest(model, kind, adjuster, is_ratio, angles, values, lowest, place)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> Which of the forces
+      integer, intent(in) :: kind
+      !> Force of the adjuster [N]
+      real(wp), intent(in) :: adjuster
+      !> Is it the relative inertia that is wanted, not the force?
+      logical, intent(in) :: is_ratio
+      !> Angles of the scan [rad]
+      real(wp), intent(in) :: angles(:)
+      !> Values there [N] or [-]
+      real(wp), intent(in) :: values(:)
+      !> Lowest value [N] or [-], and its place [rad]
+      real(wp), intent(out) :: lowest, place
+
+      type(extremum_t) :: search
+      type(split_t) :: split
+      integer :: i
+
+      i = minloc(values, 1)
+      lowest = values(i)
+      place = angles(i)
+      if (i == 1 .or. i == size(values)) return
+      call start_extremum(search, angles(i - 1:i + 1), values(i - 1:i + 1), worth*maxval(abs(values)))
+      do while (search%is_wanted)
+         split = force_at(model, kind, adjuster, search%trial)
+         call narrow_extremum(search, merge(relative_inertia(split), split%static + split%inertia, is_ratio))
+      end do
+      lowest = search%value(2)
+      place = search%point(2)
+   end subroutine find_lowest
+
+   !> One of the forces at a cam angle.
+   function force_at(model, kind, adjuster, angle) result(split)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> Which of the forces
+      integer, intent(in) :: kind
+      !> Force of the adjuster [N]
+      real(wp), intent(in) :: adjuster
+      !> Cam angle from full lift [rad]
+      real(wp), intent(in) :: angle
+      !> The force
+      type(split_t) :: split
+
+      type(position_t) :: position
+      type(moments_t) :: moments
+      ! Gas force, forces on the finger's tip [N]; unit vectors of load and traction [-]
+      real(wp) :: force, normal(2), tangent(2)
+      integer :: status
+
+      call evaluate_loading(model, angle, position, force, moments, status)
+      split%inertia = moments%valve + moments%finger
+      split%static = moments%total - split%inertia
+      if (kind == contact_load) then
+         associate (arm => merge(position%normal_arm, position%parallel_arm, model%has_exact_arm))
+            split = split_t(split%static/arm, split%inertia/arm)
+         end associate
+         return
+      end if
+      call normal_direction(position%normal_arm, position%tangent_arm, model%linkage%a, position%arm_angle, &
+         & model%linkage%sense, normal, tangent)
+      associate (arm => position%normal_arm, tip_arm => position%valve_arm)
+         split%inertia = pivot_force(model%pivot, split%inertia/arm, normal, moments%valve/tip_arm, position%arm_angle, &
+            & position%finger_slope, position%finger_curvature, model%speed)
+         split%static = pivot_force(model%pivot, split%static/arm, normal, (moments%spring - moments%seat + moments%gas)/tip_arm, &
+            & position%arm_angle, 0.0_wp, 0.0_wp, 0.0_wp)
+      end associate
+      if (kind == above_adjuster) split%static = split%static - adjuster
+   end function force_at
+
+   !> Force of the lash adjuster that presses the roller on the base circle with the base circle load.
+   function adjuster_force(model) result(force)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> The force [N]
+      real(wp) :: force
+
+      type(position_t) :: position
+      ! Unit vectors of load and traction [-]
+      real(wp) :: normal(2), tangent(2)
+      integer :: status
+
+      call evaluate_position(model%linkage, [0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp], position, status)
+      call normal_direction(position%normal_arm, position%tangent_arm, model%linkage%a, position%arm_angle, &
+         & model%linkage%sense, normal, tangent)
+      force = pivot_force(model%pivot, model%base_circle_load, normal, model%base_circle_load*position%normal_arm &
+         & /position%valve_arm, position%arm_angle, 0.0_wp, 0.0_wp, 0.0_wp)
+   end function adjuster_force
+
+   !> Inertia relative to the static force: -1 where they cancel at the model's speed; zero where nothing is static.
+   pure function relative_inertia(split) result(ratio)
+      !> The force
+      type(split_t), intent(in) :: split
+      !> The ratio [-]
+      real(wp) :: ratio
+
+      ratio = 0.0_wp
+      if (split%static > 0.0_wp) ratio = split%inertia/split%static
+   end function relative_inertia
+
+   !> A speed that nothing has lowered is infinite.
+   function infinite_if_huge(speed) result(speed_or_infinity)
+      !> Speed [rad/s]
+      real(wp), intent(in) :: speed
+      !> The same, or infinity [rad/s]
+      real(wp) :: speed_or_infinity
+
+      speed_or_infinity = speed
+      if (speed >= huge(1.0_wp)) speed_or_infinity = ieee_value(1.0_wp, ieee_positive_inf)
+   end function infinite_if_huge
+
+end module camroller_margins

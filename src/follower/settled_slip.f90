@@ -1,0 +1,65 @@
+!> The sliding speed of a curve where traction saturates within less than the curve's error.
+!>
+!> In: model, cam angle, sliding speed and slope of a curve there. Out: the sliding speed nearby at which the roller
+!> equation has that slope. A slip of 1e-15 m/s decides whether the oil holds the roller or slides at its limit: errors that are
+!> nothing to the slip are everything to the traction.
+module camroller_settled_slip
+   use camroller_kinds, only : wp
+   use camroller_model, only : model_t
+   use camroller_ode_bridge, only : solve_euler
+   use camroller_ode_problem, only : counters_t
+   use camroller_spin, only : spin_problem_t, rolling_speed_slope
+   use camroller_state, only : state_t
+   implicit none
+   private
+
+   public :: settle
+
+   !> Part of the largest traction by which the curve's own traction may be wrong [-]
+   real(wp), parameter :: small_part = 1.0e-3_wp
+   !> What is left of a difference of slopes that has settled [-]
+   real(wp), parameter :: settled_part = 0.1_wp
+
+contains
+
+   !> Move a sliding speed to where the roller equation has the slope of the curve, within the error that the curve may have.
+   !>
+   !> That is one step of the implicit Euler method, so short that no traction moves the sliding speed further.
+   subroutine settle(model, angle, slope, reach, state, sliding_speed, is_moved)
+      !> The model
+      type(model_t), intent(in), target :: model
+      !> Cam angle from full lift [rad]
+      real(wp), intent(in) :: angle
+      !> Slope of the curve [m/s/rad]
+      real(wp), intent(in) :: slope
+      !> Error that the curve may have [m/s]
+      real(wp), intent(in) :: reach
+      !> State on the curve
+      type(state_t), intent(in) :: state
+      !> Sliding speed, from that of the curve [m/s]
+      real(wp), intent(inout) :: sliding_speed
+      !> Has it been moved?
+      logical, intent(out) :: is_moved
+
+      type(spin_problem_t) :: problem
+      type(counters_t) :: counters
+      ! Rate at the curve, largest that traction makes, rate in the end [m/s/rad]; step [rad]; sliding speed in the end [m/s]
+      real(wp) :: rate, span, new_rate, step, settled
+      integer :: status
+
+      is_moved = .false.
+      if (.not. state%contact%is_touching .or. .not. reach > 0.0_wp) return
+      rate = rolling_speed_slope(model, state%position) - model%roller_radius*state%spin_acceleration/model%speed
+      span = model%roller_radius**2/(model%roller_inertia*model%speed)*(model%limiting_coefficient*state%contact%load &
+         & + state%contact%boundary_capacity)
+      if (abs(rate - slope) <= small_part*span) return
+      problem%model => model
+      step = reach/(span + abs(slope))
+      call solve_euler(problem, span, angle, sliding_speed - step*slope, step, settled, new_rate, counters, status)
+      ! Where the traction does not saturate nearby, so short a step changes next to nothing
+      if (status /= 0 .or. .not. abs(new_rate - slope) < settled_part*abs(rate - slope)) return
+      sliding_speed = settled
+      is_moved = .true.
+   end subroutine settle
+
+end module camroller_settled_slip

@@ -1,0 +1,306 @@
+!> The roller's spin as an initial value problem over the cam angle.
+!>
+!> In: model, cam angle, state. Out: rate and decay rate, as `ode` asks for them. The state is the sliding speed V_s,
+!> `dV_s/dtheta = omega dV_roll' - r_R (domega_R/dt)/omega`: friction depends on slip, which is a small difference of large
+!> speeds. The source integrates the roller's surface speed `r_R omega_R` instead; its fixed step does so here too.
+module camroller_spin
+   use camroller_kinds, only : wp, degree
+   use camroller_number_text, only : fixed_text
+   use camroller_ode_problem, only : problem_t, linear_t, counters_t, time_increment, linearise_in_two, words_length
+   use camroller_model, only : model_t, evaluate_geometry
+   use camroller_kinematics, only : position_t
+   use camroller_dynamics, only : moments_t
+   use camroller_contact_forces, only : contact_t
+   use camroller_needle, only : bearing_torque_slope
+   use camroller_state, only : evaluate_loading, evaluate_spin
+   use camroller_spin_slopes, only : evaluate_spin_slopes
+   implicit none
+   private
+
+   public :: spin_problem_t, sliding_speed_of, rolling_speed_slope, rolling_speed_at, decay_rate_of, full_decay_rate
+
+   !> The roller's spin over the cam angle
+   type, extends(problem_t) :: spin_problem_t
+      !> The model; read only
+      type(model_t), pointer :: model => null()
+      !> Is the state the roller's surface speed instead of the sliding speed?
+      logical :: has_surface_speed = .false.
+      !> Relative error of load and forces that is good enough; zero: round-off [-]
+      real(wp) :: accuracy = 0.0_wp
+      !> Mobilised part of the boundary friction; not allocated: as the sliding speed has it [-]
+      real(wp), allocatable :: mobilised
+   contains
+      procedure :: get_rate
+      procedure :: get_decay_rate
+      procedure :: linearise
+      procedure :: get_clearance
+      procedure :: name_time
+   end type spin_problem_t
+
+   !> Largest and smallest error of the traction over its limit, and the same over the accuracy of the contact [-]. Where what the
+   !> roller needs exceeds the limit by less than that, friction that has given way still seems to hold
+   real(wp), parameter :: coarsest_resolution = 1.0e-4_wp, finest_resolution = 1.0e-10_wp, accuracy_ratio = 1.0e3_wp
+
+contains
+
+   !> Rate of change of the state with the cam angle.
+   subroutine get_rate(self, time, state, rate, status)
+      !> The problem
+      class(spin_problem_t), intent(in) :: self
+      !> Cam angle from full lift [rad]
+      real(wp), intent(in) :: time
+      !> Sliding speed or surface speed [m/s]
+      real(wp), intent(in) :: state(:)
+      !> Its derivative with respect to the cam angle [m/s/rad]
+      real(wp), intent(out) :: rate(:)
+      !> 0 fine, positive: try a smaller step, negative: give up
+      integer, intent(out) :: status
+
+      type(position_t) :: position
+      type(moments_t) :: moments
+      type(contact_t) :: contact
+      ! Gas force [N]; angular acceleration of the roller [rad/s^2]
+      real(wp) :: force, acceleration
+
+      rate = 0.0_wp
+      call evaluate_loading(self%model, time, position, force, moments, status)
+      if (status /= 0) return
+      call evaluate_spin(self%model, position, moments, sliding_speed_of(self, position, state(1)), contact, acceleration, &
+         & status, self%accuracy, self%mobilised)
+      if (status /= 0) return
+      rate(1) = self%model%roller_radius*acceleration/self%model%speed
+      if (.not. self%has_surface_speed) rate(1) = rolling_speed_slope(self%model, position) - rate(1)
+   end subroutine get_rate
+
+   !> Decay rate of a disturbance of the spin per radian, with film and load following the slip.
+   subroutine get_decay_rate(self, time, state, decay_rate)
+      !> The problem
+      class(spin_problem_t), intent(in) :: self
+      !> Cam angle from full lift [rad]
+      real(wp), intent(in) :: time
+      !> Sliding speed or surface speed [m/s]
+      real(wp), intent(in) :: state(:)
+      !> Decay rate [1/rad]
+      real(wp), intent(out) :: decay_rate
+
+      type(position_t) :: position
+      type(moments_t) :: moments
+      ! Gas force [N]
+      real(wp) :: force
+      integer :: status
+
+      decay_rate = 0.0_wp
+      call evaluate_loading(self%model, time, position, force, moments, status)
+      if (status /= 0) return
+      decay_rate = full_decay_rate(self%model, time, position, moments, sliding_speed_of(self, position, state(1)), &
+         & self%accuracy, self%mobilised)
+   end subroutine get_decay_rate
+
+   !> Decay rate of a disturbance of the spin with everything that follows the slip.
+   function full_decay_rate(model, angle, position, moments, sliding_speed, accuracy, mobilised) result(decay_rate)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> Cam angle from full lift [rad]
+      real(wp), intent(in) :: angle
+      !> Geometry at this angle
+      type(position_t), intent(in) :: position
+      !> Moments about the pivot
+      type(moments_t), intent(in) :: moments
+      !> Sliding speed [m/s]
+      real(wp), intent(in) :: sliding_speed
+      !> Relative error of load and forces that is good enough [-]
+      real(wp), intent(in) :: accuracy
+      !> Mobilised part of the boundary friction; absent: as the sliding speed has it [-]
+      real(wp), intent(in), optional :: mobilised
+      !> Decay rate; zero where the contact has no solution [1/rad]
+      real(wp) :: decay_rate
+
+      type(contact_t) :: contact
+      ! Angular acceleration of the roller [rad/s^2], its derivatives [rad/s/m, 1/s^2]
+      real(wp) :: acceleration, speed_slope, angle_slope
+      integer :: status
+
+      decay_rate = 0.0_wp
+      call evaluate_spin_slopes(model, angle, position, moments, 0.0_wp, sliding_speed, contact, acceleration, speed_slope, &
+         & angle_slope, status, accuracy, mobilised)
+      if (status == 0) decay_rate = model%roller_radius*speed_slope/model%speed
+   end function full_decay_rate
+
+   !> Decay rate of a disturbance of the spin with film and load as they are, `(r_R^2 dF_t/dV_s + dT_B/domega_R)/(I_R omega)`: of
+   !> the traction, and of a bearing that holds the roller.
+   pure function decay_rate_of(model, contact) result(decay_rate)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> State of the contact
+      type(contact_t), intent(in) :: contact
+      !> Decay rate [1/rad]
+      real(wp) :: decay_rate
+
+      decay_rate = model%roller_radius**2*contact%traction_slope/(model%roller_inertia*model%speed)
+      if (allocated(model%bearing)) then
+         decay_rate = decay_rate + bearing_torque_slope(model%bearing%friction_coefficient, contact%load, model%bearing%radius, &
+            & contact%relative_spin, model%bearing%reversal_spin)/(model%roller_inertia*model%speed)
+      end if
+   end function decay_rate_of
+
+   !> Rate with its derivatives over sliding speed and cam angle, all from one solution of the contact.
+   subroutine linearise(self, time, state, horizon, linear, counters, status)
+      !> The problem
+      class(spin_problem_t), intent(in) :: self
+      !> Cam angle from full lift [rad]
+      real(wp), intent(in) :: time
+      !> Sliding speed or surface speed [m/s]
+      real(wp), intent(in) :: state(:)
+      !> Cam angle up to which the right-hand side is smooth [rad]
+      real(wp), intent(in) :: horizon
+      !> Rate [m/s/rad] with its derivatives [1/rad, m/s/rad^2]; has its room
+      type(linear_t), intent(inout) :: linear
+      !> Work done
+      type(counters_t), intent(inout) :: counters
+      !> 0 fine, positive: try a smaller step, negative: give up
+      integer, intent(out) :: status
+
+      type(position_t) :: position
+      type(moments_t) :: moments
+      type(contact_t) :: contact
+      ! Gas force [N]; angular acceleration of the roller [rad/s^2], its derivatives [rad/s/m, 1/s^2]
+      real(wp) :: force, acceleration, speed_slope, angle_slope
+      ! Surface of the roller per turn of the cam [m/rad over rad/s]
+      real(wp) :: factor
+
+      if (self%has_surface_speed) then
+         call linearise_in_two(self, time, state, horizon, linear, counters, status)
+         return
+      end if
+      counters%evaluations = counters%evaluations + 1
+      counters%jacobians = counters%jacobians + 1
+      call evaluate_loading(self%model, time, position, force, moments, status)
+      if (status /= 0) return
+      call evaluate_spin_slopes(self%model, time, position, moments, force, state(1), contact, acceleration, speed_slope, &
+         & angle_slope, status, self%accuracy, self%mobilised)
+      if (status /= 0) return
+      factor = self%model%roller_radius/self%model%speed
+      linear%rate(1) = rolling_speed_slope(self%model, position) - factor*acceleration
+      linear%jacobian(1, 1) = -factor*speed_slope
+      linear%time_slope(1) = rolling_speed_curvature(self%model, position, time, horizon) - factor*angle_slope
+      linear%span = largest_traction(self%model, position, moments)*self%model%roller_radius*factor/self%model%roller_inertia
+      linear%resolution = max(min(coarsest_resolution, accuracy_ratio*self%accuracy), finest_resolution)
+      linear%clearance = huge(1.0_wp)
+      if (contact%is_touching) linear%clearance = 2.0_wp*contact%entrainment_speed
+   end subroutine linearise
+
+   !> From the sliding speed to that without entrainment, where the film collapses and friction may hold the roller.
+   subroutine get_clearance(self, time, state, clearance)
+      !> The problem
+      class(spin_problem_t), intent(in) :: self
+      !> Cam angle from full lift [rad]
+      real(wp), intent(in) :: time
+      !> Sliding speed or surface speed [m/s]
+      real(wp), intent(in) :: state(:)
+      !> `V_s` without entrainment less `V_s`; huge where the state is the surface speed [m/s]
+      real(wp), intent(out) :: clearance
+
+      type(position_t) :: position
+      integer :: status
+
+      clearance = huge(1.0_wp)
+      if (self%has_surface_speed) return
+      call evaluate_geometry(self%model, time, position, status)
+      if (status == 0) clearance = 2.0_wp*self%model%speed*position%surface_travel - state(1)
+   end subroutine get_clearance
+
+   !> Largest traction that the contact can make up, friction in the load left out [N]; zero without contact.
+   pure function largest_traction(model, position, moments) result(traction)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> Geometry at this angle
+      type(position_t), intent(in) :: position
+      !> Moments about the pivot
+      type(moments_t), intent(in) :: moments
+      !> Traction [N]
+      real(wp) :: traction
+
+      traction = model%limiting_coefficient
+      if (allocated(model%boundary)) traction = max(traction, model%boundary%coefficient)
+      traction = traction*max(moments%total/position%normal_arm, 0.0_wp)
+   end function largest_traction
+
+   !> A cam angle in the words of messages, as files count it.
+   function name_time(self, time) result(text)
+      !> The problem
+      class(spin_problem_t), intent(in) :: self
+      !> Cam angle from full lift [rad]
+      real(wp), intent(in) :: time
+      !> It in words
+      character(len=words_length) :: text
+
+      text = "cam angle "//fixed_text(modulo(180.0_wp + time/degree, 360.0_wp), 3)//" deg"
+      if (self%has_surface_speed) text = trim(text)//" (fixed step)"
+   end function name_time
+
+   !> Sliding speed that belongs to a state.
+   pure function sliding_speed_of(problem, position, state) result(sliding_speed)
+      !> The problem
+      class(spin_problem_t), intent(in) :: problem
+      !> Geometry at this angle
+      type(position_t), intent(in) :: position
+      !> Sliding speed or surface speed [m/s]
+      real(wp), intent(in) :: state
+      !> Sliding speed [m/s]
+      real(wp) :: sliding_speed
+
+      sliding_speed = state
+      if (problem%has_surface_speed) sliding_speed = rolling_speed_at(problem%model, position) - state
+   end function sliding_speed_of
+
+   !> Speed of the roller's surface in pure rolling, by the chosen notion of it.
+   pure function rolling_speed_at(model, position) result(speed)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> Geometry at this angle
+      type(position_t), intent(in) :: position
+      !> V_roll [m/s]
+      real(wp) :: speed
+
+      speed = model%speed*merge(position%rolling_travel, position%surface_travel, model%has_exact_spin)
+   end function rolling_speed_at
+
+   !> Derivative of the speed in pure rolling with respect to the cam angle.
+   pure function rolling_speed_slope(model, position) result(slope)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> Geometry at this angle
+      type(position_t), intent(in) :: position
+      !> dV_roll/d(cam angle) [m/s/rad]
+      real(wp) :: slope
+
+      slope = model%speed*merge(position%rolling_travel_slope, position%surface_travel_slope, model%has_exact_spin)
+   end function rolling_speed_slope
+
+   !> Second derivative of the speed in pure rolling; by a difference of geometry where it would take the lift's fourth derivative.
+   pure function rolling_speed_curvature(model, position, angle, horizon) result(curvature)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> Geometry at this angle
+      type(position_t), intent(in) :: position
+      !> Cam angle, and that up to which the lift is smooth [rad]
+      real(wp), intent(in) :: angle, horizon
+      !> d2V_roll/d(cam angle)2 [m/s/rad^2]
+      real(wp) :: curvature
+
+      type(position_t) :: ahead
+      ! Step [rad]
+      real(wp) :: step
+      integer :: status
+
+      if (model%has_exact_spin) then
+         curvature = model%speed*position%rolling_travel_curvature
+         return
+      end if
+      step = time_increment(angle, horizon)
+      call evaluate_geometry(model, angle + step, ahead, status)
+      curvature = 0.0_wp
+      if (status == 0) curvature = model%speed*(ahead%surface_travel_slope - position%surface_travel_slope)/step
+   end function rolling_speed_curvature
+
+end module camroller_spin

@@ -1,0 +1,181 @@
+!> The roller's angular acceleration and its exact derivatives by sliding speed and cam angle, from one solution of the contact.
+!>
+!> In: model, geometry, moments, sliding speed. Out: contact, acceleration, both derivatives. The load follows
+!> sliding speed and cam angle through the balance of the finger, whose own derivatives are the same that Newton's method solves
+!> it with.
+module camroller_spin_slopes
+   use camroller_kinds, only : wp
+   use camroller_model, only : model_t
+   use camroller_kinematics, only : position_t
+   use camroller_dynamics, only : moments_t, moment_slope
+   use camroller_gas, only : gas_force_slope
+   use camroller_contact, only : prepare_and_solve, finger_moment
+   use camroller_contact_forces, only : contact_t, setting_t, parts_t, motion_t, slopes_t, follow_contact
+   use camroller_roller, only : spin_acceleration
+   implicit none
+   private
+
+   public :: evaluate_spin_slopes
+
+contains
+
+   !> Contact and angular acceleration with its derivatives.
+   pure subroutine evaluate_spin_slopes(model, angle, position, moments, gas_force, sliding_speed, contact, acceleration, &
+      & speed_slope, angle_slope, status, accuracy, mobilised)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> Cam angle from full lift [rad]
+      real(wp), intent(in) :: angle
+      !> Geometry at this angle
+      type(position_t), intent(in) :: position
+      !> Moments about the pivot
+      type(moments_t), intent(in) :: moments
+      !> Cylinder pressure times valve area [N]
+      real(wp), intent(in) :: gas_force
+      !> Sliding speed [m/s]
+      real(wp), intent(in) :: sliding_speed
+      !> State of the contact
+      type(contact_t), intent(out) :: contact
+      !> Angular acceleration of the roller [rad/s^2]
+      real(wp), intent(out) :: acceleration
+      !> Its derivatives over the sliding speed [rad/s/m] and, at constant sliding speed, over the cam angle [1/s^2]
+      real(wp), intent(out) :: speed_slope, angle_slope
+      !> 0 fine, positive: no balance found
+      integer, intent(out) :: status
+      !> Relative error of load and forces that is good enough; absent: round-off [-]
+      real(wp), intent(in), optional :: accuracy
+      !> Mobilised part of the boundary friction; absent: as the sliding speed has it [-]
+      real(wp), intent(in), optional :: mobilised
+
+      type(setting_t) :: setting
+      type(parts_t) :: parts
+      type(slopes_t) :: by_load, by_speed, by_angle
+      ! Moment that the contact balances [N m], its derivative over the cam angle [N m/rad]; gas force over the angle [N/rad]
+      real(wp) :: moment, slope, gas_slope
+      ! Change of the load, its logarithm, over the sliding speed [s/m] and over the cam angle [1/rad]
+      real(wp) :: load_by_speed, load_by_angle
+
+      speed_slope = 0.0_wp
+      angle_slope = 0.0_wp
+      acceleration = 0.0_wp
+      call prepare_and_solve(model, position, moments, sliding_speed, contact, setting, parts, status, accuracy, mobilised)
+      if (status /= 0) return
+      acceleration = acceleration_of(model, contact%traction, contact%rolling_resistance, contact%bearing_torque)
+      if (.not. contact%is_touching) return
+
+      by_load = follow_contact(model, setting, contact, parts, motion_t(load=1.0_wp))
+      by_speed = follow_contact(model, setting, contact, parts, speed_motion(model, contact))
+      by_angle = follow_contact(model, setting, contact, parts, angle_motion(model, position, contact))
+      gas_slope = 0.0_wp
+      if (allocated(model%gas)) gas_slope = gas_force_slope(model%gas, angle)
+      moment = finger_moment(model, position, moments)
+      slope = moment_slope(model%train, position, model%speed, gas_force, gas_slope)
+      if (model%is_consistent) then
+         if (allocated(model%guide_drag)) slope = slope + model%guide_drag*model%speed &
+            & *(position%lift_curvature*position%valve_arm + position%lift_slope*position%valve_arm_slope)
+         call follow_balance(model, position, contact, slope, by_load, by_speed, by_angle, load_by_speed, load_by_angle)
+      else
+         load_by_speed = 0.0_wp
+         load_by_angle = slope/moment
+         if (model%has_exact_arm) then
+            load_by_angle = load_by_angle - position%normal_arm_slope/position%normal_arm
+         else
+            load_by_angle = load_by_angle - position%parallel_arm_slope/position%parallel_arm
+         end if
+         if (model%takes_maximum_load .and. contact%load <= model%base_circle_load) load_by_angle = 0.0_wp
+      end if
+      speed_slope = slope_along(model, by_speed, by_load, load_by_speed)
+      angle_slope = slope_along(model, by_angle, by_load, load_by_angle)
+   end subroutine evaluate_spin_slopes
+
+   !> What a change of the sliding speed moves at constant load.
+   pure function speed_motion(model, contact) result(motion)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> State of the contact
+      type(contact_t), intent(in) :: contact
+      !> Motion for a change of one metre per second
+      type(motion_t) :: motion
+
+      motion%sliding_speed = 1.0_wp
+      motion%relative_spin = -1.0_wp/model%roller_radius
+      if (abs(contact%entrainment_speed) > 0.0_wp) motion%entrainment = -0.5_wp/contact%entrainment_speed
+   end function speed_motion
+
+   !> What a change of the cam angle moves at constant load and sliding speed.
+   pure function angle_motion(model, position, contact) result(motion)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> Geometry at this angle
+      type(position_t), intent(in) :: position
+      !> State of the contact
+      type(contact_t), intent(in) :: contact
+      !> Motion for a change of one radian
+      type(motion_t) :: motion
+
+      motion%radius = position%radius_slope/position%equivalent_radius
+      if (abs(contact%entrainment_speed) > 0.0_wp) then
+         motion%entrainment = model%speed*position%surface_travel_slope/contact%entrainment_speed
+      end if
+      motion%relative_spin = model%speed*(merge(position%rolling_travel_slope, position%surface_travel_slope, &
+         & model%has_exact_spin)/model%roller_radius - model%linkage%sense*position%finger_curvature)
+   end function angle_motion
+
+   !> How the load follows through `W h_W + sense (T' h_t + T_B) = moment`.
+   pure subroutine follow_balance(model, position, contact, moment_slope, by_load, by_speed, by_angle, load_by_speed, &
+      & load_by_angle)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> Geometry at this angle
+      type(position_t), intent(in) :: position
+      !> State of the contact
+      type(contact_t), intent(in) :: contact
+      !> Derivative of the moment over the cam angle [N m/rad]
+      real(wp), intent(in) :: moment_slope
+      !> Changes with ln(load), sliding speed and cam angle
+      type(slopes_t), intent(in) :: by_load, by_speed, by_angle
+      !> Change of the load, its logarithm, over the sliding speed [s/m] and over the cam angle [1/rad]
+      real(wp), intent(out) :: load_by_speed, load_by_angle
+
+      ! Change of the moment that the contact makes, over ln(load) [N m]
+      real(wp) :: stiffness
+
+      stiffness = contact%load*position%normal_arm + model%linkage%sense*(by_load%tangential_force*position%tangent_arm &
+         & + by_load%bearing_torque)
+      load_by_speed = -model%linkage%sense*(by_speed%tangential_force*position%tangent_arm + by_speed%bearing_torque)/stiffness
+      load_by_angle = (moment_slope - contact%load*position%normal_arm_slope - model%linkage%sense &
+         & *(by_angle%tangential_force*position%tangent_arm + contact%tangential_force*position%tangent_arm_slope &
+         & + by_angle%bearing_torque))/stiffness
+   end subroutine follow_balance
+
+   !> Change of the angular acceleration along a motion with the load that goes with it.
+   pure function slope_along(model, slopes, by_load, load) result(slope)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> Changes at constant load, changes with ln(load)
+      type(slopes_t), intent(in) :: slopes, by_load
+      !> Change of the load, its logarithm [-]
+      real(wp), intent(in) :: load
+      !> Change of the acceleration [rad/s^2]
+      real(wp) :: slope
+
+      slope = acceleration_of(model, slopes%traction + by_load%traction*load, &
+         & slopes%rolling_resistance + by_load%rolling_resistance*load, slopes%bearing_torque + by_load%bearing_torque*load)
+   end function slope_along
+
+   !> Angular acceleration that forces make, or its change by theirs.
+   pure function acceleration_of(model, traction, rolling_resistance, bearing_torque) result(acceleration)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> Traction, rolling resistance [N]
+      real(wp), intent(in) :: traction, rolling_resistance
+      !> Torque of the roller's bearing [N m]
+      real(wp), intent(in) :: bearing_torque
+      !> Angular acceleration [rad/s^2]
+      real(wp) :: acceleration
+
+      acceleration = spin_acceleration(traction, merge(rolling_resistance, 0.0_wp, model%has_rolling_in_balance), &
+         & model%roller_radius, bearing_torque, model%roller_inertia)
+   end function acceleration_of
+
+end module camroller_spin_slopes

@@ -1,0 +1,240 @@
+!> The complete state of one follower at one cam angle: geometry, loads, contact, spin, torques.
+!>
+!> In: model, cam angle, sliding speed. Out: `state_t`, in one visible sequence; no side effects.
+module camroller_state
+   use camroller_kinds, only : wp
+   use camroller_model, only : model_t, evaluate_geometry
+   use camroller_kinematics, only : position_t
+   use camroller_dynamics, only : moments_t, evaluate_moments, stored_power
+   use camroller_gas, only : gas_force
+   use camroller_contact, only : solve_contact
+   use camroller_contact_forces, only : contact_t
+   use camroller_roller, only : spin_acceleration
+   use camroller_torque, only : cam_torque, contact_power, normal_direction
+   implicit none
+   private
+
+   public :: state_t, evaluate_state, evaluate_spin, evaluate_loading, add_torques, cam_force
+
+   !> State of one follower; torques are on the camshaft, from this follower alone
+   type :: state_t
+      type(position_t) :: position
+      type(moments_t) :: moments
+      type(contact_t) :: contact
+      !> Cylinder pressure times valve area [N]
+      real(wp) :: gas_force
+      !> Angular acceleration of the roller [rad/s^2]
+      real(wp) :: spin_acceleration
+      !> Boundary friction that is counted, all or mobilised [N]
+      real(wp) :: boundary_friction
+      !> Friction of the contact, `(1 - A_r/A_a)|F_h| + F_b + F_r` [N]
+      real(wp) :: contact_friction
+      !> Torque against spring, inertia and gas: what the cam gives and gets back [N m]
+      real(wp) :: torque_geometric
+      !> Torque for the losses in the contact [N m]
+      real(wp) :: torque_contact
+      !> Torque for the roller's bearing [N m]
+      real(wp) :: torque_needle
+      !> Torque for the valve guide [N m]
+      real(wp) :: torque_guide
+      !> Torque that spins the roller up [N m]
+      real(wp) :: torque_roller_inertia
+      !> Sum of the losses as torque [N m]
+      real(wp) :: torque_friction
+      !> Sum of everything [N m]
+      real(wp) :: torque_drive
+      !> Power that the cam needs by its own equilibrium, less losses, less what is stored [W]; consistent bookkeeping
+      real(wp) :: energy_residual
+   end type state_t
+
+contains
+
+   !> Geometry and moments: what depends on the cam angle alone.
+   pure subroutine evaluate_loading(model, angle, position, force, moments, status)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> Cam angle from full lift [rad]
+      real(wp), intent(in) :: angle
+      !> Geometry there
+      type(position_t), intent(out) :: position
+      !> Cylinder pressure times valve area [N]
+      real(wp), intent(out) :: force
+      !> Moments about the pivot
+      type(moments_t), intent(out) :: moments
+      !> 0 fine, negative: the finger cannot reach this lift
+      integer, intent(out) :: status
+
+      force = 0.0_wp
+      call evaluate_geometry(model, angle, position, status)
+      if (status /= 0) return
+      if (allocated(model%gas)) force = gas_force(model%gas, angle)
+      call evaluate_moments(model%train, position, model%speed, force, moments)
+   end subroutine evaluate_loading
+
+   !> Contact and angular acceleration of the roller: what the integration of its spin needs.
+   pure subroutine evaluate_spin(model, position, moments, sliding_speed, contact, acceleration, status, accuracy, &
+      & mobilised)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> Geometry at this angle
+      type(position_t), intent(in) :: position
+      !> Moments about the pivot
+      type(moments_t), intent(in) :: moments
+      !> Sliding speed [m/s]
+      real(wp), intent(in) :: sliding_speed
+      !> State of the contact
+      type(contact_t), intent(out) :: contact
+      !> Angular acceleration of the roller [rad/s^2]
+      real(wp), intent(out) :: acceleration
+      !> 0 fine, positive: no balance found
+      integer, intent(out) :: status
+      !> Relative error of load and forces that is good enough; absent: round-off [-]
+      real(wp), intent(in), optional :: accuracy
+      !> Mobilised part of the boundary friction; absent: as the sliding speed has it [-]
+      real(wp), intent(in), optional :: mobilised
+
+      call solve_contact(model, position, moments, sliding_speed, contact, status, accuracy, mobilised)
+      acceleration = spin_acceleration(contact%traction, merge(contact%rolling_resistance, 0.0_wp, &
+         & model%has_rolling_in_balance), model%roller_radius, contact%bearing_torque, model%roller_inertia)
+   end subroutine evaluate_spin
+
+   !> Everything at one angle.
+   pure subroutine evaluate_state(model, angle, sliding_speed, state, status, mobilised)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> Cam angle from full lift [rad]
+      real(wp), intent(in) :: angle
+      !> Sliding speed [m/s]
+      real(wp), intent(in) :: sliding_speed
+      !> State
+      type(state_t), intent(out) :: state
+      !> 0 fine, negative: the finger cannot reach this lift, positive: no balance found
+      integer, intent(out) :: status
+      !> Mobilised part of the boundary friction; absent: as the sliding speed has it [-]
+      real(wp), intent(in), optional :: mobilised
+
+      call evaluate_loading(model, angle, state%position, state%gas_force, state%moments, status)
+      if (status /= 0) return
+      call evaluate_spin(model, state%position, state%moments, sliding_speed, state%contact, state%spin_acceleration, status, &
+         & mobilised=mobilised)
+      if (status /= 0) return
+      call add_torques(model, state)
+   end subroutine evaluate_state
+
+   !> Torques of a state whose contact is solved, with the friction that is reported and the energy residual.
+   pure subroutine add_torques(model, state)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> State with its contact solved
+      type(state_t), intent(inout) :: state
+
+      call add_friction(model, state)
+      if (model%is_consistent) then
+         call add_consistent_torques(model, state)
+      else
+         call add_source_torques(model, state)
+      end if
+   end subroutine add_torques
+
+   !> Force of the follower on the cam, x from pivot to cam centre: what camshaft bearings ask for.
+   pure function cam_force(model, state) result(force)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> State with its contact solved
+      type(state_t), intent(in) :: state
+      !> The force [N]
+      real(wp) :: force(2)
+
+      ! Unit vectors of load and traction on the roller [-]
+      real(wp) :: normal(2), tangent(2)
+
+      call normal_direction(state%position%normal_arm, state%position%tangent_arm, model%linkage%a, state%position%arm_angle, &
+         & model%linkage%sense, normal, tangent)
+      force = -(state%contact%load*normal + state%contact%tangential_force*tangent)
+   end function cam_force
+
+   !> Friction of the contact as it is reported. Source: Islam (2019) eq. (40).
+   pure subroutine add_friction(model, state)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> State with its contact solved
+      type(state_t), intent(inout) :: state
+
+      state%boundary_friction = abs(state%contact%boundary_mobilised)
+      if (allocated(model%boundary)) then
+         if (model%boundary%is_full) state%boundary_friction = state%contact%boundary_capacity
+      end if
+      state%contact_friction = abs(state%contact%shear) + state%boundary_friction + abs(state%contact%rolling_resistance)
+   end subroutine add_friction
+
+   !> Torques whose sum is the torque of the cam's equilibrium; the difference of the two is the energy residual.
+   pure subroutine add_consistent_torques(model, state)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> State with its contact solved
+      type(state_t), intent(inout) :: state
+
+      ! Torque by the cam's equilibrium [N m]; power lost, power stored [W]
+      real(wp) :: equilibrium, lost, stored
+
+      state%torque_geometric = 0.0_wp
+      state%torque_guide = 0.0_wp
+      state%torque_needle = 0.0_wp
+      state%torque_contact = contact_power(state%contact%traction, state%contact%sliding_speed, &
+         & state%contact%rolling_resistance, state%contact%cam_surface_speed, state%contact%roller_surface_speed)/model%speed
+      if (state%contact%is_touching) then
+         state%torque_geometric = state%moments%total*state%position%finger_slope
+         if (allocated(model%guide_drag)) then
+            state%torque_guide = model%guide_drag*model%speed*state%position%lift_slope**2
+         end if
+      end if
+      if (allocated(model%bearing)) then
+         state%torque_needle = state%contact%bearing_torque*state%contact%relative_spin/model%speed
+      end if
+      state%torque_roller_inertia = model%roller_inertia*state%contact%roller_spin*state%spin_acceleration/model%speed
+      call add_sums(state)
+
+      equilibrium = cam_torque(state%contact%load, state%position%normal_arm, state%position%finger_slope, &
+         & state%contact%tangential_force, state%position%cam_arm, state%contact%rolling_resistance, &
+         & state%position%equivalent_radius)
+      lost = (state%torque_contact + state%torque_needle + state%torque_guide)*model%speed
+      stored = model%roller_inertia*state%contact%roller_spin*state%spin_acceleration
+      if (state%contact%is_touching) stored = stored + stored_power(model%train, state%position, model%speed, state%gas_force)
+      state%energy_residual = equilibrium*model%speed - lost - stored
+   end subroutine add_consistent_torques
+
+   !> Torques as the source adds them up: contact friction on the arm of the tangent, needle and guide on top.
+   pure subroutine add_source_torques(model, state)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> State with its contact solved
+      type(state_t), intent(inout) :: state
+
+      state%torque_geometric = 0.0_wp
+      state%torque_guide = 0.0_wp
+      state%torque_needle = 0.0_wp
+      state%torque_contact = state%contact_friction*state%position%cam_arm
+      if (state%contact%is_touching) then
+         state%torque_geometric = state%moments%total*state%position%finger_slope
+         if (allocated(model%guide_drag)) then
+            state%torque_guide = model%guide_drag*model%speed*state%position%lift_slope**2
+         end if
+      end if
+      if (allocated(model%bearing)) then
+         state%torque_needle = state%contact%bearing_torque*state%contact%roller_spin/model%speed
+      end if
+      state%torque_roller_inertia = 0.0_wp
+      state%energy_residual = 0.0_wp
+      call add_sums(state)
+   end subroutine add_source_torques
+
+   !> Sums of the torques.
+   pure subroutine add_sums(state)
+      !> State with its torques apart
+      type(state_t), intent(inout) :: state
+
+      state%torque_friction = state%torque_contact + state%torque_needle + state%torque_guide
+      state%torque_drive = state%torque_geometric + state%torque_friction + state%torque_roller_inertia
+   end subroutine add_sums
+
+end module camroller_state

@@ -1,0 +1,102 @@
+!> Parts common to all HDF5 objects: handle, names, the type of texts, the error of a failed write.
+!>
+!> In: extents, texts. Out: `hdf5_object_t` and helpers that the modules on files, attributes and reading
+!> share.
+module camroller_hdf5_object
+   use, intrinsic :: iso_c_binding, only : c_char, c_int64_t, c_null_char
+   use hdf5, only : hid_t, hsize_t, h5screate_f, h5screate_simple_f, h5tcopy_f, h5tset_cset_f, h5s_scalar_f, &
+      & h5t_cset_utf8_f, h5t_string
+   use camroller_error, only : error_t
+   use camroller_hdf5_status, only : raise_hdf5
+   implicit none
+   private
+
+   public :: hdf5_object_t, open_space, open_text_type, letters_of, member_name, raise_object
+
+   !> A file, a group or a dataset that is open
+   type :: hdf5_object_t
+      !> Handle of the library, negative where nothing is open
+      integer(hid_t) :: id = -1_hid_t
+      !> Name inside the file
+      character(len=:), allocatable :: name
+      !> File as messages call it
+      character(len=:), allocatable :: file
+      !> Disk space set aside for a file [byte]
+      integer(c_int64_t) :: reserved = 0_c_int64_t
+      !> Size of a file that is read [byte]
+      integer(c_int64_t) :: bytes = 0_c_int64_t
+   end type hdf5_object_t
+
+contains
+
+   !> Dataspace of given extents, a scalar one where there are none.
+   subroutine open_space(extents, space, status)
+      !> Extents of the axes
+      integer, intent(in) :: extents(:)
+      !> The dataspace
+      integer(hid_t), intent(out) :: space
+      !> 0 where all went well
+      integer, intent(out) :: status
+
+      if (size(extents) == 0) then
+         call h5screate_f(h5s_scalar_f, space, status)
+      else
+         call h5screate_simple_f(size(extents), int(extents, hsize_t), space, status)
+      end if
+   end subroutine open_space
+
+   !> Type of texts of any length in UTF-8.
+   subroutine open_text_type(text_type, status)
+      !> The type, to be closed
+      integer(hid_t), intent(out) :: text_type
+      !> 0 where all went well
+      integer, intent(out) :: status
+
+      call h5tcopy_f(h5t_string, text_type, status)
+      if (status == 0) call h5tset_cset_f(text_type, h5t_cset_utf8_f, status)
+   end subroutine open_text_type
+
+   !> Letters of a text, closed by a null character as C wants them.
+   pure subroutine letters_of(text, letters)
+      !> The text
+      character(len=*), intent(in) :: text
+      !> Its letters
+      character(kind=c_char), allocatable, intent(out) :: letters(:)
+
+      integer :: i, length
+
+      length = len_trim(text)
+      allocate (letters(length + 1))
+      do i = 1, length
+         letters(i) = text(i:i)
+      end do
+      letters(length + 1) = c_null_char
+   end subroutine letters_of
+
+   !> Name of a member inside the file.
+   pure function member_name(parent, name) result(full)
+      !> File or group
+      type(hdf5_object_t), intent(in) :: parent
+      !> Name of the member
+      character(len=*), intent(in) :: name
+      !> Name from the root
+      character(len=:), allocatable :: full
+
+      if (parent%name == "/") then
+         full = "/"//name
+      else
+         full = parent%name//"/"//name
+      end if
+   end function member_name
+
+   !> Error of writing an object.
+   subroutine raise_object(error, object)
+      !> The error to allocate
+      type(error_t), allocatable, intent(out) :: error
+      !> The object that could not be written
+      type(hdf5_object_t), intent(in) :: object
+
+      call raise_hdf5(error, "cannot write '"//object%name//"' of '"//object%file//"'")
+   end subroutine raise_object
+
+end module camroller_hdf5_object

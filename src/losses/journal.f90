@@ -1,0 +1,323 @@
+!> Hydrodynamic journal bearings of the camshaft: friction under a steady load.
+!>
+!> In: bearing dimensions, viscosity, speed, load. Out: friction on the journal and eccentricity.
+!> Sources: Sommerfeld (1904) for the long bearing with full film, Ocvirk (1952), NACA TN 2808, for the short bearing with
+!> half film, Butenschoen (1976), thesis, University of Karlsruhe, for finite width; Islam (2019) eqs. (42)-(44), with
+!> the speed in revolutions and without the factor 12.
+!>
+!> With e the eccentricity over the radial clearance, each law is a rising function of `t = e/sqrt(1 - e^2)`, which keeps its
+!> digits from the unloaded bearing (t = 0, Petroff's friction) to the fully displaced one (t unbounded, e -> 1).
+module camroller_journal
+   use camroller_kinds, only : wp, pi
+   use camroller_error, only : error_t, raise, kind_deck, kind_domain
+   use camroller_names, only : name_length, find_name
+   use camroller_roots, only : bracket_t, start_bracket, narrow_bracket, root_wanted, root_found
+   implicit none
+   private
+
+   public :: cam_bearings_t, journal_t, journal_law_names
+   public :: new_journal, journal_torque, journal_friction
+   public :: journal_solved, journal_without_film
+
+   !> Journal bearing laws
+   character(len=*), parameter :: journal_law_names(*) = [character(len=name_length) :: &
+      "long_full_sommerfeld", "short_ocvirk", "finite"]
+   !> Places in `journal_law_names`
+   integer, parameter :: law_long = 1, law_short = 2, law_finite = 3
+
+   !> Friction and eccentricity are known
+   integer, parameter :: journal_solved = 0
+   !> No viscosity, no speed or no finite load: no film to compute
+   integer, parameter :: journal_without_film = 1
+
+   !> Width over diameter for which the law of finite width is used [-]
+   real(wp), parameter :: finite_range(2) = [0.1_wp, 1.0_wp]
+
+   !> Camshaft and its bearings
+   type :: cam_bearings_t
+      !> One of `journal_law_names`
+      character(len=name_length) :: law = "long_full_sommerfeld"
+      !> Diameter of the journals [m]
+      real(wp) :: diameter = 0.0_wp
+      !> Width of a bearing [m]
+      real(wp) :: width = 0.0_wp
+      !> Radial clearance [m]
+      real(wp) :: radial_clearance = 0.0_wp
+      !> Places of the bearings along the shaft, increasing [m]
+      real(wp), allocatable :: bearing_positions(:)
+      !> Places of the cams along the shaft, between the first and the last bearing [m]
+      real(wp), allocatable :: cam_positions(:)
+      !> Angle by which each cam's event follows the first cam's [rad]
+      real(wp), allocatable :: cam_phases(:)
+      !> Lobe shape of each cam: 1 is the case's lift, 2 its second lift
+      integer, allocatable :: cam_lobes(:)
+      !> Angle about the shaft at which each follower stands from the first, positive the way a finger turns as it opens [rad]
+      real(wp), allocatable :: follower_angles(:)
+   end type cam_bearings_t
+
+   !> A bearing at a speed, ready for any load
+   type :: journal_t
+      private
+      !> Place in `journal_law_names`
+      integer :: law = law_long
+      !> Radius of the journal [m]
+      real(wp) :: radius = 0.0_wp
+      !> Width over diameter [-]
+      real(wp) :: width_ratio = 0.0_wp
+      !> Radial clearance over radius [-]
+      real(wp) :: clearance_ratio = 0.0_wp
+      !> Load at which `W (c/r)^2/(eta omega r L)` is one [N]
+      real(wp) :: unit_load = 0.0_wp
+      !> Friction of the unloaded bearing, `2 pi eta omega r^2 L/c` [N]
+      real(wp) :: petroff_friction = 0.0_wp
+   end type journal_t
+
+contains
+
+   !> Make the bearing of a camshaft at a speed.
+   !>
+   !> Errors: unknown law, or width out of the range of the law of finite width (deck); no viscosity or no speed (domain).
+   subroutine new_journal(journal, bearings, viscosity, speed, error)
+      !> The bearing
+      type(journal_t), intent(out) :: journal
+      !> What the case says about the bearings
+      type(cam_bearings_t), intent(in) :: bearings
+      !> Viscosity of the oil at ambient pressure [Pa s]
+      real(wp), intent(in) :: viscosity
+      !> Speed of the shaft [rad/s]
+      real(wp), intent(in) :: speed
+      !> What is wrong
+      type(error_t), allocatable, intent(out) :: error
+
+      integer :: law
+
+      call find_name("journal bearing law", bearings%law, journal_law_names, law, error)
+      if (allocated(error)) return
+      journal = journal_at_speed(law, bearings%diameter, bearings%width, bearings%radial_clearance, viscosity, speed)
+      if (.not. journal%unit_load > 0.0_wp) then
+         call raise(error, kind_domain, "journal bearings need viscosity, speed and dimensions above zero")
+      else if (law == law_finite .and. (journal%width_ratio < finite_range(1) .or. journal%width_ratio > finite_range(2))) then
+         call raise(error, kind_deck, "journal bearing law 'finite' covers widths from 0.1 to 1 diameter; "// &
+            "'short_ocvirk' is for narrower, 'long_full_sommerfeld' for wider bearings")
+      end if
+   end subroutine new_journal
+
+   !> Friction torque of a bearing under a load.
+   pure subroutine journal_torque(journal, load, torque, status)
+      !> The bearing
+      type(journal_t), intent(in) :: journal
+      !> Load [N]
+      real(wp), intent(in) :: load
+      !> Torque against the rotation [N m]
+      real(wp), intent(out) :: torque
+      !> `journal_solved` or `journal_without_film`
+      integer, intent(out) :: status
+
+      !> Friction [N], eccentricity over clearance [-]
+      real(wp) :: friction, eccentricity
+
+      call solve_journal(journal, load, friction, eccentricity, status)
+      torque = friction*journal%radius
+   end subroutine journal_torque
+
+   !> Friction on a journal and its eccentricity.
+   !>
+   !> As the load goes to zero the friction tends to Petroff's; as it grows the eccentricity tends to one and, in the long
+   !> bearing, the friction to `W c/r`. Only the magnitudes of speed and load count.
+   pure subroutine journal_friction(law, diameter, width, radial_clearance, viscosity, speed, load, friction, eccentricity, &
+      & status)
+      !> Place in `journal_law_names`
+      integer, intent(in) :: law
+      !> Diameter of the journal, D [m]
+      real(wp), intent(in) :: diameter
+      !> Width of the bearing, L [m]
+      real(wp), intent(in) :: width
+      !> Radial clearance, c [m]
+      real(wp), intent(in) :: radial_clearance
+      !> Viscosity, eta [Pa s]
+      real(wp), intent(in) :: viscosity
+      !> Speed of the shaft, omega [rad/s]
+      real(wp), intent(in) :: speed
+      !> Load, W [N]
+      real(wp), intent(in) :: load
+      !> Friction at the journal's surface, against the rotation [N]
+      real(wp), intent(out) :: friction
+      !> Eccentricity over radial clearance, e [-]
+      real(wp), intent(out) :: eccentricity
+      !> `journal_solved` or `journal_without_film`
+      integer, intent(out) :: status
+
+      call solve_journal(journal_at_speed(law, diameter, width, radial_clearance, viscosity, speed), load, friction, &
+         eccentricity, status)
+   end subroutine journal_friction
+
+   !> Constants of a bearing at a speed.
+   pure function journal_at_speed(law, diameter, width, radial_clearance, viscosity, speed) result(journal)
+      !> Place in `journal_law_names`
+      integer, intent(in) :: law
+      !> Diameter of the journal [m]
+      real(wp), intent(in) :: diameter
+      !> Width of the bearing [m]
+      real(wp), intent(in) :: width
+      !> Radial clearance [m]
+      real(wp), intent(in) :: radial_clearance
+      !> Viscosity [Pa s]
+      real(wp), intent(in) :: viscosity
+      !> Speed of the shaft [rad/s]
+      real(wp), intent(in) :: speed
+      !> The constants; no unit load where there is no film
+      type(journal_t) :: journal
+
+      !> Shear force of the unloaded film over 2 pi [N]
+      real(wp) :: shear
+
+      journal%law = law
+      journal%radius = 0.5_wp*diameter
+      if (.not. min(diameter, width, radial_clearance, viscosity, abs(speed)) > 0.0_wp) return
+      journal%width_ratio = width/diameter
+      journal%clearance_ratio = radial_clearance/journal%radius
+      shear = viscosity*abs(speed)*journal%radius*width/journal%clearance_ratio
+      journal%unit_load = shear/journal%clearance_ratio
+      journal%petroff_friction = 2.0_wp*pi*shear
+   end function journal_at_speed
+
+   !> Friction and eccentricity of a bearing under a load.
+   pure subroutine solve_journal(journal, load, friction, eccentricity, status)
+      !> The bearing
+      type(journal_t), intent(in) :: journal
+      !> Load [N]
+      real(wp), intent(in) :: load
+      !> Friction [N]
+      real(wp), intent(out) :: friction
+      !> Eccentricity over clearance [-]
+      real(wp), intent(out) :: eccentricity
+      !> `journal_solved` or `journal_without_film`
+      integer, intent(out) :: status
+
+      !> Load over unit load, bound of t, its value at the root, sqrt(1 + t^2) [-]
+      real(wp) :: number, bound, t, secant
+      type(bracket_t) :: bracket
+
+      friction = 0.0_wp
+      eccentricity = 0.0_wp
+      status = journal_without_film
+      if (.not. journal%unit_load > 0.0_wp) return
+      number = abs(load)/journal%unit_load
+      if (number > huge(number)) return
+      bound = largest_tangent(journal, number)
+      call start_bracket(bracket, 0.0_wp, bound, -number, load_number(journal, bound) - number, 0.0_wp)
+      do while (bracket%status == root_wanted)
+         call narrow_bracket(bracket, load_number(journal, bracket%trial) - number)
+      end do
+      if (bracket%status /= root_found) return
+      t = bracket%trial
+      secant = sqrt(1.0_wp + t**2)
+      eccentricity = t/secant
+      friction = journal%petroff_friction*secant
+      select case (journal%law)
+      case (law_long)
+         friction = friction*(2.0_wp + 6.0_wp*t**2)/(2.0_wp + 3.0_wp*t**2)
+      case (law_finite)
+         friction = friction + 0.5_wp*journal%clearance_ratio*abs(load)*eccentricity &
+            & *sin(attitude_angle(journal%width_ratio, t))
+      end select
+      status = journal_solved
+   end subroutine solve_journal
+
+   !> Load number `W (c/r)^2/(eta omega r L)` of a bearing; rises with t from 0.
+   !>
+   !> Long:   `12 pi e/((2 + e^2) sqrt(1 - e^2))`, from `S = (2 + e^2) sqrt(1 - e^2)/(12 pi^2 e)`, S = 1/(pi number).
+   !> Short:  `(L/r)^2 e sqrt(16 e^2 + pi^2 (1 - e^2))/(4 (1 - e^2)^2)`.
+   !> Finite: `(L/D)^2 e sqrt(16 e^2 + pi^2 (1 - e^2))/(1 - e^2)^2 a_1 (1 - e)/(-a_2 - e)`; at the loads of the numerical
+   !>         solutions of Raimondi and Boyd (1958, L/D 1 and 1/4) e is within 0.01, the friction within 2 %.
+   pure function load_number(journal, t) result(number)
+      !> The bearing
+      type(journal_t), intent(in) :: journal
+      !> e/sqrt(1 - e^2) [-]
+      real(wp), intent(in) :: t
+      !> Load number [-]
+      real(wp) :: number
+
+      !> e, the short bearing's root over sqrt(1 - e^2) [-]
+      real(wp) :: e, root
+
+      root = t*sqrt(16.0_wp*t**2 + pi**2)
+      select case (journal%law)
+      case (law_long)
+         number = 12.0_wp*pi*t*(1.0_wp + t**2)/(2.0_wp + 3.0_wp*t**2)
+      case (law_short)
+         number = journal%width_ratio**2*(1.0_wp + t**2)*root
+      case default
+         e = t/sqrt(1.0_wp + t**2)
+         number = journal%width_ratio**2*root*finite_factor(journal%width_ratio) &
+            & /((1.0_wp + e)*(finite_pole(journal%width_ratio) - e))
+      end select
+   end function load_number
+
+   !> A bound of t at a load number, close where the number is small or large.
+   pure function largest_tangent(journal, number) result(t)
+      !> The bearing
+      type(journal_t), intent(in) :: journal
+      !> Load number [-]
+      real(wp), intent(in) :: number
+      !> e/sqrt(1 - e^2) of no smaller a load number [-]
+      real(wp) :: t
+
+      !> Load number over the smallest factor of `t sqrt(16 t^2 + pi^2)` [-]
+      real(wp) :: reduced
+      !> The bound is above the root by more than round-off [-]
+      real(wp), parameter :: margin = 1.0_wp + 1.0e-12_wp
+
+      select case (journal%law)
+      case (law_long)
+         t = number/(4.0_wp*pi)
+      case (law_short)
+         reduced = number/journal%width_ratio**2
+         t = min(reduced/pi, sqrt(sqrt(0.25_wp*reduced)))
+      case default
+         reduced = number*(0.5_wp*(1.0_wp + finite_pole(journal%width_ratio))/journal%width_ratio)**2 &
+            & /finite_factor(journal%width_ratio)
+         t = min(reduced/pi, sqrt(0.25_wp*reduced))
+      end select
+      t = margin*t
+   end function largest_tangent
+
+   !> Butenschoen's a_1: load over that of a short bearing.
+   elemental function finite_factor(b) result(a_1)
+      !> Width over diameter [-]
+      real(wp), intent(in) :: b
+      !> a_1 [-]
+      real(wp) :: a_1
+
+      a_1 = 1.1642_wp + b*(-1.9456_wp + b*(7.1161_wp + b*(-10.1073_wp + b*5.0141_wp)))
+   end function finite_factor
+
+   !> Butenschoen's -a_2: eccentricity, just above one, where the fit has its pole.
+   elemental function finite_pole(b) result(pole)
+      !> Width over diameter [-]
+      real(wp), intent(in) :: b
+      !> -a_2 [-]
+      real(wp) :: pole
+
+      pole = 1.000026_wp + b*(0.023634_wp + b*(0.4215_wp + b*(0.038817_wp + b*0.090551_wp)))
+   end function finite_pole
+
+   !> Angle between load and line of centres, Butenschoen's fit.
+   elemental function attitude_angle(b, t) result(angle)
+      !> Width over diameter [-]
+      real(wp), intent(in) :: b
+      !> e/sqrt(1 - e^2) [-]
+      real(wp), intent(in) :: t
+      !> Attitude angle [rad]
+      real(wp) :: angle
+
+      !> e, factor of the short bearing's form [-]
+      real(wp) :: e, factor
+
+      e = t/sqrt(1.0_wp + t**2)
+      factor = 1.152624_wp - 0.104565_wp*b + e*(-2.5905_wp + 0.798745_wp*b + e*(8.73393_wp - 2.3291_wp*b &
+         & + e*(-13.3414_wp + 3.424337_wp*b + e*(6.6294_wp - 1.591732_wp*b))))
+      angle = factor*atan2(pi, 2.0_wp*t)
+   end function attitude_angle
+
+end module camroller_journal

@@ -1,0 +1,144 @@
+!> Bounds of the numbers of a deck: for each unit the sizes that some machine could have, with room to spare.
+!>
+!> In: the unit of a key. Out: the smallest and the largest size of a number in it. A number outside of them is a slip of
+!> the pen, and products of several such numbers leave the range of numbers: a modulus of 1e-310 GPa has no reciprocal.
+module camroller_deck_bounds
+   use camroller_kinds, only : wp, two_pi, degree
+   use camroller_units, only : unit_t, find_unit
+   use camroller_number_text, only : number_text
+   implicit none
+   private
+
+   public :: smallest_size, largest_size, is_bounded, bounds_in_words, write_bounds
+
+   !> Units that share their bounds, and the bounds
+   type :: bounds_t
+      !> Units, as the last words of keys; blank for none
+      character(len=20) :: units
+      !> What is measured
+      character(len=32) :: quantity
+      !> Smallest size that is not 0 [SI unit]
+      real(wp) :: smallest
+      !> Largest size [SI unit]
+      real(wp) :: largest
+   end type bounds_t
+
+   type(bounds_t), parameter :: known_bounds(*) = [ &
+      bounds_t("m mm um", "length", 1.0e-12_wp, 1.0e3_wp), &
+      bounds_t("deg", "angle", 1.0e-9_wp*degree, 1.0e5_wp*degree), &
+      bounds_t("rpm", "speed of rotation", 1.0e-6_wp*two_pi/60.0_wp, 1.0e6_wp*two_pi/60.0_wp), &
+      bounds_t("degC", "temperature", 0.0_wp, 1.0e4_wp), &
+      bounds_t("s", "time", 1.0e-6_wp, 1.0e9_wp), &
+      bounds_t("m_s", "speed", 1.0e-12_wp, 1.0e4_wp), &
+      bounds_t("kg", "mass", 1.0e-12_wp, 1.0e6_wp), &
+      bounds_t("kg_m2", "moment of inertia", 1.0e-18_wp, 1.0e6_wp), &
+      bounds_t("kg_m3", "density", 1.0e-3_wp, 1.0e6_wp), &
+      bounds_t("N", "force", 1.0e-9_wp, 1.0e12_wp), &
+      bounds_t("N_m", "stiffness", 1.0e-6_wp, 1.0e15_wp), &
+      bounds_t("Pa kPa bar MPa GPa", "pressure, stress, modulus", 1.0e-3_wp, 1.0e15_wp), &
+      bounds_t("Pa_s", "viscosity", 1.0e-9_wp, 1.0e6_wp), &
+      bounds_t("per_GPa", "pressure-viscosity coefficient", 1.0e-15_wp, 1.0e-5_wp), &
+      bounds_t("per_K", "thermal expansion", 1.0e-12_wp, 1.0_wp), &
+      bounds_t("", "number without a unit", 1.0e-30_wp, 1.0e30_wp)]
+
+   !> Digits of a bound in another unit than SI
+   integer, parameter :: digits = 3
+
+contains
+
+   !> Bounds of a unit.
+   pure function bounds_of(unit) result(bounds)
+      !> The unit
+      type(unit_t), intent(in) :: unit
+      !> Its bounds
+      type(bounds_t) :: bounds
+
+      integer :: i
+
+      do i = 1, size(known_bounds)
+         if (unit%suffix == "" .neqv. known_bounds(i)%units == "") cycle
+         if (index(" "//known_bounds(i)%units, " "//trim(unit%suffix)//" ") > 0) exit
+      end do
+      bounds = known_bounds(min(i, size(known_bounds)))
+   end function bounds_of
+
+   !> Smallest size of a number that is not 0.
+   pure function smallest_size(unit) result(smallest)
+      !> Its unit
+      type(unit_t), intent(in) :: unit
+      !> The size [the unit]
+      real(wp) :: smallest
+
+      type(bounds_t) :: bounds
+
+      bounds = bounds_of(unit)
+      smallest = bounds%smallest*unit%denominator/unit%numerator
+   end function smallest_size
+
+   !> Largest size of a number.
+   pure function largest_size(unit) result(largest)
+      !> Its unit
+      type(unit_t), intent(in) :: unit
+      !> The size [the unit]
+      real(wp) :: largest
+
+      type(bounds_t) :: bounds
+
+      bounds = bounds_of(unit)
+      largest = bounds%largest*unit%denominator/unit%numerator
+   end function largest_size
+
+   !> Is a number 0 or of a size within the bounds of its unit? They are met but for round-off of the unit's factor.
+   elemental function is_bounded(number, unit) result(verdict)
+      !> The number [the unit]
+      real(wp), intent(in) :: number
+      !> Its unit
+      type(unit_t), intent(in) :: unit
+      !> Is it?
+      logical :: verdict
+
+      real(wp), parameter :: round_off = 1.0e-12_wp ! [-]
+
+      verdict = .not. abs(number) > 0.0_wp .or. (abs(number) >= smallest_size(unit)*(1.0_wp - round_off) .and. &
+         & abs(number) <= largest_size(unit)*(1.0_wp + round_off))
+   end function is_bounded
+
+   !> The bounds of a unit in words.
+   pure function bounds_in_words(unit, takes_zero, takes_negative) result(words)
+      !> The unit
+      type(unit_t), intent(in) :: unit
+      !> May the number be 0, or negative?
+      logical, intent(in) :: takes_zero, takes_negative
+      !> The words
+      character(len=:), allocatable :: words
+
+      words = number_text(largest_size(unit), digits)//" or less"
+      if (smallest_size(unit) > 0.0_wp) words = "from "//number_text(smallest_size(unit), digits)//" to "// &
+         & number_text(largest_size(unit), digits)
+      if (smallest_size(unit) > 0.0_wp .and. takes_zero) words = "0, or "//words
+      if (takes_negative) words = words//" in size"
+   end function bounds_in_words
+
+   !> The bounds of all quantities as a table of a page.
+   subroutine write_bounds(text)
+      !> Text to add to
+      character(len=:), allocatable, intent(inout) :: text
+
+      character(len=*), parameter :: n = new_line("a")
+      type(bounds_t) :: bounds
+      type(unit_t) :: unit
+      logical :: is_known
+      integer :: i
+
+      text = text//n//"## Bounds of numbers"//n//n//"The magnitude of a number that is not 0 must lie within these "// &
+         & "bounds, which are wider than any machine needs. Outside of them formulas could overflow."//n//n// &
+         & "| quantity | in | smallest size | largest size |"//n//"|---|---|---|---|"//n
+      do i = 1, size(known_bounds)
+         bounds = known_bounds(i)
+         call find_unit(bounds%units(:max(0, scan(bounds%units, " ") - 1)), unit, is_known)
+         text = text//"| "//trim(bounds%quantity)//" | "//trim(merge("-         ", unit%symbol(:10), unit%symbol == "1"))// &
+            & " | "//number_text(smallest_size(unit), digits)//" | "//number_text(largest_size(unit), digits)//" |"//n
+      end do
+   end subroutine write_bounds
+
+end module camroller_deck_bounds

@@ -1,0 +1,52 @@
+!> Mistakes that belong to a key or a group of a deck: found their place by name.
+!>
+!> In: names and a sentence. Out: a mistake with the place where the key's value, or its group, stands.
+module camroller_deck_complaint
+   use camroller_mistakes, only : mistakes_t, add_mistake, override_place
+   use camroller_settings, only : settings_t, find_value, group_position
+   implicit none
+   private
+
+   public :: complain, complain_about_group
+
+contains
+
+   !> Take note of a mistake in the value of a key.
+   subroutine complain(mistakes, settings, group, key, message)
+      !> Mistakes so far
+      type(mistakes_t), intent(inout) :: mistakes
+      !> The settings
+      type(settings_t), intent(in) :: settings
+      !> Names of group and key
+      character(len=*), intent(in) :: group, key
+      !> What is wrong
+      character(len=*), intent(in) :: message
+
+      associate (value => settings%values(find_value(settings, group, key)))
+         if (allocated(value%source)) then
+            call add_mistake(mistakes, message, 0, 1, len(value%source), override_place, value%source)
+         else if (value%line > 0) then
+            call add_mistake(mistakes, message, value%line, value%column, value%width)
+         else
+            call complain_about_group(mistakes, settings, group, message)
+         end if
+      end associate
+   end subroutine complain
+
+   !> Take note of a mistake that belongs to a group as a whole.
+   subroutine complain_about_group(mistakes, settings, group, message)
+      !> Mistakes so far
+      type(mistakes_t), intent(inout) :: mistakes
+      !> The settings
+      type(settings_t), intent(in) :: settings
+      !> Name of the group
+      character(len=*), intent(in) :: group
+      !> What is wrong
+      character(len=*), intent(in) :: message
+
+      associate (section => settings%groups(group_position(settings, group)))
+         call add_mistake(mistakes, message, section%line, section%column, merge(len(group) + 1, 0, section%line > 0))
+      end associate
+   end subroutine complain_about_group
+
+end module camroller_deck_complaint

@@ -1,0 +1,404 @@
+!> What a deck may hold: types for groups and keys, and how to find and describe them.
+!>
+!> In: declarations, which `camroller_deck_keys` makes. Out: `schema_t`, the one source for reading,
+!> checking,
+!> documenting and echoing decks.
+module camroller_deck_schema
+   use camroller_kinds, only : wp
+   use camroller_names, only : name_length, list_names
+   use camroller_units, only : unit_t, unit_of_key, from_si
+   use camroller_deck_text, only : to_lower
+   use camroller_number_text, only : number_text, integer_text
+   implicit none
+   private
+
+   public :: schema_t, group_t, key_t, range_t
+   public :: add_group, add_number, add_integer, add_logical, add_name, add_text, add_numbers, add_integers, add_words
+   public :: find_group, find_key, allowed_values, group_names, key_names
+   public :: group_required, group_standard, group_effect
+   public :: type_number, type_integer, type_logical, type_name, type_text, type_numbers, type_integers, type_words
+   public :: anything, positive, not_negative, proper_fraction, up_to, from_to, one_or_more
+   public :: key_length
+
+   !> Length of the names of groups and keys
+   integer, parameter :: key_length = 48
+
+   !> Group that must be there; group that may be left out with all its defaults; group that switches an effect on
+   integer, parameter :: group_required = 1, group_standard = 2, group_effect = 3
+
+   !> Kinds of values
+   integer, parameter :: type_number = 1, type_integer = 2, type_logical = 3, type_name = 4, type_text = 5, &
+      & type_numbers = 6, type_integers = 7, type_words = 8
+
+   !> Digits of a default that is converted to the unit of its key
+   integer, parameter :: default_digits = 12
+
+   !> Range of a number, in the unit of its key
+   type :: range_t
+      !> Smallest value [unit of the key]
+      real(wp) :: smallest = -huge(1.0_wp)
+      !> Largest value [unit of the key]
+      real(wp) :: largest = huge(1.0_wp)
+      !> Are the ends themselves allowed?
+      logical :: with_smallest = .true., with_largest = .true.
+   end type range_t
+
+   type(range_t), parameter :: anything = range_t()
+   type(range_t), parameter :: positive = range_t(smallest=0.0_wp, with_smallest=.false.)
+   type(range_t), parameter :: not_negative = range_t(smallest=0.0_wp)
+   type(range_t), parameter :: one_or_more = range_t(smallest=1.0_wp)
+   type(range_t), parameter :: proper_fraction = range_t(0.0_wp, 1.0_wp, .false., .false.)
+
+   !> One key
+   type :: key_t
+      !> Position of its group
+      integer :: group = 0
+      !> Name, e.g. `base_radius_mm`
+      character(len=key_length) :: name = ""
+      !> The same in lower case
+      character(len=key_length) :: lower_name = ""
+      !> One of the kinds of values
+      integer :: type = 0
+      !> Must it be given?
+      logical :: is_required = .false.
+      !> Value where it is not given, as text; not allocated where there is none
+      character(len=:), allocatable :: default
+      !> Value for a deck that shows every key; not allocated where the default says enough
+      character(len=:), allocatable :: example
+      !> Range of a number
+      type(range_t) :: range
+      !> Allowed names
+      character(len=name_length), allocatable :: choices(:)
+      !> Unit of a number
+      type(unit_t) :: unit
+      !> What it means
+      character(len=:), allocatable :: meaning
+   end type key_t
+
+   !> One group
+   type :: group_t
+      !> Name, e.g. `mechanism`
+      character(len=key_length) :: name = ""
+      !> Required, standard or effect
+      integer :: kind = group_required
+      !> First and last key
+      integer :: first = 1, last = 0
+      !> What it holds
+      character(len=:), allocatable :: meaning
+   end type group_t
+
+   !> All groups and keys
+   type :: schema_t
+      !> Groups in the order of a deck
+      type(group_t), allocatable :: groups(:)
+      !> Keys, group by group
+      type(key_t), allocatable :: keys(:)
+      !> Number of groups and of keys that are in use
+      integer :: group_count = 0, key_count = 0
+   end type schema_t
+
+contains
+
+   !> A range from above zero up to an end.
+   pure function up_to(largest) result(range)
+      !> Largest value [unit of the key]
+      real(wp), intent(in) :: largest
+      !> The range
+      type(range_t) :: range
+
+      range = range_t(0.0_wp, largest, .false., .true.)
+   end function up_to
+
+   !> A range with both ends.
+   pure function from_to(smallest, largest) result(range)
+      !> Smallest and largest value [unit of the key]
+      real(wp), intent(in) :: smallest, largest
+      !> The range
+      type(range_t) :: range
+
+      range = range_t(smallest, largest)
+   end function from_to
+
+   !> Begin a group; the keys that follow belong to it.
+   subroutine add_group(schema, name, kind, meaning)
+      !> Schema to add to
+      type(schema_t), intent(inout) :: schema
+      !> Name of the group
+      character(len=*), intent(in) :: name
+      !> Required, standard or effect
+      integer, intent(in) :: kind
+      !> What it holds
+      character(len=*), intent(in) :: meaning
+
+      schema%group_count = schema%group_count + 1
+      associate (group => schema%groups(schema%group_count))
+         group%name = name
+         group%kind = kind
+         group%meaning = meaning
+         group%first = schema%key_count + 1
+         group%last = schema%key_count
+      end associate
+   end subroutine add_group
+
+   !> Add a key to the last group.
+   subroutine add_key(schema, name, type, meaning, is_optional, example)
+      !> Schema to add to
+      type(schema_t), intent(inout) :: schema
+      !> Name of the key
+      character(len=*), intent(in) :: name
+      !> Kind of value
+      integer, intent(in) :: type
+      !> What it means
+      character(len=*), intent(in) :: meaning
+      !> May it be left out?
+      logical, intent(in) :: is_optional
+      !> Value for a deck that shows every key
+      character(len=*), intent(in), optional :: example
+
+      schema%key_count = schema%key_count + 1
+      schema%groups(schema%group_count)%last = schema%key_count
+      associate (key => schema%keys(schema%key_count))
+         key%group = schema%group_count
+         key%name = name
+         key%lower_name = to_lower(name)
+         key%type = type
+         key%meaning = meaning
+         key%is_required = .not. is_optional
+         key%unit = unit_of_key(name)
+         if (present(example)) key%example = example
+      end associate
+   end subroutine add_key
+
+   !> Add a number.
+   subroutine add_number(schema, name, range, meaning, default, example, is_optional)
+      !> Schema to add to
+      type(schema_t), intent(inout) :: schema
+      !> Name of the key
+      character(len=*), intent(in) :: name
+      !> Range of its value
+      type(range_t), intent(in) :: range
+      !> What it means
+      character(len=*), intent(in) :: meaning
+      !> Value where it is not given [SI unit]
+      real(wp), intent(in), optional :: default
+      !> Value for a deck that shows every key
+      character(len=*), intent(in), optional :: example
+      !> May it be left out without a default?
+      logical, intent(in), optional :: is_optional
+
+      call add_key(schema, name, type_number, meaning, present(default) .or. present(is_optional), example)
+      schema%keys(schema%key_count)%range = range
+      if (.not. present(default)) return
+      schema%keys(schema%key_count)%default = &
+         & number_text(from_si(schema%keys(schema%key_count)%unit, default), default_digits)
+   end subroutine add_number
+
+   !> Add an integer.
+   subroutine add_integer(schema, name, range, meaning, default, is_optional)
+      !> Schema to add to
+      type(schema_t), intent(inout) :: schema
+      !> Name of the key
+      character(len=*), intent(in) :: name
+      !> Range of its value
+      type(range_t), intent(in) :: range
+      !> What it means
+      character(len=*), intent(in) :: meaning
+      !> Value where it is not given
+      integer, intent(in), optional :: default
+      !> May it be left out without a default?
+      logical, intent(in), optional :: is_optional
+
+      call add_key(schema, name, type_integer, meaning, present(default) .or. present(is_optional))
+      schema%keys(schema%key_count)%range = range
+      if (present(default)) schema%keys(schema%key_count)%default = integer_text(default)
+   end subroutine add_integer
+
+   !> Add a choice of yes and no.
+   subroutine add_logical(schema, name, default, meaning)
+      !> Schema to add to
+      type(schema_t), intent(inout) :: schema
+      !> Name of the key
+      character(len=*), intent(in) :: name
+      !> Value where it is not given
+      logical, intent(in) :: default
+      !> What it means
+      character(len=*), intent(in) :: meaning
+
+      call add_key(schema, name, type_logical, meaning, .true.)
+      schema%keys(schema%key_count)%default = trim(merge(".true. ", ".false.", default))
+   end subroutine add_logical
+
+   !> Add a choice by name.
+   subroutine add_name(schema, name, choices, default, meaning)
+      !> Schema to add to
+      type(schema_t), intent(inout) :: schema
+      !> Name of the key
+      character(len=*), intent(in) :: name
+      !> Allowed names
+      character(len=*), intent(in) :: choices(:)
+      !> Value where it is not given
+      character(len=*), intent(in) :: default
+      !> What it means
+      character(len=*), intent(in) :: meaning
+
+      call add_key(schema, name, type_name, meaning, .true.)
+      schema%keys(schema%key_count)%default = "'"//trim(default)//"'"
+      allocate (schema%keys(schema%key_count)%choices(size(choices)))
+      schema%keys(schema%key_count)%choices(:) = choices
+   end subroutine add_name
+
+   !> Add a text.
+   subroutine add_text(schema, name, meaning, default, example, is_optional)
+      !> Schema to add to
+      type(schema_t), intent(inout) :: schema
+      !> Name of the key
+      character(len=*), intent(in) :: name
+      !> What it means
+      character(len=*), intent(in) :: meaning
+      !> Value where it is not given
+      character(len=*), intent(in), optional :: default
+      !> Value for a deck that shows every key
+      character(len=*), intent(in), optional :: example
+      !> May it be left out without a default?
+      logical, intent(in), optional :: is_optional
+
+      call add_key(schema, name, type_text, meaning, present(default) .or. present(is_optional), example)
+      if (present(default)) schema%keys(schema%key_count)%default = "'"//default//"'"
+   end subroutine add_text
+
+   !> Add a list of numbers.
+   subroutine add_numbers(schema, name, range, meaning, example, is_optional)
+      !> Schema to add to
+      type(schema_t), intent(inout) :: schema
+      !> Name of the key
+      character(len=*), intent(in) :: name
+      !> Range of each value
+      type(range_t), intent(in) :: range
+      !> What it means
+      character(len=*), intent(in) :: meaning
+      !> Value for a deck that shows every key
+      character(len=*), intent(in), optional :: example
+      !> May it be left out?
+      logical, intent(in), optional :: is_optional
+
+      call add_key(schema, name, type_numbers, meaning, present(is_optional), example)
+      schema%keys(schema%key_count)%range = range
+   end subroutine add_numbers
+
+   !> Add a list of integers.
+   subroutine add_integers(schema, name, range, meaning, example, is_optional)
+      !> Schema to add to
+      type(schema_t), intent(inout) :: schema
+      !> Name of the key
+      character(len=*), intent(in) :: name
+      !> Range of each value
+      type(range_t), intent(in) :: range
+      !> What it means
+      character(len=*), intent(in) :: meaning
+      !> Value for a deck that shows every key
+      character(len=*), intent(in), optional :: example
+      !> May it be left out?
+      logical, intent(in), optional :: is_optional
+
+      call add_key(schema, name, type_integers, meaning, present(is_optional), example)
+      schema%keys(schema%key_count)%range = range
+   end subroutine add_integers
+
+   !> Add a list of words that are values of another key.
+   subroutine add_words(schema, name, meaning)
+      !> Schema to add to
+      type(schema_t), intent(inout) :: schema
+      !> Name of the key
+      character(len=*), intent(in) :: name
+      !> What it means
+      character(len=*), intent(in) :: meaning
+
+      call add_key(schema, name, type_words, meaning, .true.)
+   end subroutine add_words
+
+   !> Position of a group, 0 where it is unknown.
+   pure function find_group(schema, name) result(position)
+      !> Schema to look in
+      type(schema_t), intent(in) :: schema
+      !> Name of the group
+      character(len=*), intent(in) :: name
+      !> Its position
+      integer :: position
+
+      do position = 1, schema%group_count
+         if (schema%groups(position)%name == name) return
+      end do
+      position = 0
+   end function find_group
+
+   !> Position of a key of a group, 0 where it is unknown.
+   pure function find_key(schema, group, name) result(position)
+      !> Schema to look in
+      type(schema_t), intent(in) :: schema
+      !> Position of the group
+      integer, intent(in) :: group
+      !> Name of the key
+      character(len=*), intent(in) :: name
+      !> Its position
+      integer :: position
+
+      do position = schema%groups(group)%first, schema%groups(group)%last
+         if (schema%keys(position)%name == name) return
+      end do
+      position = 0
+   end function find_key
+
+   !> Names of all groups.
+   pure function group_names(schema) result(names)
+      !> Schema to look in
+      type(schema_t), intent(in) :: schema
+      !> The names
+      character(len=key_length) :: names(schema%group_count)
+
+      names = schema%groups(:schema%group_count)%name
+   end function group_names
+
+   !> Names of the keys of a group.
+   pure function key_names(schema, group) result(names)
+      !> Schema to look in
+      type(schema_t), intent(in) :: schema
+      !> Position of the group
+      integer, intent(in) :: group
+      !> The names
+      character(len=key_length) :: names(schema%groups(group)%last - schema%groups(group)%first + 1)
+
+      names = schema%keys(schema%groups(group)%first:schema%groups(group)%last)%name
+   end function key_names
+
+   !> What a key's value may be, in words; blank where there is no limit.
+   pure function allowed_values(key) result(words)
+      !> The key
+      type(key_t), intent(in) :: key
+      !> Range or names
+      character(len=:), allocatable :: words
+
+      logical :: has_smallest, has_largest
+
+      words = ""
+      if (allocated(key%choices)) words = "one of "//list_names(key%choices)
+      has_smallest = key%range%smallest > -huge(1.0_wp)
+      has_largest = key%range%largest < huge(1.0_wp)
+      if (has_smallest .and. has_largest .and. key%range%with_smallest .and. key%range%with_largest) then
+         words = "from "//number_text(key%range%smallest)//" to "//number_text(key%range%largest)
+         return
+      end if
+      if (has_smallest) then
+         words = "above "//number_text(key%range%smallest)
+         if (key%range%with_smallest) words = number_text(key%range%smallest)//" or more"
+      end if
+      if (has_smallest .and. has_largest) words = words//" and "
+      if (has_largest) then
+         if (key%range%with_largest) then
+            words = words//"not above "//number_text(key%range%largest)
+         else
+            words = words//"below "//number_text(key%range%largest)
+         end if
+      end if
+   end function allowed_values
+
+end module camroller_deck_schema

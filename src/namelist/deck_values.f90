@@ -1,0 +1,374 @@
+!> Values of a deck's keys: read from text as the schema says, checked one by one, held in SI.
+!>
+!> In: the text of a value and its key. Out: a value, or what is wrong with it in words. The value syntax is that
+!> of Fortran: the text goes through a namelist read of its own.
+module camroller_deck_values
+   use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
+   use camroller_kinds, only : wp
+   use camroller_names, only : index_of_name
+   use camroller_units, only : to_si
+   use camroller_number_text, only : integer_text, is_beyond_range
+   use camroller_mistakes, only : nearest_name, shown
+   use camroller_deck_bounds, only : is_bounded, bounds_in_words
+   use camroller_deck_schema, only : key_t, range_t, key_length, allowed_values, type_number, type_integer, &
+      & type_logical, type_name, type_text, type_numbers, type_integers, type_words
+   implicit none
+   private
+
+   public :: value_t, read_value, next_word, split_words, longest_text
+
+   !> Longest list and longest text
+   integer, parameter :: longest_list = 512, longest_text = 512
+   !> Longest value of a key but a list of &sweep: a list of numbers with all their digits is shorter
+   integer, parameter :: longest_value = 64*longest_list
+
+   !> Value of one key
+   type :: value_t
+      !> Name of the key
+      character(len=key_length) :: name = ""
+      !> As given, or the default, in the unit of the key
+      character(len=:), allocatable :: text
+      !> Numbers [SI unit]
+      real(wp), allocatable :: numbers(:)
+      !> Integers
+      integer, allocatable :: integers(:)
+      !> Name or text, without quotes
+      character(len=:), allocatable :: word
+      !> Yes or no
+      logical :: flag = .false.
+      !> Was it given in the deck or beside it?
+      logical :: is_given = .false.
+      !> Is there a value that can be used?
+      logical :: is_known = .false.
+      !> Was a value given that is wrong?
+      logical :: is_wrong = .false.
+      !> Place of the value in the deck; 0 where it is not from there
+      integer :: line = 0, column = 0, width = 0
+      !> The words that gave it where it was not the deck
+      character(len=:), allocatable :: source
+   end type value_t
+
+contains
+
+   !> Read a value as its key says, and check it.
+   subroutine read_value(key, text, value, reason)
+      !> The key
+      type(key_t), intent(in) :: key
+      !> Text of the value
+      character(len=*), intent(in) :: text
+      !> The value; its place is left alone
+      type(value_t), intent(inout) :: value
+      !> What is wrong with it; not allocated where nothing is
+      character(len=:), allocatable, intent(out) :: reason
+
+      value%text = without_comma(text)
+      value%is_known = .false.
+      if (len(value%text) == 0) then
+         reason = "'"//trim(key%name)//"' has no value"
+      else if (len(value%text) > longest_value .and. key%type /= type_words) then
+         reason = "'"//trim(key%name)//"' has a value of "//integer_text(len(value%text))//" characters; the longest has "// &
+            & integer_text(longest_value)
+         value%text = shown(value%text)
+      else
+         select case (key%type)
+         case (type_number, type_numbers)
+            call read_numbers(key, value, reason)
+         case (type_integer, type_integers)
+            call read_integers(key, value, reason)
+         case (type_logical)
+            call read_logical(key, value, reason)
+         case (type_words)
+            value%word = value%text
+         case (type_name, type_text)
+            call read_text(key, value, reason)
+         end select
+      end if
+      value%is_wrong = allocated(reason)
+      value%is_known = .not. value%is_wrong
+      if (value%is_wrong) call spend_read()
+   end subroutine read_value
+
+   !> Read and discard a value.
+   !>
+   !> After some values that cannot be read (`3` for a logical, `1e` for a number) gfortran's library hands what it had of them to
+   !> the next read, which then finds nothing and says that all is well.
+   subroutine spend_read()
+      integer, parameter :: most_reads = 3
+      character(len=:), allocatable :: buffer
+      integer :: item, status, i
+      namelist /value_group/ item
+
+      buffer = "&value_group item=1 /"
+      item = 0
+      do i = 1, most_reads
+         read (buffer, nml=value_group, iostat=status)
+         if (status == 0 .and. item == 1) return
+      end do
+   end subroutine spend_read
+
+   !> A text without blanks around it and without a comma at its end.
+   pure function without_comma(text) result(trimmed)
+      !> The text
+      character(len=*), intent(in) :: text
+      !> The same, shorter
+      character(len=:), allocatable :: trimmed
+
+      trimmed = trim(adjustl(text))
+      if (len(trimmed) == 0) return
+      if (trimmed(len(trimmed):) == ",") trimmed = trim(trimmed(:len(trimmed) - 1))
+   end function without_comma
+
+   !> One number or a list of numbers.
+   subroutine read_numbers(key, value, reason)
+      !> The key
+      type(key_t), intent(in) :: key
+      !> Its value
+      type(value_t), intent(inout) :: value
+      !> What is wrong
+      character(len=:), allocatable, intent(out) :: reason
+
+      !> Numbers as read [unit of the key]
+      real(wp) :: list(longest_list)
+      !> What marks an empty place [unit of the key]
+      real(wp), parameter :: empty = -huge(1.0_wp)
+      integer :: status, n
+      character(len=:), allocatable :: buffer
+      namelist /value_group/ list
+
+      if (is_beyond_range(value%text)) then
+         reason = "'"//trim(key%name)//"' must be finite; '"//shown(value%text)//"' is too large to be held"
+         return
+      end if
+      list = empty
+      buffer = "&value_group list="//value%text//" /"
+      read (buffer, nml=value_group, iostat=status)
+      if (status /= 0) then
+         reason = "'"//trim(key%name)//"' takes "//number_or_list(key)//", not "//shown(value%text)
+         return
+      end if
+      if (.not. all(ieee_is_finite(list))) then
+         reason = "'"//trim(key%name)//"' must be finite, not "//shown(value%text)
+         return
+      end if
+      n = count(list > empty)
+      call check_count(key, n, all(list(:n) > empty), value%text, reason)
+      if (allocated(reason)) return
+      if (.not. all(is_within(list(:n), key%range))) then
+         reason = "'"//trim(key%name)//"' must be "//allowed_values(key)//", not "//shown(value%text)
+         return
+      end if
+      if (.not. all(is_bounded(list(:n), key%unit))) then
+         reason = "'"//trim(key%name)//"' must be "//bounds_in_words(key%unit, is_within(0.0_wp, key%range), &
+            & key%range%smallest < 0.0_wp)//", not "//shown(value%text)
+         return
+      end if
+      value%numbers = to_si(key%unit, list(:n))
+   end subroutine read_numbers
+
+   !> One integer or a list of integers.
+   subroutine read_integers(key, value, reason)
+      !> The key
+      type(key_t), intent(in) :: key
+      !> Its value
+      type(value_t), intent(inout) :: value
+      !> What is wrong
+      character(len=:), allocatable, intent(out) :: reason
+
+      integer, parameter :: empty = -huge(1)
+      integer :: list(longest_list)
+      integer :: status, n
+      character(len=:), allocatable :: buffer
+      namelist /value_group/ list
+
+      list = empty
+      buffer = "&value_group list="//value%text//" /"
+      read (buffer, nml=value_group, iostat=status)
+      if (status /= 0) then
+         reason = "'"//trim(key%name)//"' takes "//number_or_list(key)//", not "//shown(value%text)
+         return
+      end if
+      n = count(list > empty)
+      call check_count(key, n, all(list(:n) > empty), value%text, reason)
+      if (allocated(reason)) return
+      if (.not. all(is_within(real(list(:n), wp), key%range))) then
+         reason = "'"//trim(key%name)//"' must be "//allowed_values(key)//", not "//shown(value%text)
+         return
+      end if
+      value%integers = list(:n)
+   end subroutine read_integers
+
+   !> Yes or no.
+   subroutine read_logical(key, value, reason)
+      !> The key
+      type(key_t), intent(in) :: key
+      !> Its value
+      type(value_t), intent(inout) :: value
+      !> What is wrong
+      character(len=:), allocatable, intent(out) :: reason
+
+      logical :: item
+      integer :: status
+      character(len=:), allocatable :: buffer
+      namelist /value_group/ item
+
+      item = .false.
+      buffer = "&value_group item="//value%text//" /"
+      read (buffer, nml=value_group, iostat=status)
+      if (status /= 0) reason = "'"//trim(key%name)//"' takes .true. or .false., not "//shown(value%text)
+      value%flag = item
+   end subroutine read_logical
+
+   !> A name or a text.
+   subroutine read_text(key, value, reason)
+      !> The key
+      type(key_t), intent(in) :: key
+      !> Its value
+      type(value_t), intent(inout) :: value
+      !> What is wrong
+      character(len=:), allocatable, intent(out) :: reason
+
+      character(len=longest_text) :: item
+      character(len=:), allocatable :: buffer
+      integer :: status
+      namelist /value_group/ item
+
+      item = ""
+      status = 1
+      if (len(value%text) > longest_text) then
+         reason = "'"//trim(key%name)//"' is longer than "//integer_text(longest_text - 2)//" characters"
+         return
+      end if
+      if (index("'""", value%text(1:1)) > 0) then
+         buffer = "&value_group item="//value%text//" /"
+         read (buffer, nml=value_group, iostat=status)
+      end if
+      if (status /= 0) then
+         reason = "'"//trim(key%name)//"' takes one text in quotes, not "//shown(value%text)
+         if (allocated(key%choices)) reason = reason//"; it is "//allowed_values(key)
+      else if (allocated(key%choices)) then
+         call check_choice(key, trim(item), reason)
+      else if (item == "") then
+         reason = "'"//trim(key%name)//"' is an empty text"
+      end if
+      value%word = trim(item)
+   end subroutine read_text
+
+   !> Is a name one of those that a key takes?
+   subroutine check_choice(key, name, reason)
+      !> The key
+      type(key_t), intent(in) :: key
+      !> The name
+      character(len=*), intent(in) :: name
+      !> What is wrong
+      character(len=:), allocatable, intent(out) :: reason
+
+      character(len=:), allocatable :: nearest
+
+      if (index_of_name(name, key%choices) > 0) return
+      reason = "'"//trim(key%name)//"' must be "//allowed_values(key)//", not "//shown("'"//name//"'")
+      nearest = nearest_name(name, key%choices)
+      if (nearest /= "") reason = reason//"; did you mean '"//nearest//"'?"
+   end subroutine check_choice
+
+   !> As many values as the key takes, and no empty place between them?
+   subroutine check_count(key, n, is_dense, text, reason)
+      !> The key
+      type(key_t), intent(in) :: key
+      !> Number of values
+      integer, intent(in) :: n
+      !> Do they fill the first n places?
+      logical, intent(in) :: is_dense
+      !> Text of the value
+      character(len=*), intent(in) :: text
+      !> What is wrong
+      character(len=:), allocatable, intent(out) :: reason
+
+      if (n == 0 .or. .not. is_dense) then
+         reason = "'"//trim(key%name)//"' has an empty place between commas: "//shown(text)
+      else if (n > 1 .and. (key%type == type_number .or. key%type == type_integer)) then
+         reason = "'"//trim(key%name)//"' takes "//number_or_list(key)//", not "//integer_text(n)//": "//shown(text)
+      end if
+   end subroutine check_count
+
+   !> What a key takes, in words.
+   pure function number_or_list(key) result(words)
+      !> The key
+      type(key_t), intent(in) :: key
+      !> The words
+      character(len=:), allocatable :: words
+
+      select case (key%type)
+      case (type_integer)
+         words = "one whole number"
+      case (type_numbers)
+         words = "a list of numbers"
+      case (type_integers)
+         words = "a list of whole numbers"
+      case default
+         words = "one number"
+      end select
+   end function number_or_list
+
+   !> Is a number in a range?
+   elemental function is_within(number, range) result(verdict)
+      !> The number [unit of the key]
+      real(wp), intent(in) :: number
+      !> The range
+      type(range_t), intent(in) :: range
+      !> Is it?
+      logical :: verdict
+
+      verdict = (number > range%smallest .or. (range%with_smallest .and. .not. number < range%smallest)) .and. &
+         & (number < range%largest .or. (range%with_largest .and. .not. number > range%largest))
+   end function is_within
+
+   !> Next word of a list; quoted text stays in one piece, with its quotes.
+   pure subroutine next_word(text, position, first, last)
+      !> The list
+      character(len=*), intent(in) :: text
+      !> Where to begin; behind the word on return
+      integer, intent(inout) :: position
+      !> First and last character of the word; the first is 0 where there is none left
+      integer, intent(out) :: first, last
+
+      first = 0
+      last = 0
+      do while (position <= len(text))
+         if (index(" ,"//char(9), text(position:position)) == 0) exit
+         position = position + 1
+      end do
+      if (position > len(text)) return
+      first = position
+      if (index("'""", text(first:first)) > 0) then
+         last = index(text(first + 1:), text(first:first))
+         last = merge(len(text), first + last, last == 0)
+      else
+         last = scan(text(first:), " ,"//char(9))
+         last = merge(len(text), first + last - 2, last == 0)
+      end if
+      position = last + 1
+   end subroutine next_word
+
+   !> Cut a list into its words.
+   pure subroutine split_words(text, words, count)
+      !> The list
+      character(len=*), intent(in) :: text
+      !> Its words
+      character(len=*), intent(out) :: words(:)
+      !> How many there are, at most as many as fit
+      integer, intent(out) :: count
+
+      integer :: position, first, last
+
+      count = 0
+      words = ""
+      position = 1
+      do while (count < size(words))
+         call next_word(text, position, first, last)
+         if (first == 0) exit
+         count = count + 1
+         words(count) = text(first:last)
+      end do
+   end subroutine split_words
+
+end module camroller_deck_values

@@ -1,0 +1,252 @@
+!> What an initial value problem is: its right-hand side, its Jacobian and the work done on it.
+!>
+!> In: nothing. Out: `problem_t`, which problems extend, `linear_t` and `counters_t`. A problem that knows its
+!> Jacobian better than a difference quotient does overrides `get_jacobian`, or `linearise` where rate and Jacobian come together.
+!>
+!> Status of a rate: 0 fine, positive "this trial state is impossible, try a smaller step", negative "give up".
+module camroller_ode_problem
+   use camroller_kinds, only : wp
+   implicit none
+   private
+
+   public :: problem_t, linear_t, counters_t, new_linear, copy_linear, linearise_in_two, difference_jacobian, time_increment
+   public :: words_length
+
+   !> Length of a time in words
+   integer, parameter :: words_length = 48
+
+   !> Right-hand side of `d state/d time = rate(time, state)`
+   type, abstract :: problem_t
+      !> Size of each component below which differences between states stop to matter, for difference quotients; 1 where not
+      !> allocated [state]
+      real(wp), allocatable :: small_state(:)
+      !> Components at the end of the state that are integrals: no rate depends on them
+      integer :: integrals = 0
+      !> Barrier, see `get_clearance`: at time zero, huge where there is none [state]; its slope [state/time]
+      real(wp) :: barrier = huge(1.0_wp), barrier_slope = 0.0_wp
+   contains
+      procedure(rate_interface), deferred :: get_rate
+      procedure(decay_interface), deferred :: get_decay_rate
+      procedure(words_interface), deferred :: name_time
+      procedure :: get_jacobian => difference_jacobian
+      procedure :: linearise => linearise_in_two
+      procedure :: get_clearance => clearance_of_line
+   end type problem_t
+
+   !> Rate at a point with its first derivatives
+   type :: linear_t
+      !> Rate [state/time]
+      real(wp), allocatable :: rate(:)
+      !> Derivative of the rates (row) with respect to the state (column) [1/time]
+      real(wp), allocatable :: jacobian(:, :)
+      !> Derivative of the rates with respect to time [state/time^2]
+      real(wp), allocatable :: time_slope(:)
+      !> Part of the rate that saturates within a narrow range of the state, its size; huge where nothing does. Errors of the
+      !> state that are small against the largest state may then still throw the rate from one end of its range to the other
+      !> [state/time]
+      real(wp) :: span = huge(1.0_wp)
+      !> Error of the rate that is allowed for an error of the state, over the rate, where something saturates [-]
+      real(wp) :: resolution = 1.0_wp
+      !> From the first component to the barrier, see `get_clearance` [state]
+      real(wp) :: clearance = huge(1.0_wp)
+   end type linear_t
+
+   !> Work done, comparable between machines
+   type :: counters_t
+      !> Calls of the right-hand side, those for difference quotients included
+      integer :: evaluations = 0
+      !> Calls for the decay rate, which cost about as much as a call of the right-hand side
+      integer :: decay_rates = 0
+      !> Jacobians formed
+      integer :: jacobians = 0
+      !> Matrices factorised
+      integer :: factorisations = 0
+      !> Steps accepted
+      integer :: accepted = 0
+      !> Steps rejected
+      integer :: rejected = 0
+   end type counters_t
+
+   abstract interface
+      !> Rate of change of the state
+      subroutine rate_interface(self, time, state, rate, status)
+         import :: problem_t, wp
+         !> The problem; read only
+         class(problem_t), intent(in) :: self
+         !> Time [time]
+         real(wp), intent(in) :: time
+         !> State [state]
+         real(wp), intent(in) :: state(:)
+         !> Rate of change [state/time]
+         real(wp), intent(out) :: rate(:)
+         !> 0 fine, positive: try a smaller step, negative: give up
+         integer, intent(out) :: status
+      end subroutine rate_interface
+
+      !> Fastest decay rate of the problem at a state: size of the largest eigenvalue of the Jacobian
+      subroutine decay_interface(self, time, state, decay_rate)
+         import :: problem_t, wp
+         !> The problem; read only
+         class(problem_t), intent(in) :: self
+         !> Time [time]
+         real(wp), intent(in) :: time
+         !> State [state]
+         real(wp), intent(in) :: state(:)
+         !> Decay rate [1/time]
+         real(wp), intent(out) :: decay_rate
+      end subroutine decay_interface
+
+      !> A time in the words of messages, e.g. `cam angle 214.5 deg`
+      function words_interface(self, time) result(text)
+         import :: problem_t, wp, words_length
+         !> The problem; read only
+         class(problem_t), intent(in) :: self
+         !> Time [time]
+         real(wp), intent(in) :: time
+         !> It in words
+         character(len=words_length) :: text
+      end function words_interface
+   end interface
+
+contains
+
+   !> Room for a rate with its derivatives.
+   pure subroutine new_linear(linear, components)
+      !> Rate and derivatives
+      type(linear_t), intent(out) :: linear
+      !> Number of components of the state
+      integer, intent(in) :: components
+
+      allocate (linear%rate(components), linear%jacobian(components, components), linear%time_slope(components))
+      linear%rate = 0.0_wp
+      linear%jacobian = 0.0_wp
+      linear%time_slope = 0.0_wp
+   end subroutine new_linear
+
+   !> Copy a rate and its derivatives, the clearance alone where there are none.
+   pure subroutine copy_linear(source, target)
+      !> From here
+      type(linear_t), intent(in) :: source
+      !> To here; has its room
+      type(linear_t), intent(inout) :: target
+
+      target%clearance = source%clearance
+      if (.not. allocated(source%rate)) return
+      target%rate(:) = source%rate
+      target%jacobian(:, :) = source%jacobian
+      target%time_slope(:) = source%time_slope
+      target%span = source%span
+      target%resolution = source%resolution
+   end subroutine copy_linear
+
+   !> Rate and its derivatives, one after the other.
+   !>
+   !> A problem that gets both from one evaluation, or whose rate saturates, overrides this.
+   subroutine linearise_in_two(self, time, state, horizon, linear, counters, status)
+      !> The problem; read only
+      class(problem_t), intent(in) :: self
+      !> Time [time]
+      real(wp), intent(in) :: time
+      !> State [state]
+      real(wp), intent(in) :: state(:)
+      !> Time up to which the right-hand side is smooth; later times are not evaluated [time]
+      real(wp), intent(in) :: horizon
+      !> Rate and derivatives; has its room
+      type(linear_t), intent(inout) :: linear
+      !> Work done
+      type(counters_t), intent(inout) :: counters
+      !> 0 fine, positive: try a smaller step, negative: give up
+      integer, intent(out) :: status
+
+      call self%get_clearance(time, state, linear%clearance)
+      call self%get_rate(time, state, linear%rate, status)
+      counters%evaluations = counters%evaluations + 1
+      if (status /= 0) return
+      call self%get_jacobian(time, state, linear%rate, horizon, linear%jacobian, linear%time_slope, counters, status)
+   end subroutine linearise_in_two
+
+   !> From the first component to its barrier: a place about which the rate may differ so much within so narrow a range that the
+   !> state is held there, and that a step may cross without an evaluation there.
+   !>
+   !> A barrier that is no straight line over time overrides this; `linearise` fills in `clearance` where it is overridden.
+   subroutine clearance_of_line(self, time, state, clearance)
+      !> The problem; read only
+      class(problem_t), intent(in) :: self
+      !> Time [time]
+      real(wp), intent(in) :: time
+      !> State [state]
+      real(wp), intent(in) :: state(:)
+      !> State at the barrier less the state; huge where there is none [state]
+      real(wp), intent(out) :: clearance
+
+      clearance = self%barrier + self%barrier_slope*time - state(1)
+   end subroutine clearance_of_line
+
+   !> Jacobian and slope with time by forward differences.
+   !>
+   !> Increments are the square root of the rounding unit times the size of the variable, which balances truncation
+   !> against rounding: half of the figures of a rate are right in the quotient.
+   subroutine difference_jacobian(self, time, state, rate, horizon, jacobian, time_slope, counters, status)
+      !> The problem; read only
+      class(problem_t), intent(in) :: self
+      !> Time [time]
+      real(wp), intent(in) :: time
+      !> State [state]
+      real(wp), intent(in) :: state(:)
+      !> Rate there [state/time]
+      real(wp), intent(in) :: rate(:)
+      !> Time up to which the right-hand side is smooth; later times are not evaluated [time]
+      real(wp), intent(in) :: horizon
+      !> Derivative of the rates (row) with respect to the state (column) [1/time]
+      real(wp), intent(out) :: jacobian(:, :)
+      !> Derivative of the rates with respect to time [state/time^2]
+      real(wp), intent(out) :: time_slope(:)
+      !> Work done
+      type(counters_t), intent(inout) :: counters
+      !> 0 fine, positive: try a smaller step, negative: give up
+      integer, intent(out) :: status
+
+      ! State moved [state], time moved [time], rate there [state/time]
+      real(wp) :: moved_state(size(state)), moved_time, moved_rate(size(state))
+      ! Size of a component [state]
+      real(wp) :: small_state
+      integer :: i
+
+      counters%jacobians = counters%jacobians + 1
+      moved_state = state
+      do i = 1, size(state)
+         small_state = 1.0_wp
+         if (allocated(self%small_state)) small_state = self%small_state(i)
+         moved_state(i) = state(i) + sqrt(epsilon(1.0_wp))*max(abs(state(i)), small_state)
+         call self%get_rate(time, moved_state, moved_rate, status)
+         counters%evaluations = counters%evaluations + 1
+         if (status /= 0) return
+         jacobian(:, i) = (moved_rate - rate)/(moved_state(i) - state(i))
+         moved_state(i) = state(i)
+      end do
+      moved_time = time + time_increment(time, horizon)
+      call self%get_rate(moved_time, state, moved_rate, status)
+      counters%evaluations = counters%evaluations + 1
+      if (status /= 0) return
+      time_slope = (moved_rate - rate)/(moved_time - time)
+   end subroutine difference_jacobian
+
+   !> Increment of time for a difference that stays this side of the horizon: forward, at the horizon itself backward.
+   pure function time_increment(time, horizon) result(increment)
+      !> Time [time]
+      real(wp), intent(in) :: time
+      !> Time not to be passed, some roundings ahead at least [time]
+      real(wp), intent(in) :: horizon
+      !> Increment, exact in the time it leads to [time]
+      real(wp) :: increment
+
+      if (horizon > time) then
+         increment = sqrt(epsilon(1.0_wp))*max(abs(time), horizon - time)
+         increment = max(min(increment, 0.5_wp*(horizon - time)), spacing(time))
+      else
+         increment = -sqrt(epsilon(1.0_wp))*abs(time)
+      end if
+      increment = (time + increment) - time
+   end function time_increment
+
+end module camroller_ode_problem

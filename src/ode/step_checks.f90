@@ -1,0 +1,314 @@
+!> Checks on a step beyond its own error estimate: has it missed where the rate saturates, where the decay ends, or where the state
+!> is held?
+!>
+!> In: rate with its derivatives at both ends of a step, its curve. Out: its error over the tolerance, raised where
+!> there is reason to.
+module camroller_step_checks
+   use camroller_kinds, only : wp
+   use camroller_ode_method, only : method_t
+   use camroller_ode_problem, only : problem_t, linear_t, counters_t
+   use camroller_trajectory, only : curve_numbers, most_bends, curve_state
+   implicit none
+   private
+
+   public :: check_step
+
+   !> Departure from the linear rate over span and size of the rate, up to which a step is taken to have seen a saturation [-]
+   real(wp), parameter :: largest_departure = 0.5_wp
+   !> Part of the error of a curve's slope at its end that counts: curves are of lower order than the states that they join [-]
+   real(wp), parameter :: part_of_curve = 1.0e-2_wp
+   !> Part of the error of a curve in its middle that counts [-]
+   real(wp), parameter :: part_of_middle = 0.1_wp
+
+contains
+
+   !> Raise the error of a step for which one of the checks finds a reason.
+   subroutine check_step(problem, method, is_fixed, time, new_time, finish, step, long, state, rate, new_state, new_rate, &
+      & estimate, counters, scaled_error)
+      !> The problem
+      class(problem_t), intent(in) :: problem
+      !> The method after the step
+      class(method_t), intent(inout) :: method
+      !> Is the size of the step fixed?
+      logical, intent(in) :: is_fixed
+      !> Time at the start and at the end of the step, end of the segment; size of the step, size that is not the estimate's choice
+      !> [time]
+      real(wp), intent(in) :: time, new_time, finish, step, long
+      !> State [state] and rate [state/time] at the start
+      real(wp), intent(in) :: state(:), rate(:)
+      !> State [state] and rate [state/time] at the end
+      real(wp), intent(in) :: new_state(:), new_rate(:)
+      !> Error of the step [state]
+      real(wp), intent(in) :: estimate(:)
+      !> Work done so far
+      type(counters_t), intent(inout) :: counters
+      !> Error over tolerance [-]
+      real(wp), intent(inout) :: scaled_error
+
+      ! No bends [state]
+      real(wp) :: straight(size(state), 0)
+      logical :: has_derivatives
+
+      has_derivatives = method%needs_jacobian .and. (method%gives_rate .or. new_time < finish)
+      associate (here => method%here, there => method%there, change => new_state - state)
+         if (method%needs_jacobian .and. here%span < huge(1.0_wp)) then
+            call check_saturation(here, there, method%error_order, step, rate, change, new_rate, estimate, scaled_error)
+         end if
+         if (is_fixed) return
+         if (method%needs_jacobian .and. method%has_curve .and. new_time < finish) then
+            call check_end(there, method%bends, method%tolerance, step, change, new_rate, scaled_error)
+            if (scaled_error <= 1.0_wp .and. here%span < huge(1.0_wp)) call check_hold(problem, here, there, method%bends, &
+               & method%tolerance, new_time, step, change, new_state, new_rate, counters, scaled_error)
+            if (scaled_error <= 1.0_wp .and. .not. method%gives_rate .and. step > long) call check_middle(problem, here, there, &
+               & method%bends, method%tolerance, time, step, state, new_state, counters, scaled_error)
+         end if
+         if (scaled_error > 1.0_wp) return
+         if (.not. has_derivatives) call problem%get_clearance(new_time, new_state, there%clearance)
+         if (method%has_curve) then
+            call check_barrier(problem, here, there, method%bends, time, step, state, new_state, counters, scaled_error)
+         else
+            call check_barrier(problem, here, there, straight, time, step, state, new_state, counters, scaled_error)
+         end if
+      end associate
+   end subroutine check_step
+
+   !> Raise the error of a step that crosses a range of the state within which the rate saturates, without seeing it.
+   !>
+   !> Two signs: an error of the state that the Jacobian turns into more than the allowed error of the rate, and a rate at
+   !> the end that is far from the linear one. Without them a step may jump from one side of a narrow range to the other,
+   !> again and again.
+   pure subroutine check_saturation(here, there, error_order, step, rate, change, new_rate, estimate, scaled_error)
+      !> Rate with its derivatives at the start and at the end
+      type(linear_t), intent(in) :: here, there
+      !> Order of the error estimate plus one
+      integer, intent(in) :: error_order
+      !> Size of the step [time]
+      real(wp), intent(in) :: step
+      !> Rate at the start [state/time], change of the state [state], rate at the end [state/time]
+      real(wp), intent(in) :: rate(:), change(:), new_rate(:)
+      !> Error of the step [state]
+      real(wp), intent(in) :: estimate(:)
+      !> Error over tolerance [-]
+      real(wp), intent(inout) :: scaled_error
+
+      ! Departure from the linear rate, error of the rate, and size of the rates [state/time]
+      real(wp) :: departure, error, span
+      integer :: i
+
+      span = here%span
+      if (there%span < huge(1.0_wp)) span = max(span, there%span)
+      do i = 1, size(change)
+         associate (row => here%jacobian(i, :), size_of_rate => span + abs(rate(i)) + abs(new_rate(i)))
+            if (.not. size_of_rate > 0.0_wp) cycle
+            departure = new_rate(i) - rate(i) - sum(row*change) - here%time_slope(i)*step
+            error = sum(row*estimate)
+            scaled_error = max(scaled_error, abs(error)/(here%resolution*size_of_rate), &
+               & (abs(departure)/(largest_departure*size_of_rate))**error_order)
+         end associate
+      end do
+   end subroutine check_saturation
+
+   !> Raise the error of a step whose curve ends with a slope far from the rate there.
+   !>
+   !> Where the decay collapses within a step, all stages may lie before, and the end is a state that does not stay. What is left of
+   !> the rate there tells: over the decay rate at the end, or over the step where that is slow, it is an error of the state.
+   pure subroutine check_end(there, bends, tolerance, step, change, new_rate, scaled_error)
+      !> Rate with its derivatives at the end
+      type(linear_t), intent(in) :: there
+      !> Curve of the step, as a trajectory takes it, shape (component, numbers given) [state]; error allowed [state]
+      real(wp), intent(in) :: bends(:, :), tolerance(:)
+      !> Size of the step [time]
+      real(wp), intent(in) :: step
+      !> Change of the state over the step [state], rate at the end [state/time]
+      real(wp), intent(in) :: change(:), new_rate(:)
+      !> Error over tolerance [-]
+      real(wp), intent(inout) :: scaled_error
+
+      ! Decay exponent of a step from which on a defect counts more [-]
+      real(wp), parameter :: fast_decay = 10.0_wp
+      ! Slope of the curve at the end less the rate there [state/time]; part of it that counts [-]
+      real(wp) :: defect, part
+      integer :: i
+
+      do i = 1, size(change)
+         defect = end_defect(bends(i, :), step, change(i), new_rate(i))
+         part = min(1.0_wp, part_of_curve*max(1.0_wp, step*abs(there%jacobian(i, i))/fast_decay))
+         scaled_error = max(scaled_error, part*abs(defect)/((abs(there%jacobian(i, i)) + 1.0_wp/step)*tolerance(i)))
+         if (.not. (there%span < huge(1.0_wp) .and. step*abs(there%jacobian(i, i)) > fast_decay)) cycle
+         scaled_error = max(scaled_error, abs(defect)/(there%resolution*(there%span + abs(new_rate(i)))))
+      end do
+   end subroutine check_end
+
+   !> Slope of a curve at its end less the rate there.
+   pure function end_defect(bends, step, change, new_rate) result(defect)
+      !> Curve of the step, as a trajectory takes it [state]
+      real(wp), intent(in) :: bends(:)
+      !> Size of the step [time], change of the state over it [state], rate at its end [state/time]
+      real(wp), intent(in) :: step, change, new_rate
+      !> The defect [state/time]
+      real(wp) :: defect
+
+      defect = (change - sum(bends(:min(size(bends), most_bends))))/step - new_rate
+      if (size(bends) == curve_numbers) then
+         associate (height => bends(curve_numbers - 1), exponent => bends(curve_numbers))
+            defect = defect + height*(1.0_wp + (exponent - 1.0_wp)*exp(exponent))/step
+         end associate
+      end if
+   end function end_defect
+
+   !> Raise the error of a step after which the decay is much slower, if the state that its curve stands for is not near.
+   !>
+   !> The slope of the curve less the rate at the end, over the decay rate there, is the way to the state that has the slope of the
+   !> curve. Where the rate has saturated in between, there is no such state, and what held the solution has given way within the
+   !> step. The rate at twice the way tells: beyond the state looked for, the difference has changed its sign.
+   subroutine check_hold(problem, here, there, bends, tolerance, time, step, change, new_state, new_rate, counters, scaled_error)
+      !> The problem
+      class(problem_t), intent(in) :: problem
+      !> Rate with its derivatives at both ends
+      type(linear_t), intent(in) :: here, there
+      !> Curve of the step, as a trajectory takes it, shape (component, numbers given) [state]; error allowed [state]
+      real(wp), intent(in) :: bends(:, :), tolerance(:)
+      !> End and size of the step [time]
+      real(wp), intent(in) :: time, step
+      !> Change of the state over the step, state at the end [state], rate there [state/time]
+      real(wp), intent(in) :: change(:), new_state(:), new_rate(:)
+      !> Work done so far
+      type(counters_t), intent(inout) :: counters
+      !> Error over tolerance [-]
+      real(wp), intent(inout) :: scaled_error
+
+      ! Decay exponent of a step from which on the state follows the rate at once; decay rate at the end over that at the start that
+      ! is no sign; way over the tolerance that is none [-]; error over tolerance of a step that has missed the end [-]
+      real(wp), parameter :: fast_decay = 10.0_wp, alike = 0.5_wp, short = 1.0e-3_wp, missed = 1.0e3_wp
+      ! Decay rate [1/time]; slope of the curve less rate [state/time]; state at twice the way [state]; rate there [state/time]
+      real(wp) :: decay, defect, beyond(size(change)), rate(size(change))
+      integer :: status
+
+      decay = -there%jacobian(1, 1)
+      if (step*decay < fast_decay .or. decay > -alike*here%jacobian(1, 1)) return
+      defect = end_defect(bends(1, :), step, change(1), new_rate(1))
+      if (abs(defect) <= short*decay*tolerance(1)) return
+      beyond = new_state
+      beyond(1) = beyond(1) - 2.0_wp*defect/decay
+      call problem%get_rate(time, beyond, rate, status)
+      counters%evaluations = counters%evaluations + 1
+      if (status /= 0) return
+      if ((new_rate(1) + defect - rate(1))*sign(1.0_wp, defect) > 0.0_wp) scaled_error = max(scaled_error, missed)
+   end subroutine check_hold
+
+   !> Raise the error of a step whose curve does not satisfy the equation in its middle.
+   !>
+   !> Where the decay is fast, the state at the end is right whatever the step, and the error estimate, which is that of the end,
+   !> says nothing of the curve between. The middle is looked at where the size of the step is not the estimate's choice and the
+   !> decay is fast at both ends.
+   subroutine check_middle(problem, here, there, bends, tolerance, time, step, state, new_state, counters, scaled_error)
+      !> The problem
+      class(problem_t), intent(in) :: problem
+      !> Rate with its derivatives at both ends
+      type(linear_t), intent(in) :: here, there
+      !> Curve of the step, as a trajectory takes it, shape (component, numbers given) [state]; error allowed [state]
+      real(wp), intent(in) :: bends(:, :), tolerance(:)
+      !> Start and size of the step [time]
+      real(wp), intent(in) :: time, step
+      !> State at the start and at the end [state]
+      real(wp), intent(in) :: state(:), new_state(:)
+      !> Work done so far
+      type(counters_t), intent(inout) :: counters
+      !> Error over tolerance [-]
+      real(wp), intent(inout) :: scaled_error
+
+      ! Decay exponent of a step from which on the end forgets the start [-]
+      real(wp), parameter :: fast_decay = 10.0_wp
+      ! Places beside the middle between which a slope is taken [-]
+      real(wp), parameter :: left = 0.499_wp, right = 0.501_wp
+      ! The curve with all its numbers, those that are not given zero [state]
+      real(wp) :: curve(size(state), curve_numbers)
+      ! Rate in the middle [state/time], slope of the curve less that rate [state/time], decay rate [1/time]
+      real(wp) :: rate(size(state)), defect(size(state)), decay
+      integer :: i, status
+
+      if (any([(step*min(abs(here%jacobian(i, i)), abs(there%jacobian(i, i))) < fast_decay, i=1, size(state))])) return
+      curve = 0.0_wp
+      curve(:, :size(bends, 2)) = bends
+      call problem%get_rate(time + 0.5_wp*step, curve_state(state, new_state, curve, 0.5_wp), rate, status)
+      counters%evaluations = counters%evaluations + 1
+      if (status /= 0) return
+      defect = (curve_state(state, new_state, curve, right) - curve_state(state, new_state, curve, left)) &
+         & /((right - left)*step) - rate
+      do i = 1, size(state)
+         decay = max(abs(here%jacobian(i, i)), abs(there%jacobian(i, i))) + 1.0_wp/step
+         scaled_error = max(scaled_error, part_of_middle*abs(defect(i))/(decay*tolerance(i)))
+      end do
+   end subroutine check_middle
+
+   !> Raise the error of a step that crosses the barrier of a problem where the state would have been held.
+   !>
+   !> What happens at a barrier may be too narrow for any step to meet it by chance. So where a step crosses it, the rate at the
+   !> barrier itself, some roundings before it since the rate may have no limit there, is asked: if it moves the state back to where
+   !> it came from, faster than the barrier moves, the step is wrong.
+   subroutine check_barrier(problem, here, there, bends, time, step, state, new_state, counters, scaled_error)
+      !> The problem
+      class(problem_t), intent(in) :: problem
+      !> Clearances at the start and at the end
+      type(linear_t), intent(in) :: here, there
+      !> Curve of the step, as a trajectory takes it, shape (component, numbers given); no numbers: a straight line [state]
+      real(wp), intent(in) :: bends(:, :)
+      !> Start and size of the step [time]
+      real(wp), intent(in) :: time, step
+      !> State at the start and at the end [state]
+      real(wp), intent(in) :: state(:), new_state(:)
+      !> Work done so far
+      type(counters_t), intent(inout) :: counters
+      !> Error over tolerance [-]
+      real(wp), intent(inout) :: scaled_error
+
+      ! Error over tolerance that stands for a step that must be shorter; distance of two places for a slope [-]
+      real(wp), parameter :: far_too_large = 1.0e3_wp, apart = 1.0e-3_wp
+      ! Roundings of a state [-]
+      real(wp), parameter :: roundings = 4.0_wp
+      ! The curve with all its numbers, those that are not given zero; states on it, moved to the barrier at last [state]
+      real(wp) :: curve(size(state), curve_numbers), between(size(state))
+      ! Ends of a bracket and place of the crossing, places beside it [-]; clearances at these [state]
+      real(wp) :: left, right, place, beside(2), clearance_left, clearance_right, clearance
+      ! Places of the barrier [state]; its slope, rate there [state/time]
+      real(wp) :: barriers(2), slope, rate(size(state))
+      ! Times that the crossing is narrowed down
+      integer, parameter :: few = 4
+      integer :: i, status
+
+      clearance_left = here%clearance
+      clearance_right = there%clearance
+      if (max(abs(clearance_left), abs(clearance_right)) >= huge(1.0_wp)) return
+      if ((clearance_left >= 0.0_wp .eqv. clearance_right >= 0.0_wp) .or. .not. abs(clearance_left) > 0.0_wp) return
+      curve = 0.0_wp
+      curve(:, :size(bends, 2)) = bends
+      left = 0.0_wp
+      right = 1.0_wp
+      do i = 1, few
+         place = left + (right - left)*clearance_left/(clearance_left - clearance_right)
+         between = curve_state(state, new_state, curve, place)
+         call problem%get_clearance(time + place*step, between, clearance)
+         if (i == few .or. abs(clearance) >= huge(1.0_wp)) exit
+         if (clearance >= 0.0_wp .eqv. clearance_left >= 0.0_wp) then
+            left = place
+            clearance_left = clearance
+         else
+            right = place
+            clearance_right = clearance
+         end if
+      end do
+      if (abs(clearance) >= huge(1.0_wp)) return
+      between(1) = between(1) + clearance
+      between(1) = between(1) - sign(roundings*spacing(between(1)), here%clearance)
+      call problem%get_rate(time + place*step, between, rate, status)
+      counters%evaluations = counters%evaluations + 1
+      if (status /= 0) return
+      beside = [max(place - apart, 0.0_wp), min(place + apart, 1.0_wp)]
+      do i = 1, 2
+         call problem%get_clearance(time + beside(i)*step, between, barriers(i))
+      end do
+      slope = (barriers(2) - barriers(1))/((beside(2) - beside(1))*step)
+      if (sign(1.0_wp, here%clearance)*(slope - rate(1)) > 0.0_wp) scaled_error = max(scaled_error, far_too_large)
+   end subroutine check_barrier
+
+end module camroller_step_checks

@@ -1,0 +1,452 @@
+!> Cases of a result file: datasets made after the first result, rows gathered in memory and written in blocks.
+!>
+!> In: results. Out: `/series`, `/summary`, `/run/warnings`, `/run/messages`. Small datasets are one
+!> contiguous block; larger ones are cut into chunks of as many cases as are gathered, so that each chunk is written
+!> once.
+module camroller_output_cases
+   use, intrinsic :: ieee_arithmetic, only : ieee_quiet_nan, ieee_value
+   use camroller_kinds, only : wp
+   use camroller_error, only : error_t, raise, kind_internal
+   use camroller_effect_report, only : choice_source
+   use camroller_result, only : quantity_t, result_t
+   use camroller_hdf5_object, only : hdf5_object_t
+   use camroller_hdf5_file, only : close_object, create_group, create_integers, create_numbers, create_texts, reserve_file, &
+      & write_integers, write_numbers, write_text
+   use camroller_hdf5_attribute, only : attach_scale, make_scale, put_attribute
+   use camroller_output_file, only : check_open, not_written, number_size, object_size, output_t, text_size
+   implicit none
+   private
+
+   public :: check_position, create_layout, check_result, gather, gather_row, write_series_row, write_rows, write_remark, &
+      & write_status
+
+   !> Datasets up to this size are one contiguous block, larger ones are cut into chunks [byte]
+   real(wp), parameter :: contiguous_size = 65536.0_wp
+   !> Series that together are larger than this are compressed under `auto` [byte]
+   real(wp), parameter :: compressed_size = 67108864.0_wp
+   !> Rows gathered in memory take about this much [byte]
+   real(wp), parameter :: buffer_size = 4194304.0_wp
+   !> Most cases in a block
+   integer, parameter :: largest_block = 2048
+   !> Cases from which on a block is worth being compressed
+   integer, parameter :: compressed_block = 1024
+   !> Cases in a chunk of a scalar
+   integer, parameter :: scalar_chunk = 8192
+   !> Deflate level: it saves near half of computed series; higher ones cost several times as much for a few per cent more
+   integer, parameter :: deflate_level = 1
+
+contains
+
+   !> An error where no case can be written at a position.
+   subroutine check_position(writer, position, error)
+      !> The writer
+      type(output_t), intent(in) :: writer
+      !> Position of the case, from 1
+      integer, intent(in) :: position
+      !> Internal error
+      type(error_t), allocatable, intent(out) :: error
+
+      call check_open(writer, error)
+      if (allocated(error)) return
+      if (position < 1 .or. position > size(writer%status)) then
+         call raise(error, kind_internal, "the result file has no place for a case at this position")
+      else if (writer%status(position) /= not_written) then
+         call raise(error, kind_internal, "a case was written twice")
+      end if
+   end subroutine check_position
+
+   !> An error where a result does not have the series, scalars and angles of the first one.
+   subroutine check_result(writer, result, error)
+      !> The writer
+      type(output_t), intent(in) :: writer
+      !> The result
+      type(result_t), intent(in) :: result
+      !> Internal error
+      type(error_t), allocatable, intent(out) :: error
+
+      logical :: fits
+
+      fits = same_names(writer%summary, result%summary)
+      if (writer%options%series) fits = fits .and. same_names(writer%series, result%series) &
+         & .and. size(result%angle) == size(writer%rows, 1)
+      if (fits) return
+      call raise(error, kind_internal, "a case has other series, scalars or cam angles than the first one")
+   end subroutine check_result
+
+   !> Whether two lists name the same quantities in the same order.
+   pure function same_names(some, others) result(answer)
+      !> A list
+      type(quantity_t), intent(in) :: some(:)
+      !> Another list
+      type(quantity_t), intent(in) :: others(:)
+      !> True where they agree
+      logical :: answer
+
+      integer :: i
+
+      answer = size(some) == size(others)
+      if (.not. answer) return
+      do i = 1, size(some)
+         answer = answer .and. some(i)%name == others(i)%name
+      end do
+   end function same_names
+
+   !> Take a result into memory; a full block is written.
+   subroutine gather(writer, position, result, error)
+      !> The writer
+      type(output_t), intent(inout) :: writer
+      !> Position of the case, from 1
+      integer, intent(in) :: position
+      !> Its result
+      type(result_t), intent(in) :: result
+      !> File error
+      type(error_t), allocatable, intent(out) :: error
+
+      call start_row(writer, position, error)
+      if (allocated(error)) return
+      if (size(writer%series) > 0) writer%rows(:, writer%gathered, :) = result%series_values
+      writer%scalars(writer%gathered, :) = result%summary_values
+      writer%status(position) = 0
+      call end_row(writer, position, error)
+   end subroutine gather
+
+   !> Take a case into memory: its scalars, or not-a-number where it has none.
+   subroutine gather_row(writer, position, status, summary, series, error)
+      !> The writer
+      type(output_t), intent(inout) :: writer
+      !> Position of the case, from 1
+      integer, intent(in) :: position
+      !> 0, or the kind of its error
+      integer, intent(in) :: status
+      !> Scalars [unit of the scalar]
+      real(wp), intent(in) :: summary(:)
+      !> Series, shape (angle, series) [unit of the series]; empty where there are none
+      real(wp), intent(in) :: series(:, :)
+      !> File error
+      type(error_t), allocatable, intent(out) :: error
+
+      call start_row(writer, position, error)
+      if (allocated(error)) return
+      if (size(writer%rows) > 0) writer%rows(:, writer%gathered, :) = ieee_value(1.0_wp, ieee_quiet_nan)
+      if (size(writer%rows) > 0 .and. size(series) > 0) writer%rows(:, writer%gathered, :) = series
+      writer%scalars(writer%gathered, :) = ieee_value(1.0_wp, ieee_quiet_nan)
+      if (status == 0) writer%scalars(writer%gathered, :) = summary
+      writer%status(position) = status
+      call end_row(writer, position, error)
+   end subroutine gather_row
+
+   !> Begin a row.
+   subroutine start_row(writer, position, error)
+      !> The writer
+      type(output_t), intent(inout) :: writer
+      !> Position of the case, from 1
+      integer, intent(in) :: position
+      !> File error
+      type(error_t), allocatable, intent(out) :: error
+
+      if (position /= writer%first + writer%gathered) then
+         call write_rows(writer, error)
+         if (allocated(error)) return
+         writer%first = position
+      end if
+      writer%gathered = writer%gathered + 1
+   end subroutine start_row
+
+   !> End a row; a full block is written.
+   subroutine end_row(writer, position, error)
+      !> The writer
+      type(output_t), intent(inout) :: writer
+      !> Position of the case, from 1
+      integer, intent(in) :: position
+      !> File error
+      type(error_t), allocatable, intent(out) :: error
+
+      if (writer%gathered == writer%block .or. modulo(position, writer%block) == 0) call write_rows(writer, error)
+   end subroutine end_row
+
+   !> Write the series of one of few cases that have some.
+   subroutine write_series_row(writer, position, series, error)
+      !> The writer
+      type(output_t), intent(inout) :: writer
+      !> Position of the case, from 1
+      integer, intent(in) :: position
+      !> Series, shape (angle, series) [unit of the series]
+      real(wp), intent(in) :: series(:, :)
+      !> File error
+      type(error_t), allocatable, intent(out) :: error
+
+      integer :: i
+
+      call reserve_file(writer%file, number_size*size(series) + object_size*size(writer%series), error)
+      do i = 1, size(writer%series)
+         if (allocated(error)) return
+         call write_numbers(writer%series_data(i), position - 1, series(:, i:i), error)
+      end do
+   end subroutine write_series_row
+
+   !> Write the gathered rows.
+   subroutine write_rows(writer, error)
+      !> The writer
+      type(output_t), intent(inout) :: writer
+      !> File error
+      type(error_t), allocatable, intent(out) :: error
+
+      integer :: i
+
+      if (writer%gathered == 0) return
+      call reserve_file(writer%file, number_size*(size(writer%rows) + size(writer%scalars)), error)
+      if (allocated(error)) return
+      do i = 1, size(writer%series)
+         if (size(writer%rows) == 0) exit
+         call write_numbers(writer%series_data(i), writer%first - 1, writer%rows(:, 1:writer%gathered, i), error)
+         if (allocated(error)) return
+      end do
+      do i = 1, size(writer%summary)
+         call write_numbers(writer%summary_data(i), writer%first - 1, writer%scalars(1:writer%gathered, i), error)
+         if (allocated(error)) return
+      end do
+      writer%first = writer%first + writer%gathered
+      writer%gathered = 0
+   end subroutine write_rows
+
+   !> Write a text about a case into a dataset that appears with its first text.
+   subroutine write_remark(writer, group, remarks, name, position, text, error)
+      !> The writer
+      type(output_t), intent(inout) :: writer
+      !> Group that the dataset is in
+      type(hdf5_object_t), intent(in) :: group
+      !> The dataset, open or not yet
+      type(hdf5_object_t), intent(inout) :: remarks
+      !> Its name
+      character(len=*), intent(in) :: name
+      !> Position of the case, from 1
+      integer, intent(in) :: position
+      !> The text
+      character(len=*), intent(in) :: text
+      !> File error
+      type(error_t), allocatable, intent(out) :: error
+
+      call reserve_file(writer%file, text_size*(1 + size(writer%status)) + len(text), error)
+      if (allocated(error)) return
+      if (remarks%id < 0) then
+         call create_texts(group, name, shape(writer%status), remarks, error)
+         if (.not. allocated(error)) call put_attribute(remarks, "long_name", name//" of each case, or nothing", error)
+         if (.not. allocated(error)) call attach_scale(remarks, writer%case_axis, 1, 1, error)
+         if (allocated(error)) return
+      end if
+      call write_text(remarks, [position - 1], text, error)
+   end subroutine write_remark
+
+   !> Write the status of all cases.
+   subroutine write_status(writer, error)
+      !> The writer
+      type(output_t), intent(inout) :: writer
+      !> File error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(hdf5_object_t) :: dataset
+
+      call reserve_file(writer%file, object_size + number_size*size(writer%status), error)
+      if (.not. allocated(error)) then
+         call create_integers(writer%summary_group, "status", shape(writer%status), dataset, error)
+      end if
+      if (.not. allocated(error)) call describe(dataset, "1", &
+         & "0 where the case has a result, -1 where it was not computed, else the kind of its error", "output", error)
+      if (.not. allocated(error)) call attach_scale(dataset, writer%case_axis, 1, 1, error)
+      if (.not. allocated(error)) call write_integers(dataset, 0, writer%status, error)
+      call close_object(dataset)
+   end subroutine write_status
+
+   !> Create the datasets of series and scalars after the first result.
+   subroutine create_layout(writer, result, error)
+      !> The writer
+      type(output_t), intent(inout) :: writer
+      !> First result
+      type(result_t), intent(in) :: result
+      !> File error
+      type(error_t), allocatable, intent(out) :: error
+
+      real(wp) :: numbers, space ! [-], [byte]
+      integer :: angles
+
+      writer%summary = result%summary
+      allocate (writer%series(0))
+      angles = 0
+      if (writer%options%series) then
+         writer%series = result%series
+         angles = size(result%angle)
+      end if
+      numbers = real(angles, wp)*size(writer%series) + size(writer%summary)
+      if (writer%is_sparse) numbers = size(writer%summary)
+      writer%block = int(min(buffer_size/(number_size*max(numbers, 1.0_wp)), real(largest_block, wp)))
+      writer%block = min(max(writer%block, 1), size(writer%status))
+      if (writer%is_sparse) then
+         allocate (writer%rows(angles, 0, size(writer%series)))
+      else
+         allocate (writer%rows(angles, writer%block, size(writer%series)), source=0.0_wp)
+      end if
+      allocate (writer%scalars(writer%block, size(writer%summary)), source=0.0_wp)
+      allocate (writer%series_data(size(writer%series)), writer%summary_data(size(writer%summary)))
+      space = object_size*(size(writer%series) + size(writer%summary) + 1) + number_size*angles
+      if (compression_level(writer, angles) > 0) numbers = size(writer%summary)
+      space = space + number_size*numbers*(size(writer%status) + writer%block)
+      if (size(writer%status) > scalar_chunk) space = space + number_size*size(writer%summary)*scalar_chunk
+      call reserve_file(writer%file, space, error)
+      if (angles > 0 .and. .not. allocated(error)) call create_series(writer, result%angle, error)
+      if (.not. allocated(error)) call create_summary(writer, error)
+   end subroutine create_layout
+
+   !> Create the datasets of the series.
+   subroutine create_series(writer, angle, error)
+      !> The writer
+      type(output_t), intent(inout) :: writer
+      !> Cam angles [deg]
+      real(wp), intent(in) :: angle(:)
+      !> File error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(hdf5_object_t) :: axis
+      real(wp), allocatable :: copy(:) ! [deg]
+      integer :: chunk(2), axes_in_chunk, cases, level, i
+
+      allocate (copy, source=angle)
+      call create_numbers(writer%series_group, "cam_angle", shape(angle), [integer ::], 0, axis, error)
+      if (.not. allocated(error)) call describe(axis, "degree", "cam angle, nose at 180", "numerics", error)
+      if (.not. allocated(error)) call make_scale(axis, error)
+      if (.not. allocated(error)) call write_numbers(axis, 0, copy, error)
+
+      cases = size(writer%status)
+      chunk = [size(angle), writer%block]
+      if (writer%is_sparse) chunk(2) = 1
+      level = compression_level(writer, size(angle))
+      axes_in_chunk = merge(2, 0, level > 0 .or. writer%is_sparse .or. is_large(real(cases, wp), size(angle), contiguous_size))
+      do i = 1, size(writer%series)
+         if (allocated(error)) exit
+         associate (series => writer%series(i), dataset => writer%series_data(i))
+            call create_numbers(writer%series_group, series%name, [size(angle), cases], chunk(:axes_in_chunk), level, &
+               & dataset, error)
+            if (.not. allocated(error)) call describe(dataset, series%unit, series%description, &
+               & series%source, error, series%scope)
+            if (.not. allocated(error)) call attach_scale(dataset, axis, 1, 2, error)
+            if (.not. allocated(error)) call attach_scale(dataset, writer%case_axis, 2, 2, error)
+         end associate
+      end do
+      call close_object(axis)
+   end subroutine create_series
+
+   !> Create the datasets of the scalars.
+   subroutine create_summary(writer, error)
+      !> The writer
+      type(output_t), intent(inout) :: writer
+      !> File error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(hdf5_object_t) :: group
+      integer :: chunk(1), axes_in_chunk, level, i
+
+      chunk = scalar_chunk
+      axes_in_chunk = merge(1, 0, size(writer%status) > scalar_chunk)
+      level = 0
+      if (are_scalars_compressed(writer)) then
+         chunk = writer%block
+         level = deflate_level
+      end if
+      do i = 1, size(writer%summary)
+         associate (scalar => writer%summary(i), dataset => writer%summary_data(i))
+            call choose_group(writer, scalar%source, group, error)
+            if (.not. allocated(error)) call create_numbers(group, scalar%name, shape(writer%status), &
+               & chunk(:axes_in_chunk), level, dataset, error)
+            if (.not. allocated(error)) call describe(dataset, scalar%unit, scalar%description, &
+               & scalar%source, error, scalar%scope)
+            if (.not. allocated(error)) call attach_scale(dataset, writer%case_axis, 1, 1, error)
+         end associate
+         if (allocated(error)) return
+      end do
+   end subroutine create_summary
+
+   !> Are scalars compressed? Only where each chunk is written once.
+   pure function are_scalars_compressed(writer) result(answer)
+      !> The writer
+      type(output_t), intent(in) :: writer
+      !> Are they?
+      logical :: answer
+
+      answer = writer%options%compression /= "off" .and. size(writer%status) > scalar_chunk .and. &
+         & writer%block >= compressed_block
+   end function are_scalars_compressed
+
+   !> Group for scalars of a source: what tells about the choice of effects has one of its own.
+   subroutine choose_group(writer, source, group, error)
+      !> The writer
+      type(output_t), intent(inout) :: writer
+      !> Part of the model that a scalar comes from
+      character(len=*), intent(in) :: source
+      !> The group
+      type(hdf5_object_t), intent(out) :: group
+      !> File error
+      type(error_t), allocatable, intent(out) :: error
+
+      group = writer%summary_group
+      if (source /= choice_source) return
+      if (writer%effects%id < 0) call create_group(writer%file, choice_source, writer%effects, error)
+      group = writer%effects
+   end subroutine choose_group
+
+   !> Deflate level of the series.
+   pure function compression_level(writer, angles) result(level)
+      !> The writer
+      type(output_t), intent(in) :: writer
+      !> Number of cam angles
+      integer, intent(in) :: angles
+      !> The level, 0 for none
+      integer :: level
+
+      logical :: wanted
+
+      select case (writer%options%compression)
+      case ("on")
+         wanted = .true.
+      case ("off")
+         wanted = .false.
+      case default
+         wanted = is_large(real(size(writer%status), wp)*size(writer%series), angles, compressed_size)
+      end select
+      level = merge(deflate_level, 0, wanted)
+   end function compression_level
+
+   !> Whether rows of numbers take more than some bytes; products of large integers are kept out of integers.
+   pure function is_large(rows, length, limit) result(answer)
+      !> Number of rows [-]
+      real(wp), intent(in) :: rows
+      !> Numbers in a row
+      integer, intent(in) :: length
+      !> The limit [byte]
+      real(wp), intent(in) :: limit
+      !> True above the limit
+      logical :: answer
+
+      answer = rows*real(length, wp)*number_size > limit
+   end function is_large
+
+   !> Attributes that say what a dataset is.
+   subroutine describe(dataset, unit, description, source, error, scope)
+      !> The dataset
+      type(hdf5_object_t), intent(in) :: dataset
+      !> Unit of its values
+      character(len=*), intent(in) :: unit
+      !> Meaning in a few words
+      character(len=*), intent(in) :: description
+      !> Part of the model that it comes from
+      character(len=*), intent(in) :: source
+      !> File error
+      type(error_t), allocatable, intent(out) :: error
+      !> What it belongs to: a lobe, the camshaft or the case
+      character(len=*), intent(in), optional :: scope
+
+      call put_attribute(dataset, "units", unit, error)
+      if (.not. allocated(error)) call put_attribute(dataset, "long_name", description, error)
+      if (.not. allocated(error)) call put_attribute(dataset, "source", source, error)
+      if (.not. allocated(error) .and. present(scope)) call put_attribute(dataset, "scope", trim(scope), error)
+   end subroutine describe
+
+end module camroller_output_cases

@@ -1,0 +1,260 @@
+!> Facts of its run in a result file: the deck, the swept keys, who computed it and how.
+!>
+!> In: texts and numbers, nothing that knows decks. Out: groups `/deck`, `/sweep` and attributes of `/run`.
+module camroller_output_facts
+   use camroller_kinds, only : wp
+   use camroller_error, only : error_t
+   use camroller_hdf5_object, only : hdf5_object_t
+   use camroller_hdf5_file, only : close_object, create_group, create_numbers, create_texts, reserve_file, &
+      & write_numbers, write_text
+   use camroller_hdf5_attribute, only : attach_scale, put_attribute
+   use camroller_output_file, only : abandon_output, check_open, number_size, object_size, output_t, text_size
+   use camroller_number_text, only : is_number
+   implicit none
+   private
+
+   public :: write_deck, write_overrides, write_deck_table, write_sweep, write_run
+
+   !> Values of a swept key: numbers or names
+   interface write_sweep
+      module procedure write_swept_numbers
+      module procedure write_swept_names
+   end interface write_sweep
+
+contains
+
+   !> Store the deck: the text as given, and each value that came of it.
+   subroutine write_deck(writer, text, keys, values, units, origins, error)
+      !> The writer
+      type(output_t), intent(inout) :: writer
+      !> The deck as given
+      character(len=*), intent(in) :: text
+      !> Keys, as `group.key`
+      character(len=*), intent(in) :: keys(:)
+      !> Their values: numbers as such, names plain or in quotes, lists separated by commas
+      character(len=*), intent(in) :: values(:)
+      !> Their units, blank where there is none
+      character(len=*), intent(in) :: units(:)
+      !> Where they come from: `given` or `default`
+      character(len=*), intent(in) :: origins(:)
+      !> File error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(hdf5_object_t) :: group, dataset
+      integer :: i
+
+      call check_open(writer, error)
+      if (allocated(error)) return
+      call reserve_file(writer%file, real(len(text), wp) + size(keys)*(object_size + len(values) + len(units)), error)
+      if (.not. allocated(error)) call create_texts(writer%deck, "text", [integer ::], dataset, error)
+      if (.not. allocated(error)) call write_text(dataset, [integer ::], text, error)
+      call close_object(dataset)
+      if (.not. allocated(error)) call create_group(writer%deck, "values", group, error)
+      do i = 1, size(keys)
+         if (allocated(error)) exit
+         call write_value(group, trim(keys(i)), trim(values(i)), dataset, error)
+         if (.not. allocated(error)) call put_attribute(dataset, "units", units(i), error)
+         if (.not. allocated(error)) call put_attribute(dataset, "given", origins(i), error)
+         call close_object(dataset)
+      end do
+      call close_object(group)
+      if (allocated(error)) call abandon_output(writer)
+   end subroutine write_deck
+
+   !> Store values given beside the deck.
+   subroutine write_overrides(writer, overrides, error)
+      !> The writer
+      type(output_t), intent(inout) :: writer
+      !> The values, as `group.key=value`
+      character(len=*), intent(in) :: overrides(:)
+      !> File error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(hdf5_object_t) :: dataset
+      integer :: i
+
+      call check_open(writer, error)
+      if (allocated(error)) return
+      call reserve_file(writer%file, object_size + size(overrides)*(text_size + len(overrides)), error)
+      if (.not. allocated(error)) call create_texts(writer%deck, "overrides", shape(overrides), dataset, error)
+      do i = 1, size(overrides)
+         if (.not. allocated(error)) call write_text(dataset, [i - 1], overrides(i), error)
+      end do
+      call close_object(dataset)
+      if (allocated(error)) call abandon_output(writer)
+   end subroutine write_overrides
+
+   !> Store a table that the deck names.
+   subroutine write_deck_table(writer, group, path, x, y, error)
+      !> The writer
+      type(output_t), intent(inout) :: writer
+      !> Group of the deck that names it
+      character(len=*), intent(in) :: group
+      !> File it is from
+      character(len=*), intent(in) :: path
+      !> Its columns [units of the file]
+      real(wp), intent(in) :: x(:), y(:)
+      !> File error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(hdf5_object_t) :: dataset
+      real(wp), allocatable :: columns(:, :) ! [units of the file]
+
+      call check_open(writer, error)
+      if (allocated(error)) return
+      columns = reshape([x, y], [size(x), 2])
+      call reserve_file(writer%file, 2*object_size + number_size*size(columns), error)
+      if (.not. allocated(error)) call create_numbers(writer%deck, "table_"//group, shape(columns), [integer ::], 0, &
+         & dataset, error)
+      if (.not. allocated(error)) call write_numbers(dataset, 0, columns, error)
+      if (.not. allocated(error)) call put_attribute(dataset, "path", path, error)
+      call close_object(dataset)
+      if (allocated(error)) call abandon_output(writer)
+   end subroutine write_deck_table
+
+   !> Store facts of the run (program, version, commit, compiler, options, date, command ...) as attributes of `/run`.
+   subroutine write_run(writer, names, values, error)
+      !> The writer
+      type(output_t), intent(inout) :: writer
+      !> Names of the facts
+      character(len=*), intent(in) :: names(:)
+      !> What they are
+      character(len=*), intent(in) :: values(:)
+      !> File error
+      type(error_t), allocatable, intent(out) :: error
+
+      integer :: i
+
+      call check_open(writer, error)
+      if (allocated(error)) return
+      call reserve_file(writer%file, size(names)*(object_size + len(values)), error)
+      do i = 1, size(names)
+         if (allocated(error)) exit
+         call put_attribute(writer%run, trim(names(i)), values(i), error)
+      end do
+      if (allocated(error)) call abandon_output(writer)
+   end subroutine write_run
+
+   !> Store the values of a swept key that is a number.
+   subroutine write_swept_numbers(writer, key, unit, numbers, error)
+      !> The writer
+      type(output_t), intent(inout) :: writer
+      !> The key, as `group.key`
+      character(len=*), intent(in) :: key
+      !> Its unit, blank where there is none
+      character(len=*), intent(in) :: unit
+      !> Its value in each case [unit as given]
+      real(wp), intent(in) :: numbers(:)
+      !> File error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(hdf5_object_t) :: dataset
+      real(wp), allocatable :: copy(:) ! [unit as given]
+
+      call check_open(writer, error)
+      if (allocated(error)) return
+      allocate (copy, source=numbers)
+      call reserve_file(writer%file, object_size + number_size*size(numbers), error)
+      if (.not. allocated(error)) then
+         call create_numbers(writer%sweep, key, shape(numbers), [integer ::], 0, dataset, error)
+      end if
+      if (.not. allocated(error)) call write_numbers(dataset, 0, copy, error)
+      call finish_swept(writer, dataset, key, unit, error)
+   end subroutine write_swept_numbers
+
+   !> Store the values of a swept key that is a name.
+   subroutine write_swept_names(writer, key, unit, names, error)
+      !> The writer
+      type(output_t), intent(inout) :: writer
+      !> The key, as `group.key`
+      character(len=*), intent(in) :: key
+      !> Its unit, blank where there is none
+      character(len=*), intent(in) :: unit
+      !> Its value in each case
+      character(len=*), intent(in) :: names(:)
+      !> File error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(hdf5_object_t) :: dataset
+      integer :: i
+
+      call check_open(writer, error)
+      if (allocated(error)) return
+      call reserve_file(writer%file, object_size + size(names)*(text_size + len(names)), error)
+      if (.not. allocated(error)) call create_texts(writer%sweep, key, shape(names), dataset, error)
+      do i = 1, size(names)
+         if (.not. allocated(error)) call write_text(dataset, [i - 1], names(i), error)
+      end do
+      call finish_swept(writer, dataset, key, unit, error)
+   end subroutine write_swept_names
+
+   !> What both kinds of swept keys have in common.
+   subroutine finish_swept(writer, dataset, key, unit, error)
+      !> The writer
+      type(output_t), intent(inout) :: writer
+      !> The values of the key
+      type(hdf5_object_t), intent(inout) :: dataset
+      !> The key, as `group.key`
+      character(len=*), intent(in) :: key
+      !> Its unit, blank where there is none
+      character(len=*), intent(in) :: unit
+      !> Error so far, or file error
+      type(error_t), allocatable, intent(inout) :: error
+
+      if (.not. allocated(error)) call put_attribute(dataset, "units", unit, error)
+      if (.not. allocated(error)) call put_attribute(dataset, "long_name", key, error)
+      if (.not. allocated(error)) call attach_scale(dataset, writer%case_axis, 1, 1, error)
+      call close_object(dataset)
+      if (allocated(error)) call abandon_output(writer)
+   end subroutine finish_swept
+
+   !> Write a value of the deck: a number where it reads as one, else a text without its quotes.
+   subroutine write_value(group, key, value, dataset, error)
+      !> Group of the values
+      type(hdf5_object_t), intent(in) :: group
+      !> The key
+      character(len=*), intent(in) :: key
+      !> Its value as text
+      character(len=*), intent(in) :: value
+      !> The open dataset
+      type(hdf5_object_t), intent(out) :: dataset
+      !> File error
+      type(error_t), allocatable, intent(out) :: error
+
+      real(wp) :: number ! [unit of the key]
+      integer :: status, last
+
+      last = len(value)
+      status = 1
+      if (is_number(value)) read (value, *, iostat=status) number
+      if (status == 0) then
+         call create_numbers(group, key, [integer ::], [integer ::], 0, dataset, error)
+         if (.not. allocated(error)) call write_numbers(dataset, number, error)
+         return
+      end if
+      call create_texts(group, key, [integer ::], dataset, error)
+      if (allocated(error)) return
+      if (is_quoted(value)) then
+         call write_text(dataset, [integer ::], value(2:last - 1), error)
+      else
+         call write_text(dataset, [integer ::], value, error)
+      end if
+   end subroutine write_value
+
+   !> Whether a text is one quoted word, not a list of several.
+   pure function is_quoted(text) result(answer)
+      !> The text
+      character(len=*), intent(in) :: text
+      !> True with the same quote at both ends and nowhere between
+      logical :: answer
+
+      integer :: last
+
+      last = len(text)
+      answer = last >= 2
+      if (.not. answer) return
+      answer = scan(text(1:1), """'") == 1 .and. text(last:last) == text(1:1) &
+         & .and. index(text(2:), text(1:1)) == last - 1
+   end function is_quoted
+
+end module camroller_output_facts

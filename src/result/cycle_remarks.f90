@@ -1,0 +1,198 @@
+!> Remarks on the cycle of a lobe: lost contact, range of the film law, accuracy, standstills, the pivot's joint.
+!>
+!> In: a cycle, its means and margins. Out: remarks, one per line, or an error where the case forbids what happens.
+module camroller_cycle_remarks
+   use camroller_kinds, only : wp, pi, degree
+   use camroller_error, only : error_t, raise, kind_domain
+   use camroller_cycle, only : cycle_t
+   use camroller_events, only : contact_losses
+   use camroller_margins, only : margins_t
+   use camroller_means, only : statistics_t
+   use camroller_model, only : model_t
+   use camroller_number_text, only : number_text, fixed_text, integer_text
+   use camroller_result, only : add_remark, lobe_scope, scope_length
+   implicit none
+   private
+
+   public :: judge_lobe
+
+   !> Estimate of the error of the sliding speed, over the largest, beyond which a result is worth a warning [-]
+   real(wp), parameter :: worth_a_warning = 0.1_wp
+   !> Rev/min in a rad/s [-]
+   real(wp), parameter :: per_minute = 30.0_wp/pi
+   !> Intervals without contact that a remark lists
+   integer, parameter :: most_intervals = 4
+   !> Length of the words that name a lobe in a remark
+   integer, parameter :: lobe_words = scope_length + 2
+
+contains
+
+   !> Remarks on a lobe: contact, range of the film law, accuracy.
+   subroutine judge_lobe(model, cycle, statistics, margins, lobe, warnings, error)
+      !> Model of the lobe
+      type(model_t), intent(in) :: model
+      !> Its cycle
+      type(cycle_t), intent(in) :: cycle
+      !> Means over the cycle
+      type(statistics_t), intent(in) :: statistics
+      !> Its margins
+      type(margins_t), intent(in) :: margins
+      !> Lobe shape to be named; 0 where there is one alone
+      integer, intent(in) :: lobe
+      !> Remarks, one per line
+      character(len=:), allocatable, intent(inout) :: warnings
+      !> Domain error where the case forbids what happens
+      type(error_t), allocatable, intent(out) :: error
+
+      character(len=lobe_words) :: words
+      integer :: length
+
+      length = 0
+      if (lobe > 0) then
+         words = trim(lobe_scope(lobe))//": "
+         length = len_trim(words) + 1
+      end if
+      call check_contact(words(:length), model, cycle, statistics, margins, warnings, error)
+      if (allocated(error)) return
+      call check_range(words(:length), model, statistics, warnings, error)
+      if (allocated(error)) return
+      call check_error(words(:length), statistics, warnings)
+      call check_entrainment(words(:length), statistics, warnings)
+      call check_pivot(words(:length), model, margins, warnings)
+   end subroutine judge_lobe
+
+   !> Warn or stop where contact is lost.
+   subroutine check_contact(lobe, model, cycle, statistics, margins, warnings, error)
+      !> Words that name the lobe, or none
+      character(len=*), intent(in) :: lobe
+      !> Model of the lobe
+      type(model_t), intent(in) :: model
+      !> Its cycle
+      type(cycle_t), intent(in) :: cycle
+      !> Means over the cycle
+      type(statistics_t), intent(in) :: statistics
+      !> Its margins
+      type(margins_t), intent(in) :: margins
+      !> Remarks, one per line
+      character(len=:), allocatable, intent(inout) :: warnings
+      !> Domain error where the case forbids it
+      type(error_t), allocatable, intent(out) :: error
+
+      ! First and last angle of each interval without contact [rad]; speed at which it is first lost [rad/s]
+      real(wp), allocatable :: intervals(:, :)
+      real(wp) :: speed
+      character(len=:), allocatable :: text
+      integer :: i
+
+      if (statistics%lost_share <= 0.0_wp) return
+      text = lobe//"contact is lost for "//number_text(100.0_wp*statistics%lost_share, 3)//" % of the cycle at "// &
+         & number_text(model%speed*per_minute, 6)//" rev/min"
+      intervals = contact_losses(model, cycle%stops)
+      do i = 1, min(size(intervals, 2), most_intervals)
+         if (i == 1) text = text//", at cam angles"
+         if (i > 1) text = text//","
+         text = text//" "//fixed_text(file_angle(intervals(1, i)), 1)//" to "//fixed_text(file_angle(intervals(2, i)), 1)
+      end do
+      if (size(intervals, 2) > 0) text = text//" deg"
+      if (size(intervals, 2) > most_intervals) text = text//" and others"
+      speed = min(margins%event%speed, margins%base_circle%speed)
+      if (speed < model%speed) text = text//"; it is lost above "//number_text(speed*per_minute, 4)//" rev/min"
+      text = text//"; rigid kinematics does not hold there, and computed loads and friction are not realistic"
+      if (model%stops_without_contact) then
+         call raise(error, kind_domain, text//" (contact_policy = 'stop')")
+      else
+         call add_remark(warnings, text)
+      end if
+   end subroutine check_contact
+
+   !> Cam angle as in files: the nose at 180.
+   elemental function file_angle(angle) result(degrees)
+      !> Cam angle from full lift [rad]
+      real(wp), intent(in) :: angle
+      !> The same from 0 to 360 [deg]
+      real(wp) :: degrees
+
+      degrees = modulo(180.0_wp + angle/degree, 360.0_wp)
+   end function file_angle
+
+   !> Warn where the sliding speed is no answer, as with explicit steps beyond the stability limit.
+   subroutine check_error(lobe, statistics, warnings)
+      !> Words that name the lobe, or none
+      character(len=*), intent(in) :: lobe
+      !> Means over the cycle of the lobe, with the estimate of its error
+      type(statistics_t), intent(in) :: statistics
+      !> Remarks, one per line
+      character(len=:), allocatable, intent(inout) :: warnings
+
+      if (statistics%error <= worth_a_warning) return
+      call add_remark(warnings, lobe//"the sliding speed is not resolved: the estimate of its error is "// &
+         & number_text(statistics%error, 2)//" of the largest; take another method, a smaller tolerance or smaller steps")
+   end subroutine check_error
+
+   !> Say where the entrainment passes through zero: the smallest film is that of a standstill.
+   subroutine check_entrainment(lobe, statistics, warnings)
+      !> Words that name the lobe, or none
+      character(len=*), intent(in) :: lobe
+      !> Means over the cycle of a lobe
+      type(statistics_t), intent(in) :: statistics
+      !> Remarks, one per line
+      character(len=:), allocatable, intent(inout) :: warnings
+
+      if (statistics%standstills == 0) return
+      call add_remark(warnings, lobe//"the entrainment speed passes through zero "//integer_text(statistics%standstills)// &
+         & " times in contact, first at cam angle "//fixed_text(file_angle(statistics%first_standstill), 1)// &
+         & " deg; the smallest film is that at standstill there, without a squeeze film")
+   end subroutine check_entrainment
+
+   !> Say that the lash adjuster pumps up or its joint opens, which the model leaves out.
+   subroutine check_pivot(lobe, model, margins, warnings)
+      !> Words that name the lobe, or none
+      character(len=*), intent(in) :: lobe
+      !> Model of the lobe
+      type(model_t), intent(in) :: model
+      !> Its margins
+      type(margins_t), intent(in) :: margins
+      !> Remarks, one per line
+      character(len=:), allocatable, intent(inout) :: warnings
+
+      character(len=:), allocatable :: place
+
+      if (.not. allocated(margins%pivot)) return
+      place = " N at cam angle "//fixed_text(file_angle(margins%pivot%angle), 1)//" deg at "// &
+         & number_text(model%speed*per_minute, 6)//" rev/min; this begins at "
+      if (margins%pivot%force < 0.0_wp) then
+         call add_remark(warnings, lobe//"the joint of finger and lash adjuster opens: it lacks "// &
+            & number_text(-margins%pivot%force, 3)//place//number_text(margins%pivot%speed*per_minute, 4)//" rev/min")
+      else if (margins%pivot%force < margins%adjuster_force) then
+         call add_remark(warnings, lobe//"a hydraulic lash adjuster pumps up: the force in its joint is below its own by "// &
+            & number_text(margins%adjuster_force - margins%pivot%force, 3)//place// &
+            & number_text(margins%pump_up_speed*per_minute, 4)//" rev/min")
+      end if
+   end subroutine check_pivot
+
+   !> Warn or stop where the film law was used outside its range.
+   subroutine check_range(lobe, model, statistics, warnings, error)
+      !> Words that name the lobe, or none
+      character(len=*), intent(in) :: lobe
+      !> Model of the lobe
+      type(model_t), intent(in) :: model
+      !> Means over its cycle
+      type(statistics_t), intent(in) :: statistics
+      !> Remarks, one per line
+      character(len=:), allocatable, intent(inout) :: warnings
+      !> Domain error where the case forbids it
+      type(error_t), allocatable, intent(out) :: error
+
+      character(len=:), allocatable :: text
+
+      if (statistics%outside_share <= 0.0_wp) return
+      text = lobe//"the film law is outside its published range for "//number_text(100.0_wp*statistics%outside_share, 3)// &
+         & " % of the cycle, e.g. at cam angle "//fixed_text(file_angle(statistics%first_outside), 1)//" deg"
+      if (model%stops_outside_range) then
+         call raise(error, kind_domain, text//" (range_policy = 'stop')")
+      else
+         call add_remark(warnings, text)
+      end if
+   end subroutine check_range
+
+end module camroller_cycle_remarks

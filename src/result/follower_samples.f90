@@ -1,0 +1,118 @@
+!> What is sampled of a cycle: series and torques of a follower.
+!>
+!> In: case, model, cycle, then angles. Out: values to be integrated, and what was met on the way. The torque against
+!> spring, seat and inertia and the one that spins the roller up are left out of what is integrated: their integrals are differences
+!> of stored energy, which `stored_work` takes.
+module camroller_follower_samples
+   use camroller_kinds, only : wp
+   use camroller_error, only : error_t
+   use camroller_case, only : case_t
+   use camroller_model, only : model_t
+   use camroller_state, only : state_t
+   use camroller_cycle, only : cycle_t, state_at
+   use camroller_catalogue, only : series_values, follower_torques, torque_count
+   use camroller_extremes, only : samples_t, add_sample, start_rows => start_samples
+   use camroller_panels, only : sampled_t
+   implicit none
+   private
+
+   public :: follower_samples_t, start_samples, look_t, look_of
+
+   !> One point of a cycle, for the search of standstills
+   type :: look_t
+      !> Cam angle from full lift [rad]
+      real(wp) :: angle = 0.0_wp
+      !> Mean surface speed [m/s]
+      real(wp) :: entrainment_speed = 0.0_wp
+      logical :: is_touching = .false.
+   end type look_t
+
+   !> A follower on its cycle
+   type, extends(sampled_t) :: follower_samples_t
+      !> The case; without it, torques are sampled and no series
+      type(case_t), pointer :: case => null()
+      type(model_t), pointer :: model => null()
+      type(cycle_t), pointer :: cycle => null()
+      !> Interval of the trajectory where the search starts
+      integer :: hint = 1
+      !> Number of series, and the first of them that is a torque
+      integer :: series = 0, first_torque = 1
+      !> State at the point that was sampled last
+      type(state_t) :: state
+      !> Series of the follower at the points met
+      type(samples_t) :: rows
+      !> Largest size of the sliding speed met [m/s]
+      real(wp) :: largest_sliding = 0.0_wp
+   contains
+      procedure :: sample
+   end type follower_samples_t
+
+contains
+
+   !> Begin with a cycle; with the case, its series are sampled too.
+   subroutine start_samples(samples, model, cycle, case, series, first_torque)
+      !> The samples
+      type(follower_samples_t), intent(out) :: samples
+      !> Model of the lobe
+      type(model_t), intent(in), target :: model
+      !> Cycle of the lobe
+      type(cycle_t), intent(in), target :: cycle
+      !> The case
+      type(case_t), intent(in), target, optional :: case
+      !> Number of series of the case, and the first of them that is a torque
+      integer, intent(in), optional :: series, first_torque
+
+      samples%model => model
+      samples%cycle => cycle
+      if (present(case)) then
+         samples%case => case
+         samples%series = series
+         samples%first_torque = first_torque
+      end if
+      call start_rows(samples%rows, samples%first_torque - 1)
+   end subroutine start_samples
+
+   !> Series and torques at a cam angle, with zero for torques among the series and for what comes of stored energy.
+   subroutine sample(self, x, values, error)
+      !> The samples
+      class(follower_samples_t), intent(inout) :: self
+      !> Cam angle from full lift [rad]
+      real(wp), intent(in) :: x
+      !> Values of the series [unit of the series], then the torques [N m], last the energy residual [W]
+      real(wp), intent(out) :: values(:)
+      !> Convergence error
+      type(error_t), allocatable, intent(out) :: error
+
+      ! Torques of the follower [N m]
+      real(wp) :: torques(torque_count)
+
+      call state_at(self%cycle, self%model, x, self%hint, self%state, error)
+      if (allocated(error)) return
+      torques = follower_torques(self%state)
+      self%largest_sliding = max(self%largest_sliding, abs(self%state%contact%sliding_speed))
+      if (associated(self%case)) then
+         call series_values(self%case, self%model, self%state, torques, 0.0_wp, values(:self%series))
+         call add_sample(self%rows, x, values(:self%first_torque - 1), .false.)
+         values(self%first_torque:self%series) = 0.0_wp
+      end if
+      torques(1) = 0.0_wp
+      if (self%state%contact%is_touching) torques(1) = self%state%moments%gas*self%state%position%finger_slope
+      torques(5) = 0.0_wp
+      values(self%series + 1:) = torques
+   end subroutine sample
+
+   !> The point that was sampled last, for the search of standstills.
+   pure function look_of(samples, angle) result(look)
+      !> The samples
+      type(follower_samples_t), intent(in) :: samples
+      !> Its cam angle from full lift [rad]
+      real(wp), intent(in) :: angle
+      !> What it is like
+      type(look_t) :: look
+
+      look%angle = angle
+      look%entrainment_speed = samples%state%contact%entrainment_speed
+      look%is_touching = samples%state%contact%is_touching
+   end function look_of
+
+end module camroller_follower_samples

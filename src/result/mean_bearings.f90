@@ -1,0 +1,104 @@
+!> Mean torque of the camshaft bearings.
+!>
+!> In: the camshaft with the cycles of its lobe shapes. Out: the mean over a turn to the tolerance of the cycles, and
+!> an estimate of its error.
+module camroller_mean_bearings
+   use camroller_kinds, only : wp, two_pi, degree
+   use camroller_error, only : error_t
+   use camroller_model, only : model_t
+   use camroller_state, only : state_t
+   use camroller_catalogue, only : torque_count
+   use camroller_cycle, only : cycle_t
+   use camroller_events, only : cycle_stops
+   use camroller_means, only : mean_tolerance, most_halvings
+   use camroller_panels, only : sampled_t, panels_t, start_panels, sample_panel, refine_panels
+   use camroller_shaft, only : shaft_t, shaft_torques
+   implicit none
+   private
+
+   public :: mean_bearing_torque
+
+   !> Longest panel [rad]
+   real(wp), parameter :: longest_panel = 10.0_wp*degree
+
+   !> Bearings of a camshaft on its turn
+   type, extends(sampled_t) :: bearing_samples_t
+      type(shaft_t), pointer :: shaft => null()
+      type(model_t), pointer :: models(:) => null()
+      type(cycle_t), pointer :: cycles(:) => null()
+   contains
+      procedure :: sample => sample_bearings
+   end type bearing_samples_t
+
+contains
+
+   !> Mean torque of all camshaft bearings, over panels that end at the stops of every cam.
+   subroutine mean_bearing_torque(shaft, models, cycles, mean, mean_error, error)
+      !> The shaft
+      type(shaft_t), intent(inout), target :: shaft
+      !> Model of each lobe shape
+      type(model_t), intent(in), target :: models(:)
+      !> Cycle of each lobe shape
+      type(cycle_t), intent(in), target :: cycles(:)
+      !> Mean torque [N m]
+      real(wp), intent(out) :: mean
+      !> Estimate of its error over itself [-]
+      real(wp), intent(out) :: mean_error
+      !> Convergence or domain error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(bearing_samples_t) :: samples
+      type(panels_t) :: panels
+      ! Stops of all cams [rad]
+      real(wp), allocatable :: stops(:)
+      ! Length of a panel [rad]
+      real(wp) :: length
+      integer :: cam, segment, count, panel, halvings
+
+      mean = 0.0_wp
+      mean_error = 0.0_wp
+      samples%shaft => shaft
+      samples%models => models
+      samples%cycles => cycles
+      allocate (stops(0))
+      do cam = 1, size(shaft%lobes)
+         stops = [stops, cycles(shaft%lobes(cam))%stops + shaft%phases(cam)]
+      end do
+      stops = cycle_stops(stops, cycles(shaft%lobes(1))%start)
+      call start_panels(panels, 1, 2*size(stops) + ceiling(two_pi/longest_panel))
+      do segment = 1, size(stops) - 1
+         count = ceiling((stops(segment + 1) - stops(segment))/longest_panel)
+         if (count == 0) cycle
+         length = (stops(segment + 1) - stops(segment))/count
+         do panel = 1, count
+            call sample_panel(panels, samples, stops(segment) + (panel - 1)*length, stops(segment) + panel*length, error)
+            if (allocated(error)) return
+         end do
+      end do
+      halvings = most_halvings
+      call refine_panels(panels, samples, [mean_tolerance(maxval(cycles%tolerance)) &
+         & *sum(panels%sizes(:, :panels%count))], halvings, error)
+      if (allocated(error)) return
+      mean = sum(panels%integrals(1, :panels%count))/two_pi
+      mean_error = sum(panels%doubts(1, :panels%count))/max(sum(panels%sizes(1, :panels%count)), tiny(1.0_wp))
+   end subroutine mean_bearing_torque
+
+   !> Torque of all camshaft bearings at a cam angle.
+   subroutine sample_bearings(self, x, values, error)
+      !> The shaft with its cycles
+      class(bearing_samples_t), intent(inout) :: self
+      !> Cam angle of the first cam from full lift [rad]
+      real(wp), intent(in) :: x
+      !> The torque [N m]
+      real(wp), intent(out) :: values(:)
+      !> Convergence or domain error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(state_t) :: state
+      ! Torques of the followers [N m]
+      real(wp) :: torques(torque_count)
+
+      call shaft_torques(self%shaft, self%models, self%cycles, x, state, torques, values(1), error)
+   end subroutine sample_bearings
+
+end module camroller_mean_bearings

@@ -1,0 +1,479 @@
+!> Means over the cycle: integrals of the solution with an error control of their own.
+!>
+!> In: cycles. Out: mean and extremes of the series and torques of a lobe shape's follower, and an estimate of the
+!> largest error of a mean. Each interval between accepted points is a panel of `panels`, halved where the error estimate of a mean
+!> is too large. A solution that is only linear between its points gets the trapezoidal rule.
+!>
+!> The torque against spring, seat and inertia and the one for the inertia of the roller are not integrated over the angle: over a
+!> cycle or a piece of one they are differences of stored energy, `stored_work`.
+module camroller_means
+   use camroller_kinds, only : wp
+   use camroller_error, only : error_t
+   use camroller_case, only : case_t
+   use camroller_model, only : model_t
+   use camroller_state, only : state_t
+   use camroller_contact_forces, only : film_groups
+   use camroller_film, only : is_in_range
+   use camroller_cycle, only : cycle_t
+   use camroller_catalogue, only : list_series, series_values, torque_count
+   use camroller_defects, only : find_defect, slip_slopes
+   use camroller_error_estimate, only : estimate_t, add_defect, end_interval, estimated_error, mean_errors
+   use camroller_extremes, only : samples_t
+   use camroller_follower_samples, only : follower_samples_t, start_samples, look_t, look_of
+   use camroller_names, only : name_length
+   use camroller_panels, only : panels_t, panel_points, panel_places, panel_weights, gauss_points, start_panels, add_panel, &
+      & add_trapezoid, refine_panels
+   use camroller_result, only : quantity_t, find_quantity
+   use camroller_standstills, only : add_standstills
+   use camroller_stored_work, only : stored_work_t, follow_contact, end_work, spin_work
+   use camroller_trajectory, only : curve_slope
+   implicit none
+   private
+
+   public :: statistics_t, integrate_lobe, integrate_torques, mean_tolerance
+
+   !> Means over the cycle of one lobe shape
+   type :: statistics_t
+      !> Mean of each series of the follower, as if it were alone [unit of the series]
+      real(wp), allocatable :: mean(:)
+      !> Series of the follower at the points met
+      type(samples_t) :: rows
+      !> Mean torques of the follower [N m], last the energy residual [W]
+      real(wp) :: torques(torque_count) = 0.0_wp
+      !> Part of the cycle without contact, and outside the film law's range [-]
+      real(wp) :: lost_share = 0.0_wp, outside_share = 0.0_wp
+      !> Cam angle from full lift where the film law's range is first left [rad]
+      real(wp) :: first_outside = 0.0_wp
+      !> Largest size of the sliding speed met [m/s]
+      real(wp) :: largest_sliding = 0.0_wp
+      !> Estimate of the error of the sliding speed over its largest value [-]
+      real(wp) :: error = 0.0_wp
+      !> Cam angle from full lift at the end of the interval where that error is largest [rad]
+      real(wp) :: error_angle = 0.0_wp
+      !> Estimate of the largest error of a mean over the mean size of its quantity [-]
+      real(wp) :: mean_error = 0.0_wp
+      !> The mean that has it
+      character(len=name_length) :: worst_mean = ""
+      !> Number of standstills of the contact, where nothing is entrained
+      integer :: standstills = 0
+      !> Cam angle from full lift of the first of them [rad]
+      real(wp) :: first_standstill = 0.0_wp
+   end type statistics_t
+
+   !> Places of the trapezoidal rule on [0, 1] [-]
+   real(wp), parameter :: trapezoid(2) = [0.0_wp, 1.0_wp]
+   !> Halvings of panels, at most
+   integer, parameter, public :: most_halvings = 1000
+   !> Times that what is allowed is taken anew from means that have become better
+   integer, parameter :: most_passes = 5
+   !> Least tolerance of a mean: below it rounding counts [-]
+   real(wp), parameter :: least_tolerance = 1.0e-10_wp
+   !> Names of the torques that are integrated, as series have them; the one that spins the roller up is not
+   character(len=*), parameter :: torque_names(torque_count) = [character(len=name_length) :: "torque_drive", &
+      & "torque_contact", "torque_needle", "torque_guide", "", "energy_residual"]
+
+contains
+
+   !> Means and extremes over the cycle of one lobe shape.
+   subroutine integrate_lobe(case, model, cycle, series_count, statistics, error)
+      !> The case
+      type(case_t), intent(in), target :: case
+      !> Model of the lobe
+      type(model_t), intent(in), target :: model
+      !> Cycle of the lobe
+      type(cycle_t), intent(in), target :: cycle
+      !> Number of series of one follower and the camshaft
+      integer, intent(in) :: series_count
+      !> Means and extremes
+      type(statistics_t), intent(out) :: statistics
+      !> Convergence error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(follower_samples_t) :: samples
+      type(panels_t) :: panels
+      type(estimate_t) :: estimate
+      type(stored_work_t) :: work
+      type(look_t), allocatable :: looks(:)
+      type(quantity_t), allocatable :: series(:)
+      ! Length of the cycle [rad]
+      real(wp) :: span
+      ! First and last series that is a film without a mean
+      integer :: films(2)
+
+      call list_series(case, series)
+      call start_samples(samples, model, cycle, case, series_count, find_quantity(series, "torque_geometric"))
+      call walk_round(samples, statistics, panels, estimate, work, looks, error)
+      if (allocated(error)) return
+      films = [1, 0]
+      if (statistics%lost_share > 0.0_wp) films = [find_quantity(series, "film_thickness_min"), find_quantity(series, "film_ratio")]
+      if (.not. cycle%is_linear) then
+         call refine_means(panels, samples, cycle%tolerance, series_count, films, error)
+         if (.not. allocated(error)) call add_standstills(samples, looks, statistics%standstills, statistics%first_standstill, &
+            & error)
+         if (allocated(error)) return
+      end if
+      statistics%rows = samples%rows
+      statistics%largest_sliding = samples%largest_sliding
+      span = cycle%trajectory%time(cycle%trajectory%count) - cycle%trajectory%time(1)
+      call take_means(panels, samples, work, span, statistics)
+      call judge_means(panels, mean_errors(estimate, cycle%closure*cycle%scale), span, series(:series_count), films, &
+         & statistics)
+      ! What start and end differ by comes again in every cycle that the periodic one is away
+      statistics%error = cycle%closure/max(1.0_wp - estimate%contraction, epsilon(1.0_wp)) &
+         & + estimated_error(estimate)/max(statistics%largest_sliding, cycle%scale, tiny(1.0_wp))
+   end subroutine integrate_lobe
+
+   !> Sample every interval of a cycle: panels, estimate of the error, contact, range of the film law.
+   subroutine walk_round(samples, statistics, panels, estimate, work, looks, error)
+      !> The samples
+      type(follower_samples_t), intent(inout) :: samples
+      !> Shares of the cycle without contact and outside the film law's range, angle of the largest error
+      type(statistics_t), intent(inout) :: statistics
+      !> One panel for each interval
+      type(panels_t), intent(out) :: panels
+      !> Estimate of the error
+      type(estimate_t), intent(inout) :: estimate
+      !> Work of what is stored
+      type(stored_work_t), intent(inout) :: work
+      !> The points, in order
+      type(look_t), allocatable, intent(out) :: looks(:)
+      !> Convergence error
+      type(error_t), allocatable, intent(out) :: error
+
+      ! Places in an interval [-], weights there [-]
+      real(wp), allocatable :: places(:), weights(:)
+      ! Values at the places [unit of each]; ends of an interval, angle [rad]; largest error so far [m/s]
+      real(wp) :: values(samples%series + torque_count, panel_points), left, right, angle, largest
+      integer :: interval, point, count
+
+      places = panel_places
+      weights = panel_weights
+      if (samples%cycle%is_linear) places = trapezoid
+      if (samples%cycle%is_linear) weights = [0.5_wp, 0.5_wp]
+      associate (times => samples%cycle%trajectory%time(:samples%cycle%trajectory%count))
+         call start_panels(panels, size(values, 1), 2*size(times))
+         allocate (looks(size(places)*size(times)))
+         count = 0
+         do interval = 1, size(times) - 1
+            left = times(interval)
+            right = times(interval + 1)
+            if (.not. right > left) cycle
+            do point = 1, size(places)
+               angle = left + places(point)*(right - left)
+               call samples%sample(angle, values(:, point), error)
+               if (allocated(error)) return
+               count = count + 1
+               looks(count) = look_of(samples, angle)
+               call follow_contact(work, samples, angle, left, error)
+               if (allocated(error)) return
+               call add_shares(samples, angle, weights(point)*(right - left)/(times(size(times)) - times(1)), statistics)
+               if (samples%cycle%is_linear .or. any(gauss_points == point)) call add_point(samples, angle, interval, estimate)
+            end do
+            largest = estimate%largest
+            call close_interval(samples%cycle, interval, estimate)
+            if (estimate%largest > largest) statistics%error_angle = right
+            if (samples%cycle%is_linear) call add_trapezoid(panels, left, right, values(:, :2))
+            if (.not. samples%cycle%is_linear) call add_panel(panels, left, right, values)
+         end do
+      end associate
+      looks = looks(:count)
+   end subroutine walk_round
+
+   !> Add the point that was sampled last to the estimate of the error.
+   subroutine add_point(samples, angle, interval, estimate)
+      !> The samples
+      type(follower_samples_t), intent(in) :: samples
+      !> Cam angle from full lift [rad]
+      real(wp), intent(in) :: angle
+      !> Interval of the trajectory that holds it
+      integer, intent(in) :: interval
+      !> Estimate of the error so far
+      type(estimate_t), intent(inout) :: estimate
+
+      ! Defect [m/s/rad], decay rate [1/rad]
+      real(wp) :: defect, decay_rate
+
+      call find_defect(samples%model, samples%cycle, angle, interval, samples%state, estimate%error, defect, decay_rate)
+      call add_defect(estimate, defect, decay_rate, slip_slopes(samples%model, samples%state, &
+         & decay_rate, max(samples%cycle%step_error, abs(estimate%error))))
+   end subroutine add_point
+
+   !> Add the point that was sampled last to the shares of the cycle without contact and outside the film law's range.
+   subroutine add_shares(samples, angle, weight, statistics)
+      !> The samples
+      type(follower_samples_t), intent(in) :: samples
+      !> Cam angle from full lift [rad]
+      real(wp), intent(in) :: angle
+      !> Weight of the point over the cycle [-]
+      real(wp), intent(in) :: weight
+      !> The shares
+      type(statistics_t), intent(inout) :: statistics
+
+      if (.not. samples%state%contact%is_touching) statistics%lost_share = statistics%lost_share + weight
+      if (has_film_in_range(samples%model, samples%state)) return
+      if (statistics%outside_share <= 0.0_wp) statistics%first_outside = angle
+      statistics%outside_share = statistics%outside_share + weight
+   end subroutine add_shares
+
+   !> Carry the estimate of the error over an interval, with the defects at its ends where the rates of the equation are kept there.
+   pure subroutine close_interval(cycle, interval, estimate)
+      !> Cycle of the lobe
+      type(cycle_t), intent(in) :: cycle
+      !> Interval of its trajectory
+      integer, intent(in) :: interval
+      !> The estimate
+      type(estimate_t), intent(inout) :: estimate
+
+      ! Slope at an end [m/s/rad], defects at both [m/s/rad]
+      real(wp) :: slope(1), ends(2)
+      ! Places of the points in the interval [-]
+      real(wp), allocatable :: nodes(:)
+      integer :: i
+
+      nodes = panel_places(gauss_points)
+      if (cycle%is_linear) nodes = trapezoid
+
+      associate (trajectory => cycle%trajectory, &
+         & length => cycle%trajectory%time(interval + 1) - cycle%trajectory%time(interval))
+         if (cycle%is_linear .or. allocated(cycle%phases)) then
+            call end_interval(estimate, nodes, length)
+            return
+         end if
+         do i = 0, 1
+            call curve_slope(trajectory, trajectory%time(interval + i), interval, slope)
+            ends(i + 1) = slope(1) - trajectory%rate(1, interval + i)
+         end do
+         call end_interval(estimate, nodes, length, ends)
+      end associate
+   end subroutine close_interval
+
+   !> Halve panels until the means are within the tolerance.
+   subroutine refine_means(panels, samples, tolerance, series, films, error)
+      !> The panels
+      type(panels_t), intent(inout) :: panels
+      !> The samples
+      type(follower_samples_t), intent(inout) :: samples
+      !> Error allowed, over the mean size of each quantity [-]
+      real(wp), intent(in) :: tolerance
+      !> Number of series that stand before the torques
+      integer, intent(in) :: series
+      !> First and last series that is a film without a mean
+      integer, intent(in) :: films(2)
+      !> Convergence error
+      type(error_t), allocatable, intent(out) :: error
+
+      ! Error estimates allowed [unit of each times rad]
+      real(wp) :: allowed(series + torque_count)
+      integer :: pass, halvings
+
+      halvings = most_halvings
+      do pass = 1, most_passes
+         allowed = mean_tolerance(tolerance)*mean_sizes(panels, series, films)
+         if (all(sum(panels%doubts(:, :panels%count), 2) <= allowed)) return
+         call refine_panels(panels, samples, allowed, halvings, error)
+         if (allocated(error) .or. halvings == 0) return
+      end do
+   end subroutine refine_means
+
+   !> Error of a mean that is aimed at, over the mean size of its quantity.
+   elemental function mean_tolerance(tolerance) result(error)
+      !> Tolerance of the integration of the cycle [-]
+      real(wp), intent(in) :: tolerance
+      !> Error of a mean [-]
+      real(wp) :: error
+
+      error = max(tolerance, least_tolerance)
+   end function mean_tolerance
+
+   !> What the errors of the integrals are relative to: the integrals of the sizes, and for the torque against gas, which adds to
+   !> what drives the camshaft, that of all losses. The energy residual is a matter of rounding. Films grow without bound where
+   !> contact is lost, and have no mean then.
+   pure function mean_sizes(panels, series, films) result(sizes)
+      !> The panels
+      type(panels_t), intent(in) :: panels
+      !> Number of series that stand before the torques
+      integer, intent(in) :: series
+      !> First and last series that is a film without a mean; the second is less where there is none
+      integer, intent(in) :: films(2)
+      !> Sizes, positive [unit of each times rad]
+      real(wp) :: sizes(series + torque_count)
+
+      sizes = max(sum(panels%sizes(:, :panels%count), 2), tiny(1.0_wp)/least_tolerance)
+      sizes(series + 1) = sum(sizes(series + 2:series + 4))
+      sizes(series + torque_count) = huge(1.0_wp)
+      sizes(films(1):films(2)) = huge(1.0_wp)
+   end function mean_sizes
+
+   !> Means of series and torques from the integrals and the stored energy.
+   subroutine take_means(panels, samples, work, span, statistics)
+      !> The panels
+      type(panels_t), intent(in) :: panels
+      !> The samples
+      type(follower_samples_t), intent(in) :: samples
+      !> Work of what is stored
+      type(stored_work_t), intent(inout) :: work
+      !> Length of the cycle [rad]
+      real(wp), intent(in) :: span
+      !> The means
+      type(statistics_t), intent(inout) :: statistics
+
+      ! Means [unit of each]; series of the last state with the mean torques
+      real(wp) :: means(samples%series + torque_count), series(samples%series)
+
+      means = sum(panels%integrals(:, :panels%count), 2)/span
+      statistics%torques = means(samples%series + 1:) + stored_torques(samples, work, span)
+      call series_values(samples%case, samples%model, samples%state, statistics%torques, 0.0_wp, series)
+      statistics%mean = [means(:samples%first_torque - 1), series(samples%first_torque:)]
+   end subroutine take_means
+
+   !> Mean torques that come of stored energy.
+   function stored_torques(samples, work, span) result(torques)
+      !> The samples
+      type(follower_samples_t), intent(in) :: samples
+      !> Work of what is stored
+      type(stored_work_t), intent(in) :: work
+      !> Length of the cycle or the piece [rad]
+      real(wp), intent(in) :: span
+      !> The torques [N m]
+      real(wp) :: torques(torque_count)
+
+      torques = 0.0_wp
+      torques(1) = end_work(work, samples)/span
+      if (samples%model%is_consistent) torques(5) = spin_work(samples)/span
+   end function stored_torques
+
+   !> Largest error of a mean, over the mean size of its quantity.
+   subroutine judge_means(panels, slip_errors, span, series, films, statistics)
+      !> The panels
+      type(panels_t), intent(in) :: panels
+      !> Integrals of the errors that come of the sliding speed, in the order of `slip_slopes` [N m rad], [N rad] and [rad]
+      real(wp), intent(in) :: slip_errors(5)
+      !> Length of the cycle [rad]
+      real(wp), intent(in) :: span
+      !> The series
+      type(quantity_t), intent(in) :: series(:)
+      !> First and last series that is a film without a mean
+      integer, intent(in) :: films(2)
+      !> The means; out: with the largest error
+      type(statistics_t), intent(inout) :: statistics
+
+      ! Errors of the integrals [unit of each times rad], over the sizes [-]
+      real(wp) :: errors(size(panels%integrals, 1)), relative(size(panels%integrals, 1))
+      integer :: worst, i
+
+      associate (first => size(series) + 1)
+         errors = sum(panels%doubts(:, :panels%count), 2)
+         errors(first + 1:first + 2) = errors(first + 1:first + 2) + slip_errors(:2)
+         do i = 1, first - 1
+            errors(i) = errors(i) + dot_product(slip_errors(3:), force_of(series(i)))
+         end do
+         ! The drive has the errors of all losses, and what the spin of the roller differs by between start and end
+         errors(first) = sum(errors(first:first + 3)) + abs(statistics%torques(5))*span
+         relative = errors/mean_sizes(panels, size(series), films)
+         ! What is not there has no error
+         where (errors <= 0.0_wp) relative = 0.0_wp
+         worst = maxloc(relative, 1)
+         statistics%mean_error = relative(worst)
+         if (worst < first) statistics%worst_mean = series(worst)%name
+         if (worst >= first) statistics%worst_mean = torque_names(worst - first + 1)
+      end associate
+   end subroutine judge_means
+
+   !> Which of traction, mobilised boundary friction and its share a series follows.
+   pure function force_of(series) result(parts)
+      !> The series, of any lobe
+      type(quantity_t), intent(in) :: series
+      !> One where it follows, else zero [-]
+      real(wp) :: parts(3)
+
+      parts = 0.0_wp
+      if (index(series%name, "traction") > 0 .or. index(series%name, "friction_hydrodynamic") > 0 .or. &
+         & index(series%name, "friction_contact") > 0) parts(1) = 1.0_wp
+      if (index(series%name, "friction_boundary_mobilised") > 0) parts(2) = 1.0_wp
+      if (index(series%name, "asperity_friction_share") > 0) parts(3) = 1.0_wp
+   end function force_of
+
+   !> Mean torques of a follower over a cycle or a piece of one.
+   subroutine integrate_torques(model, cycle, torques, error)
+      !> Model of the lobe
+      type(model_t), intent(in), target :: model
+      !> Cycle or a piece of one
+      type(cycle_t), intent(in), target :: cycle
+      !> Mean torques [N m], last the energy residual [W]
+      real(wp), intent(out) :: torques(torque_count)
+      !> Convergence error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(follower_samples_t) :: samples
+      type(panels_t) :: panels
+      type(stored_work_t) :: work
+      ! Length [rad]
+      real(wp) :: span
+
+      torques = 0.0_wp
+      call start_samples(samples, model, cycle)
+      call walk_along(samples, panels, work, error)
+      if (.not. (allocated(error) .or. cycle%is_linear)) call refine_means(panels, samples, cycle%tolerance, 0, [1, 0], error)
+      if (allocated(error)) return
+      span = cycle%trajectory%time(cycle%trajectory%count) - cycle%trajectory%time(1)
+      torques = sum(panels%integrals(:, :panels%count), 2)/span + stored_torques(samples, work, span)
+   end subroutine integrate_torques
+
+   !> Sample a cycle or a piece of one for its torques alone, two intervals a panel where no stop parts them.
+   subroutine walk_along(samples, panels, work, error)
+      !> The samples
+      type(follower_samples_t), intent(inout) :: samples
+      !> The panels
+      type(panels_t), intent(out) :: panels
+      !> Work of what is stored
+      type(stored_work_t), intent(inout) :: work
+      !> Convergence error
+      type(error_t), allocatable, intent(out) :: error
+
+      ! Places in a panel [-]; values there [unit of each]; ends of a panel, angle [rad]
+      real(wp), allocatable :: places(:)
+      real(wp) :: values(torque_count, panel_points), left, right, angle
+      integer :: interval, next, point
+
+      places = panel_places
+      if (samples%cycle%is_linear) places = trapezoid
+      associate (times => samples%cycle%trajectory%time(:samples%cycle%trajectory%count))
+         call start_panels(panels, torque_count, size(times))
+         interval = 1
+         do while (interval < size(times))
+            next = interval + 1
+            left = times(interval)
+            if (next < size(times) .and. times(next) > left .and. .not. samples%cycle%is_linear) then
+               if (times(next + 1) > times(next)) next = next + 1
+            end if
+            right = times(next)
+            interval = next
+            if (.not. right > left) cycle
+            do point = 1, size(places)
+               angle = left + places(point)*(right - left)
+               call samples%sample(angle, values(:, point), error)
+               if (.not. allocated(error)) call follow_contact(work, samples, angle, left, error)
+               if (allocated(error)) return
+            end do
+            if (samples%cycle%is_linear) call add_trapezoid(panels, left, right, values(:, :2))
+            if (.not. samples%cycle%is_linear) call add_panel(panels, left, right, values)
+         end do
+      end associate
+   end subroutine walk_along
+
+   !> Is the film law inside its published range? True where there is no contact.
+   pure function has_film_in_range(model, state) result(inside)
+      !> Model of the lobe
+      type(model_t), intent(in) :: model
+      !> State of the follower
+      type(state_t), intent(in) :: state
+      !> True inside
+      logical :: inside
+
+      inside = .true.
+      if (state%contact%is_touching) then
+         inside = is_in_range(model%film_law, film_groups(model, state%position, state%contact), model%film_table)
+      end if
+   end function has_film_in_range
+
+end module camroller_means

@@ -1,0 +1,357 @@
+!> The result of a case: series at the output angles and the summary.
+!>
+!> In: case, models, cycles. Out: `result_t`.
+module camroller_report
+   use camroller_kinds, only : wp, two_pi, degree
+   use camroller_error, only : error_t
+   use camroller_case, only : case_t
+   use camroller_model, only : model_t
+   use camroller_state, only : state_t
+   use camroller_cycle, only : cycle_t, state_at
+   use camroller_cycle_remarks, only : judge_lobe
+   use camroller_catalogue, only : list_series, follower_values, camshaft_values, follower_count, camshaft_count, lobe_columns, &
+      & camshaft_columns, torque_count
+   use camroller_extremes, only : samples_t, start_samples, add_sample, start_search, most_steps
+   use camroller_extremum, only : extremum_t, narrow_extremum
+   use camroller_margins, only : margins_t, find_margins
+   use camroller_result, only : result_t, find_quantity, check_numbers
+   use camroller_shaft, only : shaft_t, new_shaft, shaft_torques
+   use camroller_mean_bearings, only : mean_bearing_torque
+   use camroller_means, only : statistics_t, integrate_lobe
+   use camroller_summary, only : make_summary, extremes_t
+   implicit none
+   private
+
+   public :: make_result, output_angles
+
+contains
+
+   !> Series and summary of a case.
+   subroutine make_result(case, models, cycles, result, error)
+      !> The case
+      type(case_t), intent(in) :: case
+      !> Model of each lobe shape
+      type(model_t), intent(in) :: models(:)
+      !> Cycle of each lobe shape
+      type(cycle_t), intent(in) :: cycles(:)
+      !> The result
+      type(result_t), intent(out) :: result
+      !> Convergence or domain error; domain error where a law is used outside its range and the case forbids it
+      type(error_t), allocatable, intent(out) :: error
+
+      type(shaft_t) :: shaft
+      type(statistics_t), allocatable :: statistics(:)
+      type(margins_t), allocatable :: margins(:)
+      type(extremes_t) :: extremes
+      ! Mean torque of the camshaft bearings [N m], its error over itself [-]
+      real(wp) :: bearing_torque, bearing_error
+      integer :: lobe
+
+      result%warnings = ""
+      call list_series(case, result%series)
+      call new_shaft(shaft, case, models(1), error)
+      if (allocated(error)) return
+      call sample_series(case, models, cycles, shaft, result, error)
+      if (allocated(error)) return
+
+      allocate (statistics(size(models)), margins(size(models)))
+      do lobe = 1, size(models)
+         call integrate_lobe(case, models(lobe), cycles(lobe), follower_count(case) + camshaft_count(case), statistics(lobe), error)
+         if (allocated(error)) return
+         call find_margins(models(lobe), cycles(lobe)%stops, margins(lobe))
+         call judge_lobe(models(lobe), cycles(lobe), statistics(lobe), margins(lobe), merge(lobe, 0, size(models) > 1), &
+            & result%warnings, error)
+         if (allocated(error)) return
+      end do
+      bearing_torque = 0.0_wp
+      bearing_error = 0.0_wp
+      if (allocated(case%cam_bearings)) call mean_bearing_torque(shaft, models, cycles, bearing_torque, bearing_error, error)
+      if (allocated(error)) return
+      if (bearing_error > maxval(statistics%mean_error)) then
+         statistics%mean_error = bearing_error
+         statistics%worst_mean = "torque_bearings"
+      end if
+      result%worst_mean = statistics(maxloc(statistics%mean_error, 1))%worst_mean
+      call find_extremes(case, models, cycles, shaft, margins, statistics, result, extremes, error)
+      if (allocated(error)) return
+      call make_summary(case, models, cycles, shaft, statistics, bearing_torque, margins, extremes, result)
+      call check_numbers(result, error)
+   end subroutine make_result
+
+   !> Cam angles of the output, 0 to 360 with the nose at 180, end point left out [deg].
+   pure function output_angles(step) result(angles)
+      !> Angle between output points [rad]
+      real(wp), intent(in) :: step
+      !> The angles [deg]
+      real(wp), allocatable :: angles(:)
+
+      integer :: i, points
+
+      points = max(1, nint(two_pi/step))
+      angles = [(360.0_wp*i/points, i=0, points - 1)]
+   end function output_angles
+
+   !> Series at the output angles: each lobe's follower over the angle from its own nose, torques over that from the first cam's.
+   subroutine sample_series(case, models, cycles, shaft, result, error)
+      !> The case
+      type(case_t), intent(in) :: case
+      !> Model of each lobe shape
+      type(model_t), intent(in) :: models(:)
+      !> Cycle of each lobe shape
+      type(cycle_t), intent(in) :: cycles(:)
+      !> The camshaft
+      type(shaft_t), intent(inout) :: shaft
+      !> In: list of series; out: with their values
+      type(result_t), intent(inout) :: result
+      !> Convergence or domain error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(state_t) :: state
+      ! Torques of all followers [N m], of all bearings [N m]; values of the series; cam angle from full lift [rad]
+      real(wp) :: torques(torque_count), bearing_torque, values(size(result%series)), angle
+      integer :: hints(size(models)), columns(2, size(models)), of_camshaft(2), i, lobe
+      ! Is the first cam's follower the first lobe's, at the same angle?
+      logical :: is_first
+
+      hints = 1
+      of_camshaft = camshaft_columns(case)
+      do lobe = 1, size(models)
+         columns(:, lobe) = lobe_columns(case, lobe)
+      end do
+      is_first = shaft%lobes(1) == 1 .and. abs(shaft%phases(1)) <= 0.0_wp
+      result%angle = output_angles(case%numerics%output_step)
+      allocate (result%series_values(size(result%angle), size(result%series)))
+      do i = 1, size(result%angle)
+         angle = (result%angle(i) - 180.0_wp)*degree
+         call shaft_torques(shaft, models, cycles, angle, state, torques, bearing_torque, error)
+         if (allocated(error)) return
+         call camshaft_values(case, torques, bearing_torque, values(of_camshaft(1):of_camshaft(2)))
+         do lobe = 1, size(models)
+            if (lobe > 1 .or. .not. is_first) call state_at(cycles(lobe), models(lobe), angle, hints(lobe), state, error)
+            if (allocated(error)) return
+            call follower_values(case, models(lobe), state, &
+               & values(columns(1, lobe):columns(2, lobe)))
+         end do
+         result%series_values(i, :) = values
+      end do
+   end subroutine sample_series
+
+   !> Smallest and largest value of every series, at the stops and between the output angles as well.
+   subroutine find_extremes(case, models, cycles, shaft, margins, statistics, result, extremes, error)
+      !> The case
+      type(case_t), intent(in) :: case
+      !> Model of each lobe shape
+      type(model_t), intent(in) :: models(:)
+      !> Cycle of each lobe shape
+      type(cycle_t), intent(in) :: cycles(:)
+      !> The camshaft
+      type(shaft_t), intent(inout) :: shaft
+      !> Margins of each lobe shape
+      type(margins_t), intent(in) :: margins(:)
+      !> Rows of each lobe shape; more are added
+      type(statistics_t), intent(inout) :: statistics(:)
+      !> Series
+      type(result_t), intent(in) :: result
+      !> The extremes
+      type(extremes_t), intent(out) :: extremes
+      !> Convergence or domain error
+      type(error_t), allocatable, intent(out) :: error
+
+      integer :: columns(2), lobe
+
+      allocate (extremes%lowest(size(result%series)), extremes%highest(size(result%series)), extremes%event_load(size(models)))
+      do lobe = 1, size(models)
+         columns = lobe_columns(case, lobe)
+         associate (samples => statistics(lobe)%rows)
+            call add_output_rows(result, columns, samples)
+            call add_stops(case, models(lobe), cycles(lobe), margins(lobe), samples, error)
+            if (.not. allocated(error)) call search_lobe(case, models(lobe), cycles(lobe), samples, &
+               & extremes%lowest(columns(1):columns(2)), extremes%highest(columns(1):columns(2)), error)
+            if (allocated(error)) return
+            extremes%event_load(lobe) = smallest_event_load(models(lobe), result, samples)
+         end associate
+      end do
+      call search_camshaft(case, models, cycles, shaft, result, extremes, error)
+   end subroutine find_extremes
+
+   !> Rows at the output angles.
+   pure subroutine add_output_rows(result, columns, samples)
+      !> Series
+      type(result_t), intent(in) :: result
+      !> The first and the last of those that make a row
+      integer, intent(in) :: columns(2)
+      !> The rows
+      type(samples_t), intent(inout) :: samples
+
+      integer :: i
+
+      do i = 1, size(result%angle)
+         call add_sample(samples, (result%angle(i) - 180.0_wp)*degree, result%series_values(i, columns(1):columns(2)), .false.)
+      end do
+   end subroutine add_output_rows
+
+   !> Rows of a lobe's follower at the stops, and at the smallest load of the event without friction.
+   subroutine add_stops(case, model, cycle, margins, samples, error)
+      !> The case
+      type(case_t), intent(in) :: case
+      !> Model of the lobe
+      type(model_t), intent(in) :: model
+      !> Its cycle
+      type(cycle_t), intent(in) :: cycle
+      !> Its margins
+      type(margins_t), intent(in) :: margins
+      !> The rows
+      type(samples_t), intent(inout) :: samples
+      !> Convergence error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(state_t) :: state
+      ! Cam angles from full lift [rad]; a row [unit of the series]
+      real(wp) :: angles(size(cycle%stops) + 1), values(size(samples%values, 1))
+      integer :: hint, i
+
+      hint = 1
+      angles = [cycle%stops, margins%event%angle]
+      do i = 1, size(angles)
+         call state_at(cycle, model, angles(i), hint, state, error)
+         if (allocated(error)) return
+         call follower_values(case, model, state, values)
+         call add_sample(samples, angles(i), values, i <= size(cycle%stops))
+      end do
+   end subroutine add_stops
+
+   !> Smallest and largest values of a lobe's follower, from its rows and between them; the rows alone where the solution itself is
+   !> only linear between its points.
+   subroutine search_lobe(case, model, cycle, samples, lowest, highest, error)
+      !> The case
+      type(case_t), intent(in) :: case
+      !> Model of the lobe
+      type(model_t), intent(in) :: model
+      !> Its cycle
+      type(cycle_t), intent(in) :: cycle
+      !> The rows
+      type(samples_t), intent(in) :: samples
+      !> The values [unit of the series]
+      real(wp), intent(out) :: lowest(:), highest(:)
+      !> Convergence error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(extremum_t) :: search
+      type(state_t) :: state
+      ! Series at a cam angle [unit of the series]
+      real(wp) :: values(size(lowest))
+      integer :: hint, series, sense
+
+      hint = 1
+      do series = 1, size(lowest)
+         do sense = -1, 1, 2
+            call start_search(samples, series, sense, search)
+            do while (search%is_wanted .and. search%steps < most_steps .and. .not. cycle%is_linear)
+               call state_at(cycle, model, search%trial, hint, state, error)
+               if (allocated(error)) return
+               call follower_values(case, model, state, values)
+               call narrow_extremum(search, sense*values(series))
+            end do
+            if (sense > 0) lowest(series) = search%value(2)
+            if (sense < 0) highest(series) = -search%value(2)
+         end do
+      end do
+   end subroutine search_lobe
+
+   !> Smallest and largest values of the camshaft's series.
+   subroutine search_camshaft(case, models, cycles, shaft, result, extremes, error)
+      !> The case
+      type(case_t), intent(in) :: case
+      !> Model of each lobe shape
+      type(model_t), intent(in) :: models(:)
+      !> Cycle of each lobe shape
+      type(cycle_t), intent(in) :: cycles(:)
+      !> The camshaft
+      type(shaft_t), intent(inout) :: shaft
+      !> Series
+      type(result_t), intent(in) :: result
+      !> The extremes
+      type(extremes_t), intent(inout) :: extremes
+      !> Convergence or domain error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(samples_t) :: samples
+      type(extremum_t) :: search
+      ! Stops of all cams [rad]; a row [unit of the series]
+      real(wp), allocatable :: stops(:)
+      real(wp) :: values(camshaft_count(case))
+      integer :: columns(2), i, series, sense
+
+      columns = camshaft_columns(case)
+      call start_samples(samples, size(values))
+      call add_output_rows(result, columns, samples)
+      stops = [(cycles(shaft%lobes(i))%stops + shaft%phases(i), i=1, size(shaft%lobes))]
+      do i = 1, size(stops)
+         call camshaft_row(case, models, cycles, shaft, stops(i), values, error)
+         if (allocated(error)) return
+         call add_sample(samples, stops(i), values, .true.)
+      end do
+      do series = 1, size(values)
+         do sense = -1, 1, 2
+            call start_search(samples, series, sense, search)
+            do while (search%is_wanted .and. search%steps < most_steps .and. .not. any(cycles%is_linear))
+               call camshaft_row(case, models, cycles, shaft, search%trial, values, error)
+               if (allocated(error)) return
+               call narrow_extremum(search, sense*values(series))
+            end do
+            if (sense > 0) extremes%lowest(columns(1) + series - 1) = search%value(2)
+            if (sense < 0) extremes%highest(columns(1) + series - 1) = -search%value(2)
+         end do
+      end do
+   end subroutine search_camshaft
+
+   !> The camshaft's series at a cam angle.
+   subroutine camshaft_row(case, models, cycles, shaft, angle, values, error)
+      !> The case
+      type(case_t), intent(in) :: case
+      !> Model of each lobe shape
+      type(model_t), intent(in) :: models(:)
+      !> Cycle of each lobe shape
+      type(cycle_t), intent(in) :: cycles(:)
+      !> The camshaft
+      type(shaft_t), intent(inout) :: shaft
+      !> Cam angle of the first cam from full lift [rad]
+      real(wp), intent(in) :: angle
+      !> The series [unit of the series]
+      real(wp), intent(out) :: values(:)
+      !> Convergence or domain error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(state_t) :: state
+      ! Torques of all followers [N m], of all bearings [N m]
+      real(wp) :: torques(torque_count), bearing_torque
+
+      call shaft_torques(shaft, models, cycles, angle, state, torques, bearing_torque, error)
+      if (allocated(error)) return
+      call camshaft_values(case, torques, bearing_torque, values)
+   end subroutine camshaft_row
+
+   !> Smallest contact load with the valve off its seat; over the whole cycle where it never leaves it.
+   pure function smallest_event_load(model, result, samples) result(load)
+      !> Model of the lobe
+      type(model_t), intent(in) :: model
+      !> Series
+      type(result_t), intent(in) :: result
+      !> Rows of the lobe
+      type(samples_t), intent(in) :: samples
+      !> The load [N]
+      real(wp) :: load
+
+      ! Part of the lift at the seat that counts as all of it at a stop [-]
+      real(wp), parameter :: nearly = 1.0_wp - 1.0e-9_wp
+      logical :: in_event(samples%count)
+
+      associate (lift => samples%values(find_quantity(result%series, "valve_lift"), :samples%count), &
+         & loads => samples%values(find_quantity(result%series, "contact_load"), :samples%count))
+         in_event = lift > 0.0_wp .and. lift >= nearly*model%train%seat_lift
+         if (.not. any(in_event)) in_event = .true.
+         load = minval(loads, in_event)
+      end associate
+   end function smallest_event_load
+
+end module camroller_report

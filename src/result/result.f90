@@ -1,0 +1,190 @@
+!> A result: named series over the cam angle and named scalars, each with unit, meaning and the effect it comes from.
+!>
+!> In: what `camroller_report` evaluated. Out: `result_t`, to be read by name or written to a file.
+module camroller_result
+   use, intrinsic :: ieee_arithmetic, only : ieee_is_finite, ieee_is_nan
+   use camroller_kinds, only : wp
+   use camroller_error, only : error_t, raise, kind_domain, kind_usage
+   use camroller_effect_list, only : choice_t
+   use camroller_names, only : name_length
+   use camroller_number_text, only : fixed_text, integer_text
+   implicit none
+   private
+
+   public :: quantity_t, result_t, get_series, get_summary, find_quantity, check_numbers, add_remark, lobe_scope
+   public :: scope_length, scope_camshaft, scope_case
+
+   !> Length of a scope
+   integer, parameter :: scope_length = 16
+   !> Scopes beside those of `lobe_scope`: all followers and bearings of the camshaft together; the case as a whole
+   character(len=*), parameter :: scope_camshaft = "camshaft", scope_case = "case"
+
+   !> What a column of numbers means
+   type :: quantity_t
+      !> Name in files and in `get_series`
+      character(len=:), allocatable :: name
+      !> SI unit, `1` for none, `degree` for the cam angle
+      character(len=:), allocatable :: unit
+      !> Meaning in a few words
+      character(len=:), allocatable :: description
+      !> Part of the model that it comes from, e.g. `asperity`
+      character(len=:), allocatable :: source
+      !> What it belongs to: `lobe 1` or `lobe 2` for one follower of that lobe shape, `camshaft`, or `case`
+      character(len=scope_length) :: scope = scope_case
+      !> Has infinity a meaning, as for the speed at which something that never happens would happen?
+      logical :: may_be_infinite = .false.
+   end type quantity_t
+
+   !> Result of one case
+   type :: result_t
+      !> Cam angle of each row, 0 to 360 with the nose at 180, end point left out [deg]
+      real(wp), allocatable :: angle(:)
+      !> Meaning of each series
+      type(quantity_t), allocatable :: series(:)
+      !> Values, shape (angle, series), units as in `series`
+      real(wp), allocatable :: series_values(:, :)
+      !> Meaning of each scalar
+      type(quantity_t), allocatable :: summary(:)
+      !> Values of the scalars, units as in `summary`
+      real(wp), allocatable :: summary_values(:)
+      !> Remarks that do not make the result wrong, one per line; empty where there are none
+      character(len=:), allocatable :: warnings
+      !> Name of the series whose mean has the largest estimated error; blank where means have none
+      character(len=name_length) :: worst_mean = ""
+      !> Were profiles across the contact asked for that could not be solved? The reason is among the remarks
+      logical :: lacks_profiles = .false.
+      !> Which effects took part and why; allocated where the program chose them
+      type(choice_t), allocatable :: choice
+   end type result_t
+
+contains
+
+   !> Position of a quantity in a list, 0 where it is not there.
+   pure function find_quantity(quantities, name) result(position)
+      !> List to look in
+      type(quantity_t), intent(in) :: quantities(:)
+      !> Name looked for
+      character(len=*), intent(in) :: name
+      !> Position, or 0
+      integer :: position
+
+      do position = 1, size(quantities)
+         if (quantities(position)%name == name) return
+      end do
+      position = 0
+   end function find_quantity
+
+   !> Scope of what belongs to one follower.
+   pure function lobe_scope(lobe) result(scope)
+      !> Its lobe shape, from 1
+      integer, intent(in) :: lobe
+      !> The scope
+      character(len=scope_length) :: scope
+
+      scope = "lobe "//integer_text(lobe)
+   end function lobe_scope
+
+   !> Add a remark to others.
+   !>
+   !> The screen shows remarks of many cases by kind: what stands before the first number is the kind, that number how bad it is.
+   pure subroutine add_remark(remarks, text)
+      !> Remarks, one per line; empty where there are none
+      character(len=:), allocatable, intent(inout) :: remarks
+      !> The remark
+      character(len=*), intent(in) :: text
+
+      if (len(remarks) > 0) remarks = remarks//new_line("a")
+      remarks = remarks//text
+   end subroutine add_remark
+
+   !> Refuse a result that holds what is not a finite number, unless infinity has a meaning there.
+   subroutine check_numbers(result, error)
+      !> A result
+      type(result_t), intent(in) :: result
+      !> Domain error that names the first series or scalar, its cam angle and its value
+      type(error_t), allocatable, intent(out) :: error
+
+      integer :: i, row
+
+      do i = 1, size(result%series)
+         if (all(ieee_is_finite(result%series_values(:, i)))) cycle
+         row = findloc(ieee_is_finite(result%series_values(:, i)), .false., 1)
+         call refuse(result%series(i)%name, result%series_values(row, i), error, result%angle(row))
+         return
+      end do
+      do i = 1, size(result%summary)
+         if (ieee_is_finite(result%summary_values(i))) cycle
+         if (result%summary(i)%may_be_infinite .and. .not. ieee_is_nan(result%summary_values(i))) cycle
+         call refuse(result%summary(i)%name, result%summary_values(i), error)
+         return
+      end do
+   end subroutine check_numbers
+
+   !> Refuse a value that is not a finite number.
+   subroutine refuse(name, value, error, angle)
+      !> Name of the quantity
+      character(len=*), intent(in) :: name
+      !> The value [any]
+      real(wp), intent(in) :: value
+      !> Domain error
+      type(error_t), allocatable, intent(out) :: error
+      !> Cam angle, for a series [deg]
+      real(wp), intent(in), optional :: angle
+
+      character(len=:), allocatable :: words
+
+      words = name
+      if (present(angle)) words = words//" at cam angle "//fixed_text(angle, 3)//" deg"
+      if (ieee_is_nan(value)) then
+         words = words//" is not a number (NaN)"
+      else
+         words = words//" is infinite"
+      end if
+      call raise(error, kind_domain, words//": values of the case are so large or so small that its formulas cannot be "// &
+         & "evaluated; bring them into a physical range")
+   end subroutine refuse
+
+   !> Copy of one series.
+   subroutine get_series(result, name, values, error)
+      !> A result
+      type(result_t), intent(in) :: result
+      !> Name of the series
+      character(len=*), intent(in) :: name
+      !> One value for each angle [unit of the series]
+      real(wp), allocatable, intent(out) :: values(:)
+      !> Usage error where the result has no such series
+      type(error_t), allocatable, intent(out) :: error
+
+      integer :: position
+
+      position = find_quantity(result%series, name)
+      if (position == 0) then
+         call raise(error, kind_usage, "the result has no series '"//name//"'")
+         return
+      end if
+      values = result%series_values(:, position)
+   end subroutine get_series
+
+   !> One scalar.
+   subroutine get_summary(result, name, value, error)
+      !> A result
+      type(result_t), intent(in) :: result
+      !> Name of the scalar
+      character(len=*), intent(in) :: name
+      !> Its value [unit of the scalar]
+      real(wp), intent(out) :: value
+      !> Usage error where the result has no such scalar
+      type(error_t), allocatable, intent(out) :: error
+
+      integer :: position
+
+      value = 0.0_wp
+      position = find_quantity(result%summary, name)
+      if (position == 0) then
+         call raise(error, kind_usage, "the result has no scalar '"//name//"'")
+         return
+      end if
+      value = result%summary_values(position)
+   end subroutine get_summary
+
+end module camroller_result

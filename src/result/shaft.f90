@@ -1,0 +1,138 @@
+!> The camshaft: all followers together, and the bearings that carry them.
+!>
+!> In: case, models and cycles of the lobe shapes. Out: torques of all followers and of all bearings at a cam angle.
+!> Each cam sees the cycle of its lobe shape at its own phase; without camshaft bearings in the case there is one cam.
+module camroller_shaft
+   use camroller_kinds, only : wp
+   use camroller_error, only : error_t, raise, kind_domain
+   use camroller_case, only : case_t
+   use camroller_model, only : model_t
+   use camroller_state, only : state_t, cam_force
+   use camroller_cycle, only : cycle_t, state_at
+   use camroller_catalogue, only : follower_torques, torque_count
+   use camroller_journal, only : cam_bearings_t, journal_t, new_journal, journal_torque
+   use camroller_camshaft, only : bearing_loads
+   implicit none
+   private
+
+   public :: shaft_t, new_shaft, shaft_torques
+
+   !> Cams of a shaft
+   type :: shaft_t
+      !> Lobe shape of each cam
+      integer, allocatable :: lobes(:)
+      !> Angle by which each cam's event follows the first one's [rad]
+      real(wp), allocatable :: phases(:)
+      !> Cosine and sine of the angle at which each follower stands, shape (2, cam) [-]
+      real(wp), allocatable :: directions(:, :)
+      !> Interval of the cycle where each cam's search starts
+      integer, allocatable :: hints(:)
+      !> Bearings; allocated where the case has them
+      type(cam_bearings_t), allocatable :: bearings
+      type(journal_t), allocatable :: journal
+   end type shaft_t
+
+contains
+
+   !> Cams and bearings of a case.
+   subroutine new_shaft(shaft, case, model, error)
+      !> The shaft
+      type(shaft_t), intent(out) :: shaft
+      !> The case
+      type(case_t), intent(in) :: case
+      !> Model of any lobe: speed and viscosity
+      type(model_t), intent(in) :: model
+      !> Deck or domain error of the bearings
+      type(error_t), allocatable, intent(out) :: error
+
+      integer :: cams
+
+      if (.not. allocated(case%cam_bearings)) then
+         shaft%lobes = [1]
+         shaft%phases = [0.0_wp]
+         shaft%hints = [1]
+         allocate (shaft%directions(2, 1))
+         shaft%directions(:, 1) = [1.0_wp, 0.0_wp]
+         return
+      end if
+      cams = size(case%cam_bearings%cam_positions)
+      shaft%bearings = case%cam_bearings
+      shaft%phases = case%cam_bearings%cam_phases
+      shaft%lobes = case%cam_bearings%cam_lobes
+      allocate (shaft%directions(2, cams), shaft%hints(cams))
+      shaft%directions(1, :) = cos(case%cam_bearings%follower_angles)
+      shaft%directions(2, :) = sin(case%cam_bearings%follower_angles)
+      shaft%hints = 1
+      allocate (shaft%journal)
+      call new_journal(shaft%journal, case%cam_bearings, model%oil%viscosity, model%speed, error)
+   end subroutine new_shaft
+
+   !> Torques at a cam angle, and the state of the first cam's follower.
+   subroutine shaft_torques(shaft, models, cycles, angle, first_state, torques, bearing_torque, error)
+      !> The shaft; its search hints move
+      type(shaft_t), intent(inout) :: shaft
+      !> Model of each lobe shape
+      type(model_t), intent(in) :: models(:)
+      !> Cycle of each lobe shape
+      type(cycle_t), intent(in) :: cycles(:)
+      !> Cam angle of the first cam from full lift [rad]
+      real(wp), intent(in) :: angle
+      !> State of the first follower
+      type(state_t), intent(out) :: first_state
+      !> Torques of all followers together [N m], last the energy residual [W]
+      real(wp), intent(out) :: torques(torque_count)
+      !> Torque of all bearings [N m]
+      real(wp), intent(out) :: bearing_torque
+      !> Convergence or domain error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(state_t) :: state
+      ! Force on each cam in the frame of the first follower, force of one follower in its own [N]
+      real(wp) :: forces(2, size(shaft%lobes)), force(2)
+      integer :: cam
+
+      torques = 0.0_wp
+      bearing_torque = 0.0_wp
+      do cam = 1, size(shaft%lobes)
+         call state_at(cycles(shaft%lobes(cam)), models(shaft%lobes(cam)), angle - shaft%phases(cam), shaft%hints(cam), &
+            & state, error)
+         if (allocated(error)) return
+         if (cam == 1) first_state = state
+         torques = torques + follower_torques(state)
+         if (.not. allocated(shaft%journal)) cycle
+         force = cam_force(models(shaft%lobes(cam)), state)
+         associate (c => shaft%directions(1, cam), s => shaft%directions(2, cam))
+            forces(:, cam) = [c*force(1) - s*force(2), s*force(1) + c*force(2)]
+         end associate
+      end do
+      if (allocated(shaft%journal)) call add_bearings(shaft, forces, bearing_torque, error)
+   end subroutine shaft_torques
+
+   !> Torque of all bearings under the forces of the cams.
+   subroutine add_bearings(shaft, forces, bearing_torque, error)
+      !> The shaft
+      type(shaft_t), intent(in) :: shaft
+      !> Force on each cam [N]
+      real(wp), intent(in) :: forces(:, :)
+      !> Torque of all bearings [N m]
+      real(wp), intent(out) :: bearing_torque
+      !> Domain error where a bearing law has no solution
+      type(error_t), allocatable, intent(out) :: error
+
+      ! Load vector of each bearing [N]; torque of one bearing [N m]
+      real(wp) :: loads(2, size(shaft%bearings%bearing_positions)), torque
+      integer :: bearing, status
+
+      bearing_torque = 0.0_wp
+      call bearing_loads(shaft%bearings, forces, loads)
+      do bearing = 1, size(loads, 2)
+         call journal_torque(shaft%journal, norm2(loads(:, bearing)), torque, status)
+         if (status /= 0) then
+            call raise(error, kind_domain, "camshaft bearings: the bearing law has no solution for this load")
+            return
+         end if
+         bearing_torque = bearing_torque + torque
+      end do
+   end subroutine add_bearings
+
+end module camroller_shaft

@@ -1,0 +1,122 @@
+!> Standstills of the contact: cam angles at which the entrainment speed passes through zero or stays there.
+!>
+!> In: a cycle with the points met on the way round it. Out: the angles, and the states there among the rows of
+!> series. There a film formula gives no film, or where asperities carry the load the gap of the dry surfaces; whatever the points,
+!> they miss it.
+module camroller_standstills
+   use camroller_kinds, only : wp
+   use camroller_error, only : error_t
+   use camroller_catalogue, only : follower_values, torque_count
+   use camroller_state, only : evaluate_state
+   use camroller_extremes, only : add_sample
+   use camroller_follower_samples, only : follower_samples_t, look_t
+   use camroller_roots, only : bracket_t, start_bracket, narrow_bracket, root_wanted, root_found
+   implicit none
+   private
+
+   public :: add_standstills
+
+   !> Accuracy of the angle of a standstill [rad]: its state is that without entrainment, which changes little over it
+   real(wp), parameter :: angle_tolerance = 1.0e-10_wp
+
+contains
+
+   !> Count how often the entrainment speed passes through zero in contact or stays there, and add the states without entrainment to
+   !> the rows.
+   subroutine add_standstills(samples, looks, standstills, first_angle, error)
+      !> The samples
+      type(follower_samples_t), intent(inout) :: samples
+      !> Points of the cycle in order
+      type(look_t), intent(in) :: looks(:)
+      !> Number of standstills
+      integer, intent(out) :: standstills
+      !> Cam angle from full lift of the first [rad]
+      real(wp), intent(out) :: first_angle
+      !> Convergence error
+      type(error_t), allocatable, intent(out) :: error
+
+      ! Entrainment speed within which there is none as far as is known [m/s]; angle [rad]
+      real(wp) :: none, angle
+      ! Last point where there is entrainment, and last where there is none
+      integer :: last, still, i
+      logical :: is_found
+
+      standstills = 0
+      first_angle = 0.0_wp
+      none = samples%cycle%tolerance*samples%cycle%scale
+      last = 0
+      still = 0
+      do i = 1, size(looks)
+         if (.not. looks(i)%is_touching) then
+            last = 0
+            still = 0
+         else if (abs(looks(i)%entrainment_speed) <= none) then
+            still = i
+         else
+            is_found = still > last
+            if (is_found) angle = looks(still)%angle
+            if (last > 0 .and. .not. is_found) call find_reversal(samples, looks(last), looks(i), is_found, angle, error)
+            if (allocated(error)) return
+            if (is_found) then
+               if (standstills == 0) first_angle = angle
+               standstills = standstills + 1
+               call add_state_at_rest(samples, angle, error)
+               if (allocated(error)) return
+            end if
+            last = i
+         end if
+      end do
+   end subroutine add_standstills
+
+   !> Angle between two points at which the entrainment speed changes its sign.
+   subroutine find_reversal(samples, left, right, is_found, angle, error)
+      !> The samples
+      type(follower_samples_t), intent(inout) :: samples
+      !> Points before and after
+      type(look_t), intent(in) :: left, right
+      !> Is there one?
+      logical, intent(out) :: is_found
+      !> The angle [rad]
+      real(wp), intent(out) :: angle
+      !> Convergence error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(bracket_t) :: bracket
+      ! Values of all that is sampled [unit of each]
+      real(wp) :: values(samples%series + torque_count)
+
+      call start_bracket(bracket, left%angle, right%angle, left%entrainment_speed, right%entrainment_speed, angle_tolerance)
+      do while (bracket%status == root_wanted)
+         call samples%sample(bracket%trial, values, error)
+         if (allocated(error)) return
+         call narrow_bracket(bracket, samples%state%contact%entrainment_speed)
+      end do
+      is_found = bracket%status == root_found
+      angle = bracket%trial
+   end subroutine find_reversal
+
+   !> Add the state without entrainment at a cam angle to the rows.
+   subroutine add_state_at_rest(samples, angle, error)
+      !> The samples
+      type(follower_samples_t), intent(inout) :: samples
+      !> Cam angle from full lift [rad]
+      real(wp), intent(in) :: angle
+      !> Convergence error
+      type(error_t), allocatable, intent(out) :: error
+
+      ! Values of all that is sampled [unit of each]
+      real(wp) :: values(samples%series + torque_count)
+      integer :: status
+
+      call samples%sample(angle, values, error)
+      if (allocated(error)) return
+      ! Where both surfaces have opposite speeds the roller slips by twice the speed of the cam's surface
+      call evaluate_state(samples%model, angle, 2.0_wp*samples%state%contact%cam_surface_speed, samples%state, status)
+      if (status /= 0) return
+      associate (series => values(:samples%first_torque - 1))
+         call follower_values(samples%case, samples%model, samples%state, series)
+         call add_sample(samples%rows, angle, series, .true.)
+      end associate
+   end subroutine add_state_at_rest
+
+end module camroller_standstills

@@ -1,0 +1,146 @@
+!> Work of the torque against spring, seat and inertia, and of the one that spins the roller up: differences of stored energy.
+!>
+!> In: the points of a cycle or a piece of one, in order. Out: work. What the cam puts into spring, seat and masses
+!> while the roller touches it is the change of `stored_energy`; without contact it puts nothing there. So only the energies count
+!> at the angles where contact is lost or comes back, and at the ends of a piece. Over a closed cycle that never loses contact the
+!> work is zero.
+module camroller_stored_work
+   use camroller_kinds, only : wp, two_pi
+   use camroller_error, only : error_t
+   use camroller_dynamics, only : stored_energy
+   use camroller_follower_samples, only : follower_samples_t
+   use camroller_kinematics, only : position_t
+   use camroller_model, only : evaluate_geometry
+   use camroller_spin, only : rolling_speed_at
+   use camroller_state, only : state_t
+   use camroller_cycle, only : state_at
+   implicit none
+   private
+
+   public :: stored_work_t, follow_contact, end_work, spin_work
+
+   !> Work so far
+   type :: stored_work_t
+      private
+      !> Number of points so far
+      integer :: points = 0
+      !> Was there contact at the first point, and at the last?
+      logical :: touched_first = .false., touched_last = .false.
+      !> Cam angle of the last point from full lift [rad]
+      real(wp) :: angle = 0.0_wp
+      !> Energy at losses of contact less energy at returns [J]
+      real(wp) :: energy = 0.0_wp
+   end type stored_work_t
+
+   !> Halvings of the angle between two points that have a loss or a return of contact between them and no stop: to a millionth
+   integer, parameter :: halvings = 20
+   !> Part of a turn that a trajectory may leave out and still be closed [-]
+   real(wp), parameter :: left_out = 1.0e-6_wp
+
+contains
+
+   !> Go on to a point, the one that was sampled last.
+   subroutine follow_contact(work, samples, angle, panel_start, error)
+      !> The work
+      type(stored_work_t), intent(inout) :: work
+      !> The samples
+      type(follower_samples_t), intent(in) :: samples
+      !> Cam angle of the point from full lift [rad]
+      real(wp), intent(in) :: angle
+      !> Start of the panel that holds it; a stop may be there and none inside [rad]
+      real(wp), intent(in) :: panel_start
+      !> Convergence error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(state_t) :: state
+      ! Angles before and after the change, trial [rad]
+      real(wp) :: left, right, middle
+      integer :: i, hint
+
+      associate (is_touching => samples%state%contact%is_touching)
+         if (work%points == 0) work%touched_first = is_touching
+         if (work%points > 0 .and. (is_touching .neqv. work%touched_last)) then
+            left = work%angle
+            right = angle
+            hint = samples%hint
+            if (left <= panel_start) then
+               left = panel_start
+               right = panel_start
+            end if
+            do i = 1, halvings
+               if (.not. right > left) exit
+               middle = 0.5_wp*(left + right)
+               call state_at(samples%cycle, samples%model, middle, hint, state, error)
+               if (allocated(error)) return
+               if (state%contact%is_touching .eqv. work%touched_last) then
+                  left = middle
+               else
+                  right = middle
+               end if
+            end do
+            work%energy = work%energy + merge(1.0_wp, -1.0_wp, work%touched_last)*energy_at(samples, right)
+         end if
+         work%points = work%points + 1
+         work%touched_last = is_touching
+         work%angle = angle
+      end associate
+   end subroutine follow_contact
+
+   !> Work of the torque against spring, seat and inertia over the cycle or the piece.
+   function end_work(work, samples) result(done)
+      !> The work at the last point
+      type(stored_work_t), intent(in) :: work
+      !> The samples
+      type(follower_samples_t), intent(in) :: samples
+      !> Work [J]
+      real(wp) :: done
+
+      done = work%energy
+      associate (times => samples%cycle%trajectory%time(:samples%cycle%trajectory%count))
+         if (times(size(times)) - times(1) > (1.0_wp - left_out)*two_pi .and. (work%touched_first .eqv. work%touched_last)) return
+         if (work%touched_first) done = done - energy_at(samples, times(1))
+         if (work%touched_last) done = done + energy_at(samples, times(size(times)))
+      end associate
+   end function end_work
+
+   !> Work that spins the roller up from start to end.
+   function spin_work(samples) result(done)
+      !> The samples
+      type(follower_samples_t), intent(in) :: samples
+      !> Work [J]
+      real(wp) :: done
+
+      ! Spin at start and end [rad/s]
+      real(wp) :: spins(2)
+      type(position_t) :: position
+      integer :: i, point, status
+
+      associate (path => samples%cycle%trajectory, model => samples%model)
+         do i = 1, 2
+            point = merge(1, path%count, i == 1)
+            spins(i) = path%state(1, point)/model%roller_radius
+            if (samples%cycle%has_surface_speed) cycle
+            call evaluate_geometry(model, path%time(point), position, status)
+            spins(i) = rolling_speed_at(model, position)/model%roller_radius - spins(i)
+         end do
+         done = 0.5_wp*model%roller_inertia*(spins(2) - spins(1))*(spins(2) + spins(1))
+      end associate
+   end function spin_work
+
+   !> Energy stored in spring, seat and moving masses at a cam angle.
+   function energy_at(samples, angle) result(energy)
+      !> The samples
+      type(follower_samples_t), intent(in) :: samples
+      !> Cam angle from full lift [rad]
+      real(wp), intent(in) :: angle
+      !> Energy [J]
+      real(wp) :: energy
+
+      type(position_t) :: position
+      integer :: status
+
+      call evaluate_geometry(samples%model, angle, position, status)
+      energy = stored_energy(samples%model%train, position, samples%model%speed)
+   end function energy_at
+
+end module camroller_stored_work

@@ -1,0 +1,349 @@
+!> The summary of a case: means, extremes, losses, slip, margins, work done by the integration.
+!>
+!> In: statistics of the cycles. Out: the named scalars of `result_t`.
+module camroller_summary
+   use camroller_kinds, only : wp, two_pi, degree
+   use camroller_case, only : case_t, energy_names
+   use camroller_model, only : model_t
+   use camroller_cycle, only : cycle_t
+   use camroller_catalogue, only : camshaft_columns, camshaft_values, lobe_columns, lobe_prefix, torque_count
+   use camroller_margins, only : margin_t, margins_t
+   use camroller_means, only : statistics_t
+   use camroller_result, only : result_t, quantity_t, find_quantity, lobe_scope, scope_camshaft, scope_case
+   use camroller_shaft, only : shaft_t
+   implicit none
+   private
+
+   public :: make_summary, extremes_t
+
+   !> Scalars that do not belong to a series: room for them
+   integer, parameter :: more_scalars = 84
+
+   !> Smallest and largest values
+   type :: extremes_t
+      !> Of each series [unit of the series]
+      real(wp), allocatable :: lowest(:), highest(:)
+      !> Smallest contact load of each lobe shape with the valve off its seat [N]
+      real(wp), allocatable :: event_load(:)
+   end type extremes_t
+
+contains
+
+   !> Fill the summary of a result whose series are there.
+   subroutine make_summary(case, models, cycles, shaft, statistics, bearing_torque, margins, extremes, result)
+      !> The case
+      type(case_t), intent(in) :: case
+      !> Model of each lobe shape
+      type(model_t), intent(in) :: models(:)
+      !> Cycle of each lobe shape
+      type(cycle_t), intent(in) :: cycles(:)
+      !> The camshaft
+      type(shaft_t), intent(in) :: shaft
+      !> Means over the cycle of each lobe shape
+      type(statistics_t), intent(in) :: statistics(:)
+      !> Mean torque of the camshaft bearings [N m]
+      real(wp), intent(in) :: bearing_torque
+      !> Margins of each lobe shape
+      type(margins_t), intent(in) :: margins(:)
+      !> Extremes of the series
+      type(extremes_t), intent(in) :: extremes
+      !> In: series; out: with the summary
+      type(result_t), intent(inout) :: result
+
+      type(quantity_t), allocatable :: quantities(:)
+      ! Values of the scalars [unit of the scalar]; means of the series [unit of the series]
+      real(wp), allocatable :: values(:), means(:)
+      integer :: count, worst, lobe
+
+      allocate (quantities(3*size(result%series) + more_scalars), values(3*size(result%series) + more_scalars))
+      count = 0
+      means = all_means(case, result, shaft, statistics, bearing_torque)
+      call add_series_statistics(result, extremes, means, quantities, values, count)
+      call add_losses(case, result, means, quantities, values, count)
+      do lobe = 1, size(models)
+         call add_slip(lobe, result, means, statistics(lobe), quantities, values, count)
+         call add_margins(lobe, margins(lobe), extremes%event_load(lobe), quantities, values, count)
+         call add_shares(lobe, models(lobe), statistics(lobe), quantities, values, count)
+      end do
+      call add(quantities, values, count, "estimated_error", "1", &
+         & "estimate of the largest error of the sliding speed relative to its largest value (at least 1e-5 of the largest "// &
+         & "speed in pure rolling)", "numerics", maxval(statistics%error))
+      worst = maxloc(statistics%error, 1)
+      call add(quantities, values, count, "estimated_error_angle", "deg", "cam angle where the estimated error is largest", &
+         & "numerics", modulo(180.0_wp + statistics(worst)%error_angle/degree, 360.0_wp))
+      call add(quantities, values, count, "estimated_error_of_means", "1", "estimate of the largest error of a mean relative "// &
+         & "to the mean magnitude of its quantity, of geometric and drive torque relative to the mean friction torque; "// &
+         & "without films where contact is lost", "numerics", &
+         & maxval(statistics%mean_error))
+      call add_counters(cycles, quantities, values, count)
+      result%summary = quantities(:count)
+      result%summary_values = values(:count)
+   end subroutine make_summary
+
+   !> Means of all series: those of each lobe's follower, and the torques of the whole camshaft.
+   pure function all_means(case, result, shaft, statistics, bearing_torque) result(means)
+      !> The case
+      type(case_t), intent(in) :: case
+      !> Series
+      type(result_t), intent(in) :: result
+      !> The camshaft
+      type(shaft_t), intent(in) :: shaft
+      !> Means over the cycle of each lobe shape
+      type(statistics_t), intent(in) :: statistics(:)
+      !> Mean torque of the camshaft bearings [N m]
+      real(wp), intent(in) :: bearing_torque
+      !> Means [unit of the series]
+      real(wp) :: means(size(result%series))
+
+      ! Mean torques of all followers [N m]; the camshaft's series with these torques, and with those of the first follower alone
+      real(wp) :: torques(torque_count)
+      real(wp), allocatable :: with_all(:), with_first(:)
+      integer :: cam, lobe, columns(2)
+
+      torques = 0.0_wp
+      do cam = 1, size(shaft%lobes)
+         torques = torques + statistics(shaft%lobes(cam))%torques
+      end do
+      do lobe = 1, size(statistics)
+         columns = lobe_columns(case, lobe)
+         means(columns(1):columns(2)) = statistics(lobe)%mean(:columns(2) - columns(1) + 1)
+      end do
+      columns = camshaft_columns(case)
+      allocate (with_all(columns(2) - columns(1) + 1), with_first(columns(2) - columns(1) + 1))
+      call camshaft_values(case, torques, bearing_torque, with_all)
+      call camshaft_values(case, statistics(1)%torques, 0.0_wp, with_first)
+      means(columns(1):columns(2)) = statistics(1)%mean(columns(1):columns(2)) + (with_all - with_first)
+   end function all_means
+
+   !> Mean, smallest and largest value of every series.
+   subroutine add_series_statistics(result, extremes, means, quantities, values, count)
+      !> Series
+      type(result_t), intent(in) :: result
+      !> Extremes of the series
+      type(extremes_t), intent(in) :: extremes
+      !> Means [unit of the series]
+      real(wp), intent(in) :: means(:)
+      !> List of scalars
+      type(quantity_t), intent(inout) :: quantities(:)
+      !> Their values [unit of the scalar]
+      real(wp), intent(inout) :: values(:)
+      !> Scalars so far
+      integer, intent(inout) :: count
+
+      integer :: i
+
+      do i = 1, size(result%series)
+         associate (series => result%series(i))
+            call add(quantities, values, count, "mean_"//series%name, series%unit, "mean over the cycle: "// &
+               & series%description, series%source, means(i), series%scope)
+            call add(quantities, values, count, "min_"//series%name, series%unit, "smallest value: "//series%description, &
+               & series%source, extremes%lowest(i), series%scope)
+            call add(quantities, values, count, "max_"//series%name, series%unit, "largest value: "//series%description, &
+               & series%source, extremes%highest(i), series%scope)
+         end associate
+      end do
+   end subroutine add_series_statistics
+
+   !> Loss of each source as power and as energy per cam revolution.
+   subroutine add_losses(case, result, means, quantities, values, count)
+      !> The case
+      type(case_t), intent(in) :: case
+      !> Series
+      type(result_t), intent(in) :: result
+      !> Means [unit of the series]
+      real(wp), intent(in) :: means(:)
+      !> List of scalars
+      type(quantity_t), intent(inout) :: quantities(:)
+      !> Their values [unit of the scalar]
+      real(wp), intent(inout) :: values(:)
+      !> Scalars so far
+      integer, intent(inout) :: count
+
+      character(len=*), parameter :: sources(*) = [character(len=8) :: "contact", "needle", "guide", "bearings", "friction"]
+      integer :: i, series
+
+      do i = 1, size(sources)
+         series = find_quantity(result%series, "torque_"//trim(sources(i)))
+         if (series == 0) cycle
+         associate (source => result%series(series)%source)
+            call add(quantities, values, count, "power_"//trim(sources(i)), "W", "mean power lost, "//trim(sources(i)), source, &
+               & means(series)*case%operating_point%speed, scope_camshaft)
+            call add(quantities, values, count, "work_"//trim(sources(i)), "J", "energy lost per cam revolution, "// &
+               & trim(sources(i)), source, means(series)*two_pi, scope_camshaft)
+         end associate
+      end do
+      if (case%energy /= energy_names(1)) return
+      series = find_quantity(result%series, "energy_residual")
+      call add(quantities, values, count, "relative_energy_residual", "1", &
+         & "largest energy residual relative to the mean power lost", "torque", maxval(abs(result%series_values(:, series))) &
+         & /max(tiny(1.0_wp), case%operating_point%speed*means(find_quantity(result%series, "torque_friction"))), &
+         & scope_camshaft)
+   end subroutine add_losses
+
+   !> Slip of a lobe's follower over the whole revolution.
+   subroutine add_slip(lobe, result, means, statistics, quantities, values, count)
+      !> The lobe shape, from 1
+      integer, intent(in) :: lobe
+      !> Series
+      type(result_t), intent(in) :: result
+      !> Means [unit of the series]
+      real(wp), intent(in) :: means(:)
+      !> Means over the lobe's cycle
+      type(statistics_t), intent(in) :: statistics
+      !> List of scalars
+      type(quantity_t), intent(inout) :: quantities(:)
+      !> Their values [unit of the scalar]
+      real(wp), intent(inout) :: values(:)
+      !> Scalars so far
+      integer, intent(inout) :: count
+
+      ! Means of sliding speed and speed of pure rolling [m/s]
+      real(wp) :: sliding, rolling
+
+      sliding = means(find_quantity(result%series, trim(lobe_prefix(lobe))//"sliding_speed"))
+      rolling = means(find_quantity(result%series, trim(lobe_prefix(lobe))//"rolling_speed"))
+      call add(quantities, values, count, trim(lobe_prefix(lobe))//"revolution_slip", "1", &
+         & "slip per cam revolution, relative to the turns of the roller in pure rolling", "roller", sliding/rolling, &
+         & lobe_scope(lobe))
+      call add(quantities, values, count, trim(lobe_prefix(lobe))//"entrainment_reversals", "1", &
+         & "times per cam revolution that the entrainment speed passes through zero in contact or stays there; the smallest "// &
+         & "film is then that of a standstill", "film", real(statistics%standstills, wp), lobe_scope(lobe))
+   end subroutine add_slip
+
+   !> Margins of a lobe against loss of contact and opening of the pivot's joint.
+   subroutine add_margins(lobe, margins, event_load, quantities, values, count)
+      !> The lobe shape, from 1
+      integer, intent(in) :: lobe
+      !> Its margins
+      type(margins_t), intent(in) :: margins
+      !> Smallest contact load with the valve off its seat [N]
+      real(wp), intent(in) :: event_load
+      !> List of scalars
+      type(quantity_t), intent(inout) :: quantities(:)
+      !> Their values [unit of the scalar]
+      real(wp), intent(inout) :: values(:)
+      !> Scalars so far
+      integer, intent(inout) :: count
+
+      integer :: first, i
+
+      first = count + 1
+      call add(quantities, values, count, "spring_margin", "N", &
+         & "smaller of margin_event and margin_base_circle; negative where contact is lost", "dynamics", &
+         & min(margins%event%force, margins%base_circle%force))
+      call add(quantities, values, count, "contact_loss_speed", "rad s-1", &
+         & "cam speed at which contact is first lost, without friction; infinite if never", "dynamics", &
+         & min(margins%event%speed, margins%base_circle%speed))
+      call add_margin("event", "contact load with the valve off its seat", margins%event)
+      call add(quantities, values, count, "min_event_contact_load", "N", &
+         & "smallest contact load with the valve off its seat, with friction; zero where contact is lost", "dynamics", event_load)
+      call add_margin("base_circle", "contact load with the valve on its seat or about to leave or reach it", margins%base_circle)
+      if (allocated(margins%pivot)) then
+         call add_margin("pivot", "force in the joint of finger and lash adjuster with the valve off its seat", margins%pivot)
+         call add(quantities, values, count, "adjuster_force", "N", &
+            & "force of the lash adjuster that makes the base circle load", "dynamics", margins%adjuster_force)
+         call add(quantities, values, count, "pump_up_speed", "rad s-1", "cam speed at which the force in the pivot's joint "// &
+            & "first falls to the adjuster's, which then follows; without friction, infinite if never", "dynamics", &
+            & margins%pump_up_speed)
+      end if
+      do i = first, count
+         quantities(i)%name = trim(lobe_prefix(lobe))//quantities(i)%name
+         quantities(i)%scope = lobe_scope(lobe)
+         quantities(i)%may_be_infinite = quantities(i)%unit == "rad s-1"
+      end do
+
+   contains
+
+      !> Force, angle and speed of one margin.
+      subroutine add_margin(name, force, margin)
+         !> What the margin is of, and its force in words
+         character(len=*), intent(in) :: name, force
+         !> The margin
+         type(margin_t), intent(in) :: margin
+
+         call add(quantities, values, count, "margin_"//name, "N", "smallest "//force//", without friction", "dynamics", &
+            & margin%force)
+         call add(quantities, values, count, "margin_"//name//"_angle", "deg", "cam angle of margin_"//name, "dynamics", &
+            & modulo(180.0_wp + margin%angle/degree, 360.0_wp))
+         call add(quantities, values, count, "margin_"//name//"_speed", "rad s-1", "cam speed at which margin_"//name// &
+            & " is zero; infinite if never", "dynamics", margin%speed)
+      end subroutine add_margin
+
+   end subroutine add_margins
+
+   !> Parts of the cycle in which a lobe's follower is not where the model is at home, and the error of its film table.
+   subroutine add_shares(lobe, model, statistics, quantities, values, count)
+      !> The lobe shape, from 1
+      integer, intent(in) :: lobe
+      !> Its model
+      type(model_t), intent(in) :: model
+      !> Means over its cycle
+      type(statistics_t), intent(in) :: statistics
+      !> List of scalars
+      type(quantity_t), intent(inout) :: quantities(:)
+      !> Their values [unit of the scalar]
+      real(wp), intent(inout) :: values(:)
+      !> Scalars so far
+      integer, intent(inout) :: count
+
+      call add(quantities, values, count, trim(lobe_prefix(lobe))//"lost_contact_share", "1", &
+         & "fraction of the cycle without contact", "dynamics", statistics%lost_share, lobe_scope(lobe))
+      call add(quantities, values, count, trim(lobe_prefix(lobe))//"outside_film_range_share", "1", &
+         & "fraction of the cycle outside the film law's published range", "film", statistics%outside_share, lobe_scope(lobe))
+      if (.not. allocated(model%film_table)) return
+      call add(quantities, values, count, trim(lobe_prefix(lobe))//"film_table_error", "1", &
+         & "largest error of the film: of the polynomials of its table, and of the solutions at its points", "film", &
+         & model%film_table%error, lobe_scope(lobe))
+   end subroutine add_shares
+
+   !> Work done by the integration, all lobe shapes together.
+   subroutine add_counters(cycles, quantities, values, count)
+      !> Cycle of each lobe shape
+      type(cycle_t), intent(in) :: cycles(:)
+      !> List of scalars
+      type(quantity_t), intent(inout) :: quantities(:)
+      !> Their values [unit of the scalar]
+      real(wp), intent(inout) :: values(:)
+      !> Scalars so far
+      integer, intent(inout) :: count
+
+      call add(quantities, values, count, "counter_evaluations", "1", "evaluations of the roller equation", "numerics", &
+         & real(sum(cycles%counters%evaluations), wp))
+      call add(quantities, values, count, "counter_jacobians", "1", "Jacobians of the roller equation", "numerics", &
+         & real(sum(cycles%counters%jacobians), wp))
+      call add(quantities, values, count, "counter_steps", "1", "accepted steps", "numerics", &
+         & real(sum(cycles%counters%accepted), wp))
+      call add(quantities, values, count, "counter_rejected", "1", "rejected steps", "numerics", &
+         & real(sum(cycles%counters%rejected), wp))
+      call add(quantities, values, count, "counter_cycles", "1", "cycles integrated until periodic", "numerics", &
+         & real(maxval(cycles%cycles), wp))
+      call add(quantities, values, count, "periodicity", "1", &
+         & "difference of the sliding speed between end and start, relative to the largest", "numerics", maxval(cycles%closure))
+   end subroutine add_counters
+
+   !> Append a scalar.
+   subroutine add(quantities, values, count, name, unit, description, source, value, scope)
+      !> List of scalars
+      type(quantity_t), intent(inout) :: quantities(:)
+      !> Their values [unit of the scalar]
+      real(wp), intent(inout) :: values(:)
+      !> Scalars so far
+      integer, intent(inout) :: count
+      !> Name, unit, meaning, part of the model
+      character(len=*), intent(in) :: name, unit, description, source
+      !> Value [unit of the scalar]
+      real(wp), intent(in) :: value
+      !> What it belongs to; the case as a whole where absent
+      character(len=*), intent(in), optional :: scope
+
+      count = count + 1
+      quantities(count)%name = name
+      quantities(count)%unit = unit
+      quantities(count)%description = description
+      quantities(count)%source = source
+      quantities(count)%scope = scope_case
+      if (present(scope)) quantities(count)%scope = scope
+      values(count) = value
+   end subroutine add
+
+end module camroller_summary

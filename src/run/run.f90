@@ -1,0 +1,309 @@
+!> One case from start to end: models, cycles, result.
+!>
+!> In: `case_t`. Out: `result_t`. No files, no printing, no state left behind.
+module camroller_run
+   use camroller_kinds, only : wp
+   use camroller_error, only : error_t, raise, add_context, kind_convergence, cause_several_balances
+   use camroller_accuracy, only : is_checked, has_tolerance, far_beyond, most_refinements, refine_tolerance, resolve_numerics, &
+      & second_method, way_out
+   use camroller_case, only : case_t, numerics_t, automatic_method
+   use camroller_kept_models, only : kept_models_t, keep_models, recall_models
+   use camroller_model, only : model_t, new_model, revise_model
+   use camroller_effect_choice, only : wants_choice, choose_effects
+   use camroller_effect_list, only : choice_t
+   use camroller_effect_report, only : add_choice
+   use camroller_events, only : check_geometry
+   use camroller_cycle, only : cycle_t, integrate_cycle
+   use camroller_number_text, only : number_text, fixed_text
+   use camroller_report, only : make_result
+   use camroller_result, only : result_t, add_remark, get_summary
+   implicit none
+   private
+
+   public :: run_case, run_next_case, build_models, build_model
+
+contains
+
+   !> Run a case, with all its effects or with those that matter.
+   subroutine run_case(case, result, error)
+      !> The case
+      type(case_t), intent(in) :: case
+      !> Its result
+      type(result_t), intent(out) :: result
+      !> What went wrong, of any kind
+      type(error_t), allocatable, intent(out) :: error
+
+      type(model_t), allocatable :: models(:)
+
+      call build_models(case, models, error)
+      if (.not. allocated(error)) call run_chosen(case, models, result, error)
+   end subroutine run_case
+
+   !> Run a case after others, whose models serve again where geometry, masses and spring are the same.
+   subroutine run_next_case(kept, case, result, error)
+      !> Models of the cases before
+      type(kept_models_t), intent(inout) :: kept
+      !> The case
+      type(case_t), intent(in) :: case
+      !> Its result
+      type(result_t), intent(out) :: result
+      !> What went wrong, of any kind
+      type(error_t), allocatable, intent(out) :: error
+
+      type(model_t), allocatable :: models(:)
+
+      call recall_models(kept, case, models, error)
+      if (allocated(error)) return
+      if (.not. allocated(models)) then
+         call build_models(case, models, error)
+         if (allocated(error)) return
+         call keep_models(kept, case, models)
+      end if
+      call run_chosen(case, models, result, error)
+   end subroutine run_next_case
+
+   !> Run a case whose models are there.
+   subroutine run_chosen(case, models, result, error)
+      !> The case
+      type(case_t), intent(in) :: case
+      !> Model of each lobe shape; without what is left out afterwards
+      type(model_t), intent(inout) :: models(:)
+      !> Its result
+      type(result_t), intent(out) :: result
+      !> What went wrong, of any kind
+      type(error_t), allocatable, intent(out) :: error
+
+      type(case_t) :: chosen
+      type(choice_t) :: choice
+      integer :: lobe, shapes
+
+      if (.not. wants_choice(case)) then
+         call run_listed(case, models, result, error)
+         return
+      end if
+      call choose_effects(case, models, chosen, choice, .false., error)
+      ! Without its camshaft bearings a case has one lobe shape
+      shapes = merge(size(models), 1, allocated(chosen%second_lift))
+      do lobe = 1, shapes
+         if (.not. allocated(error)) call revise_model(models(lobe), chosen, error)
+      end do
+      if (.not. allocated(error)) call run_listed(chosen, models(:shapes), result, error)
+      if (.not. allocated(error)) call add_choice(result, choice)
+   end subroutine run_chosen
+
+   !> Run a case with all its effects.
+   !>
+   !> Where the estimated error of the sliding speed or of a mean is above the accuracy asked for, the cycles are integrated again
+   !> with a smaller tolerance; so they are with another method and another tolerance where they could not be. What a later try
+   !> cannot do leaves the result of an earlier one, with a remark; without any figure that is right there is no result.
+   subroutine run_listed(case, models, result, error)
+      !> The case
+      type(case_t), intent(in) :: case
+      !> Model of each lobe shape
+      type(model_t), intent(in) :: models(:)
+      !> Its result
+      type(result_t), intent(out) :: result
+      !> What went wrong, of any kind
+      type(error_t), allocatable, intent(out) :: error
+
+      type(numerics_t) :: numerics
+      type(result_t) :: latest
+      ! Estimated errors of sliding speed and means, tolerance of the next try, smallest tolerance that may work [-]
+      real(wp) :: estimates(2), other, least
+      integer :: attempt
+      logical :: has_result, has_way_out
+
+      numerics = resolve_numerics(case%numerics)
+      if (.not. is_checked(case%numerics)) then
+         call run_models(case, models, numerics, result, error)
+         if (.not. allocated(error)) call judge_tolerance(case%numerics, result, error)
+         return
+      end if
+      has_result = .false.
+      has_way_out = .false.
+      least = 0.0_wp
+      do attempt = 0, most_refinements
+         call run_models(case, models, numerics, latest, error)
+         if (allocated(error)) then
+            if (has_result .or. has_way_out .or. error%kind /= kind_convergence) exit
+            call take_way_out(case%numerics, numerics, least, has_way_out)
+            if (has_way_out .and. error%cause == cause_several_balances) exit
+            cycle
+         end if
+         result = latest
+         has_result = .true.
+         call get_estimates(result, estimates, error)
+         if (allocated(error) .or. maxval(estimates) <= case%numerics%accuracy) return
+         other = refine_tolerance(numerics%tolerance, case%numerics%accuracy, maxval(estimates), least)
+         if (.not. other < numerics%tolerance) exit
+         numerics%tolerance = other
+      end do
+      if (.not. has_result) return
+      if (allocated(error)) deallocate (error)
+      call judge(result, case%numerics%accuracy, estimates, error)
+   end subroutine run_listed
+
+   !> Estimated errors of a result: of the sliding speed and of the means.
+   subroutine get_estimates(result, estimates, error)
+      !> The result
+      type(result_t), intent(in) :: result
+      !> Errors [-]
+      real(wp), intent(out) :: estimates(2)
+      !> Usage error where they are not in the summary
+      type(error_t), allocatable, intent(out) :: error
+
+      call get_summary(result, "estimated_error", estimates(1), error)
+      if (.not. allocated(error)) call get_summary(result, "estimated_error_of_means", estimates(2), error)
+   end subroutine get_estimates
+
+   !> Numerics for another try where a cycle could not be integrated: another method, unless one is named, then another tolerance.
+   pure subroutine take_way_out(given, numerics, least, has_way_out)
+      !> Numerics as given
+      type(numerics_t), intent(in) :: given
+      !> Numerics of the try that failed; out: of the next
+      type(numerics_t), intent(inout) :: numerics
+      !> Smallest tolerance that may work [-]
+      real(wp), intent(inout) :: least
+      !> Is this the last resort?
+      logical, intent(out) :: has_way_out
+
+      ! Distance from a tolerance that was too small [-]
+      real(wp), parameter :: few = 10.0_wp
+      ! Tolerance of the next try [-]
+      real(wp) :: other
+
+      has_way_out = given%method /= automatic_method .or. numerics%method == second_method
+      if (.not. has_way_out) then
+         numerics%method = second_method
+         return
+      end if
+      other = way_out(numerics%tolerance)
+      if (other > numerics%tolerance) least = few*numerics%tolerance
+      numerics%tolerance = other
+   end subroutine take_way_out
+
+   !> Integrate all lobe shapes and make the result.
+   subroutine run_models(case, models, numerics, result, error)
+      !> The case
+      type(case_t), intent(in) :: case
+      !> Model of each lobe shape
+      type(model_t), intent(in) :: models(:)
+      !> Method, tolerance, criterion
+      type(numerics_t), intent(in) :: numerics
+      !> The result
+      type(result_t), intent(out) :: result
+      !> What went wrong, of any kind
+      type(error_t), allocatable, intent(out) :: error
+
+      type(cycle_t), allocatable :: cycles(:)
+      integer :: lobe
+
+      allocate (cycles(size(models)))
+      do lobe = 1, size(models)
+         call integrate_cycle(cycles(lobe), models(lobe), numerics, error)
+         if (allocated(error)) return
+      end do
+      call make_result(case, models, cycles, result, error)
+   end subroutine run_models
+
+   !> Remarks on an accuracy that was not reached, or an error where nothing of the result can be right.
+   subroutine judge(result, accuracy, estimates, error)
+      !> The result
+      type(result_t), intent(inout) :: result
+      !> Accuracy wanted [-]
+      real(wp), intent(in) :: accuracy
+      !> Estimated errors of sliding speed and means [-]
+      real(wp), intent(in) :: estimates(2)
+      !> Convergence error
+      type(error_t), allocatable, intent(out) :: error
+
+      ! Cam angle where the estimate is largest [deg]
+      real(wp) :: angle
+
+      if (estimates(1) >= 1.0_wp) then
+         call get_summary(result, "estimated_error_angle", angle, error)
+         if (allocated(error)) return
+         call raise(error, kind_convergence, "the cycle was not found: its estimated error is "//number_text(estimates(1), 2)// &
+            & " of the sliding speed, largest at cam angle "//fixed_text(angle, 3)//" deg; the spin is hardly damped there, or "// &
+            & "friction reaches its limit abruptly")
+         return
+      end if
+      if (estimates(1) > accuracy) call add_remark(result%warnings, "the accuracy asked for was not reached; the "// &
+         & "estimated error is "//number_text(estimates(1), 2))
+      if (estimates(2) > accuracy) call add_remark(result%warnings, "the means did not reach the accuracy asked for; the "// &
+         & "largest estimated error, of mean_"//trim(result%worst_mean)//", is "//number_text(estimates(2), 2))
+   end subroutine judge
+
+   !> Remark on a tolerance given by hand that says nothing of the error: steps keep to it and the curve between them does not, or
+   !> errors of steps pile up where hardly anything damps, or means follow the sliding speed too strongly.
+   subroutine judge_tolerance(numerics, result, error)
+      !> Numerics as given
+      type(numerics_t), intent(in) :: numerics
+      !> The result
+      type(result_t), intent(inout) :: result
+      !> Domain error where there is no estimate
+      type(error_t), allocatable, intent(out) :: error
+
+      ! Estimated errors [-]
+      real(wp) :: estimates(2)
+
+      if (.not. has_tolerance(numerics)) return
+      call get_estimates(result, estimates, error)
+      if (allocated(error)) return
+      if (estimates(1) > numerics%tolerance*far_beyond) call say_far("the error", estimates(1))
+      if (estimates(2) > numerics%tolerance*far_beyond) call say_far("the error of mean_"//trim(result%worst_mean), estimates(2))
+
+   contains
+
+      !> The remark on one of the errors.
+      subroutine say_far(what, estimate)
+         !> The error in words
+         character(len=*), intent(in) :: what
+         !> Its estimate [-]
+         real(wp), intent(in) :: estimate
+
+         call add_remark(result%warnings, "the tolerance "//number_text(numerics%tolerance, 2)//" does not control "//what// &
+            & ": its estimate is "//number_text(estimate, 2)//"; give 'accuracy' instead of 'tolerance'")
+      end subroutine say_far
+
+   end subroutine judge_tolerance
+
+   !> Models of the lobe shapes of a case, geometry checked over the whole cycle.
+   subroutine build_models(case, models, error)
+      !> The case
+      type(case_t), intent(in) :: case
+      !> One model per lobe shape
+      type(model_t), allocatable, intent(out) :: models(:)
+      !> Deck or domain error
+      type(error_t), allocatable, intent(out) :: error
+
+      integer :: lobe
+
+      allocate (models(merge(2, 1, allocated(case%second_lift))))
+      do lobe = 1, size(models)
+         call build_model(case, lobe, models(lobe), error)
+         if (allocated(error)) return
+      end do
+   end subroutine build_models
+
+   !> Model of one of the lobe shapes of a case, geometry checked over the whole cycle.
+   subroutine build_model(case, lobe, model, error)
+      !> The case
+      type(case_t), intent(in) :: case
+      !> 1 for the lift, 2 for the second lift, which must be there
+      integer, intent(in) :: lobe
+      !> The model
+      type(model_t), intent(out) :: model
+      !> Deck or domain error
+      type(error_t), allocatable, intent(out) :: error
+
+      if (lobe == 1) then
+         call new_model(model, case, case%lift, error)
+      else
+         call new_model(model, case, case%second_lift, error)
+      end if
+      if (.not. allocated(error)) call check_geometry(model, case%mechanism%grinding_wheel_radius, error)
+      if (lobe == 2) call add_context(error, "second lift")
+   end subroutine build_model
+
+end module camroller_run

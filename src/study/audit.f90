@@ -1,0 +1,163 @@
+!> What each effect of a case is worth and costs: the case with all of them, with each left out, with each alone, and with those
+!> that `select = 'needed'` keeps.
+!>
+!> In: a case. Out: rows of `study_table_t`. A variant that fails is a row with a message and no numbers.
+module camroller_audit
+   use, intrinsic :: ieee_arithmetic, only : ieee_quiet_nan, ieee_value
+   use camroller_kinds, only : wp
+   use camroller_error, only : error_t
+   use camroller_case, only : case_t, select_names, quantity_names
+   use camroller_effect_choice, only : choose_effects, remove_effect
+   use camroller_effect_list, only : choice_t, decision_t, effect_names, effect_count, effect_bearings, effect_rolling, &
+      & has_effect, leave_all_but
+   use camroller_model, only : model_t
+   use camroller_result, only : quantity_t
+   use camroller_run, only : build_models
+   use camroller_study_table, only : study_table_t, word_length, new_table, add_row
+   use camroller_study_trial, only : trial_t, run_trial
+   implicit none
+   private
+
+   public :: new_audit_table, audit_case
+   public :: run_listed, run_without, run_none, run_alone, run_needed
+
+   !> Runs of an audit: everything; without an effect; without all; with one alone; with those that are needed
+   character(len=*), parameter :: run_listed = "listed", run_without = "without", run_none = "none", run_alone = "alone", &
+      & run_needed = "needed"
+
+contains
+
+   !> Table of an audit, one row a run.
+   subroutine new_audit_table(table)
+      !> The table
+      type(study_table_t), intent(out) :: table
+
+      call new_table(table, [quantity_t("effect", "", "effect that is left out or alone", "audit"), &
+         & quantity_t("run", "", "all effects, without one, none, one alone, or those that are needed", "audit"), &
+         & quantity_t("reason", "", "indicator that decides about the effect", "audit"), &
+         & quantity_t("message", "", "error message, or empty", "audit")], [ &
+         & quantity_t("case", "1", "case of the sweep", "audit"), &
+         & quantity_t("status", "1", "0, or the kind of the error", "audit"), &
+         & quantity_t("mean_torque", "N m", "mean torque for all losses", "torque"), &
+         & quantity_t("minimum_film", "m", "smallest film", "film"), &
+         & quantity_t("slip", "1", "slip per cam revolution, relative to the turns of the roller in pure rolling", "roller"), &
+         & quantity_t("change_mean_torque", "1", "change of the mean torque relative to the value with all effects", "audit"), &
+         & quantity_t("change_minimum_film", "1", "change of the smallest film relative to the value with all effects", "audit"), &
+         & quantity_t("change_slip", "1", "change of the slip relative to the magnitude of the value with all effects", "audit"), &
+         & quantity_t("estimate_mean_torque", "1", "largest change of the mean torque expected before the run", "audit"), &
+         & quantity_t("estimate_minimum_film", "1", "largest change of the smallest film expected before the run", "audit"), &
+         & quantity_t("estimate_slip", "1", "largest change of the slip expected before the run", "audit"), &
+         & quantity_t("is_left_out", "1", "1 where the choice of needed effects leaves it out", "audit"), &
+         & quantity_t("evaluations", "1", "evaluations of the roller equation", "audit"), &
+         & quantity_t("time", "s", "median processor time of a run", "audit"), &
+         & quantity_t("time_share", "1", "fraction of the time of the run with all effects that is saved", "audit")])
+   end subroutine new_audit_table
+
+   !> Every run of a case.
+   subroutine audit_case(table, position, case, repeats, with_alone, error)
+      !> The table
+      type(study_table_t), intent(inout) :: table
+      !> Number of the case, from 1; the table counts from 0
+      integer, intent(in) :: position
+      !> The case
+      type(case_t), intent(in) :: case
+      !> Runs of which the quickest counts
+      integer, intent(in) :: repeats
+      !> Runs with one effect alone, too?
+      logical, intent(in) :: with_alone
+      !> What went wrong with the case as it is
+      type(error_t), allocatable, intent(out) :: error
+
+      type(case_t) :: listed, variant
+      type(choice_t) :: choice
+      type(model_t), allocatable :: models(:)
+      type(trial_t) :: full, none, outcome
+      integer :: i
+
+      listed = case
+      listed%effects%select = select_names(1)
+      call build_models(listed, models, error)
+      if (.not. allocated(error)) call choose_effects(listed, models, variant, choice, .true., error)
+      if (allocated(error)) return
+      call run_trial(listed, repeats, full)
+      call add_outcome(table, position, run_listed, full, full, full)
+      variant = listed
+      variant%effects%select = select_names(2)
+      call run_trial(variant, repeats, outcome)
+      call add_outcome(table, position, run_needed, full, full, outcome, choice=choice)
+      do i = 1, size(choice%decisions)
+         variant = listed
+         call remove_effect(variant, choice%decisions(i)%effect)
+         call run_trial(variant, repeats, outcome)
+         call add_outcome(table, position, run_without, full, full, outcome, choice%decisions(i))
+      end do
+      if (.not. with_alone) return
+      variant = listed
+      call leave_all_but(variant, 0)
+      call run_trial(variant, repeats, none)
+      call add_outcome(table, position, run_none, full, full, none)
+      do i = 1, effect_count
+         if (.not. has_effect(listed, i) .or. i > effect_rolling .or. i == effect_bearings) cycle
+         variant = listed
+         call leave_all_but(variant, i)
+         call run_trial(variant, repeats, outcome)
+         call add_outcome(table, position, run_alone, full, none, outcome, effect=i)
+      end do
+   end subroutine audit_case
+
+   !> Row of a run.
+   subroutine add_outcome(table, position, run, full, base, outcome, decision, effect, choice)
+      !> The table
+      type(study_table_t), intent(inout) :: table
+      !> Number of the case, from 1
+      integer, intent(in) :: position
+      !> Name of the run
+      character(len=*), intent(in) :: run
+      !> What came of the run with all effects, of the one that it is compared with, of itself
+      type(trial_t), intent(in) :: full, base, outcome
+      !> What was decided about the effect that is left out
+      type(decision_t), intent(in), optional :: decision
+      !> Effect that is alone, position in `effect_names`
+      integer, intent(in), optional :: effect
+      !> What was decided, for the run with the effects that are needed
+      type(choice_t), intent(in), optional :: choice
+
+      character(len=word_length) :: words(4)
+      ! Numbers of the row [unit of the column]
+      real(wp) :: numbers(15)
+
+      words = ""
+      words(2) = run
+      words(4) = outcome%message
+      numbers = ieee_value(1.0_wp, ieee_quiet_nan)
+      numbers(1:2) = [real(position - 1, wp), real(outcome%status, wp)]
+      if (outcome%status == 0) then
+         numbers(3:5) = quantities_of(outcome)
+         numbers(13:14) = [outcome%evaluations, outcome%time]
+         if (full%status == 0 .and. base%status == 0) then
+            numbers(6:8) = (quantities_of(outcome) - quantities_of(base))/max(abs(quantities_of(full)), tiny(1.0_wp))
+            numbers(15) = (base%time - outcome%time)/max(full%time, tiny(1.0_wp))
+         end if
+      end if
+      if (present(effect)) words(1) = effect_names(effect)
+      if (present(decision)) then
+         words(1) = effect_names(decision%effect)
+         words(3) = decision%reason
+         numbers(9:11) = decision%estimates
+         numbers(12) = merge(0.0_wp, 1.0_wp, decision%is_used)
+      end if
+      if (present(choice)) numbers(8 + choice%quantity) = choice%bound
+      call add_row(table, words, numbers)
+   end subroutine add_outcome
+
+   !> What effects are judged by, in the order of `quantity_names`.
+   pure function quantities_of(trial) result(values)
+      !> A trial
+      type(trial_t), intent(in) :: trial
+      !> Mean torque for all losses [N m], smallest film [m], slip per revolution [-]
+      real(wp) :: values(3)
+
+      values = [trial%mean_friction, trial%smallest_film, trial%revolution_slip]
+   end function quantities_of
+
+end module camroller_audit

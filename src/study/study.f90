@@ -1,0 +1,329 @@
+!> What accuracy costs: a case computed in many ways, each with its errors relative to one reference, its work and its time.
+!>
+!> In: a case. Out: rows of one table. Each family of ways has a reference of its own: two unlike integration methods
+!> that must agree, the finest table of numerical films, or the finest solution of the contact over the cycle.
+module camroller_study
+   use camroller_kinds, only : wp, degree
+   use camroller_names, only : name_length
+   use camroller_error, only : error_t, raise, add_context, kind_convergence
+   use camroller_case, only : case_t, automatic_method, quasi_static
+   use camroller_ehl_table, only : ehl_t
+   use camroller_number_text, only : number_text
+   use camroller_ode_methods, only : method_facts
+   use camroller_result, only : quantity_t
+   use camroller_study_table, only : study_table_t, new_table, add_row
+   use camroller_study_trial, only : trial_t, run_trial, solve_trial, errors_against, no_number, smallest_error
+   implicit none
+   private
+
+   public :: way_t, new_study_table, study_case, study_film, make_reference, check_agreement, list_ways, apply_way
+   public :: dial_reference
+
+   !> A way to compute a case
+   type :: way_t
+      !> Method, film law or model
+      character(len=name_length) :: name = ""
+      !> What its setting is: one of the names below
+      character(len=name_length) :: dial = ""
+      !> The setting; a fixed step in degrees, not a number where there is none [-]
+      real(wp) :: setting = 0.0_wp
+   end type way_t
+
+   !> Dials of the ways
+   character(len=*), parameter :: dial_accuracy = "accuracy", dial_tolerance = "tolerance", dial_step = "step [deg]", &
+      & dial_film = "film accuracy", dial_nodes = "nodes", dial_none = "", dial_reference = "reference"
+
+   !> Methods of the reference and their tolerances [-]; periodicity of both [-]
+   character(len=*), parameter :: reference_methods(2) = [character(len=name_length) :: "rodas5p", "dormand_prince"]
+   real(wp), parameter :: reference_tolerances(2) = [1.0e-11_wp, 1.0e-13_wp], reference_periodicity = 1.0e-10_wp ! [-]
+   !> Part of the smallest error shown by which the two may differ [-]
+   real(wp), parameter :: agreement = 0.1_wp
+   !> Accuracies asked for, tolerances, fixed steps [deg]; those of a quick study
+   real(wp), parameter :: accuracies(*) = [1.0e-2_wp, 1.0e-3_wp, 1.0e-4_wp, 1.0e-5_wp, 1.0e-6_wp, 1.0e-7_wp], &
+      & tolerances(*) = [1.0e-1_wp, 1.0e-2_wp, 1.0e-3_wp, 1.0e-4_wp, 1.0e-5_wp, 1.0e-6_wp, 1.0e-7_wp, 1.0e-8_wp], &
+      & steps(*) = [2.0_wp, 1.0_wp, 0.5_wp, 0.2_wp, 0.1_wp, 0.05_wp, 0.02_wp, 0.01_wp, 0.005_wp, 0.002_wp, 0.001_wp], &
+      & few_tolerances(*) = [1.0e-2_wp, 1.0e-4_wp, 1.0e-6_wp], few_steps(*) = [1.0_wp, 0.1_wp]
+   !> Accuracies of a table of numerical films, that of the reference [-]
+   real(wp), parameter :: film_accuracies(*) = [1.0e-1_wp, 3.0e-2_wp, 1.0e-2_wp, 3.0e-3_wp], film_reference = 1.0e-3_wp
+   !> Nodes of contacts solved over the cycle, those of the reference; errors of a step of both [-]
+   integer, parameter :: nodes(*) = [33, 65, 129], reference_nodes = 257
+   real(wp), parameter :: step_error = 1.0e-3_wp, reference_step_error = 3.0e-4_wp ! [-]
+   !> Trials of a quick study of films, its nodes of the reference
+   integer, parameter :: quick_trials = 2, quick_nodes = 129
+
+contains
+
+   !> The empty table.
+   subroutine new_study_table(table)
+      !> The table
+      type(study_table_t), intent(out) :: table
+
+      call new_table(table, [quantity_t("way", "", "method, film law or model", "study"), &
+         & quantity_t("dial", "", "what the setting is; 'reference' for what counts as right", "study"), &
+         & quantity_t("message", "", "error message, or empty", "study")], [ &
+         & quantity_t("case", "1", "case of the sweep", "study"), &
+         & quantity_t("status", "1", "0, or the kind of the error", "study"), &
+         & quantity_t("setting", "1", "accuracy, tolerance, fixed step in degrees, or nodes", "study"), &
+         & quantity_t("error_sliding_speed", "1", "largest error of the sliding speed relative to its largest value", "study"), &
+         & quantity_t("error_mean_friction", "1", "relative error of the mean torque for all losses", "study"), &
+         & quantity_t("error_smallest_film", "1", "relative error of the smallest film", "study"), &
+         & quantity_t("estimated_error", "1", "error of the sliding speed as the program estimates it", "study"), &
+         & quantity_t("evaluations", "1", "evaluations of the roller equation", "study"), &
+         & quantity_t("steps", "1", "accepted steps", "study"), &
+         & quantity_t("time", "s", "median processor time of a whole run", "study")])
+   end subroutine new_study_table
+
+   !> Every method over its tolerances or steps, and the accuracy that a deck asks for.
+   subroutine study_case(table, position, case, repeats, is_quick, error)
+      !> Table to extend
+      type(study_table_t), intent(inout) :: table
+      !> Number of the case, from 1
+      integer, intent(in) :: position
+      !> The case
+      type(case_t), intent(in) :: case
+      !> Runs whose median time counts
+      integer, intent(in) :: repeats
+      !> A few trials only?
+      logical, intent(in) :: is_quick
+      !> Why there is no reference
+      type(error_t), allocatable, intent(out) :: error
+
+      type(trial_t) :: reference, trial
+      type(way_t), allocatable :: ways(:)
+      ! What the two references differ by [-]
+      real(wp) :: disagreement
+      integer :: i
+
+      call make_reference(case, reference, disagreement, error)
+      call add_reference(table, position, "two methods", reference, disagreement, error)
+      if (allocated(error)) return
+      call list_ways(ways, is_quick)
+      do i = 1, size(ways)
+         call run_trial(apply_way(ways(i), case), repeats, trial)
+         call add_trial(table, position, ways(i), reference, trial)
+      end do
+   end subroutine study_case
+
+   !> The result by two unlike methods at tight tolerances; an error where they disagree.
+   subroutine make_reference(case, reference, disagreement, error)
+      !> The case
+      type(case_t), intent(in) :: case
+      !> What counts as right
+      type(trial_t), intent(out) :: reference
+      !> Largest of the errors of one against the other [-]
+      real(wp), intent(out) :: disagreement
+      !> Error of a trial, convergence error where they disagree
+      type(error_t), allocatable, intent(out) :: error
+
+      type(case_t) :: variant
+      type(trial_t) :: trials(2)
+      integer :: i
+
+      disagreement = no_number()
+      variant = case
+      variant%numerics%periodicity = min(case%numerics%periodicity, reference_periodicity)
+      do i = 1, size(trials)
+         variant%numerics%method = reference_methods(i)
+         variant%numerics%tolerance = reference_tolerances(i)
+         call run_trial(variant, 1, trials(i))
+         call raise_failure(trials(i), trim(reference_methods(i)), error)
+         if (allocated(error)) return
+      end do
+      reference = trials(1)
+      disagreement = maxval(errors_against(trials(1), trials(2)))
+      call check_agreement(disagreement, error)
+   end subroutine make_reference
+
+   !> Refuse references that differ by too much of the smallest error that is shown.
+   subroutine check_agreement(disagreement, error)
+      !> What two methods differ by [-]
+      real(wp), intent(in) :: disagreement
+      !> Convergence error
+      type(error_t), allocatable, intent(out) :: error
+
+      if (disagreement <= agreement*smallest_error) return
+      call raise(error, kind_convergence, "no reference: the results of "//trim(reference_methods(1))//" and "// &
+         & trim(reference_methods(2))//" differ by "//trim(number_text(disagreement, 2))//"; "// &
+         & trim(number_text(agreement*smallest_error, 2))//" is allowed")
+   end subroutine check_agreement
+
+   !> The failure of a reference as an error.
+   subroutine raise_failure(trial, name, error)
+      !> The trial
+      type(trial_t), intent(in) :: trial
+      !> Its method or model
+      character(len=*), intent(in) :: name
+      !> Its error, if it has one
+      type(error_t), allocatable, intent(out) :: error
+
+      if (trial%status == 0) return
+      call raise(error, trial%status, trial%message)
+      call add_context(error, "reference by "//name)
+   end subroutine raise_failure
+
+   !> All ways to integrate a case.
+   subroutine list_ways(ways, is_quick)
+      !> The ways
+      type(way_t), allocatable, intent(out) :: ways(:)
+      !> A few only?
+      logical, intent(in) :: is_quick
+
+      ! Settings of the ways [unit of the dial]
+      real(wp), allocatable :: fine(:), fixed(:)
+      integer :: method, i
+
+      fine = tolerances
+      fixed = steps
+      if (is_quick) then
+         fine = few_tolerances
+         fixed = few_steps
+      end if
+      ways = [(way_t(automatic_method, dial_accuracy, accuracies(i)), i=1, size(accuracies))]
+      do method = 1, size(method_facts)
+         if (method_facts(method)%companion_order > 0) then
+            ways = [ways, (way_t(method_facts(method)%name, dial_tolerance, fine(i)), i=1, size(fine))]
+         else
+            ways = [ways, (way_t(method_facts(method)%name, dial_step, fixed(i)), i=1, size(fixed))]
+         end if
+      end do
+      ways = [ways, way_t(quasi_static, dial_tolerance, few_tolerances(1))]
+   end subroutine list_ways
+
+   !> A case that is to be computed in some way.
+   pure function apply_way(way, case) result(variant)
+      !> The way
+      type(way_t), intent(in) :: way
+      !> The case
+      type(case_t), intent(in) :: case
+      !> The case, with other numerics or another film
+      type(case_t) :: variant
+
+      variant = case
+      select case (way%dial)
+      case (dial_accuracy)
+         variant%numerics%method = way%name
+         variant%numerics%tolerance = 0.0_wp
+         variant%numerics%accuracy = way%setting
+      case (dial_tolerance)
+         variant%numerics%method = way%name
+         variant%numerics%tolerance = way%setting
+      case (dial_step)
+         variant%numerics%method = way%name
+         variant%numerics%step = way%setting*degree
+      case (dial_film)
+         if (.not. allocated(variant%ehl)) allocate (variant%ehl)
+         variant%ehl%accuracy = way%setting
+      case (dial_none)
+         if (allocated(variant%ehl)) deallocate (variant%ehl)
+      end select
+   end function apply_way
+
+   !> The numerical film: as a law over the accuracy of its table, and solved over the cycle over nodes, beside the film law.
+   subroutine study_film(table, position, case, repeats, is_quick, error)
+      !> Table to extend
+      type(study_table_t), intent(inout) :: table
+      !> Number of the case, from 1
+      integer, intent(in) :: position
+      !> The case
+      type(case_t), intent(in) :: case
+      !> Trials whose median time counts
+      integer, intent(in) :: repeats
+      !> A few trials only?
+      logical, intent(in) :: is_quick
+      !> Why there is no reference
+      type(error_t), allocatable, intent(out) :: error
+
+      type(case_t) :: follower
+      type(trial_t) :: reference, trial
+      type(way_t) :: law
+      type(error_t), allocatable :: failure
+      integer :: i
+
+      follower = case
+      if (allocated(follower%cam_bearings)) deallocate (follower%cam_bearings)
+      if (.not. allocated(follower%ehl)) allocate (follower%ehl)
+      follower%ehl%profiles = .false.
+      law = way_t(case%film%law, dial_none, no_number())
+
+      call run_trial(apply_way(way_t("", dial_film, film_reference), follower), 1, reference)
+      call raise_failure(reference, "numerical film", error)
+      call add_reference(table, position, "numerical film", reference, no_number(), error)
+      if (.not. allocated(error)) then
+         call run_trial(apply_way(law, follower), repeats, trial)
+         call add_trial(table, position, law, reference, trial)
+         do i = 1, merge(quick_trials, size(film_accuracies), is_quick)
+            associate (way => way_t("numerical film", dial_film, film_accuracies(i)))
+               call run_trial(apply_way(way, follower), repeats, trial)
+               call add_trial(table, position, way, reference, trial)
+            end associate
+         end do
+      end if
+
+      call solve_trial(follower, merge(quick_nodes, reference_nodes, is_quick), reference_step_error, 1, reference)
+      call raise_failure(reference, "film solved over the cycle", failure)
+      call add_reference(table, position, "solved over cycle", reference, no_number(), failure)
+      if (allocated(failure)) then
+         if (.not. allocated(error)) call move_alloc(failure, error)
+         return
+      end if
+      do i = 1, merge(quick_trials, size(nodes), is_quick)
+         call solve_trial(follower, nodes(i), step_error, repeats, trial)
+         call add_trial(table, position, way_t("solved over cycle", dial_nodes, real(nodes(i), wp)), reference, trial)
+      end do
+      call run_trial(follower, repeats, trial)
+      call add_trial(table, position, way_t("steady film", dial_film, follower%ehl%accuracy), reference, trial)
+   end subroutine study_film
+
+   !> Add what counts as right, or why nothing does.
+   subroutine add_reference(table, position, name, reference, disagreement, error)
+      !> Table to extend
+      type(study_table_t), intent(inout) :: table
+      !> Number of the case, from 1
+      integer, intent(in) :: position
+      !> Name of the reference
+      character(len=*), intent(in) :: name
+      !> What counts as right
+      type(trial_t), intent(in) :: reference
+      !> What two methods differ by; not a number where there is one [-]
+      real(wp), intent(in) :: disagreement
+      !> Why there is no reference, if there is none
+      type(error_t), allocatable, intent(in) :: error
+
+      character(len=:), allocatable :: words(:)
+
+      if (allocated(error)) then
+         words = [character(len=max(len(error%message), name_length)) :: name, dial_reference, error%message]
+         call add_row(table, words, [real(position - 1, wp), real(error%kind, wp), spread(no_number(), 1, 8)])
+      else
+         words = [character(len=name_length) :: name, dial_reference, ""]
+         call add_row(table, words, [real(position - 1, wp), 0.0_wp, no_number(), disagreement, spread(no_number(), 1, 2), &
+            & reference%estimated_error, reference%evaluations, reference%steps, reference%time])
+      end if
+   end subroutine add_reference
+
+   !> Add a trial with its errors.
+   subroutine add_trial(table, position, way, reference, trial)
+      !> Table to extend
+      type(study_table_t), intent(inout) :: table
+      !> Number of the case, from 1
+      integer, intent(in) :: position
+      !> The way
+      type(way_t), intent(in) :: way
+      !> What counts as right
+      type(trial_t), intent(in) :: reference
+      !> Outcome of the trial
+      type(trial_t), intent(in) :: trial
+
+      character(len=:), allocatable :: words(:)
+
+      words = [character(len=max(len(trial%message), name_length)) :: way%name, way%dial, trial%message]
+      if (trial%status /= 0) then
+         call add_row(table, words, [real(position - 1, wp), real(trial%status, wp), way%setting, spread(no_number(), 1, 7)])
+      else
+         call add_row(table, words, [real(position - 1, wp), 0.0_wp, way%setting, &
+            & max(errors_against(reference, trial), smallest_error), trial%estimated_error, trial%evaluations, trial%steps, &
+            & trial%time])
+      end if
+   end subroutine add_trial
+
+end module camroller_study

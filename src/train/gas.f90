@@ -1,0 +1,91 @@
+!> Cylinder pressure on the valve over the cam angle.
+!>
+!> In: a table over one cycle and the area of the valve head. Out: force that presses the valve shut.
+module camroller_gas
+   use camroller_kinds, only : wp, two_pi
+   use camroller_error, only : error_t, add_context, raise, kind_deck
+   use camroller_dynamics, only : gas_force_t
+   use camroller_spline, only : spline_t, new_periodic_spline, evaluate_spline
+   implicit none
+   private
+
+   public :: gas_law_t, new_gas_law, gas_force, gas_force_slope
+
+   !> Pressure table ready for evaluation
+   type :: gas_law_t
+      !> Pressure over the cam angle [Pa over rad]
+      type(spline_t) :: pressure
+      !> First angle of the table [rad]
+      real(wp) :: first_angle = 0.0_wp
+      !> Area of the valve head [m^2]
+      real(wp) :: valve_area = 0.0_wp
+   end type gas_law_t
+
+contains
+
+   !> Put a periodic spline through the pressure table.
+   subroutine new_gas_law(law, gas, error)
+      !> The law
+      type(gas_law_t), intent(out) :: law
+      !> Table and area
+      type(gas_force_t), intent(in) :: gas
+      !> Deck error for a table that does not span one turn, domain error for one that no spline fits
+      type(error_t), allocatable, intent(out) :: error
+
+      ! Largest mismatch of the table's span with a turn [rad]: tables are written in degrees with some figures
+      real(wp), parameter :: span_tolerance = 1.0e-6_wp
+      integer :: last
+
+      last = 0
+      if (allocated(gas%angle) .and. allocated(gas%pressure)) then
+         if (size(gas%angle) == size(gas%pressure)) last = size(gas%angle)
+      end if
+      if (last < 2) then
+         call raise(error, kind_deck, "gas force: the table needs as many pressures as angles, two at least")
+         return
+      end if
+      if (abs(gas%angle(last) - gas%angle(1) - two_pi) > span_tolerance) then
+         call raise(error, kind_deck, "gas force: the table must span one turn of the camshaft, first and last point included")
+         return
+      end if
+      call new_periodic_spline(law%pressure, [gas%angle(:last - 1), gas%angle(1) + two_pi], gas%pressure, 0.0_wp, error)
+      call add_context(error, "gas force")
+      law%first_angle = gas%angle(1)
+      law%valve_area = gas%valve_area
+   end subroutine new_gas_law
+
+   !> Cylinder pressure times valve area, positive where it presses the valve shut.
+   pure function gas_force(law, angle) result(force)
+      !> The law
+      type(gas_law_t), intent(in) :: law
+      !> Cam angle from full lift, any turn [rad]
+      real(wp), intent(in) :: angle
+      !> Force [N]
+      real(wp) :: force
+
+      ! Pressure and its derivatives [Pa/rad^n]
+      real(wp) :: values(0:3)
+      integer :: status
+
+      call evaluate_spline(law%pressure, law%first_angle + modulo(angle - law%first_angle, two_pi), values, status)
+      force = values(0)*law%valve_area
+   end function gas_force
+
+   !> Derivative of that force with respect to the cam angle.
+   pure function gas_force_slope(law, angle) result(slope)
+      !> The law
+      type(gas_law_t), intent(in) :: law
+      !> Cam angle from full lift, any turn [rad]
+      real(wp), intent(in) :: angle
+      !> Derivative [N/rad]
+      real(wp) :: slope
+
+      ! Pressure and its derivatives [Pa/rad^n]
+      real(wp) :: values(0:3)
+      integer :: status
+
+      call evaluate_spline(law%pressure, law%first_angle + modulo(angle - law%first_angle, two_pi), values, status)
+      slope = values(1)*law%valve_area
+   end function gas_force_slope
+
+end module camroller_gas

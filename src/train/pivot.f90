@@ -1,0 +1,62 @@
+!> Force that the finger's pivot passes on to the lash adjuster.
+!>
+!> In: forces on the rigid finger and its motion. Out: the force along the adjuster's axis. Source: momentum of the
+!> finger along that axis, `doc/theory.md`.
+module camroller_pivot
+   use camroller_kinds, only : wp
+   implicit none
+   private
+
+   public :: pivot_t, pivot_force, usual_centre
+
+   !> Distance of a finger's centre of mass from its pivot where none is given [m]
+   real(wp), parameter :: usual_centre = 20.0e-3_wp
+
+   !> Joint between finger and lash adjuster
+   type :: pivot_t
+      !> Mass of the finger with its roller, m_F [kg]
+      real(wp) :: mass
+      !> Distance from the pivot to its centre of mass, which lies on the roller arm, r_G [m]
+      real(wp) :: centre
+      !> Angle between the adjuster's axis and the line from pivot to cam centre, chi_h [rad]
+      real(wp) :: axis_angle
+      !> Angle from the valve's axis to the adjuster's axis, chi_h - chi [rad]
+      real(wp) :: tilt
+   end type pivot_t
+
+contains
+
+   !> Force that presses the pivot's ball and socket together, along the adjuster's axis; negative where the joint would open.
+   !>
+   !> `F_h = -(W u_h.n + F_p cos(chi_h - chi)) + m_F omega^2 (j gamma'' + j' gamma'^2)`, `j = -r_G sin(s + chi_h)`, with the
+   !> adjuster's axis `u_h = (cos chi_h, -sin chi_h)` towards the cam.
+   pure function pivot_force(pivot, load, normal, tip_force, arm_angle, finger_slope, finger_curvature, speed) result(force)
+      !> The joint
+      type(pivot_t), intent(in) :: pivot
+      !> Contact load, W [N]
+      real(wp), intent(in) :: load
+      !> Its direction on the roller, x from pivot to cam centre [-]
+      real(wp), intent(in) :: normal(2)
+      !> Force of the valve on the finger's tip, F_p [N]
+      real(wp), intent(in) :: tip_force
+      !> Angle of the roller arm from the line of centres, s [rad]
+      real(wp), intent(in) :: arm_angle
+      !> gamma' [-]
+      real(wp), intent(in) :: finger_slope
+      !> gamma'' [1/rad]
+      real(wp), intent(in) :: finger_curvature
+      !> Cam speed, omega [rad/s]
+      real(wp), intent(in) :: speed
+      !> The force [N]
+      real(wp) :: force
+
+      ! Place of the centre of mass along the adjuster's axis: first and second derivative over the finger's angle [m]
+      real(wp) :: j, j_slope
+
+      j = -pivot%centre*sin(arm_angle + pivot%axis_angle)
+      j_slope = -pivot%centre*cos(arm_angle + pivot%axis_angle)
+      force = -(load*(normal(1)*cos(pivot%axis_angle) - normal(2)*sin(pivot%axis_angle)) + tip_force*cos(pivot%tilt)) &
+         & + pivot%mass*speed**2*(j*finger_curvature + j_slope*finger_slope**2)
+   end function pivot_force
+
+end module camroller_pivot
