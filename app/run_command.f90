@@ -156,7 +156,7 @@ contains
          else
             call write_case(writer, i, result, error)
             if (.not. allocated(error)) call put_profiles(profile_file, writer, i, profiles, error)
-            if (allocated(result%warnings)) call note_remarks(tally%remarks, i, result%warnings)
+            call note_remarks(tally%remarks, i, result%remarks)
          end if
          if (allocated(error)) exit
          call show_progress(progress, i, sweep_size(deck%sweep))
@@ -247,7 +247,7 @@ contains
             words = "remark"
             if (cases > 1) words = "remark on "//integer_text(group%cases)//" of "//integer_text(cases)//" cases, the worst is "// &
                & case_in_words(deck%sweep, group%case_number)
-            call tell(words//": "//group%worst//new_line("a"))
+            call tell(words//": "//group%worst%text//new_line("a"))
          end associate
       end do
       if (size(remarks%groups) > 0) call tell("all remarks are in /run/warnings of the result file"//new_line("a"))

@@ -217,7 +217,7 @@ contains
          tally%failed = tally%failed + 1
          if (tally%failed == 1) call raise(tally%failure, outcome%status, outcome%text)
       else
-         call note_remarks(tally%remarks, number, outcome%text)
+         call note_remarks(tally%remarks, number, outcome%remarks)
       end if
    end subroutine count_case
 

@@ -8,6 +8,7 @@ module camroller_case_record
    use camroller_ehl_record, only : ehl_record_t, quantity_count
    use camroller_error, only : error_t
    use camroller_layout, only : layout_t
+   use camroller_remarks, only : remark_t, remark_lines
    use camroller_result, only : result_t
    use camroller_record, only : record_t, clear_record, put_integer, put_numbers, put_text, set_integer, take_integer, &
       & take_numbers, take_text
@@ -27,8 +28,10 @@ module camroller_case_record
    type :: outcome_t
       !> 0, or the kind of the error
       integer :: status = 0
-      !> Message of the error, or remarks
+      !> Message of the error, or the lines of the remarks
       character(len=:), allocatable :: text
+      !> Remarks on a result
+      type(remark_t), allocatable :: remarks(:)
       !> Scalars [unit of the scalar]; none where there is no result
       real(wp), allocatable :: summary(:)
       !> Series, shape (angle, series) [unit of the series]; none where they are not kept
@@ -74,11 +77,13 @@ contains
       else
          call put_integer(record, merge(unsolved, 0, result%lacks_profiles))
       end if
-      if (allocated(result%warnings)) then
-         call put_text(record, result%warnings)
-      else
-         call put_text(record, "")
-      end if
+      call put_integer(record, size(result%remarks))
+      do i = 1, size(result%remarks)
+         call put_integer(record, result%remarks(i)%kind)
+         call put_integer(record, result%remarks(i)%lobe)
+         call put_numbers(record, [result%remarks(i)%size])
+         call put_text(record, result%remarks(i)%text)
+      end do
       call put_numbers(record, result%summary_values)
       if (with_series) then
          do i = 1, size(result%series_values, 2)
@@ -156,16 +161,29 @@ contains
       !> The case
       type(outcome_t), intent(inout) :: outcome
 
-      integer :: has_series, nodes, i
+      ! Number of a remark [unit of its kind]
+      real(wp) :: number(1)
+      integer :: has_series, nodes, count, i
 
       call take_integer(record, outcome%status)
       call take_integer(record, has_series)
       call take_integer(record, nodes)
-      call take_text(record, outcome%text)
+      if (outcome%status /= 0) call take_text(record, outcome%text)
       if (allocated(outcome%series)) deallocate (outcome%series)
       if (allocated(outcome%profiles)) deallocate (outcome%profiles)
       outcome%lacks_profiles = nodes == unsolved
       if (outcome%status /= 0) return
+      call take_integer(record, count)
+      if (allocated(outcome%remarks)) deallocate (outcome%remarks)
+      allocate (outcome%remarks(count))
+      do i = 1, count
+         call take_integer(record, outcome%remarks(i)%kind)
+         call take_integer(record, outcome%remarks(i)%lobe)
+         call take_numbers(record, number)
+         outcome%remarks(i)%size = number(1)
+         call take_text(record, outcome%remarks(i)%text)
+      end do
+      outcome%text = remark_lines(outcome%remarks)
       if (allocated(outcome%summary)) then
          if (size(outcome%summary) /= size(layout%summary)) deallocate (outcome%summary)
       end if

@@ -17,6 +17,7 @@ module camroller_ehl_profiles
    use camroller_kinematics, only : position_t
    use camroller_model, only : model_t, new_model
    use camroller_number_text, only : fixed_text
+   use camroller_remarks, only : add_remark, missing_profiles
    use camroller_result, only : result_t, find_quantity
    use camroller_state, only : evaluate_loading
    implicit none
@@ -46,8 +47,7 @@ contains
       call make_profiles(record, case, result, error)
       if (.not. allocated(error)) return
       deallocate (record)
-      if (len(result%warnings) > 0) result%warnings = result%warnings//new_line("a")
-      result%warnings = result%warnings//"no profiles: "//error%message
+      call add_remark(result%remarks, missing_profiles, "no profiles: "//error%message)
       result%lacks_profiles = .true.
    end subroutine find_profiles
 

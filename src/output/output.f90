@@ -23,6 +23,7 @@ module camroller_output
    use camroller_layout, only : layout_t
    use camroller_output_options, only : output_options_t
    use camroller_effect_words, only : choice_in_words
+   use camroller_remarks, only : remark_lines
    use camroller_result, only : result_t
    use camroller_output_file, only : abandon_output, check_open, finish_file, format_version, &
       & not_computed, not_written, output_t, result_format, start_file
@@ -69,9 +70,9 @@ contains
       if (.not. allocated(error) .and. .not. allocated(writer%summary)) call create_layout(writer, result, error)
       if (.not. allocated(error)) call check_result(writer, result, error)
       if (.not. allocated(error)) call gather(writer, position, result, error)
-      if (.not. allocated(error) .and. allocated(result%warnings)) then
-         if (len_trim(result%warnings) > 0) call write_remark(writer, writer%run, writer%warnings, "warnings", &
-            & position, result%warnings, error)
+      if (.not. allocated(error) .and. allocated(result%remarks)) then
+         if (size(result%remarks) > 0) call write_remark(writer, writer%run, writer%warnings, "warnings", position, &
+            & remark_lines(result%remarks), error)
       end if
       if (.not. allocated(error) .and. allocated(result%choice)) call write_remark(writer, writer%effects, writer%reasons, &
          & "reasons", position, choice_in_words(result%choice), error)

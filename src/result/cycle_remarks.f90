@@ -3,14 +3,16 @@
 !> In: a cycle, its means and margins. Out: remarks, one per line, or an error where the case forbids what happens.
 module camroller_cycle_remarks
    use camroller_kinds, only : wp, pi, degree
-   use camroller_error, only : error_t, raise, kind_domain
+   use camroller_error, only : error_t, raise, add_context, kind_domain
    use camroller_cycle, only : cycle_t
    use camroller_events, only : contact_losses
    use camroller_margins, only : margins_t
    use camroller_means, only : statistics_t
    use camroller_model, only : model_t
    use camroller_number_text, only : number_text, fixed_text, integer_text
-   use camroller_result, only : add_remark, lobe_scope, scope_length
+   use camroller_remarks, only : remark_t, add_remark, lost_contact, open_pivot, outside_range, pumped_adjuster, &
+      & standing_entrainment, unresolved_slip
+   use camroller_result, only : lobe_scope
    implicit none
    private
 
@@ -22,13 +24,11 @@ module camroller_cycle_remarks
    real(wp), parameter :: per_minute = 30.0_wp/pi
    !> Intervals without contact that a remark lists
    integer, parameter :: most_intervals = 4
-   !> Length of the words that name a lobe in a remark
-   integer, parameter :: lobe_words = scope_length + 2
 
 contains
 
    !> Remarks on a lobe: contact, range of the film law, accuracy.
-   subroutine judge_lobe(model, cycle, statistics, margins, lobe, warnings, error)
+   subroutine judge_lobe(model, cycle, statistics, margins, lobe, remarks, error)
       !> Model of the lobe
       type(model_t), intent(in) :: model
       !> Its cycle
@@ -39,32 +39,29 @@ contains
       type(margins_t), intent(in) :: margins
       !> Lobe shape to be named; 0 where there is one alone
       integer, intent(in) :: lobe
-      !> Remarks, one per line
-      character(len=:), allocatable, intent(inout) :: warnings
+      !> Remarks so far
+      type(remark_t), allocatable, intent(inout) :: remarks(:)
       !> Domain error where the case forbids what happens
       type(error_t), allocatable, intent(out) :: error
 
-      character(len=lobe_words) :: words
-      integer :: length
+      integer :: first, i
 
-      length = 0
-      if (lobe > 0) then
-         words = trim(lobe_scope(lobe))//": "
-         length = len_trim(words) + 1
-      end if
-      call check_contact(words(:length), model, cycle, statistics, margins, warnings, error)
-      if (allocated(error)) return
-      call check_range(words(:length), model, statistics, warnings, error)
-      if (allocated(error)) return
-      call check_error(words(:length), statistics, warnings)
-      call check_entrainment(words(:length), statistics, warnings)
-      call check_pivot(words(:length), model, margins, warnings)
+      first = size(remarks) + 1
+      call check_contact(model, cycle, statistics, margins, remarks, error)
+      if (.not. allocated(error)) call check_range(model, statistics, remarks, error)
+      call check_error(statistics, remarks)
+      call check_entrainment(statistics, remarks)
+      call check_pivot(model, margins, remarks)
+      if (lobe == 0) return
+      call add_context(error, trim(lobe_scope(lobe)))
+      do i = first, size(remarks)
+         remarks(i)%lobe = lobe
+         remarks(i)%text = trim(lobe_scope(lobe))//": "//remarks(i)%text
+      end do
    end subroutine judge_lobe
 
    !> Warn or stop where contact is lost.
-   subroutine check_contact(lobe, model, cycle, statistics, margins, warnings, error)
-      !> Words that name the lobe, or none
-      character(len=*), intent(in) :: lobe
+   subroutine check_contact(model, cycle, statistics, margins, remarks, error)
       !> Model of the lobe
       type(model_t), intent(in) :: model
       !> Its cycle
@@ -73,8 +70,8 @@ contains
       type(statistics_t), intent(in) :: statistics
       !> Its margins
       type(margins_t), intent(in) :: margins
-      !> Remarks, one per line
-      character(len=:), allocatable, intent(inout) :: warnings
+      !> Remarks so far
+      type(remark_t), allocatable, intent(inout) :: remarks(:)
       !> Domain error where the case forbids it
       type(error_t), allocatable, intent(out) :: error
 
@@ -85,7 +82,7 @@ contains
       integer :: i
 
       if (statistics%lost_share <= 0.0_wp) return
-      text = lobe//"contact is lost for "//number_text(100.0_wp*statistics%lost_share, 3)//" % of the cycle at "// &
+      text = "contact is lost for "//number_text(100.0_wp*statistics%lost_share, 3)//" % of the cycle at "// &
          & number_text(model%speed*per_minute, 6)//" rev/min"
       intervals = contact_losses(model, cycle%stops)
       do i = 1, min(size(intervals, 2), most_intervals)
@@ -101,7 +98,7 @@ contains
       if (model%stops_without_contact) then
          call raise(error, kind_domain, text//" (contact_policy = 'stop')")
       else
-         call add_remark(warnings, text)
+         call add_remark(remarks, lost_contact, text, 100.0_wp*statistics%lost_share)
       end if
    end subroutine check_contact
 
@@ -116,82 +113,79 @@ contains
    end function file_angle
 
    !> Warn where the sliding speed is no answer, as with explicit steps beyond the stability limit.
-   subroutine check_error(lobe, statistics, warnings)
-      !> Words that name the lobe, or none
-      character(len=*), intent(in) :: lobe
+   subroutine check_error(statistics, remarks)
       !> Means over the cycle of the lobe, with the estimate of its error
       type(statistics_t), intent(in) :: statistics
-      !> Remarks, one per line
-      character(len=:), allocatable, intent(inout) :: warnings
+      !> Remarks so far
+      type(remark_t), allocatable, intent(inout) :: remarks(:)
 
       if (statistics%error <= worth_a_warning) return
-      call add_remark(warnings, lobe//"the sliding speed is not resolved: the estimate of its error is "// &
-         & number_text(statistics%error, 2)//" of the largest; take another method, a smaller tolerance or smaller steps")
+      call add_remark(remarks, unresolved_slip, "the sliding speed is not resolved: the estimate of its error is "// &
+         & number_text(statistics%error, 2)//" of the largest; take another method, a smaller tolerance or smaller steps", &
+         & statistics%error)
    end subroutine check_error
 
    !> Say where the entrainment passes through zero: the smallest film is that of a standstill.
-   subroutine check_entrainment(lobe, statistics, warnings)
-      !> Words that name the lobe, or none
-      character(len=*), intent(in) :: lobe
+   subroutine check_entrainment(statistics, remarks)
       !> Means over the cycle of a lobe
       type(statistics_t), intent(in) :: statistics
-      !> Remarks, one per line
-      character(len=:), allocatable, intent(inout) :: warnings
+      !> Remarks so far
+      type(remark_t), allocatable, intent(inout) :: remarks(:)
 
       if (statistics%standstills == 0) return
-      call add_remark(warnings, lobe//"the entrainment speed passes through zero "//integer_text(statistics%standstills)// &
-         & " times in contact, first at cam angle "//fixed_text(file_angle(statistics%first_standstill), 1)// &
-         & " deg; the smallest film is that at standstill there, without a squeeze film")
+      call add_remark(remarks, standing_entrainment, "the entrainment speed passes through zero "// &
+         & integer_text(statistics%standstills)//" times in contact, first at cam angle "// &
+         & fixed_text(file_angle(statistics%first_standstill), 1)// &
+         & " deg; the smallest film is that at standstill there, without a squeeze film", real(statistics%standstills, wp))
    end subroutine check_entrainment
 
    !> Say that the lash adjuster pumps up or its joint opens, which the model leaves out.
-   subroutine check_pivot(lobe, model, margins, warnings)
-      !> Words that name the lobe, or none
-      character(len=*), intent(in) :: lobe
+   subroutine check_pivot(model, margins, remarks)
       !> Model of the lobe
       type(model_t), intent(in) :: model
       !> Its margins
       type(margins_t), intent(in) :: margins
-      !> Remarks, one per line
-      character(len=:), allocatable, intent(inout) :: warnings
+      !> Remarks so far
+      type(remark_t), allocatable, intent(inout) :: remarks(:)
 
       character(len=:), allocatable :: place
+      ! Force that the adjuster's joint lacks [N]
+      real(wp) :: lack
 
       if (.not. allocated(margins%pivot)) return
       place = " N at cam angle "//fixed_text(file_angle(margins%pivot%angle), 1)//" deg at "// &
          & number_text(model%speed*per_minute, 6)//" rev/min; this begins at "
       if (margins%pivot%force < 0.0_wp) then
-         call add_remark(warnings, lobe//"the joint of finger and lash adjuster opens: it lacks "// &
-            & number_text(-margins%pivot%force, 3)//place//number_text(margins%pivot%speed*per_minute, 4)//" rev/min")
+         call add_remark(remarks, open_pivot, "the joint of finger and lash adjuster opens: it lacks "// &
+            & number_text(-margins%pivot%force, 3)//place//number_text(margins%pivot%speed*per_minute, 4)//" rev/min", &
+            & -margins%pivot%force)
       else if (margins%pivot%force < margins%adjuster_force) then
-         call add_remark(warnings, lobe//"a hydraulic lash adjuster pumps up: the force in its joint is below its own by "// &
-            & number_text(margins%adjuster_force - margins%pivot%force, 3)//place// &
-            & number_text(margins%pump_up_speed*per_minute, 4)//" rev/min")
+         lack = margins%adjuster_force - margins%pivot%force
+         call add_remark(remarks, pumped_adjuster, "a hydraulic lash adjuster pumps up: the force in its joint is below its "// &
+            & "own by "//number_text(lack, 3)//place//number_text(margins%pump_up_speed*per_minute, 4)//" rev/min", lack)
       end if
    end subroutine check_pivot
 
    !> Warn or stop where the film law was used outside its range.
-   subroutine check_range(lobe, model, statistics, warnings, error)
-      !> Words that name the lobe, or none
-      character(len=*), intent(in) :: lobe
+   subroutine check_range(model, statistics, remarks, error)
       !> Model of the lobe
       type(model_t), intent(in) :: model
       !> Means over its cycle
       type(statistics_t), intent(in) :: statistics
-      !> Remarks, one per line
-      character(len=:), allocatable, intent(inout) :: warnings
+      !> Remarks so far
+      type(remark_t), allocatable, intent(inout) :: remarks(:)
       !> Domain error where the case forbids it
       type(error_t), allocatable, intent(out) :: error
 
       character(len=:), allocatable :: text
 
       if (statistics%outside_share <= 0.0_wp) return
-      text = lobe//"the film law is outside its published range for "//number_text(100.0_wp*statistics%outside_share, 3)// &
+      text = "the film law is outside its published range for "//number_text(100.0_wp*statistics%outside_share, 3)// &
          & " % of the cycle, e.g. at cam angle "//fixed_text(file_angle(statistics%first_outside), 1)//" deg"
       if (model%stops_outside_range) then
          call raise(error, kind_domain, text//" (range_policy = 'stop')")
       else
-         call add_remark(warnings, text)
+         call add_remark(remarks, outside_range, text, 100.0_wp*statistics%outside_share)
       end if
    end subroutine check_range
 

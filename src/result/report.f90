@@ -47,7 +47,7 @@ contains
       real(wp) :: bearing_torque, bearing_error
       integer :: lobe
 
-      result%warnings = ""
+      allocate (result%remarks(0))
       call list_series(case, result%series)
       call new_shaft(shaft, case, models(1), error)
       if (allocated(error)) return
@@ -60,7 +60,7 @@ contains
          if (allocated(error)) return
          call find_margins(models(lobe), cycles(lobe)%stops, margins(lobe))
          call judge_lobe(models(lobe), cycles(lobe), statistics(lobe), margins(lobe), merge(lobe, 0, size(models) > 1), &
-            & result%warnings, error)
+            & result%remarks, error)
          if (allocated(error)) return
       end do
       bearing_torque = 0.0_wp

@@ -8,10 +8,11 @@ module camroller_result
    use camroller_effect_list, only : choice_t
    use camroller_names, only : name_length
    use camroller_number_text, only : fixed_text, integer_text
+   use camroller_remarks, only : remark_t
    implicit none
    private
 
-   public :: quantity_t, result_t, get_series, get_summary, find_quantity, check_numbers, add_remark, lobe_scope
+   public :: quantity_t, result_t, get_series, get_summary, find_quantity, check_numbers, lobe_scope
    public :: scope_length, scope_camshaft, scope_case
 
    !> Length of a scope
@@ -47,8 +48,8 @@ module camroller_result
       type(quantity_t), allocatable :: summary(:)
       !> Values of the scalars, units as in `summary`
       real(wp), allocatable :: summary_values(:)
-      !> Remarks that do not make the result wrong, one per line; empty where there are none
-      character(len=:), allocatable :: warnings
+      !> Remarks that do not make the result wrong
+      type(remark_t), allocatable :: remarks(:)
       !> Name of the series whose mean has the largest estimated error; blank where means have none
       character(len=name_length) :: worst_mean = ""
       !> Were profiles across the contact asked for that could not be solved? The reason is among the remarks
@@ -83,19 +84,6 @@ contains
 
       scope = "lobe "//integer_text(lobe)
    end function lobe_scope
-
-   !> Add a remark to others.
-   !>
-   !> The screen shows remarks of many cases by kind: what stands before the first number is the kind, that number how bad it is.
-   pure subroutine add_remark(remarks, text)
-      !> Remarks, one per line; empty where there are none
-      character(len=:), allocatable, intent(inout) :: remarks
-      !> The remark
-      character(len=*), intent(in) :: text
-
-      if (len(remarks) > 0) remarks = remarks//new_line("a")
-      remarks = remarks//text
-   end subroutine add_remark
 
    !> Refuse a result that holds what is not a finite number, unless infinity has a meaning there.
    subroutine check_numbers(result, error)

@@ -16,7 +16,8 @@ module camroller_run
    use camroller_cycle, only : cycle_t, integrate_cycle
    use camroller_number_text, only : number_text, fixed_text
    use camroller_report, only : make_result
-   use camroller_result, only : result_t, add_remark, get_summary
+   use camroller_remarks, only : add_remark, loose_tolerance, missed_accuracy, missed_means
+   use camroller_result, only : result_t, get_summary
    implicit none
    private
 
@@ -228,10 +229,11 @@ contains
             & "friction reaches its limit abruptly")
          return
       end if
-      if (estimates(1) > accuracy) call add_remark(result%warnings, "the accuracy asked for was not reached; the "// &
-         & "estimated error is "//number_text(estimates(1), 2))
-      if (estimates(2) > accuracy) call add_remark(result%warnings, "the means did not reach the accuracy asked for; the "// &
-         & "largest estimated error, of mean_"//trim(result%worst_mean)//", is "//number_text(estimates(2), 2))
+      if (estimates(1) > accuracy) call add_remark(result%remarks, missed_accuracy, &
+         & "the accuracy asked for was not reached; the estimated error is "//number_text(estimates(1), 2), estimates(1))
+      if (estimates(2) > accuracy) call add_remark(result%remarks, missed_means, &
+         & "the means did not reach the accuracy asked for; the largest estimated error, of mean_"//trim(result%worst_mean)// &
+         & ", is "//number_text(estimates(2), 2), estimates(2))
    end subroutine judge
 
    !> Remark on a tolerance given by hand that says nothing of the error: steps keep to it and the curve between them does not, or
@@ -262,8 +264,9 @@ contains
          !> Its estimate [-]
          real(wp), intent(in) :: estimate
 
-         call add_remark(result%warnings, "the tolerance "//number_text(numerics%tolerance, 2)//" does not control "//what// &
-            & ": its estimate is "//number_text(estimate, 2)//"; give 'accuracy' instead of 'tolerance'")
+         call add_remark(result%remarks, loose_tolerance, "the tolerance "//number_text(numerics%tolerance, 2)// &
+            & " does not control "//what//": its estimate is "//number_text(estimate, 2)// &
+            & "; give 'accuracy' instead of 'tolerance'", estimate)
       end subroutine say_far
 
    end subroutine judge_tolerance

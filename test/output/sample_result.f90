@@ -43,7 +43,7 @@ contains
          end do
       end do
       result%summary_values = [sample_value(position, 0, 1), sample_value(position, 0, 2)]
-      result%warnings = ""
+      allocate (result%remarks(0))
    end subroutine new_sample
 
    !> Fill the words of a quantity.

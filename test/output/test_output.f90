@@ -4,6 +4,7 @@ module test_output
    use testdrive, only : unittest_type, new_unittest, error_type, check
    use camroller_kinds, only : wp
    use camroller_error, only : error_t, raise, kind_convergence, kind_file, kind_internal, kind_usage
+   use camroller_remarks, only : add_remark, missing_profiles
    use camroller_result, only : result_t
    use camroller_hdf5_object, only : hdf5_object_t
    use camroller_hdf5_file, only : discard_file
@@ -105,7 +106,7 @@ contains
       call open_output(writer, path, 3, options, raised)
       call write_failure(writer, 1, failure, raised)
       call new_sample(result, 2, 4)
-      result%warnings = "take care"
+      call add_remark(result%remarks, missing_profiles, "take care")
       call write_case(writer, 2, result, raised)
       call write_failure(writer, 3, failure, raised)
       call close_output(writer, raised)

@@ -13,6 +13,7 @@ module test_part_file
    use camroller_record, only : checksum, clear_record, put_integer, put_numbers, put_text, record_t, take_integer, &
       & take_numbers, take_text
    use camroller_system_file, only : remove_file
+   use camroller_remarks, only : add_remark, missed_means, missing_profiles
    use camroller_result, only : quantity_t, result_t
    use sample_result, only : new_sample
    implicit none
@@ -32,6 +33,7 @@ contains
       testsuite = [ &
          new_unittest("a record gives back every bit", record_keeps_bits), &
          new_unittest("a case without profiles says whether they were asked for", case_without_profiles), &
+         new_unittest("remarks of a case come back with kind, lobe shape and number", case_with_remarks), &
          new_unittest("a checksum sees a bit that changed", checksum_sees_bits), &
          new_unittest("what was appended is there again", part_is_read), &
          new_unittest("a torn record is cut off and can be written again", torn_end), &
@@ -102,6 +104,37 @@ contains
          if (allocated(error)) return
       end do
    end subroutine case_without_profiles
+
+   subroutine case_with_remarks(error)
+      type(error_type), allocatable, intent(out) :: error
+
+      type(record_t) :: record
+      type(result_t) :: result
+      type(layout_t) :: layout
+      type(outcome_t) :: outcome
+      integer :: first, count, place
+
+      call new_sample(result, 1, 4)
+      allocate (layout%angle(0), layout%series(0))
+      layout%summary = result%summary
+      call add_remark(result%remarks, missed_means, "the means", 0.1_wp)
+      call add_remark(result%remarks, missing_profiles, "no profiles")
+      result%remarks(1)%lobe = 2
+      call begin_cases(record, 1)
+      call put_result(record, result, .false.)
+      call end_cases(record, 1, 1)
+      call take_header(record, first, count, place)
+      call take_case(record, layout, outcome)
+      call check(error, outcome%text, "the means"//new_line("a")//"no profiles")
+      if (allocated(error)) return
+      call check(error, all(outcome%remarks%kind == [missed_means, missing_profiles]) .and. all(outcome%remarks%lobe == [2, 0]), &
+         & "kinds and lobe shapes")
+      if (allocated(error)) return
+      call check(error, all(abs(outcome%remarks%size - [0.1_wp, 0.0_wp]) <= 0.0_wp), "numbers")
+      if (allocated(error)) return
+      call check(error, all(transfer(outcome%summary, [0_int64]) == transfer(result%summary_values, [0_int64])) .and. &
+         & .not. record%is_short, "what comes behind")
+   end subroutine case_with_remarks
 
    subroutine checksum_sees_bits(error)
       type(error_type), allocatable, intent(out) :: error

@@ -6,6 +6,7 @@ module test_error_estimate
    use camroller_case, only : case_t, numerics_t
    use camroller_deck, only : deck_t, override_t, read_deck, make_case
    use camroller_error, only : error_t
+   use camroller_remarks, only : loose_tolerance, missed_accuracy, remark_lines
    use camroller_result, only : result_t, get_series, get_summary
    use camroller_run, only : run_case
    use camroller_error_estimate, only : estimate_t, add_defect, end_interval, estimated_error
@@ -204,21 +205,20 @@ contains
             & estimate
          call check(error, largest_deviation(values, right) <= the_case%numerics%accuracy, words)
          if (allocated(error)) return
-         call check(error, estimate <= the_case%numerics%accuracy .and. index(result%warnings, "accuracy") == 0, words)
+         call check(error, estimate <= the_case%numerics%accuracy .and. all(result%remarks%kind /= missed_accuracy), words)
          if (allocated(error)) return
       end do
       the_case%numerics%accuracy = 1.0e-15_wp
       call run_case(the_case, result, failure)
       if (allocated(failure)) call test_failed(error, failure%message)
       if (allocated(error)) return
-      call check(error, index(result%warnings, "the accuracy asked for was not reached") > 0, result%warnings)
+      call check(error, any(result%remarks%kind == missed_accuracy), remark_lines(result%remarks))
    end subroutine test_kept
 
    !> A hard deck with a sharp limit of traction, a kink that falls within a step and costs more than so small a tolerance
    !> allows, and an ordinary case.
    subroutine test_far_beyond(error)
       type(error_type), allocatable, intent(out) :: error
-      character(len=*), parameter :: remark = "does not control the error"
       type(case_t) :: the_case
       type(result_t) :: result
       type(deck_t) :: deck
@@ -231,13 +231,13 @@ contains
       the_case%numerics%tolerance = 1.0e-9_wp
       if (.not. allocated(failure)) call run_case(the_case, result, failure)
       if (allocated(failure)) call test_failed(error, failure%message)
-      if (.not. allocated(error)) call check(error, index(result%warnings, remark) > 0, result%warnings)
+      if (.not. allocated(error)) call check(error, any(result%remarks%kind == loose_tolerance), remark_lines(result%remarks))
       if (allocated(error)) return
       the_case = thesis_case()
       the_case%numerics%tolerance = 1.0e-6_wp
       call run_case(the_case, result, failure)
       if (allocated(failure)) call test_failed(error, failure%message)
-      if (.not. allocated(error)) call check(error, index(result%warnings, remark) == 0, result%warnings)
+      if (.not. allocated(error)) call check(error, all(result%remarks%kind /= loose_tolerance), remark_lines(result%remarks))
    end subroutine test_far_beyond
 
 end module test_error_estimate

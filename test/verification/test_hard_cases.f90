@@ -5,6 +5,7 @@ module test_hard_cases
    use camroller_error, only : error_t
    use camroller_case, only : case_t
    use camroller_model, only : model_t
+   use camroller_remarks, only : remark_lines, unresolved_slip
    use camroller_run, only : build_models, run_case
    use camroller_result, only : result_t
    use camroller_deck, only : deck_t, override_t, read_deck, make_case
@@ -254,7 +255,7 @@ contains
       if (allocated(error)) return
       call run_case(case, result, failure)
       if (allocated(failure)) return
-      if (index(result%warnings, "not resolved") == 0) call test_failed(error, "no warning: "//result%warnings)
+      if (all(result%remarks%kind /= unresolved_slip)) call test_failed(error, "no remark: "//remark_lines(result%remarks))
    end subroutine test_large_steps
 
    !> The largest tolerance and steps of up to 30 degrees: each stop is a point, and each stretch between them is looked into.

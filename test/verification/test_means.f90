@@ -11,6 +11,7 @@ module test_means
    use camroller_deck, only : deck_t, override_t, read_deck, parse_deck, make_case, make_sweep_case
    use camroller_means, only : statistics_t, integrate_lobe, integrate_torques
    use camroller_model, only : model_t
+   use camroller_remarks, only : missed_means, remark_lines
    use camroller_result, only : result_t, quantity_t, get_summary
    use camroller_run, only : build_models, run_case
    use camroller_simulation, only : simulation_t, outcome_t, start_simulation, advance
@@ -341,7 +342,7 @@ contains
                if (allocated(error)) return
             end do
             call check(error, estimate <= the_case%numerics%accuracy .and. &
-               & index(result%warnings, "the means did not reach") == 0, words)
+               & all(result%remarks%kind /= missed_means), words)
             if (allocated(error)) return
          end do
       end do
@@ -359,14 +360,14 @@ contains
       call run_case(the_case, result, failure)
       if (allocated(failure)) call test_failed(error, failure%message)
       if (allocated(error)) return
-      call check(error, index(result%warnings, "the means did not reach the accuracy asked for; the largest estimated error, "// &
-         & "of mean_") > 0, result%warnings)
+      call check(error, any(result%remarks%kind == missed_means) .and. &
+         & index(remark_lines(result%remarks), "error, of mean_") > 0, remark_lines(result%remarks))
       if (allocated(error)) return
       the_case%numerics%accuracy = 1.0e-4_wp
       call run_case(the_case, result, failure)
       if (allocated(failure)) call test_failed(error, failure%message)
       if (allocated(error)) return
-      call check(error, index(result%warnings, "the means did not reach") == 0, result%warnings)
+      call check(error, all(result%remarks%kind /= missed_means), remark_lines(result%remarks))
    end subroutine test_remark
 
    !> The entrainment speed of this random deck passes through zero twice.
@@ -402,8 +403,9 @@ contains
          ! little over that
          call check(error, nint(standstills) == 2 .and. abs(film - first) <= 1.0e-3_wp*first + 1.0e-15_wp, words)
          if (allocated(error)) return
-         call check(error, index(result%warnings, "the entrainment speed passes through zero 2 times in contact") > 0, &
-            & result%warnings)
+         call check(error, &
+            & index(remark_lines(result%remarks), "the entrainment speed passes through zero 2 times in contact") > 0, &
+            & remark_lines(result%remarks))
          if (allocated(error)) return
       end do
    end subroutine test_standstill

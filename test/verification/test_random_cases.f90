@@ -9,6 +9,7 @@ module test_random_cases
    use camroller_error, only : error_t, cause_several_balances, kind_domain, kind_deck
    use camroller_case, only : case_t
    use camroller_model, only : model_t
+   use camroller_remarks, only : missed_accuracy
    use camroller_result, only : result_t, get_series, get_summary
    use camroller_run, only : build_models, run_case
    use camroller_deck, only : deck_t, override_t, parse_deck, make_case
@@ -207,7 +208,7 @@ contains
       call get_series(one, "rolling_speed", rolling, error)
       call get_summary(one, "estimated_error", estimates(1), error)
       call get_summary(other, "estimated_error", estimates(2), error)
-      outcome%has_remark = index(one%warnings//other%warnings, "the accuracy asked for was not reached") > 0
+      outcome%has_remark = any([one%remarks%kind, other%remarks%kind] == missed_accuracy)
       if (outcome%has_remark .neqv. any(estimates > accuracy)) outcome%trouble = "remark and estimate do not agree"
       scale = max(maxval(abs(first)), maxval(abs(second)), least_slip*maxval(abs(rolling)))
       found = maxval(abs(first - second))/scale

@@ -12,6 +12,7 @@ module test_random_wide
    use camroller_accuracy, only : is_checked, has_tolerance, resolve_numerics
    use camroller_case, only : case_t
    use camroller_model, only : model_t
+   use camroller_remarks, only : missed_means
    use camroller_result, only : result_t
    use camroller_run, only : build_models, run_case
    use camroller_deck, only : deck_t, override_t, parse_deck, make_case
@@ -332,10 +333,10 @@ contains
          call count_error(tally, error, "no result:", trouble)
          return
       end if
-      call count_remarks(tally, result%warnings, trouble)
+      call count_remarks(tally, result%remarks)
       trouble = trouble//check_result(case, result)
       if (is_checked(case%numerics) .and. scalar_of(result, "estimated_error_of_means") > case%numerics%accuracy .and. &
-         & index(result%warnings, "mean") == 0) call count_ending(tally, doubtful_class)
+         & all(result%remarks%kind /= missed_means)) call count_ending(tally, doubtful_class)
       if (trouble == "") call compare_methods(case, result, tally, trouble)
       if (trouble /= "") call count_ending(tally, "SILENT: a result that is not right")
    end subroutine check_deck

@@ -14,6 +14,7 @@ module test_result
    use camroller_kinematics, only : position_t
    use camroller_lift, only : lift_t
    use camroller_model, only : model_t
+   use camroller_remarks, only : remark_lines
    use camroller_result, only : result_t, check_numbers, find_quantity, get_summary
    use camroller_run, only : run_case
    use camroller_state, only : evaluate_loading, state_t
@@ -332,17 +333,18 @@ contains
       call set_point(case, fast, point_viscosities(3))
       call run(case, result, error)
       if (allocated(error)) return
-      call check(error, index(result%warnings, "contact is lost for ") == 1, result%warnings)
+      call check(error, index(remark_lines(result%remarks), "contact is lost for ") == 1, remark_lines(result%remarks))
       if (allocated(error)) return
-      call check(error, index(result%warnings, " % of the cycle at 3600 rev/min, at cam angles 165.4 to 194.7 deg") > 0, &
-         result%warnings)
+      call check(error, &
+         & index(remark_lines(result%remarks), " % of the cycle at 3600 rev/min, at cam angles 165.4 to 194.7 deg") > 0, &
+         remark_lines(result%remarks))
       if (allocated(error)) return
-      call check(error, index(result%warnings, "above 2937 rev/min") > 0, result%warnings)
+      call check(error, index(remark_lines(result%remarks), "above 2937 rev/min") > 0, remark_lines(result%remarks))
       if (allocated(error)) return
       call set_point(case, 0.7_wp*fast, point_viscosities(3))
       call run(case, result, error)
       if (allocated(error)) return
-      call check(error, index(result%warnings, "contact is lost"), 0)
+      call check(error, index(remark_lines(result%remarks), "contact is lost"), 0)
    end subroutine test_remark
 
    subroutine test_lobe_remark(error)
@@ -359,9 +361,9 @@ contains
       call set_point(case, 0.7_wp*fast, point_viscosities(3))
       call run(case, result, error)
       if (allocated(error)) return
-      call check(error, index(result%warnings, "lobe 2: contact is lost for ") > 0, result%warnings)
+      call check(error, index(remark_lines(result%remarks), "lobe 2: contact is lost for ") > 0, remark_lines(result%remarks))
       if (allocated(error)) return
-      call check(error, index(result%warnings, "lobe 1: contact is lost for "), 0, result%warnings)
+      call check(error, index(remark_lines(result%remarks), "lobe 1: contact is lost for "), 0, remark_lines(result%remarks))
    end subroutine test_lobe_remark
 
    subroutine test_policy(error)

@@ -1,6 +1,7 @@
 !> How cases end: every class of ending by its words, counted.
 module case_endings
    use camroller_error, only : error_t, kind_convergence, kind_deck, kind_domain
+   use camroller_remarks, only : remark_names, remark_t
    implicit none
    private
 
@@ -31,18 +32,6 @@ module case_endings
       & "contact_policy = 'stop'", "contact lost, which stops", &
       & "bearing law has no solution", "camshaft bearing without solution", &
       & "ehl:", "numerical film"], [2, 16])
-   !> What a remark says, and its class
-   character(len=*), parameter :: remark_phrases(2, 10) = reshape([character(len=44) :: &
-      & "accuracy asked for was not reached", "accuracy not reached", &
-      & "outside its published range", "film law outside its range", &
-      & "the tolerance", "tolerance does not hold the error", &
-      & "sliding speed is not resolved", "sliding speed not resolved", &
-      & "entrainment speed changes its sign", "entrainment reverses", &
-      & "joint of finger and lash adjuster opens", "joint of the pivot opens", &
-      & "lash adjuster pumps up", "lash adjuster pumps up", &
-      & "contact", "contact lost", &
-      & "film", "other remark on the film", &
-      & "mean", "remark on means"], [2, 10])
 
 contains
 
@@ -105,32 +94,16 @@ contains
    end subroutine count_error
 
    !> Count the remarks of a result.
-   subroutine count_remarks(tally, warnings, trouble)
+   subroutine count_remarks(tally, remarks)
       !> The counts
       type(tally_t), intent(inout) :: tally
-      !> Remarks, one per line
-      character(len=*), intent(in) :: warnings
-      !> What is wrong; blank where all is well
-      character(len=:), allocatable, intent(inout) :: trouble
-      character(len=:), allocatable :: rest, line
-      integer :: i, last
+      !> The remarks
+      type(remark_t), intent(in) :: remarks(:)
+      integer :: i
 
-      if (warnings == "") call count_ending(tally, "result without a remark")
-      if (warnings /= "") call count_ending(tally, "result with remarks")
-      rest = warnings
-      do while (rest /= "")
-         last = index(rest//new_line("a"), new_line("a"))
-         line = rest(:last - 1)
-         rest = rest(min(last + 1, len(rest) + 1):)
-         do i = 1, size(remark_phrases, 2)
-            if (index(line, trim(remark_phrases(1, i))) > 0) exit
-         end do
-         if (i <= size(remark_phrases, 2)) then
-            call count_ending(tally, "  remark: "//trim(remark_phrases(2, i)))
-         else
-            call count_ending(tally, "  remark: another")
-            trouble = trouble//" a remark of no known class: "//line
-         end if
+      call count_ending(tally, trim(merge("result without a remark", "result with remarks    ", size(remarks) == 0)))
+      do i = 1, size(remarks)
+         call count_ending(tally, "  remark: "//trim(remark_names(remarks(i)%kind)))
       end do
    end subroutine count_remarks
 

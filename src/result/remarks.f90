@@ -1,0 +1,134 @@
+!> Remarks: what a reader should know of a result that is there; of one case, and of many by kind.
+!>
+!> Layer: solver. In: kind, number and words, where a remark arises. Out: remarks of a case, their lines; groups of remarks of one
+!> kind on one lobe shape: how many cases have one, and which has the worst.
+module camroller_remarks
+   use camroller_kinds, only : wp
+   use camroller_names, only : name_length
+   implicit none
+   private
+
+   public :: remark_t, remark_group_t, remarks_t, add_remark, remark_lines, note_remarks
+   public :: remark_names, lost_contact, outside_range, unresolved_slip, standing_entrainment, open_pivot, pumped_adjuster, &
+      & missed_accuracy, missed_means, loose_tolerance, missing_profiles
+
+   !> Kinds, in the order of `remark_names`. Their numbers: part of the cycle [%], part of the cycle [%], error [-], times [-],
+   !> force [N], force [N], error [-], error [-], error [-], none
+   integer, parameter :: lost_contact = 1, outside_range = 2, unresolved_slip = 3, standing_entrainment = 4, open_pivot = 5, &
+      & pumped_adjuster = 6, missed_accuracy = 7, missed_means = 8, loose_tolerance = 9, missing_profiles = 10
+   !> What the kinds are called
+   character(len=*), parameter :: remark_names(*) = [character(len=name_length) :: "contact lost", "film law out of range", &
+      & "slip not resolved", "entrainment passes zero", "pivot joint opens", "adjuster pumps up", "accuracy not reached", &
+      & "means not accurate", "tolerance too loose", "no profiles"]
+
+   !> One remark
+   type :: remark_t
+      !> One of the kinds above
+      integer :: kind = 0
+      !> The lobe shape that it names; 0 where it names none
+      integer :: lobe = 0
+      !> How bad it is, the worse the larger; zero where its kind has no number [unit of the kind]
+      real(wp) :: size = 0.0_wp
+      !> In words, on one line
+      character(len=:), allocatable :: text
+   end type remark_t
+
+   !> Remarks of one kind on one lobe shape
+   type :: remark_group_t
+      !> The worst
+      type(remark_t) :: worst
+      !> Its case, from 1
+      integer :: case_number = 0
+      !> Cases with such a remark, and the last of them
+      integer :: cases = 0, last_case = 0
+   end type remark_group_t
+
+   !> Remarks of all cases
+   type :: remarks_t
+      !> In the order in which kinds were met
+      type(remark_group_t), allocatable :: groups(:)
+   end type remarks_t
+
+contains
+
+   !> Add a remark to those of a case.
+   pure subroutine add_remark(remarks, kind, text, size)
+      !> Remarks so far
+      type(remark_t), allocatable, intent(inout) :: remarks(:)
+      !> One of the kinds of this module
+      integer, intent(in) :: kind
+      !> In words, on one line
+      character(len=*), intent(in) :: text
+      !> How bad it is, where its kind has a number [unit of the kind]
+      real(wp), intent(in), optional :: size
+
+      type(remark_t) :: remark
+
+      if (.not. allocated(remarks)) allocate (remarks(0))
+      remark%kind = kind
+      remark%text = text
+      if (present(size)) remark%size = size
+      remarks = [remarks, remark]
+   end subroutine add_remark
+
+   !> Length of the lines of remarks.
+   pure function lines_length(remarks) result(length)
+      !> The remarks
+      type(remark_t), intent(in) :: remarks(:)
+      !> The length, with what is between them
+      integer :: length
+
+      integer :: i
+
+      length = max(0, size(remarks) - 1)
+      do i = 1, size(remarks)
+         length = length + len(remarks(i)%text)
+      end do
+   end function lines_length
+
+   !> Remarks of a case as text, one per line; empty where there are none.
+   pure function remark_lines(remarks) result(lines)
+      !> The remarks
+      type(remark_t), intent(in) :: remarks(:)
+      !> The lines
+      character(len=lines_length(remarks)) :: lines
+
+      integer :: place, i
+
+      place = 0
+      do i = 1, size(remarks)
+         lines(place + 1:) = remarks(i)%text//new_line("a")
+         place = place + len(remarks(i)%text) + 1
+      end do
+   end function remark_lines
+
+   !> Take note of the remarks of a case.
+   pure subroutine note_remarks(remarks, case_number, of_case)
+      !> Remarks so far
+      type(remarks_t), intent(inout) :: remarks
+      !> Number of the case, from 1
+      integer, intent(in) :: case_number
+      !> Its remarks
+      type(remark_t), intent(in) :: of_case(:)
+
+      type(remark_group_t) :: fresh
+      integer :: i, k
+
+      if (.not. allocated(remarks%groups)) allocate (remarks%groups(0))
+      do k = 1, size(of_case)
+         do i = 1, size(remarks%groups)
+            if (remarks%groups(i)%worst%kind == of_case(k)%kind .and. remarks%groups(i)%worst%lobe == of_case(k)%lobe) exit
+         end do
+         if (i > size(remarks%groups)) remarks%groups = [remarks%groups, fresh]
+         associate (group => remarks%groups(i))
+            if (group%cases == 0 .or. of_case(k)%size > group%worst%size) then
+               group%worst = of_case(k)
+               group%case_number = case_number
+            end if
+            if (group%last_case /= case_number) group%cases = group%cases + 1
+            group%last_case = case_number
+         end associate
+      end do
+   end subroutine note_remarks
+
+end module camroller_remarks
