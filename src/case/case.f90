@@ -22,8 +22,8 @@ module camroller_case
    implicit none
    private
 
-   public :: case_t, operating_point_t, numerics_t, selection_t, energy_names, method_names, quasi_static, method_choices, &
-      & automatic_method, select_names, select_needed, quantity_names, quantity_torque, quantity_film, quantity_slip
+   public :: case_t, operating_point_t, numerics_t, selection_t, energy_names, contact_policy_names, method_names, quasi_static, &
+      & method_choices, automatic_method, select_names, select_needed, quantity_names, quantity_torque, quantity_film, quantity_slip
 
    !> Name of the model that takes the roller's spin from its algebraic balance
    character(len=name_length), parameter :: quasi_static = "quasi_static"
@@ -31,6 +31,8 @@ module camroller_case
    character(len=name_length), parameter :: method_names(*) = [ode_method_names, quasi_static]
    !> Bookkeeping of forces and losses: closed energy balance, or as in the source thesis
    character(len=*), parameter :: energy_names(*) = [character(len=name_length) :: "consistent", "source"]
+   !> What to do where cam and roller lose contact: a remark, or no result
+   character(len=*), parameter :: contact_policy_names(*) = [character(len=name_length) :: "warn", "stop"]
 
    !> Let the program choose the method
    character(len=*), parameter :: automatic_method = "automatic"
@@ -89,6 +91,8 @@ module camroller_case
       character(len=:), allocatable :: title
       !> One of `energy_names`
       character(len=name_length) :: energy = "consistent"
+      !> One of `contact_policy_names`
+      character(len=name_length) :: contact_policy = "warn"
       type(operating_point_t) :: operating_point
       type(mechanism_t) :: mechanism
       type(lift_t) :: lift

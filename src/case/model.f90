@@ -7,10 +7,10 @@ module camroller_model
    use camroller_error, only : error_t, raise, add_context, kind_deck, kind_domain
    use camroller_names, only : name_length, find_name
    use camroller_accuracy, only : check_numerics, is_within, above_zero
-   use camroller_case, only : case_t, energy_names
+   use camroller_case, only : case_t, contact_policy_names, energy_names
    use camroller_lift, only : lift_t, lift_law_t, new_lift_law, evaluate_lift, stop_angles
    use camroller_kinematics, only : linkage_t, position_t, new_linkage, evaluate_position
-   use camroller_dynamics, only : train_t, moments_t, evaluate_moments, seating_names, load_arm_names, contact_policy_names
+   use camroller_dynamics, only : train_t, moments_t, evaluate_moments, seating_names, load_arm_names
    use camroller_pivot, only : pivot_t, usual_centre
    use camroller_materials, only : combined_modulus, combined_roughness
    use camroller_lubricant, only : lubricant_t, oil_t, get_oil
@@ -299,7 +299,7 @@ contains
       call find_name("range policy", case%film%range_policy, range_policy_names, choice, error)
       if (allocated(error)) return
       model%stops_outside_range = choice == 2
-      call find_name("contact policy", case%spring%contact_policy, contact_policy_names, choice, error)
+      call find_name("contact policy", case%contact_policy, contact_policy_names, choice, error)
       if (allocated(error)) return
       model%stops_without_contact = choice == 2
       call find_name("film law", case%film%law, film_law_names, model%film_law, error)

@@ -28,6 +28,7 @@ contains
 
       case%title = get_word(settings, "case", "title")
       call take(settings, "case", "energy", case%energy)
+      call take(settings, "case", "contact_policy", case%contact_policy)
       call take(settings, "operating_point", "speed_rpm", case%operating_point%speed)
       call take(settings, "operating_point", "oil_temperature_degC", case%operating_point%oil_temperature)
       call fill_mechanism(settings, case)
@@ -114,7 +115,6 @@ contains
          call take(settings, "spring", "seating", spring%seating)
          call take(settings, "spring", "seat_stiffness_N_m", spring%seat_stiffness)
          call take(settings, "spring", "load_arm", spring%load_arm)
-         call take(settings, "spring", "contact_policy", spring%contact_policy)
       end associate
       if (.not. has_group(settings, "gas_force")) return
       allocate (case%gas_force)

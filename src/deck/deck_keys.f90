@@ -6,10 +6,10 @@
 module camroller_deck_keys
    use camroller_kinds, only : wp, pi
    use camroller_units, only : length_unit_names, pressure_unit_names
-   use camroller_case, only : case_t, energy_names, method_choices, select_names, quantity_names
+   use camroller_case, only : case_t, contact_policy_names, energy_names, method_choices, select_names, quantity_names
    use camroller_lift, only : lift_t, lift_law_names, largest_exponent
    use camroller_kinematics, only : rotation_names
-   use camroller_dynamics, only : contact_policy_names, load_arm_names, seating_names
+   use camroller_dynamics, only : load_arm_names, seating_names
    use camroller_lubricant, only : temperature_law_names, pressure_law_names
    use camroller_ehl_table, only : ehl_t
    use camroller_film, only : film_law_names, range_policy_names
@@ -77,6 +77,8 @@ contains
       call add_text(schema, "title", "one line that describes the case; legend of its plots", default="untitled")
       call add_name(schema, "energy", energy_names, standard%energy, &
          & "closed balance of forces and losses, or the bookkeeping of Islam (2019)")
+      call add_name(schema, "contact_policy", contact_policy_names, standard%contact_policy, &
+         & "what to do where cam and roller lose contact: a warning, or an error")
       call add_group(schema, "operating_point", group_required, "speed and temperature")
       call add_number(schema, "speed_rpm", positive, "speed of the camshaft", example="600")
       call add_number(schema, "oil_temperature_degC", range_t(smallest=-273.15_wp, with_smallest=.false.), &
@@ -189,8 +191,6 @@ contains
          & default=standard%spring%seat_stiffness)
       call add_name(schema, "load_arm", load_arm_names, standard%spring%load_arm, &
          & "arm of the contact's normal about the pivot: exact, or with the normal parallel to the valve's axis")
-      call add_name(schema, "contact_policy", contact_policy_names, standard%spring%contact_policy, &
-         & "what to do where cam and roller lose contact: a warning, or an error")
    end subroutine add_load_keys
 
    !> Cylinder pressure.

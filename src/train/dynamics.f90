@@ -9,16 +9,13 @@ module camroller_dynamics
    implicit none
    private
 
-   public :: masses_t, spring_t, gas_force_t, train_t, moments_t, seating_names, load_arm_names, contact_policy_names
+   public :: masses_t, spring_t, gas_force_t, train_t, moments_t, seating_names, load_arm_names
    public :: seat_force, unseated_share, evaluate_moments, moment_slope, stored_energy, stored_power
 
    !> How the contact load passes from the base circle to the event
    character(len=*), parameter :: seating_names(*) = [character(len=name_length) :: "continuous", "maximum"]
    !> Arm of the contact normal about the pivot: exact, or with the normal taken parallel to the valve's axis
    character(len=*), parameter :: load_arm_names(*) = [character(len=name_length) :: "exact", "parallel"]
-
-   !> What to do where contact is lost: a warning, or no result
-   character(len=*), parameter :: contact_policy_names(*) = [character(len=name_length) :: "warn", "stop"]
 
    !> Moving masses
    type :: masses_t
@@ -47,8 +44,6 @@ module camroller_dynamics
       real(wp) :: seat_stiffness = 1.0e7_wp
       !> One of `load_arm_names`
       character(len=name_length) :: load_arm = "exact"
-      !> One of `contact_policy_names`
-      character(len=name_length) :: contact_policy = "warn"
    end type spring_t
 
    !> Cylinder pressure on the valve

@@ -168,6 +168,8 @@ contains
       call expect_mistake(error, "&masses", "&mass", "6:1: unknown group &mass; did you mean 'masses'?")
       call expect_mistake(error, "valve_axis", "mass_kg = 3 valve_axis", &
          & "3:4: unknown key 'mass_kg' in &mechanism; it belongs to &roller")
+      call expect_mistake(error, "precompression", "contact_policy = 'stop' precompression", &
+         & "7:31: unknown key 'contact_policy' in &spring; it belongs to &case")
       call expect_mistake(error, "", "&film thickness_law_of_choice = 3 /", &
          & "11:7: unknown key 'thickness_law_of_choice' in &film; it has 'law', 'range_policy'")
       call expect_mistake(error, "", "&film law = 'moess' /", "11:13: 'law' must be one of 'dowson_higginson'")

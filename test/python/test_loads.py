@@ -66,7 +66,7 @@ def test_lost_contact_is_said_for_every_case_and_once_on_the_screen(camroller, t
 
 
 def test_contact_policy_stop_refuses_the_cases_that_lose_contact(camroller, tmp_path):
-    done = run(camroller, "run", DECKS / "thesis.nml", *FAST, *COARSE, "--set", "spring.contact_policy=stop", "-o", "r.h5",
+    done = run(camroller, "run", DECKS / "thesis.nml", *FAST, *COARSE, "--set", "case.contact_policy=stop", "-o", "r.h5",
                folder=tmp_path)
     assert done.returncode == DOMAIN
     assert "6 of 9 cases have no result" in done.stderr and "(contact_policy = 'stop')" in done.stderr

@@ -373,7 +373,7 @@ contains
       type(error_t), allocatable :: failure
 
       case = thesis_case()
-      case%spring%contact_policy = "stop"
+      case%contact_policy = "stop"
       call run(case, result, error)
       if (allocated(error)) return
       call set_point(case, fast, point_viscosities(3))

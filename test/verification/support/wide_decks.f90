@@ -331,7 +331,7 @@ contains
       select case (group//"."//trim(key%name))
       case ("case.energy")
          share = source_share
-      case ("film.range_policy", "spring.contact_policy")
+      case ("film.range_policy", "case.contact_policy")
          share = stop_share
       case ("numerics.method")
          share = style%method_share
