@@ -1,7 +1,7 @@
 !> Integrals of several quantities at once, sampled together, over panels that are halved where necessary.
 !>
 !> In: panels, the values of all quantities at seven places in each. Out: integrals, integrals of the magnitudes,
-!> and error estimates of the integrals (`doubts`), which bound the errors as a rule. The integrand is a type that extends
+!> and estimates of the integrals' errors (`errors`), which bound the errors as a rule. The integrand is a type that extends
 !> `sampled_t`.
 !>
 !> The rule is that of Gauss with three places and Kronrod's extension to seven: exact for polynomials of degree 11. The error
@@ -69,7 +69,7 @@ module camroller_panels
       !> Ends of each [x]
       real(wp), allocatable :: left(:), right(:)
       !> Integral of each quantity, of its size, and error estimate of the integral, shape (quantity, panel) [unit of each times x]
-      real(wp), allocatable :: integrals(:, :), sizes(:, :), doubts(:, :)
+      real(wp), allocatable :: integrals(:, :), sizes(:, :), errors(:, :)
    end type panels_t
 
 contains
@@ -84,7 +84,7 @@ contains
       integer, intent(in) :: room
 
       allocate (panels%left(room), panels%right(room), panels%integrals(quantities, room), panels%sizes(quantities, room), &
-         & panels%doubts(quantities, room))
+         & panels%errors(quantities, room))
    end subroutine start_panels
 
    !> Append a panel whose values are known.
@@ -118,7 +118,7 @@ contains
       panels%right(panels%count) = right
       panels%integrals(:, panels%count) = 0.5_wp*(right - left)*(values(:, 1) + values(:, 2))
       panels%sizes(:, panels%count) = 0.5_wp*(right - left)*(abs(values(:, 1)) + abs(values(:, 2)))
-      panels%doubts(:, panels%count) = 0.5_wp*(right - left)*abs(values(:, 2) - values(:, 1))
+      panels%errors(:, panels%count) = 0.5_wp*(right - left)*abs(values(:, 2) - values(:, 1))
    end subroutine add_trapezoid
 
    !> Append a panel and sample it.
@@ -158,12 +158,12 @@ contains
       real(wp) :: left, right, middle
       integer :: quantity, panel
 
-      sums = sum(panels%doubts(:, :panels%count), 2)
+      sums = sum(panels%errors(:, :panels%count), 2)
       do while (halvings > 0)
-         if (all(sums <= allowed)) sums = sum(panels%doubts(:, :panels%count), 2)
+         if (all(sums <= allowed)) sums = sum(panels%errors(:, :panels%count), 2)
          if (all(sums <= allowed)) return
          quantity = maxloc(sums/allowed, 1)
-         panel = maxloc(panels%doubts(quantity, :panels%count), 1)
+         panel = maxloc(panels%errors(quantity, :panels%count), 1)
          left = panels%left(panel)
          right = panels%right(panel)
          if (right - left <= shortest*max(abs(left), abs(right))) then
@@ -174,10 +174,10 @@ contains
          call sample_places(sampled, left, middle, values(:, :, 1), error)
          if (.not. allocated(error)) call sample_places(sampled, middle, right, values(:, :, 2), error)
          if (allocated(error)) return
-         sums = sums - panels%doubts(:, panel)
+         sums = sums - panels%errors(:, panel)
          call set_panel(panels, panel, left, middle, values(:, :, 1))
          call add_panel(panels, middle, right, values(:, :, 2))
-         sums = sums + panels%doubts(:, panel) + panels%doubts(:, panels%count)
+         sums = sums + panels%errors(:, panel) + panels%errors(:, panels%count)
          halvings = halvings - 1
       end do
    end subroutine refine_panels
@@ -229,7 +229,7 @@ contains
          by_even = sum(sixth*sums)
          panels%integrals(i, panel) = 0.5_wp*length*sum(kronrod*sums)
          panels%sizes(i, panel) = length*sum(panel_weights*abs(values(i, :)))
-         panels%doubts(i, panel) = 0.5_wp*length*sqrt(by_rules**2 + by_odd**2 + by_even**2)
+         panels%errors(i, panel) = 0.5_wp*length*sqrt(by_rules**2 + by_odd**2 + by_even**2)
       end do
    end subroutine set_panel
 
@@ -247,7 +247,7 @@ contains
       larger%right(:panels%count) = panels%right(:panels%count)
       larger%integrals(:, :panels%count) = panels%integrals(:, :panels%count)
       larger%sizes(:, :panels%count) = panels%sizes(:, :panels%count)
-      larger%doubts(:, :panels%count) = panels%doubts(:, :panels%count)
+      larger%errors(:, :panels%count) = panels%errors(:, :panels%count)
       panels = larger
    end subroutine grow
 

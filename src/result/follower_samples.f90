@@ -16,16 +16,16 @@ module camroller_follower_samples
    implicit none
    private
 
-   public :: follower_samples_t, start_samples, look_t, look_of
+   public :: follower_samples_t, start_samples, entrainment_t, entrainment_of
 
    !> One point of a cycle, for the search of standstills
-   type :: look_t
+   type :: entrainment_t
       !> Cam angle from full lift [rad]
       real(wp) :: angle = 0.0_wp
       !> Mean surface speed [m/s]
       real(wp) :: entrainment_speed = 0.0_wp
       logical :: is_touching = .false.
-   end type look_t
+   end type entrainment_t
 
    !> A follower on its cycle
    type, extends(sampled_t) :: follower_samples_t
@@ -102,17 +102,17 @@ contains
    end subroutine sample
 
    !> The point that was sampled last, for the search of standstills.
-   pure function look_of(samples, angle) result(look)
+   pure function entrainment_of(samples, angle) result(speed)
       !> The samples
       type(follower_samples_t), intent(in) :: samples
       !> Its cam angle from full lift [rad]
       real(wp), intent(in) :: angle
       !> What it is like
-      type(look_t) :: look
+      type(entrainment_t) :: speed
 
-      look%angle = angle
-      look%entrainment_speed = samples%state%contact%entrainment_speed
-      look%is_touching = samples%state%contact%is_touching
-   end function look_of
+      speed%angle = angle
+      speed%entrainment_speed = samples%state%contact%entrainment_speed
+      speed%is_touching = samples%state%contact%is_touching
+   end function entrainment_of
 
 end module camroller_follower_samples

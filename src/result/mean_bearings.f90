@@ -80,7 +80,7 @@ contains
          & *sum(panels%sizes(:, :panels%count))], halvings, error)
       if (allocated(error)) return
       mean = sum(panels%integrals(1, :panels%count))/two_pi
-      mean_error = sum(panels%doubts(1, :panels%count))/max(sum(panels%sizes(1, :panels%count)), tiny(1.0_wp))
+      mean_error = sum(panels%errors(1, :panels%count))/max(sum(panels%sizes(1, :panels%count)), tiny(1.0_wp))
    end subroutine mean_bearing_torque
 
    !> Torque of all camshaft bearings at a cam angle.

@@ -19,7 +19,7 @@ module camroller_means
    use camroller_defects, only : find_defect, slip_slopes
    use camroller_error_estimate, only : estimate_t, add_defect, end_interval, estimated_error, mean_errors
    use camroller_extremes, only : samples_t
-   use camroller_follower_samples, only : follower_samples_t, start_samples, look_t, look_of
+   use camroller_follower_samples, only : follower_samples_t, start_samples, entrainment_t, entrainment_of
    use camroller_names, only : name_length
    use camroller_panels, only : panels_t, panel_points, panel_places, panel_weights, gauss_points, start_panels, add_panel, &
       & add_trapezoid, refine_panels
@@ -93,7 +93,7 @@ contains
       type(panels_t) :: panels
       type(estimate_t) :: estimate
       type(stored_work_t) :: work
-      type(look_t), allocatable :: looks(:)
+      type(entrainment_t), allocatable :: speeds(:)
       type(quantity_t), allocatable :: series(:)
       ! Length of the cycle [rad]
       real(wp) :: span
@@ -102,13 +102,13 @@ contains
 
       call list_series(case, series)
       call start_samples(samples, model, cycle, case, series_count, find_quantity(series, "torque_geometric"))
-      call walk_round(samples, statistics, panels, estimate, work, looks, error)
+      call walk_round(samples, statistics, panels, estimate, work, speeds, error)
       if (allocated(error)) return
       films = [1, 0]
       if (statistics%lost_share > 0.0_wp) films = [find_quantity(series, "film_thickness_min"), find_quantity(series, "film_ratio")]
       if (.not. cycle%is_linear) then
          call refine_means(panels, samples, cycle%tolerance, series_count, films, error)
-         if (.not. allocated(error)) call add_standstills(samples, looks, statistics%standstills, statistics%first_standstill, &
+         if (.not. allocated(error)) call add_standstills(samples, speeds, statistics%standstills, statistics%first_standstill, &
             & error)
          if (allocated(error)) return
       end if
@@ -124,7 +124,7 @@ contains
    end subroutine integrate_lobe
 
    !> Sample every interval of a cycle: panels, estimate of the error, contact, range of the film law.
-   subroutine walk_round(samples, statistics, panels, estimate, work, looks, error)
+   subroutine walk_round(samples, statistics, panels, estimate, work, speeds, error)
       !> The samples
       type(follower_samples_t), intent(inout) :: samples
       !> Shares of the cycle without contact and outside the film law's range, angle of the largest error
@@ -136,7 +136,7 @@ contains
       !> Work of what is stored
       type(stored_work_t), intent(inout) :: work
       !> The points, in order
-      type(look_t), allocatable, intent(out) :: looks(:)
+      type(entrainment_t), allocatable, intent(out) :: speeds(:)
       !> Convergence error
       type(error_t), allocatable, intent(out) :: error
 
@@ -152,7 +152,7 @@ contains
       if (samples%cycle%is_linear) weights = [0.5_wp, 0.5_wp]
       associate (times => samples%cycle%trajectory%time(:samples%cycle%trajectory%count))
          call start_panels(panels, size(values, 1), 2*size(times))
-         allocate (looks(size(places)*size(times)))
+         allocate (speeds(size(places)*size(times)))
          count = 0
          do interval = 1, size(times) - 1
             left = times(interval)
@@ -163,7 +163,7 @@ contains
                call samples%sample(angle, values(:, point), error)
                if (allocated(error)) return
                count = count + 1
-               looks(count) = look_of(samples, angle)
+               speeds(count) = entrainment_of(samples, angle)
                call follow_contact(work, samples, angle, left, error)
                if (allocated(error)) return
                call add_shares(samples, angle, weights(point)*(right - left)/(times(size(times)) - times(1)), statistics)
@@ -176,7 +176,7 @@ contains
             if (.not. samples%cycle%is_linear) call add_panel(panels, left, right, values)
          end do
       end associate
-      looks = looks(:count)
+      speeds = speeds(:count)
    end subroutine walk_round
 
    !> Add the point that was sampled last to the estimate of the error.
@@ -269,7 +269,7 @@ contains
       halvings = most_halvings
       do pass = 1, most_passes
          allowed = mean_tolerance(tolerance)*mean_sizes(panels, series, films)
-         if (all(sum(panels%doubts(:, :panels%count), 2) <= allowed)) return
+         if (all(sum(panels%errors(:, :panels%count), 2) <= allowed)) return
          call refine_panels(panels, samples, allowed, halvings, error)
          if (allocated(error) .or. halvings == 0) return
       end do
@@ -362,7 +362,7 @@ contains
       integer :: worst, i
 
       associate (first => size(series) + 1)
-         errors = sum(panels%doubts(:, :panels%count), 2)
+         errors = sum(panels%errors(:, :panels%count), 2)
          errors(first + 1:first + 2) = errors(first + 1:first + 2) + slip_errors(:2)
          do i = 1, first - 1
             errors(i) = errors(i) + dot_product(slip_errors(3:), force_of(series(i)))

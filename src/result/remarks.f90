@@ -1,6 +1,6 @@
 !> Remarks: what a reader should know of a result that is there; of one case, and of many by kind.
 !>
-!> Layer: solver. In: kind, number and words, where a remark arises. Out: remarks of a case, their lines; groups of remarks of one
+!> In: kind, number and words, where a remark arises. Out: remarks of a case, their lines; groups of remarks of one
 !> kind on one lobe shape: how many cases have one, and which has the worst.
 module camroller_remarks
    use camroller_kinds, only : wp

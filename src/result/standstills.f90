@@ -9,7 +9,7 @@ module camroller_standstills
    use camroller_catalogue, only : follower_values, torque_count
    use camroller_state, only : evaluate_state
    use camroller_extremes, only : add_sample
-   use camroller_follower_samples, only : follower_samples_t, look_t
+   use camroller_follower_samples, only : follower_samples_t, entrainment_t
    use camroller_roots, only : bracket_t, start_bracket, narrow_bracket, root_wanted, root_found
    implicit none
    private
@@ -23,11 +23,11 @@ contains
 
    !> Count how often the entrainment speed passes through zero in contact or stays there, and add the states without entrainment to
    !> the rows.
-   subroutine add_standstills(samples, looks, standstills, first_angle, error)
+   subroutine add_standstills(samples, speeds, standstills, first_angle, error)
       !> The samples
       type(follower_samples_t), intent(inout) :: samples
       !> Points of the cycle in order
-      type(look_t), intent(in) :: looks(:)
+      type(entrainment_t), intent(in) :: speeds(:)
       !> Number of standstills
       integer, intent(out) :: standstills
       !> Cam angle from full lift of the first [rad]
@@ -46,16 +46,16 @@ contains
       none = samples%cycle%tolerance*samples%cycle%scale
       last = 0
       still = 0
-      do i = 1, size(looks)
-         if (.not. looks(i)%is_touching) then
+      do i = 1, size(speeds)
+         if (.not. speeds(i)%is_touching) then
             last = 0
             still = 0
-         else if (abs(looks(i)%entrainment_speed) <= none) then
+         else if (abs(speeds(i)%entrainment_speed) <= none) then
             still = i
          else
             is_found = still > last
-            if (is_found) angle = looks(still)%angle
-            if (last > 0 .and. .not. is_found) call find_reversal(samples, looks(last), looks(i), is_found, angle, error)
+            if (is_found) angle = speeds(still)%angle
+            if (last > 0 .and. .not. is_found) call find_reversal(samples, speeds(last), speeds(i), is_found, angle, error)
             if (allocated(error)) return
             if (is_found) then
                if (standstills == 0) first_angle = angle
@@ -73,7 +73,7 @@ contains
       !> The samples
       type(follower_samples_t), intent(inout) :: samples
       !> Points before and after
-      type(look_t), intent(in) :: left, right
+      type(entrainment_t), intent(in) :: left, right
       !> Is there one?
       logical, intent(out) :: is_found
       !> The angle [rad]

@@ -1,4 +1,4 @@
-!> Panels: exactness, doubts that bound the errors of kinks and jumps, and the end of halving.
+!> Panels: exactness, error estimates that bound the errors of kinks and jumps, and the end of halving.
 module test_panels
    use testdrive, only : unittest_type, new_unittest, error_type, check
    use camroller_kinds, only : wp
@@ -36,11 +36,11 @@ contains
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
       testsuite = [ &
-         new_unittest("a panel is exact to degree 11 in all quantities, and doubts none to degree 4", test_exact), &
-         new_unittest("doubts bound the errors of kinks, jumps and roots, wherever they are", test_doubts), &
+         new_unittest("a panel is exact to degree 11 in all quantities, and its error estimate is zero to degree 4", test_exact), &
+         new_unittest("error estimates bound the errors of kinks, jumps and roots, wherever they are", test_estimates), &
          new_unittest("halving ends within what is allowed, also with more panels than there was room for", test_halving), &
          new_unittest("where the halvings do not suffice, none is left", test_not_reached), &
-         new_unittest("the doubt of a trapezoid bounds the error of what rises all the way", test_trapezoid) &
+         new_unittest("the error estimate of a trapezoid bounds the error of what rises all the way", test_trapezoid) &
          ]
    end subroutine collect_panels
 
@@ -90,7 +90,7 @@ contains
       do i = 0, highest - 1
          call check(error, panels%integrals(i + 1, 1), 1.0_wp/(i + 1), thr=round_off)
          if (allocated(error)) return
-         call check(error, (panels%doubts(i + 1, 1) <= round_off) .eqv. i < 5)
+         call check(error, (panels%errors(i + 1, 1) <= round_off) .eqv. i < 5)
          if (allocated(error)) return
       end do
       call check(error, abs(panels%integrals(highest + 1, 1) - 1.0_wp/(highest + 1)) > round_off)
@@ -98,7 +98,7 @@ contains
 
    !> One panel each, at 997 places. Where the place is beyond the outermost point the panel sees nothing; the shapes are small
    !> there, and so is the error: the outermost point is at 0.02.
-   subroutine test_doubts(error)
+   subroutine test_estimates(error)
       type(error_type), allocatable, intent(out) :: error
       integer, parameter :: places = 997
       type(shapes_t) :: sampled
@@ -117,12 +117,12 @@ contains
          ! The largest error of a place outside all points, and for the smoothest shapes of one just inside
          unseen = [2.0e-4_wp, 2.0e-2_wp, 2.0e-3_wp, 1.0e-5_wp, 1.0e-6_wp, 2.0e-7_wp]
          do j = 1, shapes
-            write (words, "(i2, f8.4, 2es12.3)") j, sampled%place, errors(j), panels%doubts(j, 1)
-            call check(error, errors(j) <= 1.1_wp*panels%doubts(j, 1) + unseen(j), words)
+            write (words, "(i2, f8.4, 2es12.3)") j, sampled%place, errors(j), panels%errors(j, 1)
+            call check(error, errors(j) <= 1.1_wp*panels%errors(j, 1) + unseen(j), words)
             if (allocated(error)) return
          end do
       end do
-   end subroutine test_doubts
+   end subroutine test_estimates
 
    subroutine test_halving(error)
       type(error_type), allocatable, intent(out) :: error
@@ -142,7 +142,7 @@ contains
       call refine_panels(panels, sampled, allowed, halvings, failure)
       call check(error, halvings > 0 .and. panels%count == 202 - halvings)
       if (allocated(error)) return
-      call check(error, all(sum(panels%doubts(:, :panels%count), 2) <= allowed))
+      call check(error, all(sum(panels%errors(:, :panels%count), 2) <= allowed))
       if (allocated(error)) return
       call check(error, sum(panels%right(:panels%count) - panels%left(:panels%count)), 1.0_wp, thr=round_off)
       if (allocated(error)) return
@@ -168,7 +168,7 @@ contains
       call refine_panels(panels, sampled, [(1.0e-10_wp, i=1, shapes)], halvings, failure)
       call check(error, halvings == 0 .and. panels%count == 6)
       if (allocated(error)) return
-      call check(error, any(sum(panels%doubts(:, :6), 2) > 1.0e-10_wp))
+      call check(error, any(sum(panels%errors(:, :6), 2) > 1.0e-10_wp))
    end subroutine test_not_reached
 
    subroutine test_trapezoid(error)
@@ -180,9 +180,9 @@ contains
       call check(error, panels%integrals(1, 1), 6.0_wp, thr=round_off)
       if (allocated(error)) return
       ! What stays at 1 and jumps to 5 at the end has the integral 2
-      call check(error, panels%doubts(1, 1), 4.0_wp, thr=round_off)
+      call check(error, panels%errors(1, 1), 4.0_wp, thr=round_off)
       if (allocated(error)) return
-      call check(error, panels%doubts(2, 1) <= 0.0_wp .and. abs(panels%sizes(2, 1) - 2.0_wp) <= round_off)
+      call check(error, panels%errors(2, 1) <= 0.0_wp .and. abs(panels%sizes(2, 1) - 2.0_wp) <= round_off)
    end subroutine test_trapezoid
 
 end module test_panels

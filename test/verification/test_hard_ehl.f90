@@ -12,7 +12,7 @@ module test_hard_ehl
    use camroller_model, only : model_t
    use camroller_run, only : build_models
    use cycle_checks, only : sample_t, take_sample, compare_samples
-   use ehl_checks, only : look_t, look_at
+   use ehl_checks, only : cycle_facts_t, solve_and_check
    implicit none
    private
 
@@ -184,7 +184,7 @@ contains
       type(case_t) :: case
       type(model_t) :: model
       type(error_t), allocatable :: failure
-      type(look_t) :: looks(3)
+      type(cycle_facts_t) :: facts(3)
       integer :: i
       logical :: is_noisy
 
@@ -195,12 +195,12 @@ contains
       is_noisy = any(noisy == name)
       do i = 1, merge(1, 3, is_noisy)
          if (allocated(failure) .or. trouble /= "") exit
-         call look_at(model, nodes(merge(2, 1, i == 3)), step_errors(merge(1, 2, i == 1 .and. .not. is_noisy)), looks(i), &
+         call solve_and_check(model, nodes(merge(2, 1, i == 3)), step_errors(merge(1, 2, i == 1 .and. .not. is_noisy)), facts(i), &
             & trouble, failure)
       end do
       if (allocated(failure)) trouble = failure%message
       if (trouble /= "" .or. is_noisy) return
-      trouble = disagreement(looks, differences_of(name))
+      trouble = disagreement(facts, differences_of(name))
    end subroutine run_cycle
 
    !> What two grids may differ by: film, and slip over its largest size.
@@ -221,18 +221,18 @@ contains
    end function differences_of
 
    !> Where the cycles of a deck do not agree: the second has longer steps than the first, the third fewer nodes than the second.
-   pure function disagreement(looks, differences) result(trouble)
-      type(look_t), intent(in) :: looks(3)
+   pure function disagreement(facts, differences) result(trouble)
+      type(cycle_facts_t), intent(in) :: facts(3)
       real(wp), intent(in) :: differences(2)
       character(len=:), allocatable :: trouble
 
       trouble = ""
-      if (.not. abs(looks(2)%film/looks(1)%film - 1.0_wp) <= step_errors(2)) trouble = "film by other steps"
-      if (.not. abs(looks(2)%slip - looks(1)%slip) <= 3.0_wp*step_errors(2)*looks(1)%largest_slip) trouble = "slip by other steps"
+      if (.not. abs(facts(2)%film/facts(1)%film - 1.0_wp) <= step_errors(2)) trouble = "film by other steps"
+      if (.not. abs(facts(2)%slip - facts(1)%slip) <= 3.0_wp*step_errors(2)*facts(1)%largest_slip) trouble = "slip by other steps"
       ! Steps that chatter chatter more the more there are of them
-      if (.not. looks(1)%variation <= most_variation*looks(2)%variation) trouble = "the slip chatters"
-      if (.not. abs(looks(3)%film/looks(2)%film - 1.0_wp) <= differences(1)) trouble = "film on another grid"
-      if (.not. abs(looks(3)%slip - looks(2)%slip) <= differences(2)*looks(1)%largest_slip) trouble = "slip on another grid"
+      if (.not. facts(1)%variation <= most_variation*facts(2)%variation) trouble = "the slip chatters"
+      if (.not. abs(facts(3)%film/facts(2)%film - 1.0_wp) <= differences(1)) trouble = "film on another grid"
+      if (.not. abs(facts(3)%slip - facts(2)%slip) <= differences(2)*facts(1)%largest_slip) trouble = "slip on another grid"
    end function disagreement
 
 end module test_hard_ehl

@@ -17,7 +17,7 @@ module test_random_ehl
    use camroller_model, only : model_t
    use camroller_result, only : result_t, get_series, get_summary
    use camroller_run, only : run_case
-   use ehl_checks, only : look_t, look_at
+   use ehl_checks, only : cycle_facts_t, solve_and_check
    use random_decks, only : random_t, start_random, random_deck
    use run_settings, only : has_checks, number_from
    implicit none
@@ -264,7 +264,7 @@ contains
       integer, parameter :: nodes(5) = [65, 129, 65, 33, 257]
       real(wp), parameter :: step_errors(5) = [1.0e-3_wp, 1.0e-3_wp, 1.0e-2_wp, 1.0e-2_wp, 1.0e-3_wp]
       type(model_t) :: model
-      type(look_t) :: looks(5)
+      type(cycle_facts_t) :: facts(5)
       type(ehl_summary_t) :: summaries(5)
       type(error_t), allocatable :: failure
       character(len=80) :: buffer
@@ -272,9 +272,9 @@ contains
 
       call plain_model(model, case, .false., failure)
       do i = 1, merge(5, 4, is_long_draw())
-         call look_at(model, nodes(i), step_errors(i), looks(i), outcome%trouble, failure, summaries(i))
-         write (buffer, "(i0, a, es8.1, 2(a, i0), a)") nodes(i), " nodes,", step_errors(i), ": ", looks(i)%steps, "-", &
-            & looks(i)%refused, " steps; "
+         call solve_and_check(model, nodes(i), step_errors(i), facts(i), outcome%trouble, failure, summaries(i))
+         write (buffer, "(i0, a, es8.1, 2(a, i0), a)") nodes(i), " nodes,", step_errors(i), ": ", facts(i)%steps, "-", &
+            & facts(i)%refused, " steps; "
          outcome%words = outcome%words//trim(buffer)//" "
          if (.not. allocated(failure) .and. i == 2) call compare_cycles(summaries(1), summaries(2), promised, failure)
          ! The coarse grid is none that the command has
@@ -282,7 +282,7 @@ contains
          if (allocated(failure) .and. i /= 4) call end_with_words(failure, outcome)
          if (outcome%has_ended) return
          if (i == 3) call compare_summaries(summaries(3), summaries(1), "steps", 3.0_wp*step_errors(3), outcome)
-         if (i == 3 .and. looks(1)%variation > most_variation*looks(3)%variation) outcome%trouble = outcome%trouble &
+         if (i == 3 .and. facts(1)%variation > most_variation*facts(3)%variation) outcome%trouble = outcome%trouble &
             & //" the slip chatters;"
          if (i == 4 .and. .not. allocated(failure)) then
             call compare_summaries(summaries(4), summaries(3), "33 nodes", huge(1.0_wp), outcome)

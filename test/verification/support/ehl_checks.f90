@@ -11,17 +11,17 @@ module ehl_checks
    implicit none
    private
 
-   public :: look_t, look_at
+   public :: cycle_facts_t, solve_and_check
 
    !> What two cycles of a deck have to agree in
-   type :: look_t
+   type :: cycle_facts_t
       !> Harmonic mean of the smallest film where there is contact: of the thin films, not of what a short loss leaves [m]
       real(wp) :: film = 0.0_wp
       !> Mean, largest size and total variation of the sliding speed [m/s]
       real(wp) :: slip = 0.0_wp, largest_slip = 0.0_wp, variation = 0.0_wp
       !> Accepted and refused steps
       integer :: steps = 0, refused = 0
-   end type look_t
+   end type cycle_facts_t
 
    !> Energy left over, over the largest power: a sum of ten terms of which each has some roundings [-]
    real(wp), parameter :: energy_tolerance = 200.0_wp*epsilon(1.0_wp)
@@ -31,7 +31,7 @@ module ehl_checks
 contains
 
    !> Solve a cycle and look at it.
-   subroutine look_at(model, node_count, step_error, look, trouble, failure, summary)
+   subroutine solve_and_check(model, node_count, step_error, facts, trouble, failure, summary)
       !> The model
       type(model_t), intent(in) :: model
       !> Nodes
@@ -39,7 +39,7 @@ contains
       !> Error of a step [-]
       real(wp), intent(in) :: step_error
       !> What was seen
-      type(look_t), intent(out) :: look
+      type(cycle_facts_t), intent(out) :: facts
       !> What is wrong; left alone where all is well
       character(len=:), allocatable, intent(inout) :: trouble
       !> Why there is no cycle
@@ -54,15 +54,15 @@ contains
       real(wp) :: power
 
       call integrate_ehl_cycle(cycle, model, ehl_cycle_options_t(nodes=node_count, step_error=step_error), failure)
-      look%refused = cycle%refused
+      facts%refused = cycle%refused
       if (allocated(failure)) return
-      look%steps = size(cycle%angle)
+      facts%steps = size(cycle%angle)
       if (present(summary)) summary = make_ehl_summary(model, cycle)
       call make_ehl_record(record, model, cycle)
       film = column(record, "film_min")
       slip = column(record, "sliding_speed")
       power = maxval(abs(column(record, "torque_drive")))*model%speed
-      look%largest_slip = maxval(abs(slip))
+      facts%largest_slip = maxval(abs(slip))
       associate (last => size(slip), moments => cycle%moments)
          if (.not. all(ieee_is_finite(record%values))) trouble = "a number that is none"
          if (any(moments%has_film .and. .not. film > 0.0_wp)) trouble = "contact without a film"
@@ -70,11 +70,11 @@ contains
          if (any(moments%films%load_lack > load_tolerance)) trouble = "pressure does not carry the load"
          ! Three errors of a step are what the cycle itself asks for
          if (abs(film(last) - film(1)) > 3.0_wp*step_error*film(1) .or. abs(slip(last) - slip(1)) > 3.0_wp*step_error &
-            & *look%largest_slip) trouble = "the cycle is not periodic"
-         look%variation = sum(abs(slip(2:) - slip(:last - 1)))
-         look%slip = mean_over_cycle(record%angle, slip)
-         look%film = 1.0_wp/mean_over_cycle(record%angle, merge(1.0_wp/max(film, tiny(1.0_wp)), 0.0_wp, moments%has_film))
+            & *facts%largest_slip) trouble = "the cycle is not periodic"
+         facts%variation = sum(abs(slip(2:) - slip(:last - 1)))
+         facts%slip = mean_over_cycle(record%angle, slip)
+         facts%film = 1.0_wp/mean_over_cycle(record%angle, merge(1.0_wp/max(film, tiny(1.0_wp)), 0.0_wp, moments%has_film))
       end associate
-   end subroutine look_at
+   end subroutine solve_and_check
 
 end module ehl_checks
