@@ -45,9 +45,9 @@ run: build ## run decks/thesis.nml and plot it: results/thesis.h5 and figures be
 
 comparison: build ## compare with the source thesis: doc/thesis_comparison.md and doc/figures
 	@mkdir -p results/comparison doc/figures
-	@set -o pipefail; $(PYTHON) post/thesis_comparison.py --runs | while read -r name arguments; do \
+	@set -o pipefail; $(PYTHON) post/thesis/thesis_comparison.py --runs | while read -r name arguments; do \
 	  build/release/bin/camroller run $$arguments -o results/comparison/$$name.h5 --quiet || exit 1; done
-	$(PYTHON) post/thesis_comparison.py results/comparison --page doc/thesis_comparison.md
+	$(PYTHON) post/thesis/thesis_comparison.py results/comparison --page doc/thesis_comparison.md
 	@for figure in mean_torque slip; do $(PYTHON) post/plot.py results/comparison/thesis.h5 \
 	  results/comparison/thesis_source.h5 --figure $$figure --dpi 90 --output doc/figures || exit 1; done
 	@$(PYTHON) post/plot.py results/comparison/thesis.h5 --figure mean_torque --dpi 90 --output doc/figures

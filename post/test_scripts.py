@@ -129,7 +129,7 @@ def test_a_folder_that_is_not_there_is_made_and_what_is_in_the_way_named(good, t
     assert (tmp_path / "taken").read_text() == ""
 
 
-@pytest.mark.parametrize("arguments", [["table.py", "FILE", "--all"], ["thesis_comparison.py", "--runs"],
+@pytest.mark.parametrize("arguments", [["table.py", "FILE", "--all"], ["thesis/thesis_comparison.py", "--runs"],
                                        ["plot.py", "FILE", "--figure", "load"], ["plot_sweep.py", "FILE"]])
 def test_a_closed_pipe_ends_quietly(good, tmp_path, arguments):
     words = [str(good["table"]) if word == "FILE" else word for word in arguments]

@@ -1,7 +1,7 @@
 """Compare the results with what the source thesis reports: make `doc/thesis_comparison.md`.
 
-    python post/thesis_comparison.py --runs                                   what to run, a line each
-    python post/thesis_comparison.py results/comparison --page PAGE.md        the page, from the files of these runs
+    python post/thesis/thesis_comparison.py --runs                              list the runs, a line each
+    python post/thesis/thesis_comparison.py results/comparison --page PAGE.md   write the page from the files of these runs
 
 `make comparison` does both. Verdicts follow from the criteria in comparison_claims.py, numbers from the files, and
 reasons are printed where a claim does not hold. Exit code 0, or 2 if a file cannot be used or the page cannot be
@@ -11,6 +11,8 @@ written.
 import argparse
 from pathlib import Path
 import sys
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))  # the scripts of all figures and tables
 
 from command import run, write_file
 from comparison_claims import STATEMENTS, verdict

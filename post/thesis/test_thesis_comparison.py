@@ -16,7 +16,7 @@ from units import significant
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PAGE = ROOT / "doc/thesis_comparison.md"
-SCRIPT = ROOT / "post/thesis_comparison.py"
+SCRIPT = ROOT / "post/thesis/thesis_comparison.py"
 UNTESTED = "## The source's step"  # chatter: another number with every rounding
 NUMBER = re.compile(r"(?<![\w.])[-+]?\d+(?:\.\d+)?")
 
