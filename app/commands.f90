@@ -231,7 +231,7 @@ contains
          if (.not. allocated(error)) call build_models(case, models, error)
          if (allocated(error)) return
          if (.not. wants_choice(case)) cycle
-         call choose_effects(case, models, chosen, choice, .false., error)
+         call choose_effects(case, models, chosen, choice, error)
          if (allocated(error)) return
          text = "! effects that matter for "//trim(case%effects%quantity)//", and changes expected without them"//n
          if (size(deck%sweep%axes) > 0) text = text//"! "//case_in_words(deck%sweep, number)//n

@@ -10,31 +10,26 @@ module camroller_effect_choice
    use camroller_kinds, only : wp
    use camroller_error, only : error_t
    use camroller_names, only : find_name
-   use camroller_accuracy, only : resolve_numerics
    use camroller_camshaft, only : bearing_loads
-   use camroller_case, only : case_t, numerics_t, select_names, select_needed, quantity_names, quantity_torque, quantity_film, &
+   use camroller_case, only : case_t, select_names, select_needed, quantity_names, quantity_torque, quantity_film, &
       & quantity_slip
    use camroller_effect_list, only : choice_t, decision_t, effect_count, effect_bearings, effect_spin, has_effect, leave_out
    use camroller_effect_reasons, only : find_reason
-   use camroller_effect_survey, only : survey_t, response_t, make_survey, respond, respond_roughly, respond_at_once
+   use camroller_effect_survey, only : survey_t, response_t, make_survey, respond
    use camroller_journal, only : journal_t, new_journal, journal_torque
    use camroller_model, only : model_t, revise_model
    use camroller_state, only : cam_force
    implicit none
    private
 
-   public :: wants_choice, choose_effects, remove_effect
+   public :: wants_choice, choose_effects
 
    !> Method that may be far from the solution
    character(len=*), parameter :: fixed_step = "euler"
    !> Factor of the estimates on the changes that the survey of the cycle finds [-]
    real(wp), parameter :: margin = 5.0_wp
-   !> A coarse survey decides where it finds so many times what is negligible [-]
-   real(wp), parameter :: clearly = 10.0_wp
    !> Changes beyond this are too large to be estimated from small ones [-]
    real(wp), parameter :: largest_estimate = 1.0_wp
-   !> Tolerance of the quasi-static limit over what is negligible, by quantity [-]
-   real(wp), parameter :: tolerance_parts(size(quantity_names)) = [0.5_wp, 0.1_wp, 0.01_wp]
 
    !> Mean torque for losses
    type :: mean_torque_t
@@ -55,7 +50,7 @@ contains
    end function wants_choice
 
    !> Leave out what a case does not need.
-   subroutine choose_effects(case, models, chosen, choice, is_thorough, error)
+   subroutine choose_effects(case, models, chosen, choice, error)
       !> The case with all its effects
       type(case_t), intent(in) :: case
       !> Model of each lobe shape
@@ -64,8 +59,6 @@ contains
       type(case_t), intent(out) :: chosen
       !> What was decided and why
       type(choice_t), intent(out) :: choice
-      !> Does every effect get the full survey, even those that the coarse one finds to matter?
-      logical, intent(in) :: is_thorough
       !> Deck error
       type(error_t), allocatable, intent(out) :: error
 
@@ -75,7 +68,7 @@ contains
       logical, allocatable :: is_open(:)
 
       chosen = case
-      call weigh_effects(case, models, choice, is_thorough, error)
+      call weigh_effects(case, models, choice, error)
       if (allocated(error)) return
       choice%bound = 0.0_wp
       allocate (is_open(size(choice%decisions)), source=.true.)
@@ -89,54 +82,21 @@ contains
             next = i
          end do
          is_open(next) = .false.
-         ! The integration is as quick as its limit: there is nothing to be saved
-         if (choice%decisions(next)%effect == effect_spin) cycle
          if (least > choice%negligible - choice%bound) cycle
          choice%bound = choice%bound + least
          choice%decisions(next)%is_used = .false.
-         call remove_effect(chosen, choice%decisions(next)%effect)
+         call leave_out(chosen, choice%decisions(next)%effect)
       end do
    end subroutine choose_effects
 
-   !> Leave an effect out; the quasi-static limit of the roller's equation is no more precise than need be.
-   subroutine remove_effect(case, effect)
-      !> In: a case; out: without the effect
-      type(case_t), intent(inout) :: case
-      !> Position in `effect_names`
-      integer, intent(in) :: effect
-
-      ! [-]
-      real(wp) :: tolerance
-
-      tolerance = quasi_static_tolerance(case)
-      call leave_out(case, effect)
-      if (effect == effect_spin) case%numerics%tolerance = tolerance
-   end subroutine remove_effect
-
-   !> Tolerance of the quasi-static limit where it takes the place of the roller's equation.
-   pure function quasi_static_tolerance(case) result(tolerance)
-      !> The case
-      type(case_t), intent(in) :: case
-      !> Error of the balance over the largest sliding speed [-]
-      real(wp) :: tolerance
-
-      type(numerics_t) :: resolved
-
-      resolved = resolve_numerics(case%numerics)
-      tolerance = max(resolved%tolerance, minval(tolerance_parts*case%effects%negligible, &
-         & mask=quantity_names == case%effects%quantity))
-   end function quasi_static_tolerance
-
    !> What leaving each effect out would change.
-   subroutine weigh_effects(case, models, choice, is_thorough, error)
+   subroutine weigh_effects(case, models, choice, error)
       !> The case with all its effects
       type(case_t), intent(in) :: case
       !> Model of each lobe shape
       type(model_t), intent(in) :: models(:)
       !> Estimates and reasons; nothing is left out yet
       type(choice_t), intent(out) :: choice
-      !> Does every effect get the full survey?
-      logical, intent(in) :: is_thorough
       !> Deck error
       type(error_t), allocatable, intent(out) :: error
 
@@ -164,13 +124,13 @@ contains
       end if
       do effect = 1, effect_count
          if (.not. has_effect(case, effect)) cycle
-         call weigh_effect(case, models, surveys, effect, torque, is_thorough, choice, error)
+         call weigh_effect(case, models, surveys, effect, torque, choice, error)
          if (allocated(error)) return
       end do
    end subroutine weigh_effects
 
    !> What leaving one effect out would change.
-   subroutine weigh_effect(case, models, surveys, effect, torque, is_thorough, choice, error)
+   subroutine weigh_effect(case, models, surveys, effect, torque, choice, error)
       !> The case with all its effects
       type(case_t), intent(in) :: case
       !> Model of each lobe shape
@@ -181,8 +141,6 @@ contains
       integer, intent(in) :: effect
       !> Mean torque for losses
       type(mean_torque_t), intent(in) :: torque
-      !> Does every effect get the full survey?
-      logical, intent(in) :: is_thorough
       !> Gets a decision
       type(choice_t), intent(inout) :: choice
       !> Deck error
@@ -191,7 +149,6 @@ contains
       type(decision_t) :: decision
       type(response_t), allocatable :: responses(:)
       integer :: lobe
-      logical :: is_rough
 
       decision%effect = effect
       decision%is_used = .true.
@@ -206,16 +163,11 @@ contains
          if (decision%reason == "") decision%reason = "not estimated: "//surveys(lobe)%trouble
       else if (decision%reason == "") then
          call find_reason(effect, models(1), surveys(1), torque%bearings/(torque%followers + torque%bearings), decision%reason)
-         if (effect /= effect_bearings) then
-            is_rough = .not. is_thorough .and. effect /= effect_spin
-            call find_responses(case, models, surveys, effect, is_rough, responses, error)
+         ! The roller equation is as quick as its limit: there is nothing to be saved
+         if (effect /= effect_bearings .and. effect /= effect_spin) then
+            call find_responses(case, models, surveys, effect, responses, error)
             if (allocated(error)) return
             call set_estimates(case, surveys(1), responses, torque, choice, decision)
-            if (is_rough .and. decision%estimates(choice%quantity) < clearly*choice%negligible) then
-               call find_responses(case, models, surveys, effect, .false., responses, error)
-               if (allocated(error)) return
-               call set_estimates(case, surveys(1), responses, torque, choice, decision)
-            end if
          end if
       end if
       choice%decisions = [choice%decisions, decision]
@@ -254,7 +206,7 @@ contains
    end subroutine set_estimates
 
    !> How every lobe's cycle answers to a case without an effect.
-   subroutine find_responses(case, models, surveys, effect, is_rough, responses, error)
+   subroutine find_responses(case, models, surveys, effect, responses, error)
       !> The case with all its effects
       type(case_t), intent(in) :: case
       !> Model of each lobe shape
@@ -263,8 +215,6 @@ contains
       type(survey_t), intent(in) :: surveys(:)
       !> Position in `effect_names`
       integer, intent(in) :: effect
-      !> A coarse survey alone?
-      logical, intent(in) :: is_rough
       !> The answers
       type(response_t), allocatable, intent(out) :: responses(:)
       !> Deck error
@@ -278,18 +228,10 @@ contains
       variant = case
       call leave_out(variant, effect)
       do lobe = 1, size(models)
-         if (effect == effect_spin) then
-            call respond_at_once(surveys(lobe), models(lobe), quasi_static_tolerance(case), responses(lobe))
-            cycle
-         end if
          model = models(lobe)
          call revise_model(model, variant, error)
          if (allocated(error)) return
-         if (is_rough) then
-            call respond_roughly(surveys(lobe), models(lobe), model, responses(lobe))
-         else
-            call respond(surveys(lobe), models(lobe), model, responses(lobe))
-         end if
+         call respond(surveys(lobe), models(lobe), model, responses(lobe))
       end do
    end subroutine find_responses
 

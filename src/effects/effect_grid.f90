@@ -13,7 +13,7 @@ module camroller_effect_grid
    implicit none
    private
 
-   public :: grid_t, points, slowest_decay, make_grid, delay, delay_from_half, delay_slowly, mean_over, sampling_error, bend_of
+   public :: grid_t, points, slowest_decay, make_grid, delay, delay_from_half, delay_slowly, mean_over, sampling_error
 
    !> Angles of the survey
    integer, parameter :: points = 48
@@ -219,23 +219,5 @@ contains
       steps = values(2::2) - values(1::2)
       error = max(abs(sum(grid%weights(1::2)*steps)), abs(sum(grid%weights(2::2)*steps)))
    end function sampling_error
-
-   !> Mean size of the second derivative of a quantity over the cam angle, from differences inside the pieces.
-   pure function bend_of(grid, values) result(bend)
-      !> The angles
-      type(grid_t), intent(in) :: grid
-      !> Values at the angles [any]
-      real(wp), intent(in) :: values(:)
-      !> The mean [any/rad^2]
-      real(wp) :: bend
-
-      integer :: i
-
-      bend = 0.0_wp
-      do i = 2, points - 1
-         if (grid%piece(i - 1) /= grid%piece(i + 1)) cycle
-         bend = bend + grid%weights(i)*abs(values(i + 1) - 2.0_wp*values(i) + values(i - 1))/(two_pi*grid%weights(i))**2
-      end do
-   end function bend_of
 
 end module camroller_effect_grid

@@ -12,28 +12,20 @@
 module camroller_effect_survey
    use camroller_kinds, only : wp, two_pi
    use camroller_effect_grid, only : grid_t, points, slowest_decay, make_grid, delay, delay_from_half, delay_slowly, mean_over, &
-      & sampling_error, bend_of
+      & sampling_error
    use camroller_model, only : model_t
    use camroller_kinematics, only : position_t
    use camroller_state, only : state_t, evaluate_state
    use camroller_balance, only : follow_balance, least_slip
-   use camroller_quasi_static, only : longest_interval
    use camroller_spin, only : rolling_speed_slope, decay_rate_of
    use camroller_stick, only : has_stick
-   use camroller_traction, only : cap_sharp
    implicit none
    private
 
-   public :: survey_t, response_t, make_survey, respond, respond_roughly, respond_at_once
+   public :: survey_t, response_t, make_survey, respond
 
-   !> Angles from one to the next in a coarse survey
-   integer, parameter :: stride = 4
-   !> Distance between the angles, about [rad]
-   real(wp), parameter :: spacing_angle = two_pi/points
    !> Accuracy of a balance over the speed of pure rolling on the base circle [-]
    real(wp), parameter :: balance_accuracy = 1.0e-4_wp
-   !> Decay between two angles below which a delay may be more than what is seen of it at the angles [-]
-   real(wp), parameter :: slowest_resolved = 3.0_wp
    !> Smallest load over the largest one, below which contact may be lost between the angles [-]
    real(wp), parameter :: smallest_load = 1.0e-2_wp
    !> Part of a disturbance that its correction may be [-]
@@ -130,11 +122,11 @@ contains
       survey%scale = max(maxval(abs(survey%balance)), least_slip*maxval(abs(survey%states%contact%rolling_speed)))
       if (is_nearly_lost(survey%states)) survey%trouble = "contact is lost or nearly so"
       if (allocated(survey%trouble)) return
-      call doubt_survey(model, balance_decay, survey)
+      call estimate_uncertainty(model, balance_decay, survey)
    end subroutine make_survey
 
    !> Uncertainty of a survey.
-   subroutine doubt_survey(model, balance_decay, survey)
+   subroutine estimate_uncertainty(model, balance_decay, survey)
       !> The model
       type(model_t), intent(in) :: model
       !> Decay rates at the balance, with which the sliding speed was delayed [1/rad]
@@ -166,7 +158,7 @@ contains
          & + mean_over(survey%grid, torque_slopes(model, survey%states)*survey%error)
       survey%slip = mean_over(survey%grid, survey%sliding)
       survey%slip_error = sampling_error(survey%grid, survey%sliding) + mean_over(survey%grid, survey%error)
-   end subroutine doubt_survey
+   end subroutine estimate_uncertainty
 
    !> Decay and balance with which the roller equation has the rate that it has at the delayed sliding speed.
    subroutine refine_decay(model, survey, point, balance_decay, decay, balance)
@@ -251,74 +243,6 @@ contains
       end if
       call sum_up(survey, model, second, change, correction, response)
    end subroutine respond
-
-   !> How the cycle answers to another model, seen at few angles before the sliding speed has changed: no bound, but enough to
-   !> tell that an effect matters.
-   subroutine respond_roughly(survey, model, other, response)
-      !> The cycle of a model
-      type(survey_t), intent(in) :: survey
-      !> That model
-      type(model_t), intent(in) :: model
-      !> Another model, of the same geometry
-      type(model_t), intent(in) :: other
-      !> What changes
-      type(response_t), intent(out) :: response
-
-      type(state_t) :: state
-      ! Disturbing rate [m/s/rad]
-      real(wp) :: rate
-      integer :: i, status
-
-      response%is_known = .true.
-      response%torque = 0.0_wp
-      response%film = 0.0_wp
-      response%sliding = 0.0_wp
-      response%evaluations = points/stride
-      do i = stride/2, points, stride
-         call evaluate_state(other, survey%grid%angles(i), survey%sliding(i), state, status)
-         if (status /= 0) response%is_known = .false.
-         if (status /= 0) return
-         associate (base => survey%states(i), weight => sum(survey%grid%weights(i - stride/2 + 1:i + stride/2)))
-            rate = model%roller_radius/model%speed*(state%spin_acceleration - base%spin_acceleration)
-            response%torque = response%torque + weight*abs(state%torque_friction - base%torque_friction)
-            response%film = max(response%film, abs(state%contact%film_min/base%contact%film_min - 1.0_wp))
-            response%sliding = response%sliding + weight*abs(rate)/max(survey%decay(i), slowest_decay)
-         end associate
-      end do
-   end subroutine respond_roughly
-
-   !> How the cycle answers to a roller that follows its balance without delay.
-   subroutine respond_at_once(survey, model, tolerance, response)
-      !> The cycle of a model
-      type(survey_t), intent(in) :: survey
-      !> That model
-      type(model_t), intent(in) :: model
-      !> Error of the balance over the largest sliding speed [-]
-      real(wp), intent(in) :: tolerance
-      !> What changes
-      type(response_t), intent(out) :: response
-
-      type(state_t) :: states(points)
-      ! Decay rates [1/rad], change of the sliding speed and its error [m/s], torques for losses [N m]
-      real(wp) :: decay(points), change(points), error(points), torques(points)
-      logical :: is_fine
-
-      response%is_known = .false.
-      response%evaluations = points
-      response%torque = 0.0_wp
-      response%film = 0.0_wp
-      response%sliding = 0.0_wp
-      ! At a sharp limit of the traction there is no decay, if only between the angles
-      if (model%cap == cap_sharp .or. minval(survey%decay)*spacing_angle < slowest_resolved) return
-      call look(survey, model, survey%balance, states, decay, is_fine)
-      if (.not. is_fine) return
-      change = survey%balance - survey%sliding
-      error = tolerance*survey%scale + survey%error
-      call sum_up(survey, model, states, change, error, response)
-      torques = states%torque_friction
-      ! The limit is taken as linear between its points, and so is what follows from it
-      response%torque = response%torque + bend_of(survey%grid, torques)*longest_interval**2/12.0_wp
-   end subroutine respond_at_once
 
    !> States of a model round the cycle.
    subroutine look(survey, model, sliding, states, decay, is_fine)

@@ -82,7 +82,7 @@ contains
          call run_listed(case, models, result, error)
          return
       end if
-      call choose_effects(case, models, chosen, choice, .false., error)
+      call choose_effects(case, models, chosen, choice, error)
       ! Without its camshaft bearings a case has one lobe shape
       shapes = merge(size(models), 1, allocated(chosen%second_lift))
       do lobe = 1, shapes

@@ -7,9 +7,9 @@ module camroller_audit
    use camroller_kinds, only : wp
    use camroller_error, only : error_t
    use camroller_case, only : case_t, select_names, quantity_names
-   use camroller_effect_choice, only : choose_effects, remove_effect
+   use camroller_effect_choice, only : choose_effects
    use camroller_effect_list, only : choice_t, decision_t, effect_names, effect_count, effect_bearings, effect_rolling, &
-      & has_effect, leave_all_but
+      & has_effect, leave_all_but, leave_out
    use camroller_model, only : model_t
    use camroller_result, only : quantity_t
    use camroller_run, only : build_models
@@ -77,7 +77,7 @@ contains
       listed = case
       listed%effects%select = select_names(1)
       call build_models(listed, models, error)
-      if (.not. allocated(error)) call choose_effects(listed, models, variant, choice, .true., error)
+      if (.not. allocated(error)) call choose_effects(listed, models, variant, choice, error)
       if (allocated(error)) return
       call run_trial(listed, repeats, full)
       call add_outcome(table, position, run_listed, full, full, full)
@@ -87,7 +87,7 @@ contains
       call add_outcome(table, position, run_needed, full, full, outcome, choice=choice)
       do i = 1, size(choice%decisions)
          variant = listed
-         call remove_effect(variant, choice%decisions(i)%effect)
+         call leave_out(variant, choice%decisions(i)%effect)
          call run_trial(variant, repeats, outcome)
          call add_outcome(table, position, run_without, full, full, outcome, choice%decisions(i))
       end do

@@ -143,7 +143,7 @@ contains
       case = thesis_case()
       case%effects%negligible = 0.0_wp
       call build_models(case, models, failure)
-      if (.not. allocated(failure)) call choose_effects(case, models, chosen, choice, .true., failure)
+      if (.not. allocated(failure)) call choose_effects(case, models, chosen, choice, failure)
       if (allocated(failure)) then
          call test_failed(error, failure%message)
          return
@@ -155,7 +155,7 @@ contains
       case%surface%cam_roughness = 1.0e-9_wp
       case%surface%roller_roughness = 1.0e-9_wp
       call build_models(case, models, failure)
-      if (.not. allocated(failure)) call choose_effects(case, models, chosen, choice, .true., failure)
+      if (.not. allocated(failure)) call choose_effects(case, models, chosen, choice, failure)
       call check(error, .not. allocated(chosen%asperity) .and. choice%bound <= 0.0_wp, "surfaces that never touch have asperities")
    end subroutine test_zero
 
@@ -218,7 +218,7 @@ contains
       ! Which quantity counts decides what is left out
       case%effects%quantity = quantity_names(modulo(seed, size(quantity_names)) + 1)
       if (.not. allocated(failure)) call build_models(case, models, failure)
-      if (.not. allocated(failure)) call choose_effects(case, models, chosen, choice, .true., failure)
+      if (.not. allocated(failure)) call choose_effects(case, models, chosen, choice, failure)
       if (allocated(failure)) return
       do i = 1, size(choice%decisions)
          is_known = is_known .or. minval(choice%decisions(i)%estimates) < 1.0_wp
