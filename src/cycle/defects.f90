@@ -1,20 +1,18 @@
-!> Defect of the roller equation for the curve of a cycle, decay rate of a disturbance, and slopes of the losses.
+!> Defect of the roller equation for the curve of a cycle, and decay rate of a disturbance.
 !>
-!> In: model, cycle, state at a point. Out: defect, decay rate, slopes of the losses over the sliding speed, for
-!> `error_estimate`.
+!> In: model, cycle, state at a point. Out: defect and decay rate, for `error_estimate`.
 module camroller_defects
    use camroller_kinds, only : wp
    use camroller_model, only : model_t
    use camroller_state, only : state_t, evaluate_spin
    use camroller_contact_forces, only : contact_t
    use camroller_cycle, only : cycle_t
-   use camroller_needle, only : bearing_torque_slope
    use camroller_spin, only : decay_rate_of, full_decay_rate, rolling_speed_slope
    use camroller_trajectory, only : curve_slope
    implicit none
    private
 
-   public :: find_defect, slip_slopes
+   public :: find_defect
 
 contains
 
@@ -46,77 +44,6 @@ contains
       if (.not. (cycle%is_linear .or. allocated(cycle%phases))) call weaken_decay(model, state, defect, decay_rate)
       if (decay_rate < 0.0_wp) call limit_growth(model, state, max(few*cycle%step_error, abs(error_so_far)), decay_rate)
    end subroutine find_defect
-
-   !> Changes with the sliding speed, as sizes: torque of the contact and of the roller's bearing, traction,
-   !> mobilised boundary friction, its share in the friction of the contact.
-   !>
-   !> The traction changes with the sliding speed as the decay rate says, film and rolling resistance with the entrainment by about
-   !> their size over that speed; the load follows the traction by the quotient of the arms about the pivot.
-   pure function slip_slopes(model, state, decay_rate, reach) result(slopes)
-      !> Model of the lobe
-      type(model_t), intent(in) :: model
-      !> State of the follower
-      type(state_t), intent(in) :: state
-      !> Decay rate of a disturbance there [1/rad], size of an error of the sliding speed [m/s]
-      real(wp), intent(in) :: decay_rate, reach
-      !> The changes, not negative: of the torques [N m s/m], of the forces [N s/m], of the share [s/m]
-      real(wp) :: slopes(5)
-
-      ! Change of the traction with the sliding speed [N s/m]; of the bearing's torque with the spin [N m s], with the load [m]
-      real(wp) :: by_slip, by_spin, arm
-      ! Sum of entrainment speed and sliding speed [m/s]
-      real(wp) :: speeds
-
-      slopes = 0.0_wp
-      associate (contact => state%contact, position => state%position)
-         if (.not. contact%is_touching) return
-         by_slip = max(decay_rate, 0.0_wp)*model%roller_inertia*model%speed/model%roller_radius**2
-         slopes(3) = by_slip
-         slopes(4:5) = boundary_slopes(model, state, by_slip, reach)
-         if (model%is_consistent) then
-            slopes(1) = (2.0_wp*(abs(contact%traction) + abs(contact%rolling_resistance)) + abs(contact%sliding_speed)*by_slip) &
-               & /model%speed
-         else
-            speeds = abs(contact%entrainment_speed) + abs(contact%sliding_speed)
-            slopes(1) = by_slip
-            if (speeds > 0.0_wp) slopes(1) = by_slip + state%contact_friction/speeds
-            slopes(1) = slopes(1)*abs(position%cam_arm)
-         end if
-         if (.not. allocated(model%bearing)) return
-         by_spin = bearing_torque_slope(model%bearing%friction_coefficient, contact%load, model%bearing%radius, &
-            & contact%relative_spin, model%bearing%reversal_spin)
-         arm = abs(contact%bearing_torque)/contact%load*abs(position%tangent_arm/position%normal_arm)
-         slopes(2) = abs(contact%bearing_torque)/(model%roller_radius*model%speed)
-         if (model%is_consistent) then
-            slopes(2) = slopes(2) + abs(contact%relative_spin)/model%speed*(by_spin/model%roller_radius + arm*by_slip)
-         else
-            slopes(2) = slopes(2) + abs(contact%roller_spin)/model%speed*by_spin/model%roller_radius
-         end if
-      end associate
-   end function slip_slopes
-
-   !> Changes of the mobilised boundary friction and of its share in the friction of the contact with the sliding speed, as sizes.
-   pure function boundary_slopes(model, state, by_slip, reach) result(slopes)
-      !> Model of the lobe
-      type(model_t), intent(in) :: model
-      !> State of the follower
-      type(state_t), intent(in) :: state
-      !> Change of the traction with the sliding speed [N s/m], size of an error of the sliding speed [m/s]
-      real(wp), intent(in) :: by_slip, reach
-      !> The changes, not negative [N s/m] and [s/m]
-      real(wp) :: slopes(2)
-
-      slopes = 0.0_wp
-      if (.not. allocated(model%boundary)) return
-      if (model%boundary%is_set_valued) return
-      associate (contact => state%contact)
-         if (contact%boundary_capacity > 0.0_wp) slopes(1) = max(contact%boundary_capacity &
-            & - contact%boundary_mobilised**2/contact%boundary_capacity, 0.0_wp)/model%boundary%mobilising_speed
-         ! A share cannot be wrong by more than one
-         if (state%contact_friction > 0.0_wp) slopes(2) = min((slopes(1) + by_slip*state%boundary_friction &
-            & /state%contact_friction)/state%contact_friction, 1.0_wp/max(reach, tiny(1.0_wp)))
-      end associate
-   end function boundary_slopes
 
    !> Decay rate of a disturbance of the spin.
    !>

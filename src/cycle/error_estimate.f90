@@ -1,23 +1,25 @@
 !> Error of a cycle, estimated from the equation that its own curve leaves unsatisfied.
 !>
 !> In: at the points of the rule for means, the slope of the curve less the rate of the roller equation there (its
-!> defect), the decay rate and the changes of the losses with the sliding speed. Out: the largest error of the sliding speed in
-!> the cycle, and the resulting errors of the losses.
+!> defect) and the decay rate. Out: the error of the sliding speed at these points, and the largest in the cycle.
 !>
 !> The error obeys `d error/d angle = defect - decay_rate*error` in first order. Its terms are evaluated for the means anyway, so
 !> the estimate costs no evaluation, and it holds for any method, interpolation included. Source: Enright, SIAM J. Numer. Anal. 26
 !> (1989) 588, on defects as a measure of error.
 module camroller_error_estimate
    use camroller_kinds, only : wp
+   use camroller_panels, only : panel_places, gauss_points
    implicit none
    private
 
-   public :: estimate_t, add_defect, end_interval, estimated_error, mean_errors
+   public :: estimate_t, add_defect, end_interval, estimated_error, error_at_start, most_points, margin
 
-   !> Most points of a rule in an interval; quantities that follow the sliding speed: two losses, three forces
-   integer, parameter :: most_points = 3, followers = 5
-   !> Places that cut an interval into parts [-]: shorter ones at its ends, where the defect of a stiff method is largest
-   real(wp), parameter :: cuts(*) = [0.0_wp, 0.02_wp, 0.1_wp, 0.3_wp, 0.5_wp, 0.7_wp, 0.9_wp, 1.0_wp]
+   !> Most points of a rule in an interval
+   integer, parameter :: most_points = 3
+   !> Places that cut an interval into parts [-]: shorter ones at its ends, where the defect of a stiff method is largest. The points
+   !> of all rules are among them
+   real(wp), parameter :: cuts(*) = [0.0_wp, 0.02_wp, panel_places(gauss_points(1)), 0.3_wp, panel_places(gauss_points(2)), &
+      & 0.7_wp, panel_places(gauss_points(3)), 1.0_wp]
    !> The estimate is of first order; true errors were met at up to 1.25 times as much [-]
    real(wp), parameter :: margin = 2.0_wp
    !> Exponent of the growth over a part of an interval beyond which more makes no difference [-]
@@ -31,42 +33,34 @@ module camroller_error_estimate
       integer :: points = 0
       !> Defect [m/s/rad] and decay rate [1/rad] at each of them
       real(wp) :: defects(most_points) = 0.0_wp, rates(most_points) = 0.0_wp
-      !> Changes with the sliding speed there, as `slip_slopes` gives them [N m s/m], [N s/m] and [s/m]
-      real(wp) :: slopes(followers, most_points) = 0.0_wp
+      !> Error at each of them once the interval has ended [m/s], part of an error at the start of the cycle that is left there [-]
+      real(wp) :: errors(most_points) = 0.0_wp, shares(most_points) = 0.0_wp
       !> Error at the end of the last interval, largest so far [m/s]
       real(wp) :: error = 0.0_wp, largest = 0.0_wp
       !> Part of an error at the start of the cycle that is left [-]
       real(wp) :: contraction = 1.0_wp
-      !> Integrals over the cycle of these changes times the size of the error [N m rad], and times the part of an
-      !> error at the start that is left there [N m s rad/m]; forces likewise
-      real(wp) :: changes(followers) = 0.0_wp, changes_of_start(followers) = 0.0_wp
    end type estimate_t
 
 contains
 
    !> Add a point of the present interval.
-   pure subroutine add_defect(estimate, defect, decay_rate, slopes)
+   pure subroutine add_defect(estimate, defect, decay_rate)
       !> The estimate
       type(estimate_t), intent(inout) :: estimate
       !> Slope of the curve less rate of the equation [m/s/rad]
       real(wp), intent(in) :: defect
       !> Decay rate of a disturbance [1/rad]
       real(wp), intent(in) :: decay_rate
-      !> Changes with the sliding speed, as sizes; absent: none [N m s/m], [N s/m] and [s/m]
-      real(wp), intent(in), optional :: slopes(followers)
 
       estimate%points = estimate%points + 1
       estimate%defects(estimate%points) = defect
       estimate%rates(estimate%points) = decay_rate
-      estimate%slopes(:, estimate%points) = 0.0_wp
-      if (present(slopes)) estimate%slopes(:, estimate%points) = slopes
    end subroutine add_defect
 
    !> Carry the error over an interval.
    !>
    !> The defect is taken as the polynomial through its points, the decay rate as changing by the same factor over the same length
-   !> between them, since it may span decades. Each part keeps the integral of the defect where the decay is slow and the quotient
-   !> of defect and decay rate where it is fast.
+   !> between them, since it may span decades, and as constant over a part.
    pure subroutine end_interval(estimate, nodes, length, ends)
       !> The estimate; its points are used up
       type(estimate_t), intent(inout) :: estimate
@@ -79,9 +73,8 @@ contains
 
       ! Places [-] and defects [m/s/rad] that are known
       real(wp) :: places(size(nodes) + 2), values(size(nodes) + 2)
-      ! Defect at start, middle and end of a part [m/s/rad]; its length over the interval [-]; decay over it, what it leaves, its
-      ! mean weight [-]; size of the error in a part [m/s]; changes of the losses with the sliding speed there [N m s/m]
-      real(wp) :: defects(3), part, decay, left, weight, size_there, slopes(followers)
+      ! Defect at start, middle and end of a part [m/s/rad]; its length over the interval [-]; decay over it, what it leaves [-]
+      real(wp) :: defects(3), part, decay, left
       integer :: i, j, known
 
       known = size(nodes)
@@ -93,29 +86,51 @@ contains
          known = known + 2
       end if
       estimate%points = 0
-      do i = 1, size(cuts) - 1
+      do i = 1, size(cuts)
+         where (abs(nodes - cuts(i)) <= epsilon(1.0_wp))
+            estimate%errors(:size(nodes)) = estimate%error
+            estimate%shares(:size(nodes)) = estimate%contraction
+         end where
+         if (i == size(cuts)) exit
          part = cuts(i + 1) - cuts(i)
          do j = 0, 2
             defects(j + 1) = value_at(places(:known), values(:known), cuts(i) + 0.5_wp*j*part)
          end do
          decay = max(rate_at(nodes, estimate%rates(:size(nodes)), cuts(i) + 0.5_wp*part)*length*part, -largest_growth)
          left = exp(-decay)
-         weight = 1.0_wp
-         if (abs(decay) > epsilon(1.0_wp)) weight = (1.0_wp - left)/decay
-         size_there = abs(estimate%error)
-         estimate%error = left*estimate%error + length*part*(weight*defects(2) &
-            & + left*(defects(1) - 2.0_wp*defects(2) + defects(3))/6.0_wp)
+         estimate%error = left*estimate%error + length*part*decayed_integral(defects, decay)
          estimate%error = sign(min(abs(estimate%error), lost), estimate%error)
-         size_there = max(size_there, abs(estimate%error))
-         do j = 1, followers
-            slopes(j) = rate_at(nodes, estimate%slopes(j, :size(nodes)), cuts(i) + 0.5_wp*part)
-         end do
-         estimate%changes = estimate%changes + length*part*slopes*size_there
-         estimate%changes_of_start = estimate%changes_of_start + length*part*slopes*estimate%contraction*max(1.0_wp, left)
          estimate%contraction = min(estimate%contraction*left, lost)
          estimate%largest = max(estimate%largest, abs(estimate%error))
       end do
    end subroutine end_interval
+
+   !> Integral of the parabola through three values over [0, 1], of which what is left decays up to its end.
+   pure function decayed_integral(values, decay) result(integral)
+      !> Values at the start, in the middle and at the end [any]
+      real(wp), intent(in) :: values(3)
+      !> Exponent of the decay over the part; negative: growth [-]
+      real(wp), intent(in) :: decay
+      !> The integral [unit of the values]
+      real(wp) :: integral
+
+      ! Decay below which differences of what follows would be rounding: the decayed parabola is then integrated by Simpson's rule,
+      ! whose error is the fifth power of it [-]
+      real(wp), parameter :: little = 0.01_wp
+      ! Integrals of the decayed powers 0, 1 and 2 [-]; slope and curvature of the parabola [unit of the values]
+      real(wp) :: powers(0:2), slope, curvature
+
+      if (abs(decay) < little) then
+         integral = (values(1)*exp(-decay) + 4.0_wp*values(2)*exp(-0.5_wp*decay) + values(3))/6.0_wp
+         return
+      end if
+      powers(0) = (1.0_wp - exp(-decay))/decay
+      powers(1) = (1.0_wp - powers(0))/decay
+      powers(2) = (1.0_wp - 2.0_wp*powers(1))/decay
+      slope = 4.0_wp*values(2) - 3.0_wp*values(1) - values(3)
+      curvature = 2.0_wp*(values(1) + values(3)) - 4.0_wp*values(2)
+      integral = values(1)*powers(0) + slope*powers(1) + curvature*powers(2)
+   end function decayed_integral
 
    !> Largest error over the cycle, with what the cycle passes on to itself, and a margin.
    pure function estimated_error(estimate) result(error)
@@ -128,18 +143,17 @@ contains
          & + abs(estimate%error)*estimate%contraction/max(1.0_wp - estimate%contraction, epsilon(1.0_wp)))
    end function estimated_error
 
-   !> Integrals of the errors of losses and forces over the cycle, with what the cycle passes on to itself, and a margin.
-   pure function mean_errors(estimate, closure) result(errors)
+   !> Error at the start of the periodic cycle: what its end passes on to it, and what start and end of the curve differ by.
+   pure function error_at_start(estimate, closure) result(error)
       !> The estimate at the end of the cycle
       type(estimate_t), intent(in) :: estimate
-      !> Difference of the sliding speed between end and start [m/s]
+      !> Sliding speed at the end less that at the start [m/s]
       real(wp), intent(in) :: closure
-      !> Errors of the losses [N m rad], of the forces [N rad], of the share of asperities in the friction [rad]
-      real(wp) :: errors(followers)
+      !> The error [m/s]
+      real(wp) :: error
 
-      errors = margin*estimate%changes + estimate%changes_of_start*(margin*abs(estimate%error) + closure) &
-         & /max(1.0_wp - estimate%contraction, epsilon(1.0_wp))
-   end function mean_errors
+      error = (estimate%error - closure)/max(1.0_wp - estimate%contraction, epsilon(1.0_wp))
+   end function error_at_start
 
    !> Decay rate between two or three points, constant beyond them.
    pure function rate_at(nodes, rates, place) result(rate)

@@ -27,6 +27,8 @@ module camroller_panels
    real(wp), parameter :: kronrod(4) = [0.104656226026467265193823857192073_wp, 0.268488089868333440728569280666710_wp, &
       & 0.401397414775962222905051818618432_wp, 0.450916538658474142345110087045571_wp]
    real(wp), parameter :: gauss(2) = [5.0_wp/9.0_wp, 8.0_wp/9.0_wp]
+   !> Weights of the rule of three on [0, 1] [-]
+   real(wp), parameter, public :: gauss_weights(3) = 0.5_wp*[gauss(1), gauss(2), gauss(1)]
    !> Places on [0, 1] [-]
    real(wp), parameter, public :: panel_places(panel_points) = 0.5_wp*(1.0_wp + [-outer, -second, -third, 0.0_wp, third, second, &
       & outer])

@@ -16,7 +16,7 @@ module camroller_follower_samples
    implicit none
    private
 
-   public :: follower_samples_t, start_samples, entrainment_t, entrainment_of
+   public :: follower_samples_t, start_samples, sampled_values, entrainment_t, entrainment_of
 
    !> One point of a cycle, for the search of standstills
    type :: entrainment_t
@@ -83,23 +83,35 @@ contains
       !> Convergence error
       type(error_t), allocatable, intent(out) :: error
 
+      call state_at(self%cycle, self%model, x, self%hint, self%state, error)
+      if (allocated(error)) return
+      self%largest_sliding = max(self%largest_sliding, abs(self%state%contact%sliding_speed))
+      call sampled_values(self, self%state, values)
+      if (associated(self%case)) call add_sample(self%rows, x, values(:self%first_torque - 1), .false.)
+   end subroutine sample
+
+   !> Values of a state of the follower, in the order of `sample`.
+   pure subroutine sampled_values(samples, state, values)
+      !> The samples
+      class(follower_samples_t), intent(in) :: samples
+      !> The state
+      type(state_t), intent(in) :: state
+      !> Values of the series [unit of the series], then the torques [N m], last the energy residual [W]
+      real(wp), intent(out) :: values(:)
+
       ! Torques of the follower [N m]
       real(wp) :: torques(torque_count)
 
-      call state_at(self%cycle, self%model, x, self%hint, self%state, error)
-      if (allocated(error)) return
-      torques = follower_torques(self%state)
-      self%largest_sliding = max(self%largest_sliding, abs(self%state%contact%sliding_speed))
-      if (associated(self%case)) then
-         call series_values(self%case, self%model, self%state, torques, 0.0_wp, values(:self%series))
-         call add_sample(self%rows, x, values(:self%first_torque - 1), .false.)
-         values(self%first_torque:self%series) = 0.0_wp
+      torques = follower_torques(state)
+      if (associated(samples%case)) then
+         call series_values(samples%case, samples%model, state, torques, 0.0_wp, values(:samples%series))
+         values(samples%first_torque:samples%series) = 0.0_wp
       end if
       torques(1) = 0.0_wp
-      if (self%state%contact%is_touching) torques(1) = self%state%moments%gas*self%state%position%finger_slope
+      if (state%contact%is_touching) torques(1) = state%moments%gas*state%position%finger_slope
       torques(5) = 0.0_wp
-      values(self%series + 1:) = torques
-   end subroutine sample
+      values(samples%series + 1:) = torques
+   end subroutine sampled_values
 
    !> The point that was sampled last, for the search of standstills.
    pure function entrainment_of(samples, angle) result(speed)

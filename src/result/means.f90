@@ -16,13 +16,14 @@ module camroller_means
    use camroller_film, only : is_in_range
    use camroller_cycle, only : cycle_t
    use camroller_catalogue, only : list_series, series_values, torque_count
-   use camroller_defects, only : find_defect, slip_slopes
-   use camroller_error_estimate, only : estimate_t, add_defect, end_interval, estimated_error, mean_errors
+   use camroller_defects, only : find_defect
+   use camroller_error_estimate, only : estimate_t, add_defect, end_interval, estimated_error
    use camroller_extremes, only : samples_t
    use camroller_follower_samples, only : follower_samples_t, start_samples, entrainment_t, entrainment_of
+   use camroller_mean_errors, only : slip_points_t, start_points, keep_point, set_errors, find_mean_errors
    use camroller_names, only : name_length
-   use camroller_panels, only : panels_t, panel_points, panel_places, panel_weights, gauss_points, start_panels, add_panel, &
-      & add_trapezoid, refine_panels
+   use camroller_panels, only : panels_t, panel_points, panel_places, panel_weights, gauss_points, gauss_weights, &
+      & start_panels, add_panel, add_trapezoid, refine_panels
    use camroller_result, only : quantity_t, find_quantity
    use camroller_standstills, only : add_standstills
    use camroller_stored_work, only : stored_work_t, follow_contact, end_work, spin_work
@@ -92,17 +93,18 @@ contains
       type(follower_samples_t) :: samples
       type(panels_t) :: panels
       type(estimate_t) :: estimate
+      type(slip_points_t) :: slips
       type(stored_work_t) :: work
       type(entrainment_t), allocatable :: speeds(:)
       type(quantity_t), allocatable :: series(:)
-      ! Length of the cycle [rad]
-      real(wp) :: span
+      ! Length of the cycle [rad]; errors of integrals that come of the sliding speed [unit of each times rad]
+      real(wp) :: span, slip_errors(series_count + torque_count)
       ! First and last series that is a film without a mean
       integer :: films(2)
 
       call list_series(case, series)
       call start_samples(samples, model, cycle, case, series_count, find_quantity(series, "torque_geometric"))
-      call walk_round(samples, statistics, panels, estimate, work, speeds, error)
+      call walk_round(samples, statistics, panels, estimate, slips, work, speeds, error)
       if (allocated(error)) return
       films = [1, 0]
       if (statistics%lost_share > 0.0_wp) films = [find_quantity(series, "film_thickness_min"), find_quantity(series, "film_ratio")]
@@ -116,15 +118,15 @@ contains
       statistics%largest_sliding = samples%largest_sliding
       span = cycle%trajectory%time(cycle%trajectory%count) - cycle%trajectory%time(1)
       call take_means(panels, samples, work, span, statistics)
-      call judge_means(panels, mean_errors(estimate, cycle%closure*cycle%scale), span, series(:series_count), films, &
-         & statistics)
+      call find_mean_errors(slips, samples, estimate, slip_errors)
+      call judge_means(panels, slip_errors, span, series(:series_count), films, statistics)
       ! What start and end differ by comes again in every cycle that the periodic one is away
       statistics%error = cycle%closure/max(1.0_wp - estimate%contraction, epsilon(1.0_wp)) &
          & + estimated_error(estimate)/max(statistics%largest_sliding, cycle%scale, tiny(1.0_wp))
    end subroutine integrate_lobe
 
    !> Sample every interval of a cycle: panels, estimate of the error, contact, range of the film law.
-   subroutine walk_round(samples, statistics, panels, estimate, work, speeds, error)
+   subroutine walk_round(samples, statistics, panels, estimate, slips, work, speeds, error)
       !> The samples
       type(follower_samples_t), intent(inout) :: samples
       !> Shares of the cycle without contact and outside the film law's range, angle of the largest error
@@ -133,6 +135,8 @@ contains
       type(panels_t), intent(out) :: panels
       !> Estimate of the error
       type(estimate_t), intent(inout) :: estimate
+      !> The points of the estimate
+      type(slip_points_t), intent(out) :: slips
       !> Work of what is stored
       type(stored_work_t), intent(inout) :: work
       !> The points, in order
@@ -140,24 +144,30 @@ contains
       !> Convergence error
       type(error_t), allocatable, intent(out) :: error
 
-      ! Places in an interval [-], weights there [-]
-      real(wp), allocatable :: places(:), weights(:)
+      ! Places in an interval [-], weights there and of the points of the estimate [-]
+      real(wp), allocatable :: places(:), weights(:), slip_weights(:)
       ! Values at the places [unit of each]; ends of an interval, angle [rad]; largest error so far [m/s]
       real(wp) :: values(samples%series + torque_count, panel_points), left, right, angle, largest
-      integer :: interval, point, count
+      integer :: interval, point, count, kept
 
       places = panel_places
       weights = panel_weights
-      if (samples%cycle%is_linear) places = trapezoid
-      if (samples%cycle%is_linear) weights = [0.5_wp, 0.5_wp]
+      slip_weights = gauss_weights
+      if (samples%cycle%is_linear) then
+         places = trapezoid
+         weights = [0.5_wp, 0.5_wp]
+         slip_weights = weights
+      end if
       associate (times => samples%cycle%trajectory%time(:samples%cycle%trajectory%count))
          call start_panels(panels, size(values, 1), 2*size(times))
+         call start_points(slips, size(values, 1), size(times) - 1, size(slip_weights))
          allocate (speeds(size(places)*size(times)))
          count = 0
          do interval = 1, size(times) - 1
             left = times(interval)
             right = times(interval + 1)
             if (.not. right > left) cycle
+            kept = 0
             do point = 1, size(places)
                angle = left + places(point)*(right - left)
                call samples%sample(angle, values(:, point), error)
@@ -167,10 +177,14 @@ contains
                call follow_contact(work, samples, angle, left, error)
                if (allocated(error)) return
                call add_shares(samples, angle, weights(point)*(right - left)/(times(size(times)) - times(1)), statistics)
-               if (samples%cycle%is_linear .or. any(gauss_points == point)) call add_point(samples, angle, interval, estimate)
+               if (.not. (samples%cycle%is_linear .or. any(gauss_points == point))) cycle
+               call add_point(samples, angle, interval, estimate)
+               kept = kept + 1
+               call keep_point(slips, samples, angle, slip_weights(kept)*(right - left), values(:, point))
             end do
             largest = estimate%largest
             call close_interval(samples%cycle, interval, estimate)
+            call set_errors(slips, estimate)
             if (estimate%largest > largest) statistics%error_angle = right
             if (samples%cycle%is_linear) call add_trapezoid(panels, left, right, values(:, :2))
             if (.not. samples%cycle%is_linear) call add_panel(panels, left, right, values)
@@ -194,8 +208,7 @@ contains
       real(wp) :: defect, decay_rate
 
       call find_defect(samples%model, samples%cycle, angle, interval, samples%state, estimate%error, defect, decay_rate)
-      call add_defect(estimate, defect, decay_rate, slip_slopes(samples%model, samples%state, &
-         & decay_rate, max(samples%cycle%step_error, abs(estimate%error))))
+      call add_defect(estimate, defect, decay_rate)
    end subroutine add_point
 
    !> Add the point that was sampled last to the shares of the cycle without contact and outside the film law's range.
@@ -346,8 +359,8 @@ contains
    subroutine judge_means(panels, slip_errors, span, series, films, statistics)
       !> The panels
       type(panels_t), intent(in) :: panels
-      !> Integrals of the errors that come of the sliding speed, in the order of `slip_slopes` [N m rad], [N rad] and [rad]
-      real(wp), intent(in) :: slip_errors(5)
+      !> Errors of the integrals that come of the sliding speed [unit of each times rad]
+      real(wp), intent(in) :: slip_errors(:)
       !> Length of the cycle [rad]
       real(wp), intent(in) :: span
       !> The series
@@ -359,14 +372,10 @@ contains
 
       ! Errors of the integrals [unit of each times rad], over the sizes [-]
       real(wp) :: errors(size(panels%integrals, 1)), relative(size(panels%integrals, 1))
-      integer :: worst, i
+      integer :: worst
 
       associate (first => size(series) + 1)
-         errors = sum(panels%errors(:, :panels%count), 2)
-         errors(first + 1:first + 2) = errors(first + 1:first + 2) + slip_errors(:2)
-         do i = 1, first - 1
-            errors(i) = errors(i) + dot_product(slip_errors(3:), force_of(series(i)))
-         end do
+         errors = sum(panels%errors(:, :panels%count), 2) + slip_errors
          ! The drive has the errors of all losses, and what the spin of the roller differs by between start and end
          errors(first) = sum(errors(first:first + 3)) + abs(statistics%torques(5))*span
          relative = errors/mean_sizes(panels, size(series), films)
@@ -378,20 +387,6 @@ contains
          if (worst >= first) statistics%worst_mean = torque_names(worst - first + 1)
       end associate
    end subroutine judge_means
-
-   !> Which of traction, mobilised boundary friction and its share a series follows.
-   pure function force_of(series) result(parts)
-      !> The series, of any lobe
-      type(quantity_t), intent(in) :: series
-      !> One where it follows, else zero [-]
-      real(wp) :: parts(3)
-
-      parts = 0.0_wp
-      if (index(series%name, "traction") > 0 .or. index(series%name, "friction_hydrodynamic") > 0 .or. &
-         & index(series%name, "friction_contact") > 0) parts(1) = 1.0_wp
-      if (index(series%name, "friction_boundary_mobilised") > 0) parts(2) = 1.0_wp
-      if (index(series%name, "asperity_friction_share") > 0) parts(3) = 1.0_wp
-   end function force_of
 
    !> Mean torques of a follower over a cycle or a piece of one.
    subroutine integrate_torques(model, cycle, torques, error)
