@@ -22,25 +22,48 @@ module camroller_report
    implicit none
    private
 
-   public :: make_result, output_angles
+   public :: take_statistics, make_result, output_angles
 
 contains
 
-   !> Series and summary of a case.
-   subroutine make_result(case, models, cycles, result, error)
+   !> Means of all lobe shapes, and what is met on the way.
+   subroutine take_statistics(case, models, cycles, statistics, error)
       !> The case
       type(case_t), intent(in) :: case
       !> Model of each lobe shape
       type(model_t), intent(in) :: models(:)
       !> Cycle of each lobe shape
       type(cycle_t), intent(in) :: cycles(:)
+      !> Means of each lobe shape
+      type(statistics_t), allocatable, intent(out) :: statistics(:)
+      !> Convergence error
+      type(error_t), allocatable, intent(out) :: error
+
+      integer :: lobe
+
+      allocate (statistics(size(models)))
+      do lobe = 1, size(models)
+         call integrate_lobe(case, models(lobe), cycles(lobe), follower_count(case) + camshaft_count(case), statistics(lobe), error)
+         if (allocated(error)) return
+      end do
+   end subroutine take_statistics
+
+   !> Series and summary of a case.
+   subroutine make_result(case, models, cycles, statistics, result, error)
+      !> The case
+      type(case_t), intent(in) :: case
+      !> Model of each lobe shape
+      type(model_t), intent(in) :: models(:)
+      !> Cycle of each lobe shape
+      type(cycle_t), intent(in) :: cycles(:)
+      !> Means of each lobe shape; out: with all that was met
+      type(statistics_t), intent(inout) :: statistics(:)
       !> The result
       type(result_t), intent(out) :: result
       !> Convergence or domain error; domain error where a law is used outside its range and the case forbids it
       type(error_t), allocatable, intent(out) :: error
 
       type(shaft_t) :: shaft
-      type(statistics_t), allocatable :: statistics(:)
       type(margins_t), allocatable :: margins(:)
       type(extremes_t) :: extremes
       ! Mean torque of the camshaft bearings [N m], its error over itself [-]
@@ -54,10 +77,8 @@ contains
       call sample_series(case, models, cycles, shaft, result, error)
       if (allocated(error)) return
 
-      allocate (statistics(size(models)), margins(size(models)))
+      allocate (margins(size(models)))
       do lobe = 1, size(models)
-         call integrate_lobe(case, models(lobe), cycles(lobe), follower_count(case) + camshaft_count(case), statistics(lobe), error)
-         if (allocated(error)) return
          call find_margins(models(lobe), cycles(lobe)%stops, margins(lobe))
          call judge_lobe(models(lobe), cycles(lobe), statistics(lobe), margins(lobe), merge(lobe, 0, size(models) > 1), &
             & result%remarks, error)

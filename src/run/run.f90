@@ -15,13 +15,23 @@ module camroller_run
    use camroller_events, only : check_geometry
    use camroller_cycle, only : cycle_t, integrate_cycle
    use camroller_number_text, only : number_text, fixed_text
-   use camroller_report, only : make_result
+   use camroller_means, only : statistics_t
+   use camroller_report, only : make_result, take_statistics
    use camroller_remarks, only : add_remark, loose_tolerance, missed_accuracy, missed_means
    use camroller_result, only : result_t, get_summary
    implicit none
    private
 
    public :: run_case, run_next_case, build_models, build_model
+
+   !> One try to integrate the cycles of a case
+   type :: try_t
+      !> Cycle of each lobe shape, its means and extremes
+      type(cycle_t), allocatable :: cycles(:)
+      type(statistics_t), allocatable :: statistics(:)
+      !> Largest estimated error of a sliding speed or a mean [-]
+      real(wp) :: error = 0.0_wp
+   end type try_t
 
 contains
 
@@ -108,41 +118,67 @@ contains
       type(error_t), allocatable, intent(out) :: error
 
       type(numerics_t) :: numerics
-      type(result_t) :: latest
-      ! Estimated errors of sliding speed and means, tolerance of the next try, smallest tolerance that may work [-]
-      real(wp) :: estimates(2), other, least
+      type(try_t) :: latest, earlier
+      ! Tolerance of the next try, smallest tolerance that may work [-]
+      real(wp) :: other, least
       integer :: attempt
-      logical :: has_result, has_way_out
+      logical :: is_better, has_way_out
 
       numerics = resolve_numerics(case%numerics)
-      if (.not. is_checked(case%numerics)) then
-         call run_models(case, models, numerics, result, error)
-         if (.not. allocated(error)) call judge_tolerance(case%numerics, result, error)
-         return
-      end if
-      has_result = .false.
       has_way_out = .false.
       least = 0.0_wp
       do attempt = 0, most_refinements
-         call run_models(case, models, numerics, latest, error)
-         if (allocated(error)) then
-            if (has_result .or. has_way_out .or. error%kind /= kind_convergence) exit
-            call take_way_out(case%numerics, numerics, least, has_way_out)
-            if (has_way_out .and. error%cause == cause_several_balances) exit
-            cycle
+         call integrate_models(case, models, numerics, latest, error)
+         if (.not. allocated(error)) then
+            is_better = .false.
+            if (is_checked(case%numerics) .and. attempt < most_refinements .and. latest%error > case%numerics%accuracy) then
+               other = refine_tolerance(numerics%tolerance, case%numerics%accuracy, latest%error, least)
+               is_better = other < numerics%tolerance
+            end if
+            if (is_better) then
+               numerics%tolerance = other
+               call move_alloc(latest%cycles, earlier%cycles)
+               call move_alloc(latest%statistics, earlier%statistics)
+               cycle
+            end if
+            call finish(case, models, latest, result, error)
+            if (.not. allocated(error)) return
          end if
-         result = latest
-         has_result = .true.
-         call get_estimates(result, estimates, error)
-         if (allocated(error) .or. maxval(estimates) <= case%numerics%accuracy) return
-         other = refine_tolerance(numerics%tolerance, case%numerics%accuracy, maxval(estimates), least)
-         if (.not. other < numerics%tolerance) exit
-         numerics%tolerance = other
+         if (allocated(earlier%cycles) .or. has_way_out .or. error%kind /= kind_convergence .or. &
+            & .not. is_checked(case%numerics)) exit
+         call take_way_out(case%numerics, numerics, least, has_way_out)
+         if (has_way_out .and. error%cause == cause_several_balances) exit
       end do
-      if (.not. has_result) return
-      if (allocated(error)) deallocate (error)
-      call judge(result, case%numerics%accuracy, estimates, error)
+      if (.not. allocated(earlier%cycles)) return
+      deallocate (error)
+      call finish(case, models, earlier, result, error)
    end subroutine run_listed
+
+   !> The result of a try, with remarks on its errors.
+   subroutine finish(case, models, try, result, error)
+      !> The case
+      type(case_t), intent(in) :: case
+      !> Model of each lobe shape
+      type(model_t), intent(in) :: models(:)
+      !> The try
+      type(try_t), intent(inout) :: try
+      !> Its result
+      type(result_t), intent(out) :: result
+      !> What went wrong, of any kind
+      type(error_t), allocatable, intent(out) :: error
+
+      ! Estimated errors of sliding speed and means [-]
+      real(wp) :: estimates(2)
+
+      call make_result(case, models, try%cycles, try%statistics, result, error)
+      if (.not. allocated(error)) call get_estimates(result, estimates, error)
+      if (allocated(error)) return
+      if (is_checked(case%numerics)) then
+         call judge(result, case%numerics%accuracy, estimates, error)
+      else
+         call judge_tolerance(case%numerics, result, estimates)
+      end if
+   end subroutine finish
 
    !> Estimated errors of a result: of the sliding speed and of the means.
    subroutine get_estimates(result, estimates, error)
@@ -183,29 +219,30 @@ contains
       numerics%tolerance = other
    end subroutine take_way_out
 
-   !> Integrate all lobe shapes and make the result.
-   subroutine run_models(case, models, numerics, result, error)
+   !> Integrate all lobe shapes.
+   subroutine integrate_models(case, models, numerics, try, error)
       !> The case
       type(case_t), intent(in) :: case
       !> Model of each lobe shape
       type(model_t), intent(in) :: models(:)
       !> Method, tolerance, criterion
       type(numerics_t), intent(in) :: numerics
-      !> The result
-      type(result_t), intent(out) :: result
+      !> Their cycles
+      type(try_t), intent(out) :: try
       !> What went wrong, of any kind
       type(error_t), allocatable, intent(out) :: error
 
-      type(cycle_t), allocatable :: cycles(:)
       integer :: lobe
 
-      allocate (cycles(size(models)))
+      allocate (try%cycles(size(models)))
       do lobe = 1, size(models)
-         call integrate_cycle(cycles(lobe), models(lobe), numerics, error)
+         call integrate_cycle(try%cycles(lobe), models(lobe), numerics, error)
          if (allocated(error)) return
       end do
-      call make_result(case, models, cycles, result, error)
-   end subroutine run_models
+      call take_statistics(case, models, try%cycles, try%statistics, error)
+      if (allocated(error)) return
+      try%error = max(maxval(try%statistics%error), maxval(try%statistics%mean_error))
+   end subroutine integrate_models
 
    !> Remarks on an accuracy that was not reached, or an error where nothing of the result can be right.
    subroutine judge(result, accuracy, estimates, error)
@@ -238,20 +275,15 @@ contains
 
    !> Remark on a tolerance given by hand that says nothing of the error: steps keep to it and the curve between them does not, or
    !> errors of steps pile up where hardly anything damps, or means follow the sliding speed too strongly.
-   subroutine judge_tolerance(numerics, result, error)
+   subroutine judge_tolerance(numerics, result, estimates)
       !> Numerics as given
       type(numerics_t), intent(in) :: numerics
       !> The result
       type(result_t), intent(inout) :: result
-      !> Domain error where there is no estimate
-      type(error_t), allocatable, intent(out) :: error
-
-      ! Estimated errors [-]
-      real(wp) :: estimates(2)
+      !> Estimated errors of sliding speed and means [-]
+      real(wp), intent(in) :: estimates(2)
 
       if (.not. has_tolerance(numerics)) return
-      call get_estimates(result, estimates, error)
-      if (allocated(error)) return
       if (estimates(1) > numerics%tolerance*far_beyond) call say_far("the error", estimates(1))
       if (estimates(2) > numerics%tolerance*far_beyond) call say_far("the error of mean_"//trim(result%worst_mean), estimates(2))
 
