@@ -8,6 +8,7 @@ module camroller_commands
    use camroller_cli, only : config_t, command_names, get_arguments, read_arguments
    use camroller_deck, only : deck_t, read_deck, make_sweep_case, add_places
    use camroller_deck_document, only : write_defaults, write_page, write_resolved
+   use camroller_deck_notes, only : tell_deck_remarks
    use camroller_deck_schema, only : group_effect
    use camroller_deck_sweep, only : axis_size, case_in_words, sweep_size
    use camroller_effect_choice, only : wants_choice, choose_effects
@@ -200,6 +201,7 @@ contains
       text = "! "//config%subject//" is valid: "//cases_in_words(deck)
       if (checked < sweep_size(deck%sweep)) text = text//", of which "//integer_text(checked)//" were checked"
       call print_lines(text, error)
+      call tell_deck_remarks(deck)
       text = ""
       if (size(deck%sweep%axes) > 0) call cost_in_words(deck, text)
       text = text//"! effects in the case: "//effects_in_words(deck, .true.)//new_line("a")// &

@@ -14,6 +14,7 @@ module camroller_run_command
    use camroller_cli, only : config_t
    use camroller_deck, only : deck_t, read_deck, make_sweep_case, add_places
    use camroller_deck_files, only : list_deck_files
+   use camroller_deck_notes, only : tell_deck_remarks
    use camroller_deck_sweep, only : sweep_size, case_in_words
    use camroller_earlier_result, only : failures_in_words
    use camroller_mistakes, only : line_t
@@ -61,6 +62,7 @@ contains
       call read_deck(deck, config%subject, config%overrides, error)
       if (allocated(error)) return
       if (.not. config%is_quiet) call tell_unused_values(deck)
+      if (.not. config%is_quiet) call tell_deck_remarks(deck)
       call check_cases(deck, error)
       if (allocated(error)) return
       call find_place(config, deck, ".h5", path, error)

@@ -18,6 +18,7 @@ module camroller_sweep_command
    use camroller_part_scan, only : index_t, study_facts_t
    use camroller_part_sink, only : part_sink_t
    use camroller_progress, only : end_progress, progress_t, seconds_since, start_progress
+   use camroller_deck_notes, only : tell_deck_remarks
    use camroller_run_command, only : tell_unused_values
    use camroller_run_facts, only : study_facts
    use camroller_settings, only : take
@@ -92,6 +93,7 @@ contains
       call begin_study(config, run, error)
       if (agreed_code(team, error) /= 0) return
       if (team%rank == 0 .and. .not. config%is_quiet) call tell_unused_values(run%deck)
+      if (team%rank == 0 .and. .not. config%is_quiet) call tell_deck_remarks(run%deck)
       run%first = int((config%shard - 1)*int(run%facts%cases, int64)/config%shards) + 1
       run%last = int(config%shard*int(run%facts%cases, int64)/config%shards)
       if (run%first > run%last) then

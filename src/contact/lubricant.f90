@@ -2,26 +2,35 @@
 !>
 !> In: what the deck gives about the oil. Out: viscosity at ambient pressure,
 !> pressure-viscosity coefficient, and the mean of the viscosity over a Hertzian contact.
-!> Sources: Vogel (1921); Walther (1931) as in ASTM D341; Barus (1893); Chu and Cameron (1962); Roelands (1966).
+!> Sources: Vogel (1921); Walther (1931) as in ASTM D341; Barus (1893); Chu and Cameron (1962); Roelands (1966); So and
+!> Klaus (1980).
 module camroller_lubricant
    use camroller_kinds, only : wp, pi
    use camroller_error, only : error_t, raise, kind_deck, kind_domain
-   use camroller_names, only : name_length, find_name
+   use camroller_names, only : name_length, find_name, index_of_name
    use camroller_contact_rule, only : rule_heights, rule_weights
    use camroller_number_text, only : fixed_text
+   use camroller_oil_data, only : sae_grade_names, grade_viscosity, grade_index, viscosity_at_40, so_klaus_coefficient, &
+      & smallest_indexed, smallest_estimated
    implicit none
    private
 
    public :: lubricant_t, oil_t, temperature_law_names, pressure_law_names
    public :: get_oil, relative_viscosity, log_relative_viscosity, mean_relative_viscosity
    public :: law_barus, law_cameron, law_roelands
+   public :: kinematic_points, density_at
 
    !> Viscosity over temperature
-   character(len=*), parameter :: temperature_law_names(*) = [character(len=name_length) :: "direct", "vogel", "walther"]
+   character(len=*), parameter :: temperature_law_names(*) = [character(len=name_length) :: "direct", "vogel", "walther", &
+      & "data_sheet"]
    !> Viscosity over pressure
    character(len=*), parameter :: pressure_law_names(*) = [character(len=name_length) :: "barus", "cameron", "roelands"]
    !> Positions in `pressure_law_names`
    integer, parameter :: law_barus = 1, law_cameron = 2, law_roelands = 3
+   !> Positions in `temperature_law_names`
+   integer, parameter :: law_direct = 1, law_vogel = 2, law_walther = 3, law_data_sheet = 4
+   !> Temperatures of the viscosities on a data sheet [K]
+   real(wp), parameter :: sheet_temperatures(2) = [313.15_wp, 373.15_wp]
 
    !> Reference pressure of Roelands' law [Pa]: 1/5.1e-9
    real(wp), parameter :: roelands_pressure = 1.0_wp/5.1e-9_wp
@@ -44,13 +53,20 @@ module camroller_lubricant
       real(wp), allocatable :: temperature_points(:)
       !> Dynamic viscosities of the given points [Pa s]
       real(wp), allocatable :: viscosity_points(:)
-      !> Density at 15 degC [kg/m^3]; `walther`
+      !> Kinematic viscosity at 40 and at 100 degC; zero where not given [m^2/s]; `data_sheet`
+      real(wp) :: viscosity_at_40 = 0.0_wp, viscosity_at_100 = 0.0_wp
+      !> Viscosity index; used where one viscosity is given [-]; `data_sheet`
+      real(wp) :: viscosity_index = 0.0_wp
+      !> One of `sae_grade_names`, in the place of viscosities; `data_sheet`
+      character(len=name_length) :: sae_grade = "none"
+      !> Density at 15 degC [kg/m^3]; `walther` and `data_sheet`
       real(wp) :: density = 870.0_wp
-      !> Thermal expansion of the density [1/K]; `walther`
+      !> Thermal expansion of the density [1/K]; `walther` and `data_sheet`
       real(wp) :: thermal_expansion = 6.5e-4_wp
       !> One of `pressure_law_names`
       character(len=name_length) :: pressure_law = "cameron"
-      !> Pressure-viscosity coefficient at ambient pressure [1/Pa]; zero: derived from `roelands_index`
+      !> Pressure-viscosity coefficient at ambient pressure [1/Pa]; zero: derived from `roelands_index`, or without one estimated
+      !> where the temperature law knows density and slope
       real(wp) :: pressure_viscosity = 0.0_wp
       !> Roelands' index Z [-]; zero: derived from the pressure-viscosity coefficient
       real(wp) :: roelands_index = 0.0_wp
@@ -68,6 +84,8 @@ module camroller_lubricant
       real(wp) :: roelands_index = 0.0_wp
       !> ln(eta0/6.315e-5 Pa s), Roelands [-]
       real(wp) :: roelands_exponent = 0.0_wp
+      !> Is the pressure-viscosity coefficient estimated by So and Klaus (1980)?
+      logical :: is_estimated = .false.
    end type oil_t
 
    !> Exponent at which a viscosity ratio is held: far above any shear that a limiting traction lets through, below overflow [-]
@@ -97,29 +115,36 @@ contains
       type(error_t), allocatable, intent(out) :: error
 
       integer :: law
+      ! Slope of Walther's law [-]; density at the temperature [kg/m^3]; both zero with other laws
+      real(wp) :: slope, density
 
       call find_name("viscosity-temperature law", lubricant%temperature_law, temperature_law_names, law, error)
       if (allocated(error)) return
       call find_name("viscosity-pressure law", lubricant%pressure_law, pressure_law_names, oil%pressure_law, error)
       if (allocated(error)) return
-      if (law > 1) then
-         call check_points(lubricant, merge(3, 2, law == 2), error)
+      if (law == law_vogel .or. law == law_walther) then
+         call check_points(lubricant, merge(3, 2, law == law_vogel), error)
          if (allocated(error)) return
       end if
+      slope = 0.0_wp
+      density = 0.0_wp
       select case (law)
-      case (1)
+      case (law_direct)
          oil%viscosity = lubricant%viscosity
-      case (2)
+      case (law_vogel)
          call vogel_viscosity(lubricant%temperature_points, lubricant%viscosity_points, temperature, oil%viscosity, error)
-      case (3)
-         call walther_viscosity(lubricant, temperature, oil%viscosity, error)
+      case (law_walther)
+         call walther_viscosity(lubricant, lubricant%temperature_points, lubricant%viscosity_points, .false., temperature, &
+            & oil%viscosity, slope, density, error)
+      case (law_data_sheet)
+         call sheet_viscosity(lubricant, temperature, oil%viscosity, slope, density, error)
       end select
       if (allocated(error)) return
       if (.not. oil%viscosity > 0.0_wp) then
          call raise(error, kind_deck, "lubricant: the viscosity must be positive")
          return
       end if
-      call set_pressure_constants(lubricant, oil, error)
+      call set_pressure_constants(lubricant, slope, density, oil, error)
    end subroutine get_oil
 
    !> Enough viscosity points for the law?
@@ -140,10 +165,87 @@ contains
          & trim(merge("three", "two  ", needed == 3))//" temperatures with as many viscosities")
    end subroutine check_points
 
-   !> Alpha from Roelands' index or the index from alpha: `Z = alpha p_r/(ln eta0 + 9.67)`.
-   subroutine set_pressure_constants(lubricant, oil, error)
+   !> Viscosity of an oil given by its data sheet: Walther's law through the kinematic viscosities at 40 and 100 degC.
+   subroutine sheet_viscosity(lubricant, temperature, viscosity, slope, density, error)
       !> What is given about the oil
       type(lubricant_t), intent(in) :: lubricant
+      !> Temperature asked for [K]
+      real(wp), intent(in) :: temperature
+      !> Dynamic viscosity there [Pa s]
+      real(wp), intent(out) :: viscosity
+      !> Slope of Walther's law [-]
+      real(wp), intent(out) :: slope
+      !> Density there [kg/m^3]
+      real(wp), intent(out) :: density
+      !> Deck error where the data sheet lacks something, domain error where its points are outside the law
+      type(error_t), allocatable, intent(out) :: error
+
+      ! Kinematic viscosities at 40 and 100 degC [m^2/s]
+      real(wp) :: points(2)
+
+      viscosity = 0.0_wp
+      slope = 0.0_wp
+      density = 0.0_wp
+      call kinematic_points(lubricant, points, error)
+      if (allocated(error)) return
+      call walther_viscosity(lubricant, sheet_temperatures, points, .true., temperature, viscosity, slope, density, error)
+   end subroutine sheet_viscosity
+
+   !> Kinematic viscosities at 40 and 100 degC that a data sheet comes to.
+   subroutine kinematic_points(lubricant, points, error)
+      !> What is given about the oil
+      type(lubricant_t), intent(in) :: lubricant
+      !> The viscosities [m^2/s]
+      real(wp), intent(out) :: points(2)
+      !> Deck error where the data sheet lacks something or its parts do not fit
+      type(error_t), allocatable, intent(out) :: error
+
+      ! Viscosity index [-]
+      real(wp) :: quality
+      integer :: grade
+
+      points = [lubricant%viscosity_at_40, lubricant%viscosity_at_100]
+      quality = lubricant%viscosity_index
+      grade = index_of_name(lubricant%sae_grade, sae_grade_names)
+      if (grade > 1) then
+         points(2) = grade_viscosity(grade)*square_millimetre
+         if (.not. quality > 0.0_wp) quality = grade_index(grade)
+      end if
+      if (.not. points(2) > 0.0_wp .or. .not. max(points(1), quality) > 0.0_wp) then
+         call raise(error, kind_deck, "lubricant: law 'data_sheet' takes the kinematic viscosity at 100 degC with that at "// &
+            & "40 degC or with the viscosity index, or an SAE grade")
+      else if (points(1) > 0.0_wp) then
+         if (points(1) <= points(2)) call raise(error, kind_deck, "lubricant: the viscosity at 40 degC must be above that at "// &
+            & "100 degC")
+      else if (points(2) < smallest_indexed*square_millimetre) then
+         call raise(error, kind_domain, "lubricant: the viscosity index is defined from 2 mm^2/s at 100 degC on; give the "// &
+            & "viscosity at 40 degC")
+      else
+         points(1) = viscosity_at_40(points(2)/square_millimetre, quality)*square_millimetre
+         if (points(1) <= points(2)) call raise(error, kind_domain, "lubricant: no oil of this viscosity at 100 degC has such "// &
+            & "a viscosity index: it would be no thicker at 40 degC")
+      end if
+   end subroutine kinematic_points
+
+   !> Density at a temperature.
+   elemental function density_at(lubricant, temperature) result(density)
+      !> What is given about the oil
+      type(lubricant_t), intent(in) :: lubricant
+      !> Temperature [K]
+      real(wp), intent(in) :: temperature
+      !> Density there [kg/m^3]
+      real(wp) :: density
+
+      density = lubricant%density*(1.0_wp - lubricant%thermal_expansion*(temperature - density_temperature))
+   end function density_at
+
+   !> Alpha from Roelands' index or the index from alpha: `Z = alpha p_r/(ln eta0 + 9.67)`; without both alpha by So and Klaus
+   !> (1980), where the temperature law knows what that takes.
+   subroutine set_pressure_constants(lubricant, slope, density, oil, error)
+      !> What is given about the oil
+      type(lubricant_t), intent(in) :: lubricant
+      !> Slope of Walther's law [-], density at the temperature [kg/m^3]; zero with other laws
+      real(wp), intent(in) :: slope, density
       !> Oil with its viscosity and law known
       type(oil_t), intent(inout) :: oil
       !> Deck error where neither is given, domain error where Roelands' law has no index for this oil
@@ -151,6 +253,15 @@ contains
 
       oil%pressure_viscosity = lubricant%pressure_viscosity
       oil%roelands_index = lubricant%roelands_index
+      oil%is_estimated = lubricant%pressure_viscosity <= 0.0_wp .and. lubricant%roelands_index <= 0.0_wp .and. density > 0.0_wp
+      if (oil%is_estimated) then
+         if (oil%viscosity < smallest_estimated*square_millimetre*density) then
+            call raise(error, kind_domain, "lubricant: the pressure-viscosity coefficient is estimated for 2 mm^2/s and more; "// &
+               & "give it, or Roelands' index")
+            return
+         end if
+         oil%pressure_viscosity = so_klaus_coefficient(oil%viscosity/density/square_millimetre, slope, density)
+      end if
       oil%roelands_exponent = log(oil%viscosity) + roelands_constant
       if (oil%roelands_exponent <= 0.0_wp) then
          if (oil%pressure_law == law_roelands .or. lubricant%roelands_index > 0.0_wp) then
@@ -158,9 +269,9 @@ contains
             return
          end if
       end if
-      if (lubricant%pressure_viscosity <= 0.0_wp .and. lubricant%roelands_index <= 0.0_wp) then
+      if (oil%pressure_viscosity <= 0.0_wp .and. lubricant%roelands_index <= 0.0_wp) then
          call raise(error, kind_deck, "lubricant: give the pressure-viscosity coefficient or Roelands' index")
-      else if (lubricant%pressure_viscosity <= 0.0_wp) then
+      else if (oil%pressure_viscosity <= 0.0_wp) then
          oil%pressure_viscosity = oil%roelands_index*oil%roelands_exponent/roelands_pressure
       else if (oil%pressure_law == law_roelands .and. lubricant%roelands_index <= 0.0_wp) then
          oil%roelands_index = oil%pressure_viscosity*roelands_pressure/oil%roelands_exponent
@@ -213,36 +324,49 @@ contains
    !> Walther's law `log10 log10(nu + 0.7) = A - B log10 T`, nu in mm^2/s, through two points.
    !>
    !> Source: ASTM D341; density falls linearly with temperature.
-   subroutine walther_viscosity(lubricant, temperature, viscosity, error)
-      !> What is given about the oil
+   subroutine walther_viscosity(lubricant, temperatures, points, is_kinematic, temperature, viscosity, slope, density, error)
+      !> What is given about the oil: its density
       type(lubricant_t), intent(in) :: lubricant
+      !> Temperatures of the points [K]
+      real(wp), intent(in) :: temperatures(2)
+      !> Viscosities there, kinematic [m^2/s] or dynamic [Pa s]
+      real(wp), intent(in) :: points(2)
+      !> Are they kinematic?
+      logical, intent(in) :: is_kinematic
       !> Temperature asked for [K]
       real(wp), intent(in) :: temperature
       !> Dynamic viscosity there [Pa s]
       real(wp), intent(out) :: viscosity
+      !> The slope B [-]
+      real(wp), intent(out) :: slope
+      !> Density at the temperature asked for [kg/m^3]
+      real(wp), intent(out) :: density
       !> Domain error where the points are outside the law
       type(error_t), allocatable, intent(out) :: error
 
-      ! Density at the points and at the temperature asked for [kg/m^3]
-      real(wp) :: densities(2), density
+      ! Density at the points [kg/m^3]
+      real(wp) :: densities(2)
       ! Kinematic viscosity plus Walther's constant [mm^2/s]; its double logarithm [-]
       real(wp) :: shifted(2), double_log(2), value
 
       viscosity = 0.0_wp
-      densities = lubricant%density*(1.0_wp - lubricant%thermal_expansion*(lubricant%temperature_points - density_temperature))
-      density = lubricant%density*(1.0_wp - lubricant%thermal_expansion*(temperature - density_temperature))
+      slope = 0.0_wp
+      densities = density_at(lubricant, temperatures)
+      density = density_at(lubricant, temperature)
       if (min(minval(densities), density) <= 0.0_wp) then
          call raise(error, kind_domain, "lubricant: density not positive at the temperatures asked for")
          return
       end if
-      shifted = lubricant%viscosity_points/densities/square_millimetre + walther_constant
+      if (is_kinematic) densities = 1.0_wp
+      shifted = points/densities/square_millimetre + walther_constant
       if (minval(shifted) <= 1.0_wp) then
          call raise(error, kind_domain, "lubricant: Walther's law needs kinematic viscosities above 0.3 mm^2/s")
          return
       end if
       double_log = log(log(shifted))
-      value = double_log(1) + (double_log(2) - double_log(1))*log(temperature/lubricant%temperature_points(1)) &
-         & /log(lubricant%temperature_points(2)/lubricant%temperature_points(1))
+      value = double_log(1) + (double_log(2) - double_log(1))*log(temperature/temperatures(1)) &
+         & /log(temperatures(2)/temperatures(1))
+      slope = (double_log(1) - double_log(2))/log(temperatures(2)/temperatures(1))
       viscosity = (exp(exp(value)) - walther_constant)*square_millimetre*density
    end subroutine walther_viscosity
 

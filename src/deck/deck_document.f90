@@ -3,7 +3,7 @@
 !> In: the schema, or a deck. Out: text, or lists of strings.
 module camroller_deck_document
    use camroller_deck_bounds, only : write_bounds
-   use camroller_deck_schema, only : schema_t, key_t, find_group, group_names, allowed_values, group_required, &
+   use camroller_deck_schema, only : schema_t, key_t, find_group, group_names, allowed_values, usual_values, group_required, &
       & group_standard, group_effect, type_number, type_integer, type_logical, type_name, type_text, type_numbers, &
       & type_integers, key_length
    use camroller_deck_keys, only : new_schema
@@ -237,6 +237,7 @@ contains
 
       words = key%meaning
       if (allowed_values(key) /= "") words = words//"; "//allowed_values(key)
+      if (usual_values(key) /= "") words = words//"; "//usual_values(key)
       if (key%is_required) words = words//"; must be given"
    end function described
 
@@ -369,6 +370,7 @@ contains
          words = "list of values"
       end select
       if (allowed_values(key) /= "") words = words//", "//allowed_values(key)
+      if (usual_values(key) /= "") words = words//", "//usual_values(key)
    end function takes
 
    !> Default of a key.

@@ -11,6 +11,7 @@ module camroller_deck_keys
    use camroller_kinematics, only : rotation_names
    use camroller_dynamics, only : load_arm_names, seating_names
    use camroller_lubricant, only : temperature_law_names, pressure_law_names
+   use camroller_oil_data, only : sae_grade_names
    use camroller_ehl_table, only : ehl_t
    use camroller_film, only : film_law_names, range_policy_names
    use camroller_asperity, only : asperity_t, asperity_law_names, boundary_names, mobilisation_names
@@ -19,6 +20,7 @@ module camroller_deck_keys
    use camroller_journal, only : cam_bearings_t, journal_law_names
    use camroller_roller, only : spin_names
    use camroller_deck_sweep_keys, only : add_sweep_keys
+   use camroller_usual_values, only : add_usual_ranges
    use camroller_output_options, only : output_options_t, compression_names
    use camroller_deck_schema, only : schema_t, add_group, add_number, add_integer, add_logical, add_name, add_text, &
       & add_numbers, add_integers, add_words, group_required, group_standard, group_effect, anything, positive, &
@@ -64,6 +66,7 @@ contains
       call add_sweep_keys(schema)
       schema%groups = schema%groups(:schema%group_count)
       schema%keys = schema%keys(:schema%key_count)
+      call add_usual_ranges(schema)
    end subroutine new_schema
 
    !> What the run is.
@@ -240,21 +243,32 @@ contains
 
       call add_group(schema, "lubricant", group_required, "oil")
       call add_name(schema, "temperature_law", temperature_law_names, standard%lubricant%temperature_law, &
-         & "viscosity as a function of temperature: given directly, or by a law through given points")
+         & "viscosity as a function of temperature: given directly, by a law through given points, or as on the oil's data sheet")
       call add_number(schema, "viscosity_Pa_s", positive, "dynamic viscosity at the oil temperature; law 'direct'", &
          & example="0.0305", is_optional=.true.)
       call add_numbers(schema, "temperature_points_degC", range_t(smallest=-273.15_wp, with_smallest=.false.), &
          & "temperatures of the given points, increasing; 'vogel' three, 'walther' two", is_optional=.true.)
       call add_numbers(schema, "viscosity_points_Pa_s", positive, "dynamic viscosities of the given points, falling", &
          & is_optional=.true.)
-      call add_number(schema, "density_kg_m3", positive, "density at 15 degC; 'walther'", &
+      call add_number(schema, "viscosity_at_40_degC_mm2_s", positive, "kinematic viscosity at 40 degC; 'data_sheet'", &
+         & is_optional=.true.)
+      call add_number(schema, "viscosity_at_100_degC_mm2_s", positive, "kinematic viscosity at 100 degC; 'data_sheet'", &
+         & is_optional=.true.)
+      call add_number(schema, "viscosity_index", up_to(400.0_wp), &
+         & "viscosity index, in the place of the viscosity at 40 degC; 'data_sheet'", is_optional=.true.)
+      call add_name(schema, "sae_grade", sae_grade_names, standard%lubricant%sae_grade, &
+         & "'data_sheet' without viscosities: at 100 degC the middle of the grade's range in SAE J300, and a viscosity index "// &
+         & "that is usual for it")
+      call add_number(schema, "density_kg_m3", positive, "density at 15 degC; 'walther' and 'data_sheet'", &
          & default=standard%lubricant%density)
-      call add_number(schema, "thermal_expansion_per_K", not_negative, "thermal expansion of the density; 'walther'", &
+      call add_number(schema, "thermal_expansion_per_K", not_negative, "thermal expansion of the density; 'walther' and "// &
+         & "'data_sheet'", &
          & default=standard%lubricant%thermal_expansion)
       call add_name(schema, "pressure_law", pressure_law_names, standard%lubricant%pressure_law, &
          & "viscosity as a function of pressure")
       call add_number(schema, "pressure_viscosity_coefficient_per_GPa", positive, &
-         & "pressure-viscosity coefficient at ambient pressure; from roelands_index where not given", example="22", &
+         & "pressure-viscosity coefficient at ambient pressure; where not given from roelands_index, or without that, with "// &
+         & "'walther' and 'data_sheet', estimated by So and Klaus (1980)", example="22", &
          & is_optional=.true.)
       call add_number(schema, "roelands_index", positive, &
          & "Roelands' index Z; from the pressure-viscosity coefficient where not given", is_optional=.true.)

@@ -241,6 +241,10 @@ contains
          call demand_points(settings, "vogel", 3, mistakes)
       case ("walther")
          call demand_points(settings, "walther", 2, mistakes)
+         return
+      case ("data_sheet")
+         call demand_data_sheet(settings, mistakes)
+         return
       end select
       if (is_known(settings, "lubricant", "roelands_index") .or. is_wrong(settings, "lubricant", &
          & "roelands_index")) return
@@ -248,6 +252,32 @@ contains
          & "the oil, without a 'roelands_index',", &
          & mistakes)
    end subroutine oil_has_what_its_law_needs
+
+   !> A data sheet gives two viscosities, or one with the viscosity index, or a grade; and nothing twice.
+   subroutine demand_data_sheet(settings, mistakes)
+      !> The settings
+      type(settings_t), intent(in) :: settings
+      !> Mistakes so far
+      type(mistakes_t), intent(inout) :: mistakes
+
+      character(len=*), parameter :: group = "lubricant", at_40 = "viscosity_at_40_degC_mm2_s", &
+         & at_100 = "viscosity_at_100_degC_mm2_s", needs = "temperature law 'data_sheet'"
+
+      if (get_word(settings, group, "sae_grade") /= "none") then
+         if (is_known(settings, group, at_40)) call complain(mistakes, settings, group, at_40, &
+            & "'sae_grade' takes the place of viscosities; give one of them")
+         if (is_known(settings, group, at_100)) call complain(mistakes, settings, group, at_100, &
+            & "'sae_grade' takes the place of viscosities; give one of them")
+         return
+      end if
+      call demand(settings, group, at_100, needs//", without an 'sae_grade',", mistakes)
+      if (is_known(settings, group, at_40) .and. is_known(settings, group, "viscosity_index")) then
+         call complain(mistakes, settings, group, "viscosity_index", "'viscosity_index' takes the place of '"//at_40// &
+            & "'; give one of them")
+      else if (.not. is_known(settings, group, "viscosity_index") .and. .not. is_wrong(settings, group, "viscosity_index")) then
+         call demand(settings, group, at_40, needs//", without a 'viscosity_index',", mistakes)
+      end if
+   end subroutine demand_data_sheet
 
    !> Points of a viscosity-temperature law.
    subroutine demand_points(settings, law, number, mistakes)

@@ -14,7 +14,7 @@ module camroller_deck_schema
 
    public :: schema_t, group_t, key_t, range_t
    public :: add_group, add_number, add_integer, add_logical, add_name, add_text, add_numbers, add_integers, add_words
-   public :: find_group, find_key, allowed_values, group_names, key_names
+   public :: find_group, find_key, allowed_values, usual_values, group_names, key_names
    public :: group_required, group_standard, group_effect
    public :: type_number, type_integer, type_logical, type_name, type_text, type_numbers, type_integers, type_words
    public :: anything, positive, not_negative, proper_fraction, up_to, from_to, one_or_more
@@ -67,6 +67,9 @@ module camroller_deck_schema
       character(len=:), allocatable :: example
       !> Range of a number
       type(range_t) :: range
+      !> Range that an engine's value lies in, where there is one
+      type(range_t) :: usual
+      logical :: has_usual = .false.
       !> Allowed names
       character(len=name_length), allocatable :: choices(:)
       !> Unit of a number
@@ -369,6 +372,17 @@ contains
 
       names = schema%keys(schema%groups(group)%first:schema%groups(group)%last)%name
    end function key_names
+
+   !> What a key's value usually is, in words; blank where that is not known.
+   pure function usual_values(key) result(words)
+      !> The key
+      type(key_t), intent(in) :: key
+      !> The range
+      character(len=:), allocatable :: words
+
+      words = ""
+      if (key%has_usual) words = "usually "//number_text(key%usual%smallest)//" to "//number_text(key%usual%largest)
+   end function usual_values
 
    !> What a key's value may be, in words; blank where there is no limit.
    pure function allowed_values(key) result(words)

@@ -6,6 +6,7 @@ module test_lubricant
    use camroller_quadrature, only : integrand_t, integrate
    use camroller_lubricant, only : lubricant_t, oil_t, pressure_law_names, get_oil, relative_viscosity, mean_relative_viscosity, &
       law_barus, law_cameron, law_roelands
+   use camroller_oil_data, only : reference_viscosities, sae_grade_names, so_klaus_coefficient, viscosity_at_40
    implicit none
    private
 
@@ -40,6 +41,10 @@ contains
          new_unittest("Roelands' index and the coefficient give each other", test_roelands_index), &
          new_unittest("mean over the contact agrees with adaptive quadrature", test_mean), &
          new_unittest("mean over the contact has its closed form in Barus' first two powers", test_mean_expansion), &
+         new_unittest("the viscosity index has its table and its joints", test_viscosity_index), &
+         new_unittest("a data sheet is Walther's law through its two viscosities", test_data_sheet), &
+         new_unittest("a grade and an index come to the viscosities they stand for", test_grades), &
+         new_unittest("So and Klaus' coefficient has the size of measured ones and falls with temperature", test_so_klaus), &
          new_unittest("oils that cannot be are refused in words", test_refusals) &
          ]
    end subroutine collect_lubricant
@@ -100,6 +105,130 @@ contains
       if (allocated(error)) return
       call check(error, oil%viscosity, exp(-9.0_wp + 3.75_wp), thr=1.0e-12_wp, rel=.true.)
    end subroutine test_vogel_constants
+
+   subroutine test_viscosity_index(error)
+      type(error_type), allocatable, intent(out) :: error
+      ! Viscosity at 100 degC; those at 40 degC for index 0 and 100 in the table of ASTM D2270 [mm^2/s]
+      real(wp), parameter :: at_100(3) = [5.0_wp, 10.0_wp, 20.0_wp], none(3) = [40.23_wp, 147.7_wp, 493.2_wp], &
+         & hundred(3) = [28.49_wp, 82.87_wp, 229.5_wp]
+      ! Joints of the equations; values on both sides of one [mm^2/s]
+      real(wp), parameter :: joints(*) = [3.8_wp, 4.4_wp, 5.0_wp, 6.4_wp, 7.0_wp, 7.7_wp, 9.0_wp, 12.0_wp, 15.0_wp, 18.0_wp, &
+         & 22.0_wp, 28.0_wp, 40.0_wp, 55.0_wp, 70.0_wp]
+      real(wp) :: below(2), above(2)
+      integer :: i
+
+      do i = 1, size(at_100)
+         call reference_viscosities(at_100(i), above(1), above(2))
+         ! the equations give the table to its last digit or the one before
+         call check(error, above(1), none(i), thr=2.0e-3_wp, rel=.true.)
+         if (.not. allocated(error)) call check(error, above(2), hundred(i), thr=2.0e-3_wp, rel=.true.)
+         if (allocated(error)) return
+      end do
+      do i = 1, size(joints)
+         call reference_viscosities(joints(i), above(1), above(2))
+         call reference_viscosities(joints(i)*(1.0_wp - epsilon(1.0_wp)), below(1), below(2))
+         ! pieces are fitted each for itself: they meet to 0.3 %
+         if (any(abs(below/above - 1.0_wp) > 3.0e-3_wp)) call test_failed(error, "a joint of the viscosity index is open")
+         if (allocated(error)) return
+      end do
+      ! ASTM D2270, example of procedure B: 22.83 and 5.05 mm^2/s have index 156
+      call check(error, viscosity_at_40(5.05_wp, 156.0_wp), 22.83_wp, thr=2.0e-3_wp, rel=.true.)
+      if (allocated(error)) return
+      ! Procedure A: 73.30 and 8.86 mm^2/s have index 92
+      call check(error, viscosity_at_40(8.86_wp, 92.0_wp), 73.30_wp, thr=5.0e-3_wp, rel=.true.)
+   end subroutine test_viscosity_index
+
+   subroutine test_data_sheet(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(lubricant_t) :: sheet, points
+      type(oil_t) :: oil, other
+      type(error_t), allocatable :: failure
+      ! Densities at 40 and 100 degC [kg/m^3]
+      real(wp) :: densities(2)
+
+      sheet%temperature_law = "data_sheet"
+      sheet%viscosity_at_40 = 64.0e-6_wp
+      sheet%viscosity_at_100 = 11.0e-6_wp
+      sheet%density = 855.0_wp
+      sheet%pressure_viscosity = 2.0e-8_wp
+      densities = 855.0_wp*(1.0_wp - sheet%thermal_expansion*[25.0_wp, 85.0_wp])
+      points = sheet
+      points%temperature_law = "walther"
+      points%temperature_points = [313.15_wp, 373.15_wp]
+      points%viscosity_points = [64.0e-6_wp, 11.0e-6_wp]*densities
+      call get_oil(sheet, 313.15_wp, oil, failure)
+      if (.not. allocated(failure)) call check(error, oil%viscosity, 64.0e-6_wp*densities(1), thr=roundings, rel=.true.)
+      if (allocated(error)) return
+      call get_oil(sheet, 353.15_wp, oil, failure)
+      if (.not. allocated(failure)) call get_oil(points, 353.15_wp, other, failure)
+      if (allocated(failure)) call test_failed(error, failure%message)
+      if (.not. allocated(error)) call check(error, oil%viscosity, other%viscosity, thr=roundings, rel=.true.)
+   end subroutine test_data_sheet
+
+   subroutine test_grades(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(lubricant_t) :: sheet
+      type(oil_t) :: oil
+      type(error_t), allocatable :: failure
+      ! Kinematic viscosities [m^2/s]
+      real(wp) :: thick, thin
+      integer :: i
+
+      sheet%temperature_law = "data_sheet"
+      sheet%viscosity_at_100 = 5.05e-6_wp
+      sheet%viscosity_index = 156.0_wp
+      sheet%thermal_expansion = 0.0_wp
+      call get_oil(sheet, 313.15_wp, oil, failure)
+      if (.not. allocated(failure)) call check(error, oil%viscosity/sheet%density, 22.83e-6_wp, thr=2.0e-3_wp, rel=.true.)
+      if (allocated(error)) return
+      sheet%viscosity_at_100 = 0.0_wp
+      sheet%viscosity_index = 0.0_wp
+      do i = 2, size(sae_grade_names)
+         sheet%sae_grade = sae_grade_names(i)
+         call get_oil(sheet, 373.15_wp, oil, failure)
+         if (allocated(failure)) call test_failed(error, failure%message)
+         if (allocated(error)) return
+         thin = oil%viscosity/sheet%density
+         call get_oil(sheet, 313.15_wp, oil, failure)
+         thick = oil%viscosity/sheet%density
+         ! SAE J300: 6.1 to 26.1 mm^2/s at 100 degC; engine oils are four to fourteen times as viscous at 40 degC
+         if (thin < 6.1e-6_wp .or. thin > 26.1e-6_wp .or. thick < 4.0_wp*thin .or. thick > 14.0_wp*thin) then
+            call test_failed(error, "grade "//trim(sheet%sae_grade)//" is no engine oil")
+            return
+         end if
+      end do
+   end subroutine test_grades
+
+   subroutine test_so_klaus(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(lubricant_t) :: sheet
+      type(oil_t) :: cold, hot
+      type(error_t), allocatable :: failure
+
+      ! By hand: log10 100 = 2, slope 3.5, 870 kg/m^3
+      call check(error, so_klaus_coefficient(100.0_wp, 3.5_wp, 870.0_wp), 1.0e-8_wp*(1.216_wp + 4.143_wp*2.0_wp**3.0627_wp &
+         & + 2.848e-4_wp*3.5_wp**5.1903_wp*2.0_wp**1.5976_wp - 3.999_wp*2.0_wp**3.0975_wp*0.87_wp**0.1162_wp), &
+         & thr=roundings, rel=.true.)
+      if (allocated(error)) return
+      sheet%temperature_law = "data_sheet"
+      sheet%sae_grade = "10W-40"
+      call get_oil(sheet, 313.15_wp, cold, failure)
+      if (.not. allocated(failure)) call get_oil(sheet, 393.15_wp, hot, failure)
+      if (allocated(failure)) call test_failed(error, failure%message)
+      if (allocated(error)) return
+      if (.not. (cold%is_estimated .and. hot%is_estimated)) call test_failed(error, "an estimate is not called one")
+      ! Mineral engine oils have 15 to 30 1/GPa at 40 degC and 9 to 18 at 120 degC
+      if (cold%pressure_viscosity < 1.5e-8_wp .or. cold%pressure_viscosity > 3.0e-8_wp) call test_failed(error, "cold estimate")
+      if (hot%pressure_viscosity < 0.9e-8_wp .or. hot%pressure_viscosity > 1.8e-8_wp) call test_failed(error, "hot estimate")
+      if (allocated(error)) return
+      sheet%pressure_viscosity = 2.0e-8_wp
+      call get_oil(sheet, 313.15_wp, cold, failure)
+      if (cold%is_estimated) call test_failed(error, "a given coefficient is called an estimate")
+      sheet%pressure_viscosity = 0.0_wp
+      ! Below 2 mm^2/s the estimate is refused
+      call get_oil(sheet, 573.15_wp, hot, failure)
+      if (.not. allocated(failure)) call test_failed(error, "an estimate far outside of its data was made")
+   end subroutine test_so_klaus
 
    subroutine test_walther(error)
       type(error_type), allocatable, intent(out) :: error

@@ -266,6 +266,14 @@ contains
          & "temperature_law = 'walther' temperature_points_degC = 100, 40 "// &
          & "viscosity_points_Pa_s = 0.05, 0.01", "10:66: 'temperature_points_degC' must increase")
       call expect_mistake(error, "viscosity_Pa_s = 0.0305", &
+         & "temperature_law = 'data_sheet' density_kg_m3 = 855", "10:1: temperature law 'data_sheet', without an 'sae_grade', "// &
+         & "needs 'viscosity_at_100_degC_mm2_s' in &lubricant")
+      call expect_mistake(error, "viscosity_Pa_s = 0.0305", &
+         & "temperature_law = 'data_sheet' sae_grade = '5W-30' viscosity_at_40_degC_mm2_s = 64", &
+         & "10:92: 'sae_grade' takes the place of viscosities")
+      call expect_mistake(error, "viscosity_Pa_s = 0.0305", "temperature_law = 'data_sheet' viscosity_at_40_degC_mm2_s = 64 "// &
+         & "viscosity_at_100_degC_mm2_s = 11 viscosity_index = 160", "10:126: 'viscosity_index' takes the place of")
+      call expect_mistake(error, "viscosity_Pa_s = 0.0305", &
          & "temperature_law = 'vogel' temperature_points_degC = 25 60 95 "// &
          & "viscosity_points_Pa_s = 0.05, 0.01", "10:97: temperature law 'vogel' takes 3 points, not 2")
       call expect_mistake(error, "", "&traction shear_law = 'eyring' /", &

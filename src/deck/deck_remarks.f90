@@ -1,0 +1,276 @@
+!> Remarks on a deck: numbers that no engine has, and what may have been meant.
+!>
+!> In: a deck without mistakes. Out: sentences. Nothing is refused for them: a deck may be about something unusual.
+module camroller_deck_remarks
+   use camroller_kinds, only : wp
+   use camroller_units, only : unit_t, find_unit, from_si, to_si
+   use camroller_number_text, only : number_text, is_number
+   use camroller_mistakes, only : line_t
+   use camroller_text_list, only : text_at
+   use camroller_deck_schema, only : key_t, type_number, type_numbers
+   use camroller_deck_sweep, only : sweep_axis_t
+   use camroller_settings, only : get_word, take, find_value
+   use camroller_table_file, only : table_t
+   use camroller_deck, only : deck_t
+   implicit none
+   private
+
+   public :: list_deck_remarks
+
+   !> Digits of numbers in sentences
+   integer, parameter :: digits = 6
+   !> Above this temperature no engine oil is thicker than that [K], [Pa s]
+   real(wp), parameter :: warm = 293.15_wp, thickest_warm = 2.0_wp
+   !> Kinematic viscosities that a data sheet may give [mm^2/s]
+   real(wp), parameter :: sheet_range(2) = [2.0_wp, 500.0_wp]
+   !> Usual lengths of an event [deg of cam angle], and usual lifts [m]
+   real(wp), parameter :: usual_event(2) = [60.0_wp, 220.0_wp], usual_lift(2) = [1.0e-3_wp, 25.0e-3_wp]
+   !> Powers of ten that a slip of units makes; nearer ones first
+   integer, parameter :: slips(*) = [3, -3, 6, -6, 9, -9]
+   !> Units that nobody takes for a thousand of another
+   character(len=*), parameter :: of_one_size(*) = [character(len=4) :: "rpm", "deg", "degC"]
+
+contains
+
+   !> Remarks on the values of a deck, those of its sweep included.
+   subroutine list_deck_remarks(deck, remarks)
+      !> The deck
+      type(deck_t), intent(in) :: deck
+      !> Sentences
+      type(line_t), allocatable, intent(out) :: remarks(:)
+
+      integer :: i, k, axis
+
+      allocate (remarks(0))
+      do i = 1, deck%schema%key_count
+         associate (key => deck%schema%keys(i), value => deck%settings%values(i))
+            if (.not. key%has_usual .or. .not. value%is_given .or. .not. value%is_known) cycle
+            if (.not. deck%settings%groups(key%group)%is_present) cycle
+            axis = axis_of(deck, i)
+            if (axis > 0) then
+               call remark_axis(key, name_of(deck, i), deck%sweep%axes(axis), remarks)
+            else if (key%type == type_number .or. key%type == type_numbers) then
+               do k = 1, size(value%numbers)
+                  call remark_number(key, name_of(deck, i), from_si(key%unit, value%numbers(k)), remarks)
+               end do
+            end if
+         end associate
+      end do
+      call remark_viscosity(deck, remarks)
+      call remark_lift(deck, "lift", deck%tables%lift, remarks)
+      call remark_lift(deck, "second_lift", deck%tables%second_lift, remarks)
+   end subroutine list_deck_remarks
+
+   !> Name of a key with its group.
+   pure function name_of(deck, position) result(name)
+      !> The deck
+      type(deck_t), intent(in) :: deck
+      !> Position of the key
+      integer, intent(in) :: position
+      !> As `group.key`
+      character(len=:), allocatable :: name
+
+      name = trim(deck%schema%groups(deck%schema%keys(position)%group)%name)//"."//trim(deck%schema%keys(position)%name)
+   end function name_of
+
+   !> Position of a key among those that vary, 0 where it does not.
+   pure function axis_of(deck, position) result(axis)
+      !> The deck
+      type(deck_t), intent(in) :: deck
+      !> Position of the key
+      integer, intent(in) :: position
+      !> The position
+      integer :: axis
+
+      do axis = size(deck%sweep%axes), 1, -1
+         if (deck%sweep%axes(axis)%key == name_of(deck, position)) return
+      end do
+   end function axis_of
+
+   !> Values of a key that varies.
+   subroutine remark_axis(key, name, axis, remarks)
+      !> The key
+      type(key_t), intent(in) :: key
+      !> As `group.key`
+      character(len=*), intent(in) :: name
+      !> Its values
+      type(sweep_axis_t), intent(in) :: axis
+      !> Sentences so far
+      type(line_t), allocatable, intent(inout) :: remarks(:)
+
+      ! A value [unit of the key]
+      real(wp) :: number
+      character(len=:), allocatable :: word
+      integer :: i, before, status
+
+      before = size(remarks)
+      if (axis%values%count == 0) then
+         call remark_number(key, name, axis%first, remarks)
+         if (size(remarks) == before) call remark_number(key, name, axis%last, remarks)
+         return
+      end if
+      do i = 1, axis%values%count
+         word = text_at(axis%values, i)
+         if (.not. is_number(word)) cycle
+         read (word, *, iostat=status) number
+         if (status == 0) call remark_number(key, name, number, remarks)
+         if (size(remarks) > before) return
+      end do
+   end subroutine remark_axis
+
+   !> One number.
+   subroutine remark_number(key, name, number, remarks)
+      !> The key
+      type(key_t), intent(in) :: key
+      !> As `group.key`
+      character(len=*), intent(in) :: name
+      !> The number [unit of the key]
+      real(wp), intent(in) :: number
+      !> Sentences so far
+      type(line_t), allocatable, intent(inout) :: remarks(:)
+
+      ! Round-off of the unit's factor [-]
+      real(wp), parameter :: round_off = 1.0e-12_wp
+      character(len=:), allocatable :: words
+      integer :: i
+
+      associate (low => key%usual%smallest - round_off*abs(key%usual%smallest), &
+         & high => key%usual%largest + round_off*abs(key%usual%largest))
+         if (number >= low .and. number <= high) return
+         words = ""
+         if (index(name, "viscosity_") > 0 .and. key%unit%suffix == "Pa_s" .and. number >= sheet_range(1) .and. &
+            & number <= sheet_range(2)) then
+            words = as_kinematic(number)
+         else if (.not. any(key%unit%suffix == of_one_size)) then
+            do i = 1, size(slips)
+               if (number*10.0_wp**slips(i) < low .or. number*10.0_wp**slips(i) > high) cycle
+               if (.not. abs(number) > 0.0_wp) cycle
+               words = "; did you mean "//with_unit(number*10.0_wp**slips(i), key%unit)//"?"
+               exit
+            end do
+         end if
+      end associate
+      call add_remark(remarks, name//" = "//number_text(number, digits)//" is unusual: engines have "// &
+         & number_text(key%usual%smallest)//" to "//with_unit(key%usual%largest, key%unit)//words)
+   end subroutine remark_number
+
+   !> A question about a number that may be a kinematic viscosity.
+   pure function as_kinematic(number) result(words)
+      !> The number
+      real(wp), intent(in) :: number
+      !> The question
+      character(len=:), allocatable :: words
+
+      words = "; did you mean "//number_text(number, digits)//" mm^2/s? That is viscosity_at_40_degC_mm2_s or "// &
+         & "viscosity_at_100_degC_mm2_s of temperature_law 'data_sheet'"
+   end function as_kinematic
+
+   !> Viscosities that no oil has at their temperature.
+   subroutine remark_viscosity(deck, remarks)
+      !> The deck
+      type(deck_t), intent(in) :: deck
+      !> Sentences so far
+      type(line_t), allocatable, intent(inout) :: remarks(:)
+
+      character(len=*), parameter :: group = "lubricant"
+      type(unit_t) :: celsius
+      logical :: is_there
+      ! Temperatures [K] and viscosities [Pa s]
+      real(wp), allocatable :: temperatures(:), viscosities(:)
+      integer :: i
+
+      allocate (temperatures(1), viscosities(1))
+      temperatures = 0.0_wp
+      viscosities = 0.0_wp
+      call find_unit("degC", celsius, is_there)
+      select case (get_word(deck%settings, group, "temperature_law"))
+      case ("direct")
+         call take(deck%settings, "operating_point", "oil_temperature_degC", temperatures(1))
+         call take(deck%settings, group, "viscosity_Pa_s", viscosities(1))
+         if (axis_of(deck, find_value(deck%settings, group, "viscosity_Pa_s")) > 0) return
+         if (axis_of(deck, find_value(deck%settings, "operating_point", "oil_temperature_degC")) > 0) return
+      case ("data_sheet")
+         return
+      case default
+         call take(deck%settings, group, "temperature_points_degC", temperatures)
+         call take(deck%settings, group, "viscosity_points_Pa_s", viscosities)
+      end select
+      do i = 1, min(size(temperatures), size(viscosities))
+         ! Above the usual range it has its remark already
+         if (temperatures(i) < warm .or. viscosities(i) <= thickest_warm .or. viscosities(i) > 20.0_wp) cycle
+         call add_remark(remarks, "lubricant: "//number_text(viscosities(i), digits)//" Pa s at "// &
+            & number_text(from_si(celsius, temperatures(i)), digits)//" degC is unusual: no engine oil is thicker than "// &
+            & number_text(thickest_warm)//" Pa s above 20 degC"//as_kinematic(viscosities(i)))
+      end do
+   end subroutine remark_viscosity
+
+   !> A lift table in another unit, or over another angle.
+   subroutine remark_lift(deck, group, table, remarks)
+      !> The deck
+      type(deck_t), intent(in) :: deck
+      !> Group of the lift
+      character(len=*), intent(in) :: group
+      !> Its table
+      type(table_t), intent(in) :: table
+      !> Sentences so far
+      type(line_t), allocatable, intent(inout) :: remarks(:)
+
+      type(unit_t) :: unit
+      logical :: is_there
+      ! Largest lift [m]; length of the event [deg]
+      real(wp) :: largest, length
+      character(len=:), allocatable :: words
+      integer :: i
+
+      if (.not. allocated(table%x) .or. get_word(deck%settings, group, "law") /= "table") return
+      if (size(table%x) == 0) return
+      call find_unit(get_word(deck%settings, group, "table_unit"), unit, is_there)
+      largest = to_si(unit, maxval(table%y))
+      if (largest < usual_lift(1) .or. largest > usual_lift(2)) then
+         words = ""
+         do i = 1, size(slips)
+            if (largest*10.0_wp**slips(i) < usual_lift(1) .or. largest*10.0_wp**slips(i) > usual_lift(2)) cycle
+            words = "; is 'table_unit' right?"
+         end do
+         call add_remark(remarks, table%path//": a largest lift of "//number_text(1.0e3_wp*largest, digits)// &
+            & " mm is unusual: engines have 1 to 25 mm"//words)
+      end if
+      length = table%x(min(size(table%x), findloc(table%y > 0.0_wp, .true., dim=1, back=.true.) + 1)) &
+         & - table%x(max(1, findloc(table%y > 0.0_wp, .true., dim=1) - 1))
+      if (length >= usual_event(1) .and. length <= usual_event(2)) return
+      words = ""
+      if (0.5_wp*length >= usual_event(1) .and. 0.5_wp*length <= usual_event(2)) words = &
+         & "; is the angle that of the crankshaft? A table takes the cam's, half of it"
+      call add_remark(remarks, table%path//": an event of "//number_text(length, digits)// &
+         & " degrees of cam angle is unusual: engines have 60 to 220"//words)
+   end subroutine remark_lift
+
+   !> A number with its unit.
+   pure function with_unit(number, unit) result(words)
+      !> The number [the unit]
+      real(wp), intent(in) :: number
+      !> Its unit
+      type(unit_t), intent(in) :: unit
+      !> Both
+      character(len=:), allocatable :: words
+
+      words = number_text(number, digits)
+      if (unit%symbol /= "1") words = words//" "//trim(unit%symbol)
+   end function with_unit
+
+   !> Lengthen the list. A constructor within a list would leak its text with gfortran.
+   subroutine add_remark(remarks, text)
+      !> Sentences so far
+      type(line_t), allocatable, intent(inout) :: remarks(:)
+      !> One more
+      character(len=*), intent(in) :: text
+
+      type(line_t), allocatable :: longer(:)
+
+      allocate (longer(size(remarks) + 1))
+      longer(:size(remarks)) = remarks
+      longer(size(longer))%text = text
+      call move_alloc(longer, remarks)
+   end subroutine add_remark
+
+end module camroller_deck_remarks

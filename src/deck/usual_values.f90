@@ -1,0 +1,102 @@
+!> Usual values of a deck's numbers: the one table of what an engine has, beside what a deck may hold.
+!>
+!> In: the schema. Out: the same with usual ranges. A number outside of its usual range is no mistake; a remark asks whether it is
+!> meant, as `defaults` shows the range. Ranges hold engines from motorcycles to trucks, from cranking to their limit.
+module camroller_usual_values
+   use camroller_kinds, only : wp
+   use camroller_deck_schema, only : schema_t, range_t
+   implicit none
+   private
+
+   public :: add_usual_ranges
+
+   !> Usual range of one number
+   type :: usual_t
+      !> As `group.key`
+      character(len=48) :: name
+      !> Ends of the range [unit of the key]
+      real(wp) :: smallest, largest
+   end type usual_t
+
+   type(usual_t), parameter :: usual(*) = [ &
+      usual_t("operating_point.speed_rpm", 50.0_wp, 6000.0_wp), &
+      usual_t("operating_point.oil_temperature_degC", -40.0_wp, 180.0_wp), &
+      usual_t("mechanism.pivot_to_roller_mm", 8.0_wp, 60.0_wp), &
+      usual_t("mechanism.pivot_to_pad_mm", 15.0_wp, 120.0_wp), &
+      usual_t("mechanism.pivot_to_cam_mm", 15.0_wp, 100.0_wp), &
+      usual_t("mechanism.base_radius_mm", 6.0_wp, 60.0_wp), &
+      usual_t("mechanism.contact_width_mm", 2.0_wp, 60.0_wp), &
+      usual_t("mechanism.grinding_wheel_radius_mm", 10.0_wp, 500.0_wp), &
+      usual_t("roller.radius_mm", 3.0_wp, 30.0_wp), &
+      usual_t("roller.mass_kg", 1.0e-3_wp, 0.3_wp), &
+      usual_t("roller.wall_thickness_mm", 0.8_wp, 15.0_wp), &
+      usual_t("lift.max_lift_mm", 1.0_wp, 25.0_wp), &
+      usual_t("lift.opening_half_angle_deg", 35.0_wp, 110.0_wp), &
+      usual_t("lift.closing_half_angle_deg", 35.0_wp, 110.0_wp), &
+      usual_t("lift.smoothing_um", 0.0_wp, 20.0_wp), &
+      usual_t("masses.valve_kg", 0.01_wp, 1.0_wp), &
+      usual_t("masses.finger_kg", 0.005_wp, 1.0_wp), &
+      usual_t("masses.finger_inertia_kg_m2", 1.0e-6_wp, 5.0e-3_wp), &
+      usual_t("masses.finger_centre_mm", 1.0_wp, 60.0_wp), &
+      usual_t("spring.stiffness_N_m", 2000.0_wp, 2.0e5_wp), &
+      usual_t("spring.precompression_mm", 1.0_wp, 40.0_wp), &
+      usual_t("spring.base_circle_load_N", 0.0_wp, 400.0_wp), &
+      usual_t("spring.seat_stiffness_N_m", 1.0e5_wp, 1.0e9_wp), &
+      usual_t("gas_force.valve_diameter_mm", 10.0_wp, 80.0_wp), &
+      usual_t("materials.cam_modulus_GPa", 60.0_wp, 450.0_wp), &
+      usual_t("materials.roller_modulus_GPa", 60.0_wp, 450.0_wp), &
+      usual_t("materials.cam_poisson_ratio", 0.15_wp, 0.4_wp), &
+      usual_t("materials.roller_poisson_ratio", 0.15_wp, 0.4_wp), &
+      usual_t("materials.hardness_GPa", 0.5_wp, 25.0_wp), &
+      usual_t("surface.cam_roughness_um", 0.0_wp, 3.0_wp), &
+      usual_t("surface.roller_roughness_um", 0.0_wp, 3.0_wp), &
+      usual_t("lubricant.viscosity_Pa_s", 1.0e-3_wp, 20.0_wp), &
+      usual_t("lubricant.viscosity_points_Pa_s", 5.0e-4_wp, 20.0_wp), &
+      usual_t("lubricant.temperature_points_degC", -40.0_wp, 200.0_wp), &
+      usual_t("lubricant.viscosity_at_40_degC_mm2_s", 10.0_wp, 500.0_wp), &
+      usual_t("lubricant.viscosity_at_100_degC_mm2_s", 2.0_wp, 40.0_wp), &
+      usual_t("lubricant.viscosity_index", 50.0_wp, 250.0_wp), &
+      usual_t("lubricant.density_kg_m3", 750.0_wp, 1050.0_wp), &
+      usual_t("lubricant.thermal_expansion_per_K", 4.0e-4_wp, 1.0e-3_wp), &
+      usual_t("lubricant.pressure_viscosity_coefficient_per_GPa", 4.0_wp, 45.0_wp), &
+      usual_t("lubricant.roelands_index", 0.2_wp, 1.2_wp), &
+      usual_t("traction.eyring_stress_MPa", 0.5_wp, 30.0_wp), &
+      usual_t("traction.limiting_coefficient", 0.01_wp, 0.2_wp), &
+      usual_t("asperity.roughness_product", 0.01_wp, 0.15_wp), &
+      usual_t("asperity.roughness_over_tip_radius", 1.0e-5_wp, 0.1_wp), &
+      usual_t("asperity.boundary_coefficient", 0.0_wp, 0.5_wp), &
+      usual_t("asperity.film_shear_strength_MPa", 0.0_wp, 100.0_wp), &
+      usual_t("asperity.mobilising_speed_m_s", 1.0e-6_wp, 0.05_wp), &
+      usual_t("needle_bearing.friction_coefficient", 0.0_wp, 0.3_wp), &
+      usual_t("needle_bearing.needle_radius_mm", 0.3_wp, 5.0_wp), &
+      usual_t("cam_bearings.diameter_mm", 12.0_wp, 120.0_wp), &
+      usual_t("cam_bearings.width_mm", 4.0_wp, 80.0_wp), &
+      usual_t("cam_bearings.radial_clearance_um", 5.0_wp, 150.0_wp), &
+      usual_t("cam_bearings.bearing_positions_mm", -3000.0_wp, 3000.0_wp), &
+      usual_t("cam_bearings.cam_positions_mm", -3000.0_wp, 3000.0_wp), &
+      usual_t("valve_guide.length_mm", 10.0_wp, 150.0_wp), &
+      usual_t("valve_guide.stem_diameter_mm", 3.0_wp, 20.0_wp), &
+      usual_t("valve_guide.radial_clearance_um", 3.0_wp, 100.0_wp)]
+
+contains
+
+   !> Give keys their usual ranges; the second lift is like the first.
+   pure subroutine add_usual_ranges(schema)
+      !> Groups and keys
+      type(schema_t), intent(inout) :: schema
+
+      character(len=:), allocatable :: name
+      integer :: i, k
+
+      do k = 1, schema%key_count
+         name = trim(schema%groups(schema%keys(k)%group)%name)//"."//trim(schema%keys(k)%name)
+         if (index(name, "second_lift.") == 1) name = name(8:)
+         do i = 1, size(usual)
+            if (usual(i)%name /= name) cycle
+            schema%keys(k)%usual = range_t(usual(i)%smallest, usual(i)%largest)
+            schema%keys(k)%has_usual = .true.
+         end do
+      end do
+   end subroutine add_usual_ranges
+
+end module camroller_usual_values
