@@ -85,41 +85,49 @@ python_tools() {
 }
 
 # ---- test-drive --------------------------------------------------------------------------------------------------
-# fpm takes a dependency that it finds in build/dependencies as it is.
+# The test library that fpm.toml names; fpm takes a dependency that it finds in build/dependencies as it is. It comes from its
+# repository where git reaches that, otherwise from a source package on PyPI that carries the same release. Either copy is
+# taken only if its files have the checksums of tools/test-drive.sha256.
+readonly test_drive_archive=tblite==0.7.0 # its folder subprojects/test-drive
+
 test_drive() {
-    local target=build/dependencies/test-drive
+    local target=build/dependencies/test-drive part=build/test-drive.part source=cloned url tag
     [ -f "$target/src/testdrive.F90" ] && return 0
-    rm -rf "$target" build/test-drive.part
-    mkdir -p build/dependencies build/test-drive.part
-    local url tag
+    rm -rf "$target" "$part"
+    mkdir -p build/dependencies "$part"
     url=$(sed -n 's/^test-drive\.git = "\(.*\)"/\1/p' fpm.toml)
     tag=$(sed -n 's/^test-drive\.tag = "\(.*\)"/\1/p' fpm.toml)
     say "fetching test-drive $tag"
-    if ! clone_test_drive "$url" "$tag" build/test-drive.part/source; then
-        unpack_test_drive build/test-drive.part
+    if ! { clone_test_drive "$url" "$tag" "$part/cloned" && has_checksums "$part/cloned"; }; then
+        source=unpacked
+        unpack_test_drive "$part" > build/test-drive.log 2>&1 && has_checksums "$part/unpacked" ||
+            { cat build/test-drive.log >&2
+              fail "cannot fetch test-drive $tag, neither by git nor from PyPI; put its sources into $target"; }
     fi
-    grep -q "^version = \"${tag#v}\"" build/test-drive.part/source/fpm.toml || fail "test-drive is not version ${tag#v}"
-    mv build/test-drive.part/source "$target"
-    rm -rf build/test-drive.part
+    mv "$part/$source" "$target"
+    # fpm reads the commit of a dependency
+    [ -d "$target/.git" ] || { git -C "$target" init -q && git -C "$target" add -A &&
+        git -C "$target" -c user.name=setup -c user.email=setup@localhost commit -q -m "test-drive $tag"; }
+    rm -rf "$part"
 }
 
 clone_test_drive() { # url, tag, folder
-    GIT_TERMINAL_PROMPT=0 timeout 10 git ls-remote "$1" HEAD > /dev/null 2>&1 < /dev/null &&
-        GIT_TERMINAL_PROMPT=0 timeout 120 git -c advice.detachedHead=false clone -q --depth 1 --branch "$2" "$1" "$3" < /dev/null
+    export GIT_TERMINAL_PROMPT=0
+    timeout 10 git ls-remote "$1" HEAD > /dev/null 2>&1 < /dev/null &&
+        timeout 120 git -c advice.detachedHead=false clone -q --depth 1 --branch "$2" "$1" "$3" < /dev/null
 }
 
+# pip would build what it downloads; unearth downloads only, from the index that pip is set to.
 unpack_test_drive() { # folder
-    local options=(--quiet --disable-pip-version-check --no-deps --no-binary tblite --dest "$1" --require-hashes
-        -r tools/test-drive-source.txt)
-    # pip insists on metadata; the archive's own build backend takes minutes for them, the stand-in none.
-    PYTHONPATH="$PWD/tools/stand_in" .venv/bin/python -m pip download --no-build-isolation "${options[@]}" < /dev/null ||
-        .venv/bin/python -m pip download "${options[@]}" < /dev/null ||
-        fail "cannot fetch test-drive, neither by git nor by pip; put its sources into build/dependencies/test-drive"
-    tar -xzf "$1"/tblite-*.tar.gz -C "$1"
-    mv "$1"/tblite-*/subprojects/test-drive "$1/source"
-    git -C "$1/source" init -q
-    git -C "$1/source" add -A
-    git -C "$1/source" -c user.name=setup -c user.email=setup@localhost commit -q -m "test-drive"
+    local index
+    index=${PIP_INDEX_URL:-$(.venv/bin/python -m pip config get global.index-url 2> /dev/null)} || index=
+    .venv/bin/unearth ${index:+--index-url "$index"} --no-binary --download "$1" "$test_drive_archive" < /dev/null &&
+        tar -xzf "$1"/tblite-*.tar.gz -C "$1" && mv "$1"/tblite-*/subprojects/test-drive "$1/unpacked"
+}
+
+has_checksums() { # folder
+    local list=$PWD/tools/test-drive.sha256
+    (cd "$1" && grep -v '^#' "$list" | sha256sum --check --status) || { say "this copy of test-drive is another one: $1" >&2; return 1; }
 }
 
 mkdir -p build

@@ -45,10 +45,11 @@ def run_set_up(top, apt_get=None, has_mpi=True, has_gfortran=False):
     """Run the set-up in a folder of its own on a machine where only these are there, with the given text as apt-get."""
     folder = top / "bin"
     folder.mkdir()
-    (top / "tools").mkdir()
+    (top / "tools").mkdir(exist_ok=True)
     (top / "tools/setup.sh").write_bytes((ROOT / "tools/setup.sh").read_bytes())
     (top / "tools/setup.sh").chmod(0o755)
-    for name in ("bash", "dirname", "env", "tr", "sed", "head", "tail", "tee", "mkdir", "ln", "cmp", "git", "make", "gcc", "pkg-config"):
+    for name in ("bash", "dirname", "env", "tr", "sed", "head", "tail", "tee", "mkdir", "ln", "cmp", "git", "make", "gcc", "pkg-config", "grep",
+                 "sha256sum", "timeout", "mv", "rm", "tar", "gzip", "cat"):
         found = subprocess.run(["bash", "-c", f"command -v {name}"], capture_output=True, text=True, check=False).stdout
         if found.strip():
             (folder / name).symlink_to(pathlib.Path(found.strip()))
@@ -87,12 +88,67 @@ def test_set_up_shows_why_an_installation_failed(tmp_path):
     assert "type: apt-get update && apt-get install" in result.stderr
 
 
+def with_python_tools(top):
+    """A folder in which the Python tools are there."""
+    (top / "requirements.txt").touch()
+    (top / ".venv/bin").mkdir(parents=True)
+    (top / ".venv/bin/python").symlink_to(sys.executable)
+    (top / ".venv/requirements.done").touch()
+
+
+@pytest.fixture(name="release")
+def a_release(tmp_path):
+    """A folder where test-drive is to be fetched: from a repository on disk, or out of an archive that a stand-in downloads."""
+    with_python_tools(tmp_path)
+    source = tmp_path / "archive/tblite-0.7.0/subprojects/test-drive"
+    (source / "src").mkdir(parents=True)
+    for name in ("fpm.toml", "src/testdrive.F90", "src/testdrive_version.f90"):
+        (source / name).write_text(f"contents of {name}\n", encoding="utf-8")
+    subprocess.run("git init -q && git add -A && git -c user.name=a -c user.email=a@b commit -qm x && git tag v9.9.9 && "
+                   "sha256sum fpm.toml src/* > ../../../../sums", shell=True, cwd=source, check=True)
+    (source / ".git").rename(tmp_path / "repository")
+    (tmp_path / "fpm.toml").write_text(f'test-drive.git = "{tmp_path}/repository"\ntest-drive.tag = "v9.9.9"\n', encoding="utf-8")
+    (tmp_path / "tools").mkdir()
+    (tmp_path / "sums").rename(tmp_path / "tools/test-drive.sha256")
+    unearth = tmp_path / ".venv/bin/unearth"
+    unearth.write_text('#!/bin/bash\nfolder=${@: -2:1}\necho "${@: -1}" > asked\n'
+                       'tar -czf "$folder/tblite-0.7.0.tar.gz" -C archive tblite-0.7.0\n', encoding="utf-8")
+    unearth.chmod(0o755)
+    return tmp_path
+
+
+@pytest.mark.parametrize("source", ["repository", "archive"])
+def test_set_up_takes_the_test_library_from_git_or_else_out_of_an_archive(release, source):
+    if source == "archive":
+        (release / "repository").rename(release / "gone")
+    result = run_set_up(release, has_gfortran=True)
+    assert (result.returncode, result.stdout) == (0, "setup: fetching test-drive v9.9.9\n"), result.stderr
+    assert (release / "asked").exists() == (source == "archive")
+    target = release / "build/dependencies/test-drive"
+    assert (target / "src/testdrive.F90").read_text(encoding="utf-8") == "contents of src/testdrive.F90\n"
+    assert subprocess.run(["git", "rev-parse", "--verify", "-q", "HEAD"], cwd=target, check=False, capture_output=True).returncode == 0
+
+
+def test_set_up_takes_the_archive_where_git_gives_another_copy(release):
+    subprocess.run("git clone -q repository copy && cd copy && echo x >> src/testdrive.F90 && "
+                   "git -c user.name=a -c user.email=a@b commit -qam y && git push -q origin HEAD:other && git tag -f v9.9.9 && "
+                   "git push -qf origin v9.9.9", shell=True, cwd=release, check=True, capture_output=True)
+    result = run_set_up(release, has_gfortran=True)
+    assert result.returncode == 0 and "this copy of test-drive is another one" in result.stderr
+    assert (release / "build/dependencies/test-drive/src/testdrive.F90").read_text(encoding="utf-8") == "contents of src/testdrive.F90\n"
+
+
+def test_set_up_refuses_a_test_library_of_other_content(release):
+    (release / "repository").rename(release / "gone")
+    (release / "archive/tblite-0.7.0/subprojects/test-drive/src/testdrive.F90").write_text("other\n", encoding="utf-8")
+    result = run_set_up(release, has_gfortran=True)
+    assert result.returncode == 1 and "cannot fetch test-drive v9.9.9, neither by git nor from PyPI" in result.stderr
+    assert not (release / "build/dependencies/test-drive").exists()
+
+
 def test_set_up_goes_on_without_open_mpi(tmp_path):
     """It is asked for once, apart from what has to be there; that it cannot be had is said and is no error."""
-    (tmp_path / "requirements.txt").touch()
-    (tmp_path / ".venv/bin").mkdir(parents=True)
-    (tmp_path / ".venv/bin/python").symlink_to(sys.executable)
-    (tmp_path / ".venv/requirements.done").touch()
+    with_python_tools(tmp_path)
     (tmp_path / "build/dependencies/test-drive/src").mkdir(parents=True)
     (tmp_path / "build/dependencies/test-drive/src/testdrive.F90").touch()
     result = run_set_up(tmp_path, f'echo "$@" >> {tmp_path}/calls; echo no such package >&2; exit 100', has_mpi=False,
