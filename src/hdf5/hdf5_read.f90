@@ -6,6 +6,7 @@
 !> file of that size can hold, before anything is read or room for it is made.
 module camroller_hdf5_read
    use, intrinsic :: iso_c_binding, only : c_associated, c_loc, c_null_ptr, c_ptr
+   use, intrinsic :: iso_fortran_env, only : int64
    use hdf5, only : hid_t, hsize_t, h5aclose_f, h5aexists_f, h5aget_space_f, h5aget_type_f, h5aopen_f, h5aread_f, h5dclose_f, &
       & h5dget_space_f, h5dget_storage_size_f, h5dread_f, h5dvlen_reclaim_f, h5fis_hdf5_f, h5fopen_f, h5gclose_f, &
       & h5gget_info_f, h5gopen_f, h5lexists_f, h5lget_name_by_idx_f, h5oclose_f, h5oopen_f, h5sclose_f, &
@@ -228,17 +229,21 @@ contains
       !> File error, also where the dataset holds no numbers, has other axes or no such block
       type(error_t), allocatable, intent(out) :: error
 
+      ! Most values that the block can have [-]
+      real(wp) :: most
       integer :: status
 
       ! a file that is being written has no size yet
-      if (file%bytes > 0 .and. product(real(extents, wp)) > real(file%bytes, wp)*largest_ratio) then
+      most = real(huge(1), wp)
+      if (file%bytes > 0) most = real(file%bytes, wp)*largest_ratio
+      if (product(real(extents, wp)) > most) then
          call raise(error, kind_file, "'"//name//"' of '"//file%file//"' cannot have so many values: the file is too small")
          return
       end if
-      allocate (numbers(product(extents)), stat=status)
+      allocate (numbers(product(int(extents, int64))), stat=status)
       if (status /= 0) then
          call raise(error, kind_file, "there is no memory for '"//name//"' of '"//file%file//"'")
-      else if (size(numbers) > 0) then
+      else if (all(extents > 0)) then
          call read_block(file, name, of_numbers, h5t_native_double, first, extents, c_loc(numbers), error)
       end if
    end subroutine read_numbers

@@ -26,6 +26,7 @@ contains
 
       testsuite = [ &
          new_unittest("numbers come back to the last bit, unwritten ones as not-a-number", numbers_come_back), &
+         new_unittest("a block of more values than 32 bits count is refused, not taken for none", large_block_is_told), &
          new_unittest("compressed numbers come back to the last bit", compressed_numbers_come_back), &
          new_unittest("texts of any length come back, unwritten ones as empty", texts_come_back), &
          new_unittest("attributes come back", attributes_come_back), &
@@ -43,6 +44,24 @@ contains
 
       call check_numbers(error, "numbers", [integer ::], 0)
    end subroutine numbers_come_back
+
+   !> In a file that is being written, whose size tells nothing: 65536 rows of 65536 are no values in 32 bits.
+   subroutine large_block_is_told(error)
+      type(error_type), allocatable, intent(out) :: error
+
+      type(error_t), allocatable :: raised
+      type(hdf5_object_t) :: file, dataset
+      real(wp), allocatable :: numbers(:)
+      character(len=:), allocatable :: path
+
+      path = scratch_path("large_block")
+      call create_file(file, path, path, raised)
+      call create_numbers(file, "rows", [3, 4], [integer ::], 0, dataset, raised)
+      call read_numbers(file, "/rows", [0, 0], [65536, 65536], numbers, raised)
+      call discard_file(file)
+      call remove_file(path)
+      call expect_error(error, raised, kind_file, "'/rows'")
+   end subroutine large_block_is_told
 
    subroutine compressed_numbers_come_back(error)
       type(error_type), allocatable, intent(out) :: error
