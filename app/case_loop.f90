@@ -10,6 +10,7 @@ module camroller_case_loop
 !$ use omp_lib, only : omp_get_num_procs, omp_get_max_threads
    use camroller_kinds, only : wp
    use camroller_error, only : error_t, add_context
+   use camroller_blas_threads, only : check_blas_memory
    use camroller_case, only : case_t
    use camroller_case_record, only : begin_cases, case_words, end_cases, put_failure, put_result
    use camroller_case_runs, only : piece_of, run_total, runs_t
@@ -28,7 +29,7 @@ module camroller_case_loop
    implicit none
    private
 
-   public :: loop_t, compute_cases, number_of_cores
+   public :: loop_t, compute_cases, number_of_cores, set_threads
    public :: ended_all, ended_by_signal, ended_by_time, ended_by_error
 
    !> What ended the loop
@@ -64,6 +65,20 @@ module camroller_case_loop
    end type loop_t
 
 contains
+
+   !> Threads of a loop, for which there has to be memory.
+   subroutine set_threads(loop, wanted, error)
+      !> The loop
+      type(loop_t), intent(inout) :: loop
+      !> How many; 0 for one on each core that this process may use
+      integer, intent(in) :: wanted
+      !> Too little memory for so many
+      type(error_t), allocatable, intent(out) :: error
+
+      loop%threads = wanted
+      if (wanted == 0) loop%threads = number_of_cores()
+      call check_blas_memory(loop%threads, error)
+   end subroutine set_threads
 
    !> Cores that this process may use.
    function number_of_cores() result(cores)

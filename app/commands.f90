@@ -3,7 +3,7 @@
 !> In: the command line. Out: files, text, an exit code.
 module camroller_commands
    use camroller_error, only : error_t, raise, add_context, kind_file, kind_usage
-   use camroller_blas_threads, only : use_one_blas_thread
+   use camroller_blas_threads, only : check_blas_memory, use_one_blas_thread
    use camroller_case, only : case_t
    use camroller_cli, only : config_t, command_names, get_arguments, read_arguments
    use camroller_deck, only : deck_t, read_deck, make_sweep_case, add_places
@@ -187,6 +187,7 @@ contains
       integer :: i, checked, number
 
       call read_deck(deck, config%subject, config%overrides, error)
+      if (.not. allocated(error)) call check_blas_memory(1, error)
       if (allocated(error)) return
       checked = min(sweep_size(deck%sweep), most_checked)
       do i = 1, checked

@@ -5,7 +5,7 @@
 module camroller_rerun_command
    use camroller_kinds, only : wp
    use camroller_error, only : error_t, raise, kind_difference, kind_file, kind_unfinished
-   use camroller_case_loop, only : compute_cases, ended_all, loop_t, number_of_cores
+   use camroller_case_loop, only : compute_cases, ended_all, loop_t, set_threads
    use camroller_case_runs, only : runs_t
    use camroller_cli, only : config_t
    use camroller_comparison_sink, only : comparison_sink_t
@@ -59,9 +59,8 @@ contains
       holds_contacts = is_ehl_file(sink%file)
       if (.not. (allocated(error) .or. holds_contacts)) call choose_series(sink%file, deck, loop, error)
       if (.not. (allocated(error) .or. holds_contacts)) call choose_cases(sink%file, sweep_size(deck%sweep), runs, error)
+      if (.not. allocated(error)) call set_threads(loop, config%threads, error)
       if (.not. allocated(error)) then
-         loop%threads = config%threads
-         if (loop%threads == 0) loop%threads = number_of_cores()
          call heed_stop_signals()
          call start_progress(loop%progress, config%is_quiet, real(config%log_interval, wp))
          if (holds_contacts) then

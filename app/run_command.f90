@@ -4,6 +4,7 @@
 !> others; the program still ends with its kind of error. Where no case has a result, there is no file.
 module camroller_run_command
    use camroller_error, only : error_t, add_context
+   use camroller_blas_threads, only : check_blas_memory
    use camroller_case, only : case_t
    use camroller_ehl_profiles, only : find_profiles
    use camroller_ehl_record, only : ehl_record_t
@@ -110,12 +111,14 @@ contains
    subroutine check_cases(deck, error)
       !> The deck
       type(deck_t), intent(in) :: deck
-      !> Deck error
+      !> Deck error; too little memory to run any
       type(error_t), allocatable, intent(out) :: error
 
       type(case_t) :: case
       integer :: i
 
+      call check_blas_memory(1, error)
+      if (allocated(error)) return
       do i = 1, sweep_size(deck%sweep)
          call make_sweep_case(deck, i, case, error)
          if (allocated(error)) return

@@ -8,7 +8,7 @@ module camroller_sweep_command
    use, intrinsic :: iso_fortran_env, only : int64
    use camroller_kinds, only : wp
    use camroller_error, only : error_t, raise, kind_file, kind_unfinished, kind_usage
-   use camroller_case_loop, only : compute_cases, ended_all, ended_by_time, loop_t, number_of_cores
+   use camroller_case_loop, only : compute_cases, ended_all, ended_by_time, loop_t, set_threads
    use camroller_case_runs, only : missing_runs, run_total, runs_in_words, runs_t
    use camroller_cli, only : config_t
    use camroller_earlier_result, only : complete_there, earlier_t, look_at_earlier, other_there, partial_there
@@ -187,8 +187,6 @@ contains
       type(error_t), allocatable :: last
       real(wp) :: limit ! [s]
 
-      loop%threads = config%threads
-      if (loop%threads == 0) loop%threads = number_of_cores()
       loop%series = series_choice(run%deck)
       loop%profiles = loop%series
       allocate (loop%series_cases(0))
@@ -200,6 +198,8 @@ contains
       call take(run%deck%settings, "sweep", "checkpoint_s", sink%interval)
       call team%reset()
       if (run_total(run%runs) == 0) return
+      call set_threads(loop, config%threads, error)
+      if (allocated(error)) return
       call open_part(sink%part, part_name(run%path, config%shard, config%shards, team%rank), run%facts, error)
       if (allocated(error)) return
       call compute_cases(loop, run%deck, run%runs, team, sink, error)

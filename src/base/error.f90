@@ -9,7 +9,8 @@ module camroller_error
 
    public :: error_t, raise, add_context
    public :: cause_unknown, cause_several_balances
-   public :: kind_usage, kind_deck, kind_domain, kind_convergence, kind_file, kind_difference, kind_unfinished, kind_internal
+   public :: kind_usage, kind_deck, kind_domain, kind_convergence, kind_file, kind_difference, kind_unfinished, &
+      & kind_memory, kind_internal
 
    !> Wrong words on the command line
    integer, parameter :: kind_usage = 2
@@ -25,6 +26,8 @@ module camroller_error
    integer, parameter :: kind_difference = 7
    !> A run that was stopped and can be continued
    integer, parameter :: kind_unfinished = 8
+   !> Less memory than a computation needs
+   integer, parameter :: kind_memory = 9
    !> A broken promise inside the program
    integer, parameter :: kind_internal = 70
 

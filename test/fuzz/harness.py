@@ -23,7 +23,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 # As `camroller help` lists them; 70 is a mistake in the program and always a fault.
 CODES = {0: "fine", 2: "command line", 3: "deck or table", 4: "impossible values", 5: "no convergence", 6: "file",
-         7: "a rerun differs", 8: "stopped before the end"}
+         7: "a rerun differs", 8: "stopped before the end", 9: "too little memory"}
 BACKTRACE = re.compile(r"^(Program received signal|Backtrace for this error|At line \d+ of file|Fortran runtime error|"
                        r"Error termination\.|ERROR STOP|STOP )|AddressSanitizer|runtime error: ", re.MULTILINE)
 LIBRARY = re.compile(r"HDF5-DIAG|double free|corrupted|malloc\(\)|free\(\)|munmap_chunk|OpenBLAS|Segmentation fault")

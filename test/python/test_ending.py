@@ -11,9 +11,11 @@ import pytest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 COARSE = ["--set", "output.angle_step_deg=20", "--set", "numerics.accuracy=1e-3"]
+FILM = ["--set", "sweep.values_1=300", *COARSE]
 KILOBYTE = 1024
-# Where OpenBLAS starts a thread that cannot get its memory, and ends only with it
-SMALL_SPACES = [100_000, 150_000, 200_000, 300_000]
+# Where OpenBLAS starts a thread that cannot get its memory, and ends only with it; where it never comes back from linear algebra
+# for want of a buffer; and where there is enough for some
+SMALL_SPACES = [100_000, 150_000, 200_000, 300_000, 400_000]
 
 
 @pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGINT, signal.SIGHUP])
@@ -51,8 +53,11 @@ def test_a_signal_that_is_to_be_ignored_still_is(camroller, tmp_path):
 
 
 @pytest.mark.parametrize("space", SMALL_SPACES)
-@pytest.mark.parametrize("words", [["help"], ["check", "none.nml"], ["run", ROOT / "decks/thesis.nml", "-o", "new.h5", *COARSE]],
-                         ids=["help", "an error", "run"])
+@pytest.mark.parametrize("words", [["help"], ["check", "none.nml"], ["run", ROOT / "decks/thesis.nml", "-o", "new.h5", *COARSE],
+                                   ["run", ROOT / "decks/numerical_film.nml", "-o", "new.h5", *FILM],
+                                   ["run", ROOT / "decks/tabulated_lift.nml", "-o", "new.h5", *COARSE],
+                                   ["sweep", ROOT / "decks/thesis.nml", "-o", "new.h5", *COARSE, "--threads", "2"]],
+                         ids=["help", "an error", "run", "numerical film", "lift table", "sweep"])
 def test_the_program_ends_in_a_small_address_space(camroller, tmp_path, space, words):
     def restrict():
         resource.setrlimit(resource.RLIMIT_AS, (space*KILOBYTE, space*KILOBYTE))
@@ -60,8 +65,10 @@ def test_the_program_ends_in_a_small_address_space(camroller, tmp_path, space, w
     environment = {name: value for name, value in os.environ.items() if name != "OPENBLAS_NUM_THREADS"}
     finished = subprocess.run([camroller, *map(str, words)], cwd=tmp_path, stdin=subprocess.DEVNULL, capture_output=True, text=True,
                               check=False, timeout=60, preexec_fn=restrict, env=environment)
-    if "run" in words and finished.returncode:  # there was not enough for HDF5, which is said
-        assert finished.returncode == 6 and finished.stderr.startswith("camroller: cannot write ")
+    if words[0] not in ("help", "check") and finished.returncode:  # there was not enough for HDF5 or for OpenBLAS, which is said
         assert not os.listdir(tmp_path)
+        assert (finished.returncode, finished.stderr.startswith("camroller: too little memory: ")) == (9, True) or \
+            (finished.returncode, finished.stderr.startswith("camroller: cannot write ")) == (6, True), finished.stderr
+        assert finished.stderr.count("\n") == 1
     else:
         assert finished.returncode == (6 if "none.nml" in words else 0), finished.stderr
