@@ -8,7 +8,7 @@ import subprocess
 import pytest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-FILE_ERROR = 6  # exit code
+FILE_ERROR, UNFINISHED = 6, 8  # exit codes
 COARSE = ["--set", "output.angle_step_deg=20", "--set", "numerics.accuracy=1e-3"]
 ONE = ["--set", "sweep.values_1=300", "--set", "sweep.values_2=60"]
 DEVICE_FULL = (1, 7)  # the numbers of the device that is always full
@@ -21,6 +21,8 @@ PRINTED = {
     "sweep --resume": ["sweep", "deck.nml", "-o", "swept.h5", "--resume", *COARSE], "rerun": ["rerun", "result.h5"],
     "study": ["study", "deck.nml", "-o", "new.h5", "--quick", "--repeats", "1", *COARSE, *ONE],
     "audit": ["audit", "deck.nml", "-o", "new.h5", "--repeats", "1", *COARSE, *ONE],
+    "merge": ["merge", "deck.nml", "-o", "parted.h5", "--partial", *COARSE],
+    "ehl": ["ehl", "film.nml", "-o", "new.h5", "--set", "sweep.values_1=300", *COARSE],
 }
 
 
@@ -33,11 +35,14 @@ def run(camroller, *arguments, folder, **options):
 
 @pytest.fixture(scope="module")
 def results(camroller, tmp_path_factory):
-    """A folder with a deck, a result and a finished sweep."""
+    """A folder with decks, a result, a finished sweep and one that was ended by its time."""
     folder = tmp_path_factory.mktemp("full")
     (folder / "deck.nml").write_text((ROOT / "decks/thesis.nml").read_text())
+    (folder / "film.nml").write_text((ROOT / "decks/numerical_film.nml").read_text())
     assert run(camroller, "run", "deck.nml", "-o", "result.h5", *COARSE, folder=folder).returncode == 0
     assert run(camroller, "sweep", "deck.nml", "-o", "swept.h5", *COARSE, folder=folder).returncode == 0
+    ended = ["--threads", "1", "--set", "sweep.wall_time_limit_s=1e-6"]
+    assert run(camroller, "sweep", "deck.nml", "-o", "parted.h5", *COARSE, *ended, folder=folder).returncode == UNFINISHED
     return folder
 
 
@@ -143,18 +148,23 @@ def test_a_table_is_what_is_printed(camroller, results, tmp_path):
     assert printed.count("\n") == 2 + 18
 
 
-@pytest.mark.parametrize("command", ["study", "audit"])
-def test_a_study_on_a_full_disk_leaves_the_earlier_file(camroller, results, disk, command):
+@pytest.mark.parametrize("command", ["study", "audit", "ehl", "merge"])
+def test_a_file_on_a_full_disk_leaves_the_earlier_one(camroller, results, disk, command):
     target = disk / "folder" / "new.h5"
     target.parent.mkdir()
     target.write_text("earlier")
     leave(disk, 4096)
     words = [str(target) if word == "new.h5" else word for word in PRINTED[command]]
+    if command == "merge":
+        for part in results.glob("parted.h5.part-rank-*"):
+            target.with_name(part.name.replace("parted", "new")).symlink_to(part)
+        words = [*PRINTED[command][:3], str(target), *PRINTED[command][4:]]
+    before = sorted(os.listdir(target.parent))
     finished = run(camroller, *words, folder=results)
     assert finished.returncode == FILE_ERROR
     assert f"cannot write '{target}': " in finished.stderr
     assert target.read_text() == "earlier"
-    assert os.listdir(target.parent) == ["new.h5"]
+    assert sorted(os.listdir(target.parent)) == before
 
 
 def test_a_sweep_on_a_full_disk_goes_on_when_there_is_room(camroller, results, disk):
