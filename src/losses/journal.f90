@@ -16,7 +16,7 @@ module camroller_journal
    private
 
    public :: cam_bearings_t, journal_t, journal_law_names
-   public :: new_journal, journal_torque, journal_friction
+   public :: new_journal, journal_torque, journal_friction, law_covers_width, width_advice
    public :: journal_solved, journal_without_film
 
    !> Journal bearing laws
@@ -32,6 +32,9 @@ module camroller_journal
 
    !> Width over diameter for which the law of finite width is used [-]
    real(wp), parameter :: finite_range(2) = [0.1_wp, 1.0_wp]
+   !> What to say where it is not
+   character(len=*), parameter :: width_advice = "journal bearing law 'finite' covers widths from 0.1 to 1 diameter; "// &
+      & "'short_ocvirk' is for narrower, 'long_full_sommerfeld' for wider bearings"
 
    !> Camshaft and its bearings
    type :: cam_bearings_t
@@ -96,11 +99,23 @@ contains
       journal = journal_at_speed(law, bearings%diameter, bearings%width, bearings%radial_clearance, viscosity, speed)
       if (.not. journal%unit_load > 0.0_wp) then
          call raise(error, kind_domain, "journal bearings need viscosity, speed and dimensions above zero")
-      else if (law == law_finite .and. (journal%width_ratio < finite_range(1) .or. journal%width_ratio > finite_range(2))) then
-         call raise(error, kind_deck, "journal bearing law 'finite' covers widths from 0.1 to 1 diameter; "// &
-            "'short_ocvirk' is for narrower, 'long_full_sommerfeld' for wider bearings")
+      else if (.not. law_covers_width(bearings%law, bearings%width, bearings%diameter)) then
+         call raise(error, kind_deck, width_advice)
       end if
    end subroutine new_journal
+
+   !> Is a bearing as wide as its law asks for?
+   pure function law_covers_width(law, width, diameter) result(answer)
+      !> One of `journal_law_names`
+      character(len=*), intent(in) :: law
+      !> Width and diameter [m]
+      real(wp), intent(in) :: width, diameter
+      !> Is it?
+      logical :: answer
+
+      answer = law /= journal_law_names(law_finite)
+      if (.not. answer) answer = width/diameter >= finite_range(1) .and. width/diameter <= finite_range(2)
+   end function law_covers_width
 
    !> Friction torque of a bearing under a load.
    pure subroutine journal_torque(journal, load, torque, status)
