@@ -75,8 +75,10 @@ contains
       call make_model(case, model, error)
       if (allocated(error)) return
       call evaluate_state(model, pi, 0.0_wp, state, status)
-      ! traction and bearing move the load by up to a per cent
-      call check_scaled(error, state%contact%load, case%spring%base_circle_load, case%spring%base_circle_load, 0.01_wp, "load")
+      ! tangential force and bearing, which oppose each other here, move the load by their moments, and nothing else does
+      call check_scaled(error, abs(state%contact%load - case%spring%base_circle_load)*state%position%normal_arm, &
+         & abs(abs(state%contact%tangential_force*state%position%tangent_arm) - abs(state%contact%bearing_torque)), &
+         & state%moments%total, 1.0e-13_wp, "moment of friction")
       if (allocated(error)) return
       call check_scaled(error, state%moments%total, case%spring%base_circle_load*state%position%normal_arm, state%moments%total, &
          1.0e-14_wp, "moment about the pivot")
@@ -92,20 +94,27 @@ contains
       type(case_t) :: case
       type(model_t) :: model
       type(state_t) :: state
-      real(wp) :: pressure
-      integer :: i, status
+      ! Lifts between which that of Islam (2019) is known to be [m]; the peak pressure there, printed as 0.64 GPa [Pa]
+      real(wp), parameter :: lifts(2) = [9.0e-3_wp, 10.0e-3_wp], printed = 0.64e9_wp, half_unit = 0.005e9_wp
+      real(wp) :: pressures(2)
+      character(len=40) :: buffer
+      integer :: i, k, status
 
-      case = thesis_case()
-      call make_model(case, model, error)
-      if (allocated(error)) return
-      pressure = 0.0_wp
-      do i = -70, 70
-         call evaluate_state(model, i*degree, 0.0_wp, state, status)
-         pressure = max(pressure, peak_pressure(state%contact%load, state%position%equivalent_radius, model%contact_width, &
-            model%modulus))
+      pressures = 0.0_wp
+      do k = 1, 2
+         case = thesis_case()
+         case%lift%max_lift = lifts(k)
+         call make_model(case, model, error)
+         if (allocated(error)) return
+         do i = -70, 70
+            call evaluate_state(model, i*degree, 0.0_wp, state, status)
+            pressures(k) = max(pressures(k), peak_pressure(state%contact%load, state%position%equivalent_radius, &
+               & model%contact_width, model%modulus))
+         end do
       end do
-      ! 0.64 GPa in Islam (2019), whose lift is known to within 9 to 10 mm only
-      call check(error, pressure > 0.61e9_wp .and. pressure < 0.66e9_wp, "peak pressure")
+      write (buffer, "(2es12.4)") pressures
+      call check(error, minval(pressures) <= printed + half_unit .and. maxval(pressures) >= printed - half_unit, &
+         & "peak pressures"//trim(buffer))
    end subroutine test_peak_pressure
 
    subroutine test_loss(error)
@@ -117,6 +126,7 @@ contains
       type(error_t), allocatable :: failure
       ! Loss over a cycle [J]
       real(wp) :: loss
+      character(len=12) :: buffer
       integer :: i, hint
 
       case = thesis_case()
@@ -133,7 +143,8 @@ contains
          loss = loss + state%torque_friction*degree
       end do
       ! Bair and others (1986) measure 0.32 to 0.70 J for a roller cam lobe with its part of the bearings, which this case lacks
-      call check(error, loss > 0.1_wp .and. loss < 0.7_wp, "loss")
+      write (buffer, "(es12.4)") loss
+      call check(error, loss > 0.32_wp .and. loss < 0.7_wp, "loss"//buffer)
    end subroutine test_loss
 
 end module test_magnitudes
