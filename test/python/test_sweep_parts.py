@@ -207,6 +207,30 @@ def numbers(words):
     return found
 
 
+def test_every_case_is_in_one_record(parts):
+    cases = []
+    for part in parts.glob("deck.h5.part-*"):
+        content = part.read_bytes()
+        for place, kind, _ in records(part):
+            if kind == 3:
+                first, count = struct.unpack_from("qq", content, place + HEAD)
+                cases += range(first, first + count)
+    assert sorted(cases) == list(range(1, 25))
+
+
+@pytest.mark.parametrize("record", [0, -1])
+def test_cases_that_are_there_twice_count_once(camroller, deck, whole, parts, record):
+    """A record twice in a part, and a part that was copied beside itself."""
+    part = sorted(parts.glob("*.part-*"))[0]
+    content = part.read_bytes()
+    place, _, length = [found for found in records(part) if found[1] == 3][record]
+    part.write_bytes(content + content[place:place + length])
+    shutil.copy(sorted(parts.glob("*.part-*"))[record], parts / "deck.h5.part-rank-7")
+    assert "24 cases" in done(camroller, "merge", deck, folder=parts).stdout
+    assert same(whole, parts / "deck.h5")
+    assert [path.name for path in parts.iterdir()] == ["deck.h5"]
+
+
 def test_flipped_bits_anywhere(camroller, deck, whole, parts):
     """Bits drawn at random, several at a time: the same file in the end, or an error that says which part to remove."""
     draw = random.Random(7)

@@ -61,27 +61,41 @@ contains
       type(model_t), intent(in) :: model
       real(wp), intent(out) :: event, pivot, base_circle
       type(position_t) :: position
-      type(moments_t) :: moments
-      real(wp) :: load, gas, normal(2), tangent(2)
-      integer :: i, status
+      real(wp) :: load, joint
+      integer :: i
 
       event = huge(1.0_wp)
       pivot = huge(1.0_wp)
       base_circle = huge(1.0_wp)
       do i = 0, fine_steps - 1
-         call evaluate_loading(model, two_pi*i/fine_steps - pi, position, gas, moments, status)
-         load = moments%total/position%normal_arm
+         call forces_at(model, two_pi*i/fine_steps - pi, position, load, joint)
          if (position%lift <= model%train%seat_lift) then
             base_circle = min(base_circle, load)
-            cycle
+         else
+            event = min(event, load)
+            pivot = min(pivot, joint)
          end if
-         event = min(event, load)
-         call normal_direction(position%normal_arm, position%tangent_arm, model%linkage%a, position%arm_angle, &
-            model%linkage%sense, normal, tangent)
-         pivot = min(pivot, pivot_force(model%pivot, load, normal, (moments%spring - moments%seat + moments%valve) &
-            /position%valve_arm, position%arm_angle, position%finger_slope, position%finger_curvature, model%speed))
       end do
    end subroutine scan_forces
+
+   !> Load of the contact and force in the pivot's joint at a cam angle [N].
+   subroutine forces_at(model, angle, position, load, joint)
+      type(model_t), intent(in) :: model
+      ! [rad]
+      real(wp), intent(in) :: angle
+      type(position_t), intent(out) :: position
+      real(wp), intent(out) :: load, joint
+      type(moments_t) :: moments
+      real(wp) :: gas, normal(2), tangent(2)
+      integer :: status
+
+      call evaluate_loading(model, angle, position, gas, moments, status)
+      load = moments%total/position%normal_arm
+      call normal_direction(position%normal_arm, position%tangent_arm, model%linkage%a, position%arm_angle, &
+         model%linkage%sense, normal, tangent)
+      joint = pivot_force(model%pivot, load, normal, (moments%spring - moments%seat + moments%valve) &
+         /position%valve_arm, position%arm_angle, position%finger_slope, position%finger_curvature, model%speed)
+   end subroutine forces_at
 
    !> Cases of several geometries: Islam's, and a skewed one that turns either way.
    function sample(i) result(case)
@@ -125,7 +139,9 @@ contains
       type(case_t) :: case
       type(model_t) :: model
       type(margins_t) :: margins
-      real(wp) :: event, pivot, base_circle
+      type(position_t) :: position
+      ! Forces, and those at the angles of the margins [N]
+      real(wp) :: event, pivot, base_circle, load, joint
       integer :: i, k
 
       do i = 1, 3
@@ -142,6 +158,13 @@ contains
             call check(error, margins%pivot%force <= pivot .and. margins%pivot%force > pivot - 0.1_wp, "pivot")
             if (allocated(error)) return
             call check_close(error, margins%base_circle%force, base_circle, 1.0e-12_wp, "base circle")
+            if (allocated(error)) return
+            ! forces of 500 N at most, each of some sums and products
+            call forces_at(model, margins%event%angle, position, load, joint)
+            call check_scaled(error, margins%event%force, load, 500.0_wp, 1.0e-12_wp, "event, at its angle")
+            if (allocated(error)) return
+            call forces_at(model, margins%pivot%angle, position, load, joint)
+            call check_scaled(error, margins%pivot%force, joint, 500.0_wp, 1.0e-12_wp, "pivot, at its angle")
             if (allocated(error)) return
          end do
       end do
