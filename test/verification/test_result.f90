@@ -327,6 +327,9 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(case_t) :: case
       type(result_t) :: result
+      type(error_t), allocatable :: failure
+      ! Part of the cycle [-]
+      real(wp) :: share
 
       case = thesis_case()
       case%film%law = "moes"
@@ -340,6 +343,10 @@ contains
          remark_lines(result%remarks))
       if (allocated(error)) return
       call check(error, index(remark_lines(result%remarks), "above 2937 rev/min") > 0, remark_lines(result%remarks))
+      if (allocated(error)) return
+      ! both angles are rounded to a tenth
+      call get_summary(result, "lost_contact_share", share, failure)
+      call check(error, share, (194.7_wp - 165.4_wp)/360.0_wp, thr=0.1_wp/360.0_wp)
       if (allocated(error)) return
       call set_point(case, 0.7_wp*fast, point_viscosities(3))
       call run(case, result, error)
