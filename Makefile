@@ -3,7 +3,7 @@
 SHELL := /bin/bash
 .DEFAULT_GOAL := help
 .PHONY: help setup commit build debug mpi run comparison test quick bless random random-ehl random-wide needed rough-rows fuzz sanitize study study-film audit check check-layers \
-  check-style check-format check-lint check-warnings format docs bench bench-ehl range-ehl bench-batch bench-effects clean distclean
+  check-style check-format check-lint check-warnings second-compiler format docs bench bench-ehl range-ehl bench-batch bench-effects clean distclean
 
 FPM := .venv/bin/fpm
 PYTHON := .venv/bin/python
@@ -125,6 +125,9 @@ check-lint: setup
 check-warnings: commit
 	@$(PYTHON) tools/check_warnings.py
 
+second-compiler: setup ## library and tests with flang or a later gfortran, where one is there; SECOND_FC= names it (two minutes)
+	@$(PYTHON) tools/second_compiler.py || { code=$$?; [ $$code = 77 ] || exit $$code; }
+
 format: setup ## set the blanks inside statements right
 	@$(PYTHON) tools/check_format.py --fix
 
@@ -147,7 +150,7 @@ bench-effects: build ## instructions that effects cost, and that absent ones do 
 	@bench/effects.sh
 
 clean: ## remove what was built; keep tools and results
-	rm -rf build/gfortran* build/debug build/release build/sanitize build/docs build/docs-source build/commit build/tests build/bench bench/build mpi/build build/mpi build/*.log build/compile_commands.json
+	rm -rf build/gfortran* build/debug build/release build/sanitize build/docs build/docs-source build/second build/commit build/tests build/bench bench/build mpi/build build/mpi build/*.log build/compile_commands.json
 
 distclean: ## remove everything that is not in git, results too
 	rm -rf build bench/build mpi/build .venv results

@@ -16,7 +16,7 @@ import sys
 
 from fortran_source import ROOT, sources, statements
 
-USE = re.compile(r"^use\s*(?:,\s*(?:non_)?intrinsic\s*)?(?:::)?\s*(\w+)")
+USE = re.compile(r"^use\b\s*(?:,\s*(?:non_)?intrinsic\s*)?(?:::)?\s*(\w+)")
 MODULE = re.compile(r"^module\s+(?!procedure\b|subroutine\b|function\b)(\w+)$")
 TABLE = re.compile(r"<!-- folders -->\n(.*?)<!-- end of folders -->", re.DOTALL)
 ROW = re.compile(r"^\| `(?:src/)?(\w+)` \|[^|]*\|([^|]*)\|$", re.MULTILINE)
