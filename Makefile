@@ -3,7 +3,7 @@
 SHELL := /bin/bash
 .DEFAULT_GOAL := help
 .PHONY: help setup commit build debug mpi run comparison test quick bless random random-ehl random-wide needed rough-rows fuzz sanitize study study-film audit check check-layers \
-  check-style check-format check-lint check-warnings second-compiler format docs bench bench-ehl range-ehl bench-batch bench-effects clean distclean
+  check-style check-format check-lint check-warnings second-compiler format docs recipes bench bench-ehl range-ehl bench-batch bench-effects clean distclean
 
 FPM := .venv/bin/fpm
 PYTHON := .venv/bin/python
@@ -134,6 +134,10 @@ format: setup ## set the blanks inside statements right
 docs: setup ## API reference and pages as HTML, links checked: build/docs/index.html
 	@$(PYTHON) tools/make_docs.py
 
+recipes: setup ## recipes for container, Spack and conda: read by their tools, their build lines run (one minute)
+	@$(PYTHON) -m pip install --quiet --disable-pip-version-check -r packaging/requirements.txt
+	@FPM=$(CURDIR)/$(FPM) $(PYTHON) tools/check_recipes.py
+
 bench: commit ## time cycles, also against SUNDIALS and scipy: tables and plots in bench/tables (five minutes)
 	@bench/run.sh
 
@@ -150,7 +154,7 @@ bench-effects: build ## instructions that effects cost, and that absent ones do 
 	@bench/effects.sh
 
 clean: ## remove what was built; keep tools and results
-	rm -rf build/gfortran* build/debug build/release build/sanitize build/docs build/docs-source build/second build/commit build/tests build/bench bench/build mpi/build build/mpi build/*.log build/compile_commands.json
+	rm -rf build/gfortran* build/debug build/release build/sanitize build/docs build/docs-source build/second build/package build/recipes build/commit build/tests build/bench bench/build mpi/build build/mpi build/*.log build/compile_commands.json
 
 distclean: ## remove everything that is not in git, results too
 	rm -rf build bench/build mpi/build .venv results

@@ -79,7 +79,7 @@ python_tools() {
         fail "Python 3.11 or later is needed; python3 is $(python3 --version 2>&1)"
     say "installing the tools of requirements.txt in .venv"
     [ -x .venv/bin/python ] || python3 -m venv --clear .venv
-    .venv/bin/python -m pip install --quiet --disable-pip-version-check -r requirements.txt < /dev/null ||
+    .venv/bin/python -m pip install --quiet --disable-pip-version-check --use-pep517 -r requirements.txt < /dev/null ||
         fail "pip cannot install requirements.txt"
     cp requirements.txt "$stamp"
 }

@@ -28,6 +28,7 @@ def test_a_citation_file_without_title_is_refused(tmp_path):
 def versions():
     """Every place that states the version of this release, and what it states."""
     places = {"CITATION.cff": r"^version: (\S+)$", "src/base/version.f90": r'version_text = "([^"]+)"'}
+    places |= {"packaging/spack/package.py": r'^ +version\("([^"]+)"\)$', "packaging/conda/recipe.yaml": r"^  version: (\d\S*)$"}
     places |= {str(path.relative_to(ROOT)): r'^version = "([^"]+)"$' for path in ROOT.glob("*/fpm.toml")}
     return {name: re.findall(pattern, (ROOT / name).read_text(encoding="utf-8"), re.MULTILINE) for name, pattern in places.items()}
 

@@ -162,11 +162,11 @@ def test_set_up_goes_on_without_open_mpi(tmp_path):
 
 
 @pytest.mark.parametrize(("node", "lines", "code"), [
-    ("echo 8 passed, 0 failed", ["14 passed, 0 failed"], 0),
-    ("echo 7 passed, 1 failed; exit 1", ["13 passed, 1 failed"], 1),
-    ("exit 1", ["6 passed, 1 failed"], 1),
-    ("sleep 0.1; kill -KILL $$", ["6 passed, 1 failed"], 1),
-    ("echo no root here; exit 77", ["skipped: timeout --kill-after=20 300 slurm/one_node.sh: no root here", "6 passed, 0 failed"], 0),
+    ("echo 8 passed, 0 failed", ["15 passed, 0 failed"], 0),
+    ("echo 7 passed, 1 failed; exit 1", ["14 passed, 1 failed"], 1),
+    ("exit 1", ["7 passed, 1 failed"], 1),
+    ("sleep 0.1; kill -KILL $$", ["7 passed, 1 failed"], 1),
+    ("echo no root here; exit 77", ["skipped: timeout --kill-after=20 300 slurm/one_node.sh: no root here", "7 passed, 0 failed"], 0),
 ])
 def test_all_checks_count_what_failed_and_name_what_cannot_run(tmp_path, node, lines, code):
     """`.ci/run` over stand-ins: a set-up, two tests that pass, stages without counts, a Slurm that does as told."""
@@ -175,7 +175,7 @@ def test_all_checks_count_what_failed_and_name_what_cannot_run(tmp_path, node, l
         (tmp_path / name).parent.mkdir(parents=True)
         (tmp_path / name).write_text(f"#!/usr/bin/env bash\n{text}\n", encoding="utf-8")
         (tmp_path / name).chmod(0o755)
-    (tmp_path / "Makefile").write_text("test:\n\t@echo 2 passed, 0 failed\ncheck docs:\n\t@true\n", encoding="utf-8")
+    (tmp_path / "Makefile").write_text("test:\n\t@echo 2 passed, 0 failed\ncheck docs recipes:\n\t@true\n", encoding="utf-8")
     (tmp_path / ".ci").mkdir()
     (tmp_path / ".ci/run").write_bytes((ROOT / ".ci/run").read_bytes())
     result = subprocess.run(["bash", tmp_path / ".ci/run"], capture_output=True, text=True, check=False)

@@ -1,0 +1,19 @@
+#!/usr/bin/env bash
+# Build the optimised program and install it below a prefix: PREFIX/bin/camroller. For packages; no network, no .venv.
+#
+# Usage: packaging/install.sh PREFIX      with gfortran, fpm, pkg-config, HDF5 with Fortran, OpenBLAS; FPM names another fpm
+# Works on a copy in build/package without the tests, whose library fpm would fetch.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+[ $# = 1 ] || { echo "usage: packaging/install.sh PREFIX" >&2; exit 1; }
+prefix=$(mkdir -p "$1" && cd "$1" && pwd)
+fpm=$(command -v "${FPM:-fpm}") || { echo "fpm is not there: install it, or name it in FPM" >&2; exit 1; }
+fpm=$(realpath -s "$fpm")
+
+mkdir -p build/package
+rm -rf build/package/src build/package/app build/package/include
+cp -r src app include build/package
+sed -e '/^\[dev-dependencies\]/,/^$/d' -e '/^\[\[test\]\]/,/^$/d' fpm.toml > build/package/fpm.toml
+cd build/package
+"$fpm" install --flag "-std=f2018 -O3 -g -ffp-contract=off" --prefix "$prefix"
+"$prefix/bin/camroller" --version
