@@ -38,6 +38,7 @@ module camroller_units
       unit_t("m", "m", 1.0_wp, 1.0_wp, 0.0_wp), &
       unit_t("mm", "mm", 1.0_wp, 1.0e3_wp, 0.0_wp), &
       unit_t("um", "um", 1.0_wp, 1.0e6_wp, 0.0_wp), &
+      unit_t("cm3", "cm3", 1.0_wp, 1.0e6_wp, 0.0_wp), &
       unit_t("deg", "degree", pi, 180.0_wp, 0.0_wp), &
       unit_t("rpm", "rpm", two_pi, 60.0_wp, 0.0_wp), &
       unit_t("degC", "degC", 1.0_wp, 1.0_wp, 273.15_wp), &

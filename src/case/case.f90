@@ -19,6 +19,7 @@ module camroller_case
    use camroller_guide, only : valve_guide_t
    use camroller_roller, only : roller_t
    use camroller_journal, only : cam_bearings_t
+   use camroller_engine, only : engine_t
    implicit none
    private
 
@@ -113,6 +114,8 @@ module camroller_case
       type(ehl_t), allocatable :: ehl
       type(valve_guide_t), allocatable :: valve_guide
       type(cam_bearings_t), allocatable :: cam_bearings
+      !> Engine that the camshafts belong to; of no effect without their bearings
+      type(engine_t), allocatable :: engine
       type(selection_t) :: effects
       type(numerics_t) :: numerics
    end type case_t

@@ -8,7 +8,8 @@ module camroller_deck
    use camroller_case, only : case_t
    use camroller_number_text, only : integer_text
    use camroller_mistakes, only : mistakes_t, raise_mistakes, override_place
-   use camroller_text_file, only : read_text_file, folder_of
+   use camroller_text_file, only : read_standard_input, read_text_file, folder_of
+   use camroller_deck_include, only : origins_t, expand_includes, origin_in_words, place_mistakes
    use camroller_deck_text, only : deck_text_t, read_shape
    use camroller_deck_schema, only : schema_t
    use camroller_deck_keys, only : new_schema
@@ -31,8 +32,10 @@ module camroller_deck
       character(len=:), allocatable :: name
       !> Folder that the paths in it start at, with `/` at its end; blank for the present one
       character(len=:), allocatable :: folder
-      !> The deck as given
+      !> The deck as given, with the lines of the files that it includes
       character(len=:), allocatable :: text
+      !> Where its lines are from
+      type(origins_t) :: origins
       !> What a deck may hold
       type(schema_t) :: schema
       !> Its lines, groups and keys
@@ -49,7 +52,7 @@ module camroller_deck
 
 contains
 
-   !> Read a deck from a file.
+   !> Read a deck from a file, or from the standard input where the path is `-`.
    subroutine read_deck(deck, path, overrides, error)
       !> The deck
       type(deck_t), intent(out) :: deck
@@ -62,9 +65,17 @@ contains
 
       character(len=:), allocatable :: text
 
-      call read_text_file(path, text, error)
+      if (path == "-") then
+         call read_standard_input(text, error)
+      else
+         call read_text_file(path, text, error)
+      end if
       if (allocated(error)) return
-      call parse_deck(deck, text, path, folder_of(path), overrides, error)
+      if (path == "-") then
+         call parse_deck(deck, text, "standard input", "", overrides, error)
+      else
+         call parse_deck(deck, text, path, folder_of(path), overrides, error)
+      end if
    end subroutine read_deck
 
    !> Read a deck from a text.
@@ -91,9 +102,9 @@ contains
       allocate (deck%overrides, source=overrides)
       deck%name = name
       deck%folder = folder
-      deck%text = text
+      call expand_includes(text, folder, deck%text, deck%origins, mistakes)
       call new_schema(deck%schema)
-      call read_shape(text, deck%shape, mistakes)
+      call read_shape(deck%text, deck%shape, mistakes)
       call new_settings(deck%schema, deck%settings)
       call match_deck(deck%schema, deck%shape, deck%settings, mistakes)
       do i = 1, size(overrides)
@@ -102,6 +113,7 @@ contains
       call demand_required(deck%schema, deck%settings, mistakes)
       call complete(deck%settings, deck%folder, deck%tables, mistakes)
       call read_sweep(deck%schema, deck%settings, deck%folder, deck%sweep, mistakes)
+      call place_mistakes(deck%origins, deck%shape%lines, mistakes)
       call raise_mistakes(mistakes, name, deck%shape%lines, error)
    end subroutine parse_deck
 
@@ -147,6 +159,7 @@ contains
          call apply_override(deck%schema, overrides(i), settings, mistakes)
       end do
       call complete(settings, deck%folder, tables, mistakes)
+      call place_mistakes(deck%origins, deck%shape%lines, mistakes)
       call raise_mistakes(mistakes, deck%name, deck%shape%lines, error)
       if (allocated(error)) return
       call fill_case(settings, tables, case)
@@ -193,7 +206,8 @@ contains
             if (allocated(value%source)) then
                places = places//new_line("a")//override_place//": "//value%source
             else if (value%line > 0) then
-               places = places//new_line("a")//deck%name//":"//integer_text(value%line)//": "//name//" = "//value%text
+               places = places//new_line("a")//origin_in_words(deck%origins, deck%name, value%line)//": "//name//" = "// &
+                  & value%text
             end if
          end associate
       end do

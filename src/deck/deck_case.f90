@@ -9,6 +9,7 @@ module camroller_deck_case
    use camroller_lift, only : lift_t
    use camroller_table_file, only : table_t
    use camroller_settings, only : settings_t, take, get_word, has_group
+   use camroller_deck_engine, only : fill_engine
    use camroller_deck_tables, only : deck_tables_t, get_lift_table, get_pressure_table
    implicit none
    private
@@ -43,6 +44,7 @@ contains
       call fill_contact(settings, case)
       call fill_asperity(settings, case)
       call fill_bearings(settings, case)
+      call fill_engine(settings, case)
       call fill_numerics(settings, case)
    end subroutine fill_case
 

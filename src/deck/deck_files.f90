@@ -30,8 +30,11 @@ contains
       do k = 1, size(deck%sweep%axes)
          if (names_files(deck%sweep%axes(k)%key)) count = count + deck%sweep%axes(k)%values%count
       end do
-      allocate (paths(count))
+      allocate (paths(count + size(deck%origins%files)))
       paths(1)%text = deck%name
+      do i = 1, size(deck%origins%files)
+         paths(count + i)%text = deck%origins%files(i)%text
+      end do
       do i = 1, size(groups)
          paths(1 + i)%text = path_of(deck, get_word(deck%settings, trim(groups(i)), "table"))
       end do

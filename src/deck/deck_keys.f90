@@ -19,6 +19,7 @@ module camroller_deck_keys
    use camroller_needle, only : needle_bearing_t, roller_bearing_names
    use camroller_journal, only : cam_bearings_t, journal_law_names
    use camroller_roller, only : spin_names
+   use camroller_deck_engine, only : add_engine_keys
    use camroller_deck_sweep_keys, only : add_sweep_keys
    use camroller_usual_values, only : add_usual_ranges
    use camroller_output_options, only : output_options_t, compression_names
@@ -59,6 +60,7 @@ contains
       call add_asperity_keys(schema)
       call add_needle_keys(schema)
       call add_cam_bearing_keys(schema)
+      call add_engine_keys(schema)
       call add_guide_keys(schema)
       call add_selection_keys(schema, standard)
       call add_numerics_keys(schema, standard)
@@ -83,7 +85,8 @@ contains
       call add_name(schema, "contact_policy", contact_policy_names, standard%contact_policy, &
          & "what to do where cam and roller lose contact: a warning, or an error")
       call add_group(schema, "operating_point", group_required, "speed and temperature")
-      call add_number(schema, "speed_rpm", positive, "speed of the camshaft", example="600")
+      call add_number(schema, "speed_rpm", positive, "speed of the camshaft, or with &engine of the crankshaft", &
+         & example="600")
       call add_number(schema, "oil_temperature_degC", range_t(smallest=-273.15_wp, with_smallest=.false.), &
          & "temperature of the oil at the inlet of every contact", example="60")
    end subroutine add_case_keys
@@ -383,6 +386,7 @@ contains
          & is_optional=.true.)
       call add_integers(schema, "cam_lobes", from_to(1.0_wp, 2.0_wp), &
          & "lobe shape of each cam: 1 is &lift, 2 is &second_lift; 1 for every cam where not given", is_optional=.true.)
+      call add_integers(schema, "cam_cylinders", one_or_more, "cylinder of each cam; with &engine", is_optional=.true.)
       call add_numbers(schema, "follower_angles_deg", from_to(-360.0_wp, 360.0_wp), &
          & "angle of each cam's follower about the shaft, from the first one's, positive the way a finger turns as it opens "// &
          & "its valve; 0 for every cam where not given", &

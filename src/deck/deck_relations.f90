@@ -12,6 +12,7 @@ module camroller_deck_relations
    use camroller_mistakes, only : mistakes_t
    use camroller_settings, only : settings_t, take, find_value, is_known, is_wrong, get_word, has_group
    use camroller_deck_complaint, only : complain, complain_about_group
+   use camroller_deck_engine, only : check_engine
    implicit none
    private
 
@@ -36,6 +37,7 @@ contains
       call contact_has_what_its_laws_need(settings, mistakes)
       if (has_group(settings, "cam_bearings")) call bearings_have_the_width_of_their_law(settings, mistakes)
       if (has_group(settings, "cam_bearings")) call cams_stand_between_bearings(settings, mistakes)
+      call check_engine(settings, mistakes)
       call accuracy_or_tolerance(settings, mistakes)
       call output_step_divides_the_turn(settings, mistakes)
       call stick_slip_has_a_method(settings, mistakes)
@@ -212,7 +214,12 @@ contains
 
       integer, allocatable :: lobes(:)
       logical :: is_used
+      integer :: camshafts
 
+      ! A second camshaft has the second lobe shape
+      camshafts = 1
+      if (has_group(settings, "engine")) call take(settings, "engine", "camshafts", camshafts)
+      if (camshafts == 2) return
       allocate (lobes(0))
       if (has_group(settings, "cam_bearings")) then
          if (is_wrong(settings, "cam_bearings", "cam_lobes")) return

@@ -7,7 +7,7 @@ module camroller_text_file
    implicit none
    private
 
-   public :: read_text_file, join_path, folder_of
+   public :: read_text_file, read_standard_input, join_path, folder_of
 
    !> Marks of a text at its first bytes: of UTF-8, which is skipped, and of UTF-16, which is not read
    character(len=*), parameter :: utf8_mark = char(239)//char(187)//char(191), utf16_marks(*) = &
@@ -16,6 +16,40 @@ module camroller_text_file
    integer(int64), parameter :: largest_size = 64_int64*1024_int64*1024_int64
 
 contains
+
+   !> Read the standard input to its end into a string.
+   subroutine read_standard_input(text, error)
+      !> All that comes
+      character(len=:), allocatable, intent(out) :: text
+      !> File error where it cannot be read, is too long, or is no text
+      type(error_t), allocatable, intent(out) :: error
+
+      character(len=:), allocatable :: longer
+      character(len=1) :: letter
+      integer :: unit, status, length
+
+      text = ""
+      open (newunit=unit, file="/dev/stdin", access="stream", form="unformatted", action="read", iostat=status)
+      if (status == 0) then
+         allocate (character(len=1024) :: longer)
+         length = 0
+         do while (length < largest_size)
+            read (unit, iostat=status) letter
+            if (status /= 0) exit
+            length = length + 1
+            if (length > len(longer)) longer = longer//repeat(" ", len(longer))
+            longer(length:length) = letter
+         end do
+         close (unit)
+         text = longer(:length)
+         status = merge(1, 0, length == 0)
+      end if
+      if (status /= 0) then
+         call raise(error, kind_file, "nothing can be read from the standard input")
+      else if (.not. is_text(text)) then
+         call raise(error, kind_file, "the standard input is no text: it holds bytes that no text has")
+      end if
+   end subroutine read_standard_input
 
    !> Read a file into a string.
    subroutine read_text_file(path, text, error)

@@ -54,6 +54,8 @@ module camroller_journal
       real(wp), allocatable :: cam_phases(:)
       !> Lobe shape of each cam: 1 is the case's lift, 2 its second lift
       integer, allocatable :: cam_lobes(:)
+      !> Camshaft of each cam, from 1; not allocated where all are on one. Camshafts have the same bearings at the same places
+      integer, allocatable :: cam_shafts(:)
       !> Angle about the shaft at which each follower stands from the first, positive the way a finger turns as it opens [rad]
       real(wp), allocatable :: follower_angles(:)
    end type cam_bearings_t

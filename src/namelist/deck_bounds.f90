@@ -25,6 +25,7 @@ module camroller_deck_bounds
 
    type(bounds_t), parameter :: known_bounds(*) = [ &
       bounds_t("m mm um", "length", 1.0e-12_wp, 1.0e3_wp), &
+      bounds_t("cm3", "volume", 1.0e-12_wp, 1.0e3_wp), &
       bounds_t("deg", "angle", 1.0e-9_wp*degree, 1.0e5_wp*degree), &
       bounds_t("rpm", "speed of rotation", 1.0e-6_wp*two_pi/60.0_wp, 1.0e6_wp*two_pi/60.0_wp), &
       bounds_t("degC", "temperature", 0.0_wp, 1.0e4_wp), &

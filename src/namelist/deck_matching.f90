@@ -334,7 +334,7 @@ contains
       call copy_value(settings, "second_lift", "opening_half_angle_deg", "closing_half_angle_deg")
       if (.not. has_group(settings, "cam_bearings")) return
       if (.not. is_known(settings, "cam_bearings", "cam_positions_mm")) return
-      call fill_list(settings, "cam_phases_deg", "0")
+      if (.not. has_group(settings, "engine")) call fill_list(settings, "cam_phases_deg", "0")
       call fill_list(settings, "follower_angles_deg", "0")
       call fill_list(settings, "cam_lobes", "1")
    end subroutine fill_dependent_defaults

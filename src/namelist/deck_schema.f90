@@ -197,7 +197,7 @@ contains
    end subroutine add_number
 
    !> Add an integer.
-   subroutine add_integer(schema, name, range, meaning, default, is_optional)
+   subroutine add_integer(schema, name, range, meaning, default, is_optional, example)
       !> Schema to add to
       type(schema_t), intent(inout) :: schema
       !> Name of the key
@@ -210,8 +210,10 @@ contains
       integer, intent(in), optional :: default
       !> May it be left out without a default?
       logical, intent(in), optional :: is_optional
+      !> Value for a deck that shows every key
+      character(len=*), intent(in), optional :: example
 
-      call add_key(schema, name, type_integer, meaning, present(default) .or. present(is_optional))
+      call add_key(schema, name, type_integer, meaning, present(default) .or. present(is_optional), example)
       schema%keys(schema%key_count)%range = range
       if (present(default)) schema%keys(schema%key_count)%default = integer_text(default)
    end subroutine add_integer

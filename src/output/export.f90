@@ -1,53 +1,39 @@
-!> Result file to CSV: the series of one case, or the summary of all cases.
+!> Result file to a table: the series of one case, or the summary of all cases, as CSV or as JSON.
 !>
 !> In: a result file. Out: a line of names, a line of units, one line for each cam angle or case, numbers with the
-!> 17 significant digits that keep them exactly. Like a result file, the table appears under its name when it is complete.
+!> 17 significant digits that keep them exactly; or a single heading of names with units; or a JSON object of columns. Like a result
+!> file, the table appears under its name when it is complete.
 module camroller_export
+   use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
    use camroller_kinds, only : wp
    use camroller_error, only : error_t, raise, kind_file, kind_usage
    use camroller_hdf5_object, only : hdf5_object_t
    use camroller_hdf5_file, only : discard_file
-   use camroller_hdf5_read, only : check_extents, has_member, is_text_dataset, list_members, member_length, open_file, &
-      & read_extents, read_integer_attribute, read_numbers, read_text, read_text_attribute
+   use camroller_hdf5_read, only : check_extents, has_member, list_members, member_length, read_extents, read_numbers, read_text
+   use camroller_mistakes, only : nearest_name
    use camroller_new_file, only : begin_new_file, drop_new_file, end_new_file, new_file_t
    use camroller_number_text, only : integer_text, write_number, number_length
-   use camroller_output_file, only : format_version, result_format
    use camroller_raw_file, only : append_text, close_raw, create_raw, raw_file_t
+   use camroller_result_columns, only : head_column, make_columns, open_result, read_column, table_t, word_t
    use camroller_streams, only : print_text
    implicit none
    private
 
-   public :: export_csv, export_series, export_summary
+   public :: export_csv, export_series, export_summary, export_formats
 
    !> What `export_csv` can write
    integer, parameter :: export_series = 1, export_summary = 2
+   !> Forms of a table: CSV with a line of names and one of units, CSV with one line of names with units, JSON
+   character(len=*), parameter :: export_formats(*) = [character(len=5) :: "csv", "plain", "json"]
    !> Digits after the first one: 17 tell any two numbers apart
    integer, parameter :: decimals = 16
    !> Letters that are handed over at a time
    integer, parameter :: block_length = 65536
 
-   !> A word of the table
-   type :: word_t
-      !> Its letters
-      character(len=:), allocatable :: text
-   end type word_t
-
-   !> A table to be written: numbers or words, by column
-   type :: table_t
-      !> Names and units of the columns
-      type(word_t), allocatable :: names(:), units(:)
-      !> Numbers, shape (row, column) [unit of the column]
-      real(wp), allocatable :: numbers(:, :)
-      !> Words, shape (row, column), where a column is none of numbers
-      type(word_t), allocatable :: words(:, :)
-      !> Which columns hold words
-      logical, allocatable :: has_words(:)
-   end type table_t
-
 contains
 
    !> Write a table from a result file.
-   subroutine export_csv(path_in, what, case, path_out, error)
+   subroutine export_csv(path_in, what, case, path_out, error, columns, form)
       !> Path of the result file
       character(len=*), intent(in) :: path_in
       !> `export_series` or `export_summary`
@@ -56,11 +42,16 @@ contains
       integer, intent(in) :: case
       !> Path of the table, `-` for the output unit
       character(len=*), intent(in) :: path_out
-      !> File error; usage error where there is no such case
+      !> File error; usage error where there is no such case or column
       type(error_t), allocatable, intent(out) :: error
+      !> Names of the columns wanted, parted by commas; all where it is blank
+      character(len=*), intent(in), optional :: columns
+      !> One of `export_formats`
+      character(len=*), intent(in), optional :: form
 
       type(hdf5_object_t) :: file
       type(table_t) :: table
+      character(len=:), allocatable :: chosen
       integer, allocatable :: cases(:)
 
       call open_result(file, path_in, cases, error)
@@ -72,52 +63,61 @@ contains
          end if
       end if
       call discard_file(file)
+      if (.not. allocated(error) .and. present(columns)) call choose_columns(table, columns, what, error)
       if (allocated(error)) return
+      chosen = export_formats(1)
+      if (present(form)) chosen = form
       if (path_out == "-") then
-         call write_rows(table, error)
+         call write_rows(table, chosen, error)
       else
-         call write_file(trim(path_out), table, error)
+         call write_file(trim(path_out), table, chosen, error)
       end if
    end subroutine export_csv
 
-   !> Open a file that is one of our results, and was written to its end: complete, or partial by intention.
-   subroutine open_result(file, path, cases, error)
-      !> The open file
-      type(hdf5_object_t), intent(out) :: file
-      !> Its path
-      character(len=*), intent(in) :: path
-      !> Number of cases, in one element
-      integer, allocatable, intent(out) :: cases(:)
-      !> File error
+   !> Keep what is asked for, and what tells rows apart: the cam angle, or the case with the keys that vary.
+   subroutine choose_columns(table, wanted, what, error)
+      !> The table
+      type(table_t), intent(inout) :: table
+      !> Names, parted by commas; blank for all
+      character(len=*), intent(in) :: wanted
+      !> `export_series` or `export_summary`
+      integer, intent(in) :: what
+      !> Usage error where there is no such column
       type(error_t), allocatable, intent(out) :: error
 
-      character(len=:), allocatable :: form
-      integer :: complete, missing, version
+      integer, allocatable :: places(:)
+      character(len=member_length), allocatable :: names(:)
+      character(len=:), allocatable :: nearest, word
+      integer :: i, first, length, place
 
-      call open_file(file, path, error)
-      if (allocated(error)) return
-      call read_text_attribute(file, "/", "format", form, error)
-      if (.not. allocated(error)) then
-         if (form /= result_format) call raise(error, kind_file, form)
-      end if
-      if (allocated(error)) then
-         call raise(error, kind_file, "cannot read '"//path//"': it is not a result file of camroller")
-         return
-      end if
-      call read_integer_attribute(file, "/", "complete", complete, error)
-      if (allocated(error)) complete = 0
-      call read_integer_attribute(file, "/", "missing_cases", missing, error)
-      if (allocated(error)) missing = 0
-      if (complete /= 1 .and. missing == 0) then
-         call raise(error, kind_file, "cannot read '"//path//"': it is not complete")
-         return
-      end if
-      call read_integer_attribute(file, "/", "format_version", version, error)
-      if (.not. allocated(error) .and. version > format_version) then
-         call raise(error, kind_file, "cannot read '"//path//"': it was written by a newer camroller")
-      end if
-      if (.not. allocated(error)) call read_extents(file, "/case", 1, cases, error)
-   end subroutine open_result
+      if (wanted == "") return
+      allocate (places(0), names(size(table%names)))
+      do i = 1, size(names)
+         names(i) = table%names(i)%text
+         if (what == export_series .and. names(i) == "cam_angle") places = [places, i]
+         if (what == export_summary .and. (i == 1 .or. index(names(i), ".") > 0)) places = [places, i]
+      end do
+      first = 1
+      do while (first <= len_trim(wanted))
+         length = index(wanted(first:)//",", ",") - 1
+         word = trim(adjustl(wanted(first:first + length - 1)))
+         first = first + length + 1
+         if (word == "") cycle
+         place = findloc(names == word, .true., dim=1)
+         if (place == 0) then
+            nearest = nearest_name(word, names)
+            if (nearest /= "") nearest = "; did you mean '"//nearest//"'?"
+            call raise(error, kind_usage, "there is no column '"//word//"'"//nearest)
+            return
+         end if
+         if (.not. any(places == place)) places = [places, place]
+      end do
+      table%names = table%names(places)
+      table%units = table%units(places)
+      table%numbers = table%numbers(:, places)
+      table%words = table%words(:, places)
+      table%has_words = table%has_words(places)
+   end subroutine choose_columns
 
    !> Series of one case.
    subroutine read_series(file, cases, case, table, error)
@@ -184,38 +184,6 @@ contains
       end do
    end subroutine read_summary
 
-   !> Read a dataset with one value for each case into a column.
-   subroutine read_column(file, name, table, position, error)
-      !> A result file
-      type(hdf5_object_t), intent(in) :: file
-      !> Name of the dataset from the root
-      character(len=*), intent(in) :: name
-      !> The table
-      type(table_t), intent(inout) :: table
-      !> The column
-      integer, intent(in) :: position
-      !> File error
-      type(error_t), allocatable, intent(out) :: error
-
-      real(wp), allocatable :: column(:) ! [unit of the dataset]
-      integer :: row
-
-      call check_extents(file, name, [size(table%numbers, 1)], error)
-      if (allocated(error)) return
-      table%has_words(position) = is_text_dataset(file, name)
-      if (table%has_words(position)) then
-         do row = 1, size(table%words, 1)
-            call read_text(file, name, [row - 1], table%words(row, position)%text, error)
-            if (allocated(error)) return
-         end do
-      else
-         call read_numbers(file, name, [0], [size(table%numbers, 1)], column, error)
-         if (allocated(error)) return
-         table%numbers(:, position) = column
-      end if
-      call head_column(file, name, table, position, error)
-   end subroutine read_column
-
    !> An error where a case does not exist or has failed.
    subroutine check_case(file, cases, case, error)
       !> A result file
@@ -247,43 +215,14 @@ contains
       end if
    end subroutine check_case
 
-   !> Room for a table.
-   subroutine make_columns(table, rows, columns)
-      !> The table
-      type(table_t), intent(out) :: table
-      !> Number of rows
-      integer, intent(in) :: rows
-      !> Number of columns
-      integer, intent(in) :: columns
-
-      allocate (table%names(columns), table%units(columns), table%words(rows, columns))
-      allocate (table%numbers(rows, columns), source=0.0_wp)
-      allocate (table%has_words(columns), source=.false.)
-   end subroutine make_columns
-
-   !> Name and unit of a column.
-   subroutine head_column(file, name, table, position, error)
-      !> A result file
-      type(hdf5_object_t), intent(in) :: file
-      !> Name of the dataset from the root
-      character(len=*), intent(in) :: name
-      !> The table
-      type(table_t), intent(inout) :: table
-      !> The column
-      integer, intent(in) :: position
-      !> File error
-      type(error_t), allocatable, intent(out) :: error
-
-      table%names(position)%text = name(index(name, "/", back=.true.) + 1:)
-      call read_text_attribute(file, name, "units", table%units(position)%text, error)
-   end subroutine head_column
-
    !> Write a table to a file that appears under its name when it is complete.
-   subroutine write_file(path, table, error)
+   subroutine write_file(path, table, form, error)
       !> Path of the file
       character(len=*), intent(in) :: path
       !> The table
       type(table_t), intent(in) :: table
+      !> One of `export_formats`
+      character(len=*), intent(in) :: form
       !> File error
       type(error_t), allocatable, intent(out) :: error
 
@@ -292,7 +231,7 @@ contains
 
       call begin_new_file(place, path, error)
       if (.not. allocated(error)) call create_raw(file, place%temporary, path, error)
-      if (.not. allocated(error)) call write_rows(table, error, file)
+      if (.not. allocated(error)) call write_rows(table, form, error, file)
       call close_raw(file)
       if (allocated(error)) then
          call drop_new_file(place)
@@ -301,10 +240,12 @@ contains
       end if
    end subroutine write_file
 
-   !> Write all rows, many at a time.
-   subroutine write_rows(table, error, file)
+   !> Write all rows, or in JSON all columns, many at a time.
+   subroutine write_rows(table, form, error, file)
       !> The table
       type(table_t), intent(in) :: table
+      !> One of `export_formats`
+      character(len=*), intent(in) :: form
       !> File error
       type(error_t), allocatable, intent(out) :: error
       !> The open file; without it the output unit
@@ -312,11 +253,19 @@ contains
 
       character(len=:), allocatable :: line
       character(len=block_length) :: block
-      integer :: row, length
+      integer :: row, length, last
 
       length = 0
-      do row = -1, size(table%numbers, 1)
-         call row_text(table, row, line)
+      last = size(table%numbers, 1)
+      if (form == "json") last = size(table%names) - 1
+      do row = -1, last
+         if (form == "json") then
+            call column_text(table, row + 1, line)
+         else if (row == -1 .and. form == "plain") then
+            cycle
+         else
+            call row_text(table, row, form, line)
+         end if
          line = line//new_line("a")
          if (length + len(line) > block_length) call write_piece(block(:length))
          if (allocated(error)) return
@@ -348,11 +297,13 @@ contains
    end subroutine write_rows
 
    !> One line of a table.
-   pure subroutine row_text(table, row, line)
+   pure subroutine row_text(table, row, form, line)
       !> The table
       type(table_t), intent(in) :: table
-      !> The row, from 1; 0 for the units, -1 for the names
+      !> The row, from 1; 0 for the units, or names with units, -1 for the names
       integer, intent(in) :: row
+      !> One of `export_formats`
+      character(len=*), intent(in) :: form
       !> The line
       character(len=:), allocatable, intent(out) :: line
 
@@ -364,6 +315,8 @@ contains
          if (i > 1) line = line//","
          if (row == -1) then
             line = line//quoted(table%names(i)%text)
+         else if (row == 0 .and. form == "plain") then
+            line = line//quoted(table%names(i)%text//" ["//table%units(i)%text//"]")
          else if (row == 0) then
             line = line//quoted(table%units(i)%text)
          else if (table%has_words(i)) then
@@ -374,6 +327,60 @@ contains
          end if
       end do
    end subroutine row_text
+
+   !> One column of a table in JSON; the first line opens the object, the last column closes it. What is no finite number is null.
+   subroutine column_text(table, column, line)
+      !> The table
+      type(table_t), intent(in) :: table
+      !> The column, from 1; 0 for the beginning
+      integer, intent(in) :: column
+      !> The line
+      character(len=:), allocatable, intent(out) :: line
+
+      character(len=number_length) :: number
+      integer :: row
+
+      line = '{"columns": ['
+      if (column == 0) return
+      line = '{"name": '//json_text(table%names(column)%text)//', "unit": '//json_text(table%units(column)%text)//', "values": ['
+      do row = 1, size(table%numbers, 1)
+         if (row > 1) line = line//", "
+         if (table%has_words(column)) then
+            line = line//json_text(table%words(row, column)%text)
+         else if (ieee_is_finite(table%numbers(row, column))) then
+            call write_number(table%numbers(row, column), "e3", decimals, number)
+            line = line//trim(adjustl(number))
+         else
+            line = line//"null"
+         end if
+      end do
+      line = line//"]}"
+      if (column < size(table%names)) line = line//","
+      if (column == size(table%names)) line = line//"]}"
+   end subroutine column_text
+
+   !> A text in JSON.
+   pure function json_text(word) result(text)
+      !> The text
+      character(len=*), intent(in) :: word
+      !> In quotes, with quotes, backslashes and control characters escaped
+      character(len=:), allocatable :: text
+
+      integer :: i
+
+      text = """"
+      do i = 1, len(word)
+         select case (word(i:i))
+         case ("""", "\")
+            text = text//"\"//word(i:i)
+         case (achar(0):achar(31))
+            text = text//" "
+         case default
+            text = text//word(i:i)
+         end select
+      end do
+      text = text//""""
+   end function json_text
 
    !> A word as CSV wants it: in quotes where it holds a comma, a quote or a line end.
    pure function quoted(word) result(text)

@@ -7,7 +7,7 @@ module camroller_catalogue
    use camroller_case, only : case_t, energy_names
    use camroller_model, only : model_t
    use camroller_number_text, only : integer_text
-   use camroller_result, only : quantity_t, lobe_scope, scope_camshaft, scope_length
+   use camroller_result, only : quantity_t, lobe_scope, scope_camshaft, scope_engine, scope_length
    use camroller_state, only : state_t
    use camroller_hertz, only : peak_pressure
    use camroller_traction, only : rolling_law_names, rolling_none
@@ -15,12 +15,14 @@ module camroller_catalogue
    private
 
    public :: list_series, follower_values, camshaft_values, series_values, follower_torques, torque_count
-   public :: follower_count, camshaft_count, lobe_columns, camshaft_columns, lobe_prefix
+   public :: follower_count, camshaft_count, lobe_columns, camshaft_columns, lobe_prefix, camshaft_number
 
    !> More series than any case has
    integer, parameter :: max_series = 96
    !> Number of torques of one follower that `follower_torques` gives
    integer, parameter :: torque_count = 6
+   !> Beginning of the names of series of one of several camshafts
+   character(len=*), parameter :: camshaft_prefix = "camshaft_"
 
    !> Series that are being named, read, or both
    type :: list_t
@@ -43,11 +45,12 @@ contains
       type(list_t) :: list
       type(model_t) :: model
       type(state_t) :: state
-      ! Torques [N m], last the energy residual [W]
-      real(wp), parameter :: none(torque_count) = 0.0_wp
+      ! Torques of each camshaft [N m], last the energy residual [W]
+      real(wp), allocatable :: none(:, :)
       integer :: lobe, first
 
-      allocate (list%items(max_series))
+      allocate (list%items(max_series), none(torque_count, camshaft_number(case)))
+      none = 0.0_wp
       call set_blank(model, state)
       do lobe = 1, merge(2, 1, allocated(case%second_lift))
          first = list%count + 1
@@ -56,8 +59,9 @@ contains
          call name_lobe(list%items(first:list%count), lobe)
          if (lobe > 1) cycle
          first = list%count + 1
-         call add_camshaft(list, case, none, 0.0_wp)
-         list%items(first:list%count)%scope = scope_camshaft
+         call add_camshafts(list, case, none, none(1, :))
+         list%items(first:list%count)%scope = merge(scope_engine, scope_camshaft, has_engine(case))
+         call set_camshaft_scopes(list%items(first:list%count))
       end do
       series = list%items(:list%count)
    end subroutine list_series
@@ -86,10 +90,12 @@ contains
       integer :: count
 
       type(list_t) :: list
-      ! Torques [N m], last the energy residual [W]
-      real(wp), parameter :: none(torque_count) = 0.0_wp
+      ! Torques of each camshaft [N m], last the energy residual [W]
+      real(wp), allocatable :: none(:, :)
 
-      call add_camshaft(list, case, none, 0.0_wp)
+      allocate (none(torque_count, camshaft_number(case)))
+      none = 0.0_wp
+      call add_camshafts(list, case, none, none(1, :))
       count = list%count
    end function camshaft_count
 
@@ -136,24 +142,24 @@ contains
       values = list%values(:list%count)
    end subroutine follower_values
 
-   !> Values of the series of the camshaft.
+   !> Values of the series of the camshafts.
    pure subroutine camshaft_values(case, torques, bearing_torque, values)
       !> The case
       type(case_t), intent(in) :: case
-      !> Torques of all followers together, as `follower_torques` orders them [N m], last the energy residual [W]
-      real(wp), intent(in) :: torques(torque_count)
-      !> Torque of all camshaft bearings [N m]
-      real(wp), intent(in) :: bearing_torque
+      !> Torques of all followers of each camshaft, as `follower_torques` orders them [N m], last the energy residual [W]
+      real(wp), intent(in) :: torques(:, :)
+      !> Torque of all bearings of each camshaft [N m]
+      real(wp), intent(in) :: bearing_torque(:)
       !> Values, in the order of `list_series` [unit of the series]
       real(wp), intent(out) :: values(:)
 
       type(list_t) :: list
 
-      call add_camshaft(list, case, torques, bearing_torque)
+      call add_camshafts(list, case, torques, bearing_torque)
       values = list%values(:list%count)
    end subroutine camshaft_values
 
-   !> Values of the series of one follower, then of the camshaft.
+   !> Values of the series of one follower, then of the camshafts, with the follower on the first one.
    pure subroutine series_values(case, model, state, torques, bearing_torque, values)
       !> The case
       type(case_t), intent(in) :: case
@@ -169,9 +175,16 @@ contains
       real(wp), intent(out) :: values(:)
 
       type(list_t) :: list
+      ! Torques of each camshaft [N m], last the energy residual [W]; of its bearings [N m]
+      real(wp), dimension(torque_count, camshaft_number(case)) :: of_shafts
+      real(wp), dimension(camshaft_number(case)) :: of_bearings
 
+      of_shafts = 0.0_wp
+      of_shafts(:, 1) = torques
+      of_bearings = 0.0_wp
+      of_bearings(1) = bearing_torque
       call add_follower(list, case, model, state)
-      call add_camshaft(list, case, torques, bearing_torque)
+      call add_camshafts(list, case, of_shafts, of_bearings)
       values = list%values(:list%count)
    end subroutine series_values
 
@@ -231,6 +244,65 @@ contains
             & ratio(state%boundary_friction, state%contact_friction))
       end if
    end subroutine add_follower
+
+   !> Series of all camshafts together, then, where there are several, of each.
+   pure subroutine add_camshafts(list, case, torques, bearing_torque)
+      !> List to extend
+      type(list_t), intent(inout) :: list
+      !> The case
+      type(case_t), intent(in) :: case
+      !> Torques of all followers of each camshaft, as `follower_torques` orders them [N m], last the energy residual [W]
+      real(wp), intent(in) :: torques(:, :)
+      !> Torque of all bearings of each camshaft [N m]
+      real(wp), intent(in) :: bearing_torque(:)
+
+      integer :: k
+
+      call add_camshaft(list, case, sum(torques, 2), sum(bearing_torque))
+      if (size(bearing_torque) == 1) return
+      do k = 1, size(bearing_torque)
+         call add(list, camshaft_prefix//integer_text(k)//"_torque_friction", "N m", "torque for all losses of camshaft "// &
+            & integer_text(k), "torque", sum(torques(2:4, k)) + bearing_torque(k))
+         call add(list, camshaft_prefix//integer_text(k)//"_torque_drive", "N m", "torque that drives camshaft "// &
+            & integer_text(k), "torque", sum(torques(1:5, k)) + bearing_torque(k))
+      end do
+   end subroutine add_camshafts
+
+   !> Give series of one of several camshafts its scope.
+   pure subroutine set_camshaft_scopes(series)
+      !> Series of camshafts
+      type(quantity_t), intent(inout) :: series(:)
+
+      integer :: i, length
+
+      do i = 1, size(series)
+         if (index(series(i)%name, camshaft_prefix) /= 1) cycle
+         length = index(series(i)%name(len(camshaft_prefix) + 1:), "_") - 1
+         series(i)%scope = scope_camshaft//" "//series(i)%name(len(camshaft_prefix) + 1:len(camshaft_prefix) + length)
+      end do
+   end subroutine set_camshaft_scopes
+
+   !> Number of camshafts.
+   pure function camshaft_number(case) result(number)
+      !> The case
+      type(case_t), intent(in) :: case
+      !> The number
+      integer :: number
+
+      number = 1
+      if (.not. allocated(case%cam_bearings)) return
+      if (allocated(case%cam_bearings%cam_shafts)) number = maxval(case%cam_bearings%cam_shafts)
+   end function camshaft_number
+
+   !> Do the camshafts of a case belong to an engine?
+   pure function has_engine(case) result(verdict)
+      !> The case
+      type(case_t), intent(in) :: case
+      !> Do they?
+      logical :: verdict
+
+      verdict = allocated(case%engine) .and. allocated(case%cam_bearings)
+   end function has_engine
 
    !> Series of the camshaft: torques of all followers and bearings.
    pure subroutine add_camshaft(list, case, torques, bearing_torque)

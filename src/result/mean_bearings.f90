@@ -1,6 +1,6 @@
 !> Mean torque of the camshaft bearings.
 !>
-!> In: the camshaft with the cycles of its lobe shapes. Out: the mean over a turn to the tolerance of the cycles, and
+!> In: the camshafts with the cycles of their lobe shapes. Out: the mean over a turn to the tolerance of the cycles, and
 !> an estimate of its error.
 module camroller_mean_bearings
    use camroller_kinds, only : wp, two_pi, degree
@@ -32,7 +32,7 @@ module camroller_mean_bearings
 
 contains
 
-   !> Mean torque of all camshaft bearings, over panels that end at the stops of every cam.
+   !> Mean torque of the bearings of each camshaft, over panels that end at the stops of every cam.
    subroutine mean_bearing_torque(shaft, models, cycles, mean, mean_error, error)
       !> The shaft
       type(shaft_t), intent(inout), target :: shaft
@@ -40,9 +40,9 @@ contains
       type(model_t), intent(in), target :: models(:)
       !> Cycle of each lobe shape
       type(cycle_t), intent(in), target :: cycles(:)
-      !> Mean torque [N m]
-      real(wp), intent(out) :: mean
-      !> Estimate of its error over itself [-]
+      !> Mean torque of each camshaft [N m]
+      real(wp), intent(out) :: mean(:)
+      !> Estimate of the error over the mean, the largest [-]
       real(wp), intent(out) :: mean_error
       !> Convergence or domain error
       type(error_t), allocatable, intent(out) :: error
@@ -65,7 +65,7 @@ contains
          stops = [stops, cycles(shaft%lobes(cam))%stops + shaft%phases(cam)]
       end do
       stops = cycle_stops(stops, cycles(shaft%lobes(1))%start)
-      call start_panels(panels, 1, 2*size(stops) + ceiling(two_pi/longest_panel))
+      call start_panels(panels, shaft%count, 2*size(stops) + ceiling(two_pi/longest_panel))
       do segment = 1, size(stops) - 1
          count = ceiling((stops(segment + 1) - stops(segment))/longest_panel)
          if (count == 0) cycle
@@ -76,29 +76,29 @@ contains
          end do
       end do
       halvings = most_halvings
-      call refine_panels(panels, samples, [mean_tolerance(maxval(cycles%tolerance)) &
-         & *sum(panels%sizes(:, :panels%count))], halvings, error)
+      call refine_panels(panels, samples, mean_tolerance(maxval(cycles%tolerance)) &
+         & *sum(panels%sizes(:, :panels%count), 2), halvings, error)
       if (allocated(error)) return
-      mean = sum(panels%integrals(1, :panels%count))/two_pi
-      mean_error = sum(panels%errors(1, :panels%count))/max(sum(panels%sizes(1, :panels%count)), tiny(1.0_wp))
+      mean = sum(panels%integrals(:, :panels%count), 2)/two_pi
+      mean_error = maxval(sum(panels%errors(:, :panels%count), 2)/max(sum(panels%sizes(:, :panels%count), 2), tiny(1.0_wp)))
    end subroutine mean_bearing_torque
 
-   !> Torque of all camshaft bearings at a cam angle.
+   !> Torque of the bearings of each camshaft at a cam angle.
    subroutine sample_bearings(self, x, values, error)
       !> The shaft with its cycles
       class(bearing_samples_t), intent(inout) :: self
       !> Cam angle of the first cam from full lift [rad]
       real(wp), intent(in) :: x
-      !> The torque [N m]
+      !> The torques [N m]
       real(wp), intent(out) :: values(:)
       !> Convergence or domain error
       type(error_t), allocatable, intent(out) :: error
 
       type(state_t) :: state
-      ! Torques of the followers [N m]
-      real(wp) :: torques(torque_count)
+      ! Torques of the followers of each camshaft [N m]
+      real(wp) :: torques(torque_count, self%shaft%count)
 
-      call shaft_torques(self%shaft, self%models, self%cycles, x, state, torques, values(1), error)
+      call shaft_torques(self%shaft, self%models, self%cycles, x, state, torques, values, error)
    end subroutine sample_bearings
 
 end module camroller_mean_bearings

@@ -66,8 +66,9 @@ contains
       type(shaft_t) :: shaft
       type(margins_t), allocatable :: margins(:)
       type(extremes_t) :: extremes
-      ! Mean torque of the camshaft bearings [N m], its error over itself [-]
-      real(wp) :: bearing_torque, bearing_error
+      ! Mean torque of the bearings of each camshaft [N m]; its error over itself [-]
+      real(wp), allocatable :: bearing_torque(:)
+      real(wp) :: bearing_error
       integer :: lobe
 
       allocate (result%remarks(0))
@@ -84,6 +85,7 @@ contains
             & result%remarks, error)
          if (allocated(error)) return
       end do
+      allocate (bearing_torque(shaft%count))
       bearing_torque = 0.0_wp
       bearing_error = 0.0_wp
       if (allocated(case%cam_bearings)) call mean_bearing_torque(shaft, models, cycles, bearing_torque, bearing_error, error)
@@ -128,8 +130,8 @@ contains
       type(error_t), allocatable, intent(out) :: error
 
       type(state_t) :: state
-      ! Torques of all followers [N m], of all bearings [N m]; values of the series; cam angle from full lift [rad]
-      real(wp) :: torques(torque_count), bearing_torque, values(size(result%series)), angle
+      ! Torques of the followers and of the bearings of each camshaft [N m]; values of the series; cam angle from full lift [rad]
+      real(wp) :: torques(torque_count, shaft%count), bearing_torque(shaft%count), values(size(result%series)), angle
       integer :: hints(size(models)), columns(2, size(models)), of_camshaft(2), i, lobe
       ! Is the first cam's follower the first lobe's, at the same angle?
       logical :: is_first
@@ -344,8 +346,8 @@ contains
       type(error_t), allocatable, intent(out) :: error
 
       type(state_t) :: state
-      ! Torques of all followers [N m], of all bearings [N m]
-      real(wp) :: torques(torque_count), bearing_torque
+      ! Torques of the followers and of the bearings of each camshaft [N m]
+      real(wp) :: torques(torque_count, shaft%count), bearing_torque(shaft%count)
 
       call shaft_torques(shaft, models, cycles, angle, state, torques, bearing_torque, error)
       if (allocated(error)) return

@@ -1,6 +1,6 @@
 !> The camshaft: all followers together, and the bearings that carry them.
 !>
-!> In: case, models and cycles of the lobe shapes. Out: torques of all followers and of all bearings at a cam angle.
+!> In: case, models and cycles of the lobe shapes. Out: torques of the followers and bearings of each camshaft at a cam angle.
 !> Each cam sees the cycle of its lobe shape at its own phase; without camshaft bearings in the case there is one cam.
 module camroller_shaft
    use camroller_kinds, only : wp
@@ -9,9 +9,9 @@ module camroller_shaft
    use camroller_model, only : model_t
    use camroller_state, only : state_t, cam_force
    use camroller_cycle, only : cycle_t, state_at
-   use camroller_catalogue, only : follower_torques, torque_count
+   use camroller_catalogue, only : camshaft_number, follower_torques, torque_count
    use camroller_journal, only : cam_bearings_t, journal_t, new_journal, journal_torque
-   use camroller_camshaft, only : bearing_loads
+   use camroller_camshaft, only : share_loads
    implicit none
    private
 
@@ -21,6 +21,9 @@ module camroller_shaft
    type :: shaft_t
       !> Lobe shape of each cam
       integer, allocatable :: lobes(:)
+      !> Camshaft of each cam, and the number of camshafts
+      integer, allocatable :: shafts(:)
+      integer :: count = 1
       !> Angle by which each cam's event follows the first one's [rad]
       real(wp), allocatable :: phases(:)
       !> Cosine and sine of the angle at which each follower stands, shape (2, cam) [-]
@@ -49,6 +52,7 @@ contains
 
       if (.not. allocated(case%cam_bearings)) then
          shaft%lobes = [1]
+         shaft%shafts = [1]
          shaft%phases = [0.0_wp]
          shaft%hints = [1]
          allocate (shaft%directions(2, 1))
@@ -59,6 +63,10 @@ contains
       shaft%bearings = case%cam_bearings
       shaft%phases = case%cam_bearings%cam_phases
       shaft%lobes = case%cam_bearings%cam_lobes
+      shaft%count = camshaft_number(case)
+      allocate (shaft%shafts(cams))
+      shaft%shafts = 1
+      if (allocated(case%cam_bearings%cam_shafts)) shaft%shafts = case%cam_bearings%cam_shafts
       allocate (shaft%directions(2, cams), shaft%hints(cams))
       shaft%directions(1, :) = cos(case%cam_bearings%follower_angles)
       shaft%directions(2, :) = sin(case%cam_bearings%follower_angles)
@@ -79,17 +87,17 @@ contains
       real(wp), intent(in) :: angle
       !> State of the first follower
       type(state_t), intent(out) :: first_state
-      !> Torques of all followers together [N m], last the energy residual [W]
-      real(wp), intent(out) :: torques(torque_count)
-      !> Torque of all bearings [N m]
-      real(wp), intent(out) :: bearing_torque
+      !> Torques of all followers of each camshaft [N m], last the energy residual [W], shape (torque, camshaft)
+      real(wp), intent(out) :: torques(:, :)
+      !> Torque of all bearings of each camshaft [N m]
+      real(wp), intent(out) :: bearing_torque(:)
       !> Convergence or domain error
       type(error_t), allocatable, intent(out) :: error
 
       type(state_t) :: state
       ! Force on each cam in the frame of the first follower, force of one follower in its own [N]
       real(wp) :: forces(2, size(shaft%lobes)), force(2)
-      integer :: cam
+      integer :: cam, k
 
       torques = 0.0_wp
       bearing_torque = 0.0_wp
@@ -98,20 +106,26 @@ contains
             & state, error)
          if (allocated(error)) return
          if (cam == 1) first_state = state
-         torques = torques + follower_torques(state)
+         torques(:, shaft%shafts(cam)) = torques(:, shaft%shafts(cam)) + follower_torques(state)
          if (.not. allocated(shaft%journal)) cycle
          force = cam_force(models(shaft%lobes(cam)), state)
          associate (c => shaft%directions(1, cam), s => shaft%directions(2, cam))
             forces(:, cam) = [c*force(1) - s*force(2), s*force(1) + c*force(2)]
          end associate
       end do
-      if (allocated(shaft%journal)) call add_bearings(shaft, forces, bearing_torque, error)
+      if (.not. allocated(shaft%journal)) return
+      do k = 1, shaft%count
+         call add_bearings(shaft, pack([(cam, cam=1, size(shaft%lobes))], shaft%shafts == k), forces, bearing_torque(k), error)
+         if (allocated(error)) return
+      end do
    end subroutine shaft_torques
 
-   !> Torque of all bearings under the forces of the cams.
-   subroutine add_bearings(shaft, forces, bearing_torque, error)
+   !> Torque of all bearings of a camshaft under the forces of its cams.
+   subroutine add_bearings(shaft, cams, forces, bearing_torque, error)
       !> The shaft
       type(shaft_t), intent(in) :: shaft
+      !> Cams of this camshaft
+      integer, intent(in) :: cams(:)
       !> Force on each cam [N]
       real(wp), intent(in) :: forces(:, :)
       !> Torque of all bearings [N m]
@@ -124,7 +138,7 @@ contains
       integer :: bearing, status
 
       bearing_torque = 0.0_wp
-      call bearing_loads(shaft%bearings, forces, loads)
+      call share_loads(shaft%bearings%bearing_positions, shaft%bearings%cam_positions(cams), forces(:, cams), loads)
       do bearing = 1, size(loads, 2)
          call journal_torque(shaft%journal, norm2(loads(:, bearing)), torque, status)
          if (status /= 0) then

@@ -7,6 +7,7 @@ module camroller_summary
    use camroller_model, only : model_t
    use camroller_cycle, only : cycle_t
    use camroller_catalogue, only : camshaft_columns, camshaft_values, lobe_columns, lobe_prefix, torque_count
+   use camroller_engine_summary, only : list_engine_scalars, engine_scalar_count
    use camroller_margins, only : margin_t, margins_t
    use camroller_means, only : statistics_t
    use camroller_result, only : result_t, quantity_t, find_quantity, lobe_scope, scope_camshaft, scope_case
@@ -17,7 +18,7 @@ module camroller_summary
    public :: make_summary, extremes_t
 
    !> Scalars that do not belong to a series: room for them
-   integer, parameter :: more_scalars = 84
+   integer, parameter :: more_scalars = 84 + engine_scalar_count
 
    !> Smallest and largest values
    type :: extremes_t
@@ -41,8 +42,8 @@ contains
       type(shaft_t), intent(in) :: shaft
       !> Means over the cycle of each lobe shape
       type(statistics_t), intent(in) :: statistics(:)
-      !> Mean torque of the camshaft bearings [N m]
-      real(wp), intent(in) :: bearing_torque
+      !> Mean torque of the bearings of each camshaft [N m]
+      real(wp), intent(in) :: bearing_torque(:)
       !> Margins of each lobe shape
       type(margins_t), intent(in) :: margins(:)
       !> Extremes of the series
@@ -60,6 +61,7 @@ contains
       means = all_means(case, result, shaft, statistics, bearing_torque)
       call add_series_statistics(result, extremes, means, quantities, values, count)
       call add_losses(case, result, means, quantities, values, count)
+      call list_engine_scalars(case, result, means, quantities, values, count)
       do lobe = 1, size(models)
          call add_slip(lobe, result, means, statistics(lobe), quantities, values, count)
          call add_margins(lobe, margins(lobe), extremes%event_load(lobe), quantities, values, count)
@@ -90,20 +92,22 @@ contains
       type(shaft_t), intent(in) :: shaft
       !> Means over the cycle of each lobe shape
       type(statistics_t), intent(in) :: statistics(:)
-      !> Mean torque of the camshaft bearings [N m]
-      real(wp), intent(in) :: bearing_torque
+      !> Mean torque of the bearings of each camshaft [N m]
+      real(wp), intent(in) :: bearing_torque(:)
       !> Means [unit of the series]
       real(wp) :: means(size(result%series))
 
-      ! Mean torques of all followers [N m]; the camshaft's series with these torques, and with those of the first follower alone
-      real(wp) :: torques(torque_count)
+      ! Mean torques of the followers of each camshaft, and those of the first follower alone [N m]; the camshafts' series with each
+      real(wp), dimension(torque_count, shaft%count) :: torques, first
       real(wp), allocatable :: with_all(:), with_first(:)
       integer :: cam, lobe, columns(2)
 
       torques = 0.0_wp
       do cam = 1, size(shaft%lobes)
-         torques = torques + statistics(shaft%lobes(cam))%torques
+         torques(:, shaft%shafts(cam)) = torques(:, shaft%shafts(cam)) + statistics(shaft%lobes(cam))%torques
       end do
+      first = 0.0_wp
+      first(:, 1) = statistics(1)%torques
       do lobe = 1, size(statistics)
          columns = lobe_columns(case, lobe)
          means(columns(1):columns(2)) = statistics(lobe)%mean(:columns(2) - columns(1) + 1)
@@ -111,7 +115,7 @@ contains
       columns = camshaft_columns(case)
       allocate (with_all(columns(2) - columns(1) + 1), with_first(columns(2) - columns(1) + 1))
       call camshaft_values(case, torques, bearing_torque, with_all)
-      call camshaft_values(case, statistics(1)%torques, 0.0_wp, with_first)
+      call camshaft_values(case, first, 0.0_wp*bearing_torque, with_first)
       means(columns(1):columns(2)) = statistics(1)%mean(columns(1):columns(2)) + (with_all - with_first)
    end function all_means
 

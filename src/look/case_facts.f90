@@ -1,0 +1,210 @@
+!> What a person wants to know of a case before many of them are run: oil, roughness, cam, event, margins, loads, film.
+!>
+!> In: a case. Out: lines of text.
+module camroller_case_facts
+   use camroller_kinds, only : wp, degree, two_pi
+   use camroller_error, only : error_t
+   use camroller_case, only : case_t
+   use camroller_kinematics, only : position_t
+   use camroller_model, only : model_t, evaluate_geometry
+   use camroller_number_text, only : number_text, fixed_text
+   use camroller_result, only : result_t, get_summary
+   use camroller_run, only : build_models, run_case
+   implicit none
+   private
+
+   public :: describe_case, shape_t, get_shape
+
+   !> Step of the cam angle in which geometry is looked at [rad]
+   real(wp), parameter :: step = 0.25_wp*degree
+   !> Lift up to which an event is on its ramp [m]
+   real(wp), parameter :: ramp_height = 1.0e-4_wp
+   !> Digits of numbers
+   integer, parameter :: digits = 3
+
+   !> Shape of one lobe
+   type :: shape_t
+      !> Smallest radius of curvature of the convex parts of the cam [m] and its cam angle, nose at 180 [deg]
+      real(wp) :: smallest_radius = huge(1.0_wp), radius_angle = 0.0_wp
+      !> Smallest radius of its hollow parts, zero where there are none [m]
+      real(wp) :: hollow_radius = 0.0_wp
+      !> Largest pressure angle [rad] and its cam angle [deg]
+      real(wp) :: pressure_angle = 0.0_wp, pressure_angle_angle = 0.0_wp
+      !> First and last cam angle with lift [deg]
+      real(wp) :: first = 360.0_wp, last = 0.0_wp
+      !> Largest slope of the lift on the ramps, opening and closing, and anywhere [m/rad]
+      real(wp) :: ramp_slopes(2) = 0.0_wp, largest_slope = 0.0_wp
+      !> Smallest and largest second derivative of the lift [m/rad^2]
+      real(wp) :: smallest_curvature = 0.0_wp, largest_curvature = 0.0_wp
+      !> Largest lift [m]
+      real(wp) :: largest_lift = 0.0_wp
+   end type shape_t
+
+contains
+
+   !> Shape of the cam of a model, looked at a quarter of a degree apart.
+   subroutine get_shape(model, shape)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> The shape
+      type(shape_t), intent(out) :: shape
+
+      type(position_t) :: position
+      ! Cam angle from full lift [rad], and with the nose at 180 [deg]; curvature of the cam [1/m]; pressure angle [rad]
+      real(wp) :: angle, shown, curvature, pressure_angle
+      integer :: i, status
+
+      do i = 0, nint(two_pi/step) - 1
+         angle = i*step - 0.5_wp*two_pi
+         shown = 180.0_wp + angle/degree
+         call evaluate_geometry(model, angle, position, status)
+         if (status /= 0) cycle
+         curvature = 1.0_wp/position%equivalent_radius - 1.0_wp/model%linkage%roller_radius
+         if (curvature > 1.0_wp/shape%smallest_radius) then
+            shape%smallest_radius = 1.0_wp/curvature
+            shape%radius_angle = shown
+         else if (curvature < 0.0_wp .and. (-1.0_wp/curvature < shape%hollow_radius .or. shape%hollow_radius <= 0.0_wp)) then
+            shape%hollow_radius = -1.0_wp/curvature
+         end if
+         pressure_angle = acos(min(1.0_wp, abs(position%normal_arm)/model%linkage%a))
+         if (pressure_angle > shape%pressure_angle) then
+            shape%pressure_angle = pressure_angle
+            shape%pressure_angle_angle = shown
+         end if
+         if (position%lift <= 0.0_wp) cycle
+         shape%first = min(shape%first, shown)
+         shape%last = max(shape%last, shown)
+         shape%largest_lift = max(shape%largest_lift, position%lift)
+         shape%largest_slope = max(shape%largest_slope, abs(position%lift_slope))
+         shape%smallest_curvature = min(shape%smallest_curvature, position%lift_curvature)
+         shape%largest_curvature = max(shape%largest_curvature, position%lift_curvature)
+         if (position%lift > ramp_height) cycle
+         associate (ramp => shape%ramp_slopes(merge(1, 2, angle < 0.0_wp)))
+            ramp = max(ramp, abs(position%lift_slope))
+         end associate
+      end do
+   end subroutine get_shape
+
+   !> A case in words: what follows from the deck at once, and what one run of it says.
+   subroutine describe_case(case, text, error)
+      !> The case
+      type(case_t), intent(in) :: case
+      !> Lines
+      character(len=:), allocatable, intent(out) :: text
+      !> Deck or domain error of the case's models; a run that fails is told among the lines
+      type(error_t), allocatable, intent(out) :: error
+
+      type(model_t), allocatable :: models(:)
+      type(result_t) :: result
+      type(error_t), allocatable :: failure
+      integer :: lobe
+
+      text = ""
+      call build_models(case, models, error)
+      if (allocated(error)) return
+      call describe_oil(case, models(1), text)
+      do lobe = 1, size(models)
+         call describe_cam(models(lobe), trim(merge("second lobe: ", "lobe: ", lobe == 2)), text)
+      end do
+      call run_case(case, result, failure)
+      if (allocated(failure)) then
+         text = text//"run: "//failure%message//new_line("a")
+         return
+      end if
+      do lobe = 1, size(models)
+         call describe_results(result, trim(merge("lobe_2_", "       ", lobe == 2)), &
+            & trim(merge("second lobe, ", "", lobe == 2)), text)
+      end do
+   end subroutine describe_case
+
+   !> Oil and surfaces.
+   subroutine describe_oil(case, model, text)
+      !> The case
+      type(case_t), intent(in) :: case
+      !> Its first model
+      type(model_t), intent(in) :: model
+      !> Lines so far
+      character(len=:), allocatable, intent(inout) :: text
+
+      character(len=*), parameter :: n = new_line("a")
+
+      text = text//"oil at "//number_text(case%operating_point%oil_temperature - 273.15_wp, 4)//" degC: "// &
+         & number_text(1.0e3_wp*model%oil%viscosity, digits)//" mPa s, pressure-viscosity coefficient "// &
+         & number_text(1.0e9_wp*model%oil%pressure_viscosity, digits)//" 1/GPa"
+      if (model%oil%is_estimated) text = text//" (estimated by So and Klaus 1980, since the deck gives none)"
+      text = text//n//"composite roughness: "//number_text(1.0e6_wp*model%roughness, digits)//" um; cam speed "// &
+         & number_text(case%operating_point%speed*60.0_wp/two_pi, 4)//" rev/min"//n
+   end subroutine describe_oil
+
+   !> One lobe.
+   subroutine describe_cam(model, name, text)
+      !> Its model
+      type(model_t), intent(in) :: model
+      !> What it is called
+      character(len=*), intent(in) :: name
+      !> Lines so far
+      character(len=:), allocatable, intent(inout) :: text
+
+      character(len=*), parameter :: n = new_line("a")
+      type(shape_t) :: shape
+
+      call get_shape(model, shape)
+      text = text//name//" event from "//fixed_text(shape%first, 1)//" to "//fixed_text(shape%last, 1)//" deg, lift "// &
+         & number_text(1.0e3_wp*shape%largest_lift, 4)//" mm; smallest cam radius "// &
+         & number_text(1.0e3_wp*shape%smallest_radius, digits)//" mm at "//fixed_text(shape%radius_angle, 1)//" deg"
+      if (shape%hollow_radius > 0.0_wp) text = text//", hollow flanks of "//number_text(1.0e3_wp*shape%hollow_radius, digits)// &
+         & " mm"
+      text = text//"; largest pressure angle "//fixed_text(shape%pressure_angle/degree, 1)//" deg at "// &
+         & fixed_text(shape%pressure_angle_angle, 1)//" deg"//n//name//" ramps below "//number_text(1.0e3_wp*ramp_height)// &
+         & " mm of lift up to "//number_text(1.0e6_wp*degree*shape%ramp_slopes(1), digits)//" and "// &
+         & number_text(1.0e6_wp*degree*shape%ramp_slopes(2), digits)//" um/deg, "// &
+         & number_text(model%speed*shape%ramp_slopes(1), digits)//" and "// &
+         & number_text(model%speed*shape%ramp_slopes(2), digits)//" m/s; acceleration "// &
+         & number_text(1.0e3_wp*shape%smallest_curvature, digits)//" to "// &
+         & number_text(1.0e3_wp*shape%largest_curvature, digits)//" mm/rad^2"//n
+   end subroutine describe_cam
+
+   !> What one run says of a lobe.
+   subroutine describe_results(result, prefix, name, text)
+      !> Result of the case
+      type(result_t), intent(in) :: result
+      !> Beginning of the names of its scalars
+      character(len=*), intent(in) :: prefix
+      !> What the lobe is called
+      character(len=*), intent(in) :: name
+      !> Lines so far
+      character(len=:), allocatable, intent(inout) :: text
+
+      character(len=*), parameter :: n = new_line("a")
+
+      text = text//name//"contact load up to "//value_of("max_contact_load", 1.0_wp)//" N, pressure up to "// &
+         & value_of("max_hertz_pressure", 1.0e-9_wp)//" GPa, film ratio "//value_of("min_film_ratio", 1.0_wp)//" to "// &
+         & value_of("max_film_ratio", 1.0_wp)//n//name//"smallest load of the event "//value_of("margin_event", 1.0_wp)// &
+         & " N, on the base circle "//value_of("margin_base_circle", 1.0_wp)//" N; contact is lost above "// &
+         & value_of("contact_loss_speed", 60.0_wp/two_pi)//" rev/min of the camshaft"//n
+
+   contains
+
+      !> A scalar in words.
+      function value_of(scalar, factor) result(words)
+         !> Its name without the lobe's prefix
+         character(len=*), intent(in) :: scalar
+         !> What it is multiplied with [unit/SI unit]
+         real(wp), intent(in) :: factor
+         !> The words
+         character(len=:), allocatable :: words
+
+         type(error_t), allocatable :: error
+         ! [SI unit]
+         real(wp) :: value
+
+         words = "?"
+         call get_summary(result, prefix//scalar, value, error)
+         if (allocated(error)) return
+         words = "any number of"
+         if (value < huge(value)) words = number_text(factor*value, digits)
+      end function value_of
+
+   end subroutine describe_results
+
+end module camroller_case_facts

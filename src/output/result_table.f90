@@ -1,0 +1,157 @@
+!> The results of a file as a table for the screen: one line for each case, the numbers that are asked for first.
+!>
+!> In: a result file. Out: lines of text.
+module camroller_result_table
+   use camroller_kinds, only : wp
+   use camroller_error, only : error_t
+   use camroller_hdf5_file, only : discard_file
+   use camroller_hdf5_object, only : hdf5_object_t
+   use camroller_hdf5_read, only : has_member, list_members, member_length, read_numbers
+   use camroller_number_text, only : integer_text, number_text, right_text
+   use camroller_result_columns, only : make_columns, open_result, read_column, table_t
+   implicit none
+   private
+
+   public :: write_result_table
+
+   !> One column of the table
+   type :: column_t
+      !> Scalar of the summary
+      character(len=24) :: scalar
+      !> Heading and unit
+      character(len=14) :: heading
+      character(len=5) :: unit
+      !> What its value is multiplied with [unit/SI unit]
+      real(wp) :: factor
+   end type column_t
+
+   type(column_t), parameter :: columns(*) = [ &
+      column_t("mean_torque_contact", "contact", "N mm", 1.0e3_wp), &
+      column_t("mean_torque_needle", "roller bearing", "N mm", 1.0e3_wp), &
+      column_t("mean_torque_guide", "guide", "N mm", 1.0e3_wp), &
+      column_t("mean_torque_bearings", "cam bearings", "N mm", 1.0e3_wp), &
+      column_t("mean_torque_friction", "all friction", "N mm", 1.0e3_wp), &
+      column_t("fmep_friction", "fmep", "kPa", 1.0e-3_wp), &
+      column_t("mean_slip_ratio", "mean slip", "%", 1.0e2_wp), &
+      column_t("max_hertz_pressure", "peak pressure", "GPa", 1.0e-9_wp), &
+      column_t("min_film_thickness_min", "smallest film", "um", 1.0e6_wp), &
+      column_t("min_film_ratio", "film ratio", "1", 1.0_wp)]
+
+   !> Cases that are shown
+   integer, parameter :: most_rows = 40
+   !> Digits of a result
+   integer, parameter :: digits = 3
+
+contains
+
+   !> Lines of a table with the results of a file.
+   subroutine write_result_table(path, text, error)
+      !> Path of the result file
+      character(len=*), intent(in) :: path
+      !> The lines
+      character(len=:), allocatable, intent(out) :: text
+      !> File error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(hdf5_object_t) :: file
+      type(table_t) :: table
+      character(len=member_length), allocatable :: swept(:)
+      ! Which columns there are; status of the cases [-]
+      integer, allocatable :: chosen(:), cases(:)
+      real(wp), allocatable :: status(:)
+      integer :: i, k
+
+      text = ""
+      call open_result(file, path, cases, error)
+      if (.not. allocated(error)) call list_members(file, "/sweep", swept, error)
+      if (.not. allocated(error)) call read_numbers(file, "/summary/status", [0], cases, status, error)
+      if (.not. allocated(error)) then
+         chosen = pack([(i, i=1, size(columns))], [(has_member(file, "/summary/"//trim(columns(i)%scalar)), i=1, size(columns))])
+         call make_columns(table, cases(1), size(swept) + size(chosen))
+         do i = 1, size(table%names)
+            if (i <= size(swept)) then
+               call read_column(file, "/sweep/"//trim(swept(i)), table, i, error)
+            else
+               call read_column(file, "/summary/"//trim(columns(chosen(i - size(swept)))%scalar), table, i, error)
+            end if
+            if (allocated(error)) exit
+         end do
+      end if
+      call discard_file(file)
+      if (allocated(error)) return
+      do k = 1, size(swept)
+         table%names(k)%text = table%names(k)%text(index(table%names(k)%text, ".") + 1:)
+         if (index(table%names(k)%text, trim(table%units(k)%text)) > 0 .or. table%units(k)%text == "1") table%units(k)%text = ""
+      end do
+      call put_lines(table, size(swept), chosen, status, text)
+   end subroutine write_result_table
+
+   !> The lines: heading, units, one for each case that is shown, and how many are not.
+   subroutine put_lines(table, keys, chosen, status, text)
+      !> Numbers and words of the cases
+      type(table_t), intent(inout) :: table
+      !> Number of columns with keys that vary
+      integer, intent(in) :: keys
+      !> Which of `columns` the others are
+      integer, intent(in) :: chosen(:)
+      !> Status of the cases: above zero for one that failed [-]
+      real(wp), intent(in) :: status(:)
+      !> The lines
+      character(len=:), allocatable, intent(inout) :: text
+
+      character(len=*), parameter :: n = new_line("a")
+      character(len=:), allocatable :: heading, unit, line
+      integer :: widths(size(table%names)), column, row, rows
+
+      rows = min(size(status), most_rows)
+      heading = ""
+      unit = ""
+      do column = 1, size(table%names)
+         if (column > keys) then
+            table%names(column)%text = trim(columns(chosen(column - keys))%heading)
+            table%units(column)%text = trim(columns(chosen(column - keys))%unit)
+            if (table%units(column)%text == "1") table%units(column)%text = ""
+         end if
+         widths(column) = max(len(table%names(column)%text), len(table%units(column)%text))
+         do row = 1, rows
+            widths(column) = max(widths(column), len(cell(row, column)))
+         end do
+         heading = heading//right_text(table%names(column)%text, widths(column) + 2)
+         unit = unit//right_text(table%units(column)%text, widths(column) + 2)
+      end do
+      text = heading//n//unit
+      do row = 1, rows
+         line = ""
+         do column = 1, size(table%names)
+            line = line//right_text(cell(row, column), widths(column) + 2)
+         end do
+         text = text//n//line
+      end do
+      if (rows < size(status)) text = text//n//"  ... and "//integer_text(size(status) - rows)// &
+         & " more; 'camroller export --summary' has all"
+
+   contains
+
+      !> What stands in a row and a column.
+      function cell(row, column) result(words)
+         !> Row and column
+         integer, intent(in) :: row, column
+         !> The words
+         character(len=:), allocatable :: words
+
+         if (column > keys .and. status(row) > 0.0_wp) then
+            words = "failed"
+         else if (column > keys .and. status(row) < 0.0_wp) then
+            words = "missing"
+         else if (table%has_words(column)) then
+            words = table%words(row, column)%text
+         else if (column > keys) then
+            words = number_text(table%numbers(row, column)*columns(chosen(column - keys))%factor, digits)
+         else
+            words = number_text(table%numbers(row, column), 6)
+         end if
+      end function cell
+
+   end subroutine put_lines
+
+end module camroller_result_table

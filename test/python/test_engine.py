@@ -1,0 +1,116 @@
+"""The engine: cams by cylinder, phases from the firing order, results of followers, camshafts and engine that agree."""
+
+import pathlib
+import subprocess
+
+import h5py
+import numpy as np
+import pytest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+DECK = ROOT / "decks/four_cylinder.nml"
+# means are integrated to the accuracy asked for, 1e-4; these relations hold between numbers of one integration
+ROUND_OFF = 1e-10
+
+
+def run(camroller, *arguments):
+    result = subprocess.run([camroller, *map(str, arguments)], capture_output=True, text=True, cwd=ROOT, check=False)
+    assert result.returncode == 0, result.stderr
+    return result
+
+
+@pytest.fixture(scope="module", name="result")
+def one_point(camroller, tmp_path_factory):
+    """Engine at 2000 rev/min of the crankshaft and 90 degC."""
+    path = tmp_path_factory.mktemp("engine") / "engine.h5"
+    run(camroller, "run", DECK, "-o", path, "--quiet", "--set", "sweep.values_1=2000", "--set", "sweep.values_2=90")
+    with h5py.File(path) as file:
+        yield {
+            "series": {name: data[0] for name, data in file["series"].items() if data.ndim == 2},
+            "summary": {name: data[0] for name, data in file["summary"].items() if data.ndim == 1 and data.dtype.kind == "f"},
+            "scope": {name: data.attrs["scope"] for name, data in file["series"].items() if "scope" in data.attrs},
+            "summary_scope": {name: data.attrs["scope"] for name, data in file["summary"].items() if "scope" in data.attrs},
+        }
+
+
+def test_camshafts_add_up_to_the_engine(result):
+    series, summary = result["series"], result["summary"]
+    for kind in ("drive", "friction"):
+        parts = series[f"camshaft_1_torque_{kind}"] + series[f"camshaft_2_torque_{kind}"]
+        assert parts == pytest.approx(series[f"torque_{kind}"], abs=ROUND_OFF * np.abs(series[f"torque_{kind}"]).max())
+        parts = summary[f"mean_camshaft_1_torque_{kind}"] + summary[f"mean_camshaft_2_torque_{kind}"]
+        assert parts == pytest.approx(summary[f"mean_torque_{kind}"], rel=ROUND_OFF)
+
+
+def test_fmep_is_work_over_displacement(result):
+    summary = result["summary"]
+    parts = [summary[f"fmep_{source}"] for source in ("contact", "needle", "guide", "bearings")]
+    assert sum(parts) == pytest.approx(summary["fmep_friction"], rel=ROUND_OFF)
+    assert summary["fmep_friction"] == pytest.approx(summary["work_friction"] / 1998e-6, rel=ROUND_OFF)
+    # of the order of a hundredth of a bar: a slip of units would be far outside
+    assert 3e2 < summary["fmep_friction"] < 3e4
+
+
+def test_speed_is_that_of_the_crankshaft(result):
+    # power over mean torque is the speed of the camshaft, half of 2000 rev/min
+    summary = result["summary"]
+    assert summary["power_friction"] / summary["mean_torque_friction"] == pytest.approx(1000 * 2 * np.pi / 60, rel=ROUND_OFF)
+    assert summary["crank_turns"] == 2
+
+
+def test_torque_repeats_with_every_firing(result):
+    # cams of four cylinders are a quarter turn apart, so that geometric torque has harmonics of order 4 only
+    torque = result["series"]["torque_drive"]
+    assert torque == pytest.approx(np.roll(torque, len(torque) // 4), abs=1e-3 * np.abs(torque).max())
+    amplitudes = [result["summary"][f"torque_drive_harmonic_{order}"] for order in range(1, 13)]
+    assert max(amplitudes) == amplitudes[3]
+    spectrum = 2 / len(torque) * np.abs(np.fft.rfft(torque))
+    assert amplitudes == pytest.approx(spectrum[1:13], abs=ROUND_OFF * spectrum.max())
+
+
+def test_scopes_tell_follower_camshaft_and_engine(result):
+    scope = {name: value if isinstance(value, str) else value.decode() for name, value in result["scope"].items()}
+    assert scope["contact_load"] == "lobe 1" and scope["lobe_2_contact_load"] == "lobe 2"
+    assert scope["camshaft_2_torque_drive"] == "camshaft 2" and scope["torque_drive"] == "engine"
+    assert result["summary_scope"]["fmep_friction"] in ("engine", b"engine")
+
+
+def test_firing_order_gives_the_phases(camroller, tmp_path):
+    """An engine of one camshaft is the same cams with their phases written down."""
+    text = DECK.read_text(encoding="utf-8").replace("shared/", f"{ROOT}/decks/shared/")
+    text = text[:text.index("&sweep")]
+    one = text.replace("camshafts = 2", "camshafts = 1").replace("cam_cylinders", "cam_lobes = 1, 2, 1, 2, 1, 2, 1, 2\n   cam_cylinders")
+    engine = tmp_path / "engine.nml"
+    engine.write_text(one, encoding="utf-8")
+    # firing order 1 3 4 2: cylinders 1 to 4 fire at 0, 540, 180, 360 degrees; half of it, and 110 less for the exhaust
+    phases = [(half + shift) % 360 for half in (0, 270, 90, 180) for shift in (0, -110)]
+    plain = one[:one.index("&engine")] + one[one.index("! Intake."):]
+    plain = plain.replace("speed_rpm = 2000", "speed_rpm = 1000")
+    plain = plain.replace("cam_cylinders = 1, 1, 2, 2, 3, 3, 4, 4", "cam_phases_deg = " + ", ".join(map(str, phases)))
+    other = tmp_path / "plain.nml"
+    other.write_text(plain, encoding="utf-8")
+    values = []
+    for deck in (engine, other):
+        run(camroller, "run", deck, "-o", tmp_path / "a.h5", "--quiet")
+        with h5py.File(tmp_path / "a.h5") as file:
+            values.append({name: file["series"][name][0] for name in ("torque_drive", "torque_bearings", "torque_friction")})
+    for name, value in values[0].items():
+        # phases in radians differ by round-off
+        assert value == pytest.approx(values[1][name], rel=1e-9, abs=1e-9 * np.abs(value).max()), name
+
+
+@pytest.mark.parametrize(("old", "new", "words"), [
+    ("firing_order = 1, 3, 4, 2", "firing_order = 1, 3, 4, 4", "must name every cylinder once"),
+    ("firing_order = 1, 3, 4, 2", "firing_order = 1, 3, 2", "3 entries for 4 cylinders"),
+    ("full_lift_deg = 470, 250", "full_lift_deg = 470", "1 entries for 2 lobe shapes"),
+    ("cam_cylinders = 1, 1, 2, 2, 3, 3, 4, 4", "cam_cylinders = 1, 1, 2, 2, 3, 3, 4", "7 entries for 8 cams"),
+    ("cam_cylinders = 1, 1, 2, 2, 3, 3, 4, 4", "cam_cylinders = 1, 1, 2, 2, 3, 3, 4, 5", "the engine has 4 cylinders"),
+    ("cam_cylinders = 1, 1, 2, 2, 3, 3, 4, 4", "cam_phases_deg = 0, 0, 0, 0, 0, 0, 0, 0", "follows from the firing order"),
+])
+def test_contradictions_are_mistakes(camroller, tmp_path, old, new, words):
+    text = DECK.read_text(encoding="utf-8").replace("shared/", f"{ROOT}/decks/shared/")
+    assert old in text
+    deck = tmp_path / "deck.nml"
+    deck.write_text(text.replace(old, new), encoding="utf-8")
+    result = subprocess.run([camroller, "check", str(deck)], capture_output=True, text=True, check=False)
+    assert result.returncode == 3 and words in result.stderr, result.stderr

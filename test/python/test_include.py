@@ -1,0 +1,81 @@
+"""Decks that share files: the lines of an included file count as its own, in messages, results and repetitions."""
+
+import pathlib
+import subprocess
+
+import h5py
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+
+
+def run(camroller, *arguments):
+    return subprocess.run([camroller, *map(str, arguments)], capture_output=True, text=True, cwd=ROOT, check=False)
+
+
+def split_deck(folder, change=("", "")):
+    """thesis.nml with its oil in a file of its own, which includes another one."""
+    text = (ROOT / "decks/thesis.nml").read_text(encoding="utf-8")
+    first, last = text.index("&lubricant"), text.index("&film")
+    oil, rest = text[first:last], text[:first] + "include = 'parts/oil.nml'\n" + text[last:]
+    (folder / "parts").mkdir()
+    (folder / "parts/oil.nml").write_text("! an oil\n" + oil.replace(*change) + 'include = "output.nml"\n', encoding="utf-8")
+    (folder / "parts/output.nml").write_text("&output\n   angle_step_deg = 1\n/\n", encoding="utf-8")
+    deck = folder / "deck.nml"
+    deck.write_text(rest, encoding="utf-8")
+    return deck
+
+
+def test_included_lines_count_as_the_decks_own(camroller, tmp_path):
+    deck = split_deck(tmp_path)
+    result = run(camroller, "check", deck)
+    assert result.returncode == 0, result.stderr
+    assert "angle_step_deg = 1\n" in result.stdout and "viscosity_points_Pa_s = 0.15" in result.stdout
+
+
+def test_result_of_a_split_deck_can_be_repeated_without_the_files(camroller, tmp_path):
+    deck = split_deck(tmp_path)
+    result = run(camroller, "run", deck, "-o", tmp_path / "a.h5", "--quiet")
+    assert result.returncode == 0, result.stderr
+    (tmp_path / "parts/oil.nml").unlink()
+    with h5py.File(tmp_path / "a.h5") as file:
+        assert "viscosity_points_Pa_s" in str(file["deck/text"][()])
+    result = run(camroller, "rerun", tmp_path / "a.h5")
+    assert result.returncode == 0, result.stderr + result.stdout
+
+
+def test_mistake_is_told_with_the_line_of_its_file(camroller, tmp_path):
+    deck = split_deck(tmp_path, ("pressure_law = 'cameron'", "pressure_law = 'cameroon'"))
+    deck.write_text(deck.read_text(encoding="utf-8").replace("law = 'dowson_higginson'", "law = 'dowson'"), encoding="utf-8")
+    result = run(camroller, "check", deck)
+    assert result.returncode == 3
+    oil = (tmp_path / "parts/oil.nml").read_text(encoding="utf-8").splitlines()
+    own = deck.read_text(encoding="utf-8").splitlines()
+    line = next(i for i, text in enumerate(oil, 1) if "cameroon" in text)
+    assert f"{tmp_path}/parts/oil.nml:{line}:" in result.stderr
+    line = next(i for i, text in enumerate(own, 1) if "'dowson'" in text)
+    assert f"{deck}:{line}:" in result.stderr
+    assert " | " + oil[[("cameroon" in text) for text in oil].index(True)] in result.stderr
+
+
+def test_missing_file_and_circle_are_mistakes(camroller, tmp_path):
+    deck = split_deck(tmp_path)
+    (tmp_path / "parts/output.nml").unlink()
+    result = run(camroller, "check", deck)
+    assert result.returncode == 3 and f"{tmp_path}/parts/oil.nml:" in result.stderr and "output.nml" in result.stderr
+    (tmp_path / "parts/output.nml").write_text("include = 'oil.nml'\n", encoding="utf-8")
+    result = run(camroller, "check", deck)
+    assert result.returncode == 3 and "more than 10 included files" in result.stderr
+
+
+def test_result_does_not_replace_an_included_file(camroller, tmp_path):
+    deck = split_deck(tmp_path)
+    result = run(camroller, "run", deck, "-o", tmp_path / "parts/oil.nml")
+    assert result.returncode != 0 and (tmp_path / "parts/oil.nml").read_text(encoding="utf-8").startswith("! an oil")
+
+
+def test_word_within_a_group_includes_nothing(camroller, tmp_path):
+    deck = tmp_path / "deck.nml"
+    text = (ROOT / "decks/thesis.nml").read_text(encoding="utf-8")
+    deck.write_text(text.replace("&film\n", "&film\n   include = 'film.nml'\n"), encoding="utf-8")
+    result = run(camroller, "check", deck)
+    assert result.returncode == 3 and "unknown key 'include' in &film" in result.stderr
