@@ -4,6 +4,7 @@
 module camroller_cli
    use camroller_error, only : error_t, raise, kind_usage
    use camroller_deck, only : override_t, add_override
+   use camroller_export, only : export_formats
    use camroller_mistakes, only : line_t, nearest_name
    use camroller_names, only : list_names, index_of_name
    use camroller_number_text, only : integer_text
@@ -18,9 +19,9 @@ module camroller_cli
       & "ehl"]
    !> Options of each command, in the same order
    character(len=*), parameter :: option_names(*) = [character(len=80) :: &
-      & "--output --set --quiet --help", "--set --help", &
+      & "--output --set --point --no-sweep --quiet --help", "--set --point --no-sweep --draw --help", &
       & "--output --set --repeats --quick --film --quiet --help", "--markdown --help", &
-      & "--series --summary --case --output --help", &
+      & "--series --summary --case --columns --format --output --help", &
       & "--help", "--help", "--output --set --threads --shard --resume --log-every --quiet --help", &
       & "--output --set --partial --quiet --help", "--threads --log-every --quiet --help", &
       & "--output --set --repeats --quiet --help", "--output --set --quiet --help"]
@@ -29,6 +30,10 @@ module camroller_cli
    !> Does each command need a word?
    logical, parameter :: needs_word(*) = [.true., .true., .true., .false., .true., .false., .false., .true., .true., .true., &
       & .true., .true.]
+
+   !> Options with a value
+   character(len=*), parameter :: with_value = " --output --set --point --case --columns --format --draw --repeats --threads "// &
+      & "--shard --log-every "
 
    !> Most threads: more than machines have cores, fewer than the system refuses to start
    integer, parameter :: most_threads = 1024
@@ -69,6 +74,14 @@ module camroller_cli
       logical :: is_partial = .false.
       !> Time between lines in a log [s]
       integer :: log_interval = 60
+      !> The deck as it stands, without its sweep?
+      logical :: has_no_sweep = .false.
+      !> Columns to export, parted by commas; blank for all
+      character(len=:), allocatable :: columns
+      !> Form of an exported table
+      character(len=:), allocatable :: form
+      !> Drawing to write; blank for none
+      character(len=:), allocatable :: drawing
    end type config_t
 
 contains
@@ -102,6 +115,9 @@ contains
 
       config%subject = ""
       config%output = ""
+      config%columns = ""
+      config%form = export_formats(1)
+      config%drawing = ""
       allocate (config%overrides(0))
       call read_command(arguments, config, error)
       if (allocated(error)) return
@@ -186,7 +202,7 @@ contains
             & see(config))
          return
       end if
-      if (index(" --output --set --case --repeats --threads --shard --log-every ", " "//option//" ") > 0) then
+      if (index(with_value, " "//option//" ") > 0) then
          if (equals > 0 .and. index(arguments(position)%text, "--") == 1) then
             value = arguments(position)%text(equals + 1:)
          else if (position < size(arguments)) then
@@ -248,8 +264,41 @@ contains
          config%is_partial = .true.
       case ("--film")
          config%is_film = .true.
+      case default
+         call set_option_of_looking(option, value, config, error)
       end select
    end subroutine set_option_of_many
+
+   !> Options that choose what is looked at.
+   subroutine set_option_of_looking(option, value, config, error)
+      !> The option, and its value where it has one
+      character(len=*), intent(in) :: option, value
+      !> What to do
+      type(config_t), intent(inout) :: config
+      !> Usage error
+      type(error_t), allocatable, intent(out) :: error
+
+      select case (option)
+      case ("--point")
+         config%has_no_sweep = .true.
+         if (index(value, ".") == 0 .or. index(value, ".") > max(1, index(value, "="))) then
+            call add_override(config%overrides, "operating_point."//value)
+         else
+            call add_override(config%overrides, value)
+         end if
+      case ("--no-sweep")
+         config%has_no_sweep = .true.
+      case ("--columns")
+         config%columns = value
+      case ("--format")
+         config%form = value
+         if (index_of_name(value, export_formats) == 0) call raise(error, kind_usage, "option '--format' takes "// &
+            & list_names(export_formats)//", not '"//value//"'"//see(config))
+      case ("--draw")
+         config%drawing = value
+         if (value == "") call raise(error, kind_usage, "option '--draw' needs the name of a file"//see(config))
+      end select
+   end subroutine set_option_of_looking
 
    !> A whole number within bounds.
    subroutine read_whole_number(option, value, meaning, advice, smallest, largest, number, error)

@@ -6,8 +6,10 @@ module camroller_commands
    use camroller_blas_threads, only : check_blas_memory, use_one_blas_thread
    use camroller_case, only : case_t
    use camroller_cli, only : config_t, command_names, get_arguments, read_arguments
-   use camroller_deck, only : deck_t, read_deck, make_sweep_case, add_places
+   use camroller_deck, only : deck_t, read_deck, make_case, make_sweep_case, add_places, drop_sweep, override_t
+   use camroller_case_facts, only : describe_case
    use camroller_deck_document, only : write_defaults, write_page, write_resolved
+   use camroller_deck_files, only : list_deck_files
    use camroller_deck_notes, only : tell_deck_remarks
    use camroller_deck_schema, only : group_effect
    use camroller_deck_sweep, only : axis_size, case_in_words, sweep_size
@@ -22,9 +24,11 @@ module camroller_commands
    use camroller_model, only : model_t
    use camroller_names, only : index_of_name
    use camroller_new_file, only : check_place
+   use camroller_new_text, only : save_text
    use camroller_number_text, only : counted, integer_text
    use camroller_rerun_command, only : rerun_file
    use camroller_run, only : build_models
+   use camroller_sketch, only : draw_mechanism
    use camroller_run_command, only : run_deck
    use camroller_stop_signal, only : end_on_signals
    use camroller_streams, only : close_output_stream, hold_streams, print_lines, print_text, tell
@@ -127,7 +131,8 @@ contains
       inputs(1)%text = config%subject
       if (path /= "-") call check_place(path, inputs, error)
       if (allocated(error)) return
-      call export_csv(config%subject, merge(export_summary, export_series, config%is_summary), config%case_number, path, error)
+      call export_csv(config%subject, merge(export_summary, export_series, config%is_summary), config%case_number, path, error, &
+         & config%columns, config%form)
    end subroutine export_table
 
    !> Help, or help for a command.
@@ -189,6 +194,7 @@ contains
       call read_deck(deck, config%subject, config%overrides, error)
       if (.not. allocated(error)) call check_blas_memory(1, error)
       if (allocated(error)) return
+      if (config%has_no_sweep) call drop_sweep(deck)
       checked = min(sweep_size(deck%sweep), most_checked)
       do i = 1, checked
          number = case_to_try(i, checked, sweep_size(deck%sweep))
@@ -208,10 +214,54 @@ contains
       text = text//"! effects in the case: "//effects_in_words(deck, .true.)//new_line("a")// &
          & "! effects not in the case: "//effects_in_words(deck, .false.)
       if (.not. allocated(error)) call print_lines(text, error)
+      if (.not. allocated(error)) call show_case(config, deck, error)
+      if (allocated(error)) return
       call write_resolved(deck, text)
       if (.not. allocated(error)) call print_text(text, error)
       if (.not. allocated(error)) call check_effects(deck, error)
    end subroutine check_deck
+
+   !> Print what the deck's own case comes to, and draw its mechanism where that is asked for.
+   subroutine show_case(config, deck, error)
+      !> What to do
+      type(config_t), intent(in) :: config
+      !> The deck
+      type(deck_t), intent(in) :: deck
+      !> File or deck error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(case_t) :: case
+      type(line_t), allocatable :: inputs(:)
+      type(override_t) :: none(0)
+      character(len=:), allocatable :: text
+
+      call make_case(deck, none, case, error)
+      if (.not. allocated(error)) call describe_case(case, text, error)
+      if (allocated(error)) return
+      if (size(deck%sweep%axes) > 0) text = "the deck without its &sweep:"//new_line("a")//text
+      call print_lines("! "//replaced(text(:len(text) - 1)), error)
+      if (allocated(error) .or. config%drawing == "") return
+      call draw_mechanism(case, text, error)
+      if (.not. allocated(error)) call list_deck_files(deck, inputs)
+      if (.not. allocated(error)) call check_place(config%drawing, inputs, error)
+      if (.not. allocated(error)) call save_text(config%drawing, text, error)
+   end subroutine show_case
+
+   !> Lines as comments of a deck.
+   pure function replaced(text) result(commented)
+      !> The lines
+      character(len=*), intent(in) :: text
+      !> All but the first with a mark before them
+      character(len=:), allocatable :: commented
+
+      integer :: i
+
+      commented = ""
+      do i = 1, len(text)
+         commented = commented//text(i:i)
+         if (text(i:i) == new_line("a")) commented = commented//"! "
+      end do
+   end function replaced
 
    !> Print which effects the cases need, where the deck leaves that to the program.
    subroutine check_effects(deck, error)

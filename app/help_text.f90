@@ -19,19 +19,8 @@ contains
       character(len=:), allocatable :: text
 
       select case (command)
-      case ("run")
-         text = "camroller run DECK [-o FILE] [--set group.key=value]... [--quiet]"//n//n// &
-            & "Compute every case of a deck and write one HDF5 file: the deck's name with .h5 in the present folder,"// &
-            & n// &
-            & "or FILE. An earlier file of that name is replaced only when the new one is complete."//n//n// &
-            & "  -o, --output FILE          file to write"//n// &
-            & "  -s, --set group.key=value  other value than the deck's; may be repeated"//n// &
-            & "  -q, --quiet                print errors only"
-      case ("check")
-         text = "camroller check DECK [--set group.key=value]..."//n//n// &
-            & "Read a deck, check every case of it, and print the resulting values. Of many cases a few are run, to estimate"// &
-            & n//"the time, the memory and the disk space of all of them."//n//n// &
-            & "  -s, --set group.key=value  other value than the deck's; may be repeated"
+      case ("run", "check")
+         text = deck_help(command)
       case ("audit", "study")
          text = study_help(command)
       case ("sweep", "merge", "rerun", "ehl")
@@ -41,11 +30,14 @@ contains
             & "Print a complete deck with every key explained, or one group of it."//n//n// &
             & "  --markdown                 the same as a page"
       case ("export")
-         text = "camroller export FILE.h5 [--series [--case N] | --summary] [-o FILE.csv]"//n//n// &
-            & "Print the series of one case, or the summary of all cases, as comma-separated values."//n//n// &
+         text = "camroller export FILE.h5 [--series [--case N] | --summary] [--columns NAMES] [--format FORM] [-o FILE]"//n//n// &
+            & "Print the series of one case, or the summary of all cases, as comma-separated values or JSON."//n//n// &
             & "  --series                   series over the cam angle (the default)"//n// &
             & "  --case N                   case, from 0 as in the file; 0 where not given"//n// &
             & "  --summary                  one row for each case"//n// &
+            & "  --columns NAMES            these columns, parted by commas, beside the cam angle or the keys that vary"//n// &
+            & "  --format FORM              'csv', with a line of names and one of units (the default), 'plain', with one"//n// &
+            & "                             line of names with units, or 'json'"//n// &
             & "  -o, --output FILE          file to write; printed where not given, or where FILE is -"
       case ("version")
          text = "camroller version"//n//n//"Print version, commit, compiler and compiler options."
@@ -68,6 +60,38 @@ contains
             & "70 mistake in the program."
       end select
    end function help_for
+
+   !> Help for commands on one deck.
+   pure function deck_help(command) result(text)
+      !> Name of the command
+      character(len=*), intent(in) :: command
+      !> A few lines
+      character(len=:), allocatable :: text
+
+      select case (command)
+      case ("run")
+         text = "camroller run DECK [-o FILE] [--set group.key=value]... [--point key=value]... [--no-sweep] [--quiet]"//n//n// &
+            & "Compute every case of a deck and write one HDF5 file: the deck's name with .h5 in the present folder,"// &
+            & n// &
+            & "or FILE. An earlier file of that name is replaced only when the new one is complete. Ends with a table of the"// &
+            & n//"results. DECK may be -, the standard input."//n//n// &
+            & "  -o, --output FILE          file to write"//n// &
+            & "  -s, --set group.key=value  other value than the deck's; may be repeated"//n// &
+            & "  --point key=value          one case: the deck without its &sweep, with this value, as speed_rpm=3000 of"//n// &
+            & "                             &operating_point or group.key=value; may be repeated"//n// &
+            & "  --no-sweep                 one case: the deck without its &sweep"//n// &
+            & "  -q, --quiet                print errors only"
+      case default
+         text = "camroller check DECK [--set group.key=value]... [--point key=value]... [--no-sweep] [--draw FILE.svg]"//n//n// &
+            & "Read a deck, check every case of it, and print what it comes to: oil, cam, ramps, loads, margins and film of the"// &
+            & n//"deck's own case, then every value. Of many cases a few are run, to estimate the time, the memory and the disk"// &
+            & n//"space of all of them. DECK may be -, the standard input."//n//n// &
+            & "  -s, --set group.key=value  other value than the deck's; may be repeated"//n// &
+            & "  --point key=value          the deck without its &sweep, with this value, as in 'camroller run'"//n// &
+            & "  --no-sweep                 the deck without its &sweep"//n// &
+            & "  --draw FILE.svg            draw the mechanism to scale"
+      end select
+   end function deck_help
 
    !> Help for commands that measure.
    pure function study_help(command) result(text)

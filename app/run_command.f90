@@ -13,7 +13,7 @@ module camroller_run_command
    use camroller_run, only : run_next_case
    use camroller_kept_models, only : kept_models_t
    use camroller_cli, only : config_t
-   use camroller_deck, only : deck_t, read_deck, make_sweep_case, add_places
+   use camroller_deck, only : deck_t, read_deck, make_sweep_case, add_places, drop_sweep
    use camroller_deck_files, only : list_deck_files
    use camroller_deck_notes, only : tell_deck_remarks
    use camroller_deck_sweep, only : sweep_size, case_in_words
@@ -26,6 +26,7 @@ module camroller_run_command
    use camroller_profile_file, only : profile_file_t, put_profiles, close_profiles
    use camroller_progress, only : progress_t, start_progress, show_progress, end_progress, seconds_since
    use camroller_remarks, only : remarks_t, note_remarks
+   use camroller_result_table, only : write_result_table
    use camroller_run_facts, only : write_facts
    use camroller_settings, only : take
    use camroller_streams, only : print_lines, tell
@@ -62,6 +63,7 @@ contains
 
       call read_deck(deck, config%subject, config%overrides, error)
       if (allocated(error)) return
+      if (config%has_no_sweep) call drop_sweep(deck)
       if (.not. config%is_quiet) call tell_unused_values(deck)
       if (.not. config%is_quiet) call tell_deck_remarks(deck)
       call check_cases(deck, error)
@@ -232,7 +234,11 @@ contains
       !> File error of the output unit
       type(error_t), allocatable, intent(out) :: error
 
-      call print_lines(path//": "//counted(sweep_size(deck%sweep), "case")//" in "//time, error)
+      character(len=:), allocatable :: table
+
+      call write_result_table(path, table, error)
+      if (.not. allocated(error)) call print_lines(table, error)
+      if (.not. allocated(error)) call print_lines(path//": "//counted(sweep_size(deck%sweep), "case")//" in "//time, error)
       call tell_remarks(tally%remarks, deck)
    end subroutine report
 

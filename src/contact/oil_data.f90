@@ -30,8 +30,8 @@ module camroller_oil_data
    !> Lower ends of the intervals of viscosity at 100 degC in ASTM D2270 [mm^2/s]
    real(wp), parameter :: intervals(*) = [2.0_wp, 3.8_wp, 4.4_wp, 5.0_wp, 6.4_wp, 7.0_wp, 7.7_wp, 9.0_wp, 12.0_wp, 15.0_wp, &
       & 18.0_wp, 22.0_wp, 28.0_wp, 40.0_wp, 55.0_wp, 70.0_wp]
-   !> Coefficients of `a Y^2 + b Y + c`, the viscosity at 40 degC of an oil of index 0 (first three) and of index 100 (last three), for
-   !> each interval [s/mm^2, -, mm^2/s]
+   !> Coefficients of `a Y^2 + b Y + c`, the viscosity at 40 degC of an oil of index 0 (first three) and of index 100 (last
+   !> three), for each interval [s/mm^2, -, mm^2/s]
    real(wp), parameter :: index_coefficients(6, size(intervals)) = reshape([ &
       1.14673_wp, 1.7576_wp, -0.109_wp, 0.84155_wp, 1.5521_wp, -0.077_wp, &
       3.38095_wp, -15.4952_wp, 33.196_wp, 0.78571_wp, 1.7929_wp, -0.183_wp, &

@@ -13,7 +13,7 @@ module camroller_deck
    use camroller_deck_text, only : deck_text_t, read_shape
    use camroller_deck_schema, only : schema_t
    use camroller_deck_keys, only : new_schema
-   use camroller_settings, only : settings_t
+   use camroller_settings, only : settings_t, group_position
    use camroller_deck_matching, only : override_t, add_override, new_settings, match_deck, apply_override, demand_required, &
       & fill_dependent_defaults
    use camroller_deck_relations, only : check_relations
@@ -24,7 +24,7 @@ module camroller_deck
    implicit none
    private
 
-   public :: deck_t, override_t, add_override, read_deck, parse_deck, make_case, make_sweep_case, add_places
+   public :: deck_t, override_t, add_override, read_deck, parse_deck, make_case, make_sweep_case, add_places, drop_sweep
 
    !> A deck without mistakes
    type :: deck_t
@@ -186,6 +186,28 @@ contains
       call make_case(deck, overrides, case, error)
       if (size(overrides) > 0) call add_context(error, case_in_words(deck%sweep, case_number))
    end subroutine make_sweep_case
+
+   !> Take a deck as it stands, without its sweep, which is taken out of its text too, so that a result of it can be repeated.
+   subroutine drop_sweep(deck)
+      !> The deck
+      type(deck_t), intent(inout) :: deck
+
+      integer :: i, first, next
+
+      associate (shape => deck%shape)
+         do i = 1, size(shape%groups)
+            if (shape%groups(i)%name /= "sweep") cycle
+            first = shape%lines%first(shape%groups(i)%line) + shape%groups(i)%column - 1
+            next = len(deck%text) + 1
+            if (i < size(shape%groups)) next = shape%lines%first(shape%groups(i + 1)%line) + shape%groups(i + 1)%column - 1
+            deck%text = deck%text(:first - 1)//deck%text(next:)
+            exit
+         end do
+      end associate
+      deck%sweep%axes = deck%sweep%axes(:0)
+      deck%sweep%kind = "grid"
+      deck%settings%groups(group_position(deck%settings, "sweep"))%is_present = .false.
+   end subroutine drop_sweep
 
    !> Add to an error the places of the keys that it names, as `group.key`: where the deck gives them.
    subroutine add_places(deck, error)

@@ -280,6 +280,7 @@ contains
          return
       end if
       call demand(settings, group, at_100, needs//", without an 'sae_grade',", mistakes)
+      if (.not. is_known(settings, group, at_100)) return
       if (is_known(settings, group, at_40) .and. is_known(settings, group, "viscosity_index")) then
          call complain(mistakes, settings, group, "viscosity_index", "'viscosity_index' takes the place of '"//at_40// &
             & "'; give one of them")

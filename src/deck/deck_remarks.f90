@@ -156,7 +156,7 @@ contains
 
    !> A question about a number that may be a kinematic viscosity.
    pure function as_kinematic(number) result(words)
-      !> The number
+      !> The number [mm^2/s]
       real(wp), intent(in) :: number
       !> The question
       character(len=:), allocatable :: words

@@ -104,7 +104,7 @@ contains
       if (allocated(error)) return
       call describe_oil(case, models(1), text)
       do lobe = 1, size(models)
-         call describe_cam(models(lobe), trim(merge("second lobe: ", "lobe: ", lobe == 2)), text)
+         call describe_cam(models(lobe), trim(merge("second lobe:", "lobe:       ", lobe == 2)), text)
       end do
       call run_case(case, result, failure)
       if (allocated(failure)) then
@@ -113,7 +113,7 @@ contains
       end if
       do lobe = 1, size(models)
          call describe_results(result, trim(merge("lobe_2_", "       ", lobe == 2)), &
-            & trim(merge("second lobe, ", "", lobe == 2)), text)
+            & trim(merge("second lobe:", "lobe:       ", lobe == 2)), text)
       end do
    end subroutine describe_case
 
@@ -177,33 +177,42 @@ contains
 
       character(len=*), parameter :: n = new_line("a")
 
-      text = text//name//"contact load up to "//value_of("max_contact_load", 1.0_wp)//" N, pressure up to "// &
-         & value_of("max_hertz_pressure", 1.0e-9_wp)//" GPa, film ratio "//value_of("min_film_ratio", 1.0_wp)//" to "// &
-         & value_of("max_film_ratio", 1.0_wp)//n//name//"smallest load of the event "//value_of("margin_event", 1.0_wp)// &
-         & " N, on the base circle "//value_of("margin_base_circle", 1.0_wp)//" N; contact is lost above "// &
-         & value_of("contact_loss_speed", 60.0_wp/two_pi)//" rev/min of the camshaft"//n
+      call add_value(name//" contact load up to ", "max_contact_load", 1.0_wp)
+      call add_value(" N, pressure up to ", "max_hertz_pressure", 1.0e-9_wp)
+      call add_value(" GPa, film ratio ", "min_film_ratio", 1.0_wp)
+      call add_value(" to ", "max_film_ratio", 1.0_wp)
+      call add_value(n//name//" smallest load of the event ", "margin_event", 1.0_wp)
+      call add_value(" N, on the base circle ", "margin_base_circle", 1.0_wp)
+      call add_value(" N; contact is lost above ", "contact_loss_speed", 60.0_wp/two_pi)
+      text = text//" rev/min of the camshaft"//n
 
    contains
 
-      !> A scalar in words.
-      function value_of(scalar, factor) result(words)
-         !> Its name without the lobe's prefix
-         character(len=*), intent(in) :: scalar
+      !> Add words and a scalar.
+      subroutine add_value(introduction, scalar, factor)
+         !> The words, and the scalar's name without the lobe's prefix
+         character(len=*), intent(in) :: introduction, scalar
          !> What it is multiplied with [unit/SI unit]
          real(wp), intent(in) :: factor
-         !> The words
-         character(len=:), allocatable :: words
 
          type(error_t), allocatable :: error
          ! [SI unit]
          real(wp) :: value
+         ! Letters before the lobe's prefix
+         integer :: place
 
-         words = "?"
-         call get_summary(result, prefix//scalar, value, error)
-         if (allocated(error)) return
-         words = "any number of"
-         if (value < huge(value)) words = number_text(factor*value, digits)
-      end function value_of
+         place = 0
+         if (index(scalar, "max_") == 1 .or. index(scalar, "min_") == 1) place = 4
+         call get_summary(result, scalar(:place)//prefix//scalar(place + 1:), value, error)
+         text = text//introduction
+         if (allocated(error)) then
+            text = text//"?"
+         else if (value < huge(value)) then
+            text = text//number_text(factor*value, digits)
+         else
+            text = text//"any number of"
+         end if
+      end subroutine add_value
 
    end subroutine describe_results
 

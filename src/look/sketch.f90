@@ -47,12 +47,12 @@ contains
       call find_places(case, models(1), cam, roller, pad)
       call find_contour(models(1), cam, contour)
       low = min(minval(contour, 2), minval(pad, 2), [0.0_wp, 0.0_wp]) - [6.0e-3_wp, 16.0e-3_wp]
-      high = max(maxval(contour, 2), maxval(pad, 2)) + [9.0e-3_wp, 4.0e-3_wp]
+      high = max(maxval(contour, 2), maxval(pad, 2)) + [23.0e-3_wp, 4.0e-3_wp]
       body = ""
       call draw_cam(case, contour, cam, body)
       call draw_finger(case, roller, pad, body)
       call draw_angles(case, models(1), cam, body)
-      drawing = framed(case, body, low, high)
+      call put_in_frame(case, body, low, high, drawing)
    end subroutine draw_mechanism
 
    !> Point at a distance and an angle from the pivot.
@@ -164,7 +164,7 @@ contains
          call add_line(pivot, roller(:, i), style, body)
          call add_line(pivot, pad(:, i), style, body)
          call add_circle(roller(:, i), case%mechanism%roller_radius, 'fill="none" stroke="'//roller_colour//'" stroke-width="'// &
-            & trim(merge('2"                     ', '1" stroke-dasharray="5 5"', i == 1)), body)
+            & trim(merge('2"                       ', '1" stroke-dasharray="5 5"', i == 1)), body)
       end do
       call add_circle(roller(:, 1), case%mechanism%roller_radius - case%roller%wall_thickness, 'fill="none" stroke="'// &
          & roller_colour//'"', body)
@@ -197,7 +197,8 @@ contains
       call add_line([0.0_wp, 0.0_wp], [0.0_wp, 0.6_wp*model%linkage%d], 'stroke="'//grey//'" stroke-dasharray="3 4"', body)
       call add_text([5.0e-4_wp, 0.6_wp*model%linkage%d], "parallel to the valve's axis", grey, body)
       call add_arc(0.36_wp*model%linkage%d, centre, axis, "valve_axis_angle "//degrees(case%mechanism%valve_axis_angle), body)
-      call add_arc(0.24_wp*model%linkage%d, pad, centre, "on the base circle "//degrees(model%linkage%base_angle), body)
+      call add_arc(0.24_wp*model%linkage%d, pad, centre, "pad from cam, on the base circle "// &
+         & degrees(model%linkage%base_angle), body)
       call add_arc(1.12_wp*model%linkage%b, min(pad, roller), max(pad, roller), "roller_arm_angle "// &
          & degrees(case%mechanism%roller_arm_angle), body)
    end subroutine draw_angles
@@ -219,7 +220,7 @@ contains
    end subroutine add_arc
 
    !> Frame, title and legend around a drawing.
-   function framed(case, body, low, high) result(drawing)
+   subroutine put_in_frame(case, body, low, high, drawing)
       !> The case
       type(case_t), intent(in) :: case
       !> The drawing without its frame
@@ -227,7 +228,7 @@ contains
       !> Lower left and upper right corner of what is drawn [m]
       real(wp), intent(in) :: low(2), high(2)
       !> The whole
-      character(len=:), allocatable :: drawing
+      character(len=:), allocatable, intent(out) :: drawing
 
       ! Left and upper edge, width and height [unit]
       real(wp) :: left, top, width, height
@@ -248,11 +249,13 @@ contains
       top = -scale*high(2) - margin
       width = max(scale*(high(1) - low(1)) + 2.0_wp*margin, 560.0_wp)
       height = scale*(high(2) - low(2)) + 2.0_wp*margin + line_height*(lines/2 + 1)
-      drawing = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="'//fixed_text(left, 0)//" "//fixed_text(top, 0)//" "// &
-         & fixed_text(width, 0)//" "//fixed_text(height, 0)//'" font-family="sans-serif" font-size="'// &
-         & fixed_text(letters, 0)//'">'//n//'<rect x="'//fixed_text(left, 0)//'" y="'//fixed_text(top, 0)//'" width="100%" '// &
-         & 'height="100%" fill="white"/>'//n//'<text x="'//fixed_text(left + 20.0_wp, 0)//'" y="'//fixed_text(top + 30.0_wp, 0)// &
-         & '" font-weight="bold">'//escaped(case%title)//'</text>'//n//body//legend//scale_bar()//'</svg>'//n
+      drawing = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="'//fixed_text(left, 1)//" "//fixed_text(top, 1)//" "// &
+         & fixed_text(width, 1)//" "//fixed_text(height, 1)//'" font-family="sans-serif" font-size="'// &
+         & fixed_text(letters, 1)//'">'//n//'<rect x="'//fixed_text(left, 1)//'" y="'//fixed_text(top, 1)//'" width="100%" '// &
+         & 'height="100%" fill="white"/>'//n//'<text x="'//fixed_text(left + 20.0_wp, 1)//'" y="'//fixed_text(top + 30.0_wp, 1)// &
+         & '" font-weight="bold">'//escaped(case%title)//'</text>'//n//body//legend
+      call add_bar(left + width - 30.0_wp)
+      drawing = drawing//'</svg>'//n
 
    contains
 
@@ -263,27 +266,23 @@ contains
          !> Its value [m]
          real(wp), intent(in) :: length
 
-         legend = legend//'<text x="'//fixed_text(scale*low(1) - margin + 20.0_wp + 270.0_wp*modulo(lines, 2), 0)//'" y="'// &
-            & fixed_text(-scale*low(2) + margin + line_height*(lines/2), 0)//'" fill="'//grey//'">'//name//" = "// &
+         legend = legend//'<text x="'//fixed_text(scale*low(1) - margin + 20.0_wp + 270.0_wp*modulo(lines, 2), 1)//'" y="'// &
+            & fixed_text(-scale*low(2) + margin + line_height*(lines/2), 1)//'" fill="'//grey//'">'//name//" = "// &
             & number_text(1.0e3_wp*length, 5)//"</text>"//n
          lines = lines + 1
       end subroutine add_length
 
       !> A bar of ten millimetres.
-      function scale_bar() result(text)
-         !> The bar
-         character(len=:), allocatable :: text
+      subroutine add_bar(right)
+         !> Its right end [unit]
+         real(wp), intent(in) :: right
 
-         ! Its right end [unit]
-         real(wp) :: right
+         drawing = drawing//'<path stroke="black" stroke-width="2" d="M '//fixed_text(right, 1)//" "//fixed_text(top + 40.0_wp, 1)//" h -"// &
+            & fixed_text(1.0e-2_wp*scale, 1)//'"/>'//n//'<text text-anchor="end" x="'//fixed_text(right, 1)//'" y="'// &
+            & fixed_text(top + 32.0_wp, 1)//'">10 mm</text>'//n
+      end subroutine add_bar
 
-         right = left + width - 30.0_wp
-         text = '<path stroke="black" stroke-width="2" d="M '//fixed_text(right, 0)//" "//fixed_text(top + 40.0_wp, 0)//" h -"// &
-            & fixed_text(1.0e-2_wp*scale, 0)//'"/>'//n//'<text text-anchor="end" x="'//fixed_text(right, 0)//'" y="'// &
-            & fixed_text(top + 32.0_wp, 0)//'">10 mm</text>'//n
-      end function scale_bar
-
-   end function framed
+   end subroutine put_in_frame
 
    !> A circle.
    subroutine add_circle(centre, radius, style, body)
@@ -324,7 +323,7 @@ contains
    end subroutine add_text
 
    !> A point in the drawing, whose second coordinate grows downwards.
-   function pair(point) result(text)
+   pure function pair(point) result(text)
       !> The point [m]
       real(wp), intent(in) :: point(2)
       !> Its coordinates
@@ -334,7 +333,7 @@ contains
    end function pair
 
    !> An angle in words.
-   function degrees(angle) result(words)
+   pure function degrees(angle) result(words)
       !> The angle [rad]
       real(wp), intent(in) :: angle
       !> The words

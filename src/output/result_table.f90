@@ -56,8 +56,9 @@ contains
       type(hdf5_object_t) :: file
       type(table_t) :: table
       character(len=member_length), allocatable :: swept(:)
-      ! Which columns there are; status of the cases [-]
+      ! Which columns there are, number of cases
       integer, allocatable :: chosen(:), cases(:)
+      ! Status of the cases [-]
       real(wp), allocatable :: status(:)
       integer :: i, k
 

@@ -1,6 +1,7 @@
 """The decks that come with the program: readable by others, made as they say."""
 
 import pathlib
+import re
 
 import f90nml
 import numpy
@@ -10,10 +11,15 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 DECKS = sorted((ROOT / "decks").glob("*.nml"))
 
 
+def whole_text(path):
+    """A deck with the files that it includes."""
+    return re.sub(r"^include = '(.*)'$", lambda found: whole_text(path.parent / found[1]), path.read_text(), flags=re.MULTILINE)
+
+
 @pytest.mark.parametrize("path", DECKS, ids=lambda path: path.name)
 def test_f90nml_reads_each_deck(path):
-    deck = f90nml.read(path)
-    text = path.read_text()
+    text = whole_text(path)
+    deck = f90nml.reads(text)
     groups = [line[1:].split()[0] for line in text.splitlines() if line.startswith("&")]
     assert list(deck) == groups
     assert deck["case"]["title"]

@@ -1,0 +1,111 @@
+"""What a person looks at before and after a run: the drawing, facts of a case, the table, one point of a sweep, exports."""
+
+import json
+import pathlib
+import re
+import subprocess
+import xml.etree.ElementTree
+
+import h5py
+import numpy as np
+import pytest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+
+
+def run(camroller, *arguments, given=None, code=0):
+    result = subprocess.run([camroller, *map(str, arguments)], capture_output=True, text=True, cwd=ROOT, check=False, input=given)
+    assert result.returncode == code, result.stderr
+    return result
+
+
+def test_drawing_is_to_scale(camroller, tmp_path):
+    path = tmp_path / "mechanism.svg"
+    run(camroller, "check", "decks/thesis.nml", "--draw", path)
+    drawing = xml.etree.ElementTree.parse(path).getroot()
+    space = "{http://www.w3.org/2000/svg}"
+    circles = [{key: float(circle.get(key)) for key in ("cx", "cy", "r")} for circle in drawing.iter(space + "circle")]
+    # a tenth of a millimetre is one unit, given to a tenth: base circle 18 mm, 31.5 mm from the pivot; rollers of 8.5 mm
+    base = next(circle for circle in circles if circle["r"] == 180)
+    assert np.hypot(base["cx"], base["cy"]) == pytest.approx(315, abs=0.1)
+    rollers = [circle for circle in circles if circle["r"] == 85]
+    assert len(rollers) == 2
+    assert {round(np.hypot(roller["cx"], roller["cy"])) for roller in rollers} == {208}
+    # one roller touches the base circle, the other is away by the lift
+    distances = sorted(np.hypot(roller["cx"] - base["cx"], roller["cy"] - base["cy"]) for roller in rollers)
+    assert distances[0] == pytest.approx(265, abs=0.2) and distances[1] > 300
+    # the contour of the cam touches its base circle and nowhere enters it
+    contour = next(part.get("d") for part in drawing.iter(space + "path") if part.get("d").endswith("Z"))
+    points = np.array(re.findall(r"(-?[\d.]+) (-?[\d.]+)", contour), dtype=float)
+    radii = np.hypot(points[:, 0] - base["cx"], points[:, 1] - base["cy"])
+    assert radii.min() == pytest.approx(180, abs=0.1) and radii.max() > 210
+    words = " ".join(text.text for text in drawing.iter(space + "text"))
+    for name in ("valve_axis_angle", "roller_arm_angle", "pivot_to_cam_mm = 31.5", "base_radius_mm = 18", "10 mm"):
+        assert name in words
+
+
+def test_check_says_what_a_person_wants_to_know(camroller):
+    text = run(camroller, "check", "decks/four_cylinder.nml").stdout
+    for words in (r"oil at 90 degC: 11\.\d mPa s, .* \(estimated by So and Klaus", r"composite roughness: 0\.17 um",
+                  r"smallest cam radius [\d.]+ mm at [\d.]+ deg", r"largest pressure angle [\d.]+ deg", r"ramps below 0\.1 mm",
+                  r"second lobe: contact load up to \d+ N, pressure up to 0?\.?\d+", r"contact is lost above \d+ rev/min"):
+        assert re.search(words, text), words
+    assert "?" not in text.split("&case")[0]
+
+
+def test_smallest_cam_radius_is_that_of_the_series(camroller, tmp_path):
+    text = run(camroller, "check", "decks/thesis.nml", "--no-sweep").stdout
+    told = float(re.search(r"smallest cam radius ([\d.]+) mm", text)[1])
+    run(camroller, "run", "decks/thesis.nml", "-o", tmp_path / "a.h5", "--no-sweep", "--quiet", "--set", "output.angle_step_deg=0.25")
+    with h5py.File(tmp_path / "a.h5") as file:
+        curvature = 1 / file["series/equivalent_radius"][0] - 1 / 0.0085
+    # three digits are printed
+    assert told == pytest.approx(1e3 / curvature.max(), rel=2e-3)
+
+
+def test_run_ends_with_a_table_of_results(camroller, tmp_path):
+    text = run(camroller, "run", "decks/thesis.nml", "-o", tmp_path / "a.h5").stdout
+    lines = text.splitlines()
+    assert lines[0].split()[:2] == ["speed_rpm", "oil_temperature_degC"] and "peak pressure" in lines[0]
+    with h5py.File(tmp_path / "a.h5") as file:
+        torque = 1e3 * file["summary/mean_torque_friction"][()]
+    for row, value in zip(lines[2:11], torque, strict=True):
+        assert float(row.split()[6]) == pytest.approx(value, rel=5e-3)
+    assert run(camroller, "run", "decks/thesis.nml", "-o", tmp_path / "a.h5", "--quiet").stdout == ""
+
+
+def test_one_point_of_a_deck_with_a_sweep(camroller, tmp_path):
+    run(camroller, "run", "decks/thesis.nml", "-o", tmp_path / "all.h5", "--quiet")
+    run(camroller, "run", "decks/thesis.nml", "-o", tmp_path / "one.h5", "--quiet", "--point", "speed_rpm=600",
+        "--point", "operating_point.oil_temperature_degC=60")
+    with h5py.File(tmp_path / "all.h5") as many, h5py.File(tmp_path / "one.h5") as one:
+        assert one["case"].shape == (1,)
+        assert one["summary/mean_torque_friction"][0] == many["summary/mean_torque_friction"][4]
+    # what is stored is the one case
+    assert "1 case is the same to the last bit" in run(camroller, "rerun", tmp_path / "one.h5").stdout
+
+
+def test_deck_from_the_standard_input(camroller, tmp_path):
+    deck = (ROOT / "decks/thesis.nml").read_text(encoding="utf-8")
+    run(camroller, "run", "-", "-o", tmp_path / "a.h5", "--quiet", given=deck)
+    run(camroller, "run", "decks/thesis.nml", "-o", tmp_path / "b.h5", "--quiet")
+    with h5py.File(tmp_path / "a.h5") as one, h5py.File(tmp_path / "b.h5") as other:
+        assert (one["summary/mean_torque_drive"][()] == other["summary/mean_torque_drive"][()]).all()
+    result = run(camroller, "check", "-", given=deck.replace("radius_mm = 8.5", "radius_mm = -1"), code=3)
+    assert "standard input:" in result.stderr
+
+
+def test_exports_with_columns_and_forms(camroller, tmp_path):
+    path = tmp_path / "a.h5"
+    run(camroller, "run", "decks/thesis.nml", "-o", path, "--quiet")
+    text = run(camroller, "export", path, "--summary", "--columns", "mean_torque_friction,min_film_ratio", "--format", "plain").stdout
+    lines = text.splitlines()
+    assert lines[0].split(",")[-2:] == ["mean_torque_friction [N m]", "min_film_ratio [1]"] and len(lines) == 10
+    table = json.loads(run(camroller, "export", path, "--summary", "--format", "json").stdout)
+    with h5py.File(path) as file:
+        column = next(column for column in table["columns"] if column["name"] == "mean_torque_friction")
+        assert column["values"] == list(file["summary/mean_torque_friction"][()]) and column["unit"] == "N m"
+    series = run(camroller, "export", path, "--case", 2, "--columns", "contact_load").stdout.splitlines()
+    assert series[0] == "cam_angle,contact_load" and len(series) == 722
+    result = run(camroller, "export", path, "--columns", "contact_lod", code=2)
+    assert "did you mean 'contact_load'?" in result.stderr
