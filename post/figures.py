@@ -12,8 +12,8 @@ import numpy as np
 from bars import MOST_BARS, both_bars, shown_in_bars, slip_bars, torque_bars
 from layout import line_style, thin_out
 from parts import (MOST_PANELS, angle_axis, closed, draw_curve, event_window, file_legend, head, legend_handles,
-                   legend_height, ranges_of, say_no_result, seen_range, set_values_axis)
-from quantities import CURVES, OVERVIEW, SOURCES, TORQUES, Missing, has_series, need_series, values_of
+                   legend_height, mark_values, ranges_of, say_no_result, seen_range, set_values_axis)
+from quantities import CURVES, OVERVIEW, PARTS, SOURCES, TORQUES, Missing, has_series, need_series, values_of
 from units import unit_words
 
 MOST_COLUMNS = 4  # of the overview
@@ -47,6 +47,7 @@ def curve_figure(curve, layout, whole_cycle):
     limits = [draw_curve(axes, layout, curve, panel, window) for axes, panel in zip(grid.flat, panels)]
     for place, (axes, panel, pair) in enumerate(zip(grid.flat, panels, ranges_of(curve, limits))):
         set_values_axis(axes, curve, pair)
+        mark_values(axes, curve)
         angle_axis(axes, window, labelled=place + columns >= len(panels))
         if len(panels) > 1:
             axes.set_title(layout.panel_name(panel), fontsize="medium")
@@ -69,9 +70,10 @@ def same_in_all_panels(layout, curve):
     return len(layout.panels) > 1 and set(counts.values()) == {len(layout.panels)}
 
 
-def torque_figure(layout, whole_cycle):
-    """Drive torque with its geometric and friction parts, a panel for each case."""
-    need_series(layout, *(name for name, *_ in TORQUES))
+def torque_figure(layout, whole_cycle, parts=TORQUES, title="drive torque and its parts", unit="N m"):
+    """Drive torque with its geometric and friction parts, or friction torque by source, a panel for each case."""
+    parts = [part for part in parts if has_series(layout, part[0])] or parts
+    need_series(layout, *(name for name, *_ in parts))
     layout.refuse_too_many()
     colours, panels = (layout.colours if layout.is_list else thin_out(layout.colours, 3)), thin_out(layout.panels, 3)
     places = [(colour, panel) for colour in colours for panel in panels]
@@ -79,10 +81,10 @@ def torque_figure(layout, whole_cycle):
     rows = -(-len(places) // columns)
     figure = Figure(figsize=(7.0 if columns == 1 else 2.0 + 3.2 * columns, 1.6 + 2.4 * rows), layout="constrained")
     grid = list(figure.subplots(rows, columns, sharex=True, sharey=True, squeeze=False).flat)
-    window = (0.0, 360.0) if whole_cycle else event_window(layout, [name for name, *_ in TORQUES])
+    window = (0.0, 360.0) if whole_cycle else event_window(layout, [name for name, *_ in parts])
     limits = []
     for number, (axes, (colour, panel)) in enumerate(zip(grid, places)):
-        drawn = [_torque_curve(axes, layout, entry, part, window) for part in TORQUES
+        drawn = [_torque_curve(axes, layout, entry, part, window, unit) for part in parts
                  for entry in layout.entries_of(panel, [colour])]
         limits += drawn
         if not any(drawn):
@@ -92,28 +94,28 @@ def torque_figure(layout, whole_cycle):
                  layout.panel_name(panel) if len(layout.panels) > 1 else ""]
         axes.set_title("\n".join(textwrap.wrap(", ".join(filter(None, names)), 42)), fontsize="medium")
         if number % columns == 0:
-            axes.set_ylabel("torque [N m]")
+            axes.set_ylabel(f"torque [{unit}]")
     known = [pair for pair in limits if pair]
     for axes in grid[:len(places)]:
         set_values_axis(axes, CURVES["total_torque"],
                         (min(pair[0] for pair in known), max(pair[1] for pair in known)) if known else None)
     for axes in grid[len(places):]:
         axes.remove()
-    head(figure, layout, "drive torque and its parts", _torque_legend(layout), (len(colours), len(panels)))
+    head(figure, layout, title, _torque_legend(layout, parts), (len(colours), len(panels)))
     return figure
 
 
-def _torque_legend(layout):
+def _torque_legend(layout, parts):
     """The parts, in the colours of each file."""
     entries = [[Line2D([], [], color=tones[place % len(tones)], linestyle=dash if len(layout.files) == 1 else line_style(place),
-                       linewidth=width, label=label) for _, label, tones, dash, width in TORQUES]
+                       linewidth=width, label=label) for _, label, tones, dash, width in parts]
                for place in range(len(layout.files))]
     return (entries[0], None) if len(entries) == 1 else file_legend(layout, entries)
 
 
-def _torque_curve(axes, layout, entry, part, window):
+def _torque_curve(axes, layout, entry, part, window, unit):
     series, _, tones, dash, width = part
-    values = values_of(layout, entry, series, "N m")
+    values = values_of(layout, entry, series, unit)
     if values is None:
         return None
     angle, values = closed(layout.results[entry.file].cam_angle, values)
@@ -167,6 +169,7 @@ def _overview_curves(figure, layout, names, panels, shape):
         limits = [draw_curve(axes, layout, curve, panel, window) for axes, panel in zip(row, panels)]
         for axes, panel, pair in zip(row, panels, ranges_of(curve, limits)):
             set_values_axis(axes, curve, pair)
+            mark_values(axes, curve)
             angle_axis(axes, window, labelled=places.index(axes) + shape[1] >= len(names) * len(panels))
             if number == 0 and len(panels) > 1:
                 axes.set_title(layout.panel_name(panel), fontsize="medium")
@@ -199,6 +202,7 @@ FIGURES = {
     "overview": overview_figure,
     **{name: _curve_drawer(curve) for name, curve in CURVES.items() if name != "total_torque"},
     "drive_torque": torque_figure,
+    "friction_sources": lambda layout, whole: torque_figure(layout, whole, PARTS, "friction torque by source", "N mm"),
     "mean_slip": lambda layout, _: bars_figure(slip_bars, "mean slip ratio", layout),
     "mean_torque": lambda layout, _: bars_figure(torque_bars, "mean friction torque by source", layout),
 }

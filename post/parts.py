@@ -3,7 +3,7 @@
 import textwrap
 
 from matplotlib.lines import Line2D
-from matplotlib.ticker import FuncFormatter, LogLocator, MultipleLocator, NullFormatter, SymmetricalLogLocator
+from matplotlib.ticker import FuncFormatter, LogLocator, MultipleLocator, NullFormatter
 import numpy as np
 
 from layout import family, line_style
@@ -107,28 +107,29 @@ def ranges_of(curve, limits):
 
 
 def set_values_axis(axes, curve, limits):
-    """Range of the upright axis with a little room; logarithmic only where the values differ much."""
+    """Range of the upright axis with a little room; logarithmic only where the values differ much and none is zero or negative."""
     if limits is None:
         return
     low, high = limits[0], max(limits[1], curve.least_top)
-    if curve.scale == "log" and max(abs(low), abs(high)) > 3.0 * low:
+    if curve.scale == "log" and low > 0.0 and high > 3.0 * low:
         log_axis(axes, low, high)
     else:
         linear_axis(axes, low, high)
 
 
+def mark_values(axes, curve):
+    """Thin lines at values that mean something, where they are within the axis."""
+    low, high = axes.get_ylim()
+    for value in curve.lines:
+        if low < value < high:
+            axes.axhline(value, color="0.45", linewidth=0.8, linestyle=(0, (5, 3)), zorder=0.5)
+
+
 def log_axis(axes, low, high):
-    """Logarithmic axis; where values are not positive, linear from the third decade below the largest value down."""
-    if low > 0.0:
-        axes.set_yscale("log")
-        axes.set_ylim(low / 1.2, high * 1.2)
-        axes.yaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0) if high < 300.0 * low else (1.0,)))
-    else:
-        threshold = 10.0 ** (np.floor(np.log10(max(abs(low), abs(high)))) - 2.0)
-        axes.set_yscale("symlog", linthresh=threshold, linscale=0.5)
-        axes.set_ylim(1.2 * low - 0.2 * threshold, 1.2 * high + 0.2 * threshold)
-        axes.yaxis.set_major_locator(SymmetricalLogLocator(base=10.0, linthresh=threshold))
-        axes.axhline(0.0, color="0.6", linewidth=0.7, zorder=0)
+    """Logarithmic axis for positive values."""
+    axes.set_yscale("log")
+    axes.set_ylim(low / 1.2, high * 1.2)
+    axes.yaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0) if high < 300.0 * low else (1.0,)))
     axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
     axes.yaxis.set_minor_formatter(NullFormatter())
 

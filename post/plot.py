@@ -4,6 +4,7 @@
     python post/plot.py results/thesis.h5 --figure overview      one page with everything
     python post/plot.py a.h5 b.h5 --figure slip --format pdf     two runs in one figure
     python post/plot.py results/thesis.h5 --cases speed_rpm=300,600 --cases oil_temperature=80:100
+    python post/plot.py results/thesis.h5 --measured rig.csv   measured points beside the first file, with bias and rms
 
 Needs no display. Colours tell the values of the first swept key apart, panels those of the others;
 cases that are no grid (lists side by side, tables, samples) have a label each, and have to be chosen
@@ -27,8 +28,9 @@ matplotlib.rcParams.update({"font.size": 9.0, "axes.spines.top": False, "axes.sp
 
 from command import DPI, run, save_figure  # noqa: E402
 from figures import FIGURES, draw  # noqa: E402
-from layout import Layout  # noqa: E402
-from quantities import Missing  # noqa: E402
+from layout import Layout, chosen_cases  # noqa: E402
+from measured import compare, draw_comparison, read_table  # noqa: E402
+from quantities import Missing, add_derived  # noqa: E402
 from read import ResultError, read_result  # noqa: E402
 
 MOST_FAILURES = 5  # told one by one
@@ -40,6 +42,10 @@ def main(arguments=None):
     options = parser().parse_args(arguments)
     try:
         results = [read_result(path) for path in options.files]
+        for result in results:
+            add_derived(result)
+        if options.measured:
+            return draw_measured(results[0], options)
         layout = Layout(results, options.cases)
         for line in remarks(results, layout):
             print(line)
@@ -56,6 +62,21 @@ def main(arguments=None):
     if not any(drawn):
         print("plot.py: nothing to draw", file=sys.stderr)
         return 2
+    return 0
+
+
+def draw_measured(result, options):
+    """Draw measured points beside a result, and print how far they are apart."""
+    cases = chosen_cases(result, options.cases)
+    if not cases:
+        raise ResultError("no case is left to draw: see --cases")
+    table = read_table(options.measured)
+    comparison = compare(table, result, cases[0])
+    folder = Path(options.output) if options.output else result.path.parent
+    target = folder / f"{result.path.stem}_measured.{options.format}"
+    save_figure(draw_comparison(table, result, cases[0], comparison), target, dpi=options.dpi, metadata=NO_DATE[options.format])
+    print(f"{table.path} less {result.path}: {comparison.words()}")
+    print(f"measured: {target}")
     return 0
 
 
@@ -84,6 +105,10 @@ def parser():
     made.add_argument("--cases", action="append", default=[], metavar="WHICH",
                       help="only these cases: numbers from 0 as in 0,2-4, values as in speed_rpm=300,600 or a range "
                            "as in speed_rpm=300:600; given more than once, a case must fit all")
+    made.add_argument("--measured", metavar="TABLE.csv",
+                      help="measured values with a heading as 'cam angle [deg], torque [N m]', 'crank angle [deg], torque [N m]' or "
+                           "'speed [rpm], temperature [degC], mean torque [N mm]': drawn with the first file, over an angle with its "
+                           "first chosen case; prints bias, root mean square and the worst point of measured less computed")
     made.add_argument("--dpi", type=DPI, default=130, help="pixels per inch of a PNG (default: 130)")
     made.add_argument("--angles", choices=["event", "cycle"],
                       help="cam angles of the single figures: around the valve event or the whole cycle "

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from read import ResultError
+from read import Quantity, ResultError
 from units import factor
 
 
@@ -23,6 +23,7 @@ class Curve:
     scale: str = "linear"
     touching: bool = False  # means nothing where the roller does not touch the cam
     least_top: float = 0.0  # of the values axis, in the unit
+    lines: tuple = ()  # values that mean something, in the unit
 
 
 CURVES = {
@@ -30,9 +31,13 @@ CURVES = {
     "load": Curve("contact load", "contact_load", "N"),
     "pressure": Curve("Hertz pressure", "hertz_pressure", "GPa"),
     "entrainment": Curve("entrainment speed", "entrainment_speed", "m/s"),
+    "acceleration": Curve("valve acceleration", "valve_acceleration", "m/s2"),
     "film": Curve("minimum film", "film_thickness_min", "um", scale="log", touching=True),
+    "film_ratio": Curve("film ratio", "film_ratio", "1", scale="log", touching=True, lines=(1.0, 3.0)),
+    "load_share": Curve("load carried by asperities", "asperity_load_share", "%", touching=True, least_top=100.0),
     "friction": Curve("contact friction", "friction_contact", "N"),
-    "boundary_share": Curve("boundary part of friction", "asperity_friction_share", "%", touching=True, least_top=1.0),
+    "friction_coefficient": Curve("friction coefficient", "friction_coefficient", "1", touching=True),
+    "boundary_share": Curve("boundary part of friction", "asperity_friction_share", "%", touching=True, least_top=100.0),
     "rolling": Curve("rolling friction", "friction_rolling", "N", whole_cycle=True),
     "slip": Curve("slip ratio", "slip_ratio", "%", whole_cycle=True, scale="log"),
     "friction_torque": Curve("friction torque", "torque_friction", "N m"),
@@ -44,10 +49,34 @@ SOURCES = [("mean_torque_contact", "cam/roller contact", "#08306b", ""),
            ("mean_torque_bearings", "cam bearings", "#d55e00", "///"),
            ("mean_torque_needle", "needle bearing", "#7cc0ea", ""),
            ("mean_torque_guide", "valve guide", "#f0e442", "xxx")]
+# The same over the cam angle: series, words, colour in each file, line style, line width
+PARTS = [(name.replace("mean_", ""), words, (colour,), style, 1.4)
+         for (name, words, colour, _), style in zip(SOURCES, ("-", "--", "-.", ":"))]
 # Series, words, colour in each file, line style, line width: the thin line of the whole lies on the broad one of the geometric part
 TORQUES = [("torque_geometric", "geometric", ("#7cc0ea", "#8fd19e", "#c9b3e6"), "-", 3.0),
            ("torque_friction", "friction", ("#d55e00", "#e6a100", "#b5179e"), "--", 1.4),
            ("torque_drive", "drive: all together", ("#08306b", "#1b7837", "#54278f"), "-", 1.1)]
+
+
+def add_derived(result):
+    """Add to a result what follows from its series: friction coefficient, load share of asperities, valve acceleration."""
+    series = result.series
+    if "contact_load" not in series:
+        return
+    load = series["contact_load"].values
+    touching = np.where(load > 0.0, load, np.nan)
+    if "friction_contact" in series:
+        series["friction_coefficient"] = Quantity(series["friction_contact"].values / touching, "1",
+                                                  "friction of the contact relative to its load")
+    if "asperity_load" in series:
+        series["asperity_load_share"] = Quantity(series["asperity_load"].values / touching, "1", "part of the load on asperities")
+    power, torque = (result.summary.get(name) for name in ("power_friction", "mean_torque_friction"))
+    if "valve_velocity" in series and power is not None and np.shape(power.values) == (result.cases,):
+        with np.errstate(invalid="ignore", divide="ignore"):
+            speed = power.values / torque.values  # of the camshaft [rad/s]
+        values = series["valve_velocity"].values
+        slope = (np.roll(values, -1, axis=1) - np.roll(values, 1, axis=1)) / np.radians(2.0 * 360.0 / values.shape[1])
+        series["valve_acceleration"] = Quantity(slope * speed[:, None], "m/s2", "acceleration of the valve")
 
 
 def values_of(layout, entry, name, unit):

@@ -277,7 +277,8 @@ contains
          !> Its right end [unit]
          real(wp), intent(in) :: right
 
-         drawing = drawing//'<path stroke="black" stroke-width="2" d="M '//fixed_text(right, 1)//" "//fixed_text(top + 40.0_wp, 1)//" h -"// &
+         drawing = drawing//'<path stroke="black" stroke-width="2" d="M '//fixed_text(right, 1)//" "// &
+            & fixed_text(top + 40.0_wp, 1)//" h -"// &
             & fixed_text(1.0e-2_wp*scale, 1)//'"/>'//n//'<text text-anchor="end" x="'//fixed_text(right, 1)//'" y="'// &
             & fixed_text(top + 32.0_wp, 1)//'">10 mm</text>'//n
       end subroutine add_bar

@@ -234,8 +234,9 @@ contains
             span = span_of(origins, mistake%line)
             mistake%source = line_at(lines, mistake%line)
             ! Lines that include are comments in the whole text
-            if (index(mistake%source, "! ") == 1 .and. index(to_lower(mistake%source), word) > 0) &
-               & mistake%source = mistake%source(3:)
+            if (index(mistake%source, "! ") == 1 .and. index(to_lower(mistake%source), word) > 0) then
+               mistake%source = mistake%source(3:)
+            end if
             mistake%line = mistake%line - origins%spans(span)%first + origins%spans(span)%line
             if (origins%spans(span)%file > 0) mistake%file = origins%files(origins%spans(span)%file)%text
          end associate

@@ -1,0 +1,192 @@
+"""Measured points beside computed results: read from a table, compared, drawn.
+
+A table has one heading with units in brackets, as `cam angle [deg], torque [N m]`, `crank angle [deg], torque [N m]` or
+`speed [rpm], temperature [degC], mean torque [N mm]`. Angles are compared with the drive torque over one turn of the camshaft, or
+with the friction torque where the column is called so; operating points with the mean torque of the case that has the same speed and
+temperature. Differences are measured less computed.
+"""
+
+from dataclasses import dataclass
+from pathlib import Path
+import re
+
+from matplotlib.figure import Figure
+import numpy as np
+
+from read import ResultError
+from units import factor, number
+
+ANGLES = ("cam angle", "crank angle")
+POINT = ("speed", "temperature", "mean torque")
+KEYS = {"speed": "operating_point.speed_rpm", "temperature": "operating_point.oil_temperature_degC"}
+SAME = 1e-6  # relative difference of two operating points that are one
+HEADING = re.compile(r"^\s*(.*?)\s*\[\s*(.*?)\s*\]\s*$")
+
+
+@dataclass
+class Table:
+    """Columns of measured values by name, with their units."""
+
+    path: Path
+    columns: dict
+    units: dict
+
+
+@dataclass
+class Comparison:
+    """Measured and computed values at the same places, in one unit."""
+
+    places: list
+    measured: np.ndarray
+    computed: np.ndarray
+    unit: str
+    left_out: int = 0
+
+    @property
+    def differences(self):
+        """Measured less computed."""
+        return self.measured - self.computed
+
+    def words(self):
+        """Bias, root mean square and the worst point in one line."""
+        worst = int(np.argmax(np.abs(self.differences)))
+        line = (f"{len(self.measured)} points, bias {number(self.differences.mean(), 3)} {self.unit}, rms "
+                f"{number(np.sqrt((self.differences ** 2).mean()), 3)} {self.unit}, worst "
+                f"{number(self.differences[worst], 3)} {self.unit} at {self.places[worst]}")
+        return line + (f"; {self.left_out} points have no case" if self.left_out else "")
+
+
+def read_table(path):
+    """Read a table; raise ResultError with one line where it is none."""
+    path = Path(path)
+    try:
+        lines = [line for line in path.read_text(encoding="utf-8").splitlines() if line.strip() and not line.lstrip().startswith("#")]
+    except (OSError, UnicodeDecodeError) as error:
+        raise ResultError(f"{path}: cannot be read: {getattr(error, 'strerror', None) or 'no text in UTF-8'}") from None
+    if len(lines) < 2:
+        raise ResultError(f"{path}: a table has a heading and rows")
+    parts = ";" if ";" in lines[0] else ","
+    names, units = [], {}
+    for cell in lines[0].split(parts):
+        found = HEADING.match(cell.strip('" '))
+        if not found:
+            raise ResultError(f"{path}: a heading is a name with its unit, as 'torque [N m]', not '{cell.strip()}'")
+        names.append(found[1].lower())
+        units[names[-1]] = found[2]
+    rows = []
+    for place, line in enumerate(lines[1:], 2):
+        try:
+            rows.append([float(cell) for cell in line.split(parts)])
+        except ValueError:
+            raise ResultError(f"{path}: row {place} is not of numbers: {line.strip()}") from None
+        if len(rows[-1]) != len(names):
+            raise ResultError(f"{path}: row {place} has {len(rows[-1])} of {len(names)} columns")
+    return Table(path, dict(zip(names, np.array(rows).T)), units)
+
+
+def compare(table, result, case):
+    """Measured values beside the computed ones of a result; of a case where they are over an angle."""
+    if any(name in table.columns for name in ANGLES):
+        return compare_angles(table, result, case)
+    if set(POINT) <= set(table.columns):
+        return compare_points(table, result)
+    raise ResultError(f"{table.path}: the columns have to be an angle ({' or '.join(ANGLES)}) and a torque, or {', '.join(POINT)}; "
+                      f"there is {', '.join(table.columns)}")
+
+
+def compare_angles(table, result, case):
+    """Torque over the angle."""
+    angle_name = next(name for name in ANGLES if name in table.columns)
+    torque_name = next((name for name in table.columns if "torque" in name), None)
+    if torque_name is None:
+        raise ResultError(f"{table.path}: no column of a torque")
+    series = "torque_friction" if "friction" in torque_name else "torque_drive"
+    if series not in result.series:
+        raise ResultError(f"{result.path}: no {series} over the angle in it")
+    angle = cam_angle(result, case, table.columns[angle_name]) if angle_name == "crank angle" else table.columns[angle_name]
+    curve = result.series[series].values[case] * unit_factor(table, torque_name)
+    computed = np.interp(np.mod(angle, 360.0), np.append(result.cam_angle, result.cam_angle[0] + 360.0), np.append(curve, curve[0]))
+    places = [f"{angle_name} {number(value, 4)} deg" for value in table.columns[angle_name]]
+    return Comparison(places, table.columns[torque_name], computed, table.units[torque_name])
+
+
+def cam_angle(result, case, crank):
+    """Cam angle of a crank angle after the firing dead centre of cylinder 1."""
+    if "crank_turns" not in result.summary:
+        raise ResultError(f"{result.path}: crank angles need the group &engine in the deck")
+    turns = result.scalar("crank_turns").values[case]
+    return 180.0 + (crank - result.scalar("crank_angle_at_nose").values[case]) / turns
+
+
+def unit_factor(table, name):
+    """What SI values are multiplied with for the unit of a column."""
+    found = factor("N m", table.units[name])
+    if found is None:
+        raise ResultError(f"{table.path}: the unit of '{name}' has to be N m or N mm, not {table.units[name]}")
+    return found
+
+
+def compare_points(table, result):
+    """Mean torque of operating points."""
+    scale = unit_factor(table, "mean torque")
+    torque = result.scalar("mean_torque_friction").values
+    measured, computed, places, left_out = [], [], [], 0
+    for speed, temperature, value in zip(*(table.columns[name] for name in POINT)):
+        wanted = {"speed": speed, "temperature": temperature}
+        found = [case for case in range(result.cases) if np.isfinite(torque[case])
+                 and all(abs(result.value_of(KEYS[name], case) - place) <= SAME * max(1.0, abs(place)) for name, place in wanted.items())]
+        if not found:
+            left_out += 1
+            continue
+        measured.append(value)
+        computed.append(scale * torque[found[0]])
+        places.append(f"{number(speed, 4)} rpm, {number(temperature, 4)} degC")
+    if not measured:
+        raise ResultError(f"{table.path}: none of its points is a case of {result.path}")
+    return Comparison(places, np.array(measured), np.array(computed), table.units["mean torque"], left_out)
+
+
+def draw_comparison(table, result, case, comparison):
+    """Figure with the computed curve or points and the measured ones."""
+    figure = Figure(figsize=(7.5, 4.6), layout="constrained")
+    axes = figure.subplots()
+    if any(name in table.columns for name in ANGLES):
+        angle_name = next(name for name in ANGLES if name in table.columns)
+        torque_name = next(name for name in table.columns if "torque" in name)
+        series = "torque_friction" if "friction" in torque_name else "torque_drive"
+        angle = result.cam_angle
+        if angle_name == "crank angle":
+            turns = result.scalar("crank_turns").values[case]
+            angle = np.mod(result.scalar("crank_angle_at_nose").values[case] + turns * (angle - 180.0), 360.0 * turns)
+        order = np.argsort(angle)
+        axes.plot(angle[order], result.series[series].values[case][order] * unit_factor(table, torque_name), color="#08306b",
+                  label="computed")
+        axes.plot(table.columns[angle_name], comparison.measured, "o", markersize=4, markerfacecolor="none", color="#d55e00",
+                  label="measured")
+        axes.set_xlabel(f"{angle_name} [deg]")
+        axes.set_ylabel(f"{torque_name} [{comparison.unit}]")
+    else:
+        _draw_points(axes, result, table, comparison)
+    axes.axhline(0.0, color="0.6", linewidth=0.7, zorder=0)
+    axes.grid(True, color="0.9", linewidth=0.6)
+    axes.legend(frameon=False)
+    axes.set_title(f"{result.title} and {table.path.name}\n{comparison.words()}", fontsize="medium", wrap=True)
+    return figure
+
+
+def _draw_points(axes, result, table, comparison):
+    """Mean torque over speed, a line for each temperature."""
+    torque = result.scalar("mean_torque_friction").values * unit_factor(table, "mean torque")
+    speeds = np.array([result.value_of(KEYS["speed"], case) for case in range(result.cases)])
+    temperatures = np.array([result.value_of(KEYS["temperature"], case) for case in range(result.cases)])
+    tones = ["#08306b", "#7cc0ea", "#d55e00", "#1b7837", "#54278f", "0.4"]
+    for place, temperature in enumerate(sorted(set(temperatures))):
+        tone = tones[place % len(tones)]
+        chosen = np.flatnonzero(temperatures == temperature)
+        chosen = chosen[np.argsort(speeds[chosen])]
+        axes.plot(speeds[chosen], torque[chosen], "-", color=tone, label=f"computed, {temperature:g} degC")
+        of_it = np.abs(table.columns["temperature"] - temperature) <= SAME * max(1.0, abs(temperature))
+        axes.plot(table.columns["speed"][of_it], table.columns["mean torque"][of_it], "o", markerfacecolor="none", color=tone,
+                  label=f"measured, {temperature:g} degC" if of_it.any() else None)
+    axes.set_xlabel("speed [rpm]")
+    axes.set_ylabel(f"mean torque [{comparison.unit}]")
