@@ -21,8 +21,9 @@ module camroller_accuracy
    character(len=*), parameter :: second_method = "rodas5p"
    !> Method without error control
    character(len=*), parameter :: fixed_method = "euler"
-   !> Tolerance over accuracy: errors of the chosen method stay within twice the tolerance, estimates near ten times [-]
-   real(wp), parameter :: tolerance_share = 0.1_wp
+   !> Tolerance over accuracy: errors of the sliding speed stay within twice the tolerance with the chosen method, but extremes and
+   !> means of steep forces are estimated at up to a hundred times it. A second try costs more than smaller steps [-]
+   real(wp), parameter :: tolerance_share = 0.01_wp
    !> Smallest tolerance that rounding leaves a meaning [-]
    real(wp), parameter :: least_tolerance = 1.0e-12_wp
    !> Part of the reduction asked for by the estimate that is taken beyond it; strongest reduction at once [-]

@@ -12,12 +12,12 @@ module camroller_error_estimate
    implicit none
    private
 
-   public :: estimate_t, add_defect, end_interval, estimated_error, error_at_start, most_points, margin
+   public :: estimate_t, add_defect, end_interval, estimated_error, error_at_start, margin
 
    !> Most points of a rule in an interval
    integer, parameter :: most_points = 3
-   !> Places that cut an interval into parts [-]: shorter ones at its ends, where the defect of a stiff method is largest. The points
-   !> of all rules are among them
+   !> Places that cut an interval into parts [-]: shorter ones at its ends, where the defect of a stiff method is largest. The
+   !> points of all rules are among them
    real(wp), parameter :: cuts(*) = [0.0_wp, 0.02_wp, panel_places(gauss_points(1)), 0.3_wp, panel_places(gauss_points(2)), &
       & 0.7_wp, panel_places(gauss_points(3)), 1.0_wp]
    !> The estimate is of first order; true errors were met at up to 1.25 times as much [-]

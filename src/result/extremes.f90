@@ -143,6 +143,7 @@ contains
             return
          end if
       end if
+      search%point(2) = samples%angle(rows(2))
       search%value(2) = sense*samples%values(series, rows(2))
    end subroutine start_search
 

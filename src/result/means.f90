@@ -20,7 +20,7 @@ module camroller_means
    use camroller_error_estimate, only : estimate_t, add_defect, end_interval, estimated_error
    use camroller_extremes, only : samples_t
    use camroller_follower_samples, only : follower_samples_t, start_samples, entrainment_t, entrainment_of
-   use camroller_mean_errors, only : slip_points_t, start_points, keep_point, set_errors, find_mean_errors
+   use camroller_slip_errors, only : slip_points_t, slip_errors_t, start_points, keep_point, set_errors, find_slip_errors
    use camroller_names, only : name_length
    use camroller_panels, only : panels_t, panel_points, panel_places, panel_weights, gauss_points, gauss_weights, &
       & start_panels, add_panel, add_trapezoid, refine_panels
@@ -55,6 +55,13 @@ module camroller_means
       real(wp) :: mean_error = 0.0_wp
       !> The mean that has it
       character(len=name_length) :: worst_mean = ""
+      !> Errors that come of the sliding speed
+      type(slip_errors_t) :: slip_errors
+      !> Errors of the smallest and the largest value of each series [unit of the series]
+      real(wp), allocatable :: extreme_errors(:, :)
+      !> Estimate of the largest error of a smallest or largest value over the range of its series [-], and the series that has it
+      real(wp) :: extreme_error = 0.0_wp
+      character(len=name_length) :: worst_extreme = ""
       !> Number of standstills of the contact, where nothing is entrained
       integer :: standstills = 0
       !> Cam angle from full lift of the first of them [rad]
@@ -97,8 +104,8 @@ contains
       type(stored_work_t) :: work
       type(entrainment_t), allocatable :: speeds(:)
       type(quantity_t), allocatable :: series(:)
-      ! Length of the cycle [rad]; errors of integrals that come of the sliding speed [unit of each times rad]
-      real(wp) :: span, slip_errors(series_count + torque_count)
+      ! Length of the cycle [rad]
+      real(wp) :: span
       ! First and last series that is a film without a mean
       integer :: films(2)
 
@@ -118,8 +125,8 @@ contains
       statistics%largest_sliding = samples%largest_sliding
       span = cycle%trajectory%time(cycle%trajectory%count) - cycle%trajectory%time(1)
       call take_means(panels, samples, work, span, statistics)
-      call find_mean_errors(slips, samples, estimate, slip_errors)
-      call judge_means(panels, slip_errors, span, series(:series_count), films, statistics)
+      call find_slip_errors(slips, samples, estimate, statistics%slip_errors)
+      call judge_means(panels, statistics%slip_errors%integrals, span, series(:series_count), films, statistics)
       ! What start and end differ by comes again in every cycle that the periodic one is away
       statistics%error = cycle%closure/max(1.0_wp - estimate%contraction, epsilon(1.0_wp)) &
          & + estimated_error(estimate)/max(statistics%largest_sliding, cycle%scale, tiny(1.0_wp))

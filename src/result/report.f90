@@ -14,10 +14,11 @@ module camroller_report
    use camroller_extremes, only : samples_t, start_samples, add_sample, start_search, most_steps
    use camroller_extremum, only : extremum_t, narrow_extremum
    use camroller_margins, only : margins_t, find_margins
-   use camroller_result, only : result_t, find_quantity, check_numbers
+   use camroller_result, only : result_t, quantity_t, find_quantity, check_numbers
    use camroller_shaft, only : shaft_t, new_shaft, shaft_torques
    use camroller_mean_bearings, only : mean_bearing_torque
    use camroller_means, only : statistics_t, integrate_lobe
+   use camroller_slip_errors, only : error_of_extreme
    use camroller_summary, only : make_summary, extremes_t
    implicit none
    private
@@ -97,6 +98,7 @@ contains
       result%worst_mean = statistics(maxloc(statistics%mean_error, 1))%worst_mean
       call find_extremes(case, models, cycles, shaft, margins, statistics, result, extremes, error)
       if (allocated(error)) return
+      result%worst_extreme = statistics(maxloc(statistics%extreme_error, 1))%worst_extreme
       call make_summary(case, models, cycles, shaft, statistics, bearing_torque, margins, extremes, result)
       call check_numbers(result, error)
    end subroutine make_result
@@ -188,8 +190,10 @@ contains
          associate (samples => statistics(lobe)%rows)
             call add_output_rows(result, columns, samples)
             call add_stops(case, models(lobe), cycles(lobe), margins(lobe), samples, error)
-            if (.not. allocated(error)) call search_lobe(case, models(lobe), cycles(lobe), samples, &
+            if (.not. allocated(error)) call search_lobe(case, models(lobe), cycles(lobe), statistics(lobe), &
                & extremes%lowest(columns(1):columns(2)), extremes%highest(columns(1):columns(2)), error)
+            if (.not. allocated(error)) call judge_extremes(result%series(columns(1):columns(2)), &
+               & extremes%lowest(columns(1):columns(2)), extremes%highest(columns(1):columns(2)), statistics(lobe))
             if (allocated(error)) return
             extremes%event_load(lobe) = smallest_event_load(models(lobe), result, samples)
          end associate
@@ -245,15 +249,15 @@ contains
 
    !> Smallest and largest values of a lobe's follower, from its rows and between them; the rows alone where the solution itself is
    !> only linear between its points.
-   subroutine search_lobe(case, model, cycle, samples, lowest, highest, error)
+   subroutine search_lobe(case, model, cycle, statistics, lowest, highest, error)
       !> The case
       type(case_t), intent(in) :: case
       !> Model of the lobe
       type(model_t), intent(in) :: model
       !> Its cycle
       type(cycle_t), intent(in) :: cycle
-      !> The rows
-      type(samples_t), intent(in) :: samples
+      !> Its statistics, with the rows; out: with the errors of the values
+      type(statistics_t), intent(inout) :: statistics
       !> The values [unit of the series]
       real(wp), intent(out) :: lowest(:), highest(:)
       !> Convergence error
@@ -266,9 +270,10 @@ contains
       integer :: hint, series, sense
 
       hint = 1
+      allocate (statistics%extreme_errors(2, size(lowest)))
       do series = 1, size(lowest)
          do sense = -1, 1, 2
-            call start_search(samples, series, sense, search)
+            call start_search(statistics%rows, series, sense, search)
             do while (search%is_wanted .and. search%steps < most_steps .and. .not. cycle%is_linear)
                call state_at(cycle, model, search%trial, hint, state, error)
                if (allocated(error)) return
@@ -277,9 +282,42 @@ contains
             end do
             if (sense > 0) lowest(series) = search%value(2)
             if (sense < 0) highest(series) = -search%value(2)
+            call state_at(cycle, model, search%point(2), hint, state, error)
+            if (allocated(error)) return
+            call error_of_extreme(statistics%slip_errors, case, model, cycle, state, search%point(2), series, sense, &
+               & sense*search%value(2), statistics%extreme_errors(merge(1, 2, sense > 0), series))
          end do
       end do
    end subroutine search_lobe
+
+   !> Largest error of a smallest or largest value, over the range of its series; the smallest film counts by itself. Films have no
+   !> limit where contact is lost.
+   pure subroutine judge_extremes(series, lowest, highest, statistics)
+      !> The series of the follower
+      type(quantity_t), intent(in) :: series(:)
+      !> Smallest and largest values [unit of the series]
+      real(wp), intent(in) :: lowest(:), highest(:)
+      !> Statistics of the lobe; out: with the largest error
+      type(statistics_t), intent(inout) :: statistics
+
+      ! Errors over the range [-]
+      real(wp) :: relative(size(series))
+      integer :: i
+
+      associate (errors => statistics%extreme_errors)
+         do i = 1, size(series)
+            relative(i) = maxval(errors(:, i))
+            ! What is not there has no error
+            if (relative(i) > 0.0_wp) relative(i) = relative(i)/max(highest(i) - lowest(i), tiny(1.0_wp))
+            if (index(series(i)%name, "film_thickness_min") > 0 .and. errors(1, i) > 0.0_wp) relative(i) = max(relative(i), &
+               & errors(1, i)/max(lowest(i), tiny(1.0_wp)))
+            if (index(series(i)%name, "film_") > 0 .and. statistics%lost_share > 0.0_wp) relative(i) = 0.0_wp
+         end do
+      end associate
+      i = maxloc(relative, 1)
+      statistics%extreme_error = relative(i)
+      statistics%worst_extreme = series(i)%name
+   end subroutine judge_extremes
 
    !> Smallest and largest values of the camshaft's series.
    subroutine search_camshaft(case, models, cycles, shaft, result, extremes, error)

@@ -53,6 +53,8 @@ module camroller_result
       type(remark_t), allocatable :: remarks(:)
       !> Name of the series whose mean has the largest estimated error; blank where means have none
       character(len=name_length) :: worst_mean = ""
+      !> Name of the series of whose extremes one has the largest estimated error
+      character(len=name_length) :: worst_extreme = ""
       !> Were profiles across the contact asked for that could not be solved? The reason is among the remarks
       logical :: lacks_profiles = .false.
       !> Which effects took part and why; allocated where the program chose them

@@ -77,6 +77,9 @@ contains
          & "to the mean magnitude of its quantity, of geometric and drive torque relative to the mean friction torque; "// &
          & "without films where contact is lost", "numerics", &
          & maxval(statistics%mean_error))
+      call add(quantities, values, count, "estimated_error_of_extremes", "1", "estimate of the largest error of a smallest or "// &
+         & "largest value relative to the range of its series, of the smallest film relative to itself; without torques, and "// &
+         & "without films where contact is lost", "numerics", maxval(statistics%extreme_error))
       call add_counters(cycles, quantities, values, count)
       result%summary = quantities(:count)
       result%summary_values = values(:count)

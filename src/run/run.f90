@@ -17,7 +17,7 @@ module camroller_run
    use camroller_number_text, only : number_text, fixed_text
    use camroller_means, only : statistics_t
    use camroller_report, only : make_result, take_statistics
-   use camroller_remarks, only : add_remark, loose_tolerance, missed_accuracy, missed_means
+   use camroller_remarks, only : add_remark, loose_tolerance, missed_accuracy, missed_extremes, missed_means
    use camroller_result, only : result_t, get_summary
    implicit none
    private
@@ -104,9 +104,9 @@ contains
 
    !> Run a case with all its effects.
    !>
-   !> Where the estimated error of the sliding speed or of a mean is above the accuracy asked for, the cycles are integrated again
-   !> with a smaller tolerance; so they are with another method and another tolerance where they could not be. What a later try
-   !> cannot do leaves the result of an earlier one, with a remark; without any figure that is right there is no result.
+   !> Where the estimated error of the sliding speed, of a mean or of an extreme is above the accuracy asked for, the cycles are
+   !> integrated again with a smaller tolerance; so they are with another method and another tolerance where they could not be. What
+   !> a later try cannot do leaves the result of an earlier one, with a remark; without any figure that is right there is no result.
    subroutine run_listed(case, models, result, error)
       !> The case
       type(case_t), intent(in) :: case
@@ -119,78 +119,83 @@ contains
 
       type(numerics_t) :: numerics
       type(try_t) :: latest, earlier
-      ! Tolerance of the next try, smallest tolerance that may work [-]
-      real(wp) :: other, least
+      type(result_t) :: new_result
+      ! Smallest tolerance that may work [-]
+      real(wp) :: least
       integer :: attempt
-      logical :: is_better, has_way_out
+      logical :: has_result, has_way_out, is_finer
 
       numerics = resolve_numerics(case%numerics)
+      has_result = .false.
       has_way_out = .false.
       least = 0.0_wp
       do attempt = 0, most_refinements
          call integrate_models(case, models, numerics, latest, error)
          if (.not. allocated(error)) then
-            is_better = .false.
-            if (is_checked(case%numerics) .and. attempt < most_refinements .and. latest%error > case%numerics%accuracy) then
-               other = refine_tolerance(numerics%tolerance, case%numerics%accuracy, latest%error, least)
-               is_better = other < numerics%tolerance
-            end if
-            if (is_better) then
-               numerics%tolerance = other
+            call refine(case%numerics, attempt, latest%error, least, numerics, is_finer)
+            if (is_finer) then
                call move_alloc(latest%cycles, earlier%cycles)
                call move_alloc(latest%statistics, earlier%statistics)
                cycle
             end if
-            call finish(case, models, latest, result, error)
-            if (.not. allocated(error)) return
+            call make_result(case, models, latest%cycles, latest%statistics, new_result, error)
+            if (.not. allocated(error)) then
+               result = new_result
+               has_result = .true.
+               call refine(case%numerics, attempt, maxval(latest%statistics%extreme_error), least, numerics, is_finer)
+               if (is_finer) cycle
+               exit
+            end if
          end if
-         if (allocated(earlier%cycles) .or. has_way_out .or. error%kind /= kind_convergence .or. &
+         if (has_result .or. allocated(earlier%cycles) .or. has_way_out .or. error%kind /= kind_convergence .or. &
             & .not. is_checked(case%numerics)) exit
          call take_way_out(case%numerics, numerics, least, has_way_out)
          if (has_way_out .and. error%cause == cause_several_balances) exit
       end do
-      if (.not. allocated(earlier%cycles)) return
-      deallocate (error)
-      call finish(case, models, earlier, result, error)
+      if (.not. has_result) then
+         if (.not. allocated(earlier%cycles)) return
+         deallocate (error)
+         call make_result(case, models, earlier%cycles, earlier%statistics, result, error)
+         if (allocated(error)) return
+      end if
+      call judge(case%numerics, result, error)
    end subroutine run_listed
 
-   !> The result of a try, with remarks on its errors.
-   subroutine finish(case, models, try, result, error)
-      !> The case
-      type(case_t), intent(in) :: case
-      !> Model of each lobe shape
-      type(model_t), intent(in) :: models(:)
-      !> The try
-      type(try_t), intent(inout) :: try
-      !> Its result
-      type(result_t), intent(out) :: result
-      !> What went wrong, of any kind
-      type(error_t), allocatable, intent(out) :: error
+   !> Smaller tolerance for another try, where errors are above the accuracy and a smaller one is left.
+   pure subroutine refine(given, attempt, estimate, least, numerics, is_finer)
+      !> Numerics as given
+      type(numerics_t), intent(in) :: given
+      !> Number of the try, from 0
+      integer, intent(in) :: attempt
+      !> Largest error estimated, smallest tolerance that may work [-]
+      real(wp), intent(in) :: estimate, least
+      !> Numerics of the try; out: of the next
+      type(numerics_t), intent(inout) :: numerics
+      !> Is there another?
+      logical, intent(out) :: is_finer
 
-      ! Estimated errors of sliding speed and means [-]
-      real(wp) :: estimates(2)
+      ! Tolerance of the next try [-]
+      real(wp) :: other
 
-      call make_result(case, models, try%cycles, try%statistics, result, error)
-      if (.not. allocated(error)) call get_estimates(result, estimates, error)
-      if (allocated(error)) return
-      if (is_checked(case%numerics)) then
-         call judge(result, case%numerics%accuracy, estimates, error)
-      else
-         call judge_tolerance(case%numerics, result, estimates)
-      end if
-   end subroutine finish
+      is_finer = .false.
+      if (.not. is_checked(given) .or. attempt == most_refinements .or. .not. estimate > given%accuracy) return
+      other = refine_tolerance(numerics%tolerance, given%accuracy, estimate, least)
+      is_finer = other < numerics%tolerance
+      if (is_finer) numerics%tolerance = other
+   end subroutine refine
 
-   !> Estimated errors of a result: of the sliding speed and of the means.
+   !> Estimated errors of a result: of the sliding speed, of the means, of the extremes.
    subroutine get_estimates(result, estimates, error)
       !> The result
       type(result_t), intent(in) :: result
       !> Errors [-]
-      real(wp), intent(out) :: estimates(2)
+      real(wp), intent(out) :: estimates(3)
       !> Usage error where they are not in the summary
       type(error_t), allocatable, intent(out) :: error
 
       call get_summary(result, "estimated_error", estimates(1), error)
       if (.not. allocated(error)) call get_summary(result, "estimated_error_of_means", estimates(2), error)
+      if (.not. allocated(error)) call get_summary(result, "estimated_error_of_extremes", estimates(3), error)
    end subroutine get_estimates
 
    !> Numerics for another try where a cycle could not be integrated: another method, unless one is named, then another tolerance.
@@ -244,14 +249,32 @@ contains
       try%error = max(maxval(try%statistics%error), maxval(try%statistics%mean_error))
    end subroutine integrate_models
 
+   !> Remarks on errors that are too large.
+   subroutine judge(numerics, result, error)
+      !> Numerics as given
+      type(numerics_t), intent(in) :: numerics
+      !> The result
+      type(result_t), intent(inout) :: result
+      !> Convergence error
+      type(error_t), allocatable, intent(out) :: error
+
+      ! Estimated errors of sliding speed, means and extremes [-]
+      real(wp) :: estimates(3)
+
+      call get_estimates(result, estimates, error)
+      if (allocated(error)) return
+      if (is_checked(numerics)) call judge_accuracy(result, numerics%accuracy, estimates, error)
+      if (has_tolerance(numerics)) call judge_tolerance(numerics, result, estimates)
+   end subroutine judge
+
    !> Remarks on an accuracy that was not reached, or an error where nothing of the result can be right.
-   subroutine judge(result, accuracy, estimates, error)
+   subroutine judge_accuracy(result, accuracy, estimates, error)
       !> The result
       type(result_t), intent(inout) :: result
       !> Accuracy wanted [-]
       real(wp), intent(in) :: accuracy
-      !> Estimated errors of sliding speed and means [-]
-      real(wp), intent(in) :: estimates(2)
+      !> Estimated errors of sliding speed, means and extremes [-]
+      real(wp), intent(in) :: estimates(3)
       !> Convergence error
       type(error_t), allocatable, intent(out) :: error
 
@@ -271,7 +294,10 @@ contains
       if (estimates(2) > accuracy) call add_remark(result%remarks, missed_means, &
          & "the means did not reach the accuracy asked for; the largest estimated error, of mean_"//trim(result%worst_mean)// &
          & ", is "//number_text(estimates(2), 2), estimates(2))
-   end subroutine judge
+      if (estimates(3) > accuracy) call add_remark(result%remarks, missed_extremes, &
+         & "the extremes did not reach the accuracy asked for; the largest estimated error, of "//trim(result%worst_extreme)// &
+         & ", is "//number_text(estimates(3), 2)//" of its range", estimates(3))
+   end subroutine judge_accuracy
 
    !> Remark on a tolerance given by hand that says nothing of the error: steps keep to it and the curve between them does not, or
    !> errors of steps pile up where hardly anything damps, or means follow the sliding speed too strongly.
@@ -280,12 +306,13 @@ contains
       type(numerics_t), intent(in) :: numerics
       !> The result
       type(result_t), intent(inout) :: result
-      !> Estimated errors of sliding speed and means [-]
-      real(wp), intent(in) :: estimates(2)
+      !> Estimated errors of sliding speed, means and extremes [-]
+      real(wp), intent(in) :: estimates(3)
 
-      if (.not. has_tolerance(numerics)) return
       if (estimates(1) > numerics%tolerance*far_beyond) call say_far("the error", estimates(1))
       if (estimates(2) > numerics%tolerance*far_beyond) call say_far("the error of mean_"//trim(result%worst_mean), estimates(2))
+      if (estimates(3) > numerics%tolerance*far_beyond) call say_far("the error of the extremes of "// &
+         & trim(result%worst_extreme), estimates(3))
 
    contains
 

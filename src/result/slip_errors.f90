@@ -1,0 +1,298 @@
+!> Errors of means and extremes that come of the error of the sliding speed.
+!>
+!> In: points of a cycle with their states and the error of the sliding speed there, as `error_estimate` finds it.
+!> Out: for everything that is sampled, the error of its integral over the cycle; the error of a smallest or largest value.
+!>
+!> At each point the state is evaluated again with the sliding speed less its error, so that whatever follows the slip, however
+!> steeply, has its share: a film, a force that saturates, asperities that begin to touch. Within an interval of the solution the
+!> differences add up with their signs, since a method's defect has a mean next to nothing there: where the roller's inertia counts
+!> for little the force is off by the defect itself. Between intervals nothing is known of signs, and sizes add up.
+module camroller_slip_errors
+   use camroller_kinds, only : wp, two_pi
+   use camroller_case, only : case_t
+   use camroller_catalogue, only : follower_count, follower_values
+   use camroller_cycle, only : cycle_t
+   use camroller_error_estimate, only : estimate_t, error_at_start, margin
+   use camroller_follower_samples, only : follower_samples_t, sampled_values
+   use camroller_model, only : model_t
+   use camroller_state, only : state_t, evaluate_spin, add_torques
+   use camroller_stick_slip, only : direction_at
+   implicit none
+   private
+
+   public :: slip_points_t, slip_errors_t, start_points, keep_point, set_errors, find_slip_errors, error_of_extreme
+
+   !> Part of what cancels within an interval that is not trusted to cancel: the estimate at a point is of first order [-]
+   real(wp), parameter :: distrust = 0.02_wp
+
+   !> Points of a cycle, as many to an interval as its rule has
+   type :: slip_points_t
+      !> Number of points so far, number in each interval
+      integer :: count = 0, stride = 0
+      !> Cam angle [rad], length that a point stands for [rad]
+      real(wp), allocatable :: angle(:), weight(:)
+      type(state_t), allocatable :: states(:)
+      !> What was sampled, shape (quantity, point) [unit of each]
+      real(wp), allocatable :: values(:, :)
+      !> Error of the trajectory [m/s]; part of an error at its start that is left [-]
+      real(wp), allocatable :: errors(:), shares(:)
+   end type slip_points_t
+
+   !> Errors of all that is sampled, and where they come from
+   type :: slip_errors_t
+      !> Errors of the integrals over the cycle [unit of each times rad]
+      real(wp), allocatable :: integrals(:)
+      !> Smallest and largest values at the points without the error of the sliding speed [unit of each]
+      real(wp), allocatable :: lowest(:), highest(:)
+      !> Cam angles of the points from full lift, in order [rad], and error of the trajectory there [m/s]
+      real(wp), allocatable :: angle(:), error(:)
+   end type slip_errors_t
+
+contains
+
+   !> Begin without points.
+   pure subroutine start_points(points, quantities, intervals, stride)
+      !> The points
+      type(slip_points_t), intent(out) :: points
+      !> Number of quantities that are sampled, of intervals, of points in an interval
+      integer, intent(in) :: quantities, intervals, stride
+
+      points%stride = stride
+      allocate (points%angle(intervals*stride), points%weight(intervals*stride), points%states(intervals*stride), &
+         & points%values(quantities, intervals*stride), points%errors(intervals*stride), points%shares(intervals*stride))
+   end subroutine start_points
+
+   !> Keep the point that was sampled last.
+   pure subroutine keep_point(points, samples, angle, weight, values)
+      !> The points
+      type(slip_points_t), intent(inout) :: points
+      !> The samples
+      type(follower_samples_t), intent(in) :: samples
+      !> Cam angle from full lift, length that the point stands for [rad]
+      real(wp), intent(in) :: angle, weight
+      !> What was sampled there [unit of each]
+      real(wp), intent(in) :: values(:)
+
+      points%count = points%count + 1
+      points%angle(points%count) = angle
+      points%weight(points%count) = weight
+      points%states(points%count) = samples%state
+      points%values(:, points%count) = values
+   end subroutine keep_point
+
+   !> Take the errors at the points of the interval that has just ended.
+   pure subroutine set_errors(points, estimate)
+      !> The points
+      type(slip_points_t), intent(inout) :: points
+      !> The estimate at the end of the interval
+      type(estimate_t), intent(in) :: estimate
+
+      associate (first => points%count - points%stride + 1, last => points%count)
+         points%errors(first:last) = estimate%errors(:points%stride)
+         points%shares(first:last) = estimate%shares(:points%stride)
+      end associate
+   end subroutine set_errors
+
+   !> Errors of all that is sampled.
+   pure subroutine find_slip_errors(points, samples, estimate, errors)
+      !> The points
+      type(slip_points_t), intent(in) :: points
+      !> The samples
+      type(follower_samples_t), intent(in) :: samples
+      !> The estimate at the end of the cycle
+      type(estimate_t), intent(in) :: estimate
+      !> The errors
+      type(slip_errors_t), intent(out) :: errors
+
+      ! Differences that the error makes [unit of each]; their integral over an interval and that of their sizes [unit of each times
+      ! rad]
+      real(wp), dimension(size(points%values, 1)) :: differences, signed, sizes
+      ! Error at the start of the periodic cycle [m/s]
+      real(wp) :: first
+      integer :: i
+
+      associate (path => samples%cycle%trajectory)
+         first = error_at_start(estimate, path%state(1, path%count) - path%state(1, 1))
+      end associate
+      allocate (errors%integrals(size(signed)), source=0.0_wp)
+      allocate (errors%lowest(size(signed)), source=huge(1.0_wp))
+      allocate (errors%highest(size(signed)), source=-huge(1.0_wp))
+      errors%angle = points%angle(:points%count)
+      errors%error = points%errors(:points%count) + first*points%shares(:points%count)
+      do i = 1, points%count
+         if (modulo(i - 1, points%stride) == 0) then
+            signed = 0.0_wp
+            sizes = 0.0_wp
+         end if
+         call evaluate_difference(points, samples, i, errors%error(i), differences)
+         signed = signed + points%weight(i)*differences
+         sizes = sizes + points%weight(i)*abs(differences)
+         errors%lowest = min(errors%lowest, points%values(:, i) - differences)
+         errors%highest = max(errors%highest, points%values(:, i) - differences)
+         if (modulo(i, points%stride) == 0) errors%integrals = errors%integrals + margin*max(abs(signed), distrust*sizes)
+      end do
+   end subroutine find_slip_errors
+
+   !> Error of a smallest or largest value: by how much the error of the sliding speed changes it where it is, or by how much a
+   !> point would exceed it without that error.
+   pure subroutine error_of_extreme(errors, case, model, cycle, state, angle, series, sense, value, error)
+      !> The errors
+      type(slip_errors_t), intent(in) :: errors
+      !> The case
+      type(case_t), intent(in) :: case
+      !> Model of the lobe
+      type(model_t), intent(in) :: model
+      !> Its cycle
+      type(cycle_t), intent(in) :: cycle
+      !> State of the follower where the extreme is
+      type(state_t), intent(in) :: state
+      !> Cam angle from full lift, of any turn [rad]
+      real(wp), intent(in) :: angle
+      !> The series
+      integer, intent(in) :: series
+      !> 1 for the smallest value, -1 for the largest
+      integer, intent(in) :: sense
+      !> The value [unit of the series]
+      real(wp), intent(in) :: value
+      !> Its error [unit of the series]
+      real(wp), intent(out) :: error
+
+      ! Part of a value that is rounding of another evaluation [-]
+      real(wp), parameter :: rounding = 1.0e-9_wp
+      ! Series there [unit of the series]; angle within the cycle [rad]; error of the trajectory [m/s]; change of the value
+      ! without it [unit of the series]
+      real(wp) :: values(follower_count(case)), inside, slip_error, change
+
+      error = 0.0_wp
+      if (sense > 0) error = max(0.0_wp, value - errors%lowest(series))
+      if (sense < 0) error = max(0.0_wp, errors%highest(series) - value)
+      inside = cycle%start + modulo(angle - cycle%start, two_pi)
+      call follower_values(case, model, state, values)
+      ! The state of a standstill is not that of the curve: it is exact
+      if (abs(values(series) - value) <= rounding*abs(value)) then
+         slip_error = error_at(errors, inside)
+         change = change_without(slip_error)
+         ! Where either sign of the error makes the value less of an extreme, it belongs to a sliding speed that the cycle passes
+         ! through, a little earlier or later
+         if (change > 0.0_wp) then
+            if (change_without(-slip_error) >= 0.0_wp) change = 0.0_wp
+         end if
+         error = max(error, abs(change))
+      end if
+      error = margin*error
+
+   contains
+
+      !> Change of the value by an error of the sliding speed that is taken away, positive where it is less of an extreme then.
+      pure function change_without(of_slip) result(difference)
+         !> The error [m/s]
+         real(wp), intent(in) :: of_slip
+         !> The change [unit of the series]
+         real(wp) :: difference
+
+         type(state_t) :: right
+         ! Series without the error [unit of the series]
+         real(wp) :: without(size(values))
+         integer :: status
+
+         call state_without(model, cycle, inside, state, of_slip, right, status)
+         if (status == 0) call follower_values(case, model, right, without)
+         if (status /= 0) without = 0.0_wp
+         difference = sense*(without(series) - values(series))
+      end function change_without
+
+   end subroutine error_of_extreme
+
+   !> Error of the trajectory at a cam angle: the larger of those at the points beside it.
+   pure function error_at(errors, angle) result(error)
+      !> The errors
+      type(slip_errors_t), intent(in) :: errors
+      !> Cam angle from full lift, within the cycle [rad]
+      real(wp), intent(in) :: angle
+      !> The error [m/s]
+      real(wp) :: error
+
+      integer :: left, right, middle
+
+      left = 1
+      right = size(errors%angle)
+      do while (right - left > 1)
+         middle = (left + right)/2
+         if (errors%angle(middle) <= angle) then
+            left = middle
+         else
+            right = middle
+         end if
+      end do
+      error = errors%error(left)
+      if (abs(errors%error(right)) > abs(error)) error = errors%error(right)
+   end function error_at
+
+   !> What is sampled at a point less what would be without the error of the sliding speed.
+   pure subroutine evaluate_difference(points, samples, place, error, differences)
+      !> The points
+      type(slip_points_t), intent(in) :: points
+      !> The samples
+      type(follower_samples_t), intent(in) :: samples
+      !> Which of the points
+      integer, intent(in) :: place
+      !> Error of the trajectory there [m/s]
+      real(wp), intent(in) :: error
+      !> The differences [unit of each]
+      real(wp), intent(out) :: differences(:)
+
+      type(state_t) :: right
+      ! Values without the error [unit of each]
+      real(wp) :: values(size(differences))
+      integer :: status
+
+      call state_without(samples%model, samples%cycle, points%angle(place), points%states(place), error, right, status)
+      if (status == 0) then
+         call sampled_values(samples, right, values)
+         differences = points%values(:, place) - values
+      else
+         ! So far off that there is no state: nothing is known there
+         differences = points%values(:, place)
+      end if
+   end subroutine evaluate_difference
+
+   !> State with the sliding speed less its error.
+   pure subroutine state_without(model, cycle, angle, state, error, right, status)
+      !> Model of the lobe
+      type(model_t), intent(in) :: model
+      !> Its cycle
+      type(cycle_t), intent(in) :: cycle
+      !> Cam angle from full lift, within the cycle [rad]
+      real(wp), intent(in) :: angle
+      !> State with the error
+      type(state_t), intent(in) :: state
+      !> Error of the trajectory [m/s]
+      real(wp), intent(in) :: error
+      !> State without it
+      type(state_t), intent(out) :: right
+      !> 0 fine, positive: no balance found
+      integer, intent(out) :: status
+
+      ! Sliding speed without the error [m/s]
+      real(wp) :: sliding_speed
+      integer :: direction
+
+      right = state
+      status = 0
+      if (.not. state%contact%is_touching) return
+      if (abs(error) <= 4.0_wp*spacing(state%contact%sliding_speed)) return
+      sliding_speed = state%contact%sliding_speed - merge(-error, error, cycle%has_surface_speed)
+      if (allocated(cycle%phases)) then
+         ! What the roller does at rest, the forces alone decide; where it slides, it does not turn back
+         direction = direction_at(cycle%phases, angle)
+         if (direction == 0) return
+         sliding_speed = direction*max(direction*sliding_speed, 0.0_wp)
+         call evaluate_spin(model, state%position, state%moments, sliding_speed, right%contact, right%spin_acceleration, status, &
+            & mobilised=real(direction, wp))
+      else
+         call evaluate_spin(model, state%position, state%moments, sliding_speed, right%contact, right%spin_acceleration, status)
+      end if
+      if (status == 0) call add_torques(model, right)
+   end subroutine state_without
+
+end module camroller_slip_errors
