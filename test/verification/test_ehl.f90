@@ -30,6 +30,7 @@ contains
       testsuite = [ &
          new_unittest("a dry contact's pressure deforms the bodies to a flat, to second order", test_flat), &
          new_unittest("the derivatives of the flow are those of its difference quotients", test_slopes), &
+         new_unittest("oil of one thickness and density keeps both while the nodes move apart", test_uniform), &
          new_unittest("a solution made up beforehand is found to second order", test_manufactured), &
          new_unittest("two published contacts come out within 0.3 % at 257 nodes", test_line_contacts), &
          new_unittest("a long inlet is reached without asking for it", test_long_inlet), &
@@ -123,6 +124,37 @@ contains
          end do
       end do
    end subroutine test_slopes
+
+   !> Nodes move with the half width. Oil that is the same everywhere then flows between them and is stored in them in equal parts.
+   subroutine test_uniform(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(ehl_problem_t) :: problem
+      type(ehl_grid_t) :: grid
+      type(ehl_fields_t) :: fields
+      type(storage_t) :: storage
+      integer, parameter :: nodes = 33
+      real(wp), parameter :: gap = 0.4_wp
+      real(wp) :: total(nodes)
+      integer :: i, status
+
+      call new_ehl_grid(grid, nodes, 4.0_wp, 2.0_wp, 0.1_wp)
+      call new_ehl_problem(problem, contact_of_groups(3.0e-5_wp, 1.0e-11_wp, 4500.0_wp, law=law_barus), status)
+      call new_ehl_fields(fields, nodes)
+      total = 0.0_wp
+      call evaluate_film(problem, grid, total, gap, fields)
+      fields%film = gap
+      fields%gap = gap
+      do i = -1, 1, 2
+         storage%growth = 0.01_wp*i
+         storage%duration = 0.05_wp
+         storage%mass = grid%weight*fields%density*gap*(1.0_wp - storage%growth)
+         call evaluate_flow(problem, grid, fields, storage)
+         ! masses and flows of order one over the duration
+         call check(error, maxval(abs(fields%excess(2:nodes - 1))) <= 100.0_wp*epsilon(1.0_wp)/storage%duration, &
+            & "oil comes or goes")
+         if (allocated(error)) return
+      end do
+   end subroutine test_uniform
 
    !> Solution made up beforehand: P = (1 - X^2)^(5/2), whose deformation is a polynomial, since that of T_n/sqrt(1 - X^2) is
    !> T_n/n; a source in each cell makes it balance.

@@ -9,6 +9,7 @@ module test_ehl_cycle
    use camroller_ehl_cycle, only : ehl_cycle_t, ehl_cycle_options_t, integrate_ehl_cycle
    use camroller_ehl_films, only : ehl_films_t
    use camroller_ehl_problem, only : ehl_contact_t
+   use camroller_ehl_step, only : moment_t, rate_weights
    use camroller_ehl_solution, only : ehl_options_t, solve_contact_film
    use camroller_ehl_summary, only : ehl_summary_t, compare_cycles
    use closeness, only : check_close, check_scaled, expect_success, expect_error
@@ -26,6 +27,7 @@ contains
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
       testsuite = [ &
+         new_unittest("rates are exact for a straight line, with two moments before for a parabola", test_rates), &
          new_unittest("where nothing changes the film is the steady one", test_dwell), &
          new_unittest("shorter steps and more nodes change film and slip as little as they should", test_convergence), &
          new_unittest("short steps leave no noise: the smallest film is the same at every angle", test_short_steps), &
@@ -42,6 +44,25 @@ contains
          new_unittest("a contact too heavy is refused", test_too_heavy) &
          ]
    end subroutine collect_ehl_cycle
+
+   subroutine test_rates(error)
+      type(error_type), allocatable, intent(out) :: error
+      ! Speed [rad/s]; angles, the latest first [rad]
+      real(wp), parameter :: speed = 31.0_wp, angles(0:2) = [0.37_wp, 0.30_wp, 0.12_wp]
+      type(moment_t) :: before(2)
+      integer :: steps, degree_of, i
+
+      before%angle = angles(1:)
+      do steps = 1, 2
+         do degree_of = 0, steps
+            associate (weights => rate_weights(speed, angles(0), before(:steps)))
+               call check_scaled(error, sum(weights*[(angles(i)**degree_of, i=0, 2)]), &
+                  & speed*degree_of*angles(0)**max(degree_of - 1, 0), speed, 1.0e-13_wp, "rate")
+            end associate
+            if (allocated(error)) return
+         end do
+      end do
+   end subroutine test_rates
 
    !> Cycle of a reference case.
    subroutine make_ehl_cycle(cycle, speed, viscosity, options, error)
