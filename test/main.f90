@@ -62,6 +62,7 @@ program main
    use test_ehl_cycle, only : collect_ehl_cycle
    use test_ehl_factors, only : collect_ehl_factors
    use test_ehl_record, only : collect_ehl_record
+   use test_ehl_reynolds, only : collect_ehl_reynolds
    use test_lubricant, only : collect_lubricant
    use test_hertz, only : collect_hertz
    use test_invariance, only : collect_invariance
@@ -139,6 +140,7 @@ contains
          new_testsuite("ehl_cycle", collect_ehl_cycle), &
          new_testsuite("ehl_factors", collect_ehl_factors), &
          new_testsuite("ehl_record", collect_ehl_record), &
+         new_testsuite("ehl_reynolds", collect_ehl_reynolds), &
          new_testsuite("hard_ehl", collect_hard_ehl), &
          new_testsuite("ode", collect_ode), &
          new_testsuite("ode_rosenbrock", collect_ode_rosenbrock), &
