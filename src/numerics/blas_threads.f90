@@ -1,13 +1,14 @@
-!> One thread for the linear algebra, and memory for it.
+!> One thread for the linear algebra library, and memory for it.
 !>
-!> OpenBLAS would take as many threads as there are cores, and round otherwise with each number of them: results
-!> have to be the same on every machine, and a sweep has its own threads. Where another library does the algebra, nothing is
-!> changed. The routine is looked up while the program runs, so that no library has to have it; where OpenBLAS is linked statically
-!> it may not be found, and the environment variable OPENBLAS_NUM_THREADS is left. The setting holds for the whole process, so the
-!> library does not make it by itself: a program decides.
+!> OpenBLAS starts one thread for each core, and its rounding depends on the number of threads. `use_one_blas_thread` sets one
+!> thread, so that results are the same on every machine and a sweep, which has threads of its own, does not start more threads
+!> than there are cores. With another BLAS library nothing is changed. The routine is looked up at run time, so the program links
+!> with any BLAS; where OpenBLAS is linked statically the routine may not be found, and the environment variable
+!> OPENBLAS_NUM_THREADS has to be used instead. The setting applies to the whole process, so the library never makes it: the main
+!> program does.
 !>
-!> OpenBLAS maps a buffer for each thread that calls it at the same time, and one for each of its own threads when it is loaded.
-!> Where it cannot get one it tries again without end, so a program makes sure of them before the first case.
+!> OpenBLAS maps one buffer for each thread that calls it at the same time, and, when it is loaded, one for each of its own threads.
+!> If it cannot map one, it tries again without end; a program therefore makes sure of the buffers before the first case.
 module camroller_blas_threads
    use, intrinsic :: iso_c_binding, only : c_associated, c_char, c_f_procpointer, c_funptr, c_int, c_loc, c_null_char, c_null_ptr, &
       & c_ptr

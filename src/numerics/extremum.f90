@@ -1,14 +1,15 @@
-!> Smallest value of a function of one variable near three points of which the middle one is lowest.
+!> Minimum of a function of one variable, bracketed by three points of which the middle one has the lowest value.
 !>
-!> In: three points with their values, then the value at each point asked for. Out: the smallest value met. The
-!> caller evaluates its own function between the calls, as with `roots`:
+!> In: three points with their values, then the value at each requested point. Out: the lowest value found. The caller evaluates
+!> its own function between the calls, as with `roots`:
 !>
 !>     call start_extremum(search, points, values, tolerance)
 !>     do while (search%is_wanted)
 !>        call narrow_extremum(search, f(search%trial))
 !>     end do
 !>
-!> then `search%point(2)` is the place and `search%value(2)` the value. For a largest value the signs of all values are changed.
+!> then `search%point(2)` is the position and `search%value(2)` the value of the minimum. For a maximum, pass the values with
+!> opposite sign.
 module camroller_extremum
    use camroller_kinds, only : wp
    implicit none

@@ -1,14 +1,13 @@
-!> Integrals of several quantities at once, sampled together, over panels that are halved where necessary.
+!> Adaptive integration of several quantities at once: all are sampled at the same nodes, and panels are halved where necessary.
 !>
-!> In: panels, the values of all quantities at seven places in each. Out: integrals, integrals of the magnitudes,
-!> and estimates of the integrals' errors (`errors`), which bound the errors as a rule. The integrand is a type that extends
-!> `sampled_t`.
+!> In: panels, the values of all quantities at seven nodes in each. Out: integrals, integrals of the absolute values, and error
+!> estimates (`errors`), which are upper bounds as a rule. The integrand is a type that extends `sampled_t`.
 !>
-!> The rule is that of Gauss with three places and Kronrod's extension to seven: exact for polynomials of degree 11. The error
-!> estimate is the root of the sum of squares of three terms: the difference of both rules, and the fifth and the sixth coefficient
-!> of the polynomial through the seven values in Legendre's polynomials. A kink or a jump that makes one of them zero by chance
-!> shows in the others. Sources: Kronrod (1965), Nodes and Weights of Quadrature Formulas; Berntsen and Espelid, ACM Trans. Math.
-!> Software 17 (1991) 233, on several such rules together.
+!> The rule is the Gauss rule with three nodes and its Kronrod extension to seven: exact for polynomials of degree 11. The error
+!> estimate is the root of the sum of squares of three terms: the difference of both rules, and the fifth and the sixth
+!> coefficient of the interpolating polynomial in Legendre polynomials. At a kink or a jump one of them may vanish by chance; the
+!> others then do not. Sources: Kronrod (1965), Nodes and Weights of Quadrature Formulas; Berntsen and Espelid, ACM Trans. Math.
+!> Software 17 (1991) 233, on error estimates from several such terms.
 module camroller_panels
    use camroller_kinds, only : wp
    use camroller_error, only : error_t
@@ -21,7 +20,7 @@ module camroller_panels
    integer, parameter, public :: panel_points = 7
    !> Which of them are those of the rule of three
    integer, parameter, public :: gauss_points(3) = [2, 4, 6]
-   !> Positive places on [-1, 1], outermost first, and the weights of both rules there [-]
+   !> Positive nodes on [-1, 1], outermost first, and the weights of both rules there [-]
    real(wp), parameter :: outer = 0.960491268708020283423507092629080_wp, second = 0.774596669241483377035853079956480_wp, &
       & third = 0.434243749346802558002071502844628_wp
    real(wp), parameter :: kronrod(4) = [0.104656226026467265193823857192073_wp, 0.268488089868333440728569280666710_wp, &
@@ -35,7 +34,7 @@ module camroller_panels
    !> Weights of the rule of seven on [0, 1] [-]
    real(wp), parameter, public :: panel_weights(panel_points) = 0.5_wp*[kronrod, kronrod(3:1:-1)]
    !> Coefficients of degree 5 and 6 of the polynomial through the values, over Legendre's polynomials, from the differences and the
-   !> sums of values at opposite places, outermost first [-]
+   !> sums of values at opposite nodes, outermost first [-]
    real(wp), parameter :: fifth(3) = [0.279226086984319099777228097127315_wp, -0.617670841024766752942759318542525_wp, &
       & 0.484178662140076336045515456826413_wp]
    real(wp), parameter :: sixth(4) = [0.158570039434041310899733116957686_wp, -0.434950705586700173980282234680070_wp, &
@@ -95,7 +94,7 @@ contains
       type(panels_t), intent(inout) :: panels
       !> Ends [x]
       real(wp), intent(in) :: left, right
-      !> Values at the seven places, shape (quantity, place) [unit of each]
+      !> Values at the seven nodes, shape (quantity, node) [unit of each]
       real(wp), intent(in) :: values(:, :)
 
       if (panels%count == size(panels%left)) call grow(panels)
@@ -131,7 +130,7 @@ contains
       class(sampled_t), intent(inout) :: sampled
       !> Ends [x]
       real(wp), intent(in) :: left, right
-      !> Why there is no value at a place
+      !> Why there is no value at a node
       type(error_t), allocatable, intent(out) :: error
 
       ! Values [unit of each]
@@ -151,7 +150,7 @@ contains
       real(wp), intent(in) :: allowed(:)
       !> Halvings that are left; zero afterwards where the error estimates are not within what is allowed
       integer, intent(inout) :: halvings
-      !> Why there is no value at a place
+      !> Why there is no value at a node
       type(error_t), allocatable, intent(out) :: error
 
       ! Sums of the error estimates [unit of each times x]; values in both halves [unit of each]
@@ -184,15 +183,15 @@ contains
       end do
    end subroutine refine_panels
 
-   !> Values at the places between two ends.
+   !> Values at the nodes between two ends.
    subroutine sample_places(sampled, left, right, values, error)
       !> What is integrated
       class(sampled_t), intent(inout) :: sampled
       !> Ends [x]
       real(wp), intent(in) :: left, right
-      !> Values, shape (quantity, place) [unit of each]
+      !> Values, shape (quantity, node) [unit of each]
       real(wp), intent(out) :: values(:, :)
-      !> Why there is no value at a place
+      !> Why there is no value at a node
       type(error_t), allocatable, intent(out) :: error
 
       integer :: point
@@ -211,10 +210,10 @@ contains
       integer, intent(in) :: panel
       !> Ends [x]
       real(wp), intent(in) :: left, right
-      !> Values at the seven places, shape (quantity, place) [unit of each]
+      !> Values at the seven nodes, shape (quantity, node) [unit of each]
       real(wp), intent(in) :: values(:, :)
 
-      ! Length of the panel [x]; sums and differences of values at opposite places [unit of the quantity]
+      ! Length of the panel [x]; sums and differences of values at opposite nodes [unit of the quantity]
       real(wp) :: length, sums(4), differences(3)
       ! Error estimates one by one [unit of the quantity]
       real(wp) :: by_rules, by_odd, by_even

@@ -1,7 +1,7 @@
-!> Functions that exponential integrators weight the rate with.
+!> The phi functions of exponential integrators.
 !>
-!> In: an argument. Out: `phi_1(z) = (exp(z) - 1)/z`, `phi_(k+1)(z) = (phi_k(z) - 1/k!)/z`.
-!> Source: Hochbruck and Ostermann, Acta Numerica 19 (2010) 209, section 2.1.
+!> In: an argument. Out: `phi_1(z) = (exp(z) - 1)/z`, `phi_(k+1)(z) = (phi_k(z) - 1/k!)/z`. Source: Hochbruck and Ostermann, Acta
+!> Numerica 19 (2010) 209, section 2.1.
 module camroller_phi
    use camroller_kinds, only : wp
    implicit none

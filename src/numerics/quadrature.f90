@@ -1,8 +1,8 @@
-!> Integrals: a fixed rule of any order and an adaptive rule with an error estimate.
+!> Numerical integration: Gauss-Legendre rules of any order, and an adaptive rule with an error estimate.
 !>
-!> In: an order, or a function and its interval. Out: places and weights, or the integral. A function
-!> to be integrated is a type that extends `integrand_t` and carries what it needs.
-!> Sources: Davis and Rabinowitz (1984), Methods of Numerical Integration; Piessens and others (1983), QUADPACK.
+!> In: an order, or a function and its interval. Out: nodes and weights, or the integral. The integrand is a type that extends
+!> `integrand_t` and carries the data it needs. Sources: Davis and Rabinowitz (1984), Methods of Numerical Integration; Piessens
+!> and others (1983), QUADPACK.
 module camroller_quadrature
    use camroller_kinds, only : wp, pi
    implicit none

@@ -1,14 +1,14 @@
-!> Bracketed root of a function of one variable.
+!> Root of a function of one variable inside a bracket.
 !>
-!> In: two points with values of opposite sign, then the value at each point asked for. Out: the root.
-!> The caller evaluates its own function between the calls, so nothing is passed about and everything stays pure:
+!> In: two points with values of opposite sign, then the value at each requested point. Out: the root. The caller evaluates its
+!> own function between the calls, so no procedure is passed as an argument and all procedures are pure:
 !>
 !>     call start_bracket(bracket, lower, upper, f(lower), f(upper), tolerance)
 !>     do while (bracket%status == root_wanted)
 !>        call narrow_bracket(bracket, f(bracket%trial))
 !>     end do
 !>
-!> then `bracket%status` is `root_found` and `bracket%trial` the root, or it says what went wrong.
+!> then `bracket%status` is `root_found` and `bracket%trial` the root, or the status tells why there is none.
 module camroller_roots
    use, intrinsic :: ieee_arithmetic, only : ieee_is_nan
    use camroller_kinds, only : wp

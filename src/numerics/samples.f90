@@ -1,12 +1,13 @@
-!> Points of the unit cube for samples: Sobol sequence, Latin hypercube, independent points; each found by its number alone.
+!> Sample points in the unit cube: Sobol sequence, Latin hypercube, independent random points; each computed from its index
+!> alone.
 !>
-!> In: number of a point, axis, seed. Out: a coordinate in [0, 1). Nothing is stored and nothing is drawn in
-!> sequence, so any process finds any point, and memory does not depend on how many there are. Integers of 32 bits are held
-!> in 64, where their products fit.
+!> In: index of a point, axis, seed. Out: a coordinate in [0, 1). Nothing is stored, and no random numbers are drawn in sequence,
+!> so any process can compute any point, and memory does not depend on the number of points. Integers of 32 bits are held in 64
+!> bits, so that their products do not overflow.
 !>
-!> Sources: Sobol (1967), doi 10.1016/0041-5553(67)90144-9; Antonov and Saleev (1979), doi 10.1016/0041-5553(79)90085-5, for
-!> the order in Gray code; Joe and Kuo (2008), doi 10.1137/070709359, for the direction numbers; McKay, Beckman and Conover
-!> (1979), doi 10.2307/1268522, for the Latin hypercube; Luby and Rackoff (1988), doi 10.1137/0217022, for permutations in
+!> Sources: Sobol (1967), doi 10.1016/0041-5553(67)90144-9; Antonov and Saleev (1979), doi 10.1016/0041-5553(79)90085-5, for the
+!> order in Gray code; Joe and Kuo (2008), doi 10.1137/070709359, for the direction numbers; McKay, Beckman and Conover (1979),
+!> doi 10.2307/1268522, for the Latin hypercube; Luby and Rackoff (1988), doi 10.1137/0217022, for permutations by Feistel
 !> rounds.
 module camroller_samples
    use, intrinsic :: iso_fortran_env, only : int64

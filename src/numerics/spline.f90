@@ -1,8 +1,7 @@
-!> Tabulated function with three derivatives: a quintic spline through a table, or a smooth one near it.
+!> Tabulated function with three derivatives: a quintic spline that interpolates a table, or a smoothing spline near it.
 !>
-!> In: points and values. Out: a function with four continuous derivatives, known between the first and
-!> the last point and nowhere else. Evaluation uses the Taylor coefficients of the pieces.
-!> Source: de Boor (1978), A Practical Guide to Splines.
+!> In: points and values. Out: a function with four continuous derivatives, defined between the first and the last point.
+!> Evaluation uses Taylor coefficients of each piece. Source: de Boor (1978), A Practical Guide to Splines.
 module camroller_spline
    use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
    use camroller_kinds, only : wp

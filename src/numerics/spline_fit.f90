@@ -251,7 +251,7 @@ contains
       !> Functions and their derivatives [1/x^k], width of a piece, mean spacing [x], weight of a Gauss point [x^6]
       real(wp) :: basis(0:spline_degree, spline_degree + 1), width, spacing, gauss_weight
       integer :: e, i, n_pieces, q
-      !> Gauss-Legendre rule of three points on (0, 1), exact for the square of a parabola: places [-]
+      !> Gauss-Legendre rule of three points on (0, 1), exact for the square of a parabola: nodes [-]
       real(wp), parameter :: places(3) = 0.5_wp + [-1.0_wp, 0.0_wp, 1.0_wp]*sqrt(0.15_wp)
       !> Its weights [-]
       real(wp), parameter :: weights(3) = [5.0_wp, 8.0_wp, 5.0_wp]/18.0_wp

@@ -1,12 +1,12 @@
-!> Points that an integration has accepted, and the curve through them.
+!> Accepted points of an integration, and the interpolation between them.
 !>
-!> In: time, state and rate at each accepted point. Out: the state at any time between, by the
-!> curve that the method left for each interval, by cubic Hermite interpolation on the rates where it left none, or linear where
-!> the method itself is no better.
+!> In: time, state and rate at each accepted point. Out: the state at any time between, by the dense output of the method where
+!> it has one, by cubic Hermite interpolation of states and rates where it has none, or linear where the method itself is of
+!> first order.
 !>
-!> Between points `left` and `right`, at place `p` of the interval, the curve is
-!> `left + p (right - left) + p (1 - p) (b1 + p (b2 + p (b3 + p b4))) + a (exp(z p) - 1 - p (exp(z) - 1))` with the bends b1 to
-!> b4 and a layer of height a that decays with the exponent z, if there is one.
+!> Between points `left` and `right`, at the relative position `p` in the interval, the interpolant is `left + p (right - left) +
+!> p (1 - p) (b1 + p (b2 + p (b3 + p b4))) + a (exp(z p) - 1 - p (exp(z) - 1))` with the coefficients b1 to b4 and, if there is
+!> one, a boundary layer of height a that decays with the exponent z.
 module camroller_trajectory
    use camroller_kinds, only : wp
    implicit none
