@@ -1,10 +1,11 @@
-!> Initial value problems: the loop that drives a method.
+!> Initial value problems: the integration loop, common to all methods.
 !>
-!> In: a problem (`ode_problem`), a method (`ode_method`), a tolerance or step, times at which a step must end.
-!> Out: a trajectory and counters. Methods supply single steps; step-size control, stop times and the loop are here, so that a
-!> method is added by adding a file and a line in `ode_methods`.
+!> In: a problem (`ode_problem`), a method (`ode_method`), a tolerance or step, times at which a step must end. Out: a trajectory
+!> and counters. A method supplies single steps; step-size control, stop times and the loop are here, so a new method takes one
+!> file and one line in `ode_methods`.
 !>
-!> Status of a step: 0 fine, positive "this trial state is impossible, try a smaller step", negative "give up".
+!> Status of a step: 0 accepted; positive "the trial state is not admissible, try a smaller step"; negative "the problem cannot
+!> be evaluated, end".
 module camroller_ode
    use camroller_kinds, only : wp
    use camroller_error, only : error_t, raise, kind_convergence

@@ -1,9 +1,9 @@
-!> Steps that get across places where a rate saturates within a range of the state that no method resolves by smaller steps.
+!> Steps across a narrow range of the state in which the rate saturates and which the step sizes of a method cannot resolve.
 !>
-!> In: a problem of one component and a point. Out: the states in the middle and at the end of a step, by the
-!> implicit Euler method. Its equation `y = y_0 + h f(t_0 + h, y)` is solved by bisection, without derivatives, so that steps may
-!> enter or leave such a range whatever their size. Where a disturbance decays, the method is contractive, and one step against two
-!> of half the size tells its error.
+!> In: a problem of one component and a point. Out: the states in the middle and at the end of a step, by the implicit Euler
+!> method. Its equation `y = y_0 + h f(t_0 + h, y)` is solved by bisection, without derivatives, so that a step may begin, end or
+!> lie in such a range whatever its size. Where disturbances decay, the method is contractive; the error of a step is estimated
+!> by comparison with two steps of half the size.
 module camroller_ode_bridge
    use camroller_kinds, only : wp
    use camroller_ode_problem, only : problem_t, linear_t, counters_t

@@ -1,15 +1,16 @@
-!> Explicit Runge-Kutta methods: the tables, and the one procedure that steps them.
+!> Explicit Runge-Kutta methods: their coefficients, and the procedure that makes a step with them.
 !>
-!> In: the name of a method. Out: a `method_t`. Each table is data with its paper; order, stability
-!> limit and error estimate are tested.
+!> In: the name of a method. Out: a `method_t`. Each set of coefficients names its paper; order, stability limit and error
+!> estimate are tested.
 !>
 !> | method | order | stages | source |
 !> |---|---|---|---|
 !> | `euler` | 1, fixed step | 1 | Euler (1768) |
 !> | `dormand_prince` | 5(4) | 7, the last is the first of the next step | J. Comput. Appl. Math. 6 (1980) 19 |
 !>
-!> The curve of a step is the cubic on the rates at its ends; `dormand_prince` adds a quartic term, which makes it one order
-!> better. Source: Hairer, Norsett and Wanner, Solving Ordinary Differential Equations I, 2nd ed., Springer (1993), II.6.
+!> Dense output is the cubic Hermite interpolant of states and rates at both ends; `dormand_prince` adds a quartic term, which
+!> raises its order by one. Source: Hairer, Norsett and Wanner, Solving Ordinary Differential Equations I, 2nd ed., Springer
+!> (1993), II.6.
 module camroller_ode_explicit
    use camroller_kinds, only : wp
    use camroller_ode, only : problem_t, method_t, counters_t

@@ -1,11 +1,10 @@
 !> Radau IIA of order 5: fully implicit collocation with three stages, stiffly accurate and L-stable.
 !>
-!> In: nothing but the number of components. Out: a `method_t`. The stages are found by simplified Newton
-!> iterations on all of them at once, with the Jacobian of the start of the step, so that it may be a rough one. The
-!> curve of a step is its collocation polynomial.
+!> In: number of components. Out: a `method_t`. The stages are found by simplified Newton iterations on all of them at once, with
+!> the Jacobian at the start of the step; an approximate Jacobian suffices. Dense output is the collocation polynomial.
 !>
-!> Source: Hairer and Wanner, Solving Ordinary Differential Equations II, 2nd ed., Springer (1996), section IV.8: the
-!> iteration, its start from the last polynomial, its end and the filtered error estimate.
+!> Source: Hairer and Wanner, Solving Ordinary Differential Equations II, 2nd ed., Springer (1996), section IV.8: the iteration,
+!> its starting values from the polynomial of the last step, its termination, and the filtered error estimate.
 module camroller_ode_implicit
    use camroller_kinds, only : wp
    use camroller_ode, only : problem_t, method_t, counters_t

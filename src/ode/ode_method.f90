@@ -1,6 +1,6 @@
-!> What a method of integration is.
+!> Abstract type of an integration method.
 !>
-!> In: nothing. Out: `method_t`, which methods extend, and `options_t`. The loop that drives a method is `ode`.
+!> In: nothing. Out: `method_t`, which methods extend, and `options_t`. The integration loop is in `ode`.
 module camroller_ode_method
    use camroller_kinds, only : wp
    use camroller_ode_problem, only : problem_t, linear_t, counters_t

@@ -1,6 +1,6 @@
-!> All integration methods by name.
+!> List of all integration methods by name.
 !>
-!> In: a name. Out: a `method_t`. A new method is a file and a line here.
+!> In: a name. Out: a `method_t`. A new method takes one file and one line here.
 module camroller_ode_methods
    use camroller_error, only : error_t, raise, kind_domain
    use camroller_names, only : name_length, find_name

@@ -1,9 +1,11 @@
-!> What an initial value problem is: its right-hand side, its Jacobian and the work done on it.
+!> Abstract type of an initial value problem: right-hand side, Jacobian and counters of the work.
 !>
-!> In: nothing. Out: `problem_t`, which problems extend, `linear_t` and `counters_t`. A problem that knows its
-!> Jacobian better than a difference quotient does overrides `get_jacobian`, or `linearise` where rate and Jacobian come together.
+!> In: nothing. Out: `problem_t`, which problems extend, `linear_t` and `counters_t`. By default the Jacobian is a difference
+!> quotient. A problem with an exact Jacobian overrides `get_jacobian`, or `linearise` where rate and Jacobian are computed
+!> together.
 !>
-!> Status of a rate: 0 fine, positive "this trial state is impossible, try a smaller step", negative "give up".
+!> Status of a rate: 0 valid; positive "the trial state is not admissible, try a smaller step"; negative "the problem cannot be
+!> evaluated, end".
 module camroller_ode_problem
    use camroller_kinds, only : wp
    implicit none

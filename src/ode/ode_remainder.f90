@@ -1,8 +1,8 @@
-!> What a method knows of the remainder of a rate over a step: a polynomial through values and slopes at three points.
+!> Nonlinear remainder of a rate over a step, as a polynomial through values and slopes at three points.
 !>
-!> In: rates with derivatives at the starts of this step and the one before and at the end of this one. Out: the
-!> remainder R of the rate about the start, `f + J (y - y_n) + v (t - t_n) + R(t)`, which vanishes there with its slope, as
-!> `R(t_n + x h) = r_2 x^2 + ... + r_5 x^5`, its integrals, and how it follows the state at the end.
+!> In: rates with derivatives at the starts of this step and the one before and at the end of this one. Out: the remainder R of
+!> the rate about the start, `f + J (y - y_n) + v (t - t_n) + R(t)`, which vanishes there with its slope, as `R(t_n + x h) = r_2
+!> x^2 + ... + r_5 x^5`; its integrals; its derivative with respect to the state at the end.
 module camroller_ode_remainder
    use camroller_kinds, only : wp
    use camroller_ode_problem, only : linear_t

@@ -1,14 +1,14 @@
-!> A Rosenbrock method: its table, and the procedure that steps it.
+!> A Rosenbrock method: its coefficients, and the procedure that makes a step with them.
 !>
-!> In: number of components. Out: a `method_t`. Each stage solves one linear system with the matrix
-!> `I/(gamma h) - J`; nothing is iterated. With the increments u_i the form stepped is
+!> In: number of components. Out: a `method_t`. Each stage solves one linear system with the matrix `I/(gamma h) - J`; there is
+!> no iteration. With the increments u_i a stage is
 !>
 !>     (I/(gamma h) - J) u_i = f(t + c_i h, y + sum a_ij u_j) + sum C_ij u_j/h + h d_i df/dt
 !>
-!> The method is L-stable and stiffly accurate: the last increment is at the same time the error estimate, and the
-!> trial state of the last stage plus that increment is the new state. The curve of a step is a combination of the increments,
-!> not of the rates at its ends, which stiffness would spoil. Source of form and curve: Hairer and Wanner, Solving
-!> Ordinary Differential Equations II, 2nd ed., Springer (1996), section IV.7 and chapter VI.4.
+!> The method is L-stable and stiffly accurate: the last increment is also the error estimate, and the trial state of the last
+!> stage plus that increment is the new state. Dense output is a combination of the increments, not of the rates at both ends,
+!> which would lose accuracy on stiff problems. Source of form and dense output: Hairer and Wanner, Solving Ordinary Differential
+!> Equations II, 2nd ed., Springer (1996), section IV.7 and chapter VI.4.
 !>
 !> | method | order | stages | source |
 !> |---|---|---|---|

@@ -1,8 +1,8 @@
-!> Checks on a step beyond its own error estimate: has it missed where the rate saturates, where the decay ends, or where the state
-!> is held?
+!> Checks of a step in addition to its error estimate: did the step pass over a saturation of the rate, the end of a fast decay,
+!> or an interval in which the state is held at a barrier?
 !>
-!> In: rate with its derivatives at both ends of a step, its curve. Out: its error over the tolerance, raised where
-!> there is reason to.
+!> In: rate with its derivatives at both ends of a step, its dense output. Out: the ratio of error to tolerance, raised where a
+!> check fails.
 module camroller_step_checks
    use camroller_kinds, only : wp
    use camroller_ode_method, only : method_t
