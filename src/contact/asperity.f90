@@ -1,9 +1,9 @@
-!> Rough surfaces in contact: load and real area of the touching asperities.
+!> Contact of rough surfaces: load and real contact area of the asperities.
 !>
-!> In: film thickness over roughness, roughness constants, equivalent modulus, apparent area. Out:
+!> In: ratio of film thickness to roughness, roughness constants, equivalent modulus, apparent area. Out:
 !> asperity load and real contact area with their derivatives.
 !> Sources: Greenwood and Tripp (1970), Proc. Instn Mech. Engrs 185, 625-633; Islam (2019) eqs. (34)-(36) with
-!> (eta beta sigma) squared in the real area, too. Zhao, Maietta and Chang (2000), J. Tribol. 122, 86-93.
+!> (eta beta sigma) squared in the real area as well. Zhao, Maietta and Chang (2000), J. Tribol. 122, 86-93.
 module camroller_asperity
    use camroller_kinds, only : wp, pi
    use camroller_names, only : name_length
@@ -19,7 +19,7 @@ module camroller_asperity
 
    !> Laws of touching asperities: elastic summits of both surfaces, or summits of one surface that yield against a plane
    character(len=*), parameter :: asperity_law_names(*) = [character(len=name_length) :: "greenwood_tripp", "zhao_maietta_chang"]
-   !> Their places in the list
+   !> Their positions in the list
    integer, parameter :: law_greenwood_tripp = 1, law_zhao_maietta_chang = 2
    !> Boundary friction that is counted: all of it, or what the slip mobilises
    character(len=*), parameter :: boundary_names(*) = [character(len=name_length) :: "mobilised", "full"]

@@ -1,8 +1,7 @@
 !> Quadrature over a Hertzian line contact.
 !>
-!> The pressure `p0 sqrt(1 - x^2/b^2)` has a root at the edges; with x = b sin(phi) it is
-!> `p0 cos(phi)`, and Gauss-Legendre quadrature in phi converges fast:
-!> `int_0^b f(p(x)) dx = b sum_i weight_i f(p0 height_i)`.
+!> The pressure `p0 sqrt(1 - x^2/b^2)` is not smooth at the edges; with x = b sin(phi) it is `p0 cos(phi)`, and Gauss-Legendre
+!> quadrature in phi converges fast: `int_0^b f(p(x)) dx = b sum_i weight_i f(p0 height_i)`.
 module camroller_contact_rule
    use camroller_kinds, only : wp, pi
    implicit none

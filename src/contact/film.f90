@@ -1,7 +1,7 @@
-!> Film thickness of an elastohydrodynamic line contact: published regressions behind one signature.
+!> Film thickness of an elastohydrodynamic line contact: published regressions with one interface.
 !>
-!> In: the dimensionless groups. Out: central and minimum film over equivalent radius, with their logarithmic
-!> slopes. Knows no cam. Groups: U = eta0 |V_e|/(E' R), G = alpha E', W* = w/(E' R L) with w the load carried by the film, V_e
+!> In: the dimensionless groups. Out: central and minimum film relative to the equivalent radius, with their logarithmic
+!> slopes. Groups: U = eta0 |V_e|/(E' R), G = alpha E', W* = w/(E' R L) with w the load carried by the film, V_e
 !> the mean surface speed; H = h/R.
 !>
 !> | law | sources |

@@ -1,13 +1,14 @@
-!> Film over speed and load as polynomials: what a numerical solution says, made ready for evaluation.
+!> Film thickness of a numerical solution as a function of speed and load: polynomials fitted to solutions at given points.
 !>
-!> In: logarithms of the films at the points that it asks for. Out: logarithms of both films and their slopes at any
-!> speed and load. Chebyshev polynomials in ln U and in a place over ln W* inside a box, beyond it the power law that touches
-!> them, so that film and slopes have no jump anywhere. Knows nothing of where the films come from.
+!> In: logarithms of the films at the points that `speed_points` and `load_points` give. Out: logarithms of both films and their
+!> slopes at any speed and load. Inside the table the fit is by Chebyshev polynomials in ln U and in a stretched ln W*; outside
+!> it continues as a power law with the same value and slope at the border, so film and slopes are continuous everywhere. The
+!> module does not depend on how the films were computed.
 !>
 !> Over the load, ln W* is stretched about the line where the pressure spike passes the middle of the contact, since the central
-!> film has a hump there that no formula has. With z the distance from that line the place is `a z + asinh(z/d)`, made to run
-!> from -1 to 1 over the box at each speed. The points are those where the Chebyshev polynomial of highest degree is largest;
-!> those of twice the degree have them among theirs, so that a table grows without solving a point again.
+!> film has a maximum there that no published formula has. With z the distance from that line, the coordinate is `a z +
+!> asinh(z/d)`, scaled to run from -1 to 1 over the table at each speed. The points are the extrema of the Chebyshev polynomial
+!> of highest degree; those of twice the degree include them, so a table can be refined without solving any point again.
 module camroller_film_table
    use camroller_kinds, only : wp, pi
    implicit none
@@ -44,13 +45,13 @@ module camroller_film_table
       real(wp) :: ends(2), hump, beyond
       !> Stretched ln W* at both ends, and its derivative with respect to ln U [-]
       real(wp) :: spans(2), drifts(2)
-      !> Coefficients of the logarithms of minimum and central film, then of their slopes over ln U at the same place [-]
+      !> Coefficients of the logarithms of minimum and central film, then of their slopes over ln U at the same coordinate [-]
       real(wp) :: coefficients(most_terms, 4)
    end type film_series_t
 
 contains
 
-   !> Speeds at which the films are asked for.
+   !> Speeds at which the table needs the films.
    pure function speed_points(ends, terms) result(points)
       !> Both ends of ln U [-]
       real(wp), intent(in) :: ends(2)
@@ -63,7 +64,7 @@ contains
       points([1, terms]) = ends
    end function speed_points
 
-   !> Loads at which the films are asked for at one speed.
+   !> Loads at which the table needs the films, at one speed.
    pure function load_points(ends, log_speed, terms) result(points)
       !> Both ends of ln W* [-]
       real(wp), intent(in) :: ends(2)
@@ -90,7 +91,7 @@ contains
    pure function places(terms) result(x)
       !> Number of points, two or more
       integer, intent(in) :: terms
-      !> The places [-]
+      !> The coordinates [-]
       real(wp) :: x(terms)
 
       integer :: i
@@ -237,7 +238,7 @@ contains
       !> Films over the load
       type(film_series_t), intent(out) :: series
 
-      ! ln U inside the table; its place from -1 to 1, half its length [-]
+      ! ln U inside the table; its coordinate from -1 to 1, half its length [-]
       real(wp) :: inside, x, half
       ! Polynomials over the speed and their derivatives with respect to ln U; bends that are not used [-]
       real(wp) :: values(most_terms), slopes(most_terms), bends(most_terms)
@@ -277,9 +278,9 @@ contains
       real(wp) :: inside, beyond
       ! Place from -1 to 1; its derivatives with respect to ln W*, to ln U and to both [-]
       real(wp) :: x, by_load, by_speed, by_both
-      ! Polynomials over the load, first and second derivatives with respect to the place [-]
+      ! Polynomials over the load, first and second derivatives with respect to the coordinate [-]
       real(wp) :: values(most_terms), slopes(most_terms), bends(most_terms)
-      ! Derivatives of the logarithm of a film with respect to the place, and to ln U and ln W* [-]
+      ! Derivatives of the logarithm of a film with respect to the coordinate, and to ln U and ln W* [-]
       real(wp) :: slope, cross
       integer :: k, m
 
@@ -309,7 +310,7 @@ contains
       type(film_series_t), intent(in) :: series
       !> ln W* inside the table [-]
       real(wp), intent(in) :: log_load
-      !> The place from -1 to 1; its derivatives with respect to ln W*, to ln U and to both [-]
+      !> The coordinate from -1 to 1; its derivatives with respect to ln W*, to ln U and to both [-]
       real(wp), intent(out) :: x, by_load, by_speed, by_both
 
       ! Stretched length of the table, its derivative with respect to ln U; slope of the stretching [-]
@@ -348,7 +349,7 @@ contains
    pure subroutine polynomials(x, values, slopes, bends)
       !> Place from -1 to 1 [-]
       real(wp), intent(in) :: x
-      !> The polynomials, their first and second derivatives with respect to the place [-]
+      !> The polynomials, their first and second derivatives with respect to the coordinate [-]
       real(wp), intent(out) :: values(:), slopes(:), bends(:)
 
       integer :: k

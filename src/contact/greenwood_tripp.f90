@@ -1,8 +1,8 @@
-!> Integrals of the summits of a Gaussian rough surface that reach across a gap.
+!> Greenwood-Tripp integrals: moments of the Gaussian summit heights above a gap.
 !>
 !>     F_n(H) = (2 pi)^(-1/2) int_H^inf (s - H)^n exp(-s^2/2) ds,    dF_n/dH = -n F_(n - 1)
 !>
-!> In: gap over roughness, 0 <= H. Out: F_2 for the real area, F_5/2 for the load, and their
+!> In: ratio of gap to roughness, 0 <= H. Out: F_2 for the real area, F_5/2 for the load, and their
 !> derivatives.
 !> Source: Greenwood and Tripp (1970), Proc. Instn Mech. Engrs 185, 625-633.
 !> Each is exp(-H^2/2) times a ratio of polynomials, fitted with high precision by `tools/greenwood_tripp_fit.py`;

@@ -1,7 +1,7 @@
 !> Dry elastic line contact.
 !>
-!> In: load, equivalent radius, length of the contact, equivalent modulus. Out: half width, peak pressure.
-!> Knows neither oil nor cam. Source: Hertz (1881); Islam (2019) eqs. (23)-(26) with one full length L throughout.
+!> In: load, equivalent radius, length of the contact, equivalent modulus. Out: half width, peak pressure. Source: Hertz (1881);
+!> Islam (2019) eqs. (23)-(26), with the full contact length L in all of them.
 module camroller_hertz
    use camroller_kinds, only : wp, pi
    implicit none

@@ -1,9 +1,9 @@
-!> How film and asperities share a load: the film ratio at which both carry all of it.
+!> Load sharing between film and asperities: the film ratio at which both together carry the load.
 !>
-!> In: groups of the contact, film law, asperity constants. Out: film, asperity load, real area; dimensionless.
-!> With `h(w)` the film that a film load w leaves and `w_a(h)` the asperity load at a film h, the equation is
-!> `h = h(W* - w_a(h))`. Its left side rises and its right side falls with h, so there is one root. As the speed tends to
-!> zero the root tends to the dry gap, `w_a(h_dry) = W*`, or to zero where the asperities alone cannot carry the load.
+!> In: dimensionless groups of the contact, film law, asperity constants. Out: film, asperity load, real area; dimensionless.
+!> With `h(w)` the film thickness at a film load w and `w_a(h)` the asperity load at a film thickness h, the equation is `h =
+!> h(W* - w_a(h))`. Its left side rises and its right side falls with h, so there is one root. As the speed tends to zero the
+!> root tends to the dry gap, `w_a(h_dry) = W*`, or to zero where the asperities alone cannot carry the load.
 module camroller_load_share
    use camroller_kinds, only : wp
    use camroller_film, only : film_line_t, film_shape_t, film_at_load, log_films_at_load, takes_whole_load

@@ -1,9 +1,8 @@
-!> Oil: viscosity over temperature and pressure.
+!> Oil: viscosity as a function of temperature and pressure.
 !>
-!> In: what the deck gives about the oil. Out: viscosity at ambient pressure,
-!> pressure-viscosity coefficient, and the mean of the viscosity over a Hertzian contact.
-!> Sources: Vogel (1921); Walther (1931) as in ASTM D341; Barus (1893); Chu and Cameron (1962); Roelands (1966); So and
-!> Klaus (1980).
+!> In: the oil's data from the deck. Out: viscosity at ambient pressure, pressure-viscosity coefficient, and the mean of the
+!> viscosity over a Hertzian contact. Sources: Vogel (1921); Walther (1931) as in ASTM D341; Barus (1893); Chu and Cameron
+!> (1962); Roelands (1966); So and Klaus (1980).
 module camroller_lubricant
    use camroller_kinds, only : wp, pi
    use camroller_error, only : error_t, raise, kind_deck, kind_domain
@@ -169,7 +168,7 @@ contains
    subroutine sheet_viscosity(lubricant, temperature, viscosity, slope, density, error)
       !> What is given about the oil
       type(lubricant_t), intent(in) :: lubricant
-      !> Temperature asked for [K]
+      !> Requested temperature [K]
       real(wp), intent(in) :: temperature
       !> Dynamic viscosity there [Pa s]
       real(wp), intent(out) :: viscosity
@@ -288,7 +287,7 @@ contains
       real(wp), intent(in) :: temperatures(3)
       !> Viscosities there [Pa s]
       real(wp), intent(in) :: viscosities(3)
-      !> Temperature asked for [K]
+      !> Requested temperature [K]
       real(wp), intent(in) :: temperature
       !> Viscosity there [Pa s]
       real(wp), intent(out) :: viscosity
@@ -333,13 +332,13 @@ contains
       real(wp), intent(in) :: points(2)
       !> Are they kinematic?
       logical, intent(in) :: is_kinematic
-      !> Temperature asked for [K]
+      !> Requested temperature [K]
       real(wp), intent(in) :: temperature
       !> Dynamic viscosity there [Pa s]
       real(wp), intent(out) :: viscosity
       !> The slope B [-]
       real(wp), intent(out) :: slope
-      !> Density at the temperature asked for [kg/m^3]
+      !> Density at the requested temperature [kg/m^3]
       real(wp), intent(out) :: density
       !> Domain error where the points are outside the law
       type(error_t), allocatable, intent(out) :: error

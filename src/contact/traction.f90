@@ -1,8 +1,8 @@
 !> Friction between cam and roller: shear of the film, boundary friction, rolling resistance.
 !>
-!> In: film, viscosity, load share, sliding speed. Out: forces, with their slope over the sliding speed where
-!> the roller's stiffness needs it. Sources: Islam (2019) eqs. (33), (37)-(41); Eyring (1936) as in Johnson and Tevaarwerk
-!> (1977); Goksem and Hargreaves (1978); Biboulet and Houpert (2010).
+!> In: film, viscosity, load share, sliding speed. Out: forces, with their derivatives with respect to the sliding speed where
+!> the roller equation needs them. Sources: Islam (2019) eqs. (33), (37)-(41); Eyring (1936) as in Johnson and Tevaarwerk (1977);
+!> Goksem and Hargreaves (1978); Biboulet and Houpert (2010).
 module camroller_traction
    use camroller_kinds, only : wp, pi
    use camroller_names, only : name_length

@@ -1,17 +1,17 @@
-!> Summits of one rough surface against a plane: elastic, yielding and plastic ones, as Zhao, Maietta and Chang have them.
+!> Elastic-plastic asperity contact after Zhao, Maietta and Chang: summits of a rough surface against a plane.
 !>
-!> In: product of density, tip radius and roughness; flattening at which a summit begins to yield; gap over
-!> roughness. Out: the load and the area of all summits, each over a factor of its own, with their slopes.
-!> Source: Zhao, Maietta and Chang (2000), J. Tribol. 122, 86-93; place and scatter of the summits after Bush, Gibson and Thomas
-!> (1975), Wear 35, 87-111, as McCool (1986), Wear 107, 37-60, writes them. With the flattening w and the gap H over the roughness
-!> of the surface, the summits' heights Gaussian about y_s with the scatter s,
+!> In: product of summit density, tip radius and roughness; deflection at which a summit begins to yield; ratio of gap to
+!> roughness. Out: load and area of all summits, each divided by a scale factor, with their slopes. Source: Zhao, Maietta and
+!> Chang (2000), J. Tribol. 122, 86-93; mean height and scatter of the summits after Bush, Gibson and Thomas (1975), Wear 35,
+!> 87-111, in the form of McCool (1986), Wear 107, 37-60. With the deflection w and the gap H relative to the roughness of the
+!> surface, and the summits' heights Gaussian about y_s with the standard deviation s,
 !>
 !>     load = (2/3) n beta sigma sqrt(sigma/beta) E' int_0^inf g(w) phi(H - y_s + w) dw,  g = w^(3/2) below w_1
 !>     area = pi n beta sigma int_0^inf w a(w) phi(H - y_s + w) dw,                       a = 1 below w_1, 2 above w_2
 !>     g = (sqrt(w_1)/k) w a(w) m(w),  m = 1 - (1 - k) ln(w_2/w)/ln(w_2/w_1) up to w_2, 1 above
 !>     a = 1 + 3 t^2 - 2 t^3,  t = (w - w_1)/(w_2 - w_1)
 !>
-!> Both integrals are analytic in H, and the logarithm of each is a sum of Chebyshev polynomials, made once for a pair of surfaces:
+!> Both integrals are analytic in H; the logarithm of each is a Chebyshev series, computed once for a pair of surfaces, with a
 !> relative error below 1e-11 where the product is 0.025 or more.
 module camroller_zhao_maietta_chang
    use camroller_kinds, only : wp, pi
@@ -70,7 +70,7 @@ contains
       real(wp) :: height, scatter
       ! Place [-], logarithms of load and area there [-]
       real(wp) :: place, logs(2)
-      ! Chebyshev polynomials at the place [-]
+      ! Chebyshev polynomials at the argument [-]
       real(wp) :: polynomials(0:terms - 1)
       integer :: i, k
 
@@ -120,7 +120,7 @@ contains
       !> Value and slope [-]
       real(wp), intent(out) :: value, slope
 
-      ! Twice the place on (-1, 1); sums of the recurrence and their derivatives, of this step and of both before [-]
+      ! Twice the argument on (-1, 1); sums of the recurrence and their derivatives, of this step and of both before [-]
       real(wp) :: twice, sums(3), slopes(3)
       integer :: k
 
