@@ -1,12 +1,11 @@
-!> Linear equations of Newton's method for a line contact, by factors of an earlier derivative.
+!> Linear equations of Newton's method for a line contact, solved with the LU factors of an earlier Jacobian.
 !>
-!> In: derivatives of the equations, full nodes, right-hand side. Out: change of pressure, level and film.
-!> Each equation depends on pressure and film at four nodes, and the film on all pressures, so the matrix is dense and its factors
-!> are what large grids cost. A node that becomes full or dry changes its own row alone. So rows may be replaced without new
-!> factors, exactly: with `Z` the solutions for unit right-hand sides in the rows that are replaced, `y + Z w` fulfils all other
-!> rows for any w, and w is what the new rows ask for (Sherman and Morrison 1950; Woodbury 1950). The deformation by each
-!> column of `Z` is kept beside it, so that a new row, which needs film and pressure at four nodes only, costs no product with
-!> the kernel.
+!> In: derivatives of the equations, full nodes, right-hand side. Out: change of pressure, level and film. Each equation depends
+!> on pressure and film at four nodes, and the film on all pressures, so the matrix is dense, and factoring it dominates the cost
+!> of large grids. A node that becomes full or dry changes its own row only, so rows can be replaced exactly without factoring
+!> again (Sherman and Morrison 1950; Woodbury 1950): with `Z` the solutions for unit right-hand sides in the replaced rows, `y +
+!> Z w` satisfies all other rows for any w, and the new rows determine w. The deformation caused by each column of `Z` is stored
+!> with it, so that a new row, which needs film and pressure at four nodes only, costs no product with the influence matrix.
 module camroller_ehl_factors
    use camroller_kinds, only : wp
    use camroller_lapack, only : dgesv, dgetrf, dgetrs
@@ -96,7 +95,7 @@ contains
       if (info == 0) factors%unknowns = n
    end subroutine factorise
 
-   !> Room for factors with so many unknown pressures.
+   !> Allocate factors for a number of unknown pressures.
    pure subroutine make_room(factors, unknowns, nodes)
       !> The factors
       type(ehl_factors_t), intent(inout) :: factors
@@ -148,7 +147,7 @@ contains
       end do
    end subroutine replace_rows
 
-   !> Changes of pressure, level and film that a right-hand side asks for; a level beyond all bounds where there are none.
+   !> Changes of pressure, level and film for a right-hand side; the largest number as level where there is no solution.
    pure subroutine solve_changes(factors, grid, rows, is_full, side, pressure, level, film)
       !> The factors; rows that differ are prepared
       type(ehl_factors_t), intent(in) :: factors

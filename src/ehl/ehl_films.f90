@@ -1,6 +1,6 @@
 !> Results of a solution of a line contact: films, friction, errors of the conserved quantities.
 !>
-!> In: problem, grid, solution. Out: `ehl_films_t`, with dimension.
+!> In: problem, grid, solution. Out: `ehl_films_t`, in SI units.
 module camroller_ehl_films
    use camroller_kinds, only : wp, pi
    use camroller_ehl_grid, only : ehl_grid_t, integral
@@ -33,7 +33,7 @@ module camroller_ehl_films
       !> Shear of a full film over length and sliding speed, `int eta/h dx` where no asperities touch [Pa s/m]; over the Hertz zone
       !> alone
       real(wp) :: shear_slope = 0.0_wp, shear_slope_inside = 0.0_wp
-      !> Mass flow over density and speed, equal at all places of the full film [m]
+      !> Mass flow over density and speed, equal everywhere in the full film [m]
       real(wp) :: flow = 0.0_wp
       !> What load and flow lack, relative [-]
       real(wp) :: load_lack = 0.0_wp, flow_lack = 0.0_wp
@@ -91,7 +91,7 @@ contains
       !> Film and friction
       type(ehl_films_t), intent(out) :: films
 
-      ! Place [half widths] and value at the vertex of a parabola; place at the middle [half widths]
+      ! Position [half widths] and value at the vertex of a parabola; position of the middle [half widths]
       real(wp) :: place, value
       ! Flow into the contact [-]
       real(wp) :: flow
@@ -289,7 +289,7 @@ contains
 
    !> Value of the parabola through three points.
    pure function parabola_value(x, y, place) result(value)
-      !> The points [any], their values [any], and the place asked for [any]
+      !> The points [any], their values [any], and the requested point [any]
       real(wp), intent(in) :: x(3), y(3), place
       !> Value there [any]
       real(wp) :: value

@@ -1,9 +1,10 @@
-!> Newton's method for a line contact: pressure at all nodes and the level of the gap at once.
+!> Newton's method for a line contact: pressure at all nodes and the level of the gap, solved simultaneously.
 !>
-!> In: problem, grid, a start. Out: solution, or a status. A node is full or dry: where the film would pull, its
-!> pressure is zero instead, and more oil may leave than enters (complementarity). Which nodes are dry is decided anew in each
-!> iteration. The derivative is analytic and complete; its factors are kept while they still serve, and serve the next problem
-!> nearby as well. The row of a node that has become full or dry since then is always that of now.
+!> In: problem, grid, initial values. Out: solution, or a status. A node is either full or dry: where the pressure of a full film
+!> would be negative, it is zero instead, and the film is partly filled (complementarity). The set of dry nodes is determined
+!> anew in each iteration. The Jacobian is analytic and complete. Its factors are reused as long as the iteration converges with
+!> them, also for the next problem nearby; the row of a node that has become full or dry since they were computed is always the
+!> current one.
 module camroller_ehl_newton
    use camroller_kinds, only : wp
    use camroller_ehl_factors, only : ehl_rows_t, ehl_factors_t, factorise, replace_rows, solve_changes
@@ -175,7 +176,7 @@ contains
       !> Are they those of the iteration before?
       logical, intent(out) :: has_same_nodes
       !> What was stored before; absent: nothing changes with time. Present: the film may rupture in the inlet, too, and flows are
-      !> not equal at all places
+      !> not equal at all nodes
       type(storage_t), intent(in), optional :: storage
 
       ! Conductance to both neighbours, without thickening, and storage by a node's own pressure [-]

@@ -1,12 +1,12 @@
-!> One line contact with a film between two rough elastic bodies: what is given, and the same without dimension.
+!> A lubricated line contact of two rough elastic bodies: its data, and the same in dimensionless form.
 !>
-!> In: load, speeds, radius, modulus, oil, roughness. Out: `ehl_problem_t`. Scales: half width b, peak pressure p_H of
-!> a dry contact under the reference load, film b^2/R. Then Reynolds' equation is
+!> In: load, speeds, radius, modulus, oil, roughness. Out: `ehl_problem_t`. Scales: half width b and peak pressure p_H of the dry
+!> contact under the reference load, film b^2/R. Then Reynolds' equation is
 !>
 !>     d/dX(rho H) = d/dX(rho H^3/(lambda eta) dP/dX),   lambda = 12 u eta0 R^2/(b^3 p_H)
 !>
-!> with eta and rho over their values at ambient pressure; the load is `int P dX = pi/2` for the reference load.
-!> Sources: Dowson and Higginson, Elasto-Hydrodynamic Lubrication (1966); density `(5.9e8 Pa + 1.34 p)/(5.9e8 Pa + p)` there.
+!> with eta and rho relative to their values at ambient pressure; the load is `int P dX = pi/2` for the reference load. Sources:
+!> Dowson and Higginson, Elasto-Hydrodynamic Lubrication (1966); density `(5.9e8 Pa + 1.34 p)/(5.9e8 Pa + p)` there.
 module camroller_ehl_problem
    use camroller_kinds, only : wp, pi
    use camroller_lubricant, only : oil_t, log_relative_viscosity

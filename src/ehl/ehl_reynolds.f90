@@ -1,16 +1,16 @@
-!> Reynolds' equation on the nodes: film, flow between nodes, and the derivative of everything.
+!> Discrete Reynolds equation: film, flow between nodes, and all their derivatives.
 !>
-!> In: problem, grid, total pressure at the nodes, level of the gap. Out: film, flow, and the coefficients of their
-!> derivatives. The total pressure P is that of film and asperities; the asperities' part follows from the film, so that
-!> `H = H0 + X^2/2 + K P` and the film's pressure is `P - P_a(H)`. Flow between two nodes:
+!> In: problem, grid, total pressure at the nodes, level of the gap. Out: film, flow, and the coefficients of their derivatives.
+!> The total pressure P is the sum of film and asperity pressure; the asperity pressure follows from the film, so that `H = H0 +
+!> X^2/2 + K P` and the film's pressure is `P - P_a(H)`. Flow between two nodes:
 !>
 !>     (mean(1/H^2) - mean(1/eta) (P_(i+1) - P_i)/(lambda step))/mean(1/(rho H^3))
 !>
-!> (with flow factors, `H_T/(phi H^3)` and `1/(rho phi H^3)`: H_T is the mean gap of rough surfaces, phi what they hinder the flow,)
-!> which is Reynolds' equation integrated from node to node with a constant flow. The mean of 1/eta is exact where ln(eta) is
-!> linear between the nodes; the other two are by Simpson's rule, the middle by the quadratic through three nodes. Nodes that move
-!> take along what is at the middle. What flows in and out of the cell of a node is in balance, where the film is full; where it has
-!> ruptured its pressure is zero.
+!> which is Reynolds' equation integrated from node to node with a constant flow. With flow factors of rough surfaces, the terms
+!> are `H_T/(phi H^3)` and `1/(rho phi H^3)`: H_T is the mean gap, phi the pressure flow factor. The mean of 1/eta is exact where
+!> ln(eta) is linear between the nodes; the other two are by Simpson's rule, with midpoint values from the quadratic through
+!> three nodes. Nodes that move carry the oil of their cell with them. In the full film, inflow and outflow of the cell of a node
+!> balance; where the film has ruptured, the pressure is zero.
 module camroller_ehl_reynolds
    use camroller_kinds, only : wp
    use camroller_ehl_grid, only : ehl_grid_t, deformation
@@ -206,7 +206,7 @@ contains
       !> Their derivatives over density, then film, at the nodes i - 1, i, i + 1 [-]
       real(wp), intent(out) :: resistance_slopes(3, 2), drag_slopes(3, 2)
 
-      ! Weights of the three nodes at a place of the rule, and of the place [-]
+      ! Weights of the three nodes at a point of the rule, and of the point [-]
       real(wp) :: weights(3), part
       ! Film, density, flow factor and its slope, mean gap and its slope there; resistance and its derivative over the film [-]
       real(wp) :: film, density, factor, factor_slope, gap, gap_slope, value, slope

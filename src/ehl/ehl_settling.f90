@@ -1,9 +1,9 @@
-!> A line contact integrated in time until it is steady.
+!> Pseudo-transient continuation: a line contact integrated in time until it is steady.
 !>
-!> In: problem, grid, a start from which Newton's method does not find the steady film. Out: that film. The film stores
-!> and gives off oil as it does in a contact that changes with time, in steps that grow as long as Newton's method solves them.
-!> On the way from the start to the solution the derivative of the steady equations may be singular, which stops or scatters every
-!> method that follows it; the oil stored in a short step keeps it regular, and what is wrong in the start leaves with the oil.
+!> In: problem, grid, initial values from which Newton's method does not find the steady film. Out: the steady film. The
+!> equations are those of a transient film, with a time step that grows as long as Newton's method converges. On the way from the
+!> initial values to the solution the Jacobian of the steady equations may be singular, so that Newton's method fails; the
+!> storage term of a short time step keeps it regular, and errors of the initial values leave the contact with the oil.
 module camroller_ehl_settling
    use camroller_kinds, only : wp
    use camroller_ehl_grid, only : ehl_grid_t

@@ -1,8 +1,8 @@
-!> Solution of a line contact from a cold start or from one nearby, on two grids, with film and friction.
+!> Solution of a line contact, from default initial values or from a solution nearby, on two grids, with film and friction.
 !>
-!> In: contact, number of nodes. Out: films, friction, and the difference of two grids; or a status.
-!> From nothing: the pressure of a dry contact, or that of a rigid one, whichever the expected film calls for; where Newton's method
-!> finds no solution from it, the film is left alone until nothing changes. No setting is asked for.
+!> In: contact, number of nodes. Out: films, friction, and the difference of the two grids; or a status. Initial values are the
+!> pressure of a dry elastic contact or of a rigid one, according to the expected film; where Newton's method does not converge
+!> from them, the film is integrated in time until it is steady (`ehl_settling`). There are no parameters to choose.
 module camroller_ehl_solution
    use camroller_kinds, only : wp, pi
    use camroller_error, only : error_t, raise, kind_domain, kind_convergence
@@ -356,7 +356,7 @@ contains
       !> Total pressure and level
       type(ehl_state_t), intent(inout) :: state
 
-      ! Angle whose tangent is the place over the length of the parabola [rad]
+      ! Angle whose tangent is the position relative to the length of the parabola [rad]
       real(wp) :: angle(grid%size)
       ! Deformation [-]
       real(wp) :: gap(grid%size)

@@ -1,8 +1,8 @@
-!> Film of an oil between two bodies as a function of speed and load, from numerical solutions.
+!> Film thickness of an oil between two bodies as a function of speed and load, from numerical solutions.
 !>
-!> In: oil, modulus, ranges of the groups U and W*. Out: `film_table_t`. With oil and modulus given, the film over
-!> the radius depends on U and W* alone, so some hundred solutions, each compared on two grids, serve every contact of a
-!> cycle. Their number doubles over speed or load, whichever changes the table more, until solutions at new points agree with the
+!> In: oil, modulus, ranges of the groups U and W*. Out: `film_table_t`. With oil and modulus given, the film relative to the
+!> radius depends on U and W* alone, so some hundred solutions, each compared on two grids, serve every contact of a cycle. The
+!> number of points is doubled over speed or load, whichever changes the table more, until solutions at new points agree with the
 !> table through the others.
 module camroller_ehl_table
    use camroller_kinds, only : wp
@@ -18,7 +18,7 @@ module camroller_ehl_table
 
    public :: ehl_t, build_film_table
 
-   !> Numerical film as a case asks for it
+   !> Options of the numerical film
    type :: ehl_t
       !> Largest error of the film: of the grid, and of the table between its points [-]
       real(wp) :: accuracy = 1.0e-2_wp
@@ -42,7 +42,7 @@ module camroller_ehl_table
       logical :: is_compressible
       !> Lower and upper end of ln U, then of ln W* [-]
       real(wp) :: ends(2, 2)
-      !> Error of the grid asked for, and the largest stated [-]
+      !> Allowed error of the grid, and the largest estimate [-]
       real(wp) :: grid_accuracy, grid_error = 0.0_wp
       !> Is there a contact that even the finest grid does not solve that well?
       logical :: is_limited = .false.
@@ -52,7 +52,7 @@ module camroller_ehl_table
 
    !> Polynomials over speed and over load: to begin with, and at most
    integer, parameter :: fewest_terms(2) = [3, 9], most_terms_each(2) = [33, most_terms]
-   !> Most nodes across a contact; as many are taken as its accuracy asks for
+   !> Most nodes across a contact; as many are taken as its accuracy requires
    integer, parameter :: most_nodes = 1025
    !> Part of what is stated of a grid that counts at the worst of many points: 0.1 to 0.63 of it were true there, on 65 and on
    !> 129 nodes, of 2880 contacts each for the oils and ranges of fourteen cases [-]
