@@ -1,6 +1,6 @@
-!> A cycle of solved contacts on as many nodes as its accuracy requires.
+!> Transient solution of the contact over a cycle, with as many nodes as its accuracy requires.
 !>
-!> In: model. Out: the cycle on the finer of two grids that agree, the numbers of both; an error where none do.
+!> In: model. Out: the cycle on the finer of two grids that agree, and their numbers of nodes; an error where no two agree.
 module camroller_ehl_converged
    use camroller_kinds, only : wp
    use camroller_error, only : error_t, kind_convergence

@@ -1,9 +1,9 @@
 !> The cam cycle with a transient film.
 !>
-!> In: model, accuracy. Out: film, load share, sliding speed at every accepted angle, with profiles on request.
-!> Steps are as long as the error allows: the film and the sliding speed found are compared with those extrapolated from the
-!> steps before, and they end where lift, valve or contact have a kink, so that no event is passed over. Cycles are repeated until
-!> start and end agree. The film of a contact that was lost starts anew.
+!> In: model, accuracy. Out: film, load share, sliding speed at every accepted angle, with profiles on request. The step size is
+!> controlled: film and sliding speed are compared with their extrapolation from the previous steps. Steps end where lift, valve
+!> or contact have a kink, so that no event is stepped over. Cycles are repeated until start and end agree. After a loss of
+!> contact the film is computed without previous states.
 module camroller_ehl_cycle
    use camroller_kinds, only : wp, pi, two_pi, degree
    use camroller_error, only : error_t, raise, kind_convergence, kind_domain
@@ -43,7 +43,7 @@ module camroller_ehl_cycle
       !> Accepted angles from full lift [rad], what was found there
       real(wp), allocatable :: angle(:)
       type(moment_t), allocatable :: moments(:)
-      !> Nodes [half widths]; pressure [Pa] and film [m] there at the accepted angles, where asked for
+      !> Nodes [half widths]; pressure [Pa] and film [m] there at the accepted angles, on request
       real(wp), allocatable :: nodes(:), pressure(:, :), film(:, :)
       !> Work: steps tried, of them refused, rounds of film and forces, factorisations, cycles
       integer :: tried = 0, refused = 0, rounds = 0, factorisations = 0, turns = 1

@@ -1,7 +1,7 @@
-!> Pressure and film across the contact of a cycle that a film law has found: steady contacts at its loads and sliding speeds.
+!> Pressure and film profiles for a cycle that was computed with a film law: steady contacts at its loads and sliding speeds.
 !>
-!> In: case, its result. Out: `ehl_record_t` at the cam angles of the result. Nothing of the result changes; what the
-!> film law and the closed formulas of friction say at the same loads and speeds stands beside.
+!> In: case, its result. Out: `ehl_record_t` at the cam angles of the result, with the values of the film law and of the friction
+!> formulas at the same loads and speeds for comparison. The result itself is not changed.
 module camroller_ehl_profiles
    use camroller_kinds, only : wp, pi, degree
    use camroller_error, only : error_t, raise, add_context, kind_convergence
@@ -30,7 +30,7 @@ module camroller_ehl_profiles
 
 contains
 
-   !> Profiles of a case, where it asks for them; a remark on the result where they cannot be solved.
+   !> Profiles of a case that requests them; a remark on the result where they cannot be solved.
    subroutine find_profiles(record, case, result)
       !> The record; not allocated where there is none
       type(ehl_record_t), allocatable, intent(out) :: record

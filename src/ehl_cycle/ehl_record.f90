@@ -1,7 +1,7 @@
-!> Quantities of the solved contacts of a cycle by name, beside those of the closed formulas at the same load and slip.
+!> Quantities of a cycle of solved contacts by name, with those of the film and friction formulas at the same load and slip.
 !>
-!> In: model, cycle of solved contacts. Out: `ehl_record_t`: profiles and quantities over the cam angle. Torques and
-!> energy residual are those of every other state of the program, with the contact that was solved in it.
+!> In: model, cycle of solved contacts. Out: `ehl_record_t`: profiles and quantities over the cam angle. Torques and energy
+!> residual are computed by the same procedures as for every other state, with the solved contact in the place of the formulas.
 module camroller_ehl_record
    use camroller_kinds, only : wp
    use camroller_contact_forces, only : contact_t, parts_t, setting_t, evaluate_contact, prepare_contact, release_contact, &

@@ -1,9 +1,9 @@
 !> One step of a contact with a transient film: squeeze, load, load share, friction and the roller's spin, solved together.
 !>
-!> In: model, angle, what was before. Out: the contact at the angle. The film's equations have the rate at which
-!> oil is stored under the contact, on nodes that grow and shrink with the half width; the rates of film and roller are the same
-!> formula, backward differences of first or second order. Nothing is lagged: film, load and sliding speed are repeated until
-!> they agree.
+!> In: model, angle, the previous states. Out: the contact at the angle. The film's equations contain the rate at which oil is
+!> stored in the contact, on nodes that move with the half width; film and roller use the same time integration, backward
+!> differences of first or second order. No quantity is taken from the previous step: film, load and sliding speed are iterated
+!> until they agree.
 module camroller_ehl_step
    use camroller_kinds, only : wp, pi
    use camroller_model, only : model_t

@@ -1,6 +1,6 @@
-!> A cycle of solved contacts in a few numbers, and whether two grids agree on them.
+!> Scalars of a cycle of solved contacts, and the comparison of two grids.
 !>
-!> In: cycles on two grids. Out: their numbers, what they differ by; an error where that is more than is allowed.
+!> In: cycles on two grids. Out: their scalars and the differences; an error where a difference exceeds the accuracy.
 module camroller_ehl_summary
    use camroller_kinds, only : wp, two_pi
    use camroller_error, only : error_t, raise, kind_convergence
