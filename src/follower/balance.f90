@@ -1,7 +1,7 @@
-!> The algebraic balance of the roller: the sliding speed at which its spin follows the kinematics at once.
+!> Quasi-static balance of the roller: the sliding speed at which its spin follows the kinematics without delay.
 !>
-!> In: model, cam angle. Out: sliding speed at which `dV_s/dtheta` vanishes, decay rate there. Used as a starting
-!> point and as a scale; exact where the decay is fast against the change of the kinematics.
+!> In: model, cam angle. Out: sliding speed at which `dV_s/dtheta` vanishes, decay rate of disturbances there. Used as a starting
+!> value and as a scale; exact in the limit of a decay that is fast compared with the change of the kinematics.
 module camroller_balance
    use camroller_kinds, only : wp
    use camroller_model, only : model_t

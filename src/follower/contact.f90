@@ -1,9 +1,9 @@
-!> The contact at one cam angle and one sliding speed: load, film, load share, traction and torque of the roller's bearing, solved
-!> together.
+!> The contact at one cam angle and one sliding speed: load, film, load share, traction and torque of the roller's bearing,
+!> solved simultaneously.
 !>
-!> In: model, geometry, moments, sliding speed. Out: `contact_t`. The finger is in balance at the load whose own
-!> traction, rolling resistance and bearing torque leave it there: one equation in the load, solved by Newton's method with the
-!> derivative of everything in `contact_forces`, inside a bracket that cannot be left. Nothing is lagged.
+!> In: model, geometry, moments, sliding speed. Out: `contact_t`. The load is the one at which the finger is in equilibrium with
+!> the traction, rolling resistance and bearing torque that this load causes: one equation in the load, solved by Newton's method
+!> with the exact derivative from `contact_forces`, safeguarded by a bracket.
 module camroller_contact
    use camroller_kinds, only : wp
    use camroller_model, only : model_t

@@ -1,4 +1,4 @@
-!> Everything in the contact at a given load, and how it follows load, sliding speed and geometry.
+!> All forces in the contact at a given load, and their derivatives with respect to load, sliding speed and geometry.
 !>
 !> In: model, geometry, sliding speed, load. Out: `contact_t` and `slopes_t`. The load is found by `contact`.
 module camroller_contact_forces

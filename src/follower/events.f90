@@ -1,7 +1,7 @@
 !> Cam angles at which the right-hand side of the roller equation has a kink or a jump, and the angles without contact.
 !>
-!> In: model. Out: stop angles for the integration, intervals without contact. All of them depend on the cam angle
-!> alone, so they are known before a cycle is integrated and none can be stepped over.
+!> In: model. Out: stop angles for the integration, intervals without contact. All of them depend on the cam angle only, so they
+!> are known before a cycle is integrated, and no step passes over one.
 module camroller_events
    use camroller_kinds, only : wp, pi, two_pi, degree
    use camroller_error, only : error_t, raise, kind_domain
@@ -274,7 +274,7 @@ contains
       end do
    end subroutine check_geometry
 
-   !> Refuse a cam whose roller path bends too sharply at its sharpest place between two angles.
+   !> Refuse a cam whose roller path bends too sharply at its sharpest point between two angles.
    subroutine check_summit(model, grinding_wheel_radius, angles, bends, error)
       !> The model
       type(model_t), intent(in) :: model

@@ -1,9 +1,10 @@
-!> Why a cycle could not be integrated: places where the finger is in balance at several loads for one sliding speed.
+!> Diagnosis of a cycle that could not be integrated: cam angles at which the equilibrium of the finger has several loads for one
+!> sliding speed (a fold).
 !>
-!> In: model, cam angle. Out: whether there are such sliding speeds; words for a message. Where friction presses the
-!> roller onto the cam, more friction makes more load, more load a stiffer oil, and that more friction. If the last step gains
-!> more than the first two lose, load and traction jump from one balance to another, and the spin has no solution that steps
-!> could follow.
+!> In: model, cam angle. Out: whether there are such sliding speeds, and a sentence for the error message. Where friction presses
+!> the roller onto the cam, friction raises the load, the load raises the oil's viscosity, and the viscosity raises friction.
+!> Where this feedback exceeds one, load and traction jump from one equilibrium to another, and no continuous solution for the
+!> spin exists.
 module camroller_fold
    use camroller_kinds, only : wp
    use camroller_error, only : error_t, kind_convergence, cause_several_balances

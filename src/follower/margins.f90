@@ -1,9 +1,9 @@
-!> Margins against loss of contact and against opening of the pivot's joint: smallest force, where, and the cam speed at which
-!> it would be zero. Without friction, so they depend on the cam angle alone.
+!> Margins against loss of contact and against opening of the pivot's joint: smallest force, its cam angle, and the cam speed at
+!> which it would be zero. Computed without friction, so they depend on the cam angle only.
 !>
-!> In: model, stops of a cycle. Out: margins of the event, of the base circle and of the pivot. Between two stops
-!> every force is a smooth function of the cam angle; each such piece is scanned with its ends, and the lowest point inside is found
-!> to round-off.
+!> In: model, stops of a cycle. Out: margins of the event, of the base circle and of the pivot. Between two stops every force is
+!> a smooth function of the cam angle; each such interval is scanned, ends included, and an interior minimum is located to
+!> round-off.
 module camroller_margins
    use, intrinsic :: ieee_arithmetic, only : ieee_value, ieee_positive_inf
    use camroller_kinds, only : wp, pi, degree
@@ -134,7 +134,7 @@ contains
 
       ! Angles of the scan [rad]; forces [N] and relative inertia [-] there
       real(wp), allocatable :: angles(:), forces(:), ratios(:)
-      ! Lowest force [N] or relative inertia [-], and its place [rad]
+      ! Lowest force [N] or relative inertia [-], and its cam angle [rad]
       real(wp) :: lowest, place
       type(split_t) :: split
       integer :: i, steps
@@ -173,7 +173,7 @@ contains
       real(wp), intent(in) :: angles(:)
       !> Values there [N] or [-]
       real(wp), intent(in) :: values(:)
-      !> Lowest value [N] or [-], and its place [rad]
+      !> Lowest value [N] or [-], and its cam angle [rad]
       real(wp), intent(out) :: lowest, place
 
       type(extremum_t) :: search

@@ -1,8 +1,9 @@
-!> The sliding speed of a curve where traction saturates within less than the curve's error.
+!> Sliding speed that is consistent with the slope of the solution where traction saturates within less than the error of the
+!> solution.
 !>
-!> In: model, cam angle, sliding speed and slope of a curve there. Out: the sliding speed nearby at which the roller
-!> equation has that slope. A slip of 1e-15 m/s decides whether the oil holds the roller or slides at its limit: errors that are
-!> nothing to the slip are everything to the traction.
+!> In: model, cam angle, sliding speed and slope of the solution there. Out: the sliding speed nearby at which the roller
+!> equation has that slope. A difference of 1e-15 m/s in the sliding speed decides between traction below and at its limit: an
+!> error that is negligible for the slip is large for the traction.
 module camroller_settled_slip
    use camroller_kinds, only : wp
    use camroller_model, only : model_t

@@ -1,8 +1,8 @@
 !> The roller's spin as an initial value problem over the cam angle.
 !>
-!> In: model, cam angle, state. Out: rate and decay rate, as `ode` asks for them. The state is the sliding speed V_s,
+!> In: model, cam angle, state. Out: rate and decay rate, in the form that `ode` requires. The state is the sliding speed V_s,
 !> `dV_s/dtheta = omega dV_roll' - r_R (domega_R/dt)/omega`: friction depends on slip, which is a small difference of large
-!> speeds. The source integrates the roller's surface speed `r_R omega_R` instead; its fixed step does so here too.
+!> speeds. The source integrates the roller's surface speed `r_R omega_R` instead; so does an integration with a fixed step here.
 module camroller_spin
    use camroller_kinds, only : wp, degree
    use camroller_number_text, only : fixed_text

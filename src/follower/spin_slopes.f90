@@ -1,8 +1,8 @@
-!> The roller's angular acceleration and its exact derivatives by sliding speed and cam angle, from one solution of the contact.
+!> The roller's angular acceleration and its exact derivatives with respect to sliding speed and cam angle, from one solution of
+!> the contact.
 !>
-!> In: model, geometry, moments, sliding speed. Out: contact, acceleration, both derivatives. The load follows
-!> sliding speed and cam angle through the balance of the finger, whose own derivatives are the same that Newton's method solves
-!> it with.
+!> In: model, geometry, moments, sliding speed. Out: contact, acceleration, both derivatives. The load depends on sliding speed
+!> and cam angle through the equilibrium of the finger; its derivatives follow from those that Newton's method uses there.
 module camroller_spin_slopes
    use camroller_kinds, only : wp
    use camroller_model, only : model_t

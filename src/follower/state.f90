@@ -136,7 +136,7 @@ contains
       end if
    end subroutine add_torques
 
-   !> Force of the follower on the cam, x from pivot to cam centre: what camshaft bearings ask for.
+   !> Force of the follower on the cam, x from pivot to cam centre: the load of the camshaft bearings.
    pure function cam_force(model, state) result(force)
       !> The model
       type(model_t), intent(in) :: model

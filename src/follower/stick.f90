@@ -1,8 +1,8 @@
-!> A roller that rolls without sliding: what friction holds it, and when it breaks away.
+!> A roller that rolls without sliding: the friction that holds it, and when it begins to slide.
 !>
-!> In: model, cam angle. Out: rates of the sliding speed at rest with boundary friction at either limit, and the part
-!> of it that keeps the roller at rest. The law is set-valued: `F_b sgn(V_s)` while the roller slides, anything between `-F_b` and
-!> `F_b` at `V_s = 0`; the rate falls with that part, so that at most one of them holds the roller.
+!> In: model, cam angle. Out: rates of the sliding speed at rest with boundary friction at either limit, and the fraction of it
+!> that keeps the roller at rest. The friction law is set-valued: `F_b sgn(V_s)` while the roller slides, any value between
+!> `-F_b` and `F_b` at `V_s = 0`. The rate decreases with the fraction, so that at most one value holds the roller.
 module camroller_stick
    use camroller_kinds, only : wp
    use camroller_model, only : model_t
