@@ -1,7 +1,8 @@
 !> Fraction of a disturbance of the roller's spin that is left after one cycle.
 !>
-!> In: a cycle's trajectory. Out: the contraction c. A cycle whose end differs from its start by d is `d/(1 - c)`
-!> away from the periodic one at its start: where hardly anything damps the spin, a small difference is no sign of periodicity.
+!> In: a cycle's trajectory. Out: the contraction factor c. A cycle whose end differs from its start by d differs by `d/(1 - c)`
+!> from the periodic one at its start: with little damping of the spin, a small difference between start and end does not prove
+!> periodicity.
 module camroller_contraction
    use camroller_kinds, only : wp
    use camroller_spin, only : spin_problem_t

@@ -1,8 +1,8 @@
-!> The periodic cycle of one follower: where to start, the integration, and the state at any angle afterwards.
+!> The periodic cycle of one follower: initial value, integration, and the state at any angle afterwards.
 !>
-!> In: model, numerics. Out: `cycle_t`, from which states, series and means are taken. The contraction over a
-!> cycle is so strong that a start from the algebraic balance at the angle of fastest decay is periodic after one cycle as a
-!> rule; it is checked, and further cycles are integrated where it is not.
+!> In: model, numerics. Out: `cycle_t`, from which states, series and means are taken. The contraction over a cycle is usually so
+!> strong that a start from the quasi-static balance at the angle of fastest decay is periodic after one cycle; this is checked,
+!> and further cycles are integrated where it does not hold.
 module camroller_cycle
    use camroller_kinds, only : wp, pi, two_pi, degree
    use camroller_error, only : error_t, raise, add_context, kind_convergence, kind_deck

@@ -1,6 +1,6 @@
-!> Where a cycle starts: the cam angle of fastest decay, the sliding speed in the algebraic balance there, and the run-up to it.
+!> Start of a cycle: the cam angle of fastest decay, the sliding speed in the quasi-static balance there, and the run-up to it.
 !>
-!> In: model. Out: start, sliding speed, scale of the sliding speed, stops of the run-up.
+!> In: model. Out: start angle, sliding speed, scale of the sliding speed, stops of the run-up.
 module camroller_cycle_start
    use camroller_kinds, only : wp, pi, two_pi, degree
    use camroller_model, only : model_t, evaluate_geometry

@@ -1,4 +1,4 @@
-!> Defect of the roller equation for the curve of a cycle, and decay rate of a disturbance.
+!> Defect of the roller equation for the computed solution of a cycle, and decay rate of a disturbance.
 !>
 !> In: model, cycle, state at a point. Out: defect and decay rate, for `error_estimate`.
 module camroller_defects

@@ -1,11 +1,11 @@
-!> Error of a cycle, estimated from the equation that its own curve leaves unsatisfied.
+!> Error of a cycle, estimated from the defect of its solution.
 !>
-!> In: at the points of the rule for means, the slope of the curve less the rate of the roller equation there (its
-!> defect) and the decay rate. Out: the error of the sliding speed at these points, and the largest in the cycle.
+!> In: at the nodes of the quadrature for means, the slope of the solution minus the rate of the roller equation there (its
+!> defect), and the decay rate. Out: the error of the sliding speed at these nodes, and the largest in the cycle.
 !>
 !> The error obeys `d error/d angle = defect - decay_rate*error` in first order. Its terms are evaluated for the means anyway, so
-!> the estimate costs no evaluation, and it holds for any method, interpolation included. Source: Enright, SIAM J. Numer. Anal. 26
-!> (1989) 588, on defects as a measure of error.
+!> the estimate costs no further evaluation, and it holds for any method, interpolation included. Source: Enright, SIAM J. Numer.
+!> Anal. 26 (1989) 588, on defects as a measure of error.
 module camroller_error_estimate
    use camroller_kinds, only : wp
    use camroller_panels, only : panel_places, gauss_points

@@ -1,8 +1,9 @@
-!> The quasi-static limit of the roller's spin: at every angle the roller is in its algebraic balance.
+!> Quasi-static limit of the roller's spin: at every angle the roller is in its quasi-static balance.
 !>
-!> In: model, stops. Out: a trajectory that is linear between its points, placed so that the balance between them
-!> lies within a tolerance. The cheapest model of the spin: right where the spin decays fast against the change of the kinematics
-!> (hot oil, the event), wrong where it does not (a cold base circle). No initial value, periodic by construction.
+!> In: model, stops. Out: a trajectory that is linear between its points, placed so that the error of the interpolation is within
+!> a tolerance. The cheapest model of the spin: accurate where the spin decays fast compared with the change of the kinematics
+!> (hot oil, the event), inaccurate where it does not (cold oil on the base circle). It needs no initial value and is periodic by
+!> construction.
 module camroller_quasi_static
    use camroller_kinds, only : wp, degree
    use camroller_error, only : error_t, raise, kind_convergence

@@ -3,11 +3,12 @@
 !> In: spin problem, method, stops, sliding speed at the start. Out: trajectory, and the phases it consists of.
 !>
 !> Within a phase of sliding the sign of the friction is fixed, so the equation is as smooth as without friction. It is
-!> integrated as if the sign held on, and what lies beyond the first angle at which the sliding speed of the curve passes through
-!> zero is cut off. There, friction that can hold the roller makes it stick; else it slides on the way it is driven. A roller
-!> that sticks does so until the friction it needs exceeds what there is, found by a scan between the stops and a root, and then
-!> slides the way it is driven. A phase of sliding thus starts with an acceleration of its own sign, and phases cannot alternate
-!> without the cam angle moving on. Source of the law: Filippov, Differential Equations with Discontinuous Righthand Sides (1988).
+!> integrated with this sign, and the solution is cut off at the first angle at which the sliding speed passes through zero.
+!> There, the roller sticks if friction can hold it; otherwise it slides in the direction of the acceleration. A roller that
+!> sticks does so until the required friction exceeds the available one, which is found by a scan between the stops and a root
+!> search; then it slides in the direction of the acceleration. A phase of sliding thus starts with an acceleration of its own
+!> sign, and phases cannot alternate at one cam angle. Source of the law: Filippov, Differential Equations with Discontinuous
+!> Righthand Sides (1988).
 module camroller_stick_slip
    use camroller_kinds, only : wp, degree
    use camroller_error, only : error_t, raise, kind_convergence
