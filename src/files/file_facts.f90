@@ -1,7 +1,7 @@
-!> Facts of a file from the operating system: is it there, its kind, its size, and whether two names lead to the same one.
+!> File status from the operating system: existence, kind, size, and whether two names refer to the same file.
 !>
-!> In: paths, descriptors. Out: `file_facts_t`. Links are followed. The call that is asked has one layout of its answer
-!> on every machine that runs Linux.
+!> In: paths, descriptors. Out: `file_facts_t`. Symbolic links are followed. The system call used (statx) has the same layout of
+!> its result on every architecture that runs Linux.
 module camroller_file_facts
    use, intrinsic :: iso_c_binding, only : c_char, c_int, c_int16_t, c_int32_t, c_int64_t, c_null_char
    use, intrinsic :: iso_fortran_env, only : int64

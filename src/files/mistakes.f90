@@ -1,8 +1,8 @@
-!> Mistakes in a deck and in its tables: collected, put in order of place, and shown together.
+!> Mistakes in a deck and in its tables: collected, sorted by position, and reported together.
 !>
-!> In: places and sentences. Out: one error whose message shows, for each mistake, file and line, the line itself and a
-!> caret below the words that are wrong. However many mistakes there are and however long a line is, the message is of a length
-!> to be read: the first mistakes are shown, the others counted; of a long line what stands around the mistake is shown.
+!> In: positions and sentences. Out: one error whose message shows, for each mistake, file and line, the line itself and a caret
+!> below the words that are wrong. The length of the message is bounded: the first mistakes are shown and the others counted; of
+!> a long line, the part around the mistake is shown.
 module camroller_mistakes
    use camroller_error, only : error_t, raise, kind_deck
    use camroller_number_text, only : integer_text
@@ -57,9 +57,9 @@ module camroller_mistakes
    type :: mistakes_t
       !> How many
       integer :: count = 0
-      !> Those that are first by place, at most as many as are shown, in no order
+      !> Those that are first by position, at most as many as are shown, in no order
       type(mistake_t), allocatable :: list(:)
-      !> How many these are, and which of them is the last by place
+      !> How many these are, and which of them is the last by position
       integer :: kept = 0, last = 0
       !> All of them by file
       type(tally_t), allocatable :: tallies(:)
@@ -73,7 +73,7 @@ contains
       type(mistakes_t), intent(inout) :: mistakes
       !> What is wrong, and what would be right
       character(len=*), intent(in) :: message
-      !> Line, column and number of columns; 0 where there is no place
+      !> Line, column and number of columns; 0 where there is no position
       integer, intent(in) :: line, column, width
       !> File, where it is not the deck
       character(len=*), intent(in), optional :: file
@@ -107,7 +107,7 @@ contains
       end do
    end subroutine add_mistake
 
-   !> Would a mistake at a place of the deck be shown, as matters stand? Where not, its words need not be found.
+   !> Would a mistake at a position of the deck be shown with those found so far? If not, its sentence need not be made.
    pure function is_shown_at(mistakes, line, column) result(verdict)
       !> Mistakes so far
       type(mistakes_t), intent(in) :: mistakes
@@ -214,7 +214,7 @@ contains
       if (file == override_place) rank = 3
    end function rank_of_file
 
-   !> Order of the mistakes by line and column; those without a place last, equals as found.
+   !> Order of the mistakes by line and column; those without a position last, equals as found.
    pure subroutine put_in_order(list, order)
       !> The mistakes
       type(mistake_t), intent(in) :: list(:)
@@ -238,7 +238,7 @@ contains
    pure function is_before(first, second) result(verdict)
       !> One mistake and another
       type(mistake_t), intent(in) :: first, second
-      !> Is the first one's place before the second one's?
+      !> Is the first one's position before the second one's?
       logical :: verdict
 
       integer :: rank_first, rank_second
@@ -294,7 +294,7 @@ contains
          & caret(source, mistake%column - first + 1 + len(before), min(mistake%width, last - mistake%column + 1))
    end function described
 
-   !> Blanks and carets below some columns of a line; bytes that continue a character take no place.
+   !> Blanks and carets below some columns of a line; bytes that continue a character have no width.
    pure function caret(source, column, width) result(text)
       !> The line
       character(len=*), intent(in) :: source
@@ -324,11 +324,11 @@ contains
       verdict = iachar(byte) >= 128 .and. iachar(byte) <= 191
    end function continues
 
-   !> Move on to a place where a character begins.
+   !> Move on to a byte where a character begins.
    pure subroutine step_to_character(text, place)
       !> The text
       character(len=*), intent(in) :: text
-      !> The place
+      !> The position
       integer, intent(inout) :: place
 
       integer :: step
@@ -340,11 +340,11 @@ contains
       end do
    end subroutine step_to_character
 
-   !> Last place not after another one at which a character ends.
+   !> Last position not after another one at which a character ends.
    pure function last_whole(text, place) result(last)
-      !> The text, longer than the place
+      !> The text, longer than the position
       character(len=*), intent(in) :: text
-      !> The place
+      !> The position
       integer, intent(in) :: place
       !> Where a character ends
       integer :: last

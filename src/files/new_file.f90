@@ -1,8 +1,9 @@
-!> A file that appears under its name when it is complete: where it may stand, what it is called until then, how it gets its name.
+!> A file that appears under its name only when it is complete: checks of the target, a temporary name, and the rename at the
+!> end.
 !>
-!> In: the path of a file to be written, files that are read. Out: a path to write to; the file in its place, or an
-!> error and no trace. Only a regular file is ever replaced, never one that the program reads. A link is followed: the file that it
-!> leads to is replaced, the link stays.
+!> In: the path of a file to be written, files that are read. Out: a path to write to; the file under its name, or an error and
+!> no temporary file. Only a regular file is ever replaced, and never one that the program reads. If the target is a symbolic
+!> link, the file that it refers to is replaced, and the link stays.
 module camroller_new_file
    use, intrinsic :: iso_fortran_env, only : int64
    use camroller_error, only : error_t, raise, kind_file, kind_usage

@@ -1,8 +1,8 @@
-!> Files of bytes of the operating system: appended to, read at any place, cut, locked, flushed to disk.
+!> Binary files through the operating system: append, read at any offset, truncate, lock, flush to disk.
 !>
-!> In: paths, texts, 64-bit words. Out: words, errors in the system's words. Nothing is held back in the program: what
-!> was appended survives the end of the process, whatever ends it, and what is on disk survives the end of the machine.
-!> `settle_raw` is what every file that this program writes has to pass before it counts as written.
+!> In: paths, texts, 64-bit words. Out: words, errors with the system's message. The program buffers nothing: what was appended
+!> survives the end of the process, however it ends, and what was flushed to disk survives a power failure. Every file that this
+!> program writes passes `settle_raw` before it counts as written.
 module camroller_raw_file
    use, intrinsic :: iso_c_binding, only : c_associated, c_char, c_f_pointer, c_int, c_int64_t, c_intptr_t, c_loc, c_null_char, &
       & c_null_ptr, c_ptr, c_size_t
@@ -286,7 +286,7 @@ contains
       file%bytes = file%bytes + done
    end subroutine append_words
 
-   !> Read words at a place.
+   !> Read words at an offset.
    subroutine read_words(file, offset, words, is_complete)
       !> An open file
       type(raw_file_t), intent(in) :: file
@@ -294,7 +294,7 @@ contains
       integer(int64), intent(in) :: offset
       !> What is there
       integer(int64), intent(out), target, contiguous :: words(:)
-      !> Were there so many?
+      !> Did the file hold that many?
       logical, intent(out) :: is_complete
 
       integer(int64) :: done, found
@@ -410,7 +410,7 @@ contains
       call c_globfree(found)
    end subroutine find_files
 
-   !> The system's words for what went wrong last.
+   !> The system's message for the last error.
    function last_words() result(words)
       !> The words
       character(len=:), allocatable :: words

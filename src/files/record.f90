@@ -1,6 +1,6 @@
-!> Records of 64-bit words: numbers, integers and texts put in, one after the other, and taken out again.
+!> Records of 64-bit words: numbers, integers and texts written one after the other, and read in the same order.
 !>
-!> In: values. Out: words with a checksum that tells a complete record from a torn one. Numbers keep every bit.
+!> In: values. Out: words with a checksum by which an incomplete record is recognised. Numbers keep every bit.
 module camroller_record
    use, intrinsic :: iso_fortran_env, only : int64
    use camroller_kinds, only : wp
@@ -72,7 +72,7 @@ contains
    pure subroutine set_integer(record, place, number)
       !> The record
       type(record_t), intent(inout) :: record
-      !> Its place among the words, from 1
+      !> Its index among the words, from 1
       integer, intent(in) :: place
       !> The integer
       integer, intent(in) :: number

@@ -1,9 +1,10 @@
-!> Seal of a result file: a checksum of all its bytes behind its end, so that a damaged file is recognised and never read.
+!> Seal of a result file: a checksum of all its bytes, appended behind the HDF5 data, so that a damaged file is recognised before
+!> it is read.
 !>
-!> In: the path of a file. Out: the same with a seal; whether a seal and what it stands for go together. HDF5 does not
-!> look beyond its own end of a file, and cuts what is there when a program changes the file: a file that was changed on purpose has
-!> no seal and counts as one that never had any. The seal is four words: a mark, the number of bytes before it (filled up to whole
-!> words), their checksum, and the checksum of these three.
+!> In: the path of a file. Out: the file with a seal; whether seal and content agree. HDF5 ignores what stands behind its own end
+!> of a file, and removes it when a program changes the file: a file that was changed on purpose has no seal and is treated like
+!> a file without one. The seal is four words: a mark, the number of bytes before it (padded to whole words), their checksum, and
+!> the checksum of these three.
 module camroller_seal
    use, intrinsic :: iso_fortran_env, only : int64
    use camroller_error, only : error_t, raise, kind_file
@@ -85,7 +86,7 @@ contains
       integer(int64), intent(in) :: words
       !> Their checksum
       integer(int64), intent(out) :: sum
-      !> Are there so many?
+      !> Does the file hold that many?
       logical, intent(out) :: is_complete
 
       integer(int64) :: block(block_words), first, count

@@ -1,8 +1,8 @@
-!> The two streams of the program: output and errors.
+!> Standard output and standard error of the program.
 !>
-!> In: texts. Out: the same on the output unit or the error unit, with an error where the output did not take it. All
-!> text of the program goes this way and none by Fortran's units, which keep text back and lose it in silence where the disk
-!> is full. A closed pipe (`camroller help | head -1`) is no error: the reader decides how much is read.
+!> In: texts. Out: the same on the stream, with an error where standard output could not be written. All text of the program is
+!> written here and none by Fortran's units, whose buffers may be lost without an error where the disk is full. A closed pipe
+!> (`camroller help | head -1`) is not an error.
 module camroller_streams
    use, intrinsic :: iso_c_binding, only : c_char, c_int, c_intptr_t, c_null_char
    use camroller_error, only : error_t, raise, kind_file

@@ -1,8 +1,6 @@
-!> Calls of the operating system for replacing files: process number, space, rename, sync,
-!> remove, resolve links, date.
+!> System calls for replacing files: process number, free space, rename, sync, remove, resolve links, date.
 !>
-!> In: paths. Out: thin interfaces to the C library of POSIX systems, with logical results instead of
-!> numbers.
+!> In: paths. Out: interfaces to the C library of POSIX systems, with logical results instead of numbers.
 module camroller_system_file
    use, intrinsic :: iso_c_binding, only : c_associated, c_char, c_f_pointer, c_int, c_int64_t, c_intptr_t, c_long, &
       & c_null_char, c_null_ptr, c_ptr, c_size_t
@@ -237,7 +235,7 @@ contains
       done = c_ftruncate(descriptor, length) == 0
    end subroutine set_file_size
 
-   !> The system's words for an error number.
+   !> The system's message for an error number.
    function system_words(number) result(words)
       !> The number
       integer(c_int), intent(in) :: number

@@ -1,7 +1,7 @@
-!> The lines of a text, found once: where each begins and ends.
+!> Start and end of each line of a text, found in one pass.
 !>
-!> In: a text. Out: `text_lines_t`, which keeps the text in one piece, so that a text of millions of lines needs little
-!> more room than itself.
+!> In: a text. Out: `text_lines_t`, which keeps the text in one piece, so that a text of millions of lines needs little more
+!> memory than its own size.
 module camroller_text_lines
    implicit none
    private

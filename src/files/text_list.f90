@@ -1,7 +1,7 @@
-!> A list of texts in one string, each in a field of the same width: a component that can be copied.
+!> A list of texts stored in one string with fields of equal width, so that a type that contains it can be copied.
 !>
-!> In: texts. Out: the same by position. Arrays of texts whose length is found at run time do not survive the copy
-!> of the object that they are a component of with every compiler; a single text does.
+!> In: texts. Out: the same by index. With some compilers, arrays of texts of deferred length do not survive the copy of the
+!> object that they are a component of; a single string does.
 module camroller_text_list
    implicit none
    private
@@ -34,7 +34,7 @@ contains
       list%fields = repeat(" ", list%count*list%width)
    end subroutine new_text_list
 
-   !> Give a place a text.
+   !> Set the text at an index.
    pure subroutine put_text_at(list, position, text)
       !> The list
       type(text_list_t), intent(inout) :: list
@@ -46,7 +46,7 @@ contains
       list%fields((position - 1)*list%width + 1:position*list%width) = text
    end subroutine put_text_at
 
-   !> Text at a place, without the blanks at its end.
+   !> Text at an index, without trailing blanks.
    pure function text_at(list, position) result(text)
       !> The list
       type(text_list_t), intent(in) :: list
@@ -58,11 +58,11 @@ contains
       text = trim(list%fields((position - 1)*list%width + 1:position*list%width))
    end function text_at
 
-   !> The first place whose text stands at an earlier place too; 0 where there is none.
+   !> The first index whose text occurs at a lower index as well; 0 where there is none.
    pure function first_repeated(list) result(position)
       !> The list
       type(text_list_t), intent(in) :: list
-      !> The place
+      !> The index
       integer :: position
 
       integer :: order(list%count), i
@@ -114,7 +114,7 @@ contains
       type(text_list_t), intent(in) :: list
       !> Order before the merge
       integer, intent(in) :: order(:)
-      !> Next place of each run, and the place behind it
+      !> Next index of each run, and the index behind it
       integer, intent(in) :: first, first_end, second, second_end
       !> Does it?
       logical :: verdict
@@ -123,7 +123,7 @@ contains
       if (verdict .and. second < second_end) verdict = field(list, order(first)) <= field(list, order(second))
    end function takes_first
 
-   !> The field at a place.
+   !> The field at an index.
    pure function field(list, position) result(text)
       !> The list
       type(text_list_t), intent(in) :: list

@@ -1,8 +1,8 @@
-!> Files that this process is writing and has not finished, so that a signal that ends the process can remove them.
+!> Files that this process has begun and not completed, so that a signal handler can remove them.
 !>
-!> In: paths. Out: the same removed. A signal handler can be given nothing, and may not allocate: hence the saved
-!> variables, and places of fixed size. A path that is too long, or one more than there are places, is not remembered: its file
-!> stays where the process is ended by a signal.
+!> In: paths. Out: the files removed. A signal handler has no arguments and must not allocate memory: hence the saved variables
+!> and their fixed size. A path that is too long, or exceeds the number of entries, is not recorded: its temporary file stays if
+!> the process is ended by a signal.
 module camroller_unfinished
    use, intrinsic :: iso_c_binding, only : c_char, c_int, c_null_char
    implicit none
@@ -12,7 +12,7 @@ module camroller_unfinished
 
    !> Places, and letters of a path with the null character that ends it
    integer, parameter :: places = 8, path_length = 4096
-   !> What is done with the places
+   !> Operations on the entries
    integer, parameter :: add = 1, drop = 2, clear = 3
 
    interface
@@ -41,12 +41,12 @@ contains
       call change_places(drop, path)
    end subroutine forget_unfinished
 
-   !> Remove the files that are remembered; may be called by a signal handler.
+   !> Remove the recorded files; may be called by a signal handler.
    subroutine remove_remembered()
       call change_places(clear, "")
    end subroutine remove_remembered
 
-   !> Change the places, one by one; a place is in use while its length is not 0.
+   !> Change the entries, one by one; an entry is in use while its length is not 0.
    subroutine change_places(task, path)
       !> What to do
       integer, intent(in) :: task
