@@ -1,8 +1,8 @@
-!> Errors as values: what went wrong, of which kind, where in the deck.
+!> Errors as values: kind and message.
 !>
-!> A procedure that can fail has `type(error_t), allocatable, intent(out) :: error` as its last argument;
-!> not allocated means that all went well. The caller tests `allocated(error)` right after the call and returns, adding
-!> what it knows with `add_context`. The kind is at the same time the exit code of the program.
+!> A procedure that can fail has `type(error_t), allocatable, intent(out) :: error` as its last argument; not allocated means
+!> success. The caller tests `allocated(error)` directly after the call and returns; it may add context with `add_context`. The
+!> kind is also the exit code of the program.
 module camroller_error
    implicit none
    private

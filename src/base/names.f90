@@ -1,7 +1,7 @@
-!> Choices by name: find a name in a list of known ones, or say which are known.
+!> Choices by name: find a name in a list of known names, or report the known ones.
 !>
-!> Each module with a family of laws keeps the list of its names beside the laws; decks and library users choose
-!> by name, inner loops by the index found here.
+!> Each module with a family of laws keeps the list of its names beside the laws; decks and library users choose by name, inner
+!> loops by the index found here.
 module camroller_names
    use camroller_error, only : error_t, raise, kind_deck
    implicit none

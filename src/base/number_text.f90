@@ -1,7 +1,7 @@
-!> Numbers as text, and whether a text is a number: the only place where numbers are written into texts.
+!> Conversion of numbers to text, and check of a text for a number: the only module that writes numbers into texts.
 !>
-!> In: numbers or words. Out: words or verdicts. A text is as long as its number needs, whatever the number: a
-!> buffer that a caller declares for it may be too short, and writing into that ends the program.
+!> In: numbers or words. Out: texts or logicals. Each text is as long as its number needs. Writing into a buffer of fixed length
+!> could end the program where the number is longer.
 module camroller_number_text
    use, intrinsic :: ieee_arithmetic, only : ieee_is_finite, ieee_is_nan
    use, intrinsic :: iso_fortran_env, only : int64

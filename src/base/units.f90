@@ -1,7 +1,7 @@
-!> Units that decks and tables may use: the one table of factors to SI.
+!> Units of keys and tables: the one table of factors to SI.
 !>
-!> In: a key such as `base_radius_mm` or the name of a unit. Out: how to get from that unit to SI and back.
-!> A key whose last words are no known unit is in SI, or has no unit.
+!> In: a key such as `base_radius_mm` or the name of a unit. Out: the conversion from that unit to SI and back. A key whose last
+!> words are not a known unit is in SI, or has no unit.
 module camroller_units
    use camroller_kinds, only : wp, pi, two_pi
    implicit none

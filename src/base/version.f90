@@ -1,7 +1,6 @@
-!> Which camroller this is and how it was built.
+!> Version of camroller and facts of the build.
 !>
-!> In: nothing. Out: the version as text and as one number, the commit, compiler and options for the metadata
-!> of a result file.
+!> In: nothing. Out: the version as text and as one number, the commit, compiler and options for the metadata of a result file.
 module camroller_version
    use, intrinsic :: iso_fortran_env, only : compiler_version, compiler_options
    implicit none
