@@ -1,7 +1,7 @@
-!> Moments about the finger's pivot that press the roller on the cam.
+!> Moments about the finger's pivot that press the roller onto the cam.
 !>
-!> In: position, masses, spring, seat, gas force, cam speed. Out: moments, each apart, and the stored energy.
-!> Sources: Ball (1988); Islam (2019) eqs. (16)-(22). The seat's share and the gas force are ours: `doc/theory.md`.
+!> In: position, masses, spring, seat, gas force, cam speed. Out: the single moments and the stored energy. Sources: Ball (1988);
+!> Islam (2019) eqs. (16)-(22). Our own, derived in `doc/theory.md`: the share of the seat, and the gas force.
 module camroller_dynamics
    use camroller_kinds, only : wp
    use camroller_names, only : name_length

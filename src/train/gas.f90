@@ -1,6 +1,6 @@
-!> Cylinder pressure on the valve over the cam angle.
+!> Force of the cylinder pressure on the valve as a function of the cam angle.
 !>
-!> In: a table over one cycle and the area of the valve head. Out: force that presses the valve shut.
+!> In: a table over one cycle and the area of the valve head. Out: force in the direction that closes the valve.
 module camroller_gas
    use camroller_kinds, only : wp, two_pi
    use camroller_error, only : error_t, add_context, raise, kind_deck

@@ -1,10 +1,9 @@
-!> Valve lift over cam angle: analytic laws and tables, with three derivatives.
+!> Valve lift as a function of the cam angle: analytic laws and tables, with three derivatives.
 !>
-!> In: what a case says about its lift. Out: lift, slope, curvature and third derivative at any cam
-!> angle from full lift, zero outside the event, and the angles where a derivative jumps, at which an integrator must
-!> stop.
-!> Sources: Dudley (1948), SAE Quarterly Transactions 2(1), and Stoddart (1953), Machine Design 25, for the polydyne
-!> form; Norton (2009), Cam Design and Manufacturing Handbook, for the rise functions.
+!> In: the lift's data from the case. Out: lift and its first three derivatives at any cam angle from full lift, zero outside the
+!> event; the angles where a derivative jumps, at which an integrator must stop. Sources: Dudley (1948), SAE Quarterly
+!> Transactions 2(1), and Stoddart (1953), Machine Design 25, for the polydyne form; Norton (2009), Cam Design and Manufacturing
+!> Handbook, for the rise functions.
 module camroller_lift
    use camroller_kinds, only : wp, pi, two_pi
    use camroller_error, only : error_t, raise, kind_deck

@@ -1,8 +1,8 @@
 !> Lift event from a table of cam angle and lift.
 !>
-!> A part of `lift.f90`. In: a table over an event or over a full turn. Out: a spline over the event. A
-!> table that rests at zero is cut to its event, which starts and ends with zero lift, slope and curvature; a table of a
-!> full turn without rest repeats itself.
+!> A part of `lift.f90`. In: a table over an event or over a full turn. Out: a spline over the event. A table with a dwell at
+!> zero is cut to its event, which starts and ends with zero lift, slope and curvature; a table of a full turn without dwell is
+!> periodic.
 module camroller_lift_table
    use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
    use camroller_kinds, only : wp, two_pi, degree

@@ -1,6 +1,6 @@
-!> Force that the finger's pivot passes on to the lash adjuster.
+!> Force of the finger's pivot on the lash adjuster.
 !>
-!> In: forces on the rigid finger and its motion. Out: the force along the adjuster's axis. Source: momentum of the
+!> In: forces on the rigid finger and its motion. Out: the force along the adjuster's axis. Source: momentum balance of the
 !> finger along that axis, `doc/theory.md`.
 module camroller_pivot
    use camroller_kinds, only : wp
