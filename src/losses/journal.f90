@@ -1,12 +1,12 @@
 !> Hydrodynamic journal bearings of the camshaft: friction under a steady load.
 !>
-!> In: bearing dimensions, viscosity, speed, load. Out: friction on the journal and eccentricity.
-!> Sources: Sommerfeld (1904) for the long bearing with full film, Ocvirk (1952), NACA TN 2808, for the short bearing with
-!> half film, Butenschoen (1976), thesis, University of Karlsruhe, for finite width; Islam (2019) eqs. (42)-(44), with
-!> the speed in revolutions and without the factor 12.
+!> In: bearing dimensions, viscosity, speed, load. Out: friction on the journal and eccentricity. Sources: Sommerfeld (1904) for
+!> the long bearing with full film, Ocvirk (1952), NACA TN 2808, for the short bearing with half film, Butenschoen (1976),
+!> thesis, University of Karlsruhe, for finite width; Islam (2019) eqs. (42)-(44), with the speed in revolutions and without the
+!> factor 12.
 !>
-!> With e the eccentricity over the radial clearance, each law is a rising function of `t = e/sqrt(1 - e^2)`, which keeps its
-!> digits from the unloaded bearing (t = 0, Petroff's friction) to the fully displaced one (t unbounded, e -> 1).
+!> With e the ratio of eccentricity to radial clearance, each law is written as an increasing function of `t = e/sqrt(1 - e^2)`,
+!> which is accurate from the unloaded bearing (t = 0, Petroff's friction) to e -> 1 (t unbounded).
 module camroller_journal
    use camroller_kinds, only : wp, pi
    use camroller_error, only : error_t, raise, kind_deck, kind_domain

@@ -1,7 +1,7 @@
-!> Torque on the camshaft and power lost, each source apart.
+!> Torque on the camshaft and power lost, by source.
 !>
-!> In: forces, speeds and arms of one cam. Out: torques. Sources: equilibrium of roller, finger and cam
-!> (`doc/theory.md`); Islam (2019), section 2.5, for the bookkeeping called `source`.
+!> In: forces, speeds and arms of one cam. Out: torques. Sources: equilibrium of roller, finger and cam (`doc/theory.md`); Islam
+!> (2019), section 2.5, for the bookkeeping called `source`.
 module camroller_torque
    use camroller_kinds, only : wp
    implicit none
