@@ -1,8 +1,9 @@
-!> From the accuracy that a user wants to method and tolerance.
+!> Choice of method and tolerance for a requested accuracy.
 !>
-!> In: numerics as given. Out: whether they can be; numerics with a method and, unless the step is fixed, tolerance.
+!> In: numerics as given. Out: an error where they are not valid; numerics with a method and, unless the step is fixed, a
+!> tolerance.
 !>
-!> The numbers here come from `camroller study`, whose findings `doc/accuracy_and_cost.md` keeps.
+!> The constants come from `camroller study`; `doc/accuracy_and_cost.md` has the results.
 module camroller_accuracy
    use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
    use camroller_kinds, only : wp, two_pi, degree

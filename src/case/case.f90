@@ -26,7 +26,7 @@ module camroller_case
    public :: case_t, operating_point_t, numerics_t, selection_t, energy_names, contact_policy_names, method_names, quasi_static, &
       & method_choices, automatic_method, select_names, select_needed, quantity_names, quantity_torque, quantity_film, quantity_slip
 
-   !> Name of the model that takes the roller's spin from its algebraic balance
+   !> Name of the model that takes the roller's spin from its quasi-static balance
    character(len=name_length), parameter :: quasi_static = "quasi_static"
    !> Ways to find the roller's spin: the integration methods, and the quasi-static limit
    character(len=name_length), parameter :: method_names(*) = [ode_method_names, quasi_static]

@@ -1,4 +1,4 @@
-!> Effects that a case can do without: their names, how to leave one out, and what was decided about each.
+!> Optional effects of a case: their names, how to remove one, and the decision on each.
 !>
 !> In: a case. Out: the case without an effect, or with the simpler law in its place.
 module camroller_effect_list

@@ -1,7 +1,7 @@
-!> Models kept from one case of a sweep for the next that has the same geometry, masses and spring: no curve is fitted and no
-!> geometry is checked twice.
+!> Models kept from one case of a sweep for the next that has the same geometry, masses and spring, so that curves are fitted and
+!> the geometry is checked only once.
 !>
-!> In: cases one after the other. Out: their models, bit by bit those that each case alone would get.
+!> In: cases one after the other. Out: their models, identical to the last bit to those that each case alone would get.
 module camroller_kept_models
    use, intrinsic :: iso_fortran_env, only : int64
    use camroller_kinds, only : wp

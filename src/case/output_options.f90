@@ -1,6 +1,6 @@
-!> What goes into a result file, and how: options that a deck sets and the writer of the file obeys.
+!> Options of the result file that a deck sets.
 !>
-!> In: nothing. Out: type and names, so that a deck can be read without the library that writes files.
+!> In: nothing. Out: type and names, in a module that does not depend on HDF5, so that a deck can be read without it.
 module camroller_output_options
    use camroller_names, only : name_length
    implicit none
