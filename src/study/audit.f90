@@ -1,4 +1,4 @@
-!> What each effect of a case is worth and costs: the case with all of them, with each left out, with each alone, and with those
+!> Influence and cost of each effect of a case: the case with all of them, with each left out, with each alone, and with those
 !> that `select = 'needed'` keeps.
 !>
 !> In: a case. Out: rows of `study_table_t`. A variant that fails is a row with a message and no numbers.

@@ -1,7 +1,8 @@
-!> What accuracy costs: a case computed in many ways, each with its errors relative to one reference, its work and its time.
+!> Cost of accuracy: a case computed with many methods and settings, each with its errors relative to one reference, its work and
+!> its time.
 !>
-!> In: a case. Out: rows of one table. Each family of ways has a reference of its own: two unlike integration methods
-!> that must agree, the finest table of numerical films, or the finest solution of the contact over the cycle.
+!> In: a case. Out: rows of one table. Each family of methods has a reference of its own: two unlike integration methods that
+!> must agree, the finest table of numerical films, or the finest solution of the contact over the cycle.
 module camroller_study
    use camroller_kinds, only : wp, degree
    use camroller_names, only : name_length

@@ -1,4 +1,4 @@
-!> A table of rows that all have the same words and numbers: what a study measures, for files and for the screen.
+!> Table with the same text and number columns in every row: the result of a study, for files and for the screen.
 !>
 !> In: the meaning of each column, rows one by one. Out: `study_table_t`.
 module camroller_study_table

@@ -1,6 +1,6 @@
-!> One trial of a study: a case computed in one way, its result, its time, and its errors relative to a reference.
+!> One run of a study: a case computed with one method and setting, its result, its time, and its errors relative to a reference.
 !>
-!> In: a case. Out: `trial_t`. A trial that fails is a trial with a status and a message.
+!> In: a case. Out: `trial_t`. A run that fails has a status and a message.
 module camroller_study_trial
    use, intrinsic :: ieee_arithmetic, only : ieee_quiet_nan, ieee_value
    use camroller_kinds, only : wp, two_pi
