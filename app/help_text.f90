@@ -57,7 +57,7 @@ contains
             & "  camroller help [COMMAND]   this, or more about a command"//n//n// &
             & "Exit codes: 0 success, 2 command line, 3 deck or table, 4 impossible values or a law out of range,"//n// &
             & "5 no convergence, 6 file, 7 a rerun differs, 8 stopped before the end, 9 too little memory,"//n// &
-            & "70 mistake in the program."
+            & "70 internal error."
       end select
    end function help_for
 

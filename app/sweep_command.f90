@@ -242,7 +242,7 @@ contains
       call study_facts(run%deck, facts)
       if (facts%deck /= run%facts%deck) then
          call raise(error, kind_file, "a table that the cases name has changed while they were computed, and it is not known "// &
-            & "which case had which; remove "//part_beginning(run%path)//"* to start anew")
+            & "which case had which; remove "//part_beginning(run%path)//"* to start again")
          return
       end if
       if (loop%ended == ended_all .and. config%shards == 1) then

@@ -247,10 +247,10 @@ contains
       call take_text(record, build)
       if (deck /= facts%deck .or. cases /= facts%cases) then
          call raise(error, kind_file, "the deck has changed since '"//path//"' was begun: "//difference(deck, facts%deck)// &
-            & "; put the deck back, or remove the part files to start anew")
+            & "; put the deck back, or remove the part files to start again")
       else if (build /= facts%build) then
          call raise(error, kind_file, "'"//path//"' was begun by another build of camroller: "// &
-            & difference(build, facts%build)//"; continue with that one, or remove the part files to start anew")
+            & difference(build, facts%build)//"; continue with that one, or remove the part files to start again")
       end if
    end subroutine check_head
 

@@ -148,9 +148,9 @@ contains
          if (turn > patience .and. cycle%closure > 0.5_wp*best) call refine(scale, resolved%tolerance, problem, options, best)
          best = min(best, cycle%closure)
       end do
-      call raise(error, kind_convergence, "the cycle did not become periodic: after the cycles that max_cycles allows, its "// &
-         & "start at "//trim(problem%name_time(cycle%start))//" is still further from the periodic one than periodicity; a "// &
-         & "spin that is hardly damped has this effect, and explicit steps beyond the stability limit")
+      call raise(error, kind_convergence, "the cycle did not become periodic: after numerics.max_cycles cycles, sliding "// &
+         & "speeds at start and end, "//trim(problem%name_time(cycle%start))//", differ by more than numerics.periodicity. "// &
+         & "Reasons may be a spin with little damping, or explicit steps beyond the stability limit")
    end subroutine integrate_cycle
 
    !> Start of the next turn: the end of this one, or where two turns tell how fast starts and ends approach each other, the point
@@ -317,7 +317,7 @@ contains
       call take_scale(scale, tolerance, problem, options)
    end subroutine refine
 
-   !> Refuse sticking and sliding with a method that cannot tell them apart.
+   !> Refuse set-valued friction with a method without error control.
    subroutine check_mobilisation(model, error)
       !> The model
       type(model_t), intent(in) :: model
@@ -407,7 +407,7 @@ contains
          end if
       end if
       if (status /= 0) then
-         call raise(error, kind_convergence, "load and friction of the contact have no common solution at cam angle "// &
+         call raise(error, kind_convergence, "no load satisfies the equilibrium of the contact at cam angle "// &
             & fixed_text(modulo(180.0_wp + angle/degree, 360.0_wp), 3)//" deg")
       end if
    end subroutine state_at

@@ -12,16 +12,16 @@ module camroller_cycle_start
 
    public :: choose_start, run_up_stops, rolling_speed_at_angle
 
-   !> Angles at which the algebraic balance is tried
+   !> Angles at which the quasi-static balance is tried
    integer, parameter :: balance_points = 36
    !> Accuracy of the balance over the speed of pure rolling: for a scale, and for the start of the run-up [-]
    real(wp), parameter :: scan_tolerance = 1.0e-5_wp, start_tolerance = 1.0e-10_wp
-   !> Cam angle over which the difference between algebraic balance and periodic state decays before the cycle [rad]
+   !> Cam angle over which the difference between quasi-static balance and periodic state decays before the cycle [rad]
    real(wp), parameter :: run_up_angle = 5.0_wp*degree
 
 contains
 
-   !> Angle of fastest decay with the algebraic balance there, and the scale of the sliding speed.
+   !> Angle of fastest decay with the quasi-static balance there, and the scale of the sliding speed.
    subroutine choose_start(model, start, sliding_speed, scale, least_scale, evaluations)
       !> The model
       type(model_t), intent(in) :: model
@@ -29,7 +29,7 @@ contains
       real(wp), intent(out) :: start
       !> Sliding speed there [m/s]
       real(wp), intent(out) :: sliding_speed
-      !> Largest sliding speed of the algebraic balance; sliding speed below which there is as good as none [m/s]
+      !> Largest sliding speed of the quasi-static balance; sliding speed below which it counts as zero [m/s]
       real(wp), intent(out) :: scale, least_scale
       !> Evaluations of the contact, counted on
       integer, intent(inout) :: evaluations

@@ -27,7 +27,7 @@ module camroller_quasi_static
 
 contains
 
-   !> Sliding speed of the algebraic balance over a cycle.
+   !> Sliding speed of the quasi-static balance over a cycle.
    subroutine quasi_static_cycle(model, stops, tolerance, trajectory, counters, error)
       !> The model
       type(model_t), intent(in) :: model
@@ -134,7 +134,7 @@ contains
       call follow_balance(model, angle, balance_part*tolerance, position, sliding_speed, decay_rate, counters%evaluations, &
          & is_found)
       if (is_found) return
-      call raise(error, kind_convergence, "quasi-static limit: the roller has no algebraic balance at cam angle "// &
+      call raise(error, kind_convergence, "quasi-static limit: the roller has no quasi-static balance at cam angle "// &
          & fixed_text(modulo(180.0_wp + angle/degree, 360.0_wp), 3)// &
          & " deg: no contact there, or traction cannot follow the kinematics; choose another method")
    end subroutine balance_at

@@ -96,7 +96,7 @@ contains
          call slide(problem, method, options, stops, direction, walk, trajectory, counters, error)
          if (allocated(error)) return
          if (size(phases) > max_phases) then
-            call raise(error, kind_convergence, "the roller sticks and slides too many times up to "// &
+            call raise(error, kind_convergence, "the roller changes between sticking and sliding too often up to "// &
                & trim(problem%name_time(walk%angle)))
             return
          end if
@@ -434,7 +434,8 @@ contains
 
       call rates_at_rest(problem%model, angle, rates, status)
       counters%evaluations = counters%evaluations + size(rates)
-      if (status /= 0) call raise(error, kind_convergence, "the right-hand side has no value at "//trim(problem%name_time(angle)))
+      if (status /= 0) call raise(error, kind_convergence, "the right-hand side cannot be evaluated at "// &
+         & trim(problem%name_time(angle)))
    end subroutine counted_rates
 
    !> Direction of sliding at a cam angle.

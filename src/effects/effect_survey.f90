@@ -1,4 +1,4 @@
-!> A survey of the cycle: the roller by its algebraic balance, and its response to a change of the model.
+!> A survey of the cycle: the roller by its quasi-static balance, and its response to a change of the model.
 !>
 !> In: a model, and one that lacks an effect. Out: changes of torque, film and sliding speed round the cycle.
 !>
@@ -114,7 +114,7 @@ contains
       balance_decay = survey%decay
       do i = 1, points
          call evaluate_state(model, survey%grid%angles(i), survey%sliding(i), survey%states(i), status)
-         if (status /= 0) survey%trouble = "load and friction have no common solution"
+         if (status /= 0) survey%trouble = "no load satisfies the equilibrium of the contact"
          if (status /= 0) return
          survey%decay(i) = decay_rate_of(model, survey%states(i)%contact)
       end do

@@ -131,7 +131,7 @@ contains
       table%error = stated
       if (stated <= setup%accuracy) return
       call raise(error, kind_convergence, "ehl: error of the film "//number_text(stated, 2)//" instead of "// &
-         & number_text(setup%accuracy, 2)//"; ask for less accuracy")
+         & number_text(setup%accuracy, 2)//"; choose a larger ehl.accuracy")
    end subroutine build_film_table
 
    !> Films at all points, of which those of fewer points may be known.

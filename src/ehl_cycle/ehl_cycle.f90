@@ -198,7 +198,8 @@ contains
          if (last%rounds == max_rounds .and. options%is_transient) reason = "no balance of load and friction was found"
          if (last%rounds == max_rounds .and. .not. options%is_transient) reason = "the balance of load and friction, "// &
             & "where the spike of the pressure is narrower than the nodes, jumps with steady films (a film with squeeze does not)"
-         call raise(error, kind_convergence, "ehl: no step is short enough at cam angle "//trim(angle_text(reached))//": "//reason)
+         call raise(error, kind_convergence, "ehl: the step size fell below its minimum at cam angle "// &
+            & trim(angle_text(reached))//": "//reason)
       else if (.not. is_periodic(cycle%moments, options%step_error)) then
          call raise(error, kind_convergence, "ehl: the cycle did not become periodic")
       end if

@@ -44,7 +44,7 @@ module camroller_ehl_step
       real(wp) :: traction = 0.0_wp, shear = 0.0_wp, boundary_capacity = 0.0_wp, rolling_resistance = 0.0_wp
       !> Rate at which a change of the sliding speed decays, per radian of the cam [-]
       real(wp) :: damping = 0.0_wp
-      !> Times that film and forces were found anew
+      !> Number of iterations over film and forces
       integer :: rounds = 0
       !> Is the contact one that solutions are given for? As `new_ehl_problem` has it
       integer :: status = in_range

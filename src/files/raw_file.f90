@@ -326,7 +326,7 @@ contains
       if (done) then
          file%bytes = bytes
       else
-         call raise(error, kind_file, "cannot cut '"//file%path//"': "//last_words())
+         call raise(error, kind_file, "cannot truncate '"//file%path//"': "//last_words())
       end if
    end subroutine cut_raw
 

@@ -52,7 +52,7 @@ contains
       logical :: is_unread
 
       call write_letters(output_descriptor, text, reason, is_unread)
-      if (reason /= "" .and. .not. is_unread) call raise(error, kind_file, "cannot write to the output: "//reason)
+      if (reason /= "" .and. .not. is_unread) call raise(error, kind_file, "cannot write to standard output: "//reason)
    end subroutine print_text
 
    !> Write a line, or lines without the end of the last one, to the output unit.
@@ -95,7 +95,7 @@ contains
       !> File error
       type(error_t), allocatable, intent(out) :: error
 
-      if (c_close(output_descriptor) /= 0) call raise(error, kind_file, "cannot write to the output: the write failed")
+      if (c_close(output_descriptor) /= 0) call raise(error, kind_file, "cannot write to standard output: the write failed")
    end subroutine close_output_stream
 
 end module camroller_streams

@@ -79,7 +79,7 @@ contains
       inquire (unit=unit, size=bytes)
       if (bytes > largest_size .or. bytes < 0) then
          close (unit)
-         call raise(error, kind_file, "'"//path//"' is no text file of a sensible size")
+         call raise(error, kind_file, "'"//path//"' is too large for a deck or a table")
          return
       end if
       allocate (character(len=bytes) :: text)
@@ -90,7 +90,7 @@ contains
       else if (any(text(:min(2, len(text))) == utf16_marks)) then
          call raise(error, kind_file, "'"//path//"' is a text in UTF-16; save it in UTF-8")
       else if (.not. is_text(text)) then
-         call raise(error, kind_file, "'"//path//"' is no text file: it holds bytes that no text has")
+         call raise(error, kind_file, "'"//path//"' is not a text file: it contains bytes that do not occur in text")
       else if (index(text, utf8_mark) == 1) then
          text = text(len(utf8_mark) + 1:)
       end if

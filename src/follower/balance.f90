@@ -17,14 +17,14 @@ module camroller_balance
 
    public :: find_balance, follow_balance, least_slip
 
-   !> Steps from a guess nearby before the search starts anew: each gains a digit or more
+   !> Steps from a guess nearby before the search restarts: each gains a digit or more
    integer, parameter :: max_steps = 12
    !> Sliding speed that counts as a scale where the balance gives less, over the speed of pure rolling [-]
    real(wp), parameter :: least_slip = 1.0e-5_wp
 
 contains
 
-   !> Sliding speed of the algebraic balance at an angle.
+   !> Sliding speed of the quasi-static balance at an angle.
    subroutine find_balance(model, angle, tolerance, position, sliding_speed, decay_rate, is_found)
       !> The model
       type(model_t), intent(in) :: model
@@ -96,7 +96,7 @@ contains
       if (is_found) decay_rate = min(-rates(1), rates(2))/(least_slip*rolling)
    end subroutine find_rest
 
-   !> Sliding speed of the algebraic balance from a guess nearby; by the search over all speeds where that does not settle.
+   !> Sliding speed of the quasi-static balance from a guess nearby; by the search over all speeds where that does not settle.
    subroutine follow_balance(model, angle, tolerance, position, sliding_speed, decay_rate, evaluations, is_found)
       !> The model
       type(model_t), intent(in) :: model
@@ -136,7 +136,7 @@ contains
       evaluations = evaluations + search
    end subroutine follow_balance
 
-   !> Sliding speed of the algebraic balance from one nearby, by Newton's method with the slope at constant film and load.
+   !> Sliding speed of the quasi-static balance from one nearby, by Newton's method with the slope at constant film and load.
    subroutine improve_balance(model, position, moments, tolerance, sliding_speed, decay_rate, evaluations, is_found)
       !> The model
       type(model_t), intent(in) :: model

@@ -66,7 +66,7 @@ module camroller_contact_forces
       real(wp) :: mobilised_slope
       !> Torque of the roller's bearing over the load [m]
       real(wp) :: bearing_arm
-      !> Relative change of the film ratio that may be the last where the load share is found anew [-]
+      !> Relative change of the film ratio that may be the last where the load share is iterated again [-]
       real(wp) :: coarse
    end type setting_t
 

@@ -1,7 +1,6 @@
-!> Parts common to all HDF5 objects: handle, names, the type of texts, the error of a failed write.
+!> Common parts of all HDF5 objects: handle, names, the type of texts, the error of a failed write.
 !>
-!> In: extents, texts. Out: `hdf5_object_t` and helpers that the modules on files, attributes and reading
-!> share.
+!> In: extents, texts. Out: `hdf5_object_t` and helpers that the modules for files, attributes and reading share.
 module camroller_hdf5_object
    use, intrinsic :: iso_c_binding, only : c_char, c_int64_t, c_null_char
    use hdf5, only : hid_t, hsize_t, h5screate_f, h5screate_simple_f, h5tcopy_f, h5tset_cset_f, h5s_scalar_f, &

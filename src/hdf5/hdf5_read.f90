@@ -163,7 +163,7 @@ contains
       call h5dclose_f(dataset, ignored)
       if (status /= 0 .or. any(shape%extents > huge(1)) .or. real(shape%count, wp)*real(shape%bytes, wp) > &
          & real(stored, wp)*largest_ratio .or. stored > file%bytes) then
-         call raise(error, kind_file, "'"//name//"' of '"//file%file//"' does not have the values that it says it has")
+         call raise(error, kind_file, "'"//name//"' of '"//file%file//"' is damaged: it has fewer values than its size says")
          return
       end if
       extents = int(shape%extents)
@@ -357,7 +357,7 @@ contains
       if (.not. allocated(error)) call check_kind(file, name, shape, kind, error)
       if (.not. allocated(error)) then
          if (any(first < 0 .or. first + int(extents, hsize_t) > shape%extents)) call raise(error, kind_file, "'"//name// &
-            & "' of '"//file%file//"' does not reach as far as the other values of the file")
+            & "' of '"//file%file//"' has fewer values than the rest of the file")
       end if
       if (.not. allocated(error)) then
          call open_space(extents, memory_space, ignored)

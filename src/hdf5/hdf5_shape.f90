@@ -1,7 +1,6 @@
-!> What a dataset or an attribute of a file holds, found out before it is read.
+!> Type, axes and extents of a dataset or an attribute, determined before it is read.
 !>
-!> In: an open file, names inside it. Out: kind of the values, axes, extents; errors in words where they are not what is
-!> asked for.
+!> In: an open file, names inside it. Out: type of the values, axes, extents; an error where they are not the expected ones.
 module camroller_hdf5_shape
    use hdf5, only : hid_t, hsize_t, size_t, h5dclose_f, h5dget_space_f, h5dget_type_f, h5dopen_f, h5sclose_f, &
       & h5sget_simple_extent_dims_f, h5sget_simple_extent_ndims_f, h5sget_simple_extent_npoints_f, h5tclose_f, h5tget_class_f, &

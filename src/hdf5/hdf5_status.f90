@@ -1,8 +1,8 @@
-!> State of the HDF5 library: started quietly, and its error stack turned into a few words.
+!> Start of the HDF5 library, and conversion of its error stack to a short message.
 !>
-!> In: nothing. Out: `start_hdf5`, `raise_hdf5`. The library keeps its errors on a stack of its own; the
-!> entry that quotes the operating system says most, so that entry is searched first. The walk over the stack has no
-!> Fortran wrapper, hence the C interface.
+!> In: nothing. Out: `start_hdf5`, `raise_hdf5`. The library keeps its errors on a stack of its own; the entry that quotes the
+!> operating system is the most informative, so it is searched first. Walking the stack has no Fortran wrapper, hence the C
+!> interface.
 module camroller_hdf5_status
    use, intrinsic :: iso_c_binding, only : c_char, c_int, c_int64_t, c_loc, c_f_pointer, c_funloc, c_funptr, &
       & c_null_char, c_ptr, c_associated

@@ -1,10 +1,10 @@
-!> Reading from which a library may not return: the file being read, and a limit on the computing time of a call.
+!> Watchdog for reading: the file being read, and a limit on the processor time of a library call.
 !>
-!> In: the path of a file. Out: whether one is being read, words for a signal handler. HDF5 checks a file while it
-!> reads it, but not all of it: in a damaged file without a seal, it may follow a list that never ends or an invalid address. A
-!> program can turn that into an error (`watch_library`); a host of the library is not affected. Only the computing time of the
-!> calling thread counts, so that neither a slow disk nor a stopped process is taken for a loop. Waiting without end for a disk is
-!> not noticed. A handler takes no argument, hence the saved variables.
+!> In: the path of a file. Out: whether one is being read, the message for a signal handler. HDF5 checks a file while it reads
+!> it, but not completely: in a damaged file without a seal it may follow a cyclic list or an invalid address. A program can turn
+!> that into an error (`watch_library`); a host of the library is not affected. Only the processor time of the calling thread
+!> counts, so that neither a slow disk nor a stopped process is taken for an endless loop. A disk that never answers is not
+!> detected. A signal handler has no arguments, hence the saved variables.
 module camroller_library_watch
    use, intrinsic :: iso_c_binding, only : c_char, c_int, c_long, c_null_ptr, c_ptr, c_size_t
    implicit none
@@ -110,7 +110,7 @@ contains
       logical :: answer
 
       character(len=*), parameter :: before = "camroller: cannot read '", after = "': it is damaged, the HDF5 library does not "// &
-         & "come back from it"//new_line("a")
+         & "finish reading it"//new_line("a")
       character(kind=c_char), save :: letters(path_length)
       type(c_ptr), save :: timer = c_null_ptr
       logical, save, volatile :: is_armed = .false., is_reading = .false.

@@ -82,7 +82,7 @@ contains
          finish = stops(segment + 1) - margin
          call rate_here(problem, method, start, state, finish, rate, counters, status)
          if (status /= 0) then
-            call raise(error, kind_convergence, "the right-hand side has no value at "//trim(problem%name_time(start)))
+            call raise(error, kind_convergence, "the right-hand side cannot be evaluated at "//trim(problem%name_time(start)))
             return
          end if
          call append_point(trajectory, start, state, rate)
@@ -461,11 +461,11 @@ contains
       if (was_rejected .and. is_fixed(method, options)) then
          call raise(error, kind_convergence, "a fixed step failed at "//trim(problem%name_time(time)))
       else if (counters%accepted + counters%rejected > options%max_steps) then
-         call raise(error, kind_convergence, "the number of steps is used up at "//trim(problem%name_time(time)))
+         call raise(error, kind_convergence, "the largest number of steps is reached at "//trim(problem%name_time(time)))
       else if (counters%evaluations > options%max_evaluations) then
-         call raise(error, kind_convergence, "the number of evaluations is used up at "//trim(problem%name_time(time)))
+         call raise(error, kind_convergence, "the largest number of evaluations is reached at "//trim(problem%name_time(time)))
       else if (step <= 16.0_wp*spacing(abs(time))) then
-         call raise(error, kind_convergence, "the step has become too small at "//trim(problem%name_time(time)))
+         call raise(error, kind_convergence, "the step size fell below its minimum at "//trim(problem%name_time(time)))
       end if
    end subroutine check_progress
 

@@ -26,7 +26,7 @@ module camroller_ode_bridge
 
    !> Progress of an integration
    type :: footing_t
-      !> Factor on the limits below which a method makes no progress; one where it has progressed by itself [-]
+      !> Factor on the limits below which a method makes no progress; one where it has progressed without bridges [-]
       real(wp) :: reach = 1.0_wp
       !> How often the rate has changed its sign of late [-]
       real(wp) :: turns = 0.0_wp
@@ -180,7 +180,7 @@ contains
       !> 0 fine, positive: no solution found, negative: give up
       integer, intent(out) :: status
 
-      ! Part of the largest rate that is as good as none [-]
+      ! Fraction of the largest rate that counts as zero [-]
       real(wp), parameter :: part = 1.0e-8_wp
       ! Lower and upper end of the bracket, a state between [state]; rate there [state/time]; what is left of the equation, at both
       ! ends of the bracket and between [state]

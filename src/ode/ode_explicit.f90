@@ -21,7 +21,7 @@ module camroller_ode_explicit
 
    !> An explicit method: its table and its work space
    type, extends(method_t) :: explicit_method_t
-      !> Stages that each step evaluates anew
+      !> Stages that each step evaluates
       integer :: stages = 0
       !> Times of the stages [-]
       real(wp), allocatable :: nodes(:)

@@ -56,7 +56,7 @@ module camroller_simulation
       type(state_t) :: state
    end type outcome_t
 
-   !> Accuracy of the algebraic balance over the speed of pure rolling [-]: far below any slip of interest
+   !> Accuracy of the quasi-static balance over the speed of pure rolling [-]: far below any slip of interest
    real(wp), parameter :: balance_tolerance = 1.0e-12_wp
    !> Longest piece that is integrated in one go [rad]
    real(wp), parameter :: longest_piece = pi
@@ -68,7 +68,7 @@ module camroller_simulation
 
 contains
 
-   !> Put a follower at a cam angle with the roller in its algebraic balance there, or rolling where there is none.
+   !> Put a follower at a cam angle with the roller in its quasi-static balance there, or rolling where there is none.
    subroutine start_simulation(simulation, case, cam_angle, error, lobe)
       !> The follower; not to be advanced where there is an error
       type(simulation_t), intent(out) :: simulation
@@ -124,7 +124,7 @@ contains
          call raise(error, kind_usage, "start_simulation: the lobe must be 1, for the case's lift, or 2, for its second_lift, "// &
             & "not "//integer_text(lobe))
       else if (lobe == 2 .and. .not. allocated(case%second_lift)) then
-         call raise(error, kind_usage, "start_simulation: lobe 2 is wanted of a case without second_lift; give the case "// &
+         call raise(error, kind_usage, "start_simulation: lobe 2 needs a case with second_lift; give the case "// &
             & "one, or take lobe 1")
       else if (.not. ieee_is_finite(cam_angle)) then
          call raise(error, kind_usage, "start_simulation: the cam angle must be a finite number")
@@ -179,7 +179,7 @@ contains
       outcome%torque_friction = outcome%state%torque_friction
       outcome%torque_drive = outcome%state%torque_drive
       if (.not. all(ieee_is_finite([outcome%mean_torque_drive, outcome%torque_drive, moved%roller_spin]))) then
-         call raise(error, kind_convergence, "advance: torques or spin are no numbers")
+         call raise(error, kind_convergence, "advance: torques or spin are not finite")
          return
       end if
       simulation = moved
@@ -289,7 +289,7 @@ contains
       end if
       if (status == 0) call evaluate_state(simulation%model, simulation%angle - pi, sliding_speed, state, status, share)
       if (status /= 0) call raise(error, kind_convergence, &
-         & "advance: load and friction of the contact have no common solution at the end of the step")
+         & "advance: no load satisfies the equilibrium of the contact at the end of the step")
    end subroutine state_with_spin
 
 end module camroller_simulation

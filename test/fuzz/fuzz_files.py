@@ -37,7 +37,7 @@ BASES = {
               "sweep.series=chosen", "--set", "sweep.series_cases=1"],
 }
 FILE_ERROR = 6  # exit code
-BROKEN = "it is damaged, the HDF5 library does not come back from it"
+BROKEN = "it is damaged, the HDF5 library does not finish reading it"
 TABLE_DECK = "&sweep kind = 'table' table = 'damaged.h5' /\n"
 
 

@@ -389,11 +389,11 @@ contains
       problem%last = huge(1.0_wp)
       options%max_steps = 3
       options%max_step = 0.1_wp
-      call expect(problem, options, "rodas5p", "steps is used up at time", error)
+      call expect(problem, options, "rodas5p", "steps is reached at time", error)
       if (allocated(error)) return
       options%max_steps = huge(1)
       options%max_evaluations = 3
-      call expect(problem, options, "rodas5p", "evaluations is used up at time", error)
+      call expect(problem, options, "rodas5p", "evaluations is reached at time", error)
    end subroutine test_failures
 
    !> Integrate and expect words in the message of a convergence error.

@@ -102,7 +102,7 @@ contains
       call follow_latch("dormand_prince", strong, 1.0e-6_wp, state, middle, counters, failure)
       if (.not. allocated(failure)) then
          call test_failed(error, "dormand_prince says nothing")
-      else if (index(failure%message, "steps is used up at time") == 0) then
+      else if (index(failure%message, "steps is reached at time") == 0) then
          call test_failed(error, failure%message)
       end if
    end subroutine test_explicit

@@ -39,9 +39,9 @@ def test_a_byte_order_mark_is_skipped(camroller, tmp_path, text):
 
 @pytest.mark.parametrize(("content", "words"), [
     (THESIS.encode("utf-16"), "is a text in UTF-16; save it in UTF-8"),
-    (THESIS.encode("utf-16-be"), "is no text file: it holds bytes that no text has"),
-    (b"\x89HDF\r\n\x1a\n" + bytes(range(1, 256))*4, "is no text file: it holds bytes that no text has"),
-    (b"\x7fELF\x02\x01\x01" + b"\x90"*400, "is no text file: it holds bytes that no text has"),
+    (THESIS.encode("utf-16-be"), "is not a text file: it contains bytes that do not occur in text"),
+    (b"\x89HDF\r\n\x1a\n" + bytes(range(1, 256))*4, "is not a text file: it contains bytes that do not occur in text"),
+    (b"\x7fELF\x02\x01\x01" + b"\x90"*400, "is not a text file: it contains bytes that do not occur in text"),
 ])
 def test_a_file_that_is_no_text_is_said_to_be_none_and_not_quoted(camroller, tmp_path, content, words):
     path = tmp_path / "deck.nml"

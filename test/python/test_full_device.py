@@ -82,7 +82,7 @@ def test_a_full_output_is_told(camroller, results, full, name):
     with full.open("w") as output:
         finished = run(camroller, *PRINTED[name], folder=results, stdout=output)
     assert finished.returncode == FILE_ERROR, finished.stderr
-    assert "camroller: cannot write to the output: No space left on device\n" in finished.stderr
+    assert "camroller: cannot write to standard output: No space left on device\n" in finished.stderr
     assert not [path.name for path in results.iterdir() if ".unfinished-" in path.name]
 
 
@@ -103,7 +103,7 @@ def test_a_full_error_unit_changes_no_exit_code(camroller, results, full):
 def test_a_closed_output_is_told(camroller, results, name):
     finished = run(camroller, *PRINTED[name], folder=results, preexec_fn=lambda: os.close(1))
     assert finished.returncode == FILE_ERROR
-    assert "camroller: cannot write to the output: " in finished.stderr
+    assert "camroller: cannot write to standard output: " in finished.stderr
 
 
 def test_no_file_takes_the_place_of_a_closed_output(camroller, results, tmp_path):

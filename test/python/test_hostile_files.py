@@ -83,15 +83,15 @@ SHAPES = {
     "two axes of cases": (put("case", numpy.zeros((CASES, 2), int)), RERUN, "'/case' of 'x.h5' has 2 axes"),
     "no case": (put("case", h5py.Empty("i4")), SUMMARY, "'/case' of 'x.h5'"),
     "records as cases": (put("case", numpy.zeros(CASES, [("a", "f8"), ("b", "f8")])), SUMMARY, "'/case' of 'x.h5' holds no numbers"),
-    "4 TB of cases": (huge("case", 10**12), SUMMARY, "'/case' of 'x.h5' does not have the values that it says it has"),
-    "2**31 cases": (huge("case", 2**31), RERUN, "'/case' of 'x.h5' does not have the values that it says it has"),
-    "10**8 cases": (huge("case", 10**8), SUMMARY, "'/case' of 'x.h5' does not have the values that it says it has"),
+    "4 TB of cases": (huge("case", 10**12), SUMMARY, "'/case' of 'x.h5' is damaged: it has fewer values than its size says"),
+    "2**31 cases": (huge("case", 2**31), RERUN, "'/case' of 'x.h5' is damaged: it has fewer values than its size says"),
+    "10**8 cases": (huge("case", 10**8), SUMMARY, "'/case' of 'x.h5' is damaged: it has fewer values than its size says"),
     "a group as cases": (lambda file: (file.__delitem__("case"), file.create_group("case")), RERUN, "cannot read '/case' of 'x.h5'"),
     "three axes of a series": (put("series/contact_load", numpy.zeros((CASES, ANGLES, 2))), EXPORT, "has 3 axes where a result has 2"),
     "a short series": (put("series/contact_load", numpy.zeros((CASES, 3))), EXPORT, "does not have as many values"),
-    "a short series, again": (put("series/contact_load", numpy.zeros((CASES, 3))), RERUN, "does not reach as far as the other values"),
+    "a short series, again": (put("series/contact_load", numpy.zeros((CASES, 3))), RERUN, "has fewer values than the rest"),
     "more cases of a scalar": (put("summary/mean_torque_drive", numpy.zeros(CASES + 1)), SUMMARY, "does not have as many values"),
-    "fewer cases of a scalar": (put("summary/status", numpy.zeros(1)), RERUN, "does not reach as far as the other values"),
+    "fewer cases of a scalar": (put("summary/status", numpy.zeros(1)), RERUN, "has fewer values than the rest"),
     "a deck of fixed length": (put("deck/text", numpy.bytes_("&case /")), RERUN, "'/deck/text' of 'x.h5' holds no texts"),
     "a number as deck": (put("deck/text", 7), RERUN, "'/deck/text' of 'x.h5' holds no texts"),
     "two decks": (put("deck/text", ["a", "b"]), RERUN, "'/deck/text' of 'x.h5' has 1 axes"),
@@ -171,7 +171,7 @@ def test_a_list_without_end_is_told(camroller, folder):
     while (found := content.find(b"GCOL", found + 1)) >= 0:
         content[found + 16:found + 4096] = bytes(4080)
     path.write_bytes(content)
-    expect_words(camroller, folder, RERUN, "cannot read 'x.h5': it is damaged, the HDF5 library does not come back from it")
+    expect_words(camroller, folder, RERUN, "cannot read 'x.h5': it is damaged, the HDF5 library does not finish reading it")
 
 
 @pytest.mark.parametrize("place", [0, 4096, 2**31])

@@ -118,7 +118,7 @@ contains
       if (allocated(error)) return
       call check(error, failure%kind, kind_convergence)
       if (allocated(error)) return
-      call check(error, index(failure%message, "no algebraic balance at cam angle") > 0, failure%message)
+      call check(error, index(failure%message, "no quasi-static balance at cam angle") > 0, failure%message)
    end subroutine test_lost
 
 end module test_quasi_static

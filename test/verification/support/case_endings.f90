@@ -19,13 +19,13 @@ module case_endings
       & "at several loads", "several balances at once", &
       & "did not become periodic", "not periodic", &
       & "was not found", "estimate beyond the slip itself", &
-      & "number of evaluations is used up", "evaluations used up", &
-      & "number of steps is used up", "steps used up", &
-      & "step has become too small", "step too small", &
-      & "has no value at", "no value of the roller equation", &
+      & "number of evaluations is reached", "evaluations used up", &
+      & "number of steps is reached", "steps used up", &
+      & "step size fell below its minimum", "step too small", &
+      & "right-hand side cannot be evaluated", "no value of the roller equation", &
       & "cannot be evaluated", "state that cannot be evaluated", &
-      & "have no common solution", "no common solution of the contact", &
-      & "sticks and slides too many", "sticks and slides too many times", &
+      & "no load satisfies the equilibrium", "no common solution of the contact", &
+      & "between sticking and sliding too often", "sticks and slides too often", &
       & "a fixed step failed", "fixed step failed", &
       & "quasi-static limit", "no quasi-static limit", &
       & "range_policy = 'stop'", "film law outside its range, which stops", &
