@@ -66,7 +66,7 @@ study-film: build ## what the accuracy of a numerical film costs, at 300 rev/min
 	cp results/film_study.txt doc/film_tables.txt
 	$(PYTHON) post/plot_study.py results/film_study.h5 --output doc/figures --name film
 
-audit: build ## what each effect of decks/thesis.nml is worth and costs: tables and figure of doc/effects.md, half a minute
+audit: build ## influence and cost of each effect of decks/thesis.nml: tables and figure of doc/effects.md, half a minute
 	@mkdir -p results
 	build/release/bin/camroller audit decks/thesis.nml -o results/thesis_audit.h5 --repeats 9 > results/thesis_audit.txt
 	cp results/thesis_audit.txt doc/effects_tables.txt
@@ -76,33 +76,33 @@ audit: build ## what each effect of decks/thesis.nml is worth and costs: tables 
 test: build debug mpi ## all tests, with run-time checks and optimised
 	@$(PYTHON) tools/run_tests.py
 
-random: commit ## cases drawn at random by two methods, optimised: CASES=20000 SEED=1; failures print a deck
+random: commit ## random cases by two integration methods, optimised build: CASES=20000 SEED=1; failures print a deck
 	@RANDOM_CASES=$(or $(CASES),20000) RANDOM_SEED=$(or $(SEED),1) $(FPM) test --flag "$(RELEASE_FLAGS)" -- random_cases
 
-random-ehl: commit ## cases drawn at random with a numerical film, as law and over the cycle: CASES=200 SEED=1; failures print a deck
+random-ehl: commit ## random cases with a numerical film, as film law and over the cycle: CASES=200 SEED=1; failures print a deck
 	@OPENBLAS_NUM_THREADS=1 RANDOM_EHL_CASES=$(or $(CASES),200) RANDOM_EHL_SEED=$(or $(SEED),1) RANDOM_EHL_TABLE=$(or $(TABLE),0) $(FPM) test \
 	  --flag "$(RELEASE_FLAGS)" -- random_ehl
 
-random-wide: commit ## cases drawn at random with every option of a deck, optimised: CASES=20000 SEED=1 FOLDER= for decks that fail
+random-wide: commit ## random cases with all options of a deck, optimised build: CASES=20000 SEED=1 FOLDER= for decks that fail
 	@WIDE_CASES=$(or $(CASES),20000) WIDE_SEED=$(or $(SEED),1) $(if $(FOLDER),WIDE_FOLDER="$(FOLDER)") $(FPM) test \
 	  --flag "$(RELEASE_FLAGS)" -- random_wide
 
-needed: commit ## effects that are left out against what they change, for random cases, optimised: CASES=300 SEED=1
+needed: commit ## changes by leaving effects out, compared with their estimates, for random cases: CASES=300 SEED=1
 	@NEEDED_TABLE=1 NEEDED_CASES=$(or $(CASES),300) NEEDED_SEED=$(or $(SEED),1) $(FPM) test --flag "$(RELEASE_FLAGS)" -- needed
 
-fuzz: build debug ## hostile decks and files, both programs, endings counted: CASES=300 SEED=1 (of each campaign), KIND=decks for one
+fuzz: build debug ## malformed decks and files for both builds, outcomes counted: CASES=300 SEED=1 (of each campaign), KIND=decks for one
 	@for campaign in $(if $(KIND),test/fuzz/fuzz_$(KIND).py,$(wildcard test/fuzz/fuzz_*.py)); do \
 	  $(PYTHON) $$campaign --cases $(or $(CASES),300) --seed $(or $(SEED),1) || failed=1; done; test -z "$$failed"
 
-sanitize: commit ## every deck and the Fortran tests with checks of memory and undefined behaviour: SUITES="names" DECKS="paths" (40 minutes)
+sanitize: commit ## all decks and Fortran tests with address and undefined-behaviour sanitizers: SUITES="names" DECKS="paths" (40 minutes)
 	@$(FPM) install --flag "$(SANITIZE_FLAGS)" --prefix build/sanitize > build/sanitize-build.log 2>&1 || \
 	  { cat build/sanitize-build.log; exit 1; }
 	@DECKS="$(DECKS)" SUITES="$(SUITES)" $(PYTHON) tools/sanitize.py
 
-rough-rows: commit ## rough contacts of Masjedi and Khonsari beside ours: bench/tables/ehl_rough.txt, for doc/notes/numerical_film.md
+rough-rows: commit ## comparison with rough contacts of Masjedi and Khonsari: bench/tables/ehl_rough.txt, for doc/notes/numerical_film.md
 	@ROUGH_TABLE=bench/tables/ehl_rough.txt $(FPM) test --flag "$(RELEASE_FLAGS)" -- ehl_rough
 
-bless: build ## take key results and counters of the decks as they are: the table that test_regression.py compares with
+bless: build ## accept the present key results and counters of all decks as reference of test_regression.py
 	@BLESS=1 $(PYTHON) -m pytest -q test/python/test_regression.py
 
 quick: commit ## Fortran tests with run-time checks; choose with SUITE=film TEST="..."
@@ -128,7 +128,7 @@ check-warnings: commit
 second-compiler: setup ## library and tests with flang or a later gfortran, where one is there; SECOND_FC= names it (two minutes)
 	@$(PYTHON) tools/second_compiler.py || { code=$$?; [ $$code = 77 ] || exit $$code; }
 
-format: setup ## set the blanks inside statements right
+format: setup ## correct the blanks inside statements
 	@$(PYTHON) tools/check_format.py --fix
 
 docs: setup ## API reference and pages as HTML, links checked: build/docs/index.html
@@ -138,22 +138,22 @@ recipes: setup ## recipes for container, Spack and conda: read by their tools, t
 	@$(PYTHON) -m pip install --quiet --disable-pip-version-check -r packaging/requirements.txt
 	@FPM=$(CURDIR)/$(FPM) $(PYTHON) tools/check_recipes.py
 
-bench: commit ## time cycles, also against SUNDIALS and scipy: tables and plots in bench/tables (five minutes)
+bench: commit ## time cycles, compared with SUNDIALS and scipy: tables and plots in bench/tables (five minutes)
 	@bench/run.sh
 
-bench-ehl: commit ## how the cost of the numerical film grows with the nodes: bench/tables/ehl_cost.txt and a figure (three minutes)
+bench-ehl: commit ## cost of the numerical film against the number of nodes: bench/tables/ehl_cost.txt and a figure (three minutes)
 	@bench/run.sh ehl
 
-range-ehl: commit ## the whole range of steady contacts: NODES=1025, every STRIDE-th from FIRST on; what fails or differs is listed
+range-ehl: commit ## steady contacts over the whole range: NODES=1025, every STRIDE-th from FIRST on; failures and differences are listed
 	@bench/run.sh range $(or $(NODES),1025) $(or $(FIRST),1) $(or $(STRIDE),1)
 
 bench-batch: build mpi ## cases per second, scaling, cost as a study grows: bench/tables/throughput.txt (ten minutes, idle machine)
 	@$(PYTHON) bench/throughput.py
 
-bench-effects: build ## instructions that effects cost, and that absent ones do not: bench/tables/effects.txt (three minutes)
+bench-effects: build ## instruction counts of effects, present and absent: bench/tables/effects.txt (three minutes)
 	@bench/effects.sh
 
-clean: ## remove what was built; keep tools and results
+clean: ## remove built files; keep tools and results
 	rm -rf build/gfortran* build/debug build/release build/sanitize build/docs build/docs-source build/second build/package build/recipes build/commit build/tests build/bench bench/build mpi/build build/mpi build/*.log build/compile_commands.json
 
 distclean: ## remove everything that is not in git, results too

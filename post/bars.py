@@ -1,7 +1,7 @@
 """Bar charts of means over the cycle: slip, and friction torque by source.
 
-Of a grid, one group of upright bars for each panel of the other figures, in it one bar for each value of the first swept key,
-with that value below the bar and the group's below the group. Of a list of cases, a lying bar for each with its label beside.
+Of a grid, one group of vertical bars for each panel of the other figures, in it one bar for each value of the first swept key,
+with that value below the bar and the group's below the group. Of a list of cases, one horizontal bar for each, labelled beside it.
 """
 
 import textwrap

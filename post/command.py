@@ -1,4 +1,4 @@
-"""What every script here does alike: how it ends, and how it writes a file."""
+"""Common to all scripts: exit codes, and the writing of files."""
 
 import argparse
 import os

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Draw where each film formula can be trusted: formula over numerical film, across speeds and loads.
+"""Draw the error of each film formula: ratio of formula to numerical film as a function of speed and load.
 
 Usage: post/ehl_map.py bench/tables/ehl_map.txt FIGURE.png
 """

@@ -1,9 +1,9 @@
-"""Who gets which colour, line style and panel: the arrangement that all figures share.
+"""Colours, line styles and panels: the arrangement that all figures share.
 
-Where the cases are a grid, the first swept key of the deck is told apart by colour and the other swept keys by panel; where a
+Where the cases are a grid, colours distinguish the values of the first swept key of the deck, panels those of the others; where a
 sweep has more values than a figure can show, evenly spread ones are drawn, the first and the last among them. Any other set of
 cases (lists side by side, rows of a table, samples) is a list: each case has a colour and a label of its own, and more of them
-than a figure can hold are refused. Several files are told apart by families of colours and by line styles.
+than a figure can hold are refused. Families of colours and line styles distinguish several files.
 """
 
 from dataclasses import dataclass

@@ -6,9 +6,9 @@
     python post/plot.py results/thesis.h5 --cases speed_rpm=300,600 --cases oil_temperature=80:100
     python post/plot.py results/thesis.h5 --measured rig.csv   measured points beside the first file, with bias and rms
 
-Needs no display. Colours tell the values of the first swept key apart, panels those of the others;
+Needs no display. Colours distinguish the values of the first swept key, panels those of the others;
 cases that are no grid (lists side by side, tables, samples) have a label each, and have to be chosen
-where they are too many. Families of colours and line styles tell files apart, which go by the titles
+where they are too many. Families of colours and line styles distinguish files, which are named by the titles
 that their decks give. A figure whose quantities are not in the files (the effect is not in the case)
 is left out and a line says so. A file of a sweep without series has bar charts of its means;
 plot_sweep.py draws how any summary answers to what the sweep varies. Exit code 0 if something was

@@ -1,4 +1,4 @@
-"""Draw how a result answers to what a sweep varies.
+"""Draw results of a sweep as functions of the keys that it varies.
 
     python post/plot_sweep.py results/sweep.h5                              the figure that suits the sweep
     python post/plot_sweep.py FILE --quantity mean_slip_ratio,max_peak_pressure --figure scatter --output doc/figures

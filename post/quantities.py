@@ -1,4 +1,4 @@
-"""What can be drawn: which series or scalar, under which name and in which unit for people."""
+"""Quantities of the figures: series or scalar, label and unit of display."""
 
 from dataclasses import dataclass
 
