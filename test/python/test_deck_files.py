@@ -137,14 +137,14 @@ def test_an_impossible_geometry_is_told_with_values_keys_and_lines(camroller, tm
         result = subprocess.run([camroller, *map(str, command), *changes], cwd=ROOT, capture_output=True, text=True,
                                 stdin=subprocess.DEVNULL, timeout=60)
         assert result.returncode in (DECK, 4)
-        lines = result.stderr.splitlines()
+        lines = [line for line in result.stderr.splitlines() if not line.startswith("remark: ")]  # on numbers that are unusual
         assert words in lines[0]
         for key in keys:
             number = next(int(line.split(":")[1]) for line in lines[1:] if line.startswith(f"{path}:") and line.endswith(key))
             name, value = key.split(".", 1)[1].split(" = ")
             assert THESIS.splitlines()[number - 1].split("!")[0].split("=")[0].strip() == name
             assert float(THESIS.splitlines()[number - 1].split("!")[0].split("=")[1]) == float(value)
-        if options[0].split("=")[0] in result.stderr.split("; ")[0]:
+        if options[0].split("=")[0] in lines[0].split("; ")[0]:
             assert f"override: {options[0]}" in lines
 
 
