@@ -377,14 +377,14 @@ contains
          call expect(problem, options, method_names(i), "at time .500", error)
          if (allocated(error)) return
          problem%answer = -1
-         call expect(problem, options, method_names(i), "cannot be evaluated at time", error)
+         call expect(problem, options, method_names(i), "a state that cannot be evaluated at time", error)
          if (allocated(error)) return
       end do
       problem%answer = 1
       call expect(problem, options, "euler", "fixed step failed at time", error)
       if (allocated(error)) return
       problem%last = -1.0_wp
-      call expect(problem, options, "rodas5p", "no value at time .000", error)
+      call expect(problem, options, "rodas5p", "right-hand side cannot be evaluated at time .000", error)
       if (allocated(error)) return
       problem%last = huge(1.0_wp)
       options%max_steps = 3
