@@ -140,7 +140,7 @@ def test_table_is_found_beside_the_deck(camroller, tmp_path):
 def test_binary_file_is_refused(camroller, tmp_path):
     deck = tmp_path / "binary.nml"
     deck.write_bytes(bytes(range(256)) * 8)
-    assert "is no text file" in refused(run(camroller, "check", deck), FILE)
+    assert "is not a text file" in refused(run(camroller, "check", deck), FILE)
 
 
 def test_a_load_of_any_size_has_words(camroller):
