@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from matplotlib import colormaps
 import numpy as np
 
+from quantities import add_derived
 from read import ResultError
 from units import WORDS, bare_name, distinct_texts, key_words, unit_words, with_unit
 
@@ -38,6 +39,8 @@ class Layout:
 
     def __init__(self, results, selections=()):
         self.results = results
+        for result in results:
+            add_derived(result)
         keys = list(dict.fromkeys(key for result in results for key in result.sweep))
         self.colour_key, self.panel_keys = (keys[0], keys[1:]) if keys else (None, [])
         self.units = {key: _unit(key, results) for key in keys}

@@ -30,7 +30,7 @@ from command import DPI, run, save_figure  # noqa: E402
 from figures import FIGURES, draw  # noqa: E402
 from layout import Layout, chosen_cases  # noqa: E402
 from measured import compare, draw_comparison, read_table  # noqa: E402
-from quantities import Missing, add_derived  # noqa: E402
+from quantities import Missing  # noqa: E402
 from read import ResultError, read_result  # noqa: E402
 
 MOST_FAILURES = 5  # told one by one
@@ -42,8 +42,6 @@ def main(arguments=None):
     options = parser().parse_args(arguments)
     try:
         results = [read_result(path) for path in options.files]
-        for result in results:
-            add_derived(result)
         if options.measured:
             return draw_measured(results[0], options)
         layout = Layout(results, options.cases)

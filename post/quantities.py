@@ -50,7 +50,7 @@ SOURCES = [("mean_torque_contact", "cam/roller contact", "#08306b", ""),
            ("mean_torque_needle", "needle bearing", "#7cc0ea", ""),
            ("mean_torque_guide", "valve guide", "#f0e442", "xxx")]
 # The same over the cam angle: series, words, colour in each file, line style, line width
-PARTS = [(name.replace("mean_", ""), words, (colour,), style, 1.4)
+PARTS = [(name.replace("mean_", ""), words, (colour.replace("#f0e442", "#9a8700"),), style, 1.4)
          for (name, words, colour, _), style in zip(SOURCES, ("-", "--", "-.", ":"))]
 # Series, words, colour in each file, line style, line width: the thin line of the whole lies on the broad one of the geometric part
 TORQUES = [("torque_geometric", "geometric", ("#7cc0ea", "#8fd19e", "#c9b3e6"), "-", 3.0),

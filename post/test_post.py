@@ -42,14 +42,16 @@ def made_up_series(angle, speed, oil):
     losses = {"contact": friction * 0.03 * np.abs(slip), "needle": 2e-5 * load,
               "guide": 1e-1 * viscosity * slope**2 * speed, "bearings": 2e-4 * viscosity * speed + 0 * angle}
     total = sum(losses.values())
-    series = {"valve_lift": lift, "contact_load": load, "hertz_pressure": 2.1e7 * np.sqrt(load), "slip_ratio": slip,
+    series = {"valve_lift": lift, "valve_velocity": slope * omega, "film_ratio": film / 2e-7, "asperity_load": 0.1 * share * load,
+              "contact_load": load, "hertz_pressure": 2.1e7 * np.sqrt(load), "slip_ratio": slip,
               "entrainment_speed": entrainment, "film_thickness_min": film, "friction_rolling": rolling,
               "asperity_friction_share": share, "friction_contact": friction, "torque_geometric": geometric,
               "torque_friction": total, "torque_drive": geometric + total}
     return series | {f"torque_{name}": value for name, value in losses.items()}
 
 
-SERIES_UNITS = {"valve_lift": "m", "contact_load": "N", "hertz_pressure": "Pa", "slip_ratio": "1",
+SERIES_UNITS = {"valve_lift": "m", "valve_velocity": "m/s", "film_ratio": "1", "asperity_load": "N",
+                "contact_load": "N", "hertz_pressure": "Pa", "slip_ratio": "1",
                 "entrainment_speed": "m/s", "film_thickness_min": "m", "friction_rolling": "N",
                 "asperity_friction_share": "1", "friction_contact": "N"}
 
@@ -75,6 +77,10 @@ def write_result(path, speeds=(300.0, 600.0, 900.0), oils=(25.0, 60.0, 95.0), st
             data.dims[1].attach_scale(file["series/cam_angle"])
             file[f"summary/mean_{name}"] = values.mean(axis=1)
             file[f"summary/mean_{name}"].attrs["units"] = unit
+        if "torque_friction" not in without:
+            power = [row["torque_friction"].mean() * factor * speed * np.pi / 30 for row, (speed, _) in zip(rows, points)]
+            file["summary/power_friction"] = power
+            file["summary/power_friction"].attrs["units"] = "W"
         names = ", ".join(f"'{key}'" for key in swept)
         file["deck/text"] = np.bytes_(f"&case\n  title = '{title}' ! of a test\n/\n&sweep keys = {names} /\n")
         for key, values in zip((SPEED, OIL), np.array(points).T):

@@ -1,0 +1,85 @@
+"""Measured points beside results: made-up points with known offsets come back as bias, root mean square and worst point."""
+
+import re
+
+import h5py
+import numpy as np
+import pytest
+
+from plot import main
+from measured import compare, read_table
+from read import ResultError, read_result
+from test_post import write_result
+
+
+@pytest.fixture(name="nine")
+def fixture_nine(tmp_path):
+    return write_result(tmp_path / "nine.h5")
+
+
+def write_table(path, heading, rows):
+    path.write_text("\n".join(["# a rig", heading, *(", ".join(f"{value:.12g}" for value in row) for row in rows)]), encoding="utf-8")
+    return path
+
+
+def test_offset_over_the_cam_angle_is_the_bias(nine, tmp_path, capsys):
+    result = read_result(nine)
+    curve = 1e3 * result.series["torque_drive"].values[4]
+    offsets = np.where(result.cam_angle == 100.0, 9.0, 2.0)
+    table = write_table(tmp_path / "rig.csv", "cam angle [deg], torque [N mm]", zip(result.cam_angle, curve + offsets))
+    found = compare(read_table(table), result, 4)
+    assert found.differences == pytest.approx(offsets, abs=1e-6)
+    assert main([str(nine), "--measured", str(table), "--cases", "4"]) == 0
+    words = capsys.readouterr().out
+    assert f"{len(curve)} points, bias {offsets.mean():.2f} N mm, rms {np.sqrt((offsets ** 2).mean()):.2f} N mm" in words
+    assert re.search(r"worst 9(\.00)? N mm at cam angle 100 deg", words)
+    assert (tmp_path / "nine_measured.png").read_bytes().startswith(b"\x89PNG")
+
+
+def test_between_the_points_of_the_series_the_line_counts(nine, tmp_path):
+    result = read_result(nine)
+    curve = result.series["torque_friction"].values[0]
+    table = write_table(tmp_path / "rig.csv", "cam angle [deg], friction torque [N m]", [(357.5, 0.5 * (curve[-1] + curve[0]))])
+    assert compare(read_table(table), result, 0).differences == pytest.approx([0.0], abs=1e-9)
+
+
+def test_crank_angle_goes_by_the_engine(nine, tmp_path):
+    table = write_table(tmp_path / "rig.csv", "crank angle [deg], torque [N m]", [(470.0, 0.0), (110.0, 0.0)])
+    with pytest.raises(ResultError, match="crank angles need the group &engine"):
+        compare(read_table(table), read_result(nine), 0)
+    with h5py.File(nine, "a") as file:
+        file["summary/crank_turns"] = np.full(9, 2.0)
+        file["summary/crank_angle_at_nose"] = np.full(9, 470.0)
+    result = read_result(nine)
+    curve = result.series["torque_drive"].values[0]
+    found = compare(read_table(table), result, 0)
+    # 470 degrees of crank angle are the nose at 180, 110 degrees are half a turn of the camshaft away
+    assert found.computed == pytest.approx([curve[result.cam_angle == 180.0][0], curve[0]])
+    assert main([str(nine), "--measured", str(table)]) == 0
+
+
+def test_operating_points_find_their_cases(nine, tmp_path, capsys):
+    result = read_result(nine)
+    torque = 1e3 * result.summary["mean_torque_friction"].values
+    rows = [(300.0, 25.0, torque[0] + 5.0), (900.0, 95.0, torque[8] - 1.0), (1200.0, 95.0, 7.0)]
+    table = write_table(tmp_path / "rig.csv", "speed [rpm], temperature [degC], mean torque [N mm]", rows)
+    assert main([str(nine), "--measured", str(table)]) == 0
+    words = capsys.readouterr().out
+    assert re.search(r"2 points, bias 2(\.00)? N mm", words)
+    assert re.search(r"worst 5(\.00)? N mm at 300 rpm, 25 degC; 1 points have no case", words)
+
+
+@pytest.mark.parametrize(("text", "words"), [
+    ("cam angle, torque\n1, 2\n", "a heading is a name with its unit"),
+    ("cam angle [deg], torque [N m]\n1, x\n", "row 2 is not of numbers"),
+    ("cam angle [deg], torque [N m]\n1\n", "row 2 has 1 of 2 columns"),
+    ("cam angle [deg], torque [kg]\n1, 2\n", "has to be N m or N mm"),
+    ("lift [mm], torque [N m]\n1, 2\n", "the columns have to be an angle"),
+    ("cam angle [deg], torque [N m]\n", "a heading and rows"),
+])
+def test_tables_that_are_none_are_told_in_one_line(nine, tmp_path, capsys, text, words):
+    path = tmp_path / "rig.csv"
+    path.write_text(text, encoding="utf-8")
+    assert main([str(nine), "--measured", str(path)]) == 2
+    message = capsys.readouterr().err
+    assert words in message and message.count("\n") == 1
