@@ -16,20 +16,20 @@ module camroller_cli
    !> Commands
    character(len=*), parameter :: command_names(*) = [character(len=8) :: &
       & "run", "check", "study", "defaults", "export", "version", "help", "sweep", "merge", "rerun", "audit", &
-      & "ehl"]
+      & "ehl", "selftest"]
    !> Options of each command, in the same order
    character(len=*), parameter :: option_names(*) = [character(len=80) :: &
       & "--output --set --point --no-sweep --quiet --help", "--set --point --no-sweep --draw --help", &
-      & "--output --set --repeats --quick --film --quiet --help", "--markdown --help", &
+      & "--output --set --repeats --quick --film --laws --quiet --help", "--markdown --help", &
       & "--series --summary --case --columns --format --output --help", &
       & "--help", "--help", "--output --set --threads --shard --resume --log-every --quiet --help", &
       & "--output --set --partial --quiet --help", "--threads --log-every --quiet --help", &
-      & "--output --set --repeats --quiet --help", "--output --set --quiet --help"]
+      & "--output --set --repeats --quiet --help", "--output --set --quiet --help", "--help"]
    !> Most words beside options that each command takes
-   integer, parameter :: most_words(*) = [1, 1, 1, 1, 1, 0, 1, 1, 1, 1, 1, 1]
+   integer, parameter :: most_words(*) = [1, 1, 1, 1, 1, 0, 1, 1, 1, 1, 1, 1, 0]
    !> Does each command need a word?
    logical, parameter :: needs_word(*) = [.true., .true., .true., .false., .true., .false., .false., .true., .true., .true., &
-      & .true., .true.]
+      & .true., .true., .false.]
 
    !> Options with a value
    character(len=*), parameter :: with_value = " --output --set --point --case --columns --format --draw --repeats --threads "// &
@@ -62,8 +62,8 @@ module camroller_cli
       integer :: repeats = 5
       !> A study of a few trials only?
       logical :: is_quick = .false.
-      !> A study of numerical films?
-      logical :: is_film = .false.
+      !> A study of numerical films, or of film laws?
+      logical :: is_film = .false., is_laws = .false.
       !> Threads of a sweep; 0, which cannot be asked for, for as many as there are cores
       integer :: threads = 0
       !> This shard of a sweep, from 1, and the number of shards
@@ -288,6 +288,8 @@ contains
          end if
       case ("--no-sweep")
          config%has_no_sweep = .true.
+      case ("--laws")
+         config%is_laws = .true.
       case ("--columns")
          config%columns = value
       case ("--format")

@@ -28,6 +28,7 @@ module camroller_commands
    use camroller_number_text, only : counted, integer_text
    use camroller_rerun_command, only : rerun_file
    use camroller_run, only : build_models
+   use camroller_selftest, only : run_selftest
    use camroller_sketch, only : draw_mechanism
    use camroller_run_command, only : run_deck
    use camroller_stop_signal, only : end_on_signals
@@ -113,6 +114,8 @@ contains
          call ehl_deck(config, error)
       case ("export")
          call export_table(config, error)
+      case ("selftest")
+         call run_selftest(error)
       end select
    end subroutine run_command
 

@@ -39,6 +39,10 @@ contains
             & "  --format FORM              'csv', with a line of names and one of units (the default), 'plain', with one"//n// &
             & "                             line of names with units, or 'json'"//n// &
             & "  -o, --output FILE          file to write; printed where not given, or where FILE is -"
+      case ("selftest")
+         text = "camroller selftest"//n//n// &
+            & "Compute key numbers of a small deck and compare them with values that are built in. Takes a few seconds, reads"// &
+            & n//"and writes no file. Prints machine and build; where a number differs, the exit code is 7."
       case ("version")
          text = "camroller version"//n//n//"Print version, commit, compiler and compiler options."
       case default
@@ -54,6 +58,7 @@ contains
             & "  camroller defaults [GROUP] print a complete deck with every key explained"//n// &
             & "  camroller export FILE.h5   print results as comma-separated values"//n// &
             & "  camroller version          version and build"//n// &
+            & "  camroller selftest         compute a few numbers and compare them with values built in"//n// &
             & "  camroller help [COMMAND]   this, or more about a command"//n//n// &
             & "Exit codes: 0 success, 2 command line, 3 deck or table, 4 impossible values or a law out of range,"//n// &
             & "5 no convergence, 6 file, 7 a rerun differs, 8 stopped before the end, 9 too little memory,"//n// &
@@ -121,6 +126,8 @@ contains
             & "  --film                     the numerical film instead: as a film law with tables of several accuracies, and"//n// &
             & "                             solved over the cycle on several grids, beside the film law of the deck;"//n// &
             & "                             writes the deck's name with _film_study.h5"//n// &
+            & "  --laws                     the film laws instead: every case with each of them, and the range of the results;"//n// &
+            & "                             prints a table, writes no file"//n// &
             & "  -s, --set group.key=value  other value than the deck's; may be repeated"//n// &
             & "  -q, --quiet                print errors only"
       case default

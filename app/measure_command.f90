@@ -10,6 +10,7 @@ module camroller_measure_command
    use camroller_cli, only : config_t
    use camroller_deck, only : deck_t, read_deck, make_sweep_case
    use camroller_deck_sweep, only : sweep_size, case_in_words
+   use camroller_laws_page, only : show_laws
    use camroller_number_text, only : counted
    use camroller_output, only : output_t, output_options_t, open_output, abandon_output
    use camroller_progress, only : progress_t, start_progress, show_progress, end_progress, seconds_since
@@ -41,7 +42,14 @@ contains
       !> What went wrong; the first case without a reference where there are several
       type(error_t), allocatable, intent(out) :: error
 
-      call measure_deck(config, merge(of_film, of_accuracy, config%is_film), error)
+      type(deck_t) :: deck
+
+      if (config%is_laws) then
+         call read_deck(deck, config%subject, config%overrides, error)
+         if (.not. allocated(error)) call show_laws(deck, error)
+      else
+         call measure_deck(config, merge(of_film, of_accuracy, config%is_film), error)
+      end if
    end subroutine study_deck
 
    !> What each effect is worth and costs.

@@ -64,6 +64,7 @@ program main
    use test_ehl_record, only : collect_ehl_record
    use test_ehl_reynolds, only : collect_ehl_reynolds
    use test_lubricant, only : collect_lubricant
+   use test_film_range, only : collect_film_range
    use test_hertz, only : collect_hertz
    use test_invariance, only : collect_invariance
    use test_magnitudes, only : collect_magnitudes
@@ -190,6 +191,7 @@ contains
          new_testsuite("fold", collect_fold), &
          new_testsuite("film", collect_film), &
          new_testsuite("lubricant", collect_lubricant), &
+      new_testsuite("film_range", collect_film_range), &
          new_testsuite("hertz", collect_hertz), &
          new_testsuite("invariance", collect_invariance), &
          new_testsuite("magnitudes", collect_magnitudes), &

@@ -19,7 +19,7 @@ module camroller_film
    private
 
    public :: film_t, groups_t, film_shape_t, film_line_t, film_law_names, range_policy_names
-   public :: film_shape, new_film_line, film_at_load, log_films_at_load, is_in_range, takes_whole_load
+   public :: film_shape, new_film_line, film_at_load, log_films_at_load, is_in_range, takes_whole_load, published_range
    public :: law_dowson_higginson, law_pan_hamrock, law_masjedi_khonsari, law_masjedi_khonsari_rough, law_moes, law_table
 
    !> Film-thickness laws
@@ -229,6 +229,16 @@ contains
       values = [groups%speed, groups%material, groups%load]
       inside = all(values >= ranges(1, :, law) .and. values <= ranges(2, :, law))
    end function is_in_range
+
+   !> Bounds of the groups U, G and W* for which a law was published.
+   pure function published_range(law) result(bounds)
+      !> Position in `film_law_names`
+      integer, intent(in) :: law
+      !> Smallest and largest of each [-]
+      real(wp) :: bounds(2, 3)
+
+      bounds = ranges(:, :, law)
+   end function published_range
 
    !> Both films of a table.
    pure subroutine table_at_load(line, load, shape)

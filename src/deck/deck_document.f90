@@ -289,7 +289,9 @@ contains
       text = text//"A deck is a file of Fortran namelist groups, `&group key = value ... /`; `!` begins a comment. "// &
          & "Numbers are in SI units unless the last word of the key is a unit. The group of an effect switches the effect "// &
          & "on. This page is the output of `camroller defaults --markdown`; "// &
-         & "`camroller defaults` prints the same as a deck."//new_line("a")
+         & "`camroller defaults` prints the same as a deck."//new_line("a")//new_line("a")// &
+         & "![Cam, roller, finger and valve to scale, with the lengths and angles of &mechanism](figures/follower.svg)"// &
+         & new_line("a")
       do i = 1, schema%group_count
          if (wanted > 0 .and. wanted /= i) cycle
          call write_table(schema, i, text)

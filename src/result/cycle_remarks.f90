@@ -6,6 +6,7 @@ module camroller_cycle_remarks
    use camroller_error, only : error_t, raise, add_context, kind_domain
    use camroller_cycle, only : cycle_t
    use camroller_events, only : contact_losses
+   use camroller_film_range, only : matters, range_in_words
    use camroller_margins, only : margins_t
    use camroller_means, only : statistics_t
    use camroller_model, only : model_t
@@ -179,13 +180,14 @@ contains
 
       character(len=:), allocatable :: text
 
-      if (statistics%outside_share <= 0.0_wp) return
-      text = "the film law is outside its published range for "//number_text(100.0_wp*statistics%outside_share, 3)// &
-         & " % of the cycle, e.g. at cam angle "//fixed_text(file_angle(statistics%first_outside), 1)//" deg"
+      if (statistics%film_range%share <= 0.0_wp) return
+      call range_in_words(statistics%film_range, model%film_law, text)
+      text = "the film law is outside its published range for "//number_text(100.0_wp*statistics%film_range%share, 3)// &
+         & " % of the cycle, first at cam angle "//fixed_text(file_angle(statistics%first_outside), 1)//" deg, "//text
       if (model%stops_outside_range) then
          call raise(error, kind_domain, text//" (range_policy = 'stop')")
-      else
-         call add_remark(remarks, outside_range, text, 100.0_wp*statistics%outside_share)
+      else if (matters(statistics%film_range)) then
+         call add_remark(remarks, outside_range, text, 100.0_wp*statistics%film_range%share)
       end if
    end subroutine check_range
 

@@ -14,6 +14,7 @@ module camroller_means
    use camroller_state, only : state_t
    use camroller_contact_forces, only : film_groups
    use camroller_film, only : is_in_range
+   use camroller_film_range, only : film_range_t, note_film
    use camroller_cycle, only : cycle_t
    use camroller_catalogue, only : list_series, series_values, torque_count
    use camroller_defects, only : find_defect
@@ -41,9 +42,11 @@ module camroller_means
       type(samples_t) :: rows
       !> Mean torques of the follower [N m], last the energy residual [W]
       real(wp) :: torques(torque_count) = 0.0_wp
-      !> Part of the cycle without contact, and outside the film law's range [-]
-      real(wp) :: lost_share = 0.0_wp, outside_share = 0.0_wp
-      !> Cam angle from full lift where the film law's range is first left [rad]
+      !> Part of the cycle without contact [-]
+      real(wp) :: lost_share = 0.0_wp
+      !> Where the film law is outside its range
+      type(film_range_t) :: film_range
+      !> Cam angle from full lift where it is first left [rad]
       real(wp) :: first_outside = 0.0_wp
       !> Largest size of the sliding speed met [m/s]
       real(wp) :: largest_sliding = 0.0_wp
@@ -229,10 +232,15 @@ contains
       !> The shares
       type(statistics_t), intent(inout) :: statistics
 
-      if (.not. samples%state%contact%is_touching) statistics%lost_share = statistics%lost_share + weight
-      if (has_film_in_range(samples%model, samples%state)) return
-      if (statistics%outside_share <= 0.0_wp) statistics%first_outside = angle
-      statistics%outside_share = statistics%outside_share + weight
+      logical :: is_inside
+
+      associate (state => samples%state, model => samples%model)
+         if (.not. state%contact%is_touching) statistics%lost_share = statistics%lost_share + weight
+         is_inside = has_film_in_range(model, state)
+         if (.not. is_inside .and. statistics%film_range%share <= 0.0_wp) statistics%first_outside = angle
+         call note_film(statistics%film_range, film_groups(model, state%position, state%contact), is_inside, &
+            & state%position%lift > model%train%seat_lift, state%torque_contact + state%torque_needle + state%torque_guide, weight)
+      end associate
    end subroutine add_shares
 
    !> Carry the estimate of the error over an interval, with the defects at its ends where the rates of the equation are kept there.

@@ -296,7 +296,7 @@ contains
       call add(quantities, values, count, trim(lobe_prefix(lobe))//"lost_contact_share", "1", &
          & "fraction of the cycle without contact", "dynamics", statistics%lost_share, lobe_scope(lobe))
       call add(quantities, values, count, trim(lobe_prefix(lobe))//"outside_film_range_share", "1", &
-         & "fraction of the cycle outside the film law's published range", "film", statistics%outside_share, lobe_scope(lobe))
+         & "fraction of the cycle outside the film law's published range", "film", statistics%film_range%share, lobe_scope(lobe))
       if (.not. allocated(model%film_table)) return
       call add(quantities, values, count, trim(lobe_prefix(lobe))//"film_table_error", "1", &
          & "largest error of the film: of the polynomials of its table, and of the solutions at its points", "film", &

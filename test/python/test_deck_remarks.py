@@ -58,3 +58,14 @@ def test_a_usual_value_has_no_remark_and_defaults_show_the_range(camroller):
     assert remarks_of(camroller, "decks/thesis.nml", "roller.mass_kg=0.02", "asperity.boundary_coefficient=0.15") == []
     page = subprocess.run([camroller, "defaults", "roller"], capture_output=True, text=True, check=True).stdout
     assert "usually 0.001 to 0.3" in re.sub(r"\s*\n\s*! ", " ", page)
+
+
+def test_film_range_remark_says_which_group_and_which_law(camroller, tmp_path):
+    def remarks(*values):
+        words = [camroller, "run", "decks/thesis.nml", "-o", str(tmp_path / "a.h5"), "--no-sweep", *values]
+        result = subprocess.run(words, capture_output=True, text=True, cwd=ROOT, check=True)
+        return [line for line in result.stderr.splitlines() if "published range" in line]
+    (found,) = remarks()
+    assert re.search(r"on the base circle, where [\d.]+ % of the follower's friction arises", found)
+    assert re.search(r"W\* down to [\d.e-]+, published for 1.5e-5 to 0.0003", found) and "film.law 'moes' covers that" in found
+    assert remarks("--set", "film.law=moes") == []

@@ -109,3 +109,25 @@ def test_exports_with_columns_and_forms(camroller, tmp_path):
     assert series[0] == "cam_angle,contact_load" and len(series) == 722
     result = run(camroller, "export", path, "--columns", "contact_lod", code=2)
     assert "did you mean 'contact_load'?" in result.stderr
+
+
+def test_study_of_laws_shows_the_range_that_runs_give(camroller, tmp_path):
+    text = run(camroller, "study", "decks/thesis.nml", "--laws", "--set", "sweep.values_1=600", "--set", "sweep.values_2=60").stdout
+    slips = {}
+    for law in ("dowson_higginson", "pan_hamrock", "masjedi_khonsari", "moes"):
+        run(camroller, "run", "decks/thesis.nml", "-o", tmp_path / "a.h5", "--quiet", "--point", "speed_rpm=600",
+            "--point", "oil_temperature_degC=60", "--set", f"film.law={law}")
+        with h5py.File(tmp_path / "a.h5") as file:
+            slips[law] = 100 * file["summary/mean_slip_ratio"][0]
+        row = next(line.replace(">", " ").split() for line in text.splitlines() if line.replace(">", " ").split()[:1] == [law])
+        # three digits are printed
+        assert float(row[4]) == pytest.approx(slips[law], rel=5e-3), law
+    low, high = min(slips.values()), max(slips.values())
+    told = re.findall(r"([\d.e-]+) to ([\d.e-]+)", next(line for line in text.splitlines() if "range of 4 laws" in line))[3]
+    assert [float(value) for value in told] == pytest.approx([low, high], rel=5e-3)
+    assert "> dowson_higginson" in text
+
+
+def test_selftest_passes_and_names_the_build(camroller):
+    text = run(camroller, "selftest").stdout
+    assert "all 6 numbers agree" in text and "commit" in text and "GCC" in text

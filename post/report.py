@@ -1,0 +1,130 @@
+"""One page about a result file, to be sent to a colleague: deck, remarks, table, figures, what was assumed.
+
+    python post/report.py results/thesis.h5                  writes results/thesis.html
+    python post/report.py results/thesis.h5 -o report.html
+
+The page needs no other file and no network: figures are in it. Exit code 0 if it was written, 2 if a file cannot be used.
+"""
+
+import argparse
+import base64
+import html
+import io
+from pathlib import Path
+import sys
+
+import matplotlib
+
+matplotlib.use("Agg")
+matplotlib.rcParams.update({"font.size": 9.0, "axes.spines.top": False, "axes.spines.right": False, "svg.hashsalt": "camroller",
+                            "hatch.linewidth": 0.6, "hatch.color": "white"})
+
+from command import run, write_file  # noqa: E402
+from figures import draw  # noqa: E402
+from layout import Layout  # noqa: E402
+from quantities import Missing  # noqa: E402
+from read import ResultError, opened, read_result, text_of  # noqa: E402
+from table import COLUMNS, column_of, plain  # noqa: E402
+
+SHOWN = ["mean_torque", "mean_slip", "pressure", "film_ratio", "friction_sources", "drive_torque", "slip"]
+MOST_ROWS = 60
+STYLE = """body { font-family: sans-serif; max-width: 60em; margin: 2em auto; padding: 0 1em; color: #222; }
+table { border-collapse: collapse; font-size: 0.9em; } th, td { padding: 0.2em 0.7em; text-align: right; border-bottom: 1px solid #ddd; }
+th { vertical-align: bottom; } img { max-width: 100%; } pre { background: #f6f6f6; padding: 1em; overflow-x: auto; font-size: 0.85em; }
+td.word, th.word { text-align: left; } figure { margin: 1.5em 0; }"""
+
+
+def main(arguments=None):
+    """Command line; returns the exit code."""
+    options = parser().parse_args(arguments)
+    result = read_result(options.file)
+    target = Path(options.output) if options.output else result.path.with_suffix(".html")
+    if len(result.failed_cases()) == result.cases:
+        raise ResultError(f"{result.path}: no case has a result")
+    page = page_of(result)
+    write_file(target, lambda beside: Path(beside).write_text(page, encoding="utf-8"))
+    print(f"report: {target}")
+    return 0
+
+
+def parser():
+    """Options of the command line."""
+    made = argparse.ArgumentParser(prog="report.py", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    made.add_argument("file", metavar="FILE", help="result file")
+    made.add_argument("-o", "--output", metavar="PAGE.html", help="page to write (default: the file's name with .html)")
+    return made
+
+
+def page_of(result):
+    """The whole page."""
+    parts = [("Results", table_of(result)), ("Remarks", remarks_of(result)), ("Figures", figures_of(result)),
+             ("What was assumed", defaults_of(result)), ("Deck", f"<pre>{html.escape(result.deck_text)}</pre>"),
+             ("How it was made", facts_of(result))]
+    body = "\n".join(f"<h2>{title}</h2>\n{text}" for title, text in parts if text)
+    title = html.escape(result.title)
+    return (f'<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8"><title>{title}</title>\n<style>\n{STYLE}\n</style></head>\n'
+            f"<body>\n<h1>{title}</h1>\n<p>{html.escape(str(result.path.name))}, {result.cases} "
+            f"case{'s' if result.cases > 1 else ''}, camroller {html.escape(result.run.get('version', '?'))}</p>\n{body}\n</body></html>\n")
+
+
+def rows_to_html(heading, rows, words=0):
+    """A table; the first columns hold words."""
+    def cells(kind, row):
+        marked = (f'<{kind}{" class=word" if place < words else ""}>{html.escape(cell)}</{kind}>' for place, cell in enumerate(row))
+        return f"<tr>{''.join(marked)}</tr>"
+    return "<table>\n" + "\n".join([cells("th", heading), *(cells("td", row) for row in rows)]) + "\n</table>"
+
+
+def table_of(result):
+    """Mean torques, slip, pressure and film of every case."""
+    cases = list(range(min(result.cases, MOST_ROWS)))
+    failed = {case for case, _ in result.failed_cases()}
+    cases = [case for case in cases if case not in failed]
+    columns = [[key.split(".")[-1], *(plain(result.value_of(key, case)) for case in cases)] for key in result.sweep]
+    columns += [column_of(result, name, cases, words, unit) for name, words, unit in COLUMNS if name in result.summary]
+    text = rows_to_html([column[0] for column in columns], list(zip(*(column[1:] for column in columns))))
+    return text + (f"<p>and {result.cases - MOST_ROWS} more cases</p>" if result.cases > MOST_ROWS else "")
+
+
+def remarks_of(result):
+    """Remarks and failures, each once with the cases that have it first."""
+    with opened(result.path) as file:
+        texts = [text_of(text) for text in file["run/warnings"][()]] if "run/warnings" in file else []
+    lines = [f"<li>case {case}: {html.escape(line)}</li>" for case, text in enumerate(texts[:MOST_ROWS])
+             for line in text.splitlines() if line.strip()]
+    lines += [f"<li>case {case} has no result: {html.escape(reason)}</li>" for case, reason in result.failed_cases()[:MOST_ROWS]]
+    return f"<ul>\n{chr(10).join(lines)}\n</ul>" if lines else "<p>None.</p>"
+
+
+def figures_of(result):
+    """Figures that the file has the series for, as drawings within the page."""
+    layout, found = Layout([result]), []
+    for name in SHOWN:
+        try:
+            figure = draw(name, layout)
+        except (Missing, ResultError):
+            continue
+        drawing = io.BytesIO()
+        figure.savefig(drawing, format="svg", metadata={"Date": None})
+        coded = base64.b64encode(drawing.getvalue()).decode()
+        found.append(f'<figure><img alt="{name.replace("_", " ")}" src="data:image/svg+xml;base64,{coded}"></figure>')
+    return "\n".join(found)
+
+
+def defaults_of(result):
+    """Values that the deck does not give."""
+    with opened(result.path) as file:
+        group = file["deck/values"] if "deck/values" in file else {}
+        rows = [(key, text_of(data[()]), "" if text_of(data.attrs.get("units", "")) == "1" else text_of(data.attrs["units"]))
+                for key, data in group.items() if text_of(data.attrs.get("given", "")) == "default"]
+    return "<p>Values that the deck does not give and that were taken by default:</p>\n" + rows_to_html(
+        ["key", "value", "unit"], rows, words=3) if rows else ""
+
+
+def facts_of(result):
+    """Program, build, command."""
+    return rows_to_html(["fact", "value"], sorted(result.run.items()), words=2)
+
+
+if __name__ == "__main__":
+    sys.exit(run(main, "report.py"))

@@ -1,0 +1,55 @@
+"""The report: one page that needs nothing else, with what a colleague asks for; a browser shows it."""
+
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+
+import pytest
+
+from report import main
+from test_post import write_result
+
+ROOT = pathlib.Path(__file__).resolve().parents[1]
+BROWSER = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
+
+
+@pytest.fixture(name="page")
+def fixture_page(tmp_path):
+    """Path of a report of nine cases."""
+    source = write_result(tmp_path / "nine.h5", title="a <rig> & its oil")
+    target = tmp_path / "report.html"
+    assert main([str(source), "-o", str(target)]) == 0
+    return target
+
+
+def test_page_stands_alone(page):
+    text = page.read_text(encoding="utf-8")
+    assert not re.search(r'(?:src|href)="(?!data:)', text) and "http://" not in re.sub(r"base64,[^\"]*", "", text)
+    assert "a &lt;rig&gt; &amp; its oil" in text
+    for heading in ("Results", "Remarks", "Figures", "Deck", "How it was made"):
+        assert f"<h2>{heading}</h2>" in text
+    assert text.count("<figure>") >= 6
+    assert len(re.findall(r"<tr><td>", text)) >= 9
+
+
+def test_page_is_written_beside_the_file_and_errors_are_one_line(tmp_path, capsys):
+    source = write_result(tmp_path / "nine.h5")
+    assert main([str(source)]) == 0 and (tmp_path / "nine.html").exists()
+    (tmp_path / "none.h5").write_bytes(b"no result")
+    for name in ("none.h5", "absent.h5"):
+        result = subprocess.run([sys.executable, ROOT / "post/report.py", tmp_path / name], capture_output=True, text=True, check=False)
+        assert result.returncode == 2 and result.stderr.count("\n") == 1 and name in result.stderr
+    assert not (tmp_path / "none.html").exists() and "report:" in capsys.readouterr().out
+
+
+@pytest.mark.skipif(BROWSER is None, reason="no browser on this machine")
+def test_a_browser_shows_every_figure(page):
+    script = "<script>onload = () => document.title = [...document.images].filter(i => i.naturalWidth > 100).length + ' shown'</script>"
+    looked = page.with_name("looked.html")
+    looked.write_text(page.read_text(encoding="utf-8").replace("</body>", script + "</body>"), encoding="utf-8")
+    result = subprocess.run([BROWSER, "--headless", "--no-sandbox", "--disable-gpu", "--virtual-time-budget=5000", "--dump-dom",
+                             looked.as_uri()], capture_output=True, text=True, timeout=120, check=False)
+    figures = page.read_text(encoding="utf-8").count("<figure>")
+    assert f"<title>{figures} shown</title>" in result.stdout
