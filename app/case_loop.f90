@@ -245,7 +245,7 @@ contains
       layout = 0
       is_over = .false.
       do i = first, first + count - 1
-         call compute_case(deck, i, kept, case, result, failure)
+         call compute_case(deck, i, kept, is_kept(loop, loop%series, i - 1), case, result, failure)
          if (allocated(profiles)) deallocate (profiles)
          if (allocated(failure)) then
             call put_failure(record, failure)
@@ -275,13 +275,15 @@ contains
    end subroutine compute_run
 
    !> Compute one case.
-   subroutine compute_case(deck, number, kept, case, result, failure)
+   subroutine compute_case(deck, number, kept, with_series, case, result, failure)
       !> The deck
       type(deck_t), intent(in) :: deck
       !> Number of the case, from 1
       integer, intent(in) :: number
       !> Models of the cases before
       type(kept_models_t), intent(inout) :: kept
+      !> Are its series kept?
+      logical, intent(in) :: with_series
       !> The case
       type(case_t), intent(out) :: case
       !> Its result
@@ -293,7 +295,8 @@ contains
       call make_sweep_case(deck, number, case, failure)
       !$omp end critical (camroller_texts)
       if (allocated(failure)) return
-      call run_next_case(kept, case, result, failure)
+      ! Profiles of the pressure are found from the series
+      call run_next_case(kept, case, result, failure, with_series .or. allocated(case%ehl))
       if (.not. allocated(failure) .or. size(deck%sweep%axes) == 0) return
       !$omp critical (camroller_texts)
       call add_context(failure, case_in_words(deck%sweep, number))

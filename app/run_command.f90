@@ -151,7 +151,7 @@ contains
       do i = 1, sweep_size(deck%sweep)
          call make_sweep_case(deck, i, case, failure)
          if (.not. allocated(failure)) then
-            call run_next_case(kept, case, result, failure)
+            call run_next_case(kept, case, result, failure, writer%options%series .or. allocated(case%ehl))
             if (.not. allocated(failure)) call find_profiles(profiles, case, result)
             if (sweep_size(deck%sweep) > 1 .and. .not. allocated(failure)) call complete_result(case, result)
             if (size(deck%sweep%axes) > 0) call add_context(failure, case_in_words(deck%sweep, i))

@@ -86,7 +86,7 @@ contains
 
       if (.not. allocated(result%choice)) return
       call list_series(listed, series)
-      allocate (values(size(result%angle), size(series)))
+      allocate (values(size(result%series_values, 1), size(series)))
       call start_list(list, size(result%summary) + (size(statistics) + size(losses))*size(series))
       values = ieee_value(1.0_wp, ieee_quiet_nan)
       do i = 1, size(series)

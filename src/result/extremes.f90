@@ -36,7 +36,7 @@ module camroller_extremes
    !> Gain of an extreme that is not worth a value, over the extent of its series [-]
    real(wp), parameter :: worth = 1.0e-6_wp
    !> Widest distance to a neighbour that a search may begin with, in sectors
-   integer, parameter :: widest = 10
+   integer, parameter :: widest = 30
    !> Rows for which there is room at first
    integer, parameter :: first_room = 1536
 

@@ -1,15 +1,17 @@
 !> Mean torque of the camshaft bearings.
 !>
-!> In: the camshafts with the cycles of their lobe shapes. Out: the mean over a turn to the tolerance of the cycles, and
-!> an estimate of its error.
+!> In: the camshafts with the cycles of their lobe shapes. Out: the mean over a turn to the tolerance of the cycles, an estimate of
+!> its error, and the series of the camshafts at the angles met.
 module camroller_mean_bearings
    use camroller_kinds, only : wp, two_pi, degree
    use camroller_error, only : error_t
    use camroller_model, only : model_t
    use camroller_state, only : state_t
-   use camroller_catalogue, only : torque_count
+   use camroller_case, only : case_t
+   use camroller_catalogue, only : camshaft_count, camshaft_values, torque_count
    use camroller_cycle, only : cycle_t
    use camroller_events, only : cycle_stops
+   use camroller_extremes, only : samples_t, start_samples, add_sample
    use camroller_means, only : mean_tolerance, most_halvings
    use camroller_panels, only : sampled_t, panels_t, start_panels, sample_panel, refine_panels
    use camroller_shaft, only : shaft_t, shaft_torques
@@ -23,9 +25,12 @@ module camroller_mean_bearings
 
    !> Bearings of a camshaft on its turn
    type, extends(sampled_t) :: bearing_samples_t
+      type(case_t), pointer :: case => null()
       type(shaft_t), pointer :: shaft => null()
       type(model_t), pointer :: models(:) => null()
       type(cycle_t), pointer :: cycles(:) => null()
+      !> Series of the camshaft at the angles met
+      type(samples_t) :: rows
    contains
       procedure :: sample => sample_bearings
    end type bearing_samples_t
@@ -33,7 +38,9 @@ module camroller_mean_bearings
 contains
 
    !> Mean torque of the bearings of each camshaft, over panels that end at the stops of every cam.
-   subroutine mean_bearing_torque(shaft, models, cycles, mean, mean_error, error)
+   subroutine mean_bearing_torque(case, shaft, models, cycles, mean, mean_error, rows, error)
+      !> The case
+      type(case_t), intent(in), target :: case
       !> The shaft
       type(shaft_t), intent(inout), target :: shaft
       !> Model of each lobe shape
@@ -44,6 +51,8 @@ contains
       real(wp), intent(out) :: mean(:)
       !> Estimate of the error over the mean, the largest [-]
       real(wp), intent(out) :: mean_error
+      !> Series of the camshaft at the angles met
+      type(samples_t), intent(out) :: rows
       !> Convergence or domain error
       type(error_t), allocatable, intent(out) :: error
 
@@ -57,9 +66,11 @@ contains
 
       mean = 0.0_wp
       mean_error = 0.0_wp
+      samples%case => case
       samples%shaft => shaft
       samples%models => models
       samples%cycles => cycles
+      call start_samples(samples%rows, camshaft_count(case))
       allocate (stops(0))
       do cam = 1, size(shaft%lobes)
          stops = [stops, cycles(shaft%lobes(cam))%stops + shaft%phases(cam)]
@@ -79,6 +90,7 @@ contains
       call refine_panels(panels, samples, mean_tolerance(maxval(cycles%tolerance)) &
          & *sum(panels%sizes(:, :panels%count), 2), halvings, error)
       if (allocated(error)) return
+      rows = samples%rows
       mean = sum(panels%integrals(:, :panels%count), 2)/two_pi
       mean_error = maxval(sum(panels%errors(:, :panels%count), 2)/max(sum(panels%sizes(:, :panels%count), 2), tiny(1.0_wp)))
    end subroutine mean_bearing_torque
@@ -97,8 +109,13 @@ contains
       type(state_t) :: state
       ! Torques of the followers of each camshaft [N m]
       real(wp) :: torques(torque_count, self%shaft%count)
+      ! Series of the camshafts [unit of the series]
+      real(wp) :: series(camshaft_count(self%case))
 
       call shaft_torques(self%shaft, self%models, self%cycles, x, state, torques, values, error)
+      if (allocated(error)) return
+      call camshaft_values(self%case, torques, values, series)
+      call add_sample(self%rows, x, series, .false.)
    end subroutine sample_bearings
 
 end module camroller_mean_bearings

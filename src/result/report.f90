@@ -11,7 +11,7 @@ module camroller_report
    use camroller_cycle_remarks, only : judge_lobe
    use camroller_catalogue, only : list_series, follower_values, camshaft_values, follower_count, camshaft_count, lobe_columns, &
       & camshaft_columns, torque_count
-   use camroller_extremes, only : samples_t, start_samples, add_sample, start_search, most_steps
+   use camroller_extremes, only : samples_t, add_sample, start_search, most_steps
    use camroller_extremum, only : extremum_t, narrow_extremum
    use camroller_margins, only : margins_t, find_margins
    use camroller_result, only : result_t, quantity_t, find_quantity, check_numbers
@@ -50,7 +50,7 @@ contains
    end subroutine take_statistics
 
    !> Series and summary of a case.
-   subroutine make_result(case, models, cycles, statistics, result, error)
+   subroutine make_result(case, models, cycles, statistics, with_series, result, error)
       !> The case
       type(case_t), intent(in) :: case
       !> Model of each lobe shape
@@ -59,6 +59,8 @@ contains
       type(cycle_t), intent(in) :: cycles(:)
       !> Means of each lobe shape; out: with all that was met
       type(statistics_t), intent(inout) :: statistics(:)
+      !> Does the result hold series at the output angles, or the summary alone, which is the same?
+      logical, intent(in) :: with_series
       !> The result
       type(result_t), intent(out) :: result
       !> Convergence or domain error; domain error where a law is used outside its range and the case forbids it
@@ -67,6 +69,7 @@ contains
       type(shaft_t) :: shaft
       type(margins_t), allocatable :: margins(:)
       type(extremes_t) :: extremes
+      type(samples_t) :: torque_rows
       ! Mean torque of the bearings of each camshaft [N m]; its error over itself [-]
       real(wp), allocatable :: bearing_torque(:)
       real(wp) :: bearing_error
@@ -76,6 +79,9 @@ contains
       call list_series(case, result%series)
       call new_shaft(shaft, case, models(1), error)
       if (allocated(error)) return
+      result%angle = output_angles(case%numerics%output_step)
+      allocate (result%series_values(merge(size(result%angle), 0, with_series .or. allocated(case%engine)), &
+         & size(result%series)))
       call sample_series(case, models, cycles, shaft, result, error)
       if (allocated(error)) return
 
@@ -89,17 +95,22 @@ contains
       allocate (bearing_torque(shaft%count))
       bearing_torque = 0.0_wp
       bearing_error = 0.0_wp
-      if (allocated(case%cam_bearings)) call mean_bearing_torque(shaft, models, cycles, bearing_torque, bearing_error, error)
-      if (allocated(error)) return
+      if (allocated(case%cam_bearings)) then
+         call mean_bearing_torque(case, shaft, models, cycles, bearing_torque, bearing_error, torque_rows, error)
+         if (allocated(error)) return
+      else
+         torque_rows = statistics(1)%torque_rows
+      end if
       if (bearing_error > maxval(statistics%mean_error)) then
          statistics%mean_error = bearing_error
          statistics%worst_mean = "torque_bearings"
       end if
       result%worst_mean = statistics(maxloc(statistics%mean_error, 1))%worst_mean
-      call find_extremes(case, models, cycles, shaft, margins, statistics, result, extremes, error)
+      call find_extremes(case, models, cycles, shaft, margins, statistics, torque_rows, result, extremes, error)
       if (allocated(error)) return
       result%worst_extreme = statistics(maxloc(statistics%extreme_error, 1))%worst_extreme
       call make_summary(case, models, cycles, shaft, statistics, bearing_torque, margins, extremes, result)
+      if (.not. with_series) result%series_values = result%series_values(:0, :)
       call check_numbers(result, error)
    end subroutine make_result
 
@@ -126,7 +137,7 @@ contains
       type(cycle_t), intent(in) :: cycles(:)
       !> The camshaft
       type(shaft_t), intent(inout) :: shaft
-      !> In: list of series; out: with their values
+      !> In: list of series, with room for as many angles as there are wanted; out: with their values
       type(result_t), intent(inout) :: result
       !> Convergence or domain error
       type(error_t), allocatable, intent(out) :: error
@@ -144,9 +155,7 @@ contains
          columns(:, lobe) = lobe_columns(case, lobe)
       end do
       is_first = shaft%lobes(1) == 1 .and. abs(shaft%phases(1)) <= 0.0_wp
-      result%angle = output_angles(case%numerics%output_step)
-      allocate (result%series_values(size(result%angle), size(result%series)))
-      do i = 1, size(result%angle)
+      do i = 1, size(result%series_values, 1)
          angle = (result%angle(i) - 180.0_wp)*degree
          call shaft_torques(shaft, models, cycles, angle, state, torques, bearing_torque, error)
          if (allocated(error)) return
@@ -161,8 +170,8 @@ contains
       end do
    end subroutine sample_series
 
-   !> Smallest and largest value of every series, at the stops and between the output angles as well.
-   subroutine find_extremes(case, models, cycles, shaft, margins, statistics, result, extremes, error)
+   !> Smallest and largest value of every series, at the stops and between the angles met as well.
+   subroutine find_extremes(case, models, cycles, shaft, margins, statistics, torque_rows, result, extremes, error)
       !> The case
       type(case_t), intent(in) :: case
       !> Model of each lobe shape
@@ -175,7 +184,9 @@ contains
       type(margins_t), intent(in) :: margins(:)
       !> Rows of each lobe shape; more are added
       type(statistics_t), intent(inout) :: statistics(:)
-      !> Series
+      !> Rows of the camshaft; more are added
+      type(samples_t), intent(inout) :: torque_rows
+      !> List of series
       type(result_t), intent(in) :: result
       !> The extremes
       type(extremes_t), intent(out) :: extremes
@@ -188,7 +199,6 @@ contains
       do lobe = 1, size(models)
          columns = lobe_columns(case, lobe)
          associate (samples => statistics(lobe)%rows)
-            call add_output_rows(result, columns, samples)
             call add_stops(case, models(lobe), cycles(lobe), margins(lobe), samples, error)
             if (.not. allocated(error)) call search_lobe(case, models(lobe), cycles(lobe), statistics(lobe), &
                & extremes%lowest(columns(1):columns(2)), extremes%highest(columns(1):columns(2)), error)
@@ -198,24 +208,10 @@ contains
             extremes%event_load(lobe) = smallest_event_load(models(lobe), result, samples)
          end associate
       end do
-      call search_camshaft(case, models, cycles, shaft, result, extremes, error)
+      columns = camshaft_columns(case)
+      call search_camshaft(case, models, cycles, shaft, torque_rows, extremes%lowest(columns(1):columns(2)), &
+         & extremes%highest(columns(1):columns(2)), error)
    end subroutine find_extremes
-
-   !> Rows at the output angles.
-   pure subroutine add_output_rows(result, columns, samples)
-      !> Series
-      type(result_t), intent(in) :: result
-      !> The first and the last of those that make a row
-      integer, intent(in) :: columns(2)
-      !> The rows
-      type(samples_t), intent(inout) :: samples
-
-      integer :: i
-
-      do i = 1, size(result%angle)
-         call add_sample(samples, (result%angle(i) - 180.0_wp)*degree, result%series_values(i, columns(1):columns(2)), .false.)
-      end do
-   end subroutine add_output_rows
 
    !> Rows of a lobe's follower at the stops, and at the smallest load of the event without friction.
    subroutine add_stops(case, model, cycle, margins, samples, error)
@@ -320,7 +316,7 @@ contains
    end subroutine judge_extremes
 
    !> Smallest and largest values of the camshaft's series.
-   subroutine search_camshaft(case, models, cycles, shaft, result, extremes, error)
+   subroutine search_camshaft(case, models, cycles, shaft, samples, lowest, highest, error)
       !> The case
       type(case_t), intent(in) :: case
       !> Model of each lobe shape
@@ -329,23 +325,19 @@ contains
       type(cycle_t), intent(in) :: cycles(:)
       !> The camshaft
       type(shaft_t), intent(inout) :: shaft
-      !> Series
-      type(result_t), intent(in) :: result
-      !> The extremes
-      type(extremes_t), intent(inout) :: extremes
+      !> Rows of the camshaft; those of the stops are added
+      type(samples_t), intent(inout) :: samples
+      !> The values [unit of the series]
+      real(wp), intent(out) :: lowest(:), highest(:)
       !> Convergence or domain error
       type(error_t), allocatable, intent(out) :: error
 
-      type(samples_t) :: samples
       type(extremum_t) :: search
       ! Stops of all cams [rad]; a row [unit of the series]
       real(wp), allocatable :: stops(:)
-      real(wp) :: values(camshaft_count(case))
-      integer :: columns(2), i, series, sense
+      real(wp) :: values(size(lowest))
+      integer :: i, series, sense
 
-      columns = camshaft_columns(case)
-      call start_samples(samples, size(values))
-      call add_output_rows(result, columns, samples)
       stops = [(cycles(shaft%lobes(i))%stops + shaft%phases(i), i=1, size(shaft%lobes))]
       do i = 1, size(stops)
          call camshaft_row(case, models, cycles, shaft, stops(i), values, error)
@@ -360,8 +352,8 @@ contains
                if (allocated(error)) return
                call narrow_extremum(search, sense*values(series))
             end do
-            if (sense > 0) extremes%lowest(columns(1) + series - 1) = search%value(2)
-            if (sense < 0) extremes%highest(columns(1) + series - 1) = -search%value(2)
+            if (sense > 0) lowest(series) = search%value(2)
+            if (sense < 0) highest(series) = -search%value(2)
          end do
       end do
    end subroutine search_camshaft

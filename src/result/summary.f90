@@ -60,7 +60,7 @@ contains
       count = 0
       means = all_means(case, result, shaft, statistics, bearing_torque)
       call add_series_statistics(result, extremes, means, quantities, values, count)
-      call add_losses(case, result, means, quantities, values, count)
+      call add_losses(case, result, means, extremes, quantities, values, count)
       call list_engine_scalars(case, result, means, quantities, values, count)
       do lobe = 1, size(models)
          call add_slip(lobe, result, means, statistics(lobe), quantities, values, count)
@@ -152,13 +152,15 @@ contains
    end subroutine add_series_statistics
 
    !> Loss of each source as power and as energy per cam revolution.
-   subroutine add_losses(case, result, means, quantities, values, count)
+   subroutine add_losses(case, result, means, extremes, quantities, values, count)
       !> The case
       type(case_t), intent(in) :: case
       !> Series
       type(result_t), intent(in) :: result
       !> Means [unit of the series]
       real(wp), intent(in) :: means(:)
+      !> Smallest and largest value of each series
+      type(extremes_t), intent(in) :: extremes
       !> List of scalars
       type(quantity_t), intent(inout) :: quantities(:)
       !> Their values [unit of the scalar]
@@ -182,7 +184,8 @@ contains
       if (case%energy /= energy_names(1)) return
       series = find_quantity(result%series, "energy_residual")
       call add(quantities, values, count, "relative_energy_residual", "1", &
-         & "largest energy residual relative to the mean power lost", "torque", maxval(abs(result%series_values(:, series))) &
+         & "largest energy residual relative to the mean power lost", "torque", &
+         & max(-extremes%lowest(series), extremes%highest(series)) &
          & /max(tiny(1.0_wp), case%operating_point%speed*means(find_quantity(result%series, "torque_friction"))), &
          & scope_camshaft)
    end subroutine add_losses

@@ -47,11 +47,11 @@ contains
       type(model_t), allocatable :: models(:)
 
       call build_models(case, models, error)
-      if (.not. allocated(error)) call run_chosen(case, models, result, error)
+      if (.not. allocated(error)) call run_chosen(case, models, .true., result, error)
    end subroutine run_case
 
    !> Run a case after others, whose models serve again where geometry, masses and spring are the same.
-   subroutine run_next_case(kept, case, result, error)
+   subroutine run_next_case(kept, case, result, error, with_series)
       !> Models of the cases before
       type(kept_models_t), intent(inout) :: kept
       !> The case
@@ -60,8 +60,11 @@ contains
       type(result_t), intent(out) :: result
       !> What went wrong, of any kind
       type(error_t), allocatable, intent(out) :: error
+      !> Does the result hold series at the output angles, as it does unless told otherwise? Its scalars are the same without them
+      logical, intent(in), optional :: with_series
 
       type(model_t), allocatable :: models(:)
+      logical :: has_series
 
       call recall_models(kept, case, models, error)
       if (allocated(error)) return
@@ -70,15 +73,19 @@ contains
          if (allocated(error)) return
          call keep_models(kept, case, models)
       end if
-      call run_chosen(case, models, result, error)
+      has_series = .true.
+      if (present(with_series)) has_series = with_series
+      call run_chosen(case, models, has_series, result, error)
    end subroutine run_next_case
 
    !> Run a case whose models are there.
-   subroutine run_chosen(case, models, result, error)
+   subroutine run_chosen(case, models, with_series, result, error)
       !> The case
       type(case_t), intent(in) :: case
       !> Model of each lobe shape; without what is left out afterwards
       type(model_t), intent(inout) :: models(:)
+      !> Does the result hold series?
+      logical, intent(in) :: with_series
       !> Its result
       type(result_t), intent(out) :: result
       !> What went wrong, of any kind
@@ -89,7 +96,7 @@ contains
       integer :: lobe, shapes
 
       if (.not. wants_choice(case)) then
-         call run_listed(case, models, result, error)
+         call run_listed(case, models, with_series, result, error)
          return
       end if
       call choose_effects(case, models, chosen, choice, error)
@@ -98,7 +105,7 @@ contains
       do lobe = 1, shapes
          if (.not. allocated(error)) call revise_model(models(lobe), chosen, error)
       end do
-      if (.not. allocated(error)) call run_listed(chosen, models(:shapes), result, error)
+      if (.not. allocated(error)) call run_listed(chosen, models(:shapes), with_series, result, error)
       if (.not. allocated(error)) call add_choice(result, choice)
    end subroutine run_chosen
 
@@ -107,11 +114,13 @@ contains
    !> Where the estimated error of the sliding speed, of a mean or of an extreme is above the accuracy asked for, the cycles are
    !> integrated again with a smaller tolerance; so they are with another method and another tolerance where they could not be. What
    !> a later try cannot do leaves the result of an earlier one, with a remark; without any figure that is right there is no result.
-   subroutine run_listed(case, models, result, error)
+   subroutine run_listed(case, models, with_series, result, error)
       !> The case
       type(case_t), intent(in) :: case
       !> Model of each lobe shape
       type(model_t), intent(in) :: models(:)
+      !> Does the result hold series?
+      logical, intent(in) :: with_series
       !> Its result
       type(result_t), intent(out) :: result
       !> What went wrong, of any kind
@@ -138,7 +147,7 @@ contains
                call move_alloc(latest%statistics, earlier%statistics)
                cycle
             end if
-            call make_result(case, models, latest%cycles, latest%statistics, new_result, error)
+            call make_result(case, models, latest%cycles, latest%statistics, with_series, new_result, error)
             if (.not. allocated(error)) then
                result = new_result
                has_result = .true.
@@ -155,7 +164,7 @@ contains
       if (.not. has_result) then
          if (.not. allocated(earlier%cycles)) return
          deallocate (error)
-         call make_result(case, models, earlier%cycles, earlier%statistics, result, error)
+         call make_result(case, models, earlier%cycles, earlier%statistics, with_series, result, error)
          if (allocated(error)) return
       end if
       call judge(case%numerics, result, error)
