@@ -12,7 +12,7 @@ module test_random_wide
    use camroller_accuracy, only : is_checked, has_tolerance, resolve_numerics
    use camroller_case, only : case_t
    use camroller_model, only : model_t
-   use camroller_remarks, only : missed_means
+   use camroller_remarks, only : missed_accuracy, missed_means, missed_extremes
    use camroller_result, only : result_t
    use camroller_run, only : build_models, run_case
    use camroller_deck, only : deck_t, override_t, parse_deck, make_case
@@ -36,11 +36,6 @@ module test_random_wide
    !> One deck of so many has numbers at the ends of their ranges, and their part of all numbers [-]
    integer, parameter :: ends_stride = 4
    real(wp), parameter :: ends_share = 0.03_wp
-   !> Results that two methods have otherwise than promised where no estimate looks; with a doubt of their means and no remark on it
-   character(len=*), parameter :: open_class = "OPEN: friction force, asperities or film at standstill by two methods", &
-      & doubtful_class = "OPEN: estimate of the means above the accuracy, no remark"
-   !> Part of the results that they may be: one in eight among the first 300 decks [-]
-   real(wp), parameter :: open_share = 0.2_wp
    !> Marks of a key in many decks: left out, given; then both ends or each choice, of which there are fewer than that
    integer, parameter :: mark_absent = 1, mark_given = 2, most_marks = 40
    !> Part of the decks drawn that must have a result, lest nothing is tested [-]
@@ -257,7 +252,8 @@ contains
          if (allocated(twin_error)) trouble = " an error in other units and not in SI: "//twin_error%message
       else if (is_tested) then
          trouble = compare_twins(one, other, unit_systems_tried(size(unit_systems_tried)), &
-            & allowed*max(promised, promised_error(case, one, "estimated_error")))
+            & allowed*max(promised, promised_error(case, one, "estimated_error"), promised_error(case, one, &
+            & "estimated_error_of_extremes"), promised_error(case, other, "estimated_error_of_extremes")))
       end if
    end subroutine compare_units
 
@@ -298,8 +294,6 @@ contains
          if (failures >= most_shown) exit
       end do
       write (error_unit, "(a)") endings_table(tally)
-      if (ending_count(tally, "OPEN") > few_cases + open_share*ending_count(tally, "result")) list = list//new_line("a") &
-         & //"too many results differ where none is promised to agree"
       if (cases >= few_cases .and. ending_count(tally, "result") < least_share*cases) list = list &
          & //new_line("a")//"too few decks have a result"
       if (list /= "") call test_failed(error, list)
@@ -335,11 +329,27 @@ contains
       end if
       call count_remarks(tally, result%remarks)
       trouble = trouble//check_result(case, result)
-      if (is_checked(case%numerics) .and. scalar_of(result, "estimated_error_of_means") > case%numerics%accuracy .and. &
-         & all(result%remarks%kind /= missed_means)) call count_ending(tally, doubtful_class)
+      if (is_checked(case%numerics)) trouble = trouble//missing_remarks(case, result)
       if (trouble == "") call compare_methods(case, result, tally, trouble)
       if (trouble /= "") call count_ending(tally, "SILENT: a result that is not right")
    end subroutine check_deck
+
+   !> Estimates above the accuracy without a remark that says so.
+   function missing_remarks(case, result) result(trouble)
+      type(case_t), intent(in) :: case
+      type(result_t), intent(in) :: result
+      character(len=:), allocatable :: trouble
+      character(len=*), parameter :: estimates(*) = [character(len=27) :: "estimated_error", "estimated_error_of_means", &
+         & "estimated_error_of_extremes"]
+      integer, parameter :: kinds(*) = [missed_accuracy, missed_means, missed_extremes]
+      integer :: i
+
+      trouble = ""
+      do i = 1, size(estimates)
+         if (scalar_of(result, trim(estimates(i))) > case%numerics%accuracy .and. all(result%remarks%kind /= kinds(i))) &
+            & trouble = trouble//" "//trim(estimates(i))//" above the accuracy without a remark;"
+      end do
+   end function missing_remarks
 
    !> The same case by another method.
    subroutine compare_methods(case, one, tally, trouble)
@@ -350,7 +360,6 @@ contains
       type(case_t) :: changed
       type(result_t) :: other
       type(error_t), allocatable :: error
-      character(len=:), allocatable :: open
 
       ! Euler's steps and the quasi-static limit promise nothing
       if (.not. (is_checked(case%numerics) .or. has_tolerance(case%numerics))) return
@@ -364,10 +373,7 @@ contains
       end if
       trouble = trouble//check_result(changed, other)
       if (trouble /= "") return
-      call compare_results(case, one, other, trouble, open)
-      if (open == "") return
-      call count_ending(tally, open_class)
-      if (number_from("WIDE_CASES", 0) > usual_cases) write (error_unit, "(2a)") "   open:", open
+      call compare_results(case, one, other, trouble)
    end subroutine compare_methods
 
 end module test_random_wide
