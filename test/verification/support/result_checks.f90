@@ -232,11 +232,33 @@ contains
             scale = max(sum(abs(one%series_values(:, i)))/size(one%angle), abs(scalar_of(one, "mean_"//name)), &
                & abs(scalar_of(other, "mean_"//name)))
             if (any(drives == name)) scale = abs(scalar_of(one, "mean_torque_friction"))
+            scale = max(scale, least_scale(one, name))
             found = max(0.0_wp, difference - least)/max(scale, tiny(1.0_wp))
             if (found > allowed) trouble = trouble//" mean_"//name//words_of_difference(found, allowed)
          end associate
       end do
    end subroutine compare_means
+
+   !> What counts as none of a quantity that follows the slip.
+   function least_scale(result, name) result(scale)
+      !> A result
+      type(result_t), intent(in) :: result
+      !> Name of a series
+      character(len=*), intent(in) :: name
+      ! [unit of the series]
+      real(wp) :: scale
+      ! Tangential force over the largest load that is none: a roller that sticks slides by 1e-17 m/s where contact is lost [-]
+      real(wp), parameter :: least_force = 1.0e-10_wp
+      character(len=:), allocatable :: lobe
+
+      lobe = name(:merge(7, 0, index(name, "lobe_2_") > 0))
+      scale = 0.0_wp
+      if (name == lobe//"sliding_speed") scale = least_slip*scalar_of(result, "max_"//lobe//"rolling_speed")
+      if (name == lobe//"slip_ratio") scale = least_slip
+      if (index(name, "friction_") > 0 .or. index(name, "traction") > 0) &
+         & scale = least_force*scalar_of(result, "max_"//lobe//"contact_load")
+      if (index(name, "asperity_friction_share") > 0) scale = least_force
+   end function least_scale
 
    !> Is a series a film of a lobe that loses contact?
    function is_film_without_limit(one, other, name) result(verdict)
@@ -270,7 +292,7 @@ contains
             if (index(name, "torque_") == 1 .or. name == "energy_residual" .or. is_film_without_limit(one, other, name)) cycle
             values(1, :) = [scalar_of(one, "min_"//name), scalar_of(one, "max_"//name)]
             values(2, :) = [scalar_of(other, "min_"//name), scalar_of(other, "max_"//name)]
-            range = maxval(values) - minval(values)
+            range = max(maxval(values) - minval(values), least_scale(one, name))
             least = search_gain*range + rounding*maxval(abs(values))
             do k = 1, 2
                difference = max(0.0_wp, abs(values(1, k) - values(2, k)) - least)
