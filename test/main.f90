@@ -82,6 +82,8 @@ program main
    use test_ode_special, only : collect_ode_special
    use test_hard_ehl, only : collect_hard_ehl
    use test_hard_cases, only : collect_hard_cases
+   use test_flexible_parts, only : collect_flexible_parts
+   use test_flexible_train, only : collect_flexible_train
    use test_random_cases, only : collect_random_cases
    use test_random_ehl, only : collect_random_ehl
    use test_random_wide, only : collect_random_wide
@@ -128,6 +130,8 @@ contains
       suites = [ &
          new_testsuite("error", collect_error), &
          new_testsuite("hard_cases", collect_hard_cases), &
+         new_testsuite("flexible_parts", collect_flexible_parts), &
+         new_testsuite("flexible_train", collect_flexible_train), &
          new_testsuite("random_cases", collect_random_cases), &
          new_testsuite("random_ehl", collect_random_ehl), &
          new_testsuite("random_wide", collect_random_wide), &

@@ -20,6 +20,9 @@ module camroller_case
    use camroller_roller, only : roller_t
    use camroller_journal, only : cam_bearings_t
    use camroller_engine, only : engine_t
+   use camroller_flexible_parts, only : dynamics_t
+   use camroller_spring_modes, only : spring_surge_t
+   use camroller_lash_adjuster, only : lash_adjuster_t
    implicit none
    private
 
@@ -116,6 +119,10 @@ module camroller_case
       type(cam_bearings_t), allocatable :: cam_bearings
       !> Engine that the camshafts belong to; of no effect without their bearings
       type(engine_t), allocatable :: engine
+      !> A train that bends and leaves contact; with it, a spring that surges and a hydraulic lash adjuster
+      type(dynamics_t), allocatable :: dynamics
+      type(spring_surge_t), allocatable :: spring_surge
+      type(lash_adjuster_t), allocatable :: lash_adjuster
       type(selection_t) :: effects
       type(numerics_t) :: numerics
    end type case_t

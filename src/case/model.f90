@@ -11,7 +11,9 @@ module camroller_model
    use camroller_lift, only : lift_t, lift_law_t, new_lift_law, evaluate_lift, stop_angles
    use camroller_kinematics, only : linkage_t, position_t, new_linkage, evaluate_position
    use camroller_dynamics, only : train_t, moments_t, evaluate_moments, seating_names, load_arm_names
-   use camroller_pivot, only : pivot_t, usual_centre
+   use camroller_pivot, only : pivot_t, new_pivot
+   use camroller_flexible_parts, only : flexible_t, set_oil
+   use camroller_flexible_setup, only : set_flexible
    use camroller_materials, only : combined_modulus, combined_roughness
    use camroller_lubricant, only : lubricant_t, oil_t, get_oil
    use camroller_film, only : film_law_names, range_policy_names, law_masjedi_khonsari_rough, law_table
@@ -20,7 +22,7 @@ module camroller_model
    use camroller_ehl_table, only : ehl_t, build_film_table
    use camroller_asperity, only : asperity_law_names, law_zhao_maietta_chang, smallest_product, boundary_names, &
       & mobilisation_names, asperity_constants_t, new_asperity_constants
-   use camroller_number_text, only : number_text, fixed_text
+   use camroller_number_text, only : number_text
    use camroller_traction, only : traction_t, shear_law_names, cap_names, rolling_law_names
    use camroller_needle, only : friction_radius, roller_bearing_names
    use camroller_guide, only : guide_drag_coefficient
@@ -81,6 +83,8 @@ module camroller_model
       type(train_t) :: train
       !> Joint between finger and adjuster; allocated where the finger's mass is known
       type(pivot_t), allocatable :: pivot
+      !> What bends and leaves contact; allocated where the train is flexible
+      type(flexible_t), allocatable :: flexible
       type(lift_law_t) :: lift_law
       type(gas_law_t), allocatable :: gas
       type(lubricant_t) :: lubricant
@@ -172,6 +176,7 @@ contains
       if (allocated(model%bearing)) deallocate (model%bearing)
       if (allocated(model%guide_drag)) deallocate (model%guide_drag)
       if (allocated(model%gas)) deallocate (model%gas)
+      if (allocated(model%flexible)) deallocate (model%flexible)
       if (allocated(model%ehl)) deallocate (model%ehl)
       call choose_laws(model, case, error)
       if (allocated(error)) return
@@ -211,6 +216,7 @@ contains
       call get_oil(model%lubricant, oil_temperature, model%oil, error)
       if (allocated(error)) return
       if (allocated(model%guide_drag)) model%guide_drag = model%guide_factor*model%oil%viscosity
+      if (allocated(model%flexible)) call set_oil(model%flexible, model%oil%viscosity)
       if (allocated(model%bearing)) model%bearing%reversal_spin = model%bearing%reversal_ratio*speed
       if (allocated(model%ehl)) call set_film_table(model, error)
    end subroutine set_operating_point
@@ -401,7 +407,11 @@ contains
          call raise(error, kind_deck, "roller: the mass must be positive and the wall thinner than the radius")
          return
       end if
-      if (case%masses%finger > 0.0_wp) call set_pivot(model, case, error)
+      if (case%masses%finger > 0.0_wp) then
+         allocate (model%pivot)
+         call new_pivot(model%pivot, case%masses%finger, model%train%finger_inertia, case%masses%finger_centre, &
+            & case%mechanism%valve_axis_angle, case%mechanism%adjuster_tilt, error)
+      end if
       if (allocated(error) .or. model%takes_maximum_load) return
 
       call evaluate_position(model%linkage, [0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp], closed, status)
@@ -416,31 +426,6 @@ contains
       end if
       model%train%seat_lift = 2.0_wp*model%train%closed_seat_force/case%spring%seat_stiffness
    end subroutine set_train
-
-   !> The finger's joint with the lash adjuster.
-   subroutine set_pivot(model, case, error)
-      !> The model with the finger's inertia
-      type(model_t), intent(inout) :: model
-      !> A case
-      type(case_t), intent(in) :: case
-      !> Deck error where no finger of this mass and inertia has its centre of mass so far out
-      type(error_t), allocatable, intent(out) :: error
-
-      ! Radius of gyration about the pivot [m]
-      real(wp) :: gyration
-
-      gyration = sqrt(model%train%finger_inertia/case%masses%finger)
-      allocate (model%pivot)
-      model%pivot%mass = case%masses%finger
-      model%pivot%centre = min(usual_centre, gyration)
-      if (case%masses%finger_centre > 0.0_wp) model%pivot%centre = case%masses%finger_centre
-      model%pivot%tilt = case%mechanism%adjuster_tilt
-      model%pivot%axis_angle = case%mechanism%valve_axis_angle + case%mechanism%adjuster_tilt
-      if (model%pivot%centre <= gyration) return
-      call raise(error, kind_deck, "the finger's centre of mass, masses.finger_centre_mm = "// &
-         & fixed_text(1.0e3_wp*model%pivot%centre, 3)//", lies beyond its radius of gyration about the pivot, "// &
-         & fixed_text(1.0e3_wp*gyration, 3)//" mm; lower it or masses.finger_kg, or raise masses.finger_inertia_kg_m2")
-   end subroutine set_pivot
 
    !> Effects that the case has.
    subroutine set_effects(model, case, error)
@@ -490,6 +475,11 @@ contains
       if (allocated(case%gas_force)) then
          allocate (model%gas)
          call new_gas_law(model%gas, case%gas_force, error)
+         if (allocated(error)) return
+      end if
+      if (allocated(case%dynamics)) then
+         allocate (model%flexible)
+         call set_flexible(model%flexible, case, model%linkage, model%train, model%pivot, model%modulus, error)
       end if
    end subroutine set_effects
 

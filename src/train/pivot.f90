@@ -4,10 +4,12 @@
 !> finger along that axis, `doc/theory.md`.
 module camroller_pivot
    use camroller_kinds, only : wp
+   use camroller_error, only : error_t, raise, kind_deck
+   use camroller_number_text, only : fixed_text
    implicit none
    private
 
-   public :: pivot_t, pivot_force, usual_centre
+   public :: pivot_t, new_pivot, pivot_force
 
    !> Distance of a finger's centre of mass from its pivot where none is given [m]
    real(wp), parameter :: usual_centre = 20.0e-3_wp
@@ -25,6 +27,34 @@ module camroller_pivot
    end type pivot_t
 
 contains
+
+   !> The joint of a finger.
+   subroutine new_pivot(pivot, mass, inertia, centre, valve_axis_angle, tilt, error)
+      !> The joint
+      type(pivot_t), intent(out) :: pivot
+      !> Mass of the finger with its roller [kg], its inertia about the pivot [kg m^2]
+      real(wp), intent(in) :: mass, inertia
+      !> Distance from the pivot to its centre of mass; zero where not given [m]
+      real(wp), intent(in) :: centre
+      !> Angle between the valve's axis and the line from pivot to cam centre, and from it to the adjuster's axis [rad]
+      real(wp), intent(in) :: valve_axis_angle, tilt
+      !> Deck error where no finger of this mass and inertia has its centre of mass so far out
+      type(error_t), allocatable, intent(out) :: error
+
+      ! Radius of gyration about the pivot [m]
+      real(wp) :: gyration
+
+      gyration = sqrt(inertia/mass)
+      pivot%mass = mass
+      pivot%centre = min(usual_centre, gyration)
+      if (centre > 0.0_wp) pivot%centre = centre
+      pivot%tilt = tilt
+      pivot%axis_angle = valve_axis_angle + tilt
+      if (pivot%centre <= gyration) return
+      call raise(error, kind_deck, "the finger's centre of mass, masses.finger_centre_mm = "// &
+         & fixed_text(1.0e3_wp*pivot%centre, 3)//", lies beyond its radius of gyration about the pivot, "// &
+         & fixed_text(1.0e3_wp*gyration, 3)//" mm; lower it or masses.finger_kg, or raise masses.finger_inertia_kg_m2")
+   end subroutine new_pivot
 
    !> Force that presses the pivot's ball and socket together, along the adjuster's axis; negative where the joint would open.
    !>

@@ -1,0 +1,101 @@
+!> What a flexible train is made of: the stiffness and damping of its contacts, its spring's modes, its adjuster, its masses.
+!>
+!> Layer: flexible. In: what a deck gives. Out: constants for the equations of motion.
+module camroller_flexible_parts
+   use camroller_kinds, only : wp
+   use camroller_contact_compliance, only : line_compliance, damping_of_restitution
+   use camroller_spring_modes, only : spring_modes_t
+   use camroller_lash_adjuster, only : adjuster_t, set_adjuster_oil
+   implicit none
+   private
+
+   public :: dynamics_t, flexible_t, set_contacts, set_oil
+
+   !> Stiffness and damping of the train's contacts, as a deck has them. Damping stands for a force over the elastic one, per speed
+   !> of approach.
+   type :: dynamics_t
+      !> Stiffness of the finger in bending, with pin and shaft, at the roller [N/m]
+      real(wp) :: finger_stiffness = 5.0e7_wp
+      !> Damping of cam and roller [s/m]
+      real(wp) :: contact_damping = 0.2_wp
+      !> Stiffness of pad and stem [N/m] and its damping [s/m]
+      real(wp) :: pad_stiffness = 5.0e7_wp, pad_damping = 0.2_wp
+      !> Stiffness of seat and valve head [N/m] and its damping [s/m]
+      real(wp) :: seat_stiffness = 5.0e7_wp, seat_damping = 1.0_wp
+      !> Speed after over speed before an impact on the seat; zero where the damping is given [-]
+      real(wp) :: seat_restitution = 0.0_wp
+      !> Speed of that impact [m/s]
+      real(wp) :: seat_restitution_speed = 0.3_wp
+      !> Mechanical lash at the pad of the closed valve; zero where the base circle load presses the train together [m]
+      real(wp) :: lash = 0.0_wp
+   end type dynamics_t
+
+   !> Constants of a flexible train
+   type :: flexible_t
+      !> Approach of cam and roller over the load to the power 0.9, c_H [m/N^0.9]
+      real(wp) :: compliance
+      !> Stiffness in series with it, k_b [N/m]
+      real(wp) :: finger_stiffness
+      !> Damping of cam and roller, a_c [s/m]
+      real(wp) :: contact_damping
+      !> Pad: stiffness [N/m], damping [s/m]
+      real(wp) :: pad_stiffness, pad_damping
+      !> Seat: stiffness [N/m], damping [s/m]
+      real(wp) :: seat_stiffness, seat_damping
+      !> Lash at the pad, c_L [m]
+      real(wp) :: lash
+      !> Place of the fixed pivot along the adjuster's axis, or of the adjuster's plunger at rest, y [m]
+      real(wp) :: pivot_place = 0.0_wp
+      !> Mass that the valve's own equation has, m_N [kg]
+      real(wp) :: effective_mass
+      !> Mass of the finger with its roller, m_F [kg]
+      real(wp) :: finger_mass
+      !> Distance of its centre of mass from the pivot, on the roller arm, r_G [m]
+      real(wp) :: finger_centre
+      !> Angle between the adjuster's axis and the line from pivot to cam centre, chi_h [rad]
+      real(wp) :: axis_angle
+      !> Angle from the valve's axis to the adjuster's, chi_h - chi [rad]
+      real(wp) :: tilt
+      !> Modes of the spring; without any it has no mass of its own
+      type(spring_modes_t) :: modes
+      !> Lash adjuster; the pivot is fixed without one
+      type(adjuster_t), allocatable :: adjuster
+   end type flexible_t
+
+contains
+
+   !> Constants of the contacts.
+   pure subroutine set_contacts(flexible, dynamics, modulus, length)
+      !> The train
+      type(flexible_t), intent(inout) :: flexible
+      !> What is given
+      type(dynamics_t), intent(in) :: dynamics
+      !> Equivalent modulus of cam and roller [Pa]
+      real(wp), intent(in) :: modulus
+      !> Length of their contact [m]
+      real(wp), intent(in) :: length
+
+      flexible%compliance = line_compliance(modulus, length)
+      flexible%finger_stiffness = dynamics%finger_stiffness
+      flexible%contact_damping = dynamics%contact_damping
+      flexible%pad_stiffness = dynamics%pad_stiffness
+      flexible%pad_damping = dynamics%pad_damping
+      flexible%seat_stiffness = dynamics%seat_stiffness
+      flexible%seat_damping = dynamics%seat_damping
+      if (dynamics%seat_restitution > 0.0_wp) then
+         flexible%seat_damping = damping_of_restitution(dynamics%seat_restitution, dynamics%seat_restitution_speed)
+      end if
+      flexible%lash = dynamics%lash
+   end subroutine set_contacts
+
+   !> What depends on the oil's viscosity.
+   pure subroutine set_oil(flexible, viscosity)
+      !> The train
+      type(flexible_t), intent(inout) :: flexible
+      !> Viscosity at ambient pressure [Pa s]
+      real(wp), intent(in) :: viscosity
+
+      if (allocated(flexible%adjuster)) call set_adjuster_oil(flexible%adjuster, viscosity)
+   end subroutine set_oil
+
+end module camroller_flexible_parts

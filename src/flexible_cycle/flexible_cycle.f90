@@ -1,0 +1,245 @@
+!> The periodic state of a flexible train: cycles from rest until one closes, or a few together do, or none will.
+!>
+!> In: model, tolerance. Out: `flexible_cycle_t` with the last cycle, from full lift of one turn less half a turn on. Plain cycles
+!> approach the periodic state by the slowest decay of spring and adjuster; where that takes long, Anderson's acceleration mixes the
+!> last few. Source: Walker and Ni, SIAM J. Numer. Anal. 49 (2011) 1715.
+module camroller_flexible_cycle
+   use camroller_kinds, only : wp, pi, degree
+   use camroller_error, only : error_t
+   use camroller_model, only : model_t
+   use camroller_events, only : cycle_stops
+   use camroller_ode_method, only : method_t, options_t
+   use camroller_ode_problem, only : counters_t
+   use camroller_ode_methods, only : new_method
+   use camroller_ode_switching, only : integrate_switching
+   use camroller_trajectory, only : trajectory_t
+   use camroller_flexible_setup, only : rest_t, find_rest
+   use camroller_flexible_train, only : state_size, at_finger, at_lift, at_plunger, at_pressure
+   use camroller_flexible_problem, only : flexible_problem_t, state_scales
+   use camroller_lapack, only : dgesv
+   implicit none
+   private
+
+   public :: flexible_cycle_t, turn_t, start_turns, integrate_turn, find_periodic, rest_of_train
+
+   !> Most cycles that make a period together
+   integer, parameter, public :: longest_period = 8
+   !> Cycles that acceleration mixes
+   integer, parameter :: depth = 5
+   !> Contraction above which acceleration pays [-]
+   real(wp), parameter :: slow = 0.5_wp
+   !> Step that an integration begins with [rad]
+   real(wp), parameter :: first_step = 1.0e-3_wp
+   !> Largest step [rad]
+   real(wp), parameter :: largest_step = 10.0_wp*degree
+   !> Part of the tolerance to which the contact's forces are found [-]
+   real(wp), parameter :: contact_accuracy = 1.0e-3_wp
+   !> Steps of a cycle after which it is given up
+   integer, parameter :: most_steps = 400000
+
+   !> What integrates one turn after another
+   type :: turn_t
+      type(flexible_problem_t) :: problem
+      class(method_t), allocatable :: method
+      type(options_t) :: options
+      !> Stops of a turn [rad]
+      real(wp), allocatable :: stops(:)
+      !> Sizes of the components [state]
+      real(wp), allocatable :: scales(:)
+   end type turn_t
+
+   !> The periodic state, or what was found in its stead
+   type :: flexible_cycle_t
+      !> The last cycle
+      type(trajectory_t) :: trajectory
+      type(counters_t) :: counters
+      !> Cycles integrated
+      integer :: cycles = 0
+      !> Cycles that make a period; 0 where there is none
+      integer :: period = 0
+      !> Largest part of a disturbance that a cycle was seen to leave [-]
+      real(wp) :: multiplier = 0.0_wp
+      !> Difference of a period's end from its start, in the units of the scales [-]
+      real(wp) :: closure = 0.0_wp
+      !> Tolerance of a step, in the same units [-]
+      real(wp) :: tolerance = 0.0_wp
+   end type flexible_cycle_t
+
+contains
+
+   !> Make ready to integrate turns.
+   subroutine start_turns(turn, model, method, tolerance, error)
+      !> What integrates
+      type(turn_t), intent(out) :: turn
+      !> The model, with a flexible train
+      type(model_t), intent(in), target :: model
+      !> Name of the method
+      character(len=*), intent(in) :: method
+      !> Error allowed per step, in units of the scales [-]
+      real(wp), intent(in) :: tolerance
+      !> Deck error for an unknown method
+      type(error_t), allocatable, intent(out) :: error
+
+      call new_method(turn%method, method, state_size(model), error)
+      if (allocated(error)) return
+      turn%problem%model => model
+      turn%problem%switches = 3
+      turn%problem%accuracy = contact_accuracy*tolerance
+      turn%scales = state_scales(model)
+      turn%options%tolerance = tolerance*turn%scales
+      turn%options%step = first_step
+      turn%options%max_step = largest_step
+      turn%options%max_steps = most_steps
+      turn%stops = cycle_stops(model%lift_stops, -pi)
+   end subroutine start_turns
+
+   !> Rest of a train on the base circle: where the first cycle starts.
+   subroutine rest_of_train(model, state, error)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> The state [state]
+      real(wp), allocatable, intent(out) :: state(:)
+      !> Convergence error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(rest_t) :: rest
+
+      allocate (state(state_size(model)))
+      state = 0.0_wp
+      if (model%flexible%lash > 0.0_wp) then
+         state(at_finger) = model%linkage%base_angle
+         state(at_lift) = -model%train%stiffness*model%train%precompression/(model%flexible%seat_stiffness + model%train%stiffness)
+         return
+      end if
+      call find_rest(model%flexible, model%linkage, model%train, model%base_circle_load, rest, error)
+      if (allocated(error)) return
+      state(at_finger) = rest%finger
+      state(at_lift) = rest%lift
+      if (.not. allocated(model%flexible%adjuster)) return
+      state(at_plunger) = rest%pivot
+      state(at_pressure) = model%flexible%adjuster%given%supply_pressure
+   end subroutine rest_of_train
+
+   !> One turn.
+   subroutine integrate_turn(turn, state, trajectory, counters, error)
+      !> What integrates
+      type(turn_t), intent(inout) :: turn
+      !> State, from start to end [state]
+      real(wp), intent(inout) :: state(:)
+      !> The turn
+      type(trajectory_t), intent(inout) :: trajectory
+      !> Work done
+      type(counters_t), intent(inout) :: counters
+      !> Convergence error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(options_t) :: options
+
+      options = turn%options
+      options%max_steps = options%max_steps + counters%accepted + counters%rejected
+      call integrate_switching(turn%problem, turn%method, options, turn%stops, state, trajectory, counters, error)
+   end subroutine integrate_turn
+
+   !> Integrate turns until they repeat themselves, or as many as are allowed.
+   subroutine find_periodic(cycle, turn, state, closure, max_cycles, error)
+      !> The cycle
+      type(flexible_cycle_t), intent(inout) :: cycle
+      !> What integrates
+      type(turn_t), intent(inout) :: turn
+      !> In: where the first turn starts; out: where the last one ends [state]
+      real(wp), intent(inout) :: state(:)
+      !> Distance from the periodic state that is near enough, in units of the scales [-]
+      real(wp), intent(in) :: closure
+      !> Turns at most
+      integer, intent(in) :: max_cycles
+      !> Convergence error where a turn cannot be integrated
+      type(error_t), allocatable, intent(out) :: error
+
+      ! Ends of the last turns in units of the scales, the newest last; starts and residuals that acceleration mixes [-]
+      real(wp) :: ends(size(state), 0:longest_period), starts(size(state), depth + 1), residuals(size(state), depth + 1)
+      ! Start of a turn [state], its distance from its end, the same of the turn before [-]
+      real(wp) :: first(size(state)), distance, last_distance
+      integer :: turns, plain, kept, k
+
+      plain = 1
+      kept = 0
+      last_distance = huge(1.0_wp)
+      ends(:, longest_period) = state/turn%scales
+      do turns = 1, max_cycles
+         first = state
+         call integrate_turn(turn, state, cycle%trajectory, cycle%counters, error)
+         if (allocated(error)) return
+         cycle%cycles = cycle%cycles + 1
+         distance = maxval(abs(state - first)/turn%scales)
+         if (turns > 1 .and. distance < last_distance) cycle%multiplier = merge(max(cycle%multiplier, distance/last_distance), &
+            & distance/last_distance, kept > 0)
+         cycle%closure = distance
+         if (distance <= closure*(1.0_wp - min(cycle%multiplier, 0.9_wp))) then
+            cycle%period = 1
+            return
+         end if
+         ends(:, :longest_period - 1) = ends(:, 1:)
+         ends(:, longest_period) = state/turn%scales
+         plain = plain + 1
+         do k = 2, min(longest_period, plain - 1)
+            ! The same again after another period tells a period from a chance
+            cycle%closure = maxval(abs(ends(:, longest_period) - ends(:, longest_period - k)))
+            if (cycle%closure > closure .or. 2*k > plain) cycle
+            if (distance < 10.0_wp*closure) cycle
+            cycle%period = k
+            return
+         end do
+         if (distance > last_distance) kept = 0
+         call mix(turn, first, distance > slow*last_distance .and. distance < last_distance, starts, residuals, kept, state, plain)
+         last_distance = distance
+      end do
+      cycle%closure = distance
+   end subroutine find_periodic
+
+   !> Start of the next turn: the end of this one, or a mixture of the last ones by Anderson's rule.
+   subroutine mix(turn, first, is_slow, starts, residuals, kept, state, plain)
+      !> What integrates
+      type(turn_t), intent(in) :: turn
+      !> Start of this turn [state]
+      real(wp), intent(in) :: first(:)
+      !> Do turns approach the periodic state slowly?
+      logical, intent(in) :: is_slow
+      !> Starts and residuals of the last turns, in units of the scales, the newest first [-]
+      real(wp), intent(inout) :: starts(:, :), residuals(:, :)
+      !> How many of them there are
+      integer, intent(inout) :: kept
+      !> In: end of this turn; out: start of the next [state]
+      real(wp), intent(inout) :: state(:)
+      !> Turns since the last mixture
+      integer, intent(inout) :: plain
+
+      ! Normal equations [-], weights of the differences [-], differences of residuals [-]
+      real(wp) :: normal(depth, depth), weights(depth, 1), differences(size(state), depth)
+      integer :: pivots(depth), info, i
+
+      starts(:, 2:) = starts(:, :depth)
+      residuals(:, 2:) = residuals(:, :depth)
+      starts(:, 1) = first/turn%scales
+      residuals(:, 1) = (state - first)/turn%scales
+      kept = min(kept + 1, depth + 1)
+      if (.not. is_slow .or. kept < 3) return
+      associate (n => min(kept, depth + 1) - 1)
+         do i = 1, n
+            differences(:, i) = residuals(:, i) - residuals(:, i + 1)
+         end do
+         normal = 0.0_wp
+         normal(:n, :n) = matmul(transpose(differences(:, :n)), differences(:, :n))
+         do i = 1, n
+            normal(i, i) = normal(i, i)*(1.0_wp + 1.0e-10_wp) + tiny(1.0_wp)
+         end do
+         weights(:n, 1) = matmul(transpose(differences(:, :n)), residuals(:, 1))
+         call dgesv(n, 1, normal, depth, pivots, weights, depth, info)
+         if (info /= 0) return
+         do i = 1, n
+            state = state - weights(i, 1)*turn%scales*(starts(:, i) - starts(:, i + 1) + differences(:, i))
+         end do
+      end associate
+      plain = 0
+   end subroutine mix
+
+end module camroller_flexible_cycle

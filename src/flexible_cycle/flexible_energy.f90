@@ -1,0 +1,176 @@
+!> Energy of a flexible train: what drives it, what is lost, what is stored, and how the three agree.
+!>
+!> In: everything at a state. Out: powers, each from its own forces and speeds; the stored energy and its rate. Drive and oil
+!> gallery less losses less work on the gas less what is stored is round-off at every state, in contact or not.
+module camroller_flexible_energy
+   use camroller_kinds, only : wp
+   use camroller_model, only : model_t
+   use camroller_torque, only : contact_power
+   use camroller_contact_compliance, only : series_energy
+   use camroller_spring_modes, only : mode_energy
+   use camroller_lash_adjuster, only : relative_volume, bulk_modulus, pressure_work, chamber_volume, oil_energy
+   use camroller_flexible_train, only : flexible_state_t, first_mode, at_finger_rate, at_lift, at_speed
+   implicit none
+   private
+
+   public :: powers_t, evaluate_powers, stored_energy
+
+   !> Powers at a state [W]
+   type :: powers_t
+      !> Of the cam and of the oil gallery, into the train [W]
+      real(wp) :: drive = 0.0_wp, gallery = 0.0_wp
+      !> On the gas in the cylinder [W]
+      real(wp) :: gas = 0.0_wp
+      !> Losses: contact, roller bearing, guide [W]
+      real(wp) :: contact = 0.0_wp, bearing = 0.0_wp, guide = 0.0_wp
+      !> Losses of dampers: cam and roller, pad, seat, spring, plunger, its stops [W]
+      real(wp) :: cam_damping = 0.0_wp, pad_damping = 0.0_wp, seat_damping = 0.0_wp, spring_damping = 0.0_wp, &
+         & plunger_drag = 0.0_wp, stop_damping = 0.0_wp
+      !> Losses of leak and check valve [W]
+      real(wp) :: leak = 0.0_wp, check_valve = 0.0_wp
+      !> Rate of the energy that is stored: without the roller's spin, and that of the spin [W]
+      real(wp) :: stored = 0.0_wp, spin = 0.0_wp
+      !> All losses of dampers, leak and check valve [W]
+      real(wp) :: damping = 0.0_wp
+      !> What is left of drive and gallery: round-off [W]
+      real(wp) :: residual = 0.0_wp
+   end type powers_t
+
+contains
+
+   !> Powers at a state.
+   pure subroutine evaluate_powers(model, state, now, powers)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> The state [state]
+      real(wp), intent(in) :: state(:)
+      !> Everything there
+      type(flexible_state_t), intent(in) :: now
+      !> The powers
+      type(powers_t), intent(out) :: powers
+
+      integer :: first
+
+      associate (contact => now%contact, touch => now%touch, modes => model%flexible%modes)
+         powers%drive = model%speed*(contact%load*touch%normal_arm + contact%tangential_force*touch%tangent_arm &
+            & + 2.0_wp*contact%rolling_resistance*touch%position%equivalent_radius)
+         powers%gas = now%gas_force*state(at_speed)
+         powers%contact = contact_power(contact%traction, contact%sliding_speed, contact%rolling_resistance, &
+            & contact%cam_surface_speed, contact%roller_surface_speed)
+         powers%bearing = contact%bearing_torque*contact%relative_spin
+         powers%guide = now%guide_drag*state(at_speed)**2
+         powers%cam_damping = (contact%load - now%cam%elastic)*now%cam%rate
+         powers%pad_damping = (now%pad%force - now%pad%elastic)*now%pad%rate
+         powers%seat_damping = (now%seat%force - now%seat%elastic)*now%seat%rate
+         powers%stop_damping = sum((now%stops%force - now%stops%elastic)*now%stops%rate)
+         first = first_mode(model)
+         if (modes%count > 0) powers%spring_damping = modes%mass*modes%damping_ratio &
+            & *sum(modes%frequency*state(first + 1::2)**2)
+         powers%spin = model%roller_inertia*contact%roller_spin*now%spin_acceleration
+      end associate
+      if (allocated(model%flexible%adjuster)) call add_oil(model, now, powers)
+      powers%stored = stored_rate(model, state, now)
+      powers%damping = powers%cam_damping + powers%pad_damping + powers%seat_damping + powers%spring_damping &
+         & + powers%plunger_drag + powers%stop_damping + powers%leak + powers%check_valve
+      powers%residual = powers%drive + powers%gallery - powers%gas - powers%contact - powers%bearing - powers%guide &
+         & - powers%damping - powers%spin - powers%stored
+   end subroutine evaluate_powers
+
+   !> Powers of the oil: from the gallery, and lost in leak, check valve and the plunger's gap.
+   pure subroutine add_oil(model, now, powers)
+      !> The model, with an adjuster
+      type(model_t), intent(in) :: model
+      !> Everything at the state
+      type(flexible_state_t), intent(in) :: now
+      !> The powers
+      type(powers_t), intent(inout) :: powers
+
+      ! Density over that at ambient pressure [-]; work to the pressures of chamber, supply and leak's end [Pa]
+      real(wp) :: density, work, supply_work, end_work
+
+      associate (adjuster => model%flexible%adjuster, flows => now%flows)
+         density = 1.0_wp/relative_volume(adjuster%given, now%pressure)
+         work = pressure_work(adjuster%given, now%pressure)
+         supply_work = pressure_work(adjuster%given, adjuster%given%supply_pressure)
+         end_work = pressure_work(adjuster%given, adjuster%end_pressure)
+         powers%gallery = density*(flows%check*supply_work - flows%leak*end_work)
+         powers%leak = density*flows%leak*(work - end_work)
+         powers%check_valve = density*flows%check*(supply_work - work)
+         powers%plunger_drag = adjuster%drag*now%pivot_rate**2
+      end associate
+   end subroutine add_oil
+
+   !> Rate of the energy that is stored, without the roller's spin.
+   pure function stored_rate(model, state, now) result(rate)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> The state [state]
+      real(wp), intent(in) :: state(:)
+      !> Everything there
+      type(flexible_state_t), intent(in) :: now
+      !> The rate [W]
+      real(wp) :: rate
+
+      ! Acceleration of a mode [m/s^2]; bulk modulus [Pa], its slope [-], volume [m^3], work over volume [Pa]
+      real(wp) :: acceleration, modulus, slope, volume, work
+      integer :: n, place
+
+      associate (flexible => model%flexible, modes => model%flexible%modes, finger_rate => state(at_finger_rate))
+         rate = model%train%finger_inertia*finger_rate*now%finger_acceleration &
+            & + (model%train%valve_mass*now%valve_acceleration + model%train%stiffness*(state(at_lift) &
+            & + model%train%precompression))*state(at_speed) + now%cam%elastic*now%cam%rate + now%pad%elastic*now%pad%rate &
+            & + now%seat%elastic*now%seat%rate + sum(now%stops%elastic*now%stops%rate)
+         place = first_mode(model)
+         do n = 1, modes%count
+            acceleration = -modes%frequency(n)*(modes%frequency(n)*state(place) + 2.0_wp*modes%damping_ratio*state(place + 1)) &
+               & - 2.0_wp*modes%share(n)*now%valve_acceleration
+            rate = rate + modes%mass*(modes%share(n)*(now%valve_acceleration*state(place + 1) + state(at_speed)*acceleration) &
+               & + 0.5_wp*state(place + 1)*(acceleration + modes%frequency(n)**2*state(place)))
+            place = place + 2
+         end do
+         if (.not. allocated(flexible%adjuster)) return
+         rate = rate + ((flexible%finger_mass + flexible%adjuster%given%plunger_mass)*now%pivot_rate &
+            & + flexible%finger_mass*now%centre_slope*finger_rate)*now%pivot_acceleration &
+            & + flexible%finger_mass*now%pivot_rate*(now%centre_slope*now%finger_acceleration &
+            & + now%centre_curvature*finger_rate**2)
+         rate = rate - (flexible%adjuster%spring_force - flexible%adjuster%given%spring_stiffness*now%pivot)*now%pivot_rate
+         call bulk_modulus(flexible%adjuster%given, now%pressure, modulus, slope)
+         volume = chamber_volume(flexible%adjuster, now%pivot)
+         work = pressure_work(flexible%adjuster%given, now%pressure)/relative_volume(flexible%adjuster%given, now%pressure)
+         rate = rate + flexible%adjuster%area*now%pivot_rate*(work - now%pressure) + volume*work/modulus*now%pressure_rate
+      end associate
+   end function stored_rate
+
+   !> Energy that is stored, with the roller's spin; zero for the unloaded train with the spring as long as it was before assembly.
+   pure function stored_energy(model, state, now) result(energy)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> The state [state]
+      real(wp), intent(in) :: state(:)
+      !> Everything there
+      type(flexible_state_t), intent(in) :: now
+      !> Energy [J]
+      real(wp) :: energy
+
+      integer :: first
+
+      first = first_mode(model)
+      associate (flexible => model%flexible, finger_rate => state(at_finger_rate))
+         energy = 0.5_wp*(model%train%finger_inertia*finger_rate**2 + model%train%valve_mass*state(at_speed)**2 &
+            & + model%train%stiffness*(state(at_lift) + model%train%precompression)**2 &
+            & + model%roller_inertia*now%contact%roller_spin**2) &
+            & + mode_energy(flexible%modes, state(first::2), state(first + 1::2), state(at_speed)) &
+            & + series_energy(flexible%compliance, flexible%finger_stiffness, now%cam%elastic) &
+            & + 0.5_wp*(now%pad%elastic**2/flexible%pad_stiffness + now%seat%elastic**2/flexible%seat_stiffness)
+         if (.not. allocated(flexible%adjuster)) return
+         associate (given => flexible%adjuster%given)
+            energy = energy + 0.5_wp*(flexible%finger_mass + given%plunger_mass)*now%pivot_rate**2 &
+               & + flexible%finger_mass*now%centre_slope*now%pivot_rate*finger_rate &
+               & + 0.5_wp*sum(now%stops%elastic**2)/given%stop_stiffness &
+               & - flexible%adjuster%spring_force*now%pivot + 0.5_wp*given%spring_stiffness*now%pivot**2 &
+               & + oil_energy(flexible%adjuster, now%pivot, now%pressure)
+         end associate
+      end associate
+   end function stored_energy
+
+end module camroller_flexible_energy

@@ -1,0 +1,262 @@
+!> What a turn of a flexible train is judged by: largest and smallest values, means, impacts, losses.
+!>
+!> In: the steps of a turn. Out: measures by number; a name, a unit and a meaning for each. Integrals are taken over each step with the
+!> state on the step's own curve, extremes from the points of that rule and the ends of steps.
+module camroller_flexible_measures
+   use camroller_kinds, only : wp, two_pi, pi, degree
+   use camroller_names, only : name_length
+   use camroller_error, only : error_t, raise, kind_convergence
+   use camroller_model, only : model_t, evaluate_geometry
+   use camroller_kinematics, only : position_t
+   use camroller_trajectory, only : trajectory_t, interpolate_state
+   use camroller_quadrature, only : gauss_legendre
+   use camroller_flexible_geometry, only : dot, imaginary
+   use camroller_flexible_train, only : flexible_state_t, evaluate_train, first_mode, at_finger_rate, at_lift, at_speed
+   use camroller_flexible_energy, only : powers_t, evaluate_powers
+   implicit none
+   private
+
+   public :: measure_t, measures, measure_count, measure_turn, pivot_force, largest_load, largest_load_angle, smallest_event_load, &
+      & least_lift_error, most_lift_error, seating_speed, bounce_height, bounces, float_share, losses_of_contact, drive_torque, &
+      & loss_torque, damping_torque, smallest_pivot_force, tension_share, surge_force, coil_ratio, lowest_plunger, &
+      & highest_plunger, largest_pressure, leak_volume, check_share, residual_work, gallery_torque
+
+   !> A measure: its name, unit and meaning
+   type :: measure_t
+      character(len=name_length) :: name
+      character(len=12) :: unit
+      character(len=100) :: meaning
+   end type measure_t
+
+   !> Places in the list
+   integer, parameter :: largest_load = 1, largest_load_angle = 2, smallest_event_load = 3, least_lift_error = 4, &
+      & most_lift_error = 5, seating_speed = 6, bounce_height = 7, bounces = 8, float_share = 9, losses_of_contact = 10, &
+      & drive_torque = 11, loss_torque = 12, damping_torque = 13, smallest_pivot_force = 14, tension_share = 15, &
+      & surge_force = 16, coil_ratio = 17, residual_work = 18, lowest_plunger = 19, highest_plunger = 20, &
+      & largest_pressure = 21, leak_volume = 22, check_share = 23, gallery_torque = 24
+
+   !> The measures; those of the adjuster last
+   type(measure_t), parameter :: measures(*) = [ &
+      & measure_t("dynamic_load_max", "N", "largest contact load"), &
+      & measure_t("dynamic_load_max_angle", "rad", "cam angle of the largest contact load, from full lift"), &
+      & measure_t("dynamic_load_min", "N", "smallest contact load with the valve in the upper three quarters of its lift"), &
+      & measure_t("lift_error_min", "m", "smallest lift less that of a rigid train"), &
+      & measure_t("lift_error_max", "m", "largest lift less that of a rigid train"), &
+      & measure_t("seating_speed", "m s-1", "largest speed at which the valve meets its seat"), &
+      & measure_t("bounce_height", "m", "largest lift after the valve has first met its seat"), &
+      & measure_t("bounces", "1", "times that the valve leaves its seat after it has first met it"), &
+      & measure_t("float_share", "1", "part of the cycle with the rigid train in its event and no load between cam and roller"), &
+      & measure_t("losses_of_contact", "1", "times that cam and roller part"), &
+      & measure_t("dynamic_torque", "N m", "mean torque of cam and follower"), &
+      & measure_t("dynamic_loss_torque", "N m", "mean torque of all losses of cam and follower"), &
+      & measure_t("damping_torque", "N m", "mean torque of the losses in dampers, leak and check valve"), &
+      & measure_t("joint_force_min", "N", "smallest force in the joint of finger and pivot; negative: the socket would open"), &
+      & measure_t("joint_tension_share", "1", "part of the cycle with tension in that joint"), &
+      & measure_t("surge_force", "N", "largest force of the spring's first mode"), &
+      & measure_t("coil_ratio", "1", "largest travel of coils by the modes over that of the whole spring; above 1 coils clash"), &
+      & measure_t("energy_residual_work", "J", "drive less losses less stored energy over the turn, and gallery"), &
+      & measure_t("plunger_lowest", "m", "lowest place of the plunger"), &
+      & measure_t("plunger_highest", "m", "highest place of the plunger"), &
+      & measure_t("chamber_pressure_max", "Pa", "largest pressure in the adjuster's chamber"), &
+      & measure_t("leak_volume", "m3", "oil that leaks along the plunger in a turn"), &
+      & measure_t("check_valve_share", "1", "part of the cycle with the check valve open"), &
+      & measure_t("gallery_torque", "N m", "mean power from the oil gallery over the cam's speed")]
+   !> How many there are without an adjuster, and with one
+   integer, parameter :: measure_count(2) = [residual_work, size(measures)]
+   !> Part of the largest lift above which a load counts as one of the event [-]
+   real(wp), parameter :: event_part = 0.25_wp
+   !> Points of the rule for a step
+   integer, parameter :: points = 3
+
+contains
+
+   !> Measure a turn.
+   subroutine measure_turn(model, trajectory, values, error)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> Its steps
+      type(trajectory_t), intent(in) :: trajectory
+      !> The measures [unit of the measure]
+      real(wp), intent(out) :: values(:)
+      !> Convergence error where a state cannot be evaluated
+      type(error_t), allocatable, intent(out) :: error
+
+      ! Places and weights of the rule on [-1, 1] [-]; length of a step and angle [rad], state [state]; largest rigid lift [m]
+      real(wp) :: places(points), weights(points), length, angle, state(size(trajectory%state, 1)), top
+      integer :: step, i, hint
+      logical :: has_met
+
+      call gauss_legendre(places, weights)
+      values = 0.0_wp
+      values([smallest_event_load, least_lift_error, smallest_pivot_force]) = huge(1.0_wp)
+      values(most_lift_error) = -huge(1.0_wp)
+      if (size(values) > residual_work) then
+         values(lowest_plunger) = huge(1.0_wp)
+         values(highest_plunger) = -huge(1.0_wp)
+      end if
+      top = largest_lift(model)
+      has_met = .false.
+      do step = 1, trajectory%count - 1
+         length = trajectory%time(step + 1) - trajectory%time(step)
+         if (length <= 1.0e-13_wp) cycle
+         do i = 1, points
+            angle = trajectory%time(step) + 0.5_wp*length*(1.0_wp + places(i))
+            hint = step
+            call interpolate_state(trajectory, angle, hint, state)
+            call add_point(model, angle, state, 0.5_wp*length*weights(i)/two_pi, top, values, error)
+            if (allocated(error)) return
+         end do
+         call add_point(model, trajectory%time(step + 1), trajectory%state(:, step + 1), 0.0_wp, top, values, error)
+         if (allocated(error)) return
+         call follow_seat(trajectory%state(at_lift, step:step + 1), trajectory%state(at_speed, step:step + 1), top, has_met, values)
+      end do
+      values(residual_work) = values(residual_work)*two_pi
+      if (size(values) > residual_work) values(leak_volume) = values(leak_volume)*two_pi
+   end subroutine measure_turn
+
+   !> Largest lift of the rigid train.
+   function largest_lift(model) result(top)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> The lift [m]
+      real(wp) :: top
+
+      type(position_t) :: position
+      integer :: i, status
+
+      top = 0.0_wp
+      do i = -180, 179
+         call evaluate_geometry(model, i*degree, position, status)
+         if (status == 0) top = max(top, position%lift)
+      end do
+   end function largest_lift
+
+   !> Take a point into the measures.
+   subroutine add_point(model, angle, state, weight, top, values, error)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> Cam angle [rad]
+      real(wp), intent(in) :: angle
+      !> State there [state]
+      real(wp), intent(in) :: state(:)
+      !> Part of the turn that it stands for [-]
+      real(wp), intent(in) :: weight
+      !> Largest lift of the rigid train [m]
+      real(wp), intent(in) :: top
+      !> The measures [unit of the measure]
+      real(wp), intent(inout) :: values(:)
+      !> Convergence error where the state cannot be evaluated
+      type(error_t), allocatable, intent(out) :: error
+
+      type(flexible_state_t) :: now
+      type(powers_t) :: powers
+      type(position_t) :: position
+      ! Force in the joint [N], lift less that of a rigid train [m]
+      real(wp) :: joint, lift_error
+      integer :: status
+
+      call evaluate_train(model, angle, state, 0.0_wp, now, status)
+      if (status == 0) call evaluate_geometry(model, angle, position, status)
+      if (status /= 0) then
+         call raise(error, kind_convergence, "a state between the steps of the flexible train cannot be evaluated")
+         return
+      end if
+      call evaluate_powers(model, state, now, powers)
+      if (now%contact%load > values(largest_load)) then
+         values(largest_load) = now%contact%load
+         values(largest_load_angle) = angle
+      end if
+      if (position%lift >= event_part*top) values(smallest_event_load) = min(values(smallest_event_load), now%contact%load)
+      if (position%lift > 0.0_wp .and. .not. now%contact%load > 0.0_wp) values(float_share) = values(float_share) + weight
+      lift_error = state(at_lift) - position%lift
+      values(least_lift_error) = min(values(least_lift_error), lift_error)
+      values(most_lift_error) = max(values(most_lift_error), lift_error)
+      joint = pivot_force(model, state, now)
+      values(smallest_pivot_force) = min(values(smallest_pivot_force), joint)
+      if (joint < 0.0_wp) values(tension_share) = values(tension_share) + weight
+      values(drive_torque) = values(drive_torque) + weight*powers%drive/model%speed
+      values(loss_torque) = values(loss_torque) + weight*(powers%contact + powers%bearing + powers%guide + powers%damping) &
+         & /model%speed
+      values(damping_torque) = values(damping_torque) + weight*powers%damping/model%speed
+      values(residual_work) = values(residual_work) + weight*powers%residual/model%speed
+      call add_spring(model, state, values)
+      if (size(values) == residual_work) return
+      values(lowest_plunger) = min(values(lowest_plunger), now%pivot)
+      values(highest_plunger) = max(values(highest_plunger), now%pivot)
+      values(largest_pressure) = max(values(largest_pressure), now%pressure)
+      values(leak_volume) = values(leak_volume) + weight*now%flows%leak/model%speed
+      if (now%flows%opening > 0.0_wp) values(check_share) = values(check_share) + weight
+      values(gallery_torque) = values(gallery_torque) + weight*powers%gallery/model%speed
+   end subroutine add_point
+
+   !> Take the spring's modes into the measures.
+   pure subroutine add_spring(model, state, values)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> The state [state]
+      real(wp), intent(in) :: state(:)
+      !> The measures [unit of the measure]
+      real(wp), intent(inout) :: values(:)
+
+      ! Travel of coils by the modes [m]
+      real(wp) :: travel
+      integer :: first, n
+
+      if (model%flexible%modes%count == 0) return
+      first = first_mode(model)
+      values(surge_force) = max(values(surge_force), model%train%stiffness*pi*abs(state(first)))
+      travel = 0.0_wp
+      do n = 1, model%flexible%modes%count
+         travel = travel + n*pi*abs(state(first + 2*(n - 1)))
+      end do
+      values(coil_ratio) = max(values(coil_ratio), travel/(state(at_lift) + model%train%precompression))
+   end subroutine add_spring
+
+   !> Take a step at the seat into the measures: the valve meets its seat where its lift passes zero.
+   pure subroutine follow_seat(lift, speed, top, has_met, values)
+      !> Lift [m] and speed [m/s] of the valve at both ends of the step
+      real(wp), intent(in) :: lift(2), speed(2)
+      !> Largest lift of the rigid train [m]
+      real(wp), intent(in) :: top
+      !> Has it met its seat after the event?
+      logical, intent(inout) :: has_met
+      !> The measures [unit of the measure]
+      real(wp), intent(inout) :: values(:)
+
+      ! Place of the meeting in the step [-]
+      real(wp) :: place
+
+      if (lift(1) > event_part*top) has_met = .false.
+      if (lift(1) > 0.0_wp .and. lift(2) <= 0.0_wp) then
+         place = lift(1)/(lift(1) - lift(2))
+         values(seating_speed) = max(values(seating_speed), -(speed(1) + place*(speed(2) - speed(1))))
+         has_met = .true.
+      else if (has_met .and. lift(1) <= 0.0_wp .and. lift(2) > 0.0_wp) then
+         values(bounces) = values(bounces) + 1.0_wp
+      end if
+   end subroutine follow_seat
+
+   !> Force in the joint of finger and pivot along the adjuster's axis; negative where the socket would open.
+   pure function pivot_force(model, state, now) result(force)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> The state [state]
+      real(wp), intent(in) :: state(:)
+      !> Everything there
+      type(flexible_state_t), intent(in) :: now
+      !> The force [N]
+      real(wp) :: force
+
+      associate (flexible => model%flexible, touch => now%touch)
+         if (allocated(flexible%adjuster)) then
+            force = now%hydraulic_force + now%stops(1)%force - now%stops(2)%force &
+               & - flexible%adjuster%given%plunger_mass*now%pivot_acceleration
+         else
+            force = -dot(exp(-imaginary*flexible%axis_angle), now%contact%load*touch%normal &
+               & - now%contact%tangential_force*touch%forward) - cos(flexible%tilt)*now%pad%force &
+               & + flexible%finger_mass*(now%centre_slope*now%finger_acceleration + now%centre_curvature*state(at_finger_rate)**2)
+         end if
+      end associate
+   end function pivot_force
+
+end module camroller_flexible_measures

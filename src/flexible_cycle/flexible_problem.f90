@@ -1,0 +1,168 @@
+!> A flexible train as an initial value problem over the cam angle.
+!>
+!> In: model, cam angle, state. Out: rate and exact Jacobian, as `ode` asks for them; the places where contacts are lost or return.
+module camroller_flexible_problem
+   use camroller_kinds, only : wp, degree
+   use camroller_number_text, only : fixed_text
+   use camroller_ode_problem, only : linear_t, counters_t, words_length
+   use camroller_ode_switching, only : switching_problem_t
+   use camroller_model, only : model_t
+   use camroller_flexible_train, only : flexible_state_t, evaluate_train, rates_of, state_size, first_mode, pad_approach, &
+      & at_finger, at_finger_rate, at_lift, at_plunger, at_plunger_rate
+   use camroller_flexible_geometry, only : touch_t, find_touch
+   use camroller_flexible_jacobian, only : slopes_of
+   implicit none
+   private
+
+   public :: flexible_problem_t, state_scales
+
+   !> A flexible train over the cam angle
+   type, extends(switching_problem_t) :: flexible_problem_t
+      !> The model; read only
+      type(model_t), pointer :: model => null()
+      !> Relative error of the contact's forces that is good enough; zero: round-off [-]
+      real(wp) :: accuracy = 0.0_wp
+   contains
+      procedure :: get_rate
+      procedure :: get_decay_rate
+      procedure :: linearise
+      procedure :: name_time
+      procedure :: get_switches
+   end type flexible_problem_t
+
+contains
+
+   !> Sizes of the components to which the tolerance is relative.
+   pure function state_scales(model) result(scales)
+      !> The model, with a flexible train
+      type(model_t), intent(in) :: model
+      !> The sizes [state]
+      real(wp) :: scales(state_size(model))
+
+      ! Way [m], speed [m/s], pressure [Pa]; amplitude [m] and rate [m/s] of a mode
+      real(wp), parameter :: way = 1.0e-5_wp, speed = 0.1_wp, pressure = 1.0e6_wp, amplitude = 1.0e-4_wp, rate = 0.3_wp
+      integer :: first
+
+      first = first_mode(model)
+      scales(:5) = [way/model%linkage%a, speed/model%linkage%a, way, speed, speed]
+      if (allocated(model%flexible%adjuster)) scales(6:8) = [way, speed, pressure]
+      scales(first::2) = amplitude
+      scales(first + 1::2) = rate
+   end function state_scales
+
+   !> Rate of change of the state with the cam angle.
+   subroutine get_rate(self, time, state, rate, status)
+      !> The problem
+      class(flexible_problem_t), intent(in) :: self
+      !> Cam angle from full lift [rad]
+      real(wp), intent(in) :: time
+      !> State [state]
+      real(wp), intent(in) :: state(:)
+      !> Its derivative with respect to the cam angle [state/rad]
+      real(wp), intent(out) :: rate(:)
+      !> 0 fine, positive: try a smaller step, negative: give up
+      integer, intent(out) :: status
+
+      type(flexible_state_t) :: now
+
+      rate = 0.0_wp
+      call evaluate_train(self%model, time, state, self%accuracy, now, status)
+      if (status == 0) call rates_of(self%model, state, now, rate)
+   end subroutine get_rate
+
+   !> Fastest rate of the problem: a bound for the largest eigenvalue, by the row sums of its Jacobian in the units of the scales.
+   subroutine get_decay_rate(self, time, state, decay_rate)
+      !> The problem
+      class(flexible_problem_t), intent(in) :: self
+      !> Cam angle from full lift [rad]
+      real(wp), intent(in) :: time
+      !> State [state]
+      real(wp), intent(in) :: state(:)
+      !> The bound [1/rad]
+      real(wp), intent(out) :: decay_rate
+
+      type(flexible_state_t) :: now
+      ! Derivatives over state and angle [1/rad], [state/rad^2]; sizes of the components [state]
+      real(wp) :: jacobian(size(state), size(state)), slope(size(state)), scales(size(state))
+      integer :: i, status
+
+      decay_rate = 0.0_wp
+      call evaluate_train(self%model, time, state, self%accuracy, now, status)
+      if (status /= 0) return
+      call slopes_of(self%model, time, state, now, jacobian, slope)
+      scales = state_scales(self%model)
+      do i = 1, size(state)
+         decay_rate = max(decay_rate, sum(abs(jacobian(i, :))*scales)/scales(i))
+      end do
+   end subroutine get_decay_rate
+
+   !> Rate and Jacobian from one evaluation.
+   subroutine linearise(self, time, state, horizon, linear, counters, status)
+      !> The problem
+      class(flexible_problem_t), intent(in) :: self
+      !> Cam angle from full lift [rad]
+      real(wp), intent(in) :: time
+      !> State [state]
+      real(wp), intent(in) :: state(:)
+      !> Cam angle up to which the right-hand side is smooth [rad]
+      real(wp), intent(in) :: horizon
+      !> Rate [state/rad] with its derivatives [1/rad, state/rad^2]; has its room
+      type(linear_t), intent(inout) :: linear
+      !> Work done
+      type(counters_t), intent(inout) :: counters
+      !> 0 fine, positive: try a smaller step, negative: give up
+      integer, intent(out) :: status
+
+      type(flexible_state_t) :: now
+
+      counters%evaluations = counters%evaluations + 1
+      counters%jacobians = counters%jacobians + 1
+      call evaluate_train(self%model, min(time, horizon), state, self%accuracy, now, status)
+      if (status /= 0) return
+      call rates_of(self%model, state, now, linear%rate)
+      call slopes_of(self%model, time, state, now, linear%jacobian, linear%time_slope)
+   end subroutine linearise
+
+   !> Approach of cam and roller, of the pad, of the seat: contact is lost or returns where one passes through zero.
+   subroutine get_switches(self, time, state, switches, status)
+      !> The problem
+      class(flexible_problem_t), intent(in) :: self
+      !> Cam angle from full lift [rad]
+      real(wp), intent(in) :: time
+      !> State [state]
+      real(wp), intent(in) :: state(:)
+      !> The three approaches [m]
+      real(wp), intent(out) :: switches(:)
+      !> 0, or as from the state
+      integer, intent(out) :: status
+
+      type(touch_t) :: touch
+      ! Place and speed of the pivot [m], [m/s]
+      real(wp) :: pivot, pivot_rate
+
+      associate (model => self%model)
+         pivot = model%flexible%pivot_place
+         pivot_rate = 0.0_wp
+         if (allocated(model%flexible%adjuster)) then
+            pivot = state(at_plunger)
+            pivot_rate = state(at_plunger_rate)
+         end if
+         call find_touch(model, time, state(at_finger), state(at_finger_rate), pivot, pivot_rate, touch, status)
+         switches = [touch%approach, pad_approach(model, state, pivot), -state(at_lift)]
+      end associate
+   end subroutine get_switches
+
+   !> A cam angle in the words of messages, as files count it.
+   function name_time(self, time) result(text)
+      !> The problem
+      class(flexible_problem_t), intent(in) :: self
+      !> Cam angle from full lift [rad]
+      real(wp), intent(in) :: time
+      !> It in words
+      character(len=words_length) :: text
+
+      text = "cam angle "//fixed_text(modulo(180.0_wp + time/degree, 360.0_wp), 3)//" deg"
+      if (.not. associated(self%model)) text = ""
+   end function name_time
+
+end module camroller_flexible_problem

@@ -1,0 +1,398 @@
+!> Forces and accelerations of a flexible train.
+!>
+!> Layer: flexible_cycle. In: model, cam angle, state. Out: everything at that state, and its rate of change with the cam angle. The
+!> load is explicit: it follows from the approach of cam and roller, and film, load share, traction and rolling resistance from it.
+!>
+!> Order of the state: finger's angle and rate, valve's lift and speed, sliding speed; with an adjuster its travel, speed and
+!> pressure; then amplitude and rate of each spring mode.
+module camroller_flexible_train
+   use camroller_kinds, only : wp
+   use camroller_model, only : model_t
+   use camroller_gas, only : gas_force
+   use camroller_roller, only : spin_acceleration
+   use camroller_contact_compliance, only : series_load, damping_factor, one_sided_force
+   use camroller_spring_modes, only : valve_pull
+   use camroller_lash_adjuster, only : flows_t, ambient_pressure, evaluate_flows, adjuster_force, bulk_modulus, &
+      & chamber_volume
+   use camroller_contact_forces, only : contact_t, setting_t, parts_t, prepare_contact, evaluate_contact, release_contact
+   use camroller_flexible_geometry, only : touch_t, find_touch, dot, cross, imaginary
+   implicit none
+   private
+
+   public :: flexible_state_t, push_t, state_size, first_mode, evaluate_train, rates_of, pad_approach
+   public :: at_finger, at_finger_rate, at_lift, at_speed, at_sliding, at_plunger, at_plunger_rate, at_pressure
+
+   !> Places in the state
+   integer, parameter :: at_finger = 1, at_finger_rate = 2, at_lift = 3, at_speed = 4, at_sliding = 5, at_plunger = 6, &
+      & at_plunger_rate = 7, at_pressure = 8
+
+   !> A one-sided spring
+   type :: push_t
+      !> Force and its elastic part [N]
+      real(wp) :: force = 0.0_wp, elastic = 0.0_wp
+      !> Approach [m] and its rate [m/s]
+      real(wp) :: approach = 0.0_wp, rate = 0.0_wp
+      !> Derivatives of the force over approach [N/m] and rate [N s/m]
+      real(wp) :: by_approach = 0.0_wp, by_rate = 0.0_wp
+   end type push_t
+
+   !> Everything at one state
+   type :: flexible_state_t
+      type(touch_t) :: touch
+      type(contact_t) :: contact
+      !> What slopes of the contact's forces are made of, where it carries load
+      type(setting_t) :: setting
+      type(parts_t) :: parts
+      !> Cam and roller, pad, seat; lower and upper stop of the plunger
+      type(push_t) :: cam, pad, seat, stops(2)
+      !> Rolling resistance over what its law gives, the derivative over that, and over the limit [-]
+      real(wp) :: rolling_share = 1.0_wp, rolling_by_free = 1.0_wp, rolling_by_limit = 0.0_wp
+      !> Cosine and sine of gamma + chi [-]
+      real(wp) :: pad_cosine, pad_sine
+      !> Cylinder pressure times valve area [N]
+      real(wp) :: gas_force = 0.0_wp
+      !> Pull of the spring's modes beside its static force [N]
+      real(wp) :: mode_pull = 0.0_wp
+      !> Drag of the valve's guide per speed [N s/m]
+      real(wp) :: guide_drag = 0.0_wp
+      !> Finger's centre of mass along the adjuster's axis: first and second derivative over gamma [m]
+      real(wp) :: centre_slope, centre_curvature
+      !> Accelerations of finger [rad/s^2], valve and pivot [m/s^2]
+      real(wp) :: finger_acceleration, valve_acceleration, pivot_acceleration = 0.0_wp
+      !> Angular acceleration of the roller [rad/s^2]; rate of the sliding speed [m/s^2]
+      real(wp) :: spin_acceleration, sliding_rate
+      !> Travel, speed of the pivot [m], [m/s], pressure [Pa] and its rate [Pa/s]
+      real(wp) :: pivot, pivot_rate, pressure = 0.0_wp, pressure_rate = 0.0_wp
+      !> Force of oil, spring and drag on the plunger [N]
+      real(wp) :: hydraulic_force = 0.0_wp
+      type(flows_t) :: flows
+   end type flexible_state_t
+
+   !> Loads below this count as none [N]
+   real(wp), parameter :: least_load = 1.0e-9_wp
+
+contains
+
+   !> Number of components of the state.
+   pure function state_size(model) result(components)
+      !> The model, with a flexible train
+      type(model_t), intent(in) :: model
+      !> The number
+      integer :: components
+
+      components = first_mode(model) - 1 + 2*model%flexible%modes%count
+   end function state_size
+
+   !> Place of the first mode in the state.
+   pure function first_mode(model) result(place)
+      !> The model, with a flexible train
+      type(model_t), intent(in) :: model
+      !> The place
+      integer :: place
+
+      place = merge(at_pressure, at_sliding, allocated(model%flexible%adjuster)) + 1
+   end function first_mode
+
+   !> Forces and accelerations at a state.
+   pure subroutine evaluate_train(model, angle, state, accuracy, now, status)
+      !> The model, with a flexible train
+      type(model_t), intent(in) :: model
+      !> Cam angle from full lift [rad]
+      real(wp), intent(in) :: angle
+      !> The state [state]
+      real(wp), intent(in) :: state(:)
+      !> Relative error of the contact's forces that is good enough; zero: round-off [-]
+      real(wp), intent(in) :: accuracy
+      !> Everything there
+      type(flexible_state_t), intent(out) :: now
+      !> 0 fine, positive: an impossible state, negative: the rigid train is impossible
+      integer, intent(out) :: status
+
+      now%pivot = model%flexible%pivot_place
+      now%pivot_rate = 0.0_wp
+      if (allocated(model%flexible%adjuster)) then
+         now%pivot = state(at_plunger)
+         now%pivot_rate = state(at_plunger_rate)
+         call set_adjuster(model, state, now, status)
+         if (status /= 0) return
+      end if
+      call find_touch(model, angle, state(at_finger), state(at_finger_rate), now%pivot, now%pivot_rate, now%touch, status)
+      if (status /= 0) return
+      call set_contact(model, state, accuracy, now)
+      call set_valve_forces(model, angle, state, now)
+      call accelerate(model, state, now)
+   end subroutine evaluate_train
+
+   !> Chamber, leak and check valve; stops of the plunger.
+   pure subroutine set_adjuster(model, state, now, status)
+      !> The model, with an adjuster
+      type(model_t), intent(in) :: model
+      !> The state [state]
+      real(wp), intent(in) :: state(:)
+      !> Flows, force, pressure and its rate, stops
+      type(flexible_state_t), intent(inout) :: now
+      !> 0 fine, positive where there is no such pressure or volume
+      integer, intent(out) :: status
+
+      ! Bulk modulus [Pa], its slope [-], volume [m^3]; smallest pressure and volume that are evaluated [Pa], [-]
+      real(wp) :: modulus, slope, volume
+      real(wp), parameter :: least_pressure = -0.9999_wp*ambient_pressure, least_part = 1.0e-3_wp
+
+      associate (adjuster => model%flexible%adjuster)
+         now%pressure = state(at_pressure)
+         volume = chamber_volume(adjuster, now%pivot)
+         status = 1
+         if (.not. now%pressure > least_pressure .or. .not. volume > least_part*adjuster%given%volume) return
+         status = 0
+         call evaluate_flows(adjuster, now%pressure, now%flows)
+         call bulk_modulus(adjuster%given, now%pressure, modulus, slope)
+         now%pressure_rate = modulus/volume*(now%flows%check - now%flows%leak - adjuster%area*now%pivot_rate)
+         now%hydraulic_force = adjuster_force(adjuster, now%pivot, now%pivot_rate, now%pressure)
+         call push(now%stops(1), adjuster%given%stop_stiffness, adjuster%given%stop_damping, &
+            & adjuster%given%lowest - now%pivot, -now%pivot_rate)
+         call push(now%stops(2), adjuster%given%stop_stiffness, adjuster%given%stop_damping, &
+            & now%pivot - adjuster%given%highest, now%pivot_rate)
+      end associate
+   end subroutine set_adjuster
+
+   !> A one-sided spring.
+   pure subroutine push(spring, stiffness, damping, approach, rate)
+      !> The spring
+      type(push_t), intent(out) :: spring
+      !> Stiffness [N/m], damping [s/m]
+      real(wp), intent(in) :: stiffness, damping
+      !> Approach [m], its rate [m/s]
+      real(wp), intent(in) :: approach, rate
+
+      spring%approach = approach
+      spring%rate = rate
+      call one_sided_force(stiffness, damping, approach, rate, spring%force, spring%elastic, spring%by_approach, spring%by_rate)
+   end subroutine push
+
+   !> Load, film and friction of cam and roller.
+   pure subroutine set_contact(model, state, accuracy, now)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> The state [state]
+      real(wp), intent(in) :: state(:)
+      !> Relative error that is good enough [-]
+      real(wp), intent(in) :: accuracy
+      !> In: geometry; out: with the contact
+      type(flexible_state_t), intent(inout) :: now
+
+      ! Stiffness of the elastic load [N/m], load over it [-], relative change of the film ratio [-]
+      real(wp) :: stiffness, factor, change
+
+      associate (touch => now%touch, cam => now%cam, contact => now%contact, flexible => model%flexible)
+         cam%approach = touch%approach
+         cam%rate = touch%approach_rate
+         call series_load(flexible%compliance, flexible%finger_stiffness, touch%approach, cam%elastic, stiffness)
+         factor = damping_factor(flexible%contact_damping, touch%approach_rate)
+         cam%force = cam%elastic*factor
+         cam%by_approach = stiffness*factor
+         cam%by_rate = 0.0_wp
+         if (factor > 0.0_wp) cam%by_rate = cam%elastic*flexible%contact_damping
+         call set_surface_speeds(model, state, touch, contact)
+         if (.not. cam%force > least_load) then
+            call release_contact(contact)
+            return
+         end if
+         contact%load = cam%force
+         contact%film_ratio = 0.0_wp
+         call prepare_contact(model, touch%position, contact, accuracy, now%setting)
+         call evaluate_contact(model, touch%position, now%setting, cam%force, contact, now%parts, change)
+         call limit_rolling(model, now)
+      end associate
+   end subroutine set_contact
+
+   !> Speeds of the surfaces: `V_c = S (1 - r_R kappa)`, `V_roll = S - omega r_R`.
+   pure subroutine set_surface_speeds(model, state, touch, contact)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> The state [state]
+      real(wp), intent(in) :: state(:)
+      !> Geometry
+      type(touch_t), intent(in) :: touch
+      !> The contact: its speeds
+      type(contact_t), intent(inout) :: contact
+
+      contact%sliding_speed = state(at_sliding)
+      contact%cam_surface_speed = touch%travel_speed*touch%position%equivalent_radius/model%roller_radius
+      contact%rolling_speed = touch%travel_speed - model%speed*model%roller_radius
+      contact%roller_surface_speed = contact%cam_surface_speed - contact%sliding_speed
+      contact%entrainment_speed = contact%cam_surface_speed - 0.5_wp*contact%sliding_speed
+      contact%roller_spin = (contact%rolling_speed - contact%sliding_speed)/model%roller_radius
+      contact%relative_spin = contact%roller_spin - model%linkage%sense*state(at_finger_rate)
+   end subroutine set_surface_speeds
+
+   !> Rolling resistance within friction: the law's root of the load has an infinite slope where contact is lost and returns.
+   pure subroutine limit_rolling(model, now)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> In: contact; out: with `F_r = mu_lim W tanh(F_r/(mu_lim W))`
+      type(flexible_state_t), intent(inout) :: now
+
+      ! Limit [N], resistance over it [-], its tanh [-]
+      real(wp) :: limit, ratio, part
+
+      associate (contact => now%contact)
+         limit = model%limiting_coefficient*contact%load
+         ratio = contact%rolling_resistance/limit
+         part = tanh(ratio)
+         now%rolling_by_free = (1.0_wp - part)*(1.0_wp + part)
+         now%rolling_by_limit = part - ratio*now%rolling_by_free
+         now%rolling_share = 1.0_wp
+         if (abs(ratio) > 0.0_wp) now%rolling_share = part/ratio
+         contact%rolling_resistance = limit*part
+         contact%tangential_force = contact%traction + contact%rolling_resistance*now%parts%rolling_part
+      end associate
+   end subroutine limit_rolling
+
+   !> Pad, seat, gas, guide and spring.
+   pure subroutine set_valve_forces(model, angle, state, now)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> Cam angle [rad]
+      real(wp), intent(in) :: angle
+      !> The state [state]
+      real(wp), intent(in) :: state(:)
+      !> In: pivot; out: with the forces at the valve
+      type(flexible_state_t), intent(inout) :: now
+
+      ! Approach of the pad [m], its rate [m/s]
+      real(wp) :: approach, rate
+      integer :: first
+
+      associate (linkage => model%linkage, flexible => model%flexible)
+         now%pad_cosine = cos(state(at_finger) + linkage%valve_axis_angle)
+         now%pad_sine = sin(state(at_finger) + linkage%valve_axis_angle)
+         approach = pad_approach(model, state, now%pivot)
+         rate = linkage%b*now%pad_sine*state(at_finger_rate) - now%pivot_rate*cos(flexible%tilt) - state(at_speed)
+         call push(now%pad, flexible%pad_stiffness, flexible%pad_damping, approach, rate)
+         call push(now%seat, flexible%seat_stiffness, flexible%seat_damping, -state(at_lift), -state(at_speed))
+         if (allocated(model%gas)) now%gas_force = gas_force(model%gas, angle)
+         if (allocated(model%guide_drag)) now%guide_drag = model%guide_drag
+         first = first_mode(model)
+         now%mode_pull = valve_pull(flexible%modes, state(first::2), state(first + 1::2))
+      end associate
+   end subroutine set_valve_forces
+
+   !> Approach of the pad; negative where there is a gap.
+   pure function pad_approach(model, state, pivot) result(approach)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> The state [state]
+      real(wp), intent(in) :: state(:)
+      !> Place of the pivot [m]
+      real(wp), intent(in) :: pivot
+      !> Approach [m]
+      real(wp) :: approach
+
+      approach = model%linkage%b*(model%linkage%base_cosine - cos(state(at_finger) + model%linkage%valve_axis_angle)) &
+         & - pivot*cos(model%flexible%tilt) - state(at_lift) - model%flexible%lash
+   end function pad_approach
+
+   !> Accelerations of valve, finger and pivot, roller.
+   pure subroutine accelerate(model, state, now)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> The state [state]
+      real(wp), intent(in) :: state(:)
+      !> In: forces; out: with accelerations
+      type(flexible_state_t), intent(inout) :: now
+
+      ! Force of the cam on the roller [N], acceleration of the roller's centre [m/s^2]
+      complex(wp) :: force, acceleration
+      ! Moment on the finger [N m], force on it along the adjuster's axis [N], inertia by it [kg m]
+      real(wp) :: moment, axial, coupling
+
+      associate (flexible => model%flexible, touch => now%touch, contact => now%contact, eps => model%linkage%sense, &
+         & rate => state(at_finger_rate))
+         now%valve_acceleration = (now%pad%force + now%seat%force - now%gas_force - model%train%stiffness*(state(at_lift) &
+            & + model%train%precompression) - now%guide_drag*state(at_speed) + now%mode_pull)/flexible%effective_mass
+
+         force = contact%load*touch%normal - contact%tangential_force*touch%forward
+         moment = cross(touch%arm, force) + eps*contact%bearing_torque - now%pad%force*model%linkage%b*now%pad_sine
+         now%centre_slope = -flexible%finger_centre*sin(state(at_finger) + model%linkage%arm_offset &
+            & + model%linkage%valve_axis_angle + flexible%axis_angle)
+         now%centre_curvature = -flexible%finger_centre*cos(state(at_finger) + model%linkage%arm_offset &
+            & + model%linkage%valve_axis_angle + flexible%axis_angle)
+         if (allocated(flexible%adjuster)) then
+            coupling = flexible%finger_mass*now%centre_slope
+            axial = dot(exp(-imaginary*flexible%axis_angle), force) + cos(flexible%tilt)*now%pad%force + now%hydraulic_force &
+               & + now%stops(1)%force - now%stops(2)%force - flexible%finger_mass*now%centre_curvature*rate**2
+            call solve_finger(model, coupling, axial, moment, now%pivot_acceleration, now%finger_acceleration)
+         else
+            now%finger_acceleration = moment/model%train%finger_inertia
+         end if
+
+         now%spin_acceleration = spin_acceleration(contact%traction, contact%rolling_resistance, model%roller_radius, &
+            & contact%bearing_torque, model%roller_inertia)
+         acceleration = now%pivot_acceleration*exp(-imaginary*flexible%axis_angle) &
+            & + (imaginary*now%finger_acceleration - rate**2)*touch%arm
+         now%sliding_rate = dot(touch%forward, acceleration + 2.0_wp*imaginary*eps*model%speed*touch%velocity &
+            & - model%speed**2*touch%centre) + touch%position%pitch_curvature*touch%travel_speed*touch%approach_rate &
+            & /touch%uniqueness - model%roller_radius*now%spin_acceleration
+      end associate
+   end subroutine accelerate
+
+   !> Accelerations of finger and plunger, which move as one along the axis.
+   pure subroutine solve_finger(model, coupling, axial, moment, pivot, finger)
+      !> The model, with an adjuster
+      type(model_t), intent(in) :: model
+      !> Inertia between both [kg m]
+      real(wp), intent(in) :: coupling
+      !> Force along the axis [N]
+      real(wp), intent(in) :: axial
+      !> Moment about the pivot [N m]
+      real(wp), intent(in) :: moment
+      !> Acceleration of the pivot [m/s^2]
+      real(wp), intent(out) :: pivot
+      !> Acceleration of the finger [rad/s^2]
+      real(wp), intent(out) :: finger
+
+      ! Mass that moves along the axis [kg], determinant [kg^2 m^2]
+      real(wp) :: mass, determinant
+
+      mass = model%flexible%finger_mass + model%flexible%adjuster%given%plunger_mass
+      determinant = mass*model%train%finger_inertia - coupling**2
+      pivot = (model%train%finger_inertia*axial - coupling*moment)/determinant
+      finger = (mass*moment - coupling*axial)/determinant
+   end subroutine solve_finger
+
+   !> Rate of change of the state with the cam angle.
+   pure subroutine rates_of(model, state, now, rate)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> The state [state]
+      real(wp), intent(in) :: state(:)
+      !> Everything there
+      type(flexible_state_t), intent(in) :: now
+      !> The rate [state/rad]
+      real(wp), intent(out) :: rate(:)
+
+      integer :: n, place
+
+      rate(at_finger) = state(at_finger_rate)
+      rate(at_finger_rate) = now%finger_acceleration
+      rate(at_lift) = state(at_speed)
+      rate(at_speed) = now%valve_acceleration
+      rate(at_sliding) = now%sliding_rate
+      if (allocated(model%flexible%adjuster)) then
+         rate(at_plunger) = now%pivot_rate
+         rate(at_plunger_rate) = now%pivot_acceleration
+         rate(at_pressure) = now%pressure_rate
+      end if
+      place = first_mode(model)
+      associate (modes => model%flexible%modes)
+         do n = 1, modes%count
+            rate(place) = state(place + 1)
+            rate(place + 1) = -modes%frequency(n)*(modes%frequency(n)*state(place) + 2.0_wp*modes%damping_ratio*state(place + 1)) &
+               & - 2.0_wp*modes%share(n)*now%valve_acceleration
+            place = place + 2
+         end do
+      end associate
+      rate = rate/model%speed
+   end subroutine rates_of
+
+end module camroller_flexible_train

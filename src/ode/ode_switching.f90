@@ -1,0 +1,317 @@
+!> Initial value problems whose right-hand side has kinks at places that depend on the state: the zeros of its switches.
+!>
+!> In: a problem with switches, a method, tolerances, times at which a step must end. Out: a trajectory whose steps end at the kinks
+!> as well. A step that crosses a kink is made again up to it; where it lies, the curve of the step tells.
+module camroller_ode_switching
+   use camroller_kinds, only : wp
+   use camroller_error, only : error_t, raise, kind_convergence
+   use camroller_ode_problem, only : problem_t, counters_t, new_linear, copy_linear
+   use camroller_ode_method, only : method_t, options_t
+   use camroller_trajectory, only : trajectory_t, start_trajectory, append_point, append_curve, curve_state, curve_numbers
+   implicit none
+   private
+
+   public :: switching_problem_t, integrate_switching
+
+   !> A problem whose right-hand side has kinks where a switch is zero
+   type, abstract, extends(problem_t) :: switching_problem_t
+      !> Number of switches
+      integer :: switches = 0
+   contains
+      procedure(switches_interface), deferred :: get_switches
+   end type switching_problem_t
+
+   !> Where an integration stands
+   type :: walk_t
+      !> Time [time], step proposed [time]
+      real(wp) :: time, step
+      !> State [state] and its rate [state/time]
+      real(wp), allocatable :: state(:), rate(:)
+      !> Switches there [any]
+      real(wp), allocatable :: switches(:)
+   end type walk_t
+
+   !> Part of the optimal step that is taken; largest growth and shrinkage of a step [-]
+   real(wp), parameter :: safety = 0.9_wp, max_growth = 4.0_wp, max_shrinkage = 0.2_wp
+   !> Part of the stability limit that a step may use [-]
+   real(wp), parameter :: stability_margin = 0.95_wp
+   !> Error over tolerance below which smaller ones make no difference, and that of an impossible trial [-]
+   real(wp), parameter :: least_error = 1.0e-3_wp, impossible = 1.0e3_wp
+   !> Kinks this near to either end of a step are at that end, over the step [-]
+   real(wp), parameter :: near_end = 1.0e-3_wp
+   !> Halvings of the part of a step that holds a kink
+   integer, parameter :: halvings = 14
+
+   abstract interface
+      !> Values whose zeros are kinks of the right-hand side
+      subroutine switches_interface(self, time, state, switches, status)
+         import :: switching_problem_t, wp
+         !> The problem; read only
+         class(switching_problem_t), intent(in) :: self
+         !> Time [time]
+         real(wp), intent(in) :: time
+         !> State [state]
+         real(wp), intent(in) :: state(:)
+         !> The values [any]
+         real(wp), intent(out) :: switches(:)
+         !> 0 fine, else the state has none
+         integer, intent(out) :: status
+      end subroutine switches_interface
+   end interface
+
+contains
+
+   !> Integrate from the first to the last of the stop times; each of them ends a step, and so does each kink.
+   subroutine integrate_switching(problem, method, options, stops, state, trajectory, counters, error)
+      !> The problem
+      class(switching_problem_t), intent(in) :: problem
+      !> The method, one with an error estimate
+      class(method_t), intent(inout) :: method
+      !> Tolerance and steps
+      type(options_t), intent(in) :: options
+      !> Start, times at which the right-hand side has kinks, end; increasing [time]
+      real(wp), intent(in) :: stops(:)
+      !> In: state at the start; out: state at the end [state]
+      real(wp), intent(inout) :: state(:)
+      !> Accepted points
+      type(trajectory_t), intent(inout) :: trajectory
+      !> Work done, added to what they hold
+      type(counters_t), intent(inout) :: counters
+      !> Convergence error where a step would vanish or the number of steps is used up
+      type(error_t), allocatable, intent(out) :: error
+
+      type(walk_t) :: walk
+      ! A few roundings [time]
+      real(wp) :: margin
+      integer :: segment, status
+
+      walk%state = state
+      allocate (walk%rate(size(state)), walk%switches(problem%switches))
+      walk%step = options%step
+      margin = 4.0_wp*spacing(maxval(abs(stops)))
+      method%tolerance = options%tolerance
+      call start_trajectory(trajectory, size(state))
+      call new_linear(method%here, size(state))
+      call new_linear(method%there, size(state))
+      do segment = 1, size(stops) - 1
+         if (stops(segment + 1) - stops(segment) <= 64.0_wp*margin) cycle
+         walk%time = stops(segment) + margin
+         method%horizon = stops(segment + 1) - margin
+         call problem%linearise(walk%time, walk%state, method%horizon, method%here, counters, status)
+         if (status == 0) call problem%get_switches(walk%time, walk%state, walk%switches, status)
+         if (status /= 0) then
+            call raise(error, kind_convergence, "the right-hand side has no value at "//trim(problem%name_time(walk%time)))
+            return
+         end if
+         walk%rate(:) = method%here%rate
+         call append_point(trajectory, walk%time, walk%state, walk%rate)
+         call walk_segment(problem, method, options, walk, trajectory, counters, error)
+         if (allocated(error)) return
+      end do
+      state = walk%state
+   end subroutine integrate_switching
+
+   !> Integrate to the end of a segment.
+   subroutine walk_segment(problem, method, options, walk, trajectory, counters, error)
+      !> The problem
+      class(switching_problem_t), intent(in) :: problem
+      !> The method; its horizon is the end of the segment
+      class(method_t), intent(inout) :: method
+      !> Tolerance and steps
+      type(options_t), intent(in) :: options
+      !> Where the integration stands
+      type(walk_t), intent(inout) :: walk
+      !> Accepted points
+      type(trajectory_t), intent(inout) :: trajectory
+      !> Work done
+      type(counters_t), intent(inout) :: counters
+      !> Convergence error
+      type(error_t), allocatable, intent(out) :: error
+
+      ! Step and its end [time], error over tolerance [-], place of a kink [-], part of the step that the next one is [-]
+      real(wp) :: step, new_time, scaled_error, kink, factor
+      ! Trial state [state], its rate [state/time], switches there [any]
+      real(wp) :: new_state(size(walk%state)), new_rate(size(walk%state)), switches(problem%switches)
+      logical :: is_last, was_cut, is_good, was_rejected
+
+      was_cut = .false.
+      was_rejected = .false.
+      do
+         call choose_step(problem, method, options, walk, step, new_time, is_last, counters)
+         call try_step(problem, method, walk, step, new_time, new_state, new_rate, switches, scaled_error, kink, counters)
+         is_good = scaled_error <= 1.0_wp
+         factor = safety*max(scaled_error, least_error)**(-1.0_wp/method%error_order)
+         factor = min(max_growth, max(max_shrinkage, factor))
+         if (is_good .and. (kink > 1.0_wp - near_end .or. (was_cut .and. kink > 0.5_wp))) then
+            counters%accepted = counters%accepted + 1
+            walk%time = new_time
+            walk%state(:) = new_state
+            walk%rate(:) = new_rate
+            walk%switches(:) = switches
+            call keep_point(method, walk, trajectory)
+            if (is_last) then
+               walk%step = max(walk%step, step)
+               return
+            end if
+            if (was_rejected) factor = min(factor, 1.0_wp)
+            walk%step = merge(max(walk%step, step*factor), step*factor, was_cut)
+            call copy_linear(method%there, method%here)
+            was_cut = .false.
+            was_rejected = .false.
+         else
+            counters%rejected = counters%rejected + 1
+            was_cut = kink < 1.0_wp - near_end .and. (is_good .or. (kink > factor .and. .not. was_cut))
+            if (was_cut) then
+               walk%step = max(kink, near_end)*step
+            else
+               walk%step = step*min(factor, safety)
+            end if
+            was_rejected = .not. is_good
+         end if
+         if (counters%accepted + counters%rejected > options%max_steps) then
+            call raise(error, kind_convergence, "the number of steps is used up at "//trim(problem%name_time(walk%time)))
+         else if (walk%step <= 16.0_wp*spacing(abs(walk%time))) then
+            call raise(error, kind_convergence, "the step has become too small at "//trim(problem%name_time(walk%time)))
+         end if
+         if (allocated(error)) return
+      end do
+   end subroutine walk_segment
+
+   !> Step that the proposal, the largest step, stability and the end of the segment allow.
+   subroutine choose_step(problem, method, options, walk, step, new_time, is_last, counters)
+      !> The problem
+      class(switching_problem_t), intent(in) :: problem
+      !> The method
+      class(method_t), intent(in) :: method
+      !> Tolerance and steps
+      type(options_t), intent(in) :: options
+      !> Where the integration stands
+      type(walk_t), intent(in) :: walk
+      !> Step and its end [time]
+      real(wp), intent(out) :: step, new_time
+      !> Does it end the segment?
+      logical, intent(out) :: is_last
+      !> Work done
+      type(counters_t), intent(inout) :: counters
+
+      ! Fastest decay rate [1/time]
+      real(wp) :: decay_rate
+
+      step = min(walk%step, options%max_step)
+      if (method%stability_limit < huge(1.0_wp)) then
+         call problem%get_decay_rate(walk%time, walk%state, decay_rate)
+         counters%decay_rates = counters%decay_rates + 1
+         if (decay_rate*step > stability_margin*method%stability_limit) step = stability_margin*method%stability_limit/decay_rate
+      end if
+      is_last = walk%time + step*(1.0_wp + 1.0e-9_wp) >= method%horizon
+      if (is_last) step = method%horizon - walk%time
+      if (.not. is_last .and. walk%time + 2.0_wp*step > method%horizon) step = 0.5_wp*(method%horizon - walk%time)
+      new_time = merge(method%horizon, walk%time + step, is_last)
+   end subroutine choose_step
+
+   !> Try a step, and look for the first kink in it.
+   subroutine try_step(problem, method, walk, step, new_time, new_state, new_rate, switches, scaled_error, kink, counters)
+      !> The problem
+      class(switching_problem_t), intent(in) :: problem
+      !> The method
+      class(method_t), intent(inout) :: method
+      !> Where the integration stands
+      type(walk_t), intent(in) :: walk
+      !> Step and its end [time]
+      real(wp), intent(in) :: step, new_time
+      !> State [state], rate [state/time] and switches [any] at the end
+      real(wp), intent(out) :: new_state(:), new_rate(:), switches(:)
+      !> Error over tolerance [-]
+      real(wp), intent(out) :: scaled_error
+      !> Place of the first kink in the step; beyond it where there is none [-]
+      real(wp), intent(out) :: kink
+      !> Work done
+      type(counters_t), intent(inout) :: counters
+
+      ! Error of the step [state]
+      real(wp) :: estimate(size(new_state))
+      integer :: status
+
+      kink = 2.0_wp
+      switches = walk%switches
+      scaled_error = impossible
+      call method%try_step(problem, walk%time, walk%state, walk%rate, step, new_state, new_rate, estimate, counters, status)
+      if (status /= 0) return
+      if (.not. all(abs(new_state) < huge(1.0_wp) .and. abs(estimate) < huge(1.0_wp))) return
+      call problem%get_switches(new_time, new_state, switches, status)
+      if (status /= 0) return
+      scaled_error = maxval(abs(estimate)/method%tolerance)
+      if (any(switches*walk%switches < 0.0_wp)) kink = first_kink(problem, method, walk, step, new_state, switches)
+      if (scaled_error > 1.0_wp .or. kink <= 0.5_wp) return
+      if (method%needs_jacobian) then
+         call problem%linearise(new_time, new_state, method%horizon, method%there, counters, status)
+         new_rate = method%there%rate
+      else if (.not. method%gives_rate) then
+         call problem%get_rate(new_time, new_state, new_rate, status)
+         counters%evaluations = counters%evaluations + 1
+      end if
+      if (status /= 0) scaled_error = impossible
+   end subroutine try_step
+
+   !> Place of the first zero of a switch that changes its sign in a step, by halving on the step's curve.
+   function first_kink(problem, method, walk, step, new_state, switches) result(place)
+      !> The problem
+      class(switching_problem_t), intent(in) :: problem
+      !> The method after the step
+      class(method_t), intent(in) :: method
+      !> Where the step begins
+      type(walk_t), intent(in) :: walk
+      !> Step [time]
+      real(wp), intent(in) :: step
+      !> State [state] and switches [any] at its end
+      real(wp), intent(in) :: new_state(:), switches(:)
+      !> The place [-]
+      real(wp) :: place
+
+      ! Curve of the step [state]; state [state] and switches [any] on it; part that holds the zero [-]
+      real(wp) :: bends(size(new_state), curve_numbers), state(size(new_state)), values(size(switches)), low, high
+      logical :: changes(size(switches))
+      integer :: i, status
+
+      bends = 0.0_wp
+      if (method%has_curve) then
+         bends(:, :size(method%bends, 2)) = method%bends
+      else
+         bends(:, 1) = step*walk%rate - (new_state - walk%state)
+      end if
+      ! A switch that is zero by a few roundings where the last kink ended its step is past it
+      low = 0.0_wp
+      high = 1.0_wp
+      changes = switches*walk%switches < 0.0_wp
+      do i = 1, halvings
+         place = 0.5_wp*(low + high)
+         state = curve_state(walk%state, new_state, bends, place)
+         call problem%get_switches(walk%time + place*step, state, values, status)
+         if (status /= 0) exit
+         if (any(changes .and. values*walk%switches <= 0.0_wp)) then
+            high = place
+         else
+            low = place
+         end if
+      end do
+      place = high
+      if (high <= near_end) place = 2.0_wp
+   end function first_kink
+
+   !> Append the point that was reached to the trajectory, with the curve that the method has left, if any.
+   pure subroutine keep_point(method, walk, trajectory)
+      !> The method
+      class(method_t), intent(in) :: method
+      !> Where the integration stands
+      type(walk_t), intent(in) :: walk
+      !> Accepted points
+      type(trajectory_t), intent(inout) :: trajectory
+
+      if (method%has_curve) then
+         call append_curve(trajectory, walk%time, walk%state, walk%rate, method%bends)
+      else
+         call append_point(trajectory, walk%time, walk%state, walk%rate)
+      end if
+   end subroutine keep_point
+
+end module camroller_ode_switching

@@ -1,0 +1,77 @@
+!> Cases with a flexible train, and states of it drawn at random.
+module flexible_cases
+   use camroller_kinds, only : wp, pi
+   use camroller_case, only : case_t
+   use camroller_model, only : model_t, evaluate_geometry
+   use camroller_kinematics, only : position_t
+   use camroller_lash_adjuster, only : lash_adjuster_t
+   use camroller_samples, only : sample_independent
+   use camroller_flexible_train, only : state_size, first_mode, at_finger, at_finger_rate, at_lift, at_speed, at_sliding, &
+      & at_plunger, at_plunger_rate, at_pressure
+   implicit none
+   private
+
+   public :: add_dynamics, random_state, largest_way
+
+   !> Way off the rigid train that random states go to [m]: contacts are closed in some and open in others
+   real(wp), parameter :: largest_way = 3.0e-5_wp
+
+contains
+
+   !> Make a case's train flexible.
+   subroutine add_dynamics(the_case, modes, has_adjuster)
+      !> The case
+      type(case_t), intent(inout) :: the_case
+      !> Modes of the spring; its mass moves with the valve where there are none
+      integer, intent(in) :: modes
+      !> Has it a lash adjuster?
+      logical, intent(in) :: has_adjuster
+
+      allocate (the_case%dynamics)
+      if (modes > 0) then
+         allocate (the_case%spring_surge)
+         the_case%spring_surge%mass = 0.036_wp
+         the_case%spring_surge%modes = modes
+      end if
+      if (has_adjuster) allocate (the_case%lash_adjuster)
+   end subroutine add_dynamics
+
+   !> A state near the rigid train's, by its number.
+   subroutine random_state(model, number, angle, state)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> Number of the state
+      integer, intent(in) :: number
+      !> Cam angle [rad]
+      real(wp), intent(out) :: angle
+      !> The state [state]
+      real(wp), intent(out) :: state(:)
+
+      type(position_t) :: position
+      ! Coordinates of the state, from -1 to 1 [-]
+      real(wp) :: x(size(state) + 1)
+      integer :: i, status, first
+
+      x = [(2.0_wp*sample_independent(number, i, 7) - 1.0_wp, i=1, size(x))]
+      angle = pi*x(size(x))
+      call evaluate_geometry(model, angle, position, status)
+      first = first_mode(model)
+      state(at_finger) = position%arm_angle - model%linkage%arm_offset - model%linkage%valve_axis_angle &
+         & + x(1)*largest_way/model%linkage%a
+      state(at_finger_rate) = model%speed*position%finger_slope + 0.3_wp*x(2)/model%linkage%a
+      state(at_lift) = position%lift + largest_way*x(3)
+      state(at_speed) = model%speed*position%lift_slope + 0.3_wp*x(4)
+      state(at_sliding) = 0.3_wp*x(5)*abs(x(5))**3*model%speed*model%roller_radius
+      if (allocated(model%flexible%adjuster)) then
+         state(at_plunger) = largest_way*x(6)
+         if (modulo(number, 5) == 0) state(at_plunger) = model%flexible%adjuster%given%highest + largest_way*x(6)
+         if (modulo(number, 5) == 1) state(at_plunger) = model%flexible%adjuster%given%lowest + largest_way*x(6)
+         if (modulo(number, 5) < 2) state(at_finger) = state(at_finger) + state(at_plunger)/model%linkage%a
+         state(at_plunger_rate) = 0.1_wp*x(7)
+         state(at_pressure) = 1.0e5_wp*(1.5_wp + 2.4_wp*x(8) + 20.0_wp*max(0.0_wp, x(8)))
+      end if
+      state(first::2) = 1.0e-4_wp*x(first:size(state):2)
+      state(first + 1::2) = 0.3_wp*x(first + 1:size(state):2)
+   end subroutine random_state
+
+end module flexible_cases
