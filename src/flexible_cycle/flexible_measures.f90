@@ -1,7 +1,7 @@
 !> What a turn of a flexible train is judged by: largest and smallest values, means, impacts, losses.
 !>
-!> In: the steps of a turn. Out: measures by number; a name, a unit and a meaning for each. Integrals are taken over each step with the
-!> state on the step's own curve, extremes from the points of that rule and the ends of steps.
+!> In: the steps of a turn. Out: measures by number; a name, a unit and a meaning for each. Integrals are taken over each step with
+!> the state on the step's own curve, extremes from the points of that rule and the ends of steps.
 module camroller_flexible_measures
    use camroller_kinds, only : wp, two_pi, pi, degree
    use camroller_names, only : name_length
@@ -84,7 +84,7 @@ contains
       ! Places and weights of the rule on [-1, 1] [-]; length of a step and angle [rad], state [state]; largest rigid lift [m]
       real(wp) :: places(points), weights(points), length, angle, state(size(trajectory%state, 1)), top
       integer :: step, i, hint
-      logical :: has_met
+      logical :: has_met, touches, has_touched
 
       call gauss_legendre(places, weights)
       values = 0.0_wp
@@ -96,6 +96,7 @@ contains
       end if
       top = largest_lift(model)
       has_met = .false.
+      has_touched = .false.
       do step = 1, trajectory%count - 1
          length = trajectory%time(step + 1) - trajectory%time(step)
          if (length <= 1.0e-13_wp) cycle
@@ -103,12 +104,15 @@ contains
             angle = trajectory%time(step) + 0.5_wp*length*(1.0_wp + places(i))
             hint = step
             call interpolate_state(trajectory, angle, hint, state)
-            call add_point(model, angle, state, 0.5_wp*length*weights(i)/two_pi, top, values, error)
+            call add_point(model, angle, state, 0.5_wp*length*weights(i)/two_pi, top, values, touches, error)
             if (allocated(error)) return
          end do
-         call add_point(model, trajectory%time(step + 1), trajectory%state(:, step + 1), 0.0_wp, top, values, error)
+         call add_point(model, trajectory%time(step + 1), trajectory%state(:, step + 1), 0.0_wp, top, values, touches, error)
          if (allocated(error)) return
-         call follow_seat(trajectory%state(at_lift, step:step + 1), trajectory%state(at_speed, step:step + 1), top, has_met, values)
+         if (has_touched .and. .not. touches) values(losses_of_contact) = values(losses_of_contact) + 1.0_wp
+         has_touched = touches
+         call follow_seat(trajectory%state([at_lift, at_speed], step), trajectory%state([at_lift, at_speed], step + 1), top, &
+            & has_met, values)
       end do
       values(residual_work) = values(residual_work)*two_pi
       if (size(values) > residual_work) values(leak_volume) = values(leak_volume)*two_pi
@@ -132,7 +136,7 @@ contains
    end function largest_lift
 
    !> Take a point into the measures.
-   subroutine add_point(model, angle, state, weight, top, values, error)
+   subroutine add_point(model, angle, state, weight, top, values, touches, error)
       !> The model
       type(model_t), intent(in) :: model
       !> Cam angle [rad]
@@ -145,6 +149,8 @@ contains
       real(wp), intent(in) :: top
       !> The measures [unit of the measure]
       real(wp), intent(inout) :: values(:)
+      !> Do cam and roller touch there?
+      logical, intent(out) :: touches
       !> Convergence error where the state cannot be evaluated
       type(error_t), allocatable, intent(out) :: error
 
@@ -155,12 +161,14 @@ contains
       real(wp) :: joint, lift_error
       integer :: status
 
+      touches = .false.
       call evaluate_train(model, angle, state, 0.0_wp, now, status)
       if (status == 0) call evaluate_geometry(model, angle, position, status)
       if (status /= 0) then
          call raise(error, kind_convergence, "a state between the steps of the flexible train cannot be evaluated")
          return
       end if
+      touches = now%contact%is_touching
       call evaluate_powers(model, state, now, powers)
       if (now%contact%load > values(largest_load)) then
          values(largest_load) = now%contact%load
@@ -213,9 +221,9 @@ contains
    end subroutine add_spring
 
    !> Take a step at the seat into the measures: the valve meets its seat where its lift passes zero.
-   pure subroutine follow_seat(lift, speed, top, has_met, values)
+   pure subroutine follow_seat(start, end, top, has_met, values)
       !> Lift [m] and speed [m/s] of the valve at both ends of the step
-      real(wp), intent(in) :: lift(2), speed(2)
+      real(wp), intent(in) :: start(2), end(2)
       !> Largest lift of the rigid train [m]
       real(wp), intent(in) :: top
       !> Has it met its seat after the event?
@@ -226,12 +234,13 @@ contains
       ! Place of the meeting in the step [-]
       real(wp) :: place
 
-      if (lift(1) > event_part*top) has_met = .false.
-      if (lift(1) > 0.0_wp .and. lift(2) <= 0.0_wp) then
-         place = lift(1)/(lift(1) - lift(2))
-         values(seating_speed) = max(values(seating_speed), -(speed(1) + place*(speed(2) - speed(1))))
+      if (start(1) > event_part*top) has_met = .false.
+      if (has_met) values(bounce_height) = max(values(bounce_height), end(1))
+      if (start(1) > 0.0_wp .and. end(1) <= 0.0_wp) then
+         place = start(1)/(start(1) - end(1))
+         values(seating_speed) = max(values(seating_speed), -(start(2) + place*(end(2) - start(2))))
          has_met = .true.
-      else if (has_met .and. lift(1) <= 0.0_wp .and. lift(2) > 0.0_wp) then
+      else if (has_met .and. start(1) <= 0.0_wp .and. end(1) > 0.0_wp) then
          values(bounces) = values(bounces) + 1.0_wp
       end if
    end subroutine follow_seat

@@ -1,0 +1,197 @@
+!> Integration with kinks that depend on the state, against closed forms.
+module test_ode_switching
+   use testdrive, only : unittest_type, new_unittest, error_type, check, test_failed
+   use camroller_kinds, only : wp, two_pi, pi
+   use camroller_error, only : error_t
+   use camroller_contact_compliance, only : one_sided_force
+   use camroller_ode_problem, only : counters_t, words_length
+   use camroller_ode_method, only : method_t, options_t
+   use camroller_ode_methods, only : new_method
+   use camroller_ode_switching, only : switching_problem_t, integrate_switching
+   use camroller_trajectory, only : trajectory_t
+   implicit none
+   private
+
+   public :: collect_ode_switching
+
+   !> A body on a spring behind a cycloidal rise, or one that falls on a damped seat under a steady force
+   type, extends(switching_problem_t) :: body_t
+      !> Time of the rise; 0 for the seat [s]
+      real(wp) :: rise = 0.0_wp
+      !> Mass [kg], stiffness [N/m], damping of the seat [s/m], force of the spring [N], its stiffness [N/m]
+      real(wp) :: mass = 1.0_wp, stiffness = two_pi**2, damping = 0.0_wp, force = 0.0_wp, spring = 25.0e3_wp
+   contains
+      procedure :: get_rate
+      procedure :: get_decay_rate
+      procedure :: get_switches
+      procedure :: name_time
+   end type body_t
+
+   !> Methods that are tried
+   character(len=*), parameter :: methods(*) = [character(len=14) :: "rodas5p", "radau5", "dormand_prince"]
+
+contains
+
+   subroutine collect_ode_switching(testsuite)
+      type(unittest_type), allocatable, intent(out) :: testsuite(:)
+
+      testsuite = [ &
+         new_unittest("what a cycloidal rise leaves an oscillator with", test_rise), &
+         new_unittest("a valve bounces under its spring", test_bounce), &
+         new_unittest("steps end where contacts are lost and return", test_kinks) &
+         ]
+   end subroutine collect_ode_switching
+
+   subroutine run(body, method_name, stops, tolerance, state, trajectory, error)
+      type(body_t), intent(in) :: body
+      character(len=*), intent(in) :: method_name
+      !> Stops [s], tolerance [state], state [m], [m/s]
+      real(wp), intent(in) :: stops(:), tolerance(2)
+      real(wp), intent(inout) :: state(2)
+      type(trajectory_t), intent(inout) :: trajectory
+      type(error_type), allocatable, intent(out) :: error
+      class(method_t), allocatable :: method
+      type(options_t) :: options
+      type(counters_t) :: counters
+      type(error_t), allocatable :: failure
+
+      call new_method(method, method_name, 2, failure)
+      options%tolerance = tolerance
+      options%step = 1.0e-4_wp*(stops(size(stops)) - stops(1))
+      if (.not. allocated(failure)) call integrate_switching(body, method, options, stops, state, trajectory, counters, failure)
+      if (allocated(failure)) call test_failed(error, failure%message)
+   end subroutine run
+
+   subroutine test_rise(error)
+      type(error_type), allocatable, intent(out) :: error
+      ! Rise time over the natural period [-]; what is left over the rise, abs(sin pi r)/(pi r abs(1 - r^2)) [-]
+      real(wp), parameter :: ratios(5) = [0.5_wp, 1.0_wp, 1.5_wp, 2.5_wp, 3.3_wp]
+      real(wp), parameter :: left(5) = [0.848826363_wp, 0.5_wp, 0.169765273_wp, 0.024252182_wp, 0.007890373_wp]
+      type(body_t) :: body
+      type(trajectory_t) :: trajectory
+      real(wp) :: state(2)
+      integer :: i, k
+
+      body%switches = 1
+      do k = 1, size(methods)
+         do i = 1, 5
+            body%rise = ratios(i)
+            state = 0.0_wp
+            call run(body, methods(k), [0.0_wp, ratios(i), ratios(i) + 0.3_wp], [1.0e-10_wp, 1.0e-9_wp], state, trajectory, error)
+            if (allocated(error)) return
+            call check(error, hypot(state(1) - 1.0_wp, state(2)/two_pi), left(i), thr=2.0e-8_wp)
+            if (allocated(error)) return
+         end do
+      end do
+   end subroutine test_rise
+
+   subroutine test_bounce(error)
+      type(error_type), allocatable, intent(out) :: error
+      ! Stiffness of the seat [N/m], height after a meeting at 0.3 m/s [m]: D 0.3, 210 N, 43.2 g
+      real(wp), parameter :: stiffness(2) = [5.0e9_wp, 5.0e7_wp], heights(2) = [6.1402e-6_wp, 2.2372e-6_wp]
+      type(body_t) :: body
+      type(trajectory_t) :: trajectory
+      real(wp) :: state(2)
+      integer :: i
+
+      do i = 1, 2
+         body = body_t(mass=0.0432_wp, stiffness=stiffness(i), damping=1.0_wp, force=210.0_wp)
+         body%switches = 1
+         state = [0.0_wp, -0.3_wp]
+         call run(body, "rodas5p", [0.0_wp, 1.5e-4_wp], [1.0e-13_wp, 1.0e-8_wp], state, trajectory, error)
+         if (allocated(error)) return
+         call check(error, top(trajectory), heights(i), thr=3.0e-5_wp*heights(i))
+         if (allocated(error)) return
+      end do
+   end subroutine test_bounce
+
+   !> Largest place of a body of 43.2 g that flies under a spring of 210 N and 25 kN/m, from the first free point: its energy there.
+   function top(trajectory) result(height)
+      type(trajectory_t), intent(in) :: trajectory
+      real(wp) :: height
+      integer :: i
+
+      height = 0.0_wp
+      do i = 1, trajectory%count
+         if (trajectory%state(1, i) < 0.0_wp .or. trajectory%state(2, i) <= 0.0_wp) cycle
+         height = sqrt((trajectory%state(1, i) + 8.4e-3_wp)**2 + trajectory%state(2, i)**2*0.0432_wp/25.0e3_wp) - 8.4e-3_wp
+         return
+      end do
+   end function top
+
+   subroutine test_kinks(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(body_t) :: body
+      type(trajectory_t) :: trajectory
+      real(wp) :: state(2)
+      integer :: i, found
+
+      body = body_t(mass=0.0432_wp, stiffness=5.0e7_wp, damping=1.0_wp, force=210.0_wp)
+      body%switches = 1
+      state = [1.0e-4_wp, 0.0_wp]
+      call run(body, "rodas5p", [0.0_wp, 1.0e-3_wp], [1.0e-11_wp, 1.0e-7_wp], state, trajectory, error)
+      if (allocated(error)) return
+      found = 0
+      do i = 2, trajectory%count - 1
+         if (trajectory%state(1, i - 1)*trajectory%state(1, i + 1) > 0.0_wp) cycle
+         if (abs(trajectory%state(1, i)) < 1.0e-3_wp*maxval(abs(trajectory%state(1, i - 1:i + 1:2)))) found = found + 1
+      end do
+      call check(error, found >= 2, "no step ends where the body meets or leaves its seat")
+   end subroutine test_kinks
+
+   !> Rate of place and speed.
+   subroutine get_rate(self, time, state, rate, status)
+      class(body_t), intent(in) :: self
+      real(wp), intent(in) :: time
+      real(wp), intent(in) :: state(:)
+      real(wp), intent(out) :: rate(:)
+      integer, intent(out) :: status
+      ! Place of the rise [m]; force and its elastic part [N], slopes [N/m], [N s/m]
+      real(wp) :: place, force, elastic, slopes(2)
+
+      status = 0
+      rate(1) = state(2)
+      if (self%rise > 0.0_wp) then
+         place = 1.0_wp
+         if (time < self%rise) place = time/self%rise - sin(two_pi*time/self%rise)/two_pi
+         rate(2) = self%stiffness*(place - state(1))/self%mass
+      else
+         call one_sided_force(self%stiffness, self%damping, -state(1), -state(2), force, elastic, slopes(1), slopes(2))
+         rate(2) = (force - self%force - self%spring*state(1))/self%mass
+      end if
+   end subroutine get_rate
+
+   !> Fastest rate.
+   subroutine get_decay_rate(self, time, state, decay_rate)
+      class(body_t), intent(in) :: self
+      real(wp), intent(in) :: time
+      real(wp), intent(in) :: state(:)
+      real(wp), intent(out) :: decay_rate
+
+      decay_rate = sqrt(self%stiffness/self%mass)
+      if (size(state) == 0 .or. time < -pi) decay_rate = 0.0_wp
+   end subroutine get_decay_rate
+
+   !> The seat is met where the place is zero.
+   subroutine get_switches(self, time, state, switches, status)
+      class(body_t), intent(in) :: self
+      real(wp), intent(in) :: time
+      real(wp), intent(in) :: state(:)
+      real(wp), intent(out) :: switches(:)
+      integer, intent(out) :: status
+
+      status = 0
+      switches = 1.0_wp
+      if (self%rise <= 0.0_wp .and. time > -pi) switches = -state(1)
+   end subroutine get_switches
+
+   function name_time(self, time) result(text)
+      class(body_t), intent(in) :: self
+      real(wp), intent(in) :: time
+      character(len=words_length) :: text
+
+      text = merge("seat", "rise", self%rise <= 0.0_wp)
+      if (time < 0.0_wp) text = "before"
+   end function name_time
+
+end module test_ode_switching

@@ -1,0 +1,204 @@
+!> Periodic states of a flexible train.
+module test_flexible_cycle
+   use testdrive, only : unittest_type, new_unittest, error_type, check, test_failed
+   use camroller_kinds, only : wp, pi, degree
+   use camroller_error, only : error_t
+   use camroller_case, only : case_t
+   use camroller_model, only : model_t
+   use camroller_flexible_cycle, only : flexible_cycle_t, turn_t, start_turns, find_periodic, rest_of_train
+   use camroller_flexible_measures, only : measure_count, measure_turn, largest_load, largest_load_angle, least_lift_error, &
+      & seating_speed, surge_force, smallest_pivot_force, drive_torque, loss_torque, gallery_torque, lowest_plunger, &
+      & largest_pressure, leak_volume, residual_work
+   use reference_cases, only : thesis_case, make_model, set_point
+   use flexible_cases, only : add_dynamics
+   use closeness, only : check_close, check_scaled
+   implicit none
+   private
+
+   public :: collect_flexible_cycle
+
+   !> Tolerance of the reference runs [-]
+   real(wp), parameter :: tolerance = 3.0e-5_wp
+   !> Difference allowed to rows that were computed by another program with its own method of order 5 [-]
+   real(wp), parameter :: allowed = 2.0e-4_wp
+   !> The same of a slow seating: within 0.01 deg of the zero of the lift, its speed falls by as much, and the rows were not read at
+   !> the zero itself, as two methods here agree on it to 1e-4 [-]
+   real(wp), parameter :: slow_seating = 2.5e-2_wp
+
+contains
+
+   subroutine collect_flexible_cycle(testsuite)
+      type(unittest_type), allocatable, intent(out) :: testsuite(:)
+
+      testsuite = [ &
+         new_unittest("fixed pivot, 300 rev/min: load, lift, seating, surge, joint and torque", test_fixed_slow), &
+         new_unittest("fixed pivot, 900 rev/min: the same", test_fixed_fast), &
+         new_unittest("lash adjuster, 300 rev/min: the same with travel, pressure and leak", test_adjuster), &
+         new_unittest("two methods agree", test_methods), &
+         new_unittest("a stiff train is a rigid train", test_rigid_limit) &
+         ]
+   end subroutine collect_flexible_cycle
+
+   !> Measures of the periodic state.
+   subroutine measure(the_case, method, tolerance, values, cycle, error)
+      type(case_t), intent(in) :: the_case
+      character(len=*), intent(in) :: method
+      !> Tolerance [-]
+      real(wp), intent(in) :: tolerance
+      !> Measures [unit of the measure]
+      real(wp), allocatable, intent(out) :: values(:)
+      type(flexible_cycle_t), intent(out) :: cycle
+      type(error_type), allocatable, intent(out) :: error
+      type(model_t), target :: model
+      type(turn_t) :: turn
+      type(error_t), allocatable :: failure
+      !> State [state]
+      real(wp), allocatable :: state(:)
+
+      call make_model(the_case, model, error)
+      if (allocated(error)) return
+      call start_turns(turn, model, method, tolerance, failure)
+      if (.not. allocated(failure)) call rest_of_train(model, state, failure)
+      if (.not. allocated(failure)) call find_periodic(cycle, turn, state, 10.0_wp*tolerance, 60, failure)
+      allocate (values(measure_count(merge(2, 1, allocated(model%flexible%adjuster)))))
+      if (.not. allocated(failure)) call measure_turn(model, cycle%trajectory, values, failure)
+      if (allocated(failure)) call test_failed(error, failure%message)
+      if (allocated(error)) return
+      call check(error, cycle%period, 1, "the train is not periodic")
+      if (allocated(error)) return
+      ! Energy that drive and gallery bring is lost, but for what the period's end differs from its start
+      call check_scaled(error, values(residual_work), 0.0_wp, 2.0_wp*pi*values(drive_torque), 1.0e-9_wp, "energy of the turn")
+   end subroutine measure
+
+   !> A case of the reference train.
+   function reference(speed, has_adjuster) result(the_case)
+      !> Speed [rev/min]
+      real(wp), intent(in) :: speed
+      logical, intent(in) :: has_adjuster
+      type(case_t) :: the_case
+
+      the_case = thesis_case()
+      call set_point(the_case, speed*pi/30.0_wp, 0.01_wp)
+      call add_dynamics(the_case, 5, has_adjuster)
+   end function reference
+
+   !> Compare with a row: largest load [N] and its angle [deg], lift error [um], seating speed [m/s], surge [N], joint [N],
+   !> torque [N mm].
+   subroutine compare(values, row, seating, error)
+      !> Measures [unit of the measure]
+      real(wp), intent(in) :: values(:)
+      !> The row [as above]; difference allowed of the seating speed [-]
+      real(wp), intent(in) :: row(7), seating
+      type(error_type), allocatable, intent(out) :: error
+
+      call check_close(error, values(largest_load), row(1), allowed, "largest load")
+      if (allocated(error)) return
+      call check_scaled(error, 180.0_wp + values(largest_load_angle)/degree, row(2), 1.0_wp, 0.25_wp, "its angle")
+      if (allocated(error)) return
+      call check_close(error, 1.0e6_wp*values(least_lift_error), row(3), allowed, "lift error")
+      if (allocated(error)) return
+      call check_close(error, values(seating_speed), row(4), seating, "seating speed")
+      if (allocated(error)) return
+      call check_close(error, values(surge_force), row(5), 1.0e-3_wp, "surge")
+      if (allocated(error)) return
+      call check_scaled(error, values(smallest_pivot_force), row(6), 1.0_wp, 0.5_wp, "joint")
+      if (allocated(error)) return
+      call check_close(error, 1.0e3_wp*values(drive_torque), row(7), allowed, "torque")
+   end subroutine compare
+
+   subroutine test_fixed_slow(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(flexible_cycle_t) :: cycle
+      real(wp), allocatable :: values(:)
+
+      call measure(reference(300.0_wp, .false.), "rodas5p", tolerance, values, cycle, error)
+      if (allocated(error)) return
+      call compare(values, [761.060_wp, 171.2_wp, -39.667_wp, 0.015682_wp, 0.4669_wp, 25.23_wp, 9.71170_wp], slow_seating, error)
+   end subroutine test_fixed_slow
+
+   subroutine test_fixed_fast(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(flexible_cycle_t) :: cycle
+      real(wp), allocatable :: values(:)
+
+      call measure(reference(900.0_wp, .false.), "rodas5p", tolerance, values, cycle, error)
+      if (allocated(error)) return
+      call compare(values, [710.755_wp, 170.5_wp, -37.616_wp, 0.048494_wp, 3.7622_wp, 8.73_wp, 15.79595_wp], 1.0e-3_wp, error)
+      if (allocated(error)) return
+      call check(error, cycle%cycles <= 8, "more than eight cycles to the periodic state")
+   end subroutine test_fixed_fast
+
+   subroutine test_adjuster(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(flexible_cycle_t) :: cycle
+      real(wp), allocatable :: values(:)
+
+      call measure(reference(300.0_wp, .true.), "rodas5p", tolerance, values, cycle, error)
+      if (allocated(error)) return
+      call compare(values, [762.635_wp, 172.1_wp, -62.084_wp, 0.025434_wp, 0.5920_wp, 24.11_wp, 9.98736_wp], slow_seating, error)
+      if (allocated(error)) return
+      call check_close(error, 1.0e6_wp*values(lowest_plunger), -29.017_wp, allowed, "plunger")
+      if (allocated(error)) return
+      call check_close(error, 1.0e-6_wp*values(largest_pressure), 4.02283_wp, 5.0e-4_wp, "pressure")
+      if (allocated(error)) return
+      call check_close(error, 1.0e9_wp*values(leak_volume), 0.69756_wp, allowed, "leak")
+      if (allocated(error)) return
+      call check_close(error, values(drive_torque) + values(gallery_torque), values(loss_torque), 1.0e-4_wp, &
+         & "drive and gallery against losses")
+   end subroutine test_adjuster
+
+   subroutine test_methods(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(flexible_cycle_t) :: cycle
+      type(case_t) :: the_case
+      real(wp), allocatable :: one(:), other(:)
+
+      the_case = reference(2500.0_wp, .false.)
+      call measure(the_case, "rodas5p", 1.0e-4_wp, one, cycle, error)
+      if (allocated(error)) return
+      call measure(the_case, "radau5", 1.0e-4_wp, other, cycle, error)
+      if (allocated(error)) return
+      call check_close(error, one(largest_load), other(largest_load), 1.0e-3_wp, "largest load")
+      if (allocated(error)) return
+      call check_close(error, one(drive_torque), other(drive_torque), 1.0e-3_wp, "torque")
+      if (allocated(error)) return
+      call measure(reference(300.0_wp, .false.), "rodas5p", 1.0e-5_wp, one, cycle, error)
+      if (allocated(error)) return
+      call measure(reference(300.0_wp, .false.), "radau5", 1.0e-5_wp, other, cycle, error)
+      if (allocated(error)) return
+      call check_close(error, one(seating_speed), other(seating_speed), 2.0e-4_wp, "seating speed")
+   end subroutine test_methods
+
+   !> Stiffness times 4 brings lift error to a quarter; a root of that keeps the damping ratio.
+   subroutine test_rigid_limit(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(flexible_cycle_t) :: cycle
+      type(case_t) :: the_case
+      real(wp), allocatable :: values(:)
+      ! Lift errors [m], stiffness over the usual [-]
+      real(wp) :: errors(3), factor
+      integer :: i
+
+      do i = 1, 3
+         the_case = reference(300.0_wp, .false.)
+         factor = 4.0_wp**(i - 1)
+         the_case%dynamics%finger_stiffness = factor*the_case%dynamics%finger_stiffness
+         the_case%dynamics%pad_stiffness = factor*the_case%dynamics%pad_stiffness
+         the_case%dynamics%seat_stiffness = factor*the_case%dynamics%seat_stiffness
+         the_case%dynamics%contact_damping = sqrt(factor)*the_case%dynamics%contact_damping
+         the_case%dynamics%pad_damping = sqrt(factor)*the_case%dynamics%pad_damping
+         the_case%dynamics%seat_damping = sqrt(factor)*the_case%dynamics%seat_damping
+         ! Cam and roller give way as Palmgren says whatever the finger: with twice the length they do by 2^0.8 less, and so on
+         the_case%materials%cam_modulus = factor**(1.0_wp/0.9_wp)*the_case%materials%cam_modulus
+         the_case%materials%roller_modulus = factor**(1.0_wp/0.9_wp)*the_case%materials%roller_modulus
+         call measure(the_case, "rodas5p", tolerance/factor, values, cycle, error)
+         if (allocated(error)) return
+         errors(i) = values(least_lift_error)
+      end do
+      ! Reference: -39.7, -9.93, -2.48 um
+      call check_close(error, errors(2)/errors(1), 0.25_wp, 2.0e-2_wp, "lift error at four times the stiffness")
+      if (allocated(error)) return
+      call check_close(error, errors(3)/errors(2), 0.25_wp, 2.0e-2_wp, "lift error at sixteen times the stiffness")
+   end subroutine test_rigid_limit
+
+end module test_flexible_cycle
