@@ -38,12 +38,14 @@ module camroller_units
       unit_t("m", "m", 1.0_wp, 1.0_wp, 0.0_wp), &
       unit_t("mm", "mm", 1.0_wp, 1.0e3_wp, 0.0_wp), &
       unit_t("um", "um", 1.0_wp, 1.0e6_wp, 0.0_wp), &
-      unit_t("cm3", "cm3", 1.0_wp, 1.0e6_wp, 0.0_wp), &
       unit_t("deg", "degree", pi, 180.0_wp, 0.0_wp), &
       unit_t("rpm", "rpm", two_pi, 60.0_wp, 0.0_wp), &
       unit_t("degC", "degC", 1.0_wp, 1.0_wp, 273.15_wp), &
       unit_t("s", "s", 1.0_wp, 1.0_wp, 0.0_wp), &
       unit_t("m_s", "m/s", 1.0_wp, 1.0_wp, 0.0_wp), &
+      unit_t("s_m", "s/m", 1.0_wp, 1.0_wp, 0.0_wp), &
+      unit_t("mm2", "mm2", 1.0_wp, 1.0e6_wp, 0.0_wp), &
+      unit_t("cm3", "cm3", 1.0_wp, 1.0e6_wp, 0.0_wp), &
       unit_t("kg", "kg", 1.0_wp, 1.0_wp, 0.0_wp), &
       unit_t("kg_m2", "kg m2", 1.0_wp, 1.0_wp, 0.0_wp), &
       unit_t("kg_m3", "kg/m3", 1.0_wp, 1.0_wp, 0.0_wp), &

@@ -26,8 +26,9 @@ module camroller_case
    implicit none
    private
 
-   public :: case_t, operating_point_t, numerics_t, selection_t, energy_names, contact_policy_names, method_names, quasi_static, &
-      & method_choices, automatic_method, select_names, select_needed, quantity_names, quantity_torque, quantity_film, quantity_slip
+   public :: case_t, operating_point_t, numerics_t, selection_t, camshaft_number, has_engine, energy_names, &
+      & contact_policy_names, method_names, quasi_static, method_choices, automatic_method, select_names, &
+      & select_needed, quantity_names, quantity_torque, quantity_film, quantity_slip
 
    !> Name of the model that takes the roller's spin from its quasi-static balance
    character(len=name_length), parameter :: quasi_static = "quasi_static"
@@ -126,5 +127,29 @@ module camroller_case
       type(selection_t) :: effects
       type(numerics_t) :: numerics
    end type case_t
+
+contains
+
+   !> Number of camshafts.
+   pure function camshaft_number(case) result(number)
+      !> The case
+      type(case_t), intent(in) :: case
+      !> The number
+      integer :: number
+
+      number = 1
+      if (.not. allocated(case%cam_bearings)) return
+      if (allocated(case%cam_bearings%cam_shafts)) number = maxval(case%cam_bearings%cam_shafts)
+   end function camshaft_number
+
+   !> Do the camshafts of a case belong to an engine?
+   pure function has_engine(case) result(verdict)
+      !> The case
+      type(case_t), intent(in) :: case
+      !> Do they?
+      logical :: verdict
+
+      verdict = allocated(case%engine) .and. allocated(case%cam_bearings)
+   end function has_engine
 
 end module camroller_case

@@ -2,14 +2,14 @@
 !>
 !> In: case, linkage, rigid train, joint of the pivot. Out: `flexible_t`, or what keeps the case from having one.
 module camroller_flexible_setup
-   use camroller_kinds, only : wp
+   use camroller_kinds, only : wp, pi
    use camroller_error, only : error_t, raise, kind_deck, kind_convergence
    use camroller_case, only : case_t, energy_names
    use camroller_asperity, only : mobilisation_names
    use camroller_kinematics, only : linkage_t, position_t, evaluate_position
    use camroller_dynamics, only : train_t
    use camroller_pivot, only : pivot_t
-   use camroller_contact_compliance, only : line_compliance
+   use camroller_torque, only : normal_direction
    use camroller_spring_modes, only : new_spring_modes, effective_mass
    use camroller_lash_adjuster, only : new_adjuster
    use camroller_flexible_parts, only : flexible_t, set_contacts
@@ -17,7 +17,7 @@ module camroller_flexible_setup
    implicit none
    private
 
-   public :: rest_t, set_flexible, find_rest
+   public :: rest_t, set_flexible, find_rest, base_load
 
    !> The train at rest on the base circle
    type :: rest_t
@@ -30,7 +30,7 @@ module camroller_flexible_setup
 contains
 
    !> Constants of a case's flexible train.
-   subroutine set_flexible(flexible, case, linkage, train, pivot, modulus, error)
+   subroutine set_flexible(flexible, case, linkage, train, pivot, modulus, load, error)
       !> The train
       type(flexible_t), intent(out) :: flexible
       !> The case, with a flexible train
@@ -41,8 +41,8 @@ contains
       type(train_t), intent(in) :: train
       !> Its joint between finger and pivot; without it there is an error
       type(pivot_t), intent(in), optional :: pivot
-      !> Equivalent modulus of cam and roller [Pa]
-      real(wp), intent(in) :: modulus
+      !> Equivalent modulus of cam and roller [Pa], base circle load [N]
+      real(wp), intent(in) :: modulus, load
       !> Deck error
       type(error_t), allocatable, intent(out) :: error
 
@@ -61,7 +61,7 @@ contains
       flexible%tilt = pivot%tilt
       call set_spring(flexible, case, error)
       if (allocated(error)) return
-      call set_rest(flexible, case, linkage, train, error)
+      call set_rest(flexible, case, linkage, train, load, error)
    end subroutine set_flexible
 
    !> Refuse what a flexible train cannot go with.
@@ -134,7 +134,7 @@ contains
    end subroutine set_spring
 
    !> Adjuster and the place of the pivot at rest.
-   subroutine set_rest(flexible, case, linkage, train, error)
+   subroutine set_rest(flexible, case, linkage, train, load, error)
       !> The train
       type(flexible_t), intent(inout) :: flexible
       !> The case
@@ -143,6 +143,8 @@ contains
       type(linkage_t), intent(in) :: linkage
       !> Its masses and spring
       type(train_t), intent(in) :: train
+      !> Base circle load [N]
+      real(wp), intent(in) :: load
       !> Deck error where the adjuster has no force for its load; convergence error
       type(error_t), allocatable, intent(out) :: error
 
@@ -157,7 +159,7 @@ contains
          call raise(error, kind_deck, "dynamics: a lash adjuster leaves no lash; dynamics.lash_mm must be 0 with it")
          return
       end if
-      call find_rest(flexible, linkage, train, case%spring%base_circle_load, rest, error)
+      call find_rest(flexible, linkage, train, load, rest, error)
       if (allocated(error)) return
       flexible%pivot_place = rest%pivot
       if (.not. allocated(flexible%adjuster)) return
@@ -171,6 +173,31 @@ contains
             & " N; raise that load, or lower lash_adjuster.supply_pressure_MPa or lash_adjuster.diameter_mm")
       end associate
    end subroutine set_rest
+
+   !> Load on the base circle: as given, or what an adjuster makes of its pressure and its plunger's spring.
+   pure function base_load(case, linkage, closed) result(load)
+      !> The case
+      type(case_t), intent(in) :: case
+      !> Its linkage
+      type(linkage_t), intent(in) :: linkage
+      !> Geometry on the base circle
+      type(position_t), intent(in) :: closed
+      !> W [N]
+      real(wp) :: load
+
+      ! Normal and tangent of the contact [-], the normal along the adjuster's axis [-], angle of that axis [rad], area [m^2]
+      real(wp) :: normal(2), tangent(2), along, axis, area
+
+      load = case%spring%base_circle_load
+      if (.not. (allocated(case%dynamics) .and. allocated(case%lash_adjuster))) return
+      if (.not. case%lash_adjuster%spring_force > 0.0_wp) return
+      call normal_direction(closed%normal_arm, closed%tangent_arm, linkage%a, closed%arm_angle, linkage%sense, normal, tangent)
+      axis = case%mechanism%valve_axis_angle + case%mechanism%adjuster_tilt
+      along = normal(1)*cos(axis) - normal(2)*sin(axis)
+      area = 0.25_wp*pi*case%lash_adjuster%diameter**2
+      load = -(case%lash_adjuster%supply_pressure*area + case%lash_adjuster%spring_force) &
+         & /(along + cos(case%mechanism%adjuster_tilt)*closed%normal_arm/closed%valve_arm)
+   end function base_load
 
    !> The train at rest on the base circle under a given contact load, without friction: `W n + F_p u_v + F_A u_h + side = 0`.
    !>

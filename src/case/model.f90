@@ -13,7 +13,7 @@ module camroller_model
    use camroller_dynamics, only : train_t, moments_t, evaluate_moments, seating_names, load_arm_names
    use camroller_pivot, only : pivot_t, new_pivot
    use camroller_flexible_parts, only : flexible_t, set_oil
-   use camroller_flexible_setup, only : set_flexible
+   use camroller_flexible_setup, only : base_load, set_flexible
    use camroller_materials, only : combined_modulus, combined_roughness
    use camroller_lubricant, only : lubricant_t, oil_t, get_oil
    use camroller_film, only : film_law_names, range_policy_names, law_masjedi_khonsari_rough, law_table
@@ -393,7 +393,8 @@ contains
       real(wp) :: tip_force
       integer :: status
 
-      model%base_circle_load = case%spring%base_circle_load
+      call evaluate_position(model%linkage, [0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp], closed, status)
+      model%base_circle_load = base_load(case, model%linkage, closed)
       model%train%valve_mass = case%masses%valve
       model%train%finger_inertia = case%masses%finger_inertia
       if (case%masses%finger_inertia <= 0.0_wp) then
@@ -414,7 +415,6 @@ contains
       end if
       if (allocated(error) .or. model%takes_maximum_load) return
 
-      call evaluate_position(model%linkage, [0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp], closed, status)
       tip_force = model%base_circle_load*merge(closed%normal_arm, closed%parallel_arm, model%has_exact_arm)/closed%valve_arm
       model%train%closed_seat_force = model%train%stiffness*model%train%precompression - tip_force
       if (model%train%closed_seat_force <= 0.0_wp) then
@@ -479,7 +479,8 @@ contains
       end if
       if (allocated(case%dynamics)) then
          allocate (model%flexible)
-         call set_flexible(model%flexible, case, model%linkage, model%train, model%pivot, model%modulus, error)
+         call set_flexible(model%flexible, case, model%linkage, model%train, model%pivot, model%modulus, &
+            & model%base_circle_load, error)
       end if
    end subroutine set_effects
 

@@ -26,6 +26,9 @@ module camroller_cycle
    use camroller_ode_method, only : allow_more
    use camroller_ode_methods, only : new_method
    use camroller_trajectory, only : trajectory_t, interpolate_state, curve_slope
+   use camroller_flexible_solution, only : flexible_solution_t, solve_flexible
+   use camroller_flexible_follower, only : evaluate_follower
+   use camroller_flexible_train, only : state_size, at_sliding
    implicit none
    private
 
@@ -57,6 +60,8 @@ module camroller_cycle
       real(wp) :: step_error = 0.0_wp
       !> Error of the sliding speed that was aimed at, over its largest value; means are integrated to the same [-]
       real(wp) :: tolerance = 0.0_wp
+      !> Turns of a flexible train; the trajectory is then that of its states in the last of them
+      type(flexible_solution_t), allocatable :: flexible
    end type cycle_t
 
    !> Part of the integration's tolerance to which the contact is solved at each evaluation [-]
@@ -82,6 +87,24 @@ contains
 
    !> Integrate until the cycle is periodic.
    subroutine integrate_cycle(cycle, model, numerics, error)
+      !> The cycle
+      type(cycle_t), intent(out) :: cycle
+      !> The model
+      type(model_t), intent(in), target :: model
+      !> Method, tolerance, criterion
+      type(numerics_t), intent(in) :: numerics
+      !> Deck error for an unknown method, convergence error where the cycle does not become periodic
+      type(error_t), allocatable, intent(out) :: error
+
+      if (allocated(model%flexible)) then
+         call take_flexible(cycle, model, resolve_numerics(numerics), error)
+      else
+         call integrate_roller(cycle, model, numerics, error)
+      end if
+   end subroutine integrate_cycle
+
+   !> Integrate the roller of a rigid train until its cycle is periodic.
+   subroutine integrate_roller(cycle, model, numerics, error)
       !> The cycle
       type(cycle_t), intent(out) :: cycle
       !> The model
@@ -151,7 +174,37 @@ contains
       call raise(error, kind_convergence, "the cycle did not become periodic: after numerics.max_cycles cycles, sliding "// &
          & "speeds at start and end, "//trim(problem%name_time(cycle%start))//", differ by more than numerics.periodicity. "// &
          & "Reasons may be a spin with little damping, or explicit steps beyond the stability limit")
-   end subroutine integrate_cycle
+   end subroutine integrate_roller
+
+   !> Take the solution of a flexible train for the cycle.
+   subroutine take_flexible(cycle, model, numerics, error)
+      !> The cycle
+      type(cycle_t), intent(inout) :: cycle
+      !> The model, with a flexible train
+      type(model_t), intent(in), target :: model
+      !> Method and tolerance
+      type(numerics_t), intent(in) :: numerics
+      !> Deck error for a method that cannot; convergence error
+      type(error_t), allocatable, intent(out) :: error
+
+      ! Stops within one turn [rad]
+      real(wp), allocatable :: stops(:)
+
+      cycle%tolerance = numerics%tolerance
+      call find_stops(model, stops)
+      allocate (cycle%flexible)
+      call solve_flexible(cycle%flexible, model, numerics, error)
+      if (allocated(error)) return
+      associate (solution => cycle%flexible)
+         cycle%trajectory = solution%cycle%trajectory
+         cycle%counters = solution%cycle%counters
+         cycle%cycles = solution%cycle%cycles
+         cycle%closure = solution%cycle%closure
+      end associate
+      cycle%start = -pi
+      cycle%stops = cycle_stops(stops, cycle%start)
+      cycle%scale = maxval(abs(cycle%trajectory%state(at_sliding, :cycle%trajectory%count)))
+   end subroutine take_flexible
 
    !> Start of the next turn: the end of this one, or where two turns tell how fast starts and ends approach each other, the point
    !> where they would meet.
@@ -385,6 +438,10 @@ contains
       logical :: is_moved
 
       inside = cycle%start + modulo(angle - cycle%start, two_pi)
+      if (allocated(cycle%flexible)) then
+         call flexible_state_at(cycle, model, inside, hint, state, error)
+         return
+      end if
       call interpolate_state(cycle%trajectory, inside, hint, value)
       if (cycle%has_surface_speed) then
          call evaluate_loading(model, inside, position, force, moments, status)
@@ -411,5 +468,32 @@ contains
             & fixed_text(modulo(180.0_wp + angle/degree, 360.0_wp), 3)//" deg")
       end if
    end subroutine state_at
+
+   !> State of a follower with a flexible train.
+   subroutine flexible_state_at(cycle, model, angle, hint, state, error)
+      !> The cycle
+      type(cycle_t), intent(in) :: cycle
+      !> Its model
+      type(model_t), intent(in) :: model
+      !> Cam angle from full lift, within the cycle [rad]
+      real(wp), intent(in) :: angle
+      !> Interval of the trajectory where the search starts
+      integer, intent(inout) :: hint
+      !> State
+      type(state_t), intent(out) :: state
+      !> Convergence error where the train cannot be in that state
+      type(error_t), allocatable, intent(out) :: error
+
+      ! State of the train [state]
+      real(wp) :: train(state_size(model))
+      integer :: status
+
+      associate (path => cycle%trajectory)
+         call interpolate_state(path, min(max(angle, path%time(1)), path%time(path%count)), hint, train)
+      end associate
+      call evaluate_follower(model, angle, train, state, status)
+      if (status /= 0) call raise(error, kind_convergence, "the flexible train has no state at cam angle "// &
+         & fixed_text(modulo(180.0_wp + angle/degree, 360.0_wp), 3)//" deg")
+   end subroutine flexible_state_at
 
 end module camroller_cycle

@@ -21,6 +21,7 @@ module camroller_deck_keys
    use camroller_roller, only : spin_names
    use camroller_deck_engine, only : add_engine_keys
    use camroller_deck_sweep_keys, only : add_sweep_keys
+   use camroller_deck_dynamics, only : add_dynamics_keys
    use camroller_usual_values, only : add_usual_ranges
    use camroller_output_options, only : output_options_t, compression_names
    use camroller_deck_schema, only : schema_t, add_group, add_number, add_integer, add_logical, add_name, add_text, &
@@ -62,6 +63,7 @@ contains
       call add_cam_bearing_keys(schema)
       call add_engine_keys(schema)
       call add_guide_keys(schema)
+      call add_dynamics_keys(schema)
       call add_selection_keys(schema, standard)
       call add_numerics_keys(schema, standard)
       call add_output_keys(schema, standard)
@@ -188,8 +190,8 @@ contains
       call add_number(schema, "precompression_mm", not_negative, "compression of the spring with the valve closed", &
          & example="8.4")
       call add_number(schema, "base_circle_load_N", not_negative, &
-         & "contact load on the base circle, from the lash adjuster", &
-         & example="64")
+         & "contact load on the base circle, from the lash adjuster; needed unless lash_adjuster.plunger_spring_N makes it", &
+         & example="64", is_optional=.true.)
       call add_name(schema, "seating", seating_names, standard%spring%seating, &
          & "transition of the load from base circle to event: by the stiffness of train and seat, or the larger of both loads")
       call add_number(schema, "seat_stiffness_N_m", positive, &

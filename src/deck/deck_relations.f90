@@ -11,6 +11,7 @@ module camroller_deck_relations
    use camroller_number_text, only : integer_text
    use camroller_mistakes, only : mistakes_t
    use camroller_settings, only : settings_t, take, find_value, is_known, is_wrong, get_word, has_group
+   use camroller_deck_dynamics, only : check_dynamics
    use camroller_deck_complaint, only : complain, complain_about_group
    use camroller_deck_engine, only : check_engine
    implicit none
@@ -41,6 +42,7 @@ contains
       call accuracy_or_tolerance(settings, mistakes)
       call output_step_divides_the_turn(settings, mistakes)
       call stick_slip_has_a_method(settings, mistakes)
+      call check_dynamics(settings, mistakes)
    end subroutine check_relations
 
    !> The closed energy balance needs exact arm and spin, mobilised boundary friction, rolling resistance in the

@@ -14,8 +14,8 @@ module camroller_flexible_cycle
    use camroller_ode_switching, only : integrate_switching
    use camroller_trajectory, only : trajectory_t
    use camroller_flexible_setup, only : rest_t, find_rest
-   use camroller_flexible_train, only : state_size, at_finger, at_lift, at_plunger, at_pressure
-   use camroller_flexible_problem, only : flexible_problem_t, state_scales
+   use camroller_flexible_train, only : state_size, at_finger, at_lift, at_plunger, at_pressure, at_sliding
+   use camroller_flexible_problem, only : flexible_problem_t, state_scales, largest_sliding_scale
    use camroller_lapack, only : dgesv
    implicit none
    private
@@ -160,6 +160,7 @@ contains
       ! Start of a turn [state], its distance from its end, the same of the turn before [-]
       real(wp) :: first(size(state)), distance, last_distance
       integer :: turns, plain, kept, k
+      logical :: is_scaled
 
       plain = 1
       kept = 0
@@ -170,11 +171,13 @@ contains
          call integrate_turn(turn, state, cycle%trajectory, cycle%counters, error)
          if (allocated(error)) return
          cycle%cycles = cycle%cycles + 1
+         call scale_sliding(turn, cycle%trajectory, is_scaled)
+         if (is_scaled) kept = 0
          distance = maxval(abs(state - first)/turn%scales)
          if (turns > 1 .and. distance < last_distance) cycle%multiplier = merge(max(cycle%multiplier, distance/last_distance), &
             & distance/last_distance, kept > 0)
          cycle%closure = distance
-         if (distance <= closure*(1.0_wp - min(cycle%multiplier, 0.9_wp))) then
+         if (distance <= closure*(1.0_wp - min(cycle%multiplier, 0.9_wp)) .and. .not. is_scaled) then
             cycle%period = 1
             return
          end if
@@ -195,6 +198,29 @@ contains
       end do
       cycle%closure = distance
    end subroutine find_periodic
+
+   !> Make errors of the sliding speed relative to its largest value, where that is small: friction follows it.
+   pure subroutine scale_sliding(turn, trajectory, is_scaled)
+      !> What integrates
+      type(turn_t), intent(inout) :: turn
+      !> A turn
+      type(trajectory_t), intent(in) :: trajectory
+      !> Has the scale changed?
+      logical, intent(out) :: is_scaled
+
+      ! Smallest scale [m/s], change that is worth one [-]
+      real(wp), parameter :: least = 1.0e-4_wp, worth = 2.0_wp
+      ! The scale as it should be and as it is [m/s]
+      real(wp) :: scale, present
+
+      present = turn%scales(at_sliding)
+      scale = maxval(abs(trajectory%state(at_sliding, :trajectory%count)))
+      scale = max(least, min(scale, largest_sliding_scale))
+      is_scaled = max(scale, present) > worth*min(scale, present)
+      if (.not. is_scaled) return
+      turn%options%tolerance(at_sliding) = turn%options%tolerance(at_sliding)*scale/present
+      turn%scales(at_sliding) = scale
+   end subroutine scale_sliding
 
    !> Start of the next turn: the end of this one, or a mixture of the last ones by Anderson's rule.
    subroutine mix(turn, first, is_slow, starts, residuals, kept, state, plain)

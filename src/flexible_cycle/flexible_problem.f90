@@ -16,6 +16,9 @@ module camroller_flexible_problem
 
    public :: flexible_problem_t, state_scales
 
+   !> Size of the sliding speed to which its error is relative, at most [m/s]
+   real(wp), parameter, public :: largest_sliding_scale = 0.1_wp
+
    !> A flexible train over the cam angle
    type, extends(switching_problem_t) :: flexible_problem_t
       !> The model; read only
@@ -44,7 +47,7 @@ contains
       integer :: first
 
       first = first_mode(model)
-      scales(:5) = [way/model%linkage%a, speed/model%linkage%a, way, speed, speed]
+      scales(:5) = [way/model%linkage%a, speed/model%linkage%a, way, speed, largest_sliding_scale]
       if (allocated(model%flexible%adjuster)) scales(6:8) = [way, speed, pressure]
       scales(first::2) = amplitude
       scales(first + 1::2) = rate

@@ -14,7 +14,29 @@ module camroller_state
    implicit none
    private
 
-   public :: state_t, evaluate_state, evaluate_spin, evaluate_loading, add_torques, cam_force
+   public :: state_t, flexible_values_t, most_surge_modes, evaluate_state, evaluate_spin, evaluate_loading, add_torques, &
+      & add_sums, cam_force
+
+   !> Modes of the spring that are kept for series
+   integer, parameter :: most_surge_modes = 20
+
+   !> What a flexible train has beside a rigid one
+   type :: flexible_values_t
+      !> Lift less that of the rigid train, gap between cam and roller [m]
+      real(wp) :: lift_error, gap
+      !> Angle by which the place of contact is ahead of the cam's turn [rad]
+      real(wp) :: contact_turn
+      !> Load over that of the rigid train without friction; zero where that has none [-]
+      real(wp) :: load_ratio
+      !> Forces of pad, seat, joint of finger and pivot, spring at the valve [N]
+      real(wp) :: pad_force, seat_force, joint_force, spring_force
+      !> Travel of the plunger [m], pressure in its chamber [Pa], leak and flow of the check valve [m^3/s]
+      real(wp) :: plunger_travel, chamber_pressure, leak_flow, check_flow
+      !> Energy that is stored [J]
+      real(wp) :: stored_energy
+      !> Amplitudes of the spring's modes [m]
+      real(wp) :: modes(most_surge_modes)
+   end type flexible_values_t
 
    !> State of one follower; torques are on the camshaft, from this follower alone
    type :: state_t
@@ -39,12 +61,16 @@ module camroller_state
       real(wp) :: torque_guide
       !> Torque that spins the roller up [N m]
       real(wp) :: torque_roller_inertia
+      !> Torque for the losses in dampers, leak and check valve of a flexible train [N m]
+      real(wp) :: torque_damping
       !> Sum of the losses as torque [N m]
       real(wp) :: torque_friction
       !> Sum of everything [N m]
       real(wp) :: torque_drive
       !> Power that the cam needs by its own equilibrium, less losses, less what is stored [W]; consistent bookkeeping
       real(wp) :: energy_residual
+      !> What a flexible train has beside
+      type(flexible_values_t) :: flexible
    end type state_t
 
 contains
@@ -180,6 +206,7 @@ contains
       state%torque_geometric = 0.0_wp
       state%torque_guide = 0.0_wp
       state%torque_needle = 0.0_wp
+      state%torque_damping = 0.0_wp
       state%torque_contact = contact_power(state%contact%traction, state%contact%sliding_speed, &
          & state%contact%rolling_resistance, state%contact%cam_surface_speed, state%contact%roller_surface_speed)/model%speed
       if (state%contact%is_touching) then
@@ -213,6 +240,7 @@ contains
       state%torque_geometric = 0.0_wp
       state%torque_guide = 0.0_wp
       state%torque_needle = 0.0_wp
+      state%torque_damping = 0.0_wp
       state%torque_contact = state%contact_friction*state%position%cam_arm
       if (state%contact%is_touching) then
          state%torque_geometric = state%moments%total*state%position%finger_slope
@@ -233,7 +261,7 @@ contains
       !> State with its torques apart
       type(state_t), intent(inout) :: state
 
-      state%torque_friction = state%torque_contact + state%torque_needle + state%torque_guide
+      state%torque_friction = state%torque_contact + state%torque_needle + state%torque_guide + state%torque_damping
       state%torque_drive = state%torque_geometric + state%torque_friction + state%torque_roller_inertia
    end subroutine add_sums
 

@@ -4,23 +4,23 @@
 !> Name and value of a series stand in one line, in `add_follower` or `add_camshaft`; the former is read for each lobe.
 module camroller_catalogue
    use camroller_kinds, only : wp
-   use camroller_case, only : case_t, energy_names
+   use camroller_case, only : camshaft_number, has_engine, case_t, energy_names
    use camroller_model, only : model_t
    use camroller_number_text, only : integer_text
    use camroller_result, only : quantity_t, lobe_scope, scope_camshaft, scope_engine, scope_length
-   use camroller_state, only : state_t
+   use camroller_state, only : state_t, flexible_values_t, most_surge_modes
    use camroller_hertz, only : peak_pressure
    use camroller_traction, only : rolling_law_names, rolling_none
    implicit none
    private
 
    public :: list_series, follower_values, camshaft_values, series_values, follower_torques, torque_count
-   public :: follower_count, camshaft_count, lobe_columns, camshaft_columns, lobe_prefix, camshaft_number
+   public :: follower_count, camshaft_count, lobe_columns, camshaft_columns, lobe_prefix
 
    !> More series than any case has
-   integer, parameter :: max_series = 96
+   integer, parameter :: max_series = 160
    !> Number of torques of one follower that `follower_torques` gives
-   integer, parameter :: torque_count = 6
+   integer, parameter :: torque_count = 7
    !> Beginning of the names of series of one of several camshafts
    character(len=*), parameter :: camshaft_prefix = "camshaft_"
 
@@ -243,7 +243,46 @@ contains
          call add(list, "asperity_friction_share", "1", "fraction of boundary friction in contact friction", "asperity", &
             & ratio(state%boundary_friction, state%contact_friction))
       end if
+      if (allocated(case%dynamics)) call add_flexible(list, case, state%flexible)
    end subroutine add_follower
+
+   !> Series of a flexible train.
+   pure subroutine add_flexible(list, case, train)
+      !> List to extend
+      type(list_t), intent(inout) :: list
+      !> The case
+      type(case_t), intent(in) :: case
+      !> What the train has beside a rigid one
+      type(flexible_values_t), intent(in) :: train
+
+      integer :: n
+
+      call add(list, "lift_error", "m", "valve lift less that of a rigid train", "dynamics", train%lift_error)
+      call add(list, "contact_gap", "m", "gap between cam and roller", "dynamics", train%gap)
+      call add(list, "contact_turn", "rad", "angle by which the place of contact is ahead of the cam", "dynamics", &
+         & train%contact_turn)
+      call add(list, "load_ratio", "1", "contact load over that of a rigid train without friction; zero where that has none", &
+         & "dynamics", train%load_ratio)
+      call add(list, "pad_force", "N", "force between finger and valve", "dynamics", train%pad_force)
+      call add(list, "seat_force", "N", "force of the seat on the valve", "dynamics", train%seat_force)
+      call add(list, "joint_force", "N", "force in the joint of finger and pivot; negative: the socket would open", "dynamics", &
+         & train%joint_force)
+      call add(list, "spring_force", "N", "force of the spring on the valve", "dynamics", train%spring_force)
+      call add(list, "stored_energy", "J", "energy stored in springs, contacts, oil and motion", "dynamics", train%stored_energy)
+      if (allocated(case%lash_adjuster)) then
+         call add(list, "plunger_travel", "m", "place of the adjuster's plunger, towards the cam positive", "lash_adjuster", &
+            & train%plunger_travel)
+         call add(list, "chamber_pressure", "Pa", "pressure in the adjuster's chamber above that outside", "lash_adjuster", &
+            & train%chamber_pressure)
+         call add(list, "leak_flow", "m3 s-1", "oil that leaks along the plunger", "lash_adjuster", train%leak_flow)
+         call add(list, "check_valve_flow", "m3 s-1", "oil that enters through the check valve", "lash_adjuster", train%check_flow)
+      end if
+      if (.not. allocated(case%spring_surge)) return
+      do n = 1, case%spring_surge%modes
+         call add(list, "spring_mode_"//integer_text(n), "m", "amplitude of the spring's mode "//integer_text(n), "spring_surge", &
+            & train%modes(n))
+      end do
+   end subroutine add_flexible
 
    !> Series of all camshafts together, then, where there are several, of each.
    pure subroutine add_camshafts(list, case, torques, bearing_torque)
@@ -262,9 +301,9 @@ contains
       if (size(bearing_torque) == 1) return
       do k = 1, size(bearing_torque)
          call add(list, camshaft_prefix//integer_text(k)//"_torque_friction", "N m", "torque for all losses of camshaft "// &
-            & integer_text(k), "torque", sum(torques(2:4, k)) + bearing_torque(k))
+            & integer_text(k), "torque", sum(torques(2:4, k)) + torques(6, k) + bearing_torque(k))
          call add(list, camshaft_prefix//integer_text(k)//"_torque_drive", "N m", "torque that drives camshaft "// &
-            & integer_text(k), "torque", sum(torques(1:5, k)) + bearing_torque(k))
+            & integer_text(k), "torque", sum(torques(1:6, k)) + bearing_torque(k))
       end do
    end subroutine add_camshafts
 
@@ -281,28 +320,6 @@ contains
          series(i)%scope = scope_camshaft//" "//series(i)%name(len(camshaft_prefix) + 1:len(camshaft_prefix) + length)
       end do
    end subroutine set_camshaft_scopes
-
-   !> Number of camshafts.
-   pure function camshaft_number(case) result(number)
-      !> The case
-      type(case_t), intent(in) :: case
-      !> The number
-      integer :: number
-
-      number = 1
-      if (.not. allocated(case%cam_bearings)) return
-      if (allocated(case%cam_bearings%cam_shafts)) number = maxval(case%cam_bearings%cam_shafts)
-   end function camshaft_number
-
-   !> Do the camshafts of a case belong to an engine?
-   pure function has_engine(case) result(verdict)
-      !> The case
-      type(case_t), intent(in) :: case
-      !> Do they?
-      logical :: verdict
-
-      verdict = allocated(case%engine) .and. allocated(case%cam_bearings)
-   end function has_engine
 
    !> Series of the camshaft: torques of all followers and bearings.
    pure subroutine add_camshaft(list, case, torques, bearing_torque)
@@ -325,14 +342,19 @@ contains
       if (allocated(case%cam_bearings)) then
          call add(list, "torque_bearings", "N m", "torque for the camshaft bearings", "cam_bearings", bearing_torque)
       end if
+      if (allocated(case%dynamics)) then
+         call add(list, "torque_damping", "N m", "torque for the losses in dampers, leak and check valve", "dynamics", torques(6))
+      end if
       if (case%energy == energy_names(1)) then
          call add(list, "torque_roller_inertia", "N m", "torque for the inertia of the roller", "roller", torques(5))
       end if
-      call add(list, "torque_friction", "N m", "torque for all losses", "torque", sum(torques(2:4)) + bearing_torque)
-      call add(list, "torque_drive", "N m", "torque that drives the camshaft", "torque", sum(torques(1:5)) + bearing_torque)
+      call add(list, "torque_friction", "N m", "torque for all losses", "torque", sum(torques(2:4)) + torques(6) &
+         & + bearing_torque)
+      call add(list, "torque_drive", "N m", "torque that drives the camshaft", "torque", sum(torques(1:6)) &
+         & + bearing_torque)
       if (case%energy == energy_names(1)) then
          call add(list, "energy_residual", "W", "drive power less losses less stored power", "torque", &
-            & torques(6))
+            & torques(7))
       end if
    end subroutine add_camshaft
 
@@ -396,9 +418,11 @@ contains
       state%contact%traction = 0.0_wp
       state%contact_friction = 0.0_wp
       state%boundary_friction = 0.0_wp
+      state%flexible = flexible_values_t(0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, &
+         & 0.0_wp, 0.0_wp, spread(0.0_wp, 1, most_surge_modes))
    end subroutine set_blank
 
-   !> Torques of one follower in a fixed order: geometric, contact, needle, guide, roller inertia; last the energy residual.
+   !> Torques of one follower in a fixed order: geometric, contact, needle, guide, roller inertia, damping; last energy residual.
    pure function follower_torques(state) result(torques)
       !> State of the follower
       type(state_t), intent(in) :: state
@@ -406,7 +430,7 @@ contains
       real(wp) :: torques(torque_count)
 
       torques = [state%torque_geometric, state%torque_contact, state%torque_needle, state%torque_guide, &
-         & state%torque_roller_inertia, state%energy_residual]
+         & state%torque_roller_inertia, state%torque_damping, state%energy_residual]
    end function follower_torques
 
    !> Does the case have rolling resistance?

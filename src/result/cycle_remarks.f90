@@ -7,6 +7,7 @@ module camroller_cycle_remarks
    use camroller_cycle, only : cycle_t
    use camroller_events, only : contact_losses
    use camroller_film_range, only : matters, range_in_words
+   use camroller_flexible_report, only : judge_train
    use camroller_margins, only : margins_t
    use camroller_means, only : statistics_t
    use camroller_model, only : model_t
@@ -48,11 +49,15 @@ contains
       integer :: first, i
 
       first = size(remarks) + 1
-      call check_contact(model, cycle, statistics, margins, remarks, error)
+      if (allocated(cycle%flexible)) then
+         call judge_train(model, cycle%flexible, statistics%lost_share, remarks, error)
+      else
+         call check_contact(model, cycle, statistics, margins, remarks, error)
+      end if
       if (.not. allocated(error)) call check_range(model, statistics, remarks, error)
       call check_error(statistics, remarks)
       call check_entrainment(statistics, remarks)
-      call check_pivot(model, margins, remarks)
+      if (.not. allocated(cycle%flexible)) call check_pivot(model, margins, remarks)
       if (lobe == 0) return
       call add_context(error, trim(lobe_scope(lobe)))
       do i = first, size(remarks)

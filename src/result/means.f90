@@ -81,7 +81,7 @@ module camroller_means
    real(wp), parameter :: least_tolerance = 1.0e-10_wp
    !> Names of the torques that are integrated, as series have them; the one that spins the roller up is not
    character(len=*), parameter :: torque_names(torque_count) = [character(len=name_length) :: "torque_drive", &
-      & "torque_contact", "torque_needle", "torque_guide", "", "energy_residual"]
+      & "torque_contact", "torque_needle", "torque_guide", "", "torque_damping", "energy_residual"]
 
 contains
 

@@ -19,6 +19,7 @@ module camroller_report
    use camroller_mean_bearings, only : mean_bearing_torque
    use camroller_means, only : statistics_t, integrate_lobe
    use camroller_slip_errors, only : error_of_extreme
+   use camroller_flexible_report, only : flexible_means_t, integrate_turns
    use camroller_summary, only : make_summary, extremes_t
    implicit none
    private
@@ -44,10 +45,46 @@ contains
 
       allocate (statistics(size(models)))
       do lobe = 1, size(models)
-         call integrate_lobe(case, models(lobe), cycles(lobe), follower_count(case) + camshaft_count(case), statistics(lobe), error)
+         if (allocated(cycles(lobe)%flexible)) then
+            call integrate_flexible(case, models(lobe), cycles(lobe), statistics(lobe), error)
+         else
+            call integrate_lobe(case, models(lobe), cycles(lobe), follower_count(case) + camshaft_count(case), statistics(lobe), &
+               & error)
+         end if
          if (allocated(error)) return
       end do
    end subroutine take_statistics
+
+   !> Means of a lobe shape whose train is flexible.
+   subroutine integrate_flexible(case, model, cycle, statistics, error)
+      !> The case
+      type(case_t), intent(in) :: case
+      !> Model of the lobe
+      type(model_t), intent(in) :: model
+      !> Its cycle
+      type(cycle_t), intent(in) :: cycle
+      !> Its means
+      type(statistics_t), intent(out) :: statistics
+      !> Convergence error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(flexible_means_t) :: means
+
+      call integrate_turns(case, model, cycle%flexible, follower_count(case) + camshaft_count(case), follower_count(case) + 1, &
+         & means, error)
+      if (allocated(error)) return
+      call move_alloc(means%mean, statistics%mean)
+      statistics%rows = means%rows
+      statistics%torques = means%torques
+      statistics%lost_share = means%lost_share
+      statistics%outside_share = means%outside_share
+      statistics%first_outside = means%first_outside
+      statistics%largest_sliding = means%largest_sliding
+      statistics%error = cycle%flexible%error
+      statistics%error_angle = cycle%flexible%error_angle
+      statistics%mean_error = cycle%flexible%mean_error
+      statistics%worst_mean = "torque_friction"
+   end subroutine integrate_flexible
 
    !> Series and summary of a case.
    subroutine make_result(case, models, cycles, statistics, with_series, result, error)
@@ -205,6 +242,10 @@ contains
             if (.not. allocated(error)) call judge_extremes(result%series(columns(1):columns(2)), &
                & extremes%lowest(columns(1):columns(2)), extremes%highest(columns(1):columns(2)), statistics(lobe))
             if (allocated(error)) return
+            if (allocated(cycles(lobe)%flexible)) then
+               statistics(lobe)%extreme_error = cycles(lobe)%flexible%error
+               statistics(lobe)%worst_extreme = "contact_load"
+            end if
             extremes%event_load(lobe) = smallest_event_load(models(lobe), result, samples)
          end associate
       end do
@@ -267,6 +308,7 @@ contains
 
       hint = 1
       allocate (statistics%extreme_errors(2, size(lowest)))
+      statistics%extreme_errors = 0.0_wp
       do series = 1, size(lowest)
          do sense = -1, 1, 2
             call start_search(statistics%rows, series, sense, search)
@@ -278,6 +320,8 @@ contains
             end do
             if (sense > 0) lowest(series) = search%value(2)
             if (sense < 0) highest(series) = -search%value(2)
+            ! Errors of a flexible train are those of its load and sliding speed
+            if (allocated(cycle%flexible)) cycle
             call state_at(cycle, model, search%point(2), hint, state, error)
             if (allocated(error)) return
             call error_of_extreme(statistics%slip_errors, case, model, cycle, state, search%point(2), series, sense, &

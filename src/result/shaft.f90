@@ -5,11 +5,11 @@
 module camroller_shaft
    use camroller_kinds, only : wp
    use camroller_error, only : error_t, raise, kind_domain
-   use camroller_case, only : case_t
+   use camroller_case, only : camshaft_number, case_t
    use camroller_model, only : model_t
    use camroller_state, only : state_t, cam_force
    use camroller_cycle, only : cycle_t, state_at
-   use camroller_catalogue, only : camshaft_number, follower_torques, torque_count
+   use camroller_catalogue, only : follower_torques, torque_count
    use camroller_journal, only : cam_bearings_t, journal_t, new_journal, journal_torque
    use camroller_camshaft, only : share_loads
    implicit none

@@ -6,6 +6,7 @@ module camroller_summary
    use camroller_case, only : case_t, energy_names
    use camroller_model, only : model_t
    use camroller_cycle, only : cycle_t
+   use camroller_flexible_report, only : list_flexible, most_flexible
    use camroller_catalogue, only : camshaft_columns, camshaft_values, lobe_columns, lobe_prefix, torque_count
    use camroller_engine_summary, only : list_engine_scalars, engine_scalar_count
    use camroller_margins, only : margin_t, margins_t
@@ -18,7 +19,7 @@ module camroller_summary
    public :: make_summary, extremes_t
 
    !> Scalars that do not belong to a series: room for them
-   integer, parameter :: more_scalars = 84 + engine_scalar_count
+   integer, parameter :: more_scalars = 84 + engine_scalar_count + 2*most_flexible
 
    !> Smallest and largest values
    type :: extremes_t
@@ -66,6 +67,7 @@ contains
          call add_slip(lobe, result, means, statistics(lobe), quantities, values, count)
          call add_margins(lobe, margins(lobe), extremes%event_load(lobe), quantities, values, count)
          call add_shares(lobe, models(lobe), statistics(lobe), quantities, values, count)
+         if (allocated(cycles(lobe)%flexible)) call add_train(lobe, models(lobe), cycles(lobe), quantities, values, count)
       end do
       call add(quantities, values, count, "estimated_error", "1", &
          & "estimate of the largest error of the sliding speed relative to its largest value (at least 1e-5 of the largest "// &
@@ -305,6 +307,33 @@ contains
          & "largest error of the film: of the polynomials of its table, and of the solutions at its points", "film", &
          & model%film_table%error, lobe_scope(lobe))
    end subroutine add_shares
+
+   !> Measures of a lobe's flexible train.
+   subroutine add_train(lobe, model, cycle, quantities, values, count)
+      !> The lobe shape, from 1
+      integer, intent(in) :: lobe
+      !> Its model
+      type(model_t), intent(in) :: model
+      !> Its cycle, of a flexible train
+      type(cycle_t), intent(in) :: cycle
+      !> List of scalars
+      type(quantity_t), intent(inout) :: quantities(:)
+      !> Their values [unit of the scalar]
+      real(wp), intent(inout) :: values(:)
+      !> Scalars so far
+      integer, intent(inout) :: count
+
+      type(quantity_t) :: of_train(most_flexible)
+      ! Their values [unit of the scalar]
+      real(wp) :: train_values(most_flexible)
+      integer :: number, i
+
+      call list_flexible(model, cycle%flexible, of_train, train_values, number)
+      do i = 1, number
+         call add(quantities, values, count, trim(lobe_prefix(lobe))//trim(of_train(i)%name), of_train(i)%unit, &
+            & of_train(i)%description, of_train(i)%source, train_values(i), lobe_scope(lobe))
+      end do
+   end subroutine add_train
 
    !> Work done by the integration, all lobe shapes together.
    subroutine add_counters(cycles, quantities, values, count)

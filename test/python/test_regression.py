@@ -10,9 +10,10 @@ import pytest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 TABLE = ROOT / "test/data/regression.csv"
-# A film by numerical solution takes as long as all others together and has tests of its own; as printed, the spring is too weak, and
-# rounding decides after how many cycles without contact the roller is periodic
-DECKS = sorted(path.stem for path in (ROOT / "decks").glob("*.nml") if path.stem not in ("numerical_film", "thesis_as_printed"))
+# A film by numerical solution takes as long as all others together and has tests of its own, as flexible trains have; as printed,
+# the spring is too weak, and rounding decides after how many cycles without contact the roller is periodic
+ELSEWHERE = ("numerical_film", "thesis_as_printed", "dynamics", "lash_adjuster")
+DECKS = sorted(path.stem for path in (ROOT / "decks").glob("*.nml") if path.stem not in ELSEWHERE)
 RESULTS = ("mean_torque_drive", "mean_torque_friction", "mean_torque_contact", "min_film_thickness_min",
            "max_hertz_pressure", "max_sliding_speed", "revolution_slip")
 COUNTERS = ("counter_evaluations", "counter_steps", "counter_rejected", "counter_cycles")

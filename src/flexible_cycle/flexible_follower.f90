@@ -1,0 +1,125 @@
+!> The state of a follower with a flexible train, as every follower's state is given.
+!>
+!> In: model, cam angle, state of the train. Out: `state_t`: contact, torques, energy residual, what a flexible train has beside.
+module camroller_flexible_follower
+   use camroller_kinds, only : wp
+   use camroller_model, only : model_t, evaluate_geometry
+   use camroller_kinematics, only : position_t
+   use camroller_dynamics, only : moments_t, evaluate_moments
+   use camroller_state, only : state_t, most_surge_modes, add_sums
+   use camroller_flexible_geometry, only : dot, cross
+   use camroller_flexible_train, only : flexible_state_t, evaluate_train, first_mode, at_finger, at_finger_rate, at_lift, at_speed
+   use camroller_flexible_energy, only : powers_t, evaluate_powers, stored_energy
+   use camroller_flexible_measures, only : pivot_force
+   implicit none
+   private
+
+   public :: evaluate_follower
+
+contains
+
+   !> Everything at one angle.
+   pure subroutine evaluate_follower(model, angle, train, state, status)
+      !> The model, with a flexible train
+      type(model_t), intent(in) :: model
+      !> Cam angle from full lift [rad]
+      real(wp), intent(in) :: angle
+      !> State of the train [state]
+      real(wp), intent(in) :: train(:)
+      !> State of the follower
+      type(state_t), intent(out) :: state
+      !> 0 fine, else the train cannot be in this state
+      integer, intent(out) :: status
+
+      type(flexible_state_t) :: now
+      type(powers_t) :: powers
+
+      call evaluate_train(model, angle, train, 0.0_wp, now, status)
+      if (status /= 0) return
+      call evaluate_powers(model, train, now, powers)
+      state%contact = now%contact
+      state%gas_force = now%gas_force
+      state%spin_acceleration = now%spin_acceleration
+      state%moments = moments_t(0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp)
+      call place_finger(model, train, now, state%position)
+      state%boundary_friction = abs(now%contact%boundary_mobilised)
+      state%contact_friction = abs(now%contact%shear) + state%boundary_friction + abs(now%contact%rolling_resistance)
+      state%torque_geometric = (powers%stored + powers%gas - powers%gallery)/model%speed
+      state%torque_contact = powers%contact/model%speed
+      state%torque_needle = powers%bearing/model%speed
+      state%torque_guide = powers%guide/model%speed
+      state%torque_roller_inertia = powers%spin/model%speed
+      state%torque_damping = powers%damping/model%speed
+      state%energy_residual = powers%residual
+      call add_sums(state)
+      call take_values(model, angle, train, now, state, status)
+   end subroutine evaluate_follower
+
+   !> Geometry of the follower where it is: the cam's at the place of contact, lift and arms as they are.
+   pure subroutine place_finger(model, train, now, position)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> State of the train [state]
+      real(wp), intent(in) :: train(:)
+      !> Everything there
+      type(flexible_state_t), intent(in) :: now
+      !> The geometry
+      type(position_t), intent(out) :: position
+
+      position = now%touch%position
+      position%lift = train(at_lift)
+      position%lift_slope = train(at_speed)/model%speed
+      position%finger_slope = train(at_finger_rate)/model%speed
+      position%arm_angle = train(at_finger) + model%linkage%arm_offset + model%linkage%valve_axis_angle
+      position%normal_arm = cross(now%touch%arm, now%touch%normal)
+      position%tangent_arm = -dot(now%touch%arm, now%touch%normal)
+   end subroutine place_finger
+
+   !> What a flexible train has beside a rigid one.
+   pure subroutine take_values(model, angle, train, now, state, status)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> Cam angle [rad]
+      real(wp), intent(in) :: angle
+      !> State of the train [state]
+      real(wp), intent(in) :: train(:)
+      !> Everything there
+      type(flexible_state_t), intent(in) :: now
+      !> State of the follower
+      type(state_t), intent(inout) :: state
+      !> 0, or as the rigid train has it
+      integer, intent(out) :: status
+
+      type(position_t) :: rigid
+      type(moments_t) :: moments
+      integer :: first, n
+
+      call evaluate_geometry(model, angle, rigid, status)
+      if (status /= 0) return
+      call evaluate_moments(model%train, rigid, model%speed, now%gas_force, moments)
+      associate (values => state%flexible)
+         values%lift_error = train(at_lift) - rigid%lift
+         values%gap = max(0.0_wp, -now%cam%approach)
+         values%contact_turn = now%touch%angle - angle
+         values%load_ratio = 0.0_wp
+         if (moments%total > 0.0_wp) values%load_ratio = now%contact%load*rigid%normal_arm/moments%total
+         values%pad_force = now%pad%force
+         values%seat_force = now%seat%force
+         values%joint_force = pivot_force(model, train, now)
+         ! The spring's mass beside that of its modes moves with the valve
+         values%spring_force = now%pad%force + now%seat%force - now%gas_force - now%guide_drag*train(at_speed) &
+            & - (model%train%valve_mass - model%flexible%modes%mass/3.0_wp)*now%valve_acceleration
+         values%plunger_travel = now%pivot
+         values%chamber_pressure = now%pressure
+         values%leak_flow = now%flows%leak
+         values%check_flow = now%flows%check
+         values%stored_energy = stored_energy(model, train, now)
+         values%modes = 0.0_wp
+         first = first_mode(model)
+         do n = 1, min(model%flexible%modes%count, most_surge_modes)
+            values%modes(n) = train(first + 2*(n - 1))
+         end do
+      end associate
+   end subroutine take_values
+
+end module camroller_flexible_follower

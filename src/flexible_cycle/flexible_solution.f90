@@ -1,0 +1,172 @@
+!> The solution of a case with a flexible train: its periodic state, all turns of a period, measures with their scatter, its error.
+!>
+!> In: model, numerics. Out: `flexible_solution_t`. Where no number of cycles repeats itself, it holds as many turns as make
+!> statistics, and says so.
+module camroller_flexible_solution
+   use camroller_kinds, only : wp
+   use camroller_error, only : error_t, raise, add_context, kind_deck
+   use camroller_accuracy, only : has_error_control
+   use camroller_case, only : numerics_t
+   use camroller_names, only : name_length
+   use camroller_model, only : model_t
+   use camroller_ode_problem, only : counters_t
+   use camroller_trajectory, only : trajectory_t, interpolate_state
+   use camroller_flexible_train, only : flexible_state_t, evaluate_train, at_sliding
+   use camroller_flexible_cycle, only : flexible_cycle_t, turn_t, start_turns, integrate_turn, find_periodic, rest_of_train
+   use camroller_flexible_measures, only : measure_count, measure_turn, loss_torque
+   implicit none
+   private
+
+   public :: flexible_solution_t, solve_flexible, statistical_turns
+
+   !> Turns that make statistics where there is no period
+   integer, parameter :: statistical_turns = 40
+   !> Cycles that are allowed at least
+   integer, parameter :: least_cycles = 40
+   !> Method for a single unknown, which the roller alone is, and the one that takes its place
+   character(len=*), parameter :: single_method = "hermite"
+   character(len=*), parameter :: chosen_method = "rodas5p"
+   !> Tolerance of a step over that of the roller's equation for the same accuracy: with it estimates of the error of load and slip
+   !> stay near the accuracy [-]
+   real(wp), parameter :: tolerance_ratio = 0.4_wp
+   !> Distance from the periodic state that is near enough, over the tolerance [-]
+   real(wp), parameter :: closure_ratio = 10.0_wp
+   !> Tolerance of the turn that the error is estimated with, over the tolerance, and how much more it errs at least [-]: a method
+   !> of order 5 errs by 3 to 4 times as much, as its tolerance to the power 4/5 or 1
+   real(wp), parameter :: coarser = 4.0_wp, worse = 3.0_wp
+
+   !> Periodic state or turns without a period
+   type :: flexible_solution_t
+      type(flexible_cycle_t) :: cycle
+      !> Turns of the period, or those for statistics
+      type(trajectory_t), allocatable :: turns(:)
+      !> Means of the measures over the turns, their standard deviations, smallest and largest [unit of the measure]
+      real(wp), allocatable :: mean(:), deviation(:), lowest(:), highest(:)
+      !> Estimated error of load and sliding speed over the largest, and of the mean loss over itself [-]
+      real(wp) :: error = 0.0_wp, mean_error = 0.0_wp
+      !> Cam angle where that error is largest [rad]
+      real(wp) :: error_angle = 0.0_wp
+   end type flexible_solution_t
+
+contains
+
+   !> Solve a model's train.
+   subroutine solve_flexible(solution, model, numerics, error)
+      !> The solution
+      type(flexible_solution_t), intent(out) :: solution
+      !> The model, with a flexible train
+      type(model_t), intent(in), target :: model
+      !> Numerics with method and tolerance
+      type(numerics_t), intent(in) :: numerics
+      !> Deck error for a method that cannot; convergence error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(turn_t) :: turn
+      ! State [state]
+      real(wp), allocatable :: state(:)
+      character(len=name_length) :: method
+      integer :: i, count
+
+      method = numerics%method
+      if (method == single_method) method = chosen_method
+      if (.not. has_error_control(numerics)) then
+         call raise(error, kind_deck, "numerics.method = '"//trim(method)//"' controls no error, which a flexible train needs; "// &
+            & "take '"//chosen_method//"' or 'radau5'")
+         return
+      end if
+      solution%cycle%tolerance = tolerance_ratio*numerics%tolerance
+      call start_turns(turn, model, method, solution%cycle%tolerance, error)
+      if (.not. allocated(error)) call rest_of_train(model, state, error)
+      if (.not. allocated(error)) call find_periodic(solution%cycle, turn, state, closure_ratio*solution%cycle%tolerance, &
+         & max(least_cycles, numerics%max_cycles), error)
+      call add_context(error, "integrating the flexible train")
+      if (allocated(error)) return
+      count = merge(solution%cycle%period, statistical_turns, solution%cycle%period > 0)
+      allocate (solution%turns(count))
+      if (count == 1) then
+         solution%turns(1) = solution%cycle%trajectory
+      else
+         do i = 1, count
+            call integrate_turn(turn, state, solution%turns(i), solution%cycle%counters, error)
+            call add_context(error, "integrating the flexible train")
+            if (allocated(error)) return
+         end do
+         solution%cycle%trajectory = solution%turns(count)
+      end if
+      call take_measures(solution, model, error)
+      if (.not. allocated(error)) call estimate_error(solution, turn, error)
+   end subroutine solve_flexible
+
+   !> Measures of all turns.
+   subroutine take_measures(solution, model, error)
+      !> The solution
+      type(flexible_solution_t), intent(inout) :: solution
+      !> The model
+      type(model_t), intent(in) :: model
+      !> Convergence error
+      type(error_t), allocatable, intent(out) :: error
+
+      ! Measures of each turn [unit of the measure]
+      real(wp), allocatable :: values(:, :)
+      integer :: i, n
+
+      n = size(solution%turns)
+      allocate (values(measure_count(merge(2, 1, allocated(model%flexible%adjuster))), n))
+      do i = 1, n
+         call measure_turn(model, solution%turns(i), values(:, i), error)
+         if (allocated(error)) return
+      end do
+      solution%mean = sum(values, 2)/n
+      solution%lowest = minval(values, 2)
+      solution%highest = maxval(values, 2)
+      solution%deviation = sqrt(sum((values - spread(solution%mean, 2, n))**2, 2)/max(1, n - 1))
+   end subroutine take_measures
+
+   !> Error of the last turn: its difference from one from the same start with a coarser tolerance, which errs more.
+   subroutine estimate_error(solution, turn, error)
+      !> The solution
+      type(flexible_solution_t), intent(inout) :: solution
+      !> What integrates
+      type(turn_t), intent(inout) :: turn
+      !> Convergence error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(trajectory_t) :: other
+      type(counters_t) :: counters
+      type(flexible_state_t) :: now
+      ! State of the other turn [state]; loads [N], sliding speeds [m/s]: of both turns
+      real(wp) :: state(size(turn%scales)), loads(2), speeds(2)
+      ! Largest load [N] and sliding speed [m/s], largest differences [N], [m/s], measures of the last turn [unit of the measure]
+      real(wp) :: largest(2), differences(2), values(size(solution%mean)), others(size(solution%mean))
+      integer :: i, hint, status
+
+      turn%options%tolerance = coarser*turn%options%tolerance
+      associate (path => solution%cycle%trajectory, model => turn%problem%model)
+         state = path%state(:, 1)
+         call integrate_turn(turn, state, other, counters, error)
+         turn%options%tolerance = turn%options%tolerance/coarser
+         call add_context(error, "estimating the error of the flexible train")
+         if (allocated(error)) return
+         hint = 1
+         largest = [tiny(1.0_wp), 1.0e-5_wp*model%speed*model%roller_radius]
+         differences = 0.0_wp
+         do i = 1, path%count
+            call interpolate_state(other, min(path%time(i), other%time(other%count)), hint, state)
+            call evaluate_train(model, path%time(i), path%state(:, i), 0.0_wp, now, status)
+            loads(1) = now%contact%load
+            call evaluate_train(model, path%time(i), state, 0.0_wp, now, status)
+            loads(2) = now%contact%load
+            speeds = [path%state(at_sliding, i), state(at_sliding)]
+            largest = max(largest, [loads(1), abs(speeds(1))])
+            if (abs(loads(1) - loads(2)) > differences(1)) solution%error_angle = path%time(i)
+            differences = max(differences, abs([loads(1) - loads(2), speeds(1) - speeds(2)]))
+         end do
+         solution%error = maxval(differences/largest)/(worse - 1.0_wp)
+         call measure_turn(model, path, values, error)
+         if (.not. allocated(error)) call measure_turn(model, other, others, error)
+         if (allocated(error)) return
+         solution%mean_error = abs(values(loss_torque) - others(loss_torque))/max(abs(values(loss_torque)), tiny(1.0_wp))
+      end associate
+   end subroutine estimate_error
+
+end module camroller_flexible_solution

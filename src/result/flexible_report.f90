@@ -1,0 +1,269 @@
+!> What a result has of a flexible train: means over its turns, scalars with their scatter, remarks.
+!>
+!> In: the solution of a lobe's train. Out: means and rows of all series, as those of a rigid train; scalars for the summary;
+!> remarks, or an error where the case forbids what happens. Each step is integrated with its own curve; turns of a period, or those
+!> for statistics where there is none, count alike.
+module camroller_flexible_report
+   use camroller_case, only : case_t
+   use camroller_catalogue, only : follower_torques, series_values, torque_count
+   use camroller_contact_forces, only : film_groups
+   use camroller_error, only : error_t, kind_convergence, kind_domain, raise
+   use camroller_extremes, only : add_sample, samples_t, start_samples
+   use camroller_film, only : is_in_range
+   use camroller_flexible_follower, only : evaluate_follower
+   use camroller_flexible_measures, only : bounces, coil_ratio, largest_load_angle, losses_of_contact, measures, seating_speed, &
+      & smallest_pivot_force, tension_share
+   use camroller_flexible_solution, only : flexible_solution_t
+   use camroller_kinds, only : degree, pi, two_pi, wp
+   use camroller_model, only : model_t
+   use camroller_number_text, only : integer_text, number_text
+   use camroller_quadrature, only : gauss_legendre
+   use camroller_remarks, only : add_remark, clashing_coils, long_period, lost_contact, no_period, open_pivot, remark_t
+   use camroller_result, only : quantity_t
+   use camroller_state, only : state_t
+   use camroller_trajectory, only : interpolate_state, trajectory_t
+   implicit none
+   private
+
+   public :: flexible_means_t, integrate_turns, list_flexible, most_flexible, judge_train
+
+   !> Points of the rule for a step
+   integer, parameter :: points = 3
+   !> Turns whose points are kept for the search of extremes
+   integer, parameter :: most_searched = 8
+
+   !> Means over all turns
+   type :: flexible_means_t
+      !> Of each series of follower and camshaft, as if the follower were alone [unit of the series]
+      real(wp), allocatable :: mean(:)
+      !> Of the torques [N m], last the energy residual [W]
+      real(wp) :: torques(torque_count) = 0.0_wp
+      !> Series of the follower at the points met
+      type(samples_t) :: rows
+      !> Part of the cycle without contact, and outside the film law's range [-]
+      real(wp) :: lost_share = 0.0_wp, outside_share = 0.0_wp
+      !> Cam angle from full lift where the film law's range is first left [rad]
+      real(wp) :: first_outside = 0.0_wp
+      !> Largest size of the sliding speed met [m/s]
+      real(wp) :: largest_sliding = 0.0_wp
+   end type flexible_means_t
+
+   !> More scalars than a train has
+   integer, parameter :: most_flexible = 4*size(measures) + 8
+
+   !> Rev/min in a rad/s [-]
+   real(wp), parameter :: per_minute = 30.0_wp/pi
+
+contains
+
+   !> Means over all turns.
+   subroutine integrate_turns(case, model, solution, series_count, first_torque, means, error)
+      !> The case
+      type(case_t), intent(in) :: case
+      !> The model of the lobe
+      type(model_t), intent(in) :: model
+      !> Its solution
+      type(flexible_solution_t), intent(in) :: solution
+      !> Number of series of follower and camshaft, and the first of them that is a torque
+      integer, intent(in) :: series_count, first_torque
+      !> The means
+      type(flexible_means_t), intent(out) :: means
+      !> Convergence error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(state_t) :: state
+      ! Series [unit of the series]
+      real(wp) :: values(series_count)
+      integer :: turn
+
+      allocate (means%mean(series_count))
+      means%mean = 0.0_wp
+      call start_samples(means%rows, first_torque - 1)
+      do turn = 1, size(solution%turns)
+         call add_turn(case, model, solution%turns(turn), 1.0_wp/size(solution%turns), &
+            & turn > size(solution%turns) - most_searched, state, means, error)
+         if (allocated(error)) return
+      end do
+      call series_values(case, model, state, means%torques, 0.0_wp, values)
+      means%mean(first_torque:) = values(first_torque:)
+   end subroutine integrate_turns
+
+   !> Take a turn into the means.
+   subroutine add_turn(case, model, path, share, is_kept, state, means, error)
+      !> The case
+      type(case_t), intent(in) :: case
+      !> The model of the lobe
+      type(model_t), intent(in) :: model
+      !> The turn
+      type(trajectory_t), intent(in) :: path
+      !> Its share of all turns [-]
+      real(wp), intent(in) :: share
+      !> Are its points kept for the search of extremes?
+      logical, intent(in) :: is_kept
+      !> State at the last point
+      type(state_t), intent(out) :: state
+      !> The means
+      type(flexible_means_t), intent(inout) :: means
+      !> Convergence error
+      type(error_t), allocatable, intent(out) :: error
+
+      ! Places and weights of the rule on [-1, 1] [-]; length of a step and angle [rad], part of all turns [-]
+      real(wp) :: places(points), weights(points), length, angle, weight
+      ! State of the train [state], series [unit of the series], torques [N m]
+      real(wp) :: train(size(path%state, 1)), values(size(means%mean)), torques(torque_count)
+      integer :: step, i, hint, status
+
+      call gauss_legendre(places, weights)
+      do step = 1, path%count - 1
+         length = path%time(step + 1) - path%time(step)
+         if (length <= 0.0_wp) cycle
+         do i = 1, points
+            angle = path%time(step) + 0.5_wp*length*(1.0_wp + places(i))
+            weight = share*0.5_wp*length*weights(i)/two_pi
+            hint = step
+            call interpolate_state(path, angle, hint, train)
+            call evaluate_follower(model, angle, train, state, status)
+            if (status /= 0) then
+               call raise(error, kind_convergence, "a state between the steps of the flexible train cannot be evaluated")
+               return
+            end if
+            torques = follower_torques(state)
+            call series_values(case, model, state, torques, 0.0_wp, values)
+            means%mean = means%mean + weight*values
+            means%torques = means%torques + weight*torques
+            means%largest_sliding = max(means%largest_sliding, abs(state%contact%sliding_speed))
+            if (is_kept) call add_sample(means%rows, angle, values(:size(means%rows%values, 1)), .false.)
+            if (.not. state%contact%is_touching) then
+               means%lost_share = means%lost_share + weight
+            else if (.not. is_in_range(model%film_law, film_groups(model, state%position, state%contact), model%film_table)) then
+               if (means%outside_share <= 0.0_wp) means%first_outside = angle
+               means%outside_share = means%outside_share + weight
+            end if
+         end do
+      end do
+   end subroutine add_turn
+
+   !> Scalars of a train.
+   subroutine list_flexible(model, solution, quantities, values, count)
+      !> Model of the lobe
+      type(model_t), intent(in) :: model
+      !> Solution of its train
+      type(flexible_solution_t), intent(in) :: solution
+      !> Scalars: name, unit, meaning, part of the model
+      type(quantity_t), intent(out) :: quantities(:)
+      !> Their values [unit of the scalar]
+      real(wp), intent(out) :: values(:)
+      !> Number of them
+      integer, intent(out) :: count
+
+      integer :: i
+
+      count = 0
+      do i = 1, size(solution%mean)
+         associate (measure => measures(i))
+            if (i == largest_load_angle) then
+               call add(trim(measure%name), "deg", trim(measure%meaning), modulo(180.0_wp + solution%mean(i)/degree, 360.0_wp))
+               cycle
+            end if
+            call add(trim(measure%name), trim(measure%unit), trim(measure%meaning), solution%mean(i))
+            call add(trim(measure%name)//"_deviation", trim(measure%unit), "standard deviation from cycle to cycle: "// &
+               & trim(measure%meaning), solution%deviation(i))
+            call add(trim(measure%name)//"_lowest", trim(measure%unit), "smallest of all cycles: "//trim(measure%meaning), &
+               & solution%lowest(i))
+            call add(trim(measure%name)//"_highest", trim(measure%unit), "largest of all cycles: "//trim(measure%meaning), &
+               & solution%highest(i))
+         end associate
+      end do
+      call add("period_cycles", "1", "cycles after which the train repeats itself; 0 where it does not", &
+         & real(solution%cycle%period, wp))
+      call add("cycle_multiplier", "1", "largest part of a disturbance that a cycle was seen to leave", solution%cycle%multiplier)
+      call add("summary_cycles", "1", "cycles that these measures are over", real(size(solution%turns), wp))
+      if (allocated(model%flexible%adjuster)) then
+         call add("plunger_spring_force", "N", "force of the plunger's spring in its middle place", &
+            & model%flexible%adjuster%spring_force)
+         call add("leak_conductance", "m3 s-1 Pa-1", "leak along the plunger over the pressure", &
+            & model%flexible%adjuster%conductance)
+      end if
+
+   contains
+
+      !> Append a scalar.
+      subroutine add(name, unit, meaning, value)
+         !> Its name, unit and meaning
+         character(len=*), intent(in) :: name, unit, meaning
+         !> Its value [unit of the scalar]
+         real(wp), intent(in) :: value
+
+         count = count + 1
+         quantities(count)%name = name
+         quantities(count)%unit = unit
+         quantities(count)%description = meaning
+         quantities(count)%source = "dynamics"
+         values(count) = value
+      end subroutine add
+
+   end subroutine list_flexible
+
+   !> Remarks on a train.
+   subroutine judge_train(model, solution, lost_share, remarks, error)
+      !> Model of the lobe
+      type(model_t), intent(in) :: model
+      !> Solution of its train
+      type(flexible_solution_t), intent(in) :: solution
+      !> Part of the cycle without contact [-]
+      real(wp), intent(in) :: lost_share
+      !> Remarks so far
+      type(remark_t), allocatable, intent(inout) :: remarks(:)
+      !> Domain error where the case forbids what happens
+      type(error_t), allocatable, intent(out) :: error
+
+      character(len=:), allocatable :: text
+
+      call judge_period(model, solution, remarks)
+      if (lost_share > 0.0_wp) then
+         text = "cam and roller part "//number_text(solution%mean(losses_of_contact), 3)//" times a cycle, for "// &
+            & number_text(100.0_wp*lost_share, 3)//" % of it, at "//number_text(model%speed*per_minute, 6)//" rev/min"
+         if (model%stops_without_contact .and. model%flexible%lash <= 0.0_wp) then
+            call raise(error, kind_domain, text//" (contact_policy = 'stop')")
+            return
+         end if
+         call add_remark(remarks, lost_contact, text, 100.0_wp*lost_share)
+      end if
+      if (solution%lowest(smallest_pivot_force) < 0.0_wp) then
+         call add_remark(remarks, open_pivot, "the joint of finger and pivot is in tension for "// &
+            & number_text(100.0_wp*solution%mean(tension_share), 3)//" % of the cycle, by up to "// &
+            & number_text(-solution%lowest(smallest_pivot_force), 3)//" N at "//number_text(model%speed*per_minute, 6)// &
+            & " rev/min; it is taken to hold, a real one opens", -solution%lowest(smallest_pivot_force))
+      end if
+      if (solution%highest(coil_ratio) > 1.0_wp) then
+         call add_remark(remarks, clashing_coils, "coils of the spring may clash: its modes move them by up to "// &
+            & number_text(solution%highest(coil_ratio), 3)//" times what the spring is compressed by, which is not computed", &
+            & solution%highest(coil_ratio))
+      end if
+   end subroutine judge_train
+
+   !> Remark on a cycle that does not repeat itself, or only after several turns.
+   subroutine judge_period(model, solution, remarks)
+      !> Model of the lobe
+      type(model_t), intent(in) :: model
+      !> Solution of its train
+      type(flexible_solution_t), intent(in) :: solution
+      !> Remarks so far
+      type(remark_t), allocatable, intent(inout) :: remarks(:)
+
+      if (solution%cycle%period == 1) return
+      if (solution%cycle%period > 1) then
+         call add_remark(remarks, long_period, "the train repeats itself after "//integer_text(solution%cycle%period)// &
+            & " cycles at "//number_text(model%speed*per_minute, 6)//" rev/min; the summary is over all of them, the series "// &
+            & "are of the last", real(solution%cycle%period, wp))
+      else
+         call add_remark(remarks, no_period, "the train does not repeat itself at "//number_text(model%speed*per_minute, 6)// &
+            & " rev/min: after "//integer_text(solution%cycle%cycles)//" cycles the summary is over "// &
+            & integer_text(size(solution%turns))//" more, and the series are of the last of them, as an example; it meets its "// &
+            & "seat at "//number_text(solution%lowest(seating_speed), 3)//" to "// &
+            & number_text(solution%highest(seating_speed), 3)//" m/s and bounces "//number_text(solution%mean(bounces), 3)// &
+            & " times a cycle", solution%cycle%closure)
+      end if
+   end subroutine judge_period
+
+end module camroller_flexible_report
