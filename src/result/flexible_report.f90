@@ -10,6 +10,7 @@ module camroller_flexible_report
    use camroller_error, only : error_t, kind_convergence, kind_domain, raise
    use camroller_extremes, only : add_sample, samples_t, start_samples
    use camroller_film, only : is_in_range
+   use camroller_film_range, only : film_range_t, note_film
    use camroller_flexible_follower, only : evaluate_follower
    use camroller_flexible_measures, only : bounces, coil_ratio, largest_load_angle, losses_of_contact, measures, seating_speed, &
       & smallest_pivot_force, tension_share
@@ -40,8 +41,12 @@ module camroller_flexible_report
       real(wp) :: torques(torque_count) = 0.0_wp
       !> Series of the follower at the points met
       type(samples_t) :: rows
-      !> Part of the cycle without contact, and outside the film law's range [-]
-      real(wp) :: lost_share = 0.0_wp, outside_share = 0.0_wp
+      !> Series of the camshaft there, without its bearings
+      type(samples_t) :: torque_rows
+      !> Part of the cycle without contact [-]
+      real(wp) :: lost_share = 0.0_wp
+      !> Where the film law is outside its range
+      type(film_range_t) :: film_range
       !> Cam angle from full lift where the film law's range is first left [rad]
       real(wp) :: first_outside = 0.0_wp
       !> Largest size of the sliding speed met [m/s]
@@ -79,6 +84,7 @@ contains
       allocate (means%mean(series_count))
       means%mean = 0.0_wp
       call start_samples(means%rows, first_torque - 1)
+      call start_samples(means%torque_rows, series_count - first_torque + 1)
       do turn = 1, size(solution%turns)
          call add_turn(case, model, solution%turns(turn), 1.0_wp/size(solution%turns), &
             & turn > size(solution%turns) - most_searched, state, means, error)
@@ -132,16 +138,40 @@ contains
             means%mean = means%mean + weight*values
             means%torques = means%torques + weight*torques
             means%largest_sliding = max(means%largest_sliding, abs(state%contact%sliding_speed))
-            if (is_kept) call add_sample(means%rows, angle, values(:size(means%rows%values, 1)), .false.)
-            if (.not. state%contact%is_touching) then
-               means%lost_share = means%lost_share + weight
-            else if (.not. is_in_range(model%film_law, film_groups(model, state%position, state%contact), model%film_table)) then
-               if (means%outside_share <= 0.0_wp) means%first_outside = angle
-               means%outside_share = means%outside_share + weight
+            if (is_kept) then
+               call add_sample(means%rows, angle, values(:size(means%rows%values, 1)), .false.)
+               call add_sample(means%torque_rows, angle, values(size(means%rows%values, 1) + 1:), .false.)
             end if
+            call add_shares(model, state, angle, weight, means)
          end do
       end do
    end subroutine add_turn
+
+   !> Take a point into the shares of the cycle without contact and outside the film law's range.
+   pure subroutine add_shares(model, state, angle, weight, means)
+      !> The model of the lobe
+      type(model_t), intent(in) :: model
+      !> State of the follower
+      type(state_t), intent(in) :: state
+      !> Cam angle from full lift [rad]
+      real(wp), intent(in) :: angle
+      !> Part of all turns that it stands for [-]
+      real(wp), intent(in) :: weight
+      !> The means
+      type(flexible_means_t), intent(inout) :: means
+
+      logical :: is_inside
+
+      is_inside = .true.
+      if (state%contact%is_touching) then
+         is_inside = is_in_range(model%film_law, film_groups(model, state%position, state%contact), model%film_table)
+      else
+         means%lost_share = means%lost_share + weight
+      end if
+      if (.not. is_inside .and. means%film_range%share <= 0.0_wp) means%first_outside = angle
+      call note_film(means%film_range, film_groups(model, state%position, state%contact), is_inside, &
+         & state%position%lift > 0.0_wp, state%torque_contact + state%torque_needle + state%torque_guide, weight)
+   end subroutine add_shares
 
    !> Scalars of a train.
    subroutine list_flexible(model, solution, quantities, values, count)

@@ -75,9 +75,10 @@ contains
       if (allocated(error)) return
       call move_alloc(means%mean, statistics%mean)
       statistics%rows = means%rows
+      statistics%torque_rows = means%torque_rows
       statistics%torques = means%torques
       statistics%lost_share = means%lost_share
-      statistics%outside_share = means%outside_share
+      statistics%film_range = means%film_range
       statistics%first_outside = means%first_outside
       statistics%largest_sliding = means%largest_sliding
       statistics%error = cycle%flexible%error
