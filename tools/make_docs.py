@@ -99,7 +99,7 @@ def stage_pages(pages: Pages) -> None:
                  if other and str(pathlib.PurePath(other).parent).removeprefix(".") == folder]
         write(STAGE / "pages" / folder / "index.md", "\n".join([f"---\ntitle: {FOLDERS[folder]}\n---\n", *lists[folder], *inner]))
     front = pages.converted((ROOT / "README.md").read_text(encoding="utf-8"))
-    write(STAGE / "README.md", re.sub(r"(\]\()(?=(?:doc|bench|CONTRIBUTING|CHANGELOG)\b)", r"\1page/", front))
+    write(STAGE / "README.md", re.sub(r"(\]\(|(?:src|href)=\")(?=(?:doc|bench|CONTRIBUTING|CHANGELOG)\b)", r"\1page/", front))
 
 
 def write(path: pathlib.Path, text: str) -> None:
