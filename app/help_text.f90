@@ -126,7 +126,7 @@ contains
             & "  --film                     the numerical film instead: as a film law with tables of several accuracies, and"//n// &
             & "                             solved over the cycle on several grids, beside the film law of the deck;"//n// &
             & "                             writes the deck's name with _film_study.h5"//n// &
-            & "  --laws                     the film laws instead: every case with each, and the range of results;"//n// &
+            & "  --laws                     the film laws instead: every case with each of them, and the range of results;"//n// &
             & "                             prints a table, writes no file"//n// &
             & "  -s, --set group.key=value  other value than the deck's; may be repeated"//n// &
             & "  -q, --quiet                print errors only"

@@ -32,8 +32,8 @@ module camroller_laws_page
       column_t("mean_slip_ratio", "mean slip [%]", 1.0e2_wp), &
       column_t("min_film_thickness_min", "smallest film [um]", 1.0e6_wp), &
       column_t("min_film_ratio", "film ratio", 1.0_wp)]
-   !> Digits of numbers; width of the first column and room between columns
-   integer, parameter :: digits = 3, first_width = 22, gap = 2
+   !> Digits of numbers; width of the first column, room between columns and their least width
+   integer, parameter :: digits = 3, first_width = 22, gap = 2, least_width = 16
    character(len=*), parameter :: n = new_line("a")
 
 contains
@@ -77,7 +77,7 @@ contains
 
       line = repeat(" ", first_width)
       do i = 1, size(columns)
-         line = line//right_text(trim(columns(i)%heading), len_trim(columns(i)%heading) + gap)
+         line = line//right_text(trim(columns(i)%heading), max(least_width, len_trim(columns(i)%heading)) + gap)
       end do
       text = text//n//line
       smallest = huge(1.0_wp)
@@ -102,7 +102,7 @@ contains
          largest = max(largest, values)
          line = line(:first_width)
          do i = 1, size(columns)
-            line = line//right_text(number_text(values(i), digits), len_trim(columns(i)%heading) + gap)
+            line = line//right_text(number_text(values(i), digits), max(least_width, len_trim(columns(i)%heading)) + gap)
          end do
          text = text//n//line
       end do
@@ -111,7 +111,7 @@ contains
       line = line//repeat(" ", max(0, first_width - len(line)))
       do i = 1, size(columns)
          line = line//right_text(number_text(smallest(i), digits)//" to "//number_text(largest(i), digits), &
-            & len_trim(columns(i)%heading) + gap)
+            & max(least_width, len_trim(columns(i)%heading)) + gap)
       end do
       text = text//n//line
    end subroutine add_table
