@@ -10,6 +10,9 @@ module camroller_deck_remarks
    use camroller_deck_schema, only : key_t, type_number, type_numbers
    use camroller_deck_sweep, only : sweep_axis_t
    use camroller_settings, only : get_word, take, find_value
+   use camroller_deck_tables, only : get_lift_table
+   use camroller_lift, only : lift_t
+   use camroller_lift_noise, only : find_lift_noise, lift_noise_t
    use camroller_table_file, only : table_t
    use camroller_deck, only : deck_t
    implicit none
@@ -235,6 +238,7 @@ contains
          call add_remark(remarks, table%path//": a largest lift of "//number_text(1.0e3_wp*largest, digits)// &
             & " mm is unusual: engines have 1 to 25 mm"//words)
       end if
+      call remark_noise(deck, group, table, remarks)
       length = table%x(min(size(table%x), findloc(table%y > 0.0_wp, .true., dim=1, back=.true.) + 1)) &
          & - table%x(max(1, findloc(table%y > 0.0_wp, .true., dim=1) - 1))
       if (length >= usual_event(1) .and. length <= usual_event(2)) return
@@ -244,6 +248,35 @@ contains
       call add_remark(remarks, table%path//": an event of "//number_text(length, digits)// &
          & " degrees of cam angle is unusual: engines have 60 to 220"//words)
    end subroutine remark_lift
+
+   !> A lift table whose noise makes up the acceleration.
+   subroutine remark_noise(deck, group, table, remarks)
+      !> The deck
+      type(deck_t), intent(in) :: deck
+      !> Group of the lift
+      character(len=*), intent(in) :: group
+      !> Its table
+      type(table_t), intent(in) :: table
+      !> Sentences so far
+      type(line_t), allocatable, intent(inout) :: remarks(:)
+
+      ! Growth of the acceleration that is worth a word [-]
+      real(wp), parameter :: large = 1.1_wp
+      type(lift_t) :: lift
+      type(lift_noise_t) :: noise
+
+      lift%law = "table"
+      call take(deck%settings, group, "smoothing_um", lift%smoothing)
+      call get_lift_table(deck%settings, group, table, lift%table_angle, lift%table_lift)
+      call find_lift_noise(lift, noise)
+      if (.not. noise%is_known .or. lift%smoothing >= noise%noise) return
+      if (all(abs(noise%given) <= large*abs(noise%smoothed))) return
+      call add_remark(remarks, table%path//": the lift has noise of about "//number_text(1.0e6_wp*noise%noise, 2)// &
+         & " um, which makes its second derivative "//number_text(1.0e3_wp*noise%given(1), 3)//" to "// &
+         & number_text(1.0e3_wp*noise%given(2), 3)//" mm/rad^2; with smoothing_um = "//number_text(1.0e6_wp*noise%noise, 2)// &
+         & " in &"//group//" it is "//number_text(1.0e3_wp*noise%smoothed(1), 3)//" to "// &
+         & number_text(1.0e3_wp*noise%smoothed(2), 3)//". Loads and the speed at which contact is lost follow it")
+   end subroutine remark_noise
 
    !> A number with its unit.
    pure function with_unit(number, unit) result(words)

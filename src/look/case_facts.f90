@@ -6,6 +6,8 @@ module camroller_case_facts
    use camroller_error, only : error_t
    use camroller_case, only : case_t
    use camroller_kinematics, only : position_t
+   use camroller_lift, only : lift_t
+   use camroller_lift_noise, only : find_lift_noise, lift_noise_t
    use camroller_model, only : model_t, evaluate_geometry
    use camroller_number_text, only : number_text, fixed_text
    use camroller_result, only : result_t, get_summary
@@ -104,6 +106,8 @@ contains
       if (allocated(error)) return
       call describe_oil(case, models(1), text)
       do lobe = 1, size(models)
+         if (lobe == 1) call describe_table(case%lift, text)
+         if (lobe == 2) call describe_table(case%second_lift, text)
          call describe_cam(models(lobe), trim(merge("second lobe:", "lobe:       ", lobe == 2)), text)
       end do
       call run_case(case, result, failure)
@@ -135,6 +139,25 @@ contains
       text = text//n//"composite roughness: "//number_text(1.0e6_wp*model%roughness, digits)//" um; cam speed "// &
          & number_text(case%operating_point%speed*60.0_wp/two_pi, 4)//" rev/min"//n
    end subroutine describe_oil
+
+   !> Noise of a lift table and what smoothing does to it.
+   subroutine describe_table(lift, text)
+      !> The lift
+      type(lift_t), intent(in) :: lift
+      !> Lines so far
+      character(len=:), allocatable, intent(inout) :: text
+
+      type(lift_noise_t) :: noise
+
+      if (lift%law /= "table") return
+      call find_lift_noise(lift, noise)
+      if (.not. noise%is_known) return
+      text = text//"lift table: noise of about "//number_text(1.0e6_wp*noise%noise, 2)//" um, smoothing_um = "// &
+         & number_text(1.0e6_wp*lift%smoothing, 3)//"; second derivative "//number_text(1.0e3_wp*noise%given(1), digits)// &
+         & " to "//number_text(1.0e3_wp*noise%given(2), digits)//" mm/rad^2, with smoothing by the noise "// &
+         & number_text(1.0e3_wp*noise%smoothed(1), digits)//" to "//number_text(1.0e3_wp*noise%smoothed(2), digits)// &
+         & " (residual "//number_text(1.0e6_wp*noise%residual, 2)//" um)"//new_line("a")
+   end subroutine describe_table
 
    !> One lobe.
    subroutine describe_cam(model, name, text)

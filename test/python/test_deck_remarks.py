@@ -69,3 +69,33 @@ def test_film_range_remark_says_which_group_and_which_law(camroller, tmp_path):
     assert re.search(r"on the base circle, where [\d.]+ % of the follower's friction arises", found)
     assert re.search(r"W\* down to [\d.e-]+, published for 1.5e-5 to 0.0003", found) and "film.law 'moes' covers that" in found
     assert remarks("--set", "film.law=moes") == []
+
+
+def rounded_lift(folder, digit):
+    """The lift table of a shipped deck, rounded to so many millimetres."""
+    text = (ROOT / "decks/tables/polynomial_lift.txt").read_text(encoding="utf-8")
+    rows = [tuple(map(float, line.split())) for line in text.splitlines() if line.strip() and line.strip()[0].isdigit()]
+    path = folder / "lift.txt"
+    path.write_text("\n".join(f"{angle} {round(lift / digit) * digit:.6f}" for angle, lift in rows), encoding="utf-8")
+    return path
+
+
+def test_noise_of_a_lift_table_has_its_remark_and_smoothing_ends_it(camroller, tmp_path):
+    table = rounded_lift(tmp_path, 0.002)
+    (found,) = remarks_of(camroller, "decks/tabulated_lift.nml", f"lift.table={table}")
+    told = re.search(r"noise of about ([\d.]+) um.*second derivative (-[\d.]+) to ([\d.]+) mm/rad\^2; with smoothing_um = ([\d.]+) in "
+                     r"&lift it is (-[\d.]+) to ([\d.]+)", found)
+    # rounding to 2 um has an rms of 2/sqrt(12) = 0.58 um; a median of 150 differences knows it to a fifth
+    assert float(told[1]) == pytest.approx(0.58, rel=0.3) and told[4] == told[1]
+    # 4-5-6-7 polynomial: largest second derivative 7.526 lift/half angle^2
+    exact = 7.526 * 9.2 / (74 * 3.14159265 / 180) ** 2
+    assert float(told[3]) > 1.1 * exact
+    assert float(told[6]) == pytest.approx(exact, rel=0.1)
+    assert remarks_of(camroller, "decks/tabulated_lift.nml", f"lift.table={table}", f"lift.smoothing_um={float(told[1]) + 0.05}") == []
+
+
+def test_check_tells_the_noise_of_a_table(camroller):
+    text = subprocess.run([camroller, "check", "decks/tabulated_lift.nml"], capture_output=True, text=True, cwd=ROOT, check=True).stdout
+    found = re.search(r"lift table: noise of about ([\d.e-]+) um, smoothing_um = 0; second derivative", text)
+    # rounded to 1e-6 mm
+    assert float(found[1]) < 0.01
