@@ -2,6 +2,7 @@
 
     python post/plot_sweep.py results/sweep.h5                              the figure that suits the sweep
     python post/plot_sweep.py FILE --quantity mean_slip_ratio,max_peak_pressure --figure scatter --output doc/figures
+    python post/plot_sweep.py FILE --where 'mean_slip_ratio < 0.01' --where 'speed_rpm >= 600'     only these cases
 
 `map`: two swept keys as axes, the quantity as colour. `curves`: one key along the axis, the others as curves. `scatter`: every
 swept key against every quantity. `parallel`: an axis for each key and quantity, a line for each case, coloured by the last one.
@@ -12,6 +13,7 @@ read, so a file of a hundred thousand cases is drawn as well. Needs no display. 
 import argparse
 import difflib
 from pathlib import Path
+import re
 import sys
 import textwrap
 
@@ -37,6 +39,8 @@ MOST_CURVES = 8
 MOST_LINES = 2000  # of parallel coordinates; of more cases evenly spread ones are drawn
 MOST_WORDS = 24  # values of a key that the axis of a map can name
 ROUNDING = 1e-9  # part of a quantity within which its values are the same
+CONDITION = re.compile(r"^\s*([\w.]+)\s*(<=|>=|<|>)\s*([-+]?[\d.]+(?:[eE][-+]?\d+)?)\s*$")
+RELATIONS = {"<": np.less, ">": np.greater, "<=": np.less_equal, ">=": np.greater_equal}
 SPREAD = 0.18  # of points of a scatter about the word they belong to
 
 
@@ -46,8 +50,8 @@ class Sweep:
     Keys whose range the deck divides by equal ratios are drawn on logarithmic axes.
     """
 
-    def __init__(self, path, quantities):
-        self.keys, self.quantities, self.words, self.logarithmic = {}, {}, {}, set()
+    def __init__(self, path, quantities, conditions=()):
+        self.keys, self.quantities, self.words, self.logarithmic, self.remark = {}, {}, {}, set(), ""
         with opened(path, "a result of a sweep") as file:
             if "sweep" not in file or "summary/status" not in file:
                 missing = "/summary/status" if "sweep" in file else "/sweep"
@@ -63,10 +67,34 @@ class Sweep:
                     near = [other for other in there if name in other][:5] or difflib.get_close_matches(name, there, 5)
                     raise ResultError(f"{path} has no summary '{name}'" + (f"; there is {', '.join(near)}" if near else ""))
                 self._add(path, self.quantities, name, file["summary"][name])
+            self._keep(path, file, conditions)
         if not self.keys:
             raise ResultError(f"nothing varies in {path}; plot.py draws its curves, table.py prints its means")
         if not any(np.isfinite(values).any() for values, _ in self.quantities.values()):
             raise ResultError(f"{path}: no case has a value of {', '.join(self.quantities)}")
+
+    def _keep(self, path, file, conditions):
+        """Blank the quantities of cases that do not meet every condition, as `mean_slip_ratio < 0.01`, in the units of the file."""
+        kept = np.ones(len(self.status), dtype=bool)
+        for condition in conditions:
+            found = CONDITION.match(condition)
+            if not found:
+                raise ResultError(f"--where takes NAME < NUMBER, or with >, <= or >=, not '{condition}'")
+            name, relation, limit = found.groups()
+            place = next((f"{group}/{name}" for group in ("summary", "sweep") if name in file[group]), None)
+            if place is None:
+                keys = [key for key in file["sweep"] if key.split(".")[-1] == name]
+                if len(keys) != 1:
+                    raise ResultError(f"{path} has no summary and no key '{name}' to choose cases by")
+                place = f"sweep/{keys[0]}"
+            kept &= RELATIONS[relation](np.asarray(file[place][()], dtype=float), float(limit))
+        if not conditions:
+            return
+        if not kept.any():
+            raise ResultError(f"{path}: no case has {' and '.join(conditions)}")
+        self.remark = f"{kept.sum()} of {len(kept)} cases have {' and '.join(conditions)}"
+        for name, (values, label) in self.quantities.items():
+            self.quantities[name] = (np.where(kept, values, np.nan), label)
 
     def _add(self, path, columns, name, data):
         values = data[()]
@@ -289,6 +317,8 @@ def _note(figure, sweep, shown, more=()):
     """Values of the keys that are not shown, what else is left out, and cases without a result."""
     words = [f"{label} = {sweep.label_value(key, values[0])}" for key, (values, label) in sweep.keys.items() if key not in shown]
     words += more
+    if sweep.remark:
+        words.append(sweep.remark)
     failed = int(np.count_nonzero(sweep.status))
     if failed:
         words.append(f"{failed} of {len(sweep.status)} cases have no result")
@@ -302,11 +332,15 @@ def main(arguments=None):
     parser.add_argument("file", type=Path)
     parser.add_argument("--quantity", default=QUANTITY, help="names in /summary, separated by commas")
     parser.add_argument("--figure", choices=FIGURES, help="what is drawn; what suits the sweep where not given")
+    parser.add_argument("--where", action="append", default=[], metavar="CONDITION",
+                        help="only cases with this, as 'mean_slip_ratio < 0.01' or 'speed_rpm >= 600'; a name in /summary (SI) or a "
+                             "swept key (unit of the deck); given more than once, a case must meet all")
     parser.add_argument("--output", type=Path, help="folder; that of the file where not given")
     parser.add_argument("--dpi", type=DPI, default=150)
     options = parser.parse_args(arguments)
     try:
-        sweep = Sweep(options.file, list(dict.fromkeys(filter(None, options.quantity.replace(" ", "").split(",")))) or [QUANTITY])
+        sweep = Sweep(options.file, list(dict.fromkeys(filter(None, options.quantity.replace(" ", "").split(",")))) or [QUANTITY],
+                      options.where)
         name = options.figure or suitable_figure(sweep)
         figure = {"map": draw_map, "curves": draw_curves, "scatter": draw_scatter, "parallel": draw_parallel}[name](sweep)
         target = (options.output or options.file.parent) / f"{options.file.stem}_{name}.png"

@@ -120,3 +120,16 @@ def test_what_is_no_sweep(tmp_path, capsys):
         file["x"] = 1
     assert main([str(tmp_path / "other.h5")]) == 2
     assert "is no result of a sweep" in capsys.readouterr().err
+
+
+def test_conditions_leave_out_cases_and_are_told(grid, capsys):
+    whole, fast = Sweep(grid, ["mean_torque_drive"]), Sweep(grid, ["mean_torque_drive"], ["speed_rpm >= 600", "mean_torque_drive<12"])
+    values = {name: sweep.quantities["mean_torque_drive"][0] for name, sweep in (("whole", whole), ("fast", fast))}
+    kept = (whole.keys["operating_point.speed_rpm"][0] >= 600) & (values["whole"] < 12)
+    assert 0 < kept.sum() < len(kept)
+    assert np.array_equal(np.isfinite(values["fast"]), kept) and np.array_equal(values["fast"][kept], values["whole"][kept])
+    assert f"{kept.sum()} of 180 cases have speed_rpm >= 600 and mean_torque_drive<12" in draw_scatter(fast).get_suptitle().replace("\n", " ")
+    for wrong, words in (("speed_rpm", "takes NAME < NUMBER"), ("sped_rpm > 3", "no summary and no key 'sped_rpm'"),
+                         ("speed_rpm > 1e9", "no case has")):
+        assert main([str(grid), "--where", wrong]) == 2
+        assert words in capsys.readouterr().err
