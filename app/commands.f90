@@ -30,10 +30,9 @@ module camroller_commands
    use camroller_run, only : build_models
    use camroller_selftest, only : run_selftest
    use camroller_sketch, only : draw_mechanism
-   use camroller_run_command, only : run_deck
+   use camroller_run_command, only : merge_deck, run_deck, sweep_deck
    use camroller_stop_signal, only : end_on_signals
    use camroller_streams, only : close_output_stream, hold_streams, print_lines, print_text, tell
-   use camroller_sweep_command, only : merge_deck, sweep_deck
    use camroller_sweep_cost, only : case_to_try, cost_in_words
    use camroller_team, only : team_t
    use camroller_version, only : version_text, build_commit, compiler_facts
@@ -103,7 +102,7 @@ contains
       case ("sweep")
          call sweep_deck(config, team, error)
       case ("rerun")
-         call rerun_file(config, team, error)
+         call rerun_file(config, error)
       case ("merge")
          call merge_deck(config, error)
       case ("study")

@@ -13,7 +13,7 @@ module camroller_ehl_rerun
    use camroller_error, only : error_t
    use camroller_hdf5_object, only : hdf5_object_t
    use camroller_hdf5_read, only : has_member
-   use camroller_progress, only : progress_t, show_progress
+   use camroller_console, only : console_t
    implicit none
    private
 
@@ -39,7 +39,7 @@ contains
       !> Its deck
       type(deck_t), intent(in) :: deck
       !> How far it is
-      type(progress_t), intent(inout) :: progress
+      type(console_t), intent(inout) :: progress
       !> File error
       type(error_t), allocatable, intent(out) :: error
 
@@ -55,7 +55,7 @@ contains
          if (allocated(error)) return
          sink%cases = sink%cases + 1
          if (differs) sink%differing = sink%differing + 1
-         call show_progress(progress, i, sweep_size(deck%sweep))
+         call progress%show(i, sweep_size(deck%sweep))
       end do
    end subroutine rerun_contacts
 

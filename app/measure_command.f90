@@ -13,7 +13,7 @@ module camroller_measure_command
    use camroller_laws_page, only : show_laws
    use camroller_number_text, only : counted
    use camroller_output, only : output_t, output_options_t, open_output, abandon_output
-   use camroller_progress, only : progress_t, start_progress, show_progress, end_progress, seconds_since
+   use camroller_console, only : console_t, seconds_since, start_console
    use camroller_run_command, only : check_cases, find_place
    use camroller_run_facts, only : write_facts
    use camroller_streams, only : print_lines
@@ -73,7 +73,7 @@ contains
 
       type(deck_t) :: deck
       type(output_t) :: writer
-      type(progress_t) :: progress
+      type(console_t) :: progress
       type(study_table_t) :: table
       type(error_t), allocatable :: failure
       character(len=:), allocatable :: path
@@ -83,12 +83,12 @@ contains
       if (allocated(error)) return
       call find_place(config, deck, trim(endings(what)), path, error)
       if (allocated(error)) return
-      call start_progress(progress, config%is_quiet)
+      call start_console(progress, config%is_quiet)
       call open_output(writer, path, sweep_size(deck%sweep), output_options_t(), error)
       if (.not. allocated(error)) call write_facts(writer, deck, error)
       if (allocated(error)) return
       call measure_cases(deck, config, what, progress, table, failure)
-      call end_progress(progress)
+      call progress%end_cases()
       if (.not. any(column_of(table, "status") <= 0.0)) then
          call abandon_output(writer)
          call move_alloc(failure, error)
@@ -111,7 +111,7 @@ contains
       !> What is measured
       integer, intent(in) :: what
       !> How far the command is
-      type(progress_t), intent(inout) :: progress
+      type(console_t), intent(inout) :: progress
       !> The table
       type(study_table_t), intent(out) :: table
       !> The first failure
@@ -139,7 +139,7 @@ contains
             if (size(deck%sweep%axes) > 0) call add_context(error, case_in_words(deck%sweep, i))
             if (.not. allocated(failure)) call move_alloc(error, failure)
          end if
-         call show_progress(progress, i, sweep_size(deck%sweep))
+         call progress%show(i, sweep_size(deck%sweep))
       end do
    end subroutine measure_cases
 

@@ -19,7 +19,7 @@ module camroller_rerun_command
       & read_text_attribute
    use camroller_number_text, only : agreeing, counted, integer_text, number_text
    use camroller_output, only : not_computed, result_format
-   use camroller_progress, only : end_progress, seconds_since, start_progress
+   use camroller_console, only : console_t, seconds_since, start_console
    use camroller_run_facts, only : find_other_build
    use camroller_settings, only : get_word, take
    use camroller_streams, only : print_lines
@@ -34,23 +34,22 @@ module camroller_rerun_command
 contains
 
    !> Compute a file again.
-   subroutine rerun_file(config, team, error)
+   subroutine rerun_file(config, error)
       !> What to do
       type(config_t), intent(in) :: config
-      !> Processes; the first one alone works
-      class(team_t), intent(inout) :: team
       !> File error, or what differs
       type(error_t), allocatable, intent(out) :: error
 
       type(comparison_sink_t), allocatable :: sink
       type(deck_t) :: deck
       type(loop_t) :: loop
+      type(console_t) :: console
+      type(team_t) :: alone
       type(runs_t) :: runs
       character(len=:), allocatable :: facts
       integer :: missing
       logical :: holds_contacts
 
-      if (team%rank /= 0) return
       allocate (sink)
       call open_file(sink%file, config%subject, error)
       if (allocated(error)) return
@@ -62,19 +61,20 @@ contains
       if (.not. allocated(error)) call set_threads(loop, config%threads, error)
       if (.not. allocated(error)) then
          call heed_stop_signals()
-         call start_progress(loop%progress, config%is_quiet, real(config%log_interval, wp))
+         call start_console(console, config%is_quiet, real(config%log_interval, wp))
+         console%heeds_signals = .true.
          if (holds_contacts) then
-            call rerun_contacts(sink, deck, loop%progress, error)
+            call rerun_contacts(sink, deck, console, error)
          else
-            call compute_cases(loop, deck, runs, team, sink, error)
+            call compute_cases(loop, deck, runs, sink, alone, console, error)
          end if
-         call end_progress(loop%progress)
+         call console%end_cases()
       end if
       call discard_file(sink%file)
       if (allocated(error)) return
       missing = sweep_size(deck%sweep) - loop%total
       if (holds_contacts) missing = 0
-      call conclude(config, sink, loop, missing, facts, error)
+      call conclude(config, sink, loop, console, missing, facts, error)
    end subroutine rerun_file
 
    !> Cases to be computed: those that the file has, which are not all where it is partial.
@@ -219,13 +219,15 @@ contains
    end subroutine choose_series
 
    !> Say what came of it.
-   subroutine conclude(config, sink, loop, missing, facts, error)
+   subroutine conclude(config, sink, loop, console, missing, facts, error)
       !> What to do
       type(config_t), intent(in) :: config
       !> What differs
       type(comparison_sink_t), intent(in) :: sink
       !> How the loop ended
       type(loop_t), intent(in) :: loop
+      !> Start of the command
+      type(console_t), intent(in) :: console
       !> Cases that the file does not have
       integer, intent(in) :: missing
       !> What tells the builds apart
@@ -240,7 +242,7 @@ contains
          text = config%subject//": "//counted(sink%cases, "case")//agreeing(sink%cases, " is", " are")// &
             & " the same to the last bit, "
          if (missing > 0) text = text//integer_text(missing)//agreeing(missing, " is", " are")//" not in the file, "
-         if (.not. config%is_quiet) call print_lines(text//"in "//seconds_since(loop%progress), error)
+         if (.not. config%is_quiet) call print_lines(text//"in "//seconds_since(console), error)
          return
       else if (sink%differing == 0) then
          call raise(error, kind_unfinished, "stopped after "//counted(sink%cases, "case")//agreeing(sink%cases, &
@@ -249,7 +251,7 @@ contains
       end if
       text = config%subject//": "//integer_text(sink%differing)//" of "//counted(sink%cases, "case")// &
          & agreeing(sink%differing, " differs", " differ")
-      do i = 1, sink%count
+      do i = 1, size(sink%differences)
          associate (difference => sink%differences(i))
             text = text//new_line("a")//"  "//difference%name//": in "//counted(difference%cases, "case")//", "
             if (difference%largest < huge(1.0_wp)) then

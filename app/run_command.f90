@@ -1,53 +1,38 @@
-!> The command `run`: every case of a deck into one result file.
+!> The commands `run`, `sweep` and `merge`: every case of a deck into one result file.
 !>
-!> In: the command line. Out: a result file, a line about it. A case that fails is recorded and does not end the
-!> others; the program still ends with its kind of error. Where no case has a result, there is no file.
+!> In: the command line, for a sweep a team of processes. Out: the file, a line about it, remarks. A case that fails is recorded and
+!> does not end the others; the program still ends with its kind of error.
 module camroller_run_command
-   use camroller_error, only : error_t, add_context
+   use, intrinsic :: iso_c_binding, only : c_intptr_t
+   use camroller_kinds, only : wp
+   use camroller_error, only : error_t
    use camroller_blas_threads, only : check_blas_memory
    use camroller_case, only : case_t
-   use camroller_ehl_profiles, only : find_profiles
-   use camroller_ehl_record, only : ehl_record_t
-   use camroller_effect_report, only : complete_result
-   use camroller_result, only : result_t
-   use camroller_run, only : run_next_case
-   use camroller_kept_models, only : kept_models_t
    use camroller_cli, only : config_t
-   use camroller_deck, only : deck_t, read_deck, make_sweep_case, add_places, drop_sweep
+   use camroller_console, only : console_t, seconds_since, start_console
+   use camroller_deck, only : deck_t, drop_sweep, read_deck, make_sweep_case
    use camroller_deck_files, only : list_deck_files
    use camroller_deck_notes, only : tell_deck_remarks
-   use camroller_deck_sweep, only : sweep_size, case_in_words
-   use camroller_earlier_result, only : failures_in_words
+   use camroller_deck_sweep, only : case_in_words, sweep_size
    use camroller_mistakes, only : line_t
    use camroller_new_file, only : check_place
    use camroller_number_text, only : counted, integer_text
-   use camroller_output, only : output_t, output_options_t, open_output, write_case, write_failure, close_output, &
-      & abandon_output
-   use camroller_profile_file, only : profile_file_t, put_profiles, close_profiles
-   use camroller_progress, only : progress_t, start_progress, show_progress, end_progress, seconds_since
-   use camroller_remarks, only : remarks_t, note_remarks
+   use camroller_remarks, only : remarks_t
    use camroller_result_table, only : write_result_table
-   use camroller_run_facts, only : write_facts
-   use camroller_settings, only : take
+   use camroller_stop_signal, only : heed_stop_signals
    use camroller_streams, only : print_lines, tell
+   use camroller_sweep, only : merge_sweep, run_sweep
+   use camroller_sweep_file, only : sweep_made, sweep_options_t, sweep_report_t, sweep_shard_done, sweep_was_complete
+   use camroller_system_file, only : ignore_size_signal
+   use camroller_team, only : agreed_code, team_t
    implicit none
    private
 
-   public :: run_deck, check_cases, options_of, find_place, tell_remarks, tell_unused_values
-
-   !> What happened to the cases
-   type :: tally_t
-      !> Cases without a result
-      integer :: failed = 0
-      !> The first failure
-      type(error_t), allocatable :: failure
-      !> Remarks by kind
-      type(remarks_t) :: remarks
-   end type tally_t
+   public :: run_deck, sweep_deck, merge_deck, check_cases, find_place
 
 contains
 
-   !> Run a deck.
+   !> Run a deck: one case after the other, straight into the file.
    subroutine run_deck(config, error)
       !> What to do
       type(config_t), intent(in) :: config
@@ -55,11 +40,9 @@ contains
       type(error_t), allocatable, intent(out) :: error
 
       type(deck_t) :: deck
-      type(output_t) :: writer
-      type(progress_t) :: progress
-      type(tally_t) :: tally
-      character(len=:), allocatable :: path
-      integer :: cases
+      type(console_t) :: console
+      type(sweep_report_t) :: report
+      type(error_t), allocatable :: failure
 
       call read_deck(deck, config%subject, config%overrides, error)
       if (allocated(error)) return
@@ -68,29 +51,70 @@ contains
       if (.not. config%is_quiet) call tell_deck_remarks(deck)
       call check_cases(deck, error)
       if (allocated(error)) return
-      call find_place(config, deck, ".h5", path, error)
-      if (allocated(error)) return
-      cases = sweep_size(deck%sweep)
-      call start_progress(progress, config%is_quiet)
-      call open_output(writer, path, cases, options_of(deck), error)
-      if (.not. allocated(error)) call write_facts(writer, deck, error)
-      if (.not. allocated(error)) call run_cases(deck, writer, progress, tally, error)
-      call end_progress(progress)
-      if (allocated(error)) return
-      if (tally%failed == cases) then
-         call abandon_output(writer)
-         call move_alloc(tally%failure, error)
-         call add_places(deck, error)
-         return
-      end if
-      call close_output(writer, error)
-      if (allocated(error)) return
-      if (.not. config%is_quiet) call report(deck, path, seconds_since(progress), tally, error)
-      if (allocated(error) .or. tally%failed == 0) return
-      call move_alloc(tally%failure, error)
-      error%message = failures_in_words(tally%failed, cases, error%message)
-      call add_places(deck, error)
+      call start_console(console, config%is_quiet)
+      call run_sweep(deck, output_path(config, ".h5"), sweep_options_t(is_direct=.true., threads=1), report, failure, console)
+      call conclude(config, deck, console, report, failure, error)
    end subroutine run_deck
+
+   !> Run a sweep: in threads and processes, with part files that survive any end.
+   subroutine sweep_deck(config, team, error)
+      !> What to do
+      type(config_t), intent(in) :: config
+      !> Processes that share it
+      class(team_t), intent(inout) :: team
+      !> What went wrong, on the first process
+      type(error_t), allocatable, intent(out) :: error
+
+      type(deck_t) :: deck
+      type(console_t) :: console
+      type(sweep_report_t) :: report
+      type(error_t), allocatable :: failure
+      integer(c_intptr_t) :: former
+
+      call ignore_size_signal(former)
+      call heed_stop_signals()
+      call read_deck(deck, config%subject, config%overrides, error)
+      if (agreed_code(team, error) /= 0) return
+      if (team%rank == 0 .and. .not. config%is_quiet) call tell_unused_values(deck)
+      if (team%rank == 0 .and. .not. config%is_quiet) call tell_deck_remarks(deck)
+      call start_console(console, config%is_quiet .or. team%rank /= 0, real(config%log_interval, wp))
+      console%heeds_signals = .true.
+      call run_sweep(deck, output_path(config, ".h5"), options_of(config), report, failure, console, team)
+      call conclude(config, deck, console, report, failure, error)
+   end subroutine sweep_deck
+
+   !> Make the one file of a sweep from its parts.
+   subroutine merge_deck(config, error)
+      !> What to do
+      type(config_t), intent(in) :: config
+      !> What went wrong
+      type(error_t), allocatable, intent(out) :: error
+
+      type(deck_t) :: deck
+      type(console_t) :: console
+      type(sweep_report_t) :: report
+      type(error_t), allocatable :: failure
+
+      call read_deck(deck, config%subject, config%overrides, error)
+      if (allocated(error)) return
+      call start_console(console, config%is_quiet)
+      call merge_sweep(deck, output_path(config, ".h5"), options_of(config), report, failure, console)
+      call conclude(config, deck, console, report, failure, error)
+   end subroutine merge_deck
+
+   !> What the command line says of a sweep.
+   pure function options_of(config) result(options)
+      !> What to do
+      type(config_t), intent(in) :: config
+      !> The same for the sweep
+      type(sweep_options_t) :: options
+
+      options%threads = config%threads
+      options%shard = config%shard
+      options%shards = config%shards
+      options%is_resumed = config%is_resumed
+      options%is_partial = config%is_partial
+   end function options_of
 
    !> Say which values given beside the deck are not used, since the sweep varies their keys.
    subroutine tell_unused_values(deck)
@@ -126,61 +150,6 @@ contains
          if (allocated(error)) return
       end do
    end subroutine check_cases
-
-   !> Run and write every case.
-   subroutine run_cases(deck, writer, progress, tally, error)
-      !> The deck
-      type(deck_t), intent(in) :: deck
-      !> The result file
-      type(output_t), intent(inout) :: writer
-      !> How far the run is
-      type(progress_t), intent(inout) :: progress
-      !> What happened
-      type(tally_t), intent(inout) :: tally
-      !> File error
-      type(error_t), allocatable, intent(out) :: error
-
-      type(kept_models_t) :: kept
-      type(case_t) :: case
-      type(result_t) :: result
-      type(profile_file_t) :: profile_file
-      type(ehl_record_t), allocatable :: profiles
-      type(error_t), allocatable :: failure
-      integer :: i
-
-      do i = 1, sweep_size(deck%sweep)
-         call make_sweep_case(deck, i, case, failure)
-         if (.not. allocated(failure)) then
-            call run_next_case(kept, case, result, failure, writer%options%series .or. allocated(case%ehl))
-            if (.not. allocated(failure)) call find_profiles(profiles, case, result)
-            if (sweep_size(deck%sweep) > 1 .and. .not. allocated(failure)) call complete_result(case, result)
-            if (size(deck%sweep%axes) > 0) call add_context(failure, case_in_words(deck%sweep, i))
-         end if
-         if (allocated(failure)) then
-            call write_failure(writer, i, failure, error)
-            tally%failed = tally%failed + 1
-            if (tally%failed == 1) tally%failure = failure
-         else
-            call write_case(writer, i, result, error)
-            if (.not. allocated(error)) call put_profiles(profile_file, writer, i, profiles, error)
-            call note_remarks(tally%remarks, i, result%remarks)
-         end if
-         if (allocated(error)) exit
-         call show_progress(progress, i, sweep_size(deck%sweep))
-      end do
-      call close_profiles(profile_file)
-   end subroutine run_cases
-
-   !> Choices of the group &output.
-   function options_of(deck) result(options)
-      !> The deck
-      type(deck_t), intent(in) :: deck
-      !> What is written, and how
-      type(output_options_t) :: options
-
-      call take(deck%settings, "output", "series", options%series)
-      call take(deck%settings, "output", "compression", options%compression)
-   end function options_of
 
    !> File to write, which must not be one that the deck is read from.
    subroutine find_place(config, deck, ending, path, error)
@@ -221,26 +190,43 @@ contains
       path = path//ending
    end function output_path
 
-   !> Say what was done.
-   subroutine report(deck, path, time, tally, error)
+   !> Say what was done, and end with what went wrong.
+   subroutine conclude(config, deck, console, report, failure, error)
+      !> What to do
+      type(config_t), intent(in) :: config
       !> The deck
       type(deck_t), intent(in) :: deck
-      !> Path of the result file
-      character(len=*), intent(in) :: path
-      !> Time taken, in words
-      character(len=*), intent(in) :: time
-      !> What happened
-      type(tally_t), intent(in) :: tally
-      !> File error of the output unit
+      !> Start of the command
+      type(console_t), intent(in) :: console
+      !> What came of it
+      type(sweep_report_t), intent(in) :: report
+      !> What went wrong
+      type(error_t), allocatable, intent(inout) :: failure
+      !> The same, or a file error of the output unit
       type(error_t), allocatable, intent(out) :: error
 
-      character(len=:), allocatable :: table
+      character(len=:), allocatable :: words, table
 
-      call write_result_table(path, table, error)
-      if (.not. allocated(error)) call print_lines(table, error)
-      if (.not. allocated(error)) call print_lines(path//": "//counted(sweep_size(deck%sweep), "case")//" in "//time, error)
-      call tell_remarks(tally%remarks, deck)
-   end subroutine report
+      words = output_path(config, ".h5")
+      if (config%command == "run" .and. report%ending == sweep_made .and. .not. config%is_quiet) then
+         call write_result_table(words, table, error)
+         if (.not. allocated(error)) call print_lines(table, error)
+         if (allocated(error)) return
+      end if
+      select case (merge(-1, report%ending, config%is_quiet))
+      case (sweep_made)
+         words = words//": "//counted(report%tally%cases - report%tally%missing, "case")//" in "//seconds_since(console)
+         if (report%tally%missing > 0) words = words//", "//integer_text(report%tally%missing)//" missing"
+         call print_lines(words, error)
+         call tell_remarks(report%tally%remarks, deck)
+      case (sweep_was_complete)
+         call print_lines(words//" is there with all cases", error)
+      case (sweep_shard_done)
+         call print_lines(words//": shard "//integer_text(config%shard)//" of "//integer_text(config%shards)//" is done, "// &
+            & counted(report%cases_of_shard, "case")//" in "//seconds_since(console), error)
+      end select
+      if (.not. allocated(error) .and. allocated(failure)) call move_alloc(failure, error)
+   end subroutine conclude
 
    !> Show remarks: all of a case that is alone; of several cases the worst of each kind, with the number of cases.
    subroutine tell_remarks(remarks, deck)

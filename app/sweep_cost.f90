@@ -13,7 +13,7 @@ module camroller_sweep_cost
    use camroller_ehl_profiles, only : find_profiles
    use camroller_ehl_record, only : ehl_record_t
    use camroller_number_text, only : integer_text, number_text
-   use camroller_progress, only : time_in_words
+   use camroller_console, only : time_in_words
    use camroller_result, only : result_t
    use camroller_run, only : run_case
    use camroller_settings, only : get_word, take

@@ -1,8 +1,9 @@
 !> Everything public, under one name: no code.
 !>
 !> A program that links the library needs this module alone: a deck or the components of a case, `run_case`, and the series and
-!> scalars of the result by name; or `start_simulation` and `advance` to drive a follower from outside, angle by angle. Where cases
-!> have a numerical film, it calls `use_one_blas_thread` first, or its last digits depend on how many threads OpenBLAS takes.
+!> scalars of the result by name; or `start_simulation` and `advance` to drive a follower from outside, angle by angle; or
+!> `run_sweep` for all cases of a deck into one file, `sweep_cases` to have them handed over to an extension of `sink_t`. Where
+!> cases have a numerical film, it calls `use_one_blas_thread` first, or its last digits depend on how many threads OpenBLAS takes.
 module camroller
    use camroller_kinds, only : wp, pi, two_pi, degree
    use camroller_blas_threads, only : use_one_blas_thread
@@ -24,7 +25,14 @@ module camroller
    use camroller_journal, only : cam_bearings_t
    use camroller_deck, only : deck_t, override_t, read_deck, parse_deck, make_case
    use camroller_run, only : run_case
-   use camroller_result, only : result_t, quantity_t, get_series, get_summary
+   use camroller_result, only : result_t, quantity_t, find_quantity, get_series, get_summary
+   use camroller_case_loop, only : sweep_cases
+   use camroller_case_record, only : case_outcome_t
+   use camroller_case_sink, only : sink_t
+   use camroller_layout, only : layout_t
+   use camroller_monitor, only : monitor_t
+   use camroller_sweep, only : run_sweep
+   use camroller_sweep_file, only : sweep_options_t, sweep_report_t
    use camroller_simulation, only : simulation_t, outcome_t, start_simulation, advance
    implicit none
    private
@@ -34,7 +42,8 @@ module camroller
    public :: case_t, operating_point_t, numerics_t, lift_t, mechanism_t, masses_t, spring_t, gas_force_t, materials_t, surface_t, &
       & lubricant_t, film_t, ehl_t, asperity_t, traction_t, needle_bearing_t, valve_guide_t, roller_t, cam_bearings_t
    public :: deck_t, override_t, read_deck, parse_deck, make_case
-   public :: run_case, result_t, quantity_t, get_series, get_summary, use_one_blas_thread
+   public :: run_case, result_t, quantity_t, find_quantity, get_series, get_summary, use_one_blas_thread
+   public :: run_sweep, sweep_options_t, sweep_report_t, sweep_cases, sink_t, case_outcome_t, layout_t, monitor_t
    public :: simulation_t, outcome_t, start_simulation, advance
 
 end module camroller

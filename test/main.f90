@@ -22,6 +22,7 @@ program main
    use test_zhao_maietta_chang, only : collect_zhao_maietta_chang
    use test_deck, only : collect_deck
    use test_part_file, only : collect_part_file
+   use test_sweep, only : collect_sweep
    use test_samples, only : collect_samples
    use test_deck_sweep, only : collect_deck_sweep
    use test_hdf5_file, only : collect_hdf5_file
@@ -169,6 +170,7 @@ contains
          new_testsuite("deck_sweep", collect_deck_sweep), &
          new_testsuite("samples", collect_samples), &
          new_testsuite("part_file", collect_part_file), &
+         new_testsuite("sweep", collect_sweep), &
          new_testsuite("hdf5_file", collect_hdf5_file), &
          new_testsuite("output", collect_output), &
          new_testsuite("export", collect_export), &

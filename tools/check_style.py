@@ -28,7 +28,7 @@ LINE_LIMIT = 132
 FILE_LIMIT = 500
 PROCEDURE_LIMIT = 60
 # Folders whose files one thread calls at a time: there a function may return a text of any length.
-ONE_THREAD = ("files", "hdf5", "namelist", "deck", "output", "batch", "look")
+ONE_THREAD = ("files", "hdf5", "namelist", "deck", "output", "parts", "batch", "look")
 
 PROCEDURE = re.compile(
     r"^(?:(?:pure|impure|elemental|recursive|module|(?:real|integer|logical|character|complex|type)\s*\([^)]*\)|"

@@ -1,29 +1,18 @@
-!> What a choice of effects adds to a result: its scalars, and places for what was left out.
+!> What a choice of effects adds to a result: its scalars.
 !>
-!> In: a result, the choice. Out: the result with scalars of source `effects`; on request with the series and scalars
-!> of everything that is listed, so that the cases of a sweep have the same quantities whatever each of them needed.
+!> In: a result, the choice. Out: the result with scalars of source `effects`.
 module camroller_effect_report
-   use, intrinsic :: ieee_arithmetic, only : ieee_quiet_nan, ieee_value
    use camroller_kinds, only : wp
-   use camroller_names, only : name_length
-   use camroller_case, only : case_t, quantity_names
-   use camroller_catalogue, only : list_series
+   use camroller_case, only : quantity_names
    use camroller_effect_list, only : choice_t, effect_names
-   use camroller_result, only : result_t, quantity_t, find_quantity
+   use camroller_result, only : result_t, quantity_t
    implicit none
    private
 
-   public :: add_choice, complete_result, choice_source
+   public :: add_choice, choice_source
 
    !> Source of the scalars that tell about a choice
    character(len=*), parameter :: choice_source = "effects"
-   !> Scalars of a series
-   character(len=*), parameter :: statistics(*) = [character(len=5) :: "mean_", "min_", "max_"]
-   !> Scalars of a torque that is a loss
-   character(len=*), parameter :: losses(*) = [character(len=6) :: "power_", "work_"]
-   !> Beginning of the names of torques
-   character(len=*), parameter :: torque = "torque_"
-
    !> Quantities with their values
    type :: list_t
       !> Those so far
@@ -70,75 +59,6 @@ contains
       call end_list(list, result)
       result%choice = choice
    end subroutine add_choice
-
-   !> Give a result a place for every series and scalar of the case with all its effects; those left out are not a number.
-   subroutine complete_result(listed, result)
-      !> The case with all its effects
-      type(case_t), intent(in) :: listed
-      !> The result of the case with some of them
-      type(result_t), intent(inout) :: result
-
-      type(quantity_t), allocatable :: series(:)
-      ! [unit of the series]
-      real(wp), allocatable :: values(:, :)
-      type(list_t) :: list
-      integer :: i, k, position
-
-      if (.not. allocated(result%choice)) return
-      call list_series(listed, series)
-      allocate (values(size(result%series_values, 1), size(series)))
-      call start_list(list, size(result%summary) + (size(statistics) + size(losses))*size(series))
-      values = ieee_value(1.0_wp, ieee_quiet_nan)
-      do i = 1, size(series)
-         position = find_quantity(result%series, series(i)%name)
-         if (position > 0) values(:, i) = result%series_values(:, position)
-         do k = 1, size(statistics)
-            call take(list, result, trim(statistics(k))//series(i)%name, series(i)%unit, series(i)%source)
-         end do
-      end do
-      do i = 1, size(series)
-         if (index(series(i)%name, torque) /= 1 .or. find_quantity(result%summary, "power_"//trim(loss_name(series(i)))) == 0 &
-            & .and. find_quantity(result%series, series(i)%name) > 0) cycle
-         call take(list, result, trim(losses(1))//trim(loss_name(series(i))), "W", series(i)%source)
-         call take(list, result, trim(losses(2))//trim(loss_name(series(i))), "J", series(i)%source)
-      end do
-      do i = 1, size(result%summary)
-         if (find_quantity(list%quantities(:list%count), result%summary(i)%name) > 0) cycle
-         call copy_scalar(list, result, i)
-      end do
-      call move_alloc(series, result%series)
-      call move_alloc(values, result%series_values)
-      call end_list(list, result)
-   end subroutine complete_result
-
-   !> What follows the beginning of a torque's name.
-   pure function loss_name(series) result(name)
-      !> A torque
-      type(quantity_t), intent(in) :: series
-      !> Name of the loss
-      character(len=name_length) :: name
-
-      name = series%name(len(torque) + 1:)
-   end function loss_name
-
-   !> Take a scalar from a result into a list, or a place for it.
-   subroutine take(list, result, name, unit, source)
-      !> The list
-      type(list_t), intent(inout) :: list
-      !> The result
-      type(result_t), intent(in) :: result
-      !> Name, unit, part of the model
-      character(len=*), intent(in) :: name, unit, source
-
-      integer :: position
-
-      position = find_quantity(result%summary, name)
-      if (position > 0) then
-         call copy_scalar(list, result, position)
-      else
-         call append(list, name, unit, "left out in some cases", source, ieee_value(1.0_wp, ieee_quiet_nan))
-      end if
-   end subroutine take
 
    !> An empty list.
    subroutine start_list(list, room)

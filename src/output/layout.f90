@@ -223,10 +223,17 @@ contains
       !> Their positions, 0 where one is missing
       integer :: places(size(quantities))
 
-      integer :: i
+      integer :: i, next
 
+      ! mostly they follow each other as they do there
+      next = 1
       do i = 1, size(quantities)
-         places(i) = find_quantity(joint, quantities(i)%name)
+         places(i) = 0
+         if (next <= size(joint)) then
+            if (joint(next)%name == quantities(i)%name) places(i) = next
+         end if
+         if (places(i) == 0) places(i) = find_quantity(joint, quantities(i)%name)
+         next = places(i) + 1
       end do
    end function places_of
 

@@ -1,4 +1,4 @@
-!> Cases of a result file: datasets made after the first result, rows gathered in memory and written in blocks.
+!> Cases of a result file: datasets made as cases bring quantities, rows gathered in memory and written in blocks.
 !>
 !> In: results. Out: `/series`, `/summary`, `/run/warnings`, `/run/messages`. Small datasets are one
 !> contiguous block; larger ones are cut into chunks of as many cases as are gathered, so that each chunk is written
@@ -8,7 +8,8 @@ module camroller_output_cases
    use camroller_kinds, only : wp
    use camroller_error, only : error_t, raise, kind_internal
    use camroller_effect_report, only : choice_source
-   use camroller_result, only : quantity_t, result_t
+   use camroller_layout, only : join_layouts, layout_t
+   use camroller_result, only : quantity_t
    use camroller_hdf5_object, only : hdf5_object_t
    use camroller_hdf5_file, only : close_object, create_group, create_integers, create_numbers, create_texts, reserve_file, &
       & write_integers, write_numbers, write_text
@@ -17,8 +18,8 @@ module camroller_output_cases
    implicit none
    private
 
-   public :: check_position, create_layout, check_result, gather, gather_row, write_series_row, write_rows, write_remark, &
-      & write_status
+   public :: check_position, add_layout, gather_row, write_series_row, write_rows, write_remark, &
+      & write_status, group_of_source
 
    !> Datasets up to this size are one contiguous block, larger ones are cut into chunks [byte]
    real(wp), parameter :: contiguous_size = 65536.0_wp
@@ -55,62 +56,7 @@ contains
       end if
    end subroutine check_position
 
-   !> An error where a result does not have the series, scalars and angles of the first one.
-   subroutine check_result(writer, result, error)
-      !> The writer
-      type(output_t), intent(in) :: writer
-      !> The result
-      type(result_t), intent(in) :: result
-      !> Internal error
-      type(error_t), allocatable, intent(out) :: error
-
-      logical :: fits
-
-      fits = same_names(writer%summary, result%summary)
-      if (writer%options%series) fits = fits .and. same_names(writer%series, result%series) &
-         & .and. size(result%angle) == size(writer%rows, 1)
-      if (fits) return
-      call raise(error, kind_internal, "a case has other series, scalars or cam angles than the first one")
-   end subroutine check_result
-
-   !> Whether two lists name the same quantities in the same order.
-   pure function same_names(some, others) result(answer)
-      !> A list
-      type(quantity_t), intent(in) :: some(:)
-      !> Another list
-      type(quantity_t), intent(in) :: others(:)
-      !> True where they agree
-      logical :: answer
-
-      integer :: i
-
-      answer = size(some) == size(others)
-      if (.not. answer) return
-      do i = 1, size(some)
-         answer = answer .and. some(i)%name == others(i)%name
-      end do
-   end function same_names
-
-   !> Take a result into memory; a full block is written.
-   subroutine gather(writer, position, result, error)
-      !> The writer
-      type(output_t), intent(inout) :: writer
-      !> Position of the case, from 1
-      integer, intent(in) :: position
-      !> Its result
-      type(result_t), intent(in) :: result
-      !> File error
-      type(error_t), allocatable, intent(out) :: error
-
-      call start_row(writer, position, error)
-      if (allocated(error)) return
-      if (size(writer%series) > 0) writer%rows(:, writer%gathered, :) = result%series_values
-      writer%scalars(writer%gathered, :) = result%summary_values
-      writer%status(position) = 0
-      call end_row(writer, position, error)
-   end subroutine gather
-
-   !> Take a case into memory: its scalars, or not-a-number where it has none.
+   !> Take a case into memory: its numbers, or not-a-number where it has none. Before the first layout it has its status alone.
    subroutine gather_row(writer, position, status, summary, series, error)
       !> The writer
       type(output_t), intent(inout) :: writer
@@ -125,13 +71,14 @@ contains
       !> File error
       type(error_t), allocatable, intent(out) :: error
 
+      writer%status(position) = status
+      if (.not. allocated(writer%summary)) return
       call start_row(writer, position, error)
       if (allocated(error)) return
       if (size(writer%rows) > 0) writer%rows(:, writer%gathered, :) = ieee_value(1.0_wp, ieee_quiet_nan)
       if (size(writer%rows) > 0 .and. size(series) > 0) writer%rows(:, writer%gathered, :) = series
       writer%scalars(writer%gathered, :) = ieee_value(1.0_wp, ieee_quiet_nan)
       if (status == 0) writer%scalars(writer%gathered, :) = summary
-      writer%status(position) = status
       call end_row(writer, position, error)
    end subroutine gather_row
 
@@ -257,47 +204,81 @@ contains
       call close_object(dataset)
    end subroutine write_status
 
-   !> Create the datasets of series and scalars after the first result.
-   subroutine create_layout(writer, result, error)
+   !> Create the datasets of the quantities that the file does not have yet; cases written before read as not-a-number there.
+   subroutine add_layout(writer, layout, error)
       !> The writer
       type(output_t), intent(inout) :: writer
-      !> First result
-      type(result_t), intent(in) :: result
+      !> Quantities of cases to come
+      type(layout_t), intent(in) :: layout
       !> File error
       type(error_t), allocatable, intent(out) :: error
 
+      type(layout_t) :: joint
       real(wp) :: numbers, space ! [-], [byte]
-      integer :: angles
+      integer :: before(2), angles
+      logical :: is_first
 
-      writer%summary = result%summary
-      allocate (writer%series(0))
-      angles = 0
-      if (writer%options%series) then
-         writer%series = result%series
-         angles = size(result%angle)
+      is_first = .not. allocated(writer%summary)
+      before = 0
+      if (is_first) then
+         allocate (writer%series_data(0), writer%summary_data(0))
+      else
+         before = [size(writer%series), size(writer%summary)]
+         call write_rows(writer, error)
+         if (allocated(error)) return
+         call move_alloc(writer%series, joint%series)
+         call move_alloc(writer%summary, joint%summary)
+      end if
+      call join_layouts(joint, layout)
+      call move_alloc(joint%summary, writer%summary)
+      call move_alloc(joint%series, writer%series)
+      angles = size(layout%angle)
+      if (.not. writer%options%series) then
+         writer%series = [quantity_t ::]
+         angles = 0
       end if
       numbers = real(angles, wp)*size(writer%series) + size(writer%summary)
       if (writer%is_sparse) numbers = size(writer%summary)
-      writer%block = int(min(buffer_size/(number_size*max(numbers, 1.0_wp)), real(largest_block, wp)))
-      writer%block = min(max(writer%block, 1), size(writer%status))
-      if (writer%is_sparse) then
-         allocate (writer%rows(angles, 0, size(writer%series)))
-      else
-         allocate (writer%rows(angles, writer%block, size(writer%series)), source=0.0_wp)
+      if (is_first) then
+         writer%block = int(min(buffer_size/(number_size*max(numbers, 1.0_wp)), real(largest_block, wp)))
+         writer%block = min(max(writer%block, 1), size(writer%status))
       end if
-      allocate (writer%scalars(writer%block, size(writer%summary)), source=0.0_wp)
-      allocate (writer%series_data(size(writer%series)), writer%summary_data(size(writer%summary)))
+      call make_room(writer, angles)
       space = object_size*(size(writer%series) + size(writer%summary) + 1) + number_size*angles
       if (compression_level(writer, angles) > 0) numbers = size(writer%summary)
       space = space + number_size*numbers*(size(writer%status) + writer%block)
       if (size(writer%status) > scalar_chunk) space = space + number_size*size(writer%summary)*scalar_chunk
       call reserve_file(writer%file, space, error)
-      if (angles > 0 .and. .not. allocated(error)) call create_series(writer, result%angle, error)
-      if (.not. allocated(error)) call create_summary(writer, error)
-   end subroutine create_layout
+      if (angles > 0 .and. is_first .and. .not. allocated(error)) call create_angle(writer, layout%angle, error)
+      if (angles > 0 .and. .not. allocated(error)) call create_series(writer, angles, before(1) + 1, error)
+      if (.not. allocated(error)) call create_summary(writer, before(2) + 1, error)
+   end subroutine add_layout
 
-   !> Create the datasets of the series.
-   subroutine create_series(writer, angle, error)
+   !> Room for rows of all quantities, and for their datasets.
+   subroutine make_room(writer, angles)
+      !> The writer, with no row gathered
+      type(output_t), intent(inout) :: writer
+      !> Number of cam angles
+      integer, intent(in) :: angles
+
+      type(hdf5_object_t), allocatable :: longer(:)
+      integer :: n
+
+      if (allocated(writer%rows)) deallocate (writer%rows, writer%scalars)
+      allocate (writer%rows(angles, merge(0, writer%block, writer%is_sparse), size(writer%series)), source=0.0_wp)
+      allocate (writer%scalars(writer%block, size(writer%summary)), source=0.0_wp)
+      n = size(writer%series_data)
+      allocate (longer(size(writer%series)))
+      longer(:n) = writer%series_data
+      call move_alloc(longer, writer%series_data)
+      n = size(writer%summary_data)
+      allocate (longer(size(writer%summary)))
+      longer(:n) = writer%summary_data
+      call move_alloc(longer, writer%summary_data)
+   end subroutine make_room
+
+   !> Create the axis of cam angles.
+   subroutine create_angle(writer, angle, error)
       !> The writer
       type(output_t), intent(inout) :: writer
       !> Cam angles [deg]
@@ -305,39 +286,54 @@ contains
       !> File error
       type(error_t), allocatable, intent(out) :: error
 
-      type(hdf5_object_t) :: axis
       real(wp), allocatable :: copy(:) ! [deg]
-      integer :: chunk(2), axes_in_chunk, cases, level, i
 
       allocate (copy, source=angle)
-      call create_numbers(writer%series_group, "cam_angle", shape(angle), [integer ::], 0, axis, error)
-      if (.not. allocated(error)) call describe(axis, "degree", "cam angle, nose at 180", "numerics", error)
-      if (.not. allocated(error)) call make_scale(axis, error)
-      if (.not. allocated(error)) call write_numbers(axis, 0, copy, error)
+      associate (axis => writer%angle_axis)
+         call create_numbers(writer%series_group, "cam_angle", shape(angle), [integer ::], 0, axis, error)
+         if (.not. allocated(error)) call describe(axis, "degree", "cam angle, nose at 180", "numerics", error)
+         if (.not. allocated(error)) call make_scale(axis, error)
+         if (.not. allocated(error)) call write_numbers(axis, 0, copy, error)
+      end associate
+   end subroutine create_angle
+
+   !> Create the datasets of series.
+   subroutine create_series(writer, angles, first, error)
+      !> The writer
+      type(output_t), intent(inout) :: writer
+      !> Number of cam angles
+      integer, intent(in) :: angles
+      !> The first series that has none
+      integer, intent(in) :: first
+      !> File error
+      type(error_t), allocatable, intent(out) :: error
+
+      integer :: chunk(2), axes_in_chunk, cases, level, i
 
       cases = size(writer%status)
-      chunk = [size(angle), writer%block]
+      chunk = [angles, writer%block]
       if (writer%is_sparse) chunk(2) = 1
-      level = compression_level(writer, size(angle))
-      axes_in_chunk = merge(2, 0, level > 0 .or. writer%is_sparse .or. is_large(real(cases, wp), size(angle), contiguous_size))
-      do i = 1, size(writer%series)
-         if (allocated(error)) exit
+      level = compression_level(writer, angles)
+      axes_in_chunk = merge(2, 0, level > 0 .or. writer%is_sparse .or. is_large(real(cases, wp), angles, contiguous_size))
+      do i = first, size(writer%series)
          associate (series => writer%series(i), dataset => writer%series_data(i))
-            call create_numbers(writer%series_group, series%name, [size(angle), cases], chunk(:axes_in_chunk), level, &
+            call create_numbers(writer%series_group, series%name, [angles, cases], chunk(:axes_in_chunk), level, &
                & dataset, error)
             if (.not. allocated(error)) call describe(dataset, series%unit, series%description, &
                & series%source, error, series%scope)
-            if (.not. allocated(error)) call attach_scale(dataset, axis, 1, 2, error)
+            if (.not. allocated(error)) call attach_scale(dataset, writer%angle_axis, 1, 2, error)
             if (.not. allocated(error)) call attach_scale(dataset, writer%case_axis, 2, 2, error)
          end associate
+         if (allocated(error)) return
       end do
-      call close_object(axis)
    end subroutine create_series
 
-   !> Create the datasets of the scalars.
-   subroutine create_summary(writer, error)
+   !> Create the datasets of scalars.
+   subroutine create_summary(writer, first, error)
       !> The writer
       type(output_t), intent(inout) :: writer
+      !> The first scalar that has none
+      integer, intent(in) :: first
       !> File error
       type(error_t), allocatable, intent(out) :: error
 
@@ -351,7 +347,7 @@ contains
          chunk = writer%block
          level = deflate_level
       end if
-      do i = 1, size(writer%summary)
+      do i = first, size(writer%summary)
          associate (scalar => writer%summary(i), dataset => writer%summary_data(i))
             call choose_group(writer, scalar%source, group, error)
             if (.not. allocated(error)) call create_numbers(group, scalar%name, shape(writer%status), &
@@ -387,10 +383,21 @@ contains
       type(error_t), allocatable, intent(out) :: error
 
       group = writer%summary_group
-      if (source /= choice_source) return
+      if (group_of_source(source) /= choice_source) return
       if (writer%effects%id < 0) call create_group(writer%file, choice_source, writer%effects, error)
       group = writer%effects
    end subroutine choose_group
+
+   !> Name of the group of a result file that holds scalars of a source.
+   pure function group_of_source(source) result(group)
+      !> Part of the model that a scalar comes from
+      character(len=*), intent(in) :: source
+      !> The name
+      character(len=:), allocatable :: group
+
+      group = "summary"
+      if (source == choice_source) group = choice_source
+   end function group_of_source
 
    !> Deflate level of the series.
    pure function compression_level(writer, angles) result(level)

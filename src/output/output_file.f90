@@ -48,11 +48,11 @@ module camroller_output_file
       character(len=:), allocatable :: path
       !> Its place, and its path until then
       type(new_file_t) :: place
-      type(hdf5_object_t) :: file, case_axis, deck, run, series_group, summary_group, sweep, warnings, messages, &
+      type(hdf5_object_t) :: file, case_axis, angle_axis, deck, run, series_group, summary_group, sweep, warnings, messages, &
          & effects, reasons
       !> Status of each case: 0, the kind of its error, or `not_written`
       integer, allocatable :: status(:)
-      !> Series and scalars of the file, known from the first result on
+      !> Series and scalars of the file, as many as the layouts so far bring
       type(quantity_t), allocatable :: series(:), summary(:)
       type(hdf5_object_t), allocatable :: series_data(:), summary_data(:)
       !> Gathered rows, shape (angle, row, series) [unit of the series]

@@ -3,6 +3,9 @@ module sample_result
    use testdrive, only : error_type, check, test_failed
    use camroller_kinds, only : wp
    use camroller_error, only : error_t
+   use camroller_layout, only : layout_of, layout_t
+   use camroller_output, only : add_layout, output_t, write_outcome
+   use camroller_remarks, only : remark_lines
    use camroller_result, only : result_t
    use camroller_hdf5_object, only : hdf5_object_t
    use camroller_hdf5_read, only : read_numbers, read_text, read_text_attribute
@@ -11,12 +14,47 @@ module sample_result
    private
 
    public :: new_sample, sample_value, scratch_path, write_old_file, is_old_file, same_content, expect_error
-   public :: check_text, check_number
+   public :: check_text, check_number, write_case, write_failure
 
    !> What stands in a file that must not be touched
    character(len=*), parameter :: old_content = "old content"
 
 contains
+
+   !> Write a result into a file.
+   subroutine write_case(writer, position, result, error)
+      !> The file
+      type(output_t), intent(inout) :: writer
+      !> Position of the case, from 1
+      integer, intent(in) :: position
+      !> Its result, with the quantities of the results before
+      type(result_t), intent(in) :: result
+      !> What went wrong
+      type(error_t), allocatable, intent(out) :: error
+
+      type(layout_t) :: layout
+
+      call layout_of(result, layout)
+      if (.not. allocated(writer%summary)) call add_layout(writer, layout, error)
+      if (.not. allocated(error)) call write_outcome(writer, position, 0, remark_lines(result%remarks), "", result%summary_values, &
+         & result%series_values, error)
+   end subroutine write_case
+
+   !> Write a case without a result into a file.
+   subroutine write_failure(writer, position, failure, error)
+      !> The file
+      type(output_t), intent(inout) :: writer
+      !> Position of the case, from 1
+      integer, intent(in) :: position
+      !> What went wrong with it
+      type(error_t), intent(in) :: failure
+      !> What went wrong
+      type(error_t), allocatable, intent(out) :: error
+
+      real(wp) :: none(0, 0) ! [-]
+
+      call write_outcome(writer, position, failure%kind, failure%message, "", [real(wp) ::], none, error)
+   end subroutine write_failure
 
    !> A result with two series, two scalars.
    subroutine new_sample(result, position, angles)

@@ -8,10 +8,11 @@ module test_export
    use camroller_hdf5_object, only : hdf5_object_t
    use camroller_hdf5_file, only : close_file, create_file
    use camroller_hdf5_attribute, only : put_attribute
-   use camroller_output, only : close_output, open_output, output_options_t, output_t, result_format, write_case, write_failure, &
+   use camroller_output, only : close_output, open_output, output_options_t, output_t, result_format, &
       & write_sweep
    use camroller_system_file, only : remove_file
-   use sample_result, only : expect_error, is_old_file, new_sample, sample_value, scratch_path, write_old_file
+   use sample_result, only : expect_error, is_old_file, new_sample, sample_value, scratch_path, write_case, write_failure, &
+      & write_old_file
    implicit none
    private
 

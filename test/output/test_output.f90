@@ -9,11 +9,12 @@ module test_output
    use camroller_hdf5_object, only : hdf5_object_t
    use camroller_hdf5_file, only : discard_file
    use camroller_hdf5_read, only : has_member, is_text_dataset, open_file, read_integer_attribute, read_numbers
-   use camroller_output, only : abandon_output, close_output, open_output, output_options_t, output_t, write_case, write_deck, &
-      & write_failure, write_run, write_sweep
+   use camroller_layout, only : layout_of, layout_t
+   use camroller_output, only : abandon_output, add_layout, close_output, open_output, output_options_t, output_t, write_deck, &
+      & write_outcome, write_run, write_sweep
    use camroller_system_file, only : remove_file
    use sample_result, only : check_number, check_text, expect_error, is_old_file, new_sample, same_content, sample_value, &
-      & scratch_path, write_old_file
+      & scratch_path, write_case, write_failure, write_old_file
    implicit none
    private
 
@@ -41,7 +42,7 @@ contains
          new_unittest("an earlier file stays until the new one is complete", earlier_file_stays), &
          new_unittest("a missing case leaves no file, and the earlier one as it was", missing_case_leaves_nothing), &
          new_unittest("a case that is written twice leaves no file", second_case_leaves_nothing), &
-         new_unittest("a case with other series leaves no file", other_series_leave_nothing), &
+         new_unittest("quantities that only later cases have are no number in the others", later_quantities), &
          new_unittest("nothing can be written after giving up", nothing_after_giving_up) &
          ]
    end subroutine collect_output
@@ -379,25 +380,53 @@ contains
       if (.not. allocated(error)) call is_old_file(error, path)
    end subroutine second_case_leaves_nothing
 
-   subroutine other_series_leave_nothing(error)
+   subroutine later_quantities(error)
       type(error_type), allocatable, intent(out) :: error
 
+      integer, parameter :: cases = 4, angles = 3
       type(output_t) :: writer
       type(output_options_t) :: options
       type(error_t), allocatable :: raised
       type(result_t) :: result
+      type(layout_t) :: layout
+      type(hdf5_object_t) :: file
       character(len=:), allocatable :: path
+      real(wp), allocatable :: numbers(:)
+      integer :: i, k
 
-      path = scratch_path("series.h5")
-      call write_old_file(path)
-      call open_output(writer, path, 3, options, raised)
-      call write_samples(writer, 1, 4, raised)
-      call new_sample(result, 2, 4)
-      result%series(2)%name = "slip"
-      call write_case(writer, 2, result, raised)
-      call expect_error(error, raised, kind_internal, "other series")
-      if (.not. allocated(error)) call is_old_file(error, path)
-   end subroutine other_series_leave_nothing
+      path = scratch_path("later.h5")
+      options%compression = "on"
+      call open_output(writer, path, cases, options, raised)
+      do i = 1, cases
+         call new_sample(result, i, angles)
+         call layout_of(result, layout)
+         if (i == 3) then
+            layout%series(2)%name = "slip"
+            layout%summary(1)%name = "max_slip"
+         end if
+         if (i == 1 .or. i == 3) call add_layout(writer, layout, raised)
+         if (i < 3) then
+            call write_outcome(writer, i, 0, "", "", result%summary_values, result%series_values, raised)
+         else
+            ! load, lift and slip; mean_load, max_lift and max_slip
+            call write_outcome(writer, i, 0, "", "", [result%summary_values, 1.0_wp*i], &
+               & reshape([result%series_values, [(10.0_wp*i + k, k=1, angles)]], [angles, 3]), raised)
+         end if
+         call check(error, .not. allocated(raised), "cannot write")
+         if (allocated(error)) return
+      end do
+      call close_output(writer, raised)
+      call open_file(file, path, raised)
+      call check(error, .not. allocated(raised), "cannot read")
+      if (allocated(error)) return
+      call check_samples(error, file, cases, angles)
+      call read_numbers(file, "/series/slip", [0, 0], [angles, cases], numbers, raised)
+      if (.not. allocated(error)) call check(error, all(ieee_is_nan(numbers(:6))) .and. abs(numbers(8) - 32.0_wp) <= 0.0_wp, "slip")
+      call read_numbers(file, "/summary/max_slip", [0], [cases], numbers, raised)
+      if (.not. allocated(error)) call check(error, all(ieee_is_nan(numbers(:2))) .and. all(abs(numbers(3:) - [3, 4]) <= 0.0_wp))
+      call discard_file(file)
+      call remove_file(path)
+   end subroutine later_quantities
 
    subroutine nothing_after_giving_up(error)
       type(error_type), allocatable, intent(out) :: error

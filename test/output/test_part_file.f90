@@ -4,7 +4,7 @@ module test_part_file
    use testdrive, only : unittest_type, new_unittest, error_type, check, test_failed
    use camroller_kinds, only : wp
    use camroller_error, only : error_t, kind_file
-   use camroller_case_record, only : begin_cases, end_cases, outcome_t, put_failure, put_result, take_case, take_header
+   use camroller_case_record, only : begin_cases, end_cases, case_outcome_t, put_failure, put_result, take_case, take_header
    use camroller_case_runs, only : missing_runs, piece_of, run_total, runs_in_words, runs_t
    use camroller_layout, only : find_layout, layout_list_t, layout_t
    use camroller_part_file, only : append_layout, append_record, close_part, open_part, part_t, read_record, scan_part
@@ -82,7 +82,7 @@ contains
       type(record_t) :: record
       type(result_t) :: result
       type(layout_t) :: layout
-      type(outcome_t) :: outcome
+      type(case_outcome_t) :: outcome
       integer :: i, first, count, place
 
       call new_sample(result, 1, angles)
@@ -92,7 +92,7 @@ contains
       call begin_cases(record, 1)
       do i = 1, 2
          result%lacks_profiles = i == 1
-         call put_result(record, result, .true.)
+         call put_result(record, result, "", .true.)
       end do
       call end_cases(record, 2, 1)
       call take_header(record, first, count, place)
@@ -111,7 +111,7 @@ contains
       type(record_t) :: record
       type(result_t) :: result
       type(layout_t) :: layout
-      type(outcome_t) :: outcome
+      type(case_outcome_t) :: outcome
       integer :: first, count, place
 
       call new_sample(result, 1, 4)
@@ -121,7 +121,7 @@ contains
       call add_remark(result%remarks, missing_profiles, "no profiles")
       result%remarks(1)%lobe = 2
       call begin_cases(record, 1)
-      call put_result(record, result, .false.)
+      call put_result(record, result, "", .false.)
       call end_cases(record, 1, 1)
       call take_header(record, first, count, place)
       call take_case(record, layout, outcome)
@@ -205,7 +205,7 @@ contains
       type(raw_file_t) :: file
       type(record_t) :: record
       type(layout_t) :: layout
-      type(outcome_t) :: outcome
+      type(case_outcome_t) :: outcome
       type(error_t), allocatable :: raised
       integer :: first, count, number
 

@@ -78,6 +78,18 @@ def test_profiles_are_compared(camroller, tmp_path):
     assert "  ehl: in 2 cases, a number in only one of the files, in case " in run(camroller, "rerun", "run.h5", folder=tmp_path).stderr
 
 
+def test_a_choice_of_effects_is_compared(camroller, tmp_path):
+    """Which effects took part, and their estimates, stand in a group of their own."""
+    deck = write_deck(tmp_path / "deck.nml", "key_1 = 'operating_point.speed_rpm' values_1 = 300, 900")
+    done(camroller, "run", deck, "--set", "effects.select=needed", "--quiet", folder=tmp_path)
+    assert "2 cases are the same to the last bit" in done(camroller, "rerun", "deck.h5", folder=tmp_path).stdout
+    with h5py.File(tmp_path / "deck.h5", "r+") as file:
+        file["effects/bound"][1] += 1
+    result = run(camroller, "rerun", "deck.h5", folder=tmp_path)
+    assert result.returncode == DIFFERENCE
+    assert "  effects/bound: in 1 case, at most by " in result.stderr
+
+
 def test_what_is_no_result(camroller, tmp_path):
     with h5py.File(tmp_path / "other.h5", "w") as file:
         file["x"] = 1

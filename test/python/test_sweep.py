@@ -48,6 +48,21 @@ def test_file_is_that_of_run(camroller, deck, reference, tmp_path):
         assert len(sweep["series"]) == 0
 
 
+@pytest.mark.parametrize("sweep", ["key_1 = 'case.energy' values_1 = 'source', 'consistent' "
+                                   "key_2 = 'operating_point.speed_rpm' values_2 = 300, 900",
+                                   "key_1 = 'mechanism.pivot_to_cam_mm' values_1 = 60, 31, 31.5"], ids=["quantities", "failure"])
+@pytest.mark.parametrize("select", ["listed", "needed"])
+def test_run_writes_what_a_sweep_with_series_writes(camroller, tmp_path, sweep, select):
+    """Cases with other quantities than those before, a first case that fails, effects that are left out, and why."""
+    deck = write_deck(tmp_path / "deck.nml", f"series = 'all' {sweep}")
+    arguments = deck, "--set", f"effects.select={select}", "--quiet"
+    codes = [run(camroller, command, *arguments, "-o", f"{command}.h5", folder=tmp_path).returncode for command in ("run", "sweep")]
+    assert codes == [DOMAIN if "mechanism" in sweep else 0] * 2
+    assert same(tmp_path / "run.h5", tmp_path / "sweep.h5")
+    with h5py.File(tmp_path / "run.h5") as file:
+        assert ("effects/reasons" in file) == (select == "needed")
+
+
 @pytest.mark.parametrize("threads", [2, 5])
 def test_threads_change_nothing(camroller, deck, reference, tmp_path, threads):
     result = done(camroller, "sweep", deck, "--threads", threads, folder=tmp_path)

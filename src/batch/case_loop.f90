@@ -4,32 +4,34 @@
 !> follows from the time that cases take; what ended the loop. Only one thread at a time takes cases and hands records over; a
 !> case itself shares nothing with others, so its numbers do not depend on any of this. Texts are the exception: gfortran keeps
 !> the length of a text that a function returns in a static variable of the caller, so one thread at a time turns a deck into
-!> a case, and nothing below io has such functions. Built without OpenMP, the loop runs in one thread.
+!> a case and a choice of effects into words; what integrates has no such functions. Built without OpenMP, the loop runs in one
+!> thread.
 module camroller_case_loop
    use, intrinsic :: iso_fortran_env, only : int64
 !$ use omp_lib, only : omp_get_num_procs, omp_get_max_threads
    use camroller_kinds, only : wp
-   use camroller_error, only : error_t, add_context
+   use camroller_error, only : error_t, add_context, raise, kind_unfinished
    use camroller_blas_threads, only : check_blas_memory
    use camroller_case, only : case_t
-   use camroller_case_record, only : begin_cases, case_words, end_cases, put_failure, put_result
+   use camroller_case_record, only : begin_cases, end_cases, put_failure, put_result
    use camroller_case_runs, only : piece_of, run_total, runs_t
    use camroller_case_sink, only : name_layout, sink_t
    use camroller_deck, only : deck_t, make_sweep_case
-   use camroller_deck_sweep, only : case_in_words
+   use camroller_deck_sweep, only : case_in_words, sweep_size
    use camroller_ehl_profiles, only : find_profiles
    use camroller_ehl_record, only : ehl_record_t
-   use camroller_progress, only : progress_t, show_progress
+   use camroller_effect_words, only : choice_in_words
+   use camroller_monitor, only : monitor_t
+   use camroller_number_text, only : counted, integer_text
    use camroller_record, only : record_t
    use camroller_result, only : result_t
    use camroller_run, only : run_next_case
    use camroller_kept_models, only : kept_models_t
-   use camroller_stop_signal, only : is_stop_wanted
    use camroller_team, only : team_t
    implicit none
    private
 
-   public :: loop_t, compute_cases, number_of_cores, set_threads
+   public :: loop_t, compute_cases, number_of_cores, set_threads, sweep_cases
    public :: ended_all, ended_by_signal, ended_by_time, ended_by_error
 
    !> What ended the loop
@@ -40,6 +42,17 @@ module camroller_case_loop
    integer, parameter :: longest_run = 256, largest_record = 524288
    !> Runs that are left for each thread when the length of runs begins to fall
    integer, parameter :: last_runs = 4
+
+   !> What comes of a case
+   type :: computed_t
+      type(result_t) :: result
+      !> Why effects take part or not, where that was decided
+      character(len=:), allocatable :: reasons
+      !> Profiles across the contact, where they are wanted
+      type(ehl_record_t), allocatable :: profiles
+      !> What went wrong with it
+      type(error_t), allocatable :: failure
+   end type computed_t
 
    !> How the loop runs, and what it shares among its threads
    type :: loop_t
@@ -61,7 +74,6 @@ module camroller_case_loop
       integer :: total = 0
       !> The error that ended it
       type(error_t), allocatable :: error
-      type(progress_t) :: progress
    end type loop_t
 
 contains
@@ -89,42 +101,83 @@ contains
 !$ cores = min(omp_get_num_procs(), omp_get_max_threads())
    end function number_of_cores
 
+   !> Compute all cases of a deck; each goes to a sink, with its series where the sink wants them.
+   subroutine sweep_cases(deck, sink, error, threads, with_series, monitor)
+      !> The deck
+      type(deck_t), intent(in) :: deck
+      !> Where the cases go
+      class(sink_t), intent(inout), target :: sink
+      !> Error of the sink; or unfinished, where the monitor stopped it
+      type(error_t), allocatable, intent(out) :: error
+      !> Threads; without it one on each core
+      integer, intent(in), optional :: threads
+      !> Are series handed over? Without it they are not
+      logical, intent(in), optional :: with_series
+      !> Who follows it
+      class(monitor_t), intent(inout), target, optional :: monitor
+
+      type(loop_t), target :: loop
+      type(monitor_t), target :: nobody
+      type(team_t), target :: alone
+      class(monitor_t), pointer :: follower
+      type(runs_t) :: runs
+
+      follower => nobody
+      if (present(monitor)) follower => monitor
+      loop%threads = 0
+      if (present(threads)) loop%threads = threads
+      call set_threads(loop, loop%threads, error)
+      if (allocated(error)) return
+      if (present(with_series)) loop%series = merge("all ", "none", with_series)
+      runs%first = [1]
+      runs%count = [sweep_size(deck%sweep)]
+      call compute_cases(loop, deck, runs, sink, alone, follower, error)
+      if (allocated(error) .or. loop%ended == ended_all) return
+      call raise(error, kind_unfinished, "stopped after "//integer_text(loop%done)//" of "//counted(loop%total, "case"))
+   end subroutine sweep_cases
+
    !> Compute cases.
-   subroutine compute_cases(loop, deck, runs, team, sink, error)
+   subroutine compute_cases(loop, deck, runs, sink, team, monitor, error)
       !> How; gets what came of it
       type(loop_t), intent(inout), target :: loop
       !> The deck
       type(deck_t), intent(in) :: deck
       !> Cases to be computed
       type(runs_t), intent(in) :: runs
-      !> Processes that share them
-      class(team_t), intent(inout), target :: team
       !> Where they go
       class(sink_t), intent(inout), target :: sink
+      !> Processes that share them
+      class(team_t), intent(inout), target :: team
+      !> Who follows it
+      class(monitor_t), intent(inout), target :: monitor
       !> Error of the sink
       type(error_t), allocatable, intent(out) :: error
 
+      if (.not. allocated(loop%series_cases)) allocate (loop%series_cases(0))
       loop%total = run_total(runs)
       loop%ended = ended_all
       !$omp parallel num_threads(loop%threads) default(shared)
-      call work(loop, deck, runs, team, sink)
+      call work(loop, deck, runs, sink, team, monitor)
       !$omp end parallel
       if (allocated(loop%error)) call move_alloc(loop%error, error)
    end subroutine compute_cases
 
    !> What each thread does.
-   subroutine work(loop, deck, runs, team, sink)
+   subroutine work(loop, deck, runs, sink, team, monitor)
       !> Shared by all threads
       type(loop_t), intent(inout), target :: loop
       !> The deck
       type(deck_t), intent(in) :: deck
       !> Cases to be computed
       type(runs_t), intent(in) :: runs
-      !> Processes that share them
-      class(team_t), intent(inout), target :: team
       !> Where they go
       class(sink_t), intent(inout), target :: sink
+      !> Processes that share them
+      class(team_t), intent(inout), target :: team
+      !> Who follows it
+      class(monitor_t), intent(inout), target :: monitor
 
+      type(kept_models_t) :: kept
       integer(int64) :: before, after, rate
       integer :: wanted, position, first, count, left
       logical :: is_over
@@ -132,12 +185,12 @@ contains
       wanted = 1
       call system_clock(before, rate)
       do
-         call take_cases(loop, team, wanted, position, left, is_over)
+         call take_cases(loop, team, monitor, wanted, position, left, is_over)
          if (is_over) exit
          do while (left > 0)
             call piece_of(runs, position, left, first, count)
             if (count == 0) exit
-            call compute_run(loop, deck, first, count, sink, is_over)
+            call compute_run(loop, deck, first, count, kept, sink, monitor, is_over)
             if (is_over) return
             position = position + count
             left = left - count
@@ -161,11 +214,13 @@ contains
    end function length_of_run
 
    !> Take cases, fewer than wanted near the end, so that all threads end at the same time.
-   subroutine take_cases(loop, team, wanted, position, count, is_over)
+   subroutine take_cases(loop, team, monitor, wanted, position, count, is_over)
       !> Shared by all threads
       type(loop_t), intent(inout), target :: loop
       !> Processes that share the cases
       class(team_t), intent(inout), target :: team
+      !> Who follows it
+      class(monitor_t), intent(inout), target :: monitor
       !> How many are wanted
       integer, intent(in) :: wanted
       !> Position of the first one among the cases to be computed, from 1
@@ -178,7 +233,7 @@ contains
       position = 0
       count = 0
       !$omp critical (camroller_desk)
-      call note_limits(loop)
+      call note_limits(loop, monitor)
       is_over = loop%ended /= ended_all
       if (.not. is_over) then
          count = max(1, min(wanted, (loop%total - team%given)/(last_runs*loop%threads*team%ranks)))
@@ -192,12 +247,14 @@ contains
 
    !> Has the time come to an end, or somebody asked for it? Time ends nothing before a case is done, so that a sweep that is
    !> begun again and again gets to its end however short its time is.
-   subroutine note_limits(loop)
+   subroutine note_limits(loop, monitor)
       !> Shared by all threads
       type(loop_t), intent(inout), target :: loop
+      !> Who follows it
+      class(monitor_t), intent(inout), target :: monitor
 
       if (loop%ended /= ended_all) return
-      if (is_stop_wanted()) then
+      if (monitor%wants_stop()) then
          loop%ended = ended_by_signal
       else if (loop%done > 0 .and. is_late(loop%deadline)) then
          loop%ended = ended_by_time
@@ -220,24 +277,24 @@ contains
    end function is_late
 
    !> Compute a run of cases and hand it over; where the loop has to end, what is done of it.
-   subroutine compute_run(loop, deck, first, count, sink, is_over)
+   subroutine compute_run(loop, deck, first, count, kept, sink, monitor, is_over)
       !> Shared by all threads
       type(loop_t), intent(inout), target :: loop
       !> The deck
       type(deck_t), intent(in) :: deck
       !> First case, from 1, and number of cases
       integer, intent(in) :: first, count
+      !> Models of the cases that this thread has had before
+      type(kept_models_t), intent(inout) :: kept
       !> Where they go
       class(sink_t), intent(inout), target :: sink
+      !> Who follows it
+      class(monitor_t), intent(inout), target :: monitor
       !> Does the loop have to end?
       logical, intent(out) :: is_over
 
       type(record_t) :: record
-      type(kept_models_t) :: kept
-      type(case_t) :: case
-      type(result_t) :: result
-      type(ehl_record_t), allocatable :: profiles
-      type(error_t), allocatable :: failure
+      type(computed_t) :: computed
       integer :: i, n, layout, of_case
 
       call begin_cases(record, first)
@@ -245,63 +302,75 @@ contains
       layout = 0
       is_over = .false.
       do i = first, first + count - 1
-         call compute_case(deck, i, kept, is_kept(loop, loop%series, i - 1), case, result, failure)
-         if (allocated(profiles)) deallocate (profiles)
-         if (allocated(failure)) then
-            call put_failure(record, failure)
+         call compute_case(deck, i, is_kept(loop, loop%series, i - 1), is_kept(loop, loop%profiles, i - 1), kept, computed)
+         if (allocated(computed%failure)) then
+            call put_failure(record, computed%failure)
          else
-            call ask_layout(loop, sink, result, of_case)
+            call ask_layout(loop, sink, computed%result, of_case)
             if (layout /= 0 .and. of_case /= layout) then
-               call hand_over(loop, sink, record, n, layout)
+               call hand_over(loop, sink, monitor, record, n, layout)
                call begin_cases(record, i)
                n = 0
             end if
             layout = of_case
-            if (is_kept(loop, loop%profiles, i - 1)) call find_profiles(profiles, case, result)
-            call put_result(record, result, is_kept(loop, loop%series, i - 1), profiles)
+            call put_result(record, computed%result, computed%reasons, is_kept(loop, loop%series, i - 1), computed%profiles)
          end if
          n = n + 1
-         is_over = is_stop_wanted()
-         if (.not. is_over) is_over = is_late(loop%deadline)
+         is_over = is_stopped(loop, monitor)
          if (is_over) exit
          if (record%length < largest_record .or. i == first + count - 1) cycle
-         call hand_over(loop, sink, record, n, layout)
+         call hand_over(loop, sink, monitor, record, n, layout)
          call begin_cases(record, i + 1)
          n = 0
          layout = 0
       end do
-      if (n > 0) call hand_over(loop, sink, record, n, layout)
-      if (is_ended(loop)) is_over = .true.
+      if (n > 0) call hand_over(loop, sink, monitor, record, n, layout)
+      if (is_ended(loop, monitor)) is_over = .true.
    end subroutine compute_run
 
    !> Compute one case.
-   subroutine compute_case(deck, number, kept, with_series, case, result, failure)
+   subroutine compute_case(deck, number, with_series, with_profiles, kept, computed)
       !> The deck
       type(deck_t), intent(in) :: deck
       !> Number of the case, from 1
       integer, intent(in) :: number
+      !> Are its series kept, and its profiles, where it asks for them?
+      logical, intent(in) :: with_series, with_profiles
       !> Models of the cases before
       type(kept_models_t), intent(inout) :: kept
-      !> Are its series kept?
-      logical, intent(in) :: with_series
-      !> The case
-      type(case_t), intent(out) :: case
-      !> Its result
-      type(result_t), intent(out) :: result
-      !> What went wrong with it
-      type(error_t), allocatable, intent(out) :: failure
+      !> What comes of it
+      type(computed_t), intent(out) :: computed
+
+      type(case_t) :: case
 
       !$omp critical (camroller_texts)
-      call make_sweep_case(deck, number, case, failure)
+      call make_sweep_case(deck, number, case, computed%failure)
       !$omp end critical (camroller_texts)
-      if (allocated(failure)) return
+      if (allocated(computed%failure)) return
       ! Profiles of the pressure are found from the series
-      call run_next_case(kept, case, result, failure, with_series .or. allocated(case%ehl))
-      if (.not. allocated(failure) .or. size(deck%sweep%axes) == 0) return
+      call run_next_case(kept, case, computed%result, computed%failure, with_series .or. allocated(case%ehl))
       !$omp critical (camroller_texts)
-      call add_context(failure, case_in_words(deck%sweep, number))
+      computed%reasons = ""
+      if (allocated(computed%result%choice)) computed%reasons = choice_in_words(computed%result%choice)
+      if (size(deck%sweep%axes) > 0) call add_context(computed%failure, case_in_words(deck%sweep, number))
       !$omp end critical (camroller_texts)
+      if (with_profiles .and. .not. allocated(computed%failure)) call find_profiles(computed%profiles, case, computed%result)
    end subroutine compute_case
+
+   !> Has the loop to end before its next case?
+   function is_stopped(loop, monitor) result(verdict)
+      !> Shared by all threads
+      type(loop_t), intent(inout), target :: loop
+      !> Who follows it
+      class(monitor_t), intent(inout), target :: monitor
+      !> Has it?
+      logical :: verdict
+
+      !$omp critical (camroller_desk)
+      verdict = monitor%wants_stop()
+      !$omp end critical (camroller_desk)
+      if (.not. verdict) verdict = is_late(loop%deadline)
+   end function is_stopped
 
    !> Are the series or the profiles of a case kept?
    pure function is_kept(loop, choice, number) result(verdict)
@@ -338,11 +407,13 @@ contains
    end subroutine ask_layout
 
    !> Hand a record over.
-   subroutine hand_over(loop, sink, record, count, layout)
+   subroutine hand_over(loop, sink, monitor, record, count, layout)
       !> Shared by all threads
       type(loop_t), intent(inout), target :: loop
       !> Where it goes
       class(sink_t), intent(inout), target :: sink
+      !> Who follows it
+      class(monitor_t), intent(inout), target :: monitor
       !> The record
       type(record_t), intent(inout) :: record
       !> Number of cases in it, and their layout
@@ -357,10 +428,10 @@ contains
          if (allocated(error)) call note_error(loop, error)
          if (.not. allocated(error)) loop%done = loop%done + count
       end if
-      !$omp end critical (camroller_desk)
       !$omp critical (camroller_texts)
-      call show_progress(loop%progress, max(loop%done, loop%given), loop%total)
+      call monitor%show(max(loop%done, loop%given), loop%total)
       !$omp end critical (camroller_texts)
+      !$omp end critical (camroller_desk)
    end subroutine hand_over
 
    !> Take note of an error: the loop ends.
@@ -375,14 +446,16 @@ contains
    end subroutine note_error
 
    !> Has the loop come to an end?
-   function is_ended(loop) result(verdict)
+   function is_ended(loop, monitor) result(verdict)
       !> Shared by all threads
       type(loop_t), intent(inout), target :: loop
+      !> Who follows it
+      class(monitor_t), intent(inout), target :: monitor
       !> Has it?
       logical :: verdict
 
       !$omp critical (camroller_desk)
-      call note_limits(loop)
+      call note_limits(loop, monitor)
       verdict = loop%ended /= ended_all
       !$omp end critical (camroller_desk)
    end function is_ended

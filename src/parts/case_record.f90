@@ -15,23 +15,25 @@ module camroller_case_record
    implicit none
    private
 
-   public :: outcome_t, begin_cases, put_result, put_failure, end_cases, take_header, take_case, case_words
+   public :: case_outcome_t, begin_cases, put_result, put_failure, end_cases, take_header, take_case, case_words
 
    !> Where count and layout stand among the words
    integer, parameter :: count_place = 2, layout_place = 3
    !> In the place of the number of nodes: profiles were asked for and could not be solved
    integer, parameter :: unsolved = -1
    !> Words of a case besides its numbers, with a remark of the usual length
-   integer, parameter :: words_of_case = 24
+   integer, parameter :: words_of_case = 25
 
    !> One case
-   type :: outcome_t
+   type :: case_outcome_t
       !> 0, or the kind of the error
       integer :: status = 0
       !> Message of the error, or the lines of the remarks
       character(len=:), allocatable :: text
       !> Remarks on a result
       type(remark_t), allocatable :: remarks(:)
+      !> Why effects take part or not, where that was decided
+      character(len=:), allocatable :: reasons
       !> Scalars [unit of the scalar]; none where there is no result
       real(wp), allocatable :: summary(:)
       !> Series, shape (angle, series) [unit of the series]; none where they are not kept
@@ -40,7 +42,7 @@ module camroller_case_record
       type(ehl_record_t), allocatable :: profiles
       !> Were they asked for, and could not be solved?
       logical :: lacks_profiles = .false.
-   end type outcome_t
+   end type case_outcome_t
 
 contains
 
@@ -58,11 +60,13 @@ contains
    end subroutine begin_cases
 
    !> Add a result.
-   pure subroutine put_result(record, result, with_series, profiles)
+   pure subroutine put_result(record, result, reasons, with_series, profiles)
       !> The record
       type(record_t), intent(inout) :: record
       !> The result
       type(result_t), intent(in) :: result
+      !> Why effects take part or not, where that was decided; may be empty
+      character(len=*), intent(in) :: reasons
       !> Are its series kept?
       logical, intent(in) :: with_series
       !> Profiles at the angles of the result, where they are kept
@@ -84,6 +88,7 @@ contains
          call put_numbers(record, [result%remarks(i)%size])
          call put_text(record, result%remarks(i)%text)
       end do
+      call put_text(record, reasons)
       call put_numbers(record, result%summary_values)
       if (with_series) then
          do i = 1, size(result%series_values, 2)
@@ -159,7 +164,7 @@ contains
       !> Layout of its cases
       type(layout_t), intent(in) :: layout
       !> The case
-      type(outcome_t), intent(inout) :: outcome
+      type(case_outcome_t), intent(inout) :: outcome
 
       ! Number of a remark [unit of its kind]
       real(wp) :: number(1)
@@ -172,6 +177,7 @@ contains
       if (allocated(outcome%series)) deallocate (outcome%series)
       if (allocated(outcome%profiles)) deallocate (outcome%profiles)
       outcome%lacks_profiles = nodes == unsolved
+      outcome%reasons = ""
       if (outcome%status /= 0) return
       call take_integer(record, count)
       if (allocated(outcome%remarks)) deallocate (outcome%remarks)
@@ -184,6 +190,7 @@ contains
          call take_text(record, outcome%remarks(i)%text)
       end do
       outcome%text = remark_lines(outcome%remarks)
+      call take_text(record, outcome%reasons)
       if (allocated(outcome%summary)) then
          if (size(outcome%summary) /= size(layout%summary)) deallocate (outcome%summary)
       end if

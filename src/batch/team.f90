@@ -3,10 +3,11 @@
 !> In: nothing. Out: `team_t`, a team of one process; the program for MPI extends it. The only thing that processes
 !> share while they compute is a counter of the cases given out.
 module camroller_team
+   use camroller_error, only : error_t
    implicit none
    private
 
-   public :: team_t
+   public :: team_t, agreed_code
 
    !> A team of one
    type :: team_t
@@ -63,5 +64,19 @@ contains
 
       if (self%ranks < 1) number = 0
    end subroutine largest_alone
+
+   !> Exit code that all processes have in common: 0 where none has an error. All of them call it.
+   function agreed_code(team, error) result(code)
+      !> The processes
+      class(team_t), intent(inout) :: team
+      !> Error of this process
+      type(error_t), allocatable, intent(in) :: error
+      !> The largest of their codes
+      integer :: code
+
+      code = 0
+      if (allocated(error)) code = error%kind
+      call team%largest(code)
+   end function agreed_code
 
 end module camroller_team

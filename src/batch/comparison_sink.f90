@@ -6,22 +6,20 @@ module camroller_comparison_sink
    use, intrinsic :: iso_fortran_env, only : int64
    use camroller_kinds, only : wp
    use camroller_error, only : error_t, raise, kind_usage
-   use camroller_case_record, only : outcome_t, take_case, take_header
+   use camroller_case_record, only : case_outcome_t, take_case, take_header
    use camroller_case_sink, only : sink_t
    use camroller_ehl_file, only : sample_record
    use camroller_ehl_record, only : ehl_record_t, list_ehl_quantities
    use camroller_hdf5_object, only : hdf5_object_t
    use camroller_hdf5_read, only : has_member, read_numbers
    use camroller_layout, only : layout_t
+   use camroller_output_cases, only : group_of_source
    use camroller_record, only : record_t
    use camroller_result, only : quantity_t
    implicit none
    private
 
    public :: comparison_sink_t, difference_t, compare_record, compare_missing
-
-   !> Most quantities that differences are kept of
-   integer, parameter :: most_quantities = 2000
 
    !> How a quantity differs
    type :: difference_t
@@ -39,9 +37,8 @@ module camroller_comparison_sink
    type, extends(sink_t) :: comparison_sink_t
       !> The result file
       type(hdf5_object_t) :: file
-      !> Quantities that differ, and how many there are
-      type(difference_t) :: differences(most_quantities)
-      integer :: count = 0
+      !> Quantities that differ
+      type(difference_t), allocatable :: differences(:)
       !> Cases compared, cases that differ
       integer :: cases = 0, differing = 0
    contains
@@ -63,8 +60,8 @@ contains
       integer :: i
 
       do i = 1, size(layout%summary)
-         if (has_member(self%file, "/summary/"//layout%summary(i)%name)) cycle
-         call raise(error, kind_usage, "'"//self%file%file//"' has no '/summary/"//layout%summary(i)%name// &
+         if (has_member(self%file, "/"//place_of(layout%summary(i)))) cycle
+         call raise(error, kind_usage, "'"//self%file%file//"' has no '/"//place_of(layout%summary(i))// &
             & "': it is from another version, and its cases cannot be compared")
          return
       end do
@@ -79,7 +76,7 @@ contains
       !> File error
       type(error_t), allocatable, intent(out) :: error
 
-      type(outcome_t), allocatable :: outcomes(:)
+      type(case_outcome_t), allocatable :: outcomes(:)
       type(layout_t) :: own
       logical, allocatable :: differs(:)
       integer :: first, count, layout, i
@@ -118,7 +115,7 @@ contains
       !> First case, from 1
       integer, intent(in) :: first
       !> The cases
-      type(outcome_t), intent(in) :: outcomes(:)
+      type(case_outcome_t), intent(in) :: outcomes(:)
       !> Cases that differ
       logical, intent(inout) :: differs(:)
       !> File error
@@ -141,7 +138,7 @@ contains
       !> First case, from 1
       integer, intent(in) :: first
       !> The cases
-      type(outcome_t), intent(in) :: outcomes(:)
+      type(case_outcome_t), intent(in) :: outcomes(:)
       !> Their scalars
       type(quantity_t), intent(in) :: quantities(:)
       !> Cases that differ
@@ -153,14 +150,24 @@ contains
       integer :: i, k
 
       do k = 1, size(quantities)
-         call read_numbers(self%file, "/summary/"//quantities(k)%name, [first - 1], shape(outcomes), stored, error)
+         call read_numbers(self%file, "/"//place_of(quantities(k)), [first - 1], shape(outcomes), stored, error)
          if (allocated(error)) return
          do i = 1, size(outcomes)
             if (outcomes(i)%status /= 0) cycle
-            call compare(self, "summary/"//quantities(k)%name, first + i - 2, stored(i), outcomes(i)%summary(k), differs(i))
+            call compare(self, place_of(quantities(k)), first + i - 2, stored(i), outcomes(i)%summary(k), differs(i))
          end do
       end do
    end subroutine compare_summaries
+
+   !> Where a scalar is in a result file.
+   pure function place_of(scalar) result(place)
+      !> The scalar
+      type(quantity_t), intent(in) :: scalar
+      !> Its name with its group
+      character(len=:), allocatable :: place
+
+      place = group_of_source(scalar%source)//"/"//scalar%name
+   end function place_of
 
    !> Compare series, of cases that have some.
    subroutine compare_series(self, first, outcomes, layout, differs, error)
@@ -169,7 +176,7 @@ contains
       !> First case, from 1
       integer, intent(in) :: first
       !> The cases
-      type(outcome_t), intent(in) :: outcomes(:)
+      type(case_outcome_t), intent(in) :: outcomes(:)
       !> Their layout
       type(layout_t), intent(in) :: layout
       !> Cases that differ
@@ -201,7 +208,7 @@ contains
       !> First case, from 1
       integer, intent(in) :: first
       !> The cases
-      type(outcome_t), intent(in) :: outcomes(:)
+      type(case_outcome_t), intent(in) :: outcomes(:)
       !> Cases that differ
       logical, intent(inout) :: differs(:)
       !> File error
@@ -318,17 +325,20 @@ contains
       !> Does the case differ?
       logical, intent(inout) :: differs
 
+      type(difference_t), allocatable :: longer(:)
       integer :: place
 
       if (transfer(stored, 0_int64) == transfer(computed, 0_int64)) return
       differs = .true.
-      do place = 1, self%count
+      if (.not. allocated(self%differences)) allocate (self%differences(0))
+      do place = 1, size(self%differences)
          if (self%differences(place)%name == name) exit
       end do
-      if (place > most_quantities) return
-      if (place > self%count) then
-         self%count = place
-         self%differences(place)%name = name
+      if (place > size(self%differences)) then
+         allocate (longer(place))
+         longer(:place - 1) = self%differences
+         longer(place)%name = name
+         call move_alloc(longer, self%differences)
       end if
       associate (difference => self%differences(place))
          difference%cases = difference%cases + 1

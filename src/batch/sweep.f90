@@ -1,0 +1,375 @@
+!> A sweep: every case of a deck into one result file.
+!>
+!> In: a deck, the path of the file. Out: the file; what happened to the cases. Directly, in one thread, the cases go straight into
+!> the file. Otherwise they go to part files first, one for each process, which survive any end; the file is made of them when all
+!> cases are there. The first of several processes finds out what is to be done, and makes the file.
+module camroller_sweep
+   use, intrinsic :: iso_fortran_env, only : int64
+   use camroller_kinds, only : wp
+   use camroller_error, only : error_t, raise, kind_deck, kind_file, kind_unfinished, kind_usage
+   use camroller_case_loop, only : compute_cases, ended_all, ended_by_time, loop_t, set_threads
+   use camroller_case_runs, only : missing_runs, run_total, runs_in_words, runs_t
+   use camroller_case_writer, only : abandon_cases, case_writer_t, close_cases
+   use camroller_deck, only : add_places, deck_t
+   use camroller_deck_files, only : list_deck_files
+   use camroller_earlier_result, only : complete_there, earlier_t, look_at_earlier, other_there, partial_there
+   use camroller_mistakes, only : line_t
+   use camroller_monitor, only : monitor_t
+   use camroller_new_file, only : check_place
+   use camroller_number_text, only : counted, integer_text
+   use camroller_part_file, only : close_part, find_parts, open_part, part_beginning, part_name, sync_part
+   use camroller_part_scan, only : index_t, study_facts_t
+   use camroller_part_sink, only : part_sink_t
+   use camroller_run_facts, only : study_facts
+   use camroller_settings, only : take
+   use camroller_sweep_file, only : conclude, make_result, open_result, scan_all, series_choice, study_t, sweep_made, &
+      & sweep_options_t, sweep_report_t, sweep_shard_done, sweep_was_complete, tell_damages
+   use camroller_team, only : agreed_code, team_t
+   implicit none
+   private
+
+   public :: run_sweep, merge_sweep
+
+contains
+
+   !> Compute every case of a deck and write one file.
+   subroutine run_sweep(deck, path, options, report, error, monitor, team)
+      !> The deck
+      type(deck_t), intent(in) :: deck
+      !> Path of the result file
+      character(len=*), intent(in) :: path
+      !> How
+      type(sweep_options_t), intent(in) :: options
+      !> What came of it, on the first process
+      type(sweep_report_t), intent(out) :: report
+      !> What went wrong: of any kind; the first failure where cases failed, and the file is there all the same
+      type(error_t), allocatable, intent(out) :: error
+      !> Who follows it; without it nobody
+      class(monitor_t), intent(inout), target, optional :: monitor
+      !> Processes that share it, unless the cases go straight to the file; without it this one alone
+      class(team_t), intent(inout), target, optional :: team
+
+      type(monitor_t), target :: nobody
+      type(team_t), target :: alone
+      class(monitor_t), pointer :: follower
+      class(team_t), pointer :: processes
+      type(study_t) :: study
+
+      follower => nobody
+      if (present(monitor)) follower => monitor
+      processes => alone
+      if (present(team) .and. .not. options%is_direct) processes => team
+      call begin_study(deck, path, options, study, error)
+      if (agreed_code(processes, error) /= 0) return
+      if (options%is_direct) then
+         call write_directly(deck, study, follower, processes, report, error)
+      else
+         call run_in_parts(deck, options, study, follower, processes, report, error)
+      end if
+   end subroutine run_sweep
+
+   !> Make the one file of a sweep of its part files.
+   subroutine merge_sweep(deck, path, options, report, error, monitor)
+      !> The deck
+      type(deck_t), intent(in) :: deck
+      !> Path of the result file
+      character(len=*), intent(in) :: path
+      !> How
+      type(sweep_options_t), intent(in) :: options
+      !> What came of it
+      type(sweep_report_t), intent(out) :: report
+      !> What went wrong: of any kind; the first failure where cases failed, and the file is there all the same
+      type(error_t), allocatable, intent(out) :: error
+      !> Who hears of it
+      class(monitor_t), intent(inout) :: monitor
+
+      type(study_t) :: study
+
+      call begin_study(deck, path, options, study, error)
+      if (allocated(error)) return
+      call make_result(study, deck, options, .true., monitor, report, error)
+   end subroutine merge_sweep
+
+   !> What is computed, and where to.
+   subroutine begin_study(deck, path, options, study, error)
+      !> The deck
+      type(deck_t), intent(in) :: deck
+      !> Path of the result file, which must not be one that the deck is read from
+      character(len=*), intent(in) :: path
+      !> How
+      type(sweep_options_t), intent(in) :: options
+      !> What is computed
+      type(study_t), intent(out) :: study
+      !> Deck or usage error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(line_t), allocatable :: inputs(:)
+      logical :: with_profiles
+
+      study%path = path
+      call study_facts(deck, study%facts)
+      call list_deck_files(deck, inputs)
+      call check_place(path, inputs, error)
+      if (allocated(error)) return
+      study%first = int((options%shard - 1)*int(study%facts%cases, int64)/options%shards) + 1
+      study%last = int(options%shard*int(study%facts%cases, int64)/options%shards)
+      if (study%first > study%last) then
+         call raise(error, kind_usage, integer_text(options%shards)//" shards are more than there are cases")
+         return
+      end if
+      study%runs%first = [study%first]
+      study%runs%count = [study%last - study%first + 1]
+      with_profiles = .false.
+      call take(deck%settings, "ehl", "profiles", with_profiles)
+      if (options%is_direct .or. .not. with_profiles .or. series_choice(deck) /= "none") return
+      call raise(error, kind_deck, "'ehl.profiles' has no cases: a sweep keeps profiles of the cases whose series it keeps, "// &
+         & "1.6 MB each at 720 cam angles; choose them by 'sweep.series', or leave 'ehl.profiles' out")
+   end subroutine begin_study
+
+   !> Compute the cases one after the other, straight into the result file. Where none has a result, there is no file.
+   subroutine write_directly(deck, study, monitor, team, report, error)
+      !> The deck
+      type(deck_t), intent(in) :: deck
+      !> What is computed
+      type(study_t), intent(in) :: study
+      !> Who follows it
+      class(monitor_t), intent(inout), target :: monitor
+      !> This process alone
+      class(team_t), intent(inout), target :: team
+      !> What came of it
+      type(sweep_report_t), intent(inout) :: report
+      !> What went wrong
+      type(error_t), allocatable, intent(out) :: error
+
+      type(case_writer_t), target :: writer
+      type(loop_t), target :: loop
+
+      call set_threads(loop, 1, error)
+      if (.not. allocated(error)) call open_result(writer, study, deck, .true., error)
+      if (allocated(error)) return
+      loop%series = "all"
+      loop%profiles = "all"
+      call compute_cases(loop, deck, study%runs, writer, team, monitor, error)
+      call monitor%end_cases()
+      if (.not. allocated(error) .and. loop%ended /= ended_all) then
+         call raise(error, kind_unfinished, "stopped after "//integer_text(loop%done)//" of "//counted(loop%total, "case"))
+      end if
+      report%tally = writer%tally
+      if (.not. allocated(error)) then
+         if (report%tally%failed < report%tally%cases) then
+            call close_cases(writer, error)
+            if (allocated(error)) return
+            report%ending = sweep_made
+            call conclude(report%tally, error)
+         else
+            error = report%tally%failure
+            call abandon_cases(writer)
+         end if
+         call add_places(deck, error)
+      else
+         call abandon_cases(writer)
+      end if
+   end subroutine write_directly
+
+   !> Compute the cases that no part file has, and make the result file where then all are there.
+   subroutine run_in_parts(deck, options, study, monitor, team, report, error)
+      !> The deck
+      type(deck_t), intent(in) :: deck
+      !> How
+      type(sweep_options_t), intent(in) :: options
+      !> What is computed
+      type(study_t), intent(inout) :: study
+      !> Who follows it
+      class(monitor_t), intent(inout), target :: monitor
+      !> Processes that share it
+      class(team_t), intent(inout), target :: team
+      !> What came of it
+      type(sweep_report_t), intent(inout) :: report
+      !> What went wrong
+      type(error_t), allocatable, intent(out) :: error
+
+      type(loop_t), target :: loop
+      type(error_t), allocatable :: earlier_failure
+      integer, allocatable :: numbers(:)
+      integer :: code
+
+      allocate (numbers(0))
+      if (team%rank == 0) then
+         call find_work(options, study, monitor, report, earlier_failure, error)
+         numbers = [study%runs%first, study%runs%count]
+      end if
+      call team%share(numbers)
+      study%runs%first = numbers(:size(numbers)/2)
+      study%runs%count = numbers(size(numbers)/2 + 1:)
+      if (agreed_code(team, error) /= 0) return
+      call compute(deck, options, study, monitor, team, loop, error)
+      code = agreed_code(team, error)
+      if (team%rank == 0) call monitor%end_cases()
+      if (code /= 0 .or. team%rank /= 0) return
+      if (report%ending == sweep_was_complete) then
+         if (allocated(earlier_failure)) call move_alloc(earlier_failure, error)
+      else
+         call finish(deck, options, study, loop%ended, monitor, report, error)
+      end if
+   end subroutine run_in_parts
+
+   !> Cases that no part file has.
+   subroutine find_work(options, study, monitor, report, failure, error)
+      !> How
+      type(sweep_options_t), intent(in) :: options
+      !> What is computed
+      type(study_t), intent(inout) :: study
+      !> Who hears of it
+      class(monitor_t), intent(inout) :: monitor
+      !> Gets whether the result file is there with all cases
+      type(sweep_report_t), intent(inout) :: report
+      !> The error that its cases ended with, where some failed
+      type(error_t), allocatable, intent(out) :: failure
+      !> File error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(index_t) :: index
+      type(line_t), allocatable :: paths(:)
+      type(earlier_t) :: earlier
+      character(len=:), allocatable :: own
+
+      own = part_name(study%path, options%shard, options%shards)
+      study%runs%first = [integer ::]
+      study%runs%count = [integer ::]
+      call find_parts(study%path, own, paths)
+      if (size(paths) > 0 .and. .not. options%is_resumed) then
+         call raise(error, kind_file, "'"//paths(1)%text//"' exists from a sweep that was stopped; continue it with "// &
+            & "--resume, or remove "//own//"*")
+         return
+      end if
+      call find_parts(study%path, part_beginning(study%path), paths)
+      call look_at_earlier(earlier, study%path, study%facts)
+      if (options%is_resumed .and. earlier%state == other_there) then
+         call raise(error, kind_file, "'"//study%path//"' is there, and it is no result of this sweep: "//earlier%reason// &
+            & new_line("a")//"--resume does not replace it; move it away, name another file by -o, or leave --resume out")
+         return
+      else if (options%is_resumed .and. earlier%state == complete_there .and. size(paths) == 0) then
+         report%ending = sweep_was_complete
+         call move_alloc(earlier%failure, failure)
+         return
+      end if
+      if (earlier%state == other_there) then
+         call monitor%say("remark: '"//study%path//"' is there, and it is no result of this sweep: "//earlier%reason// &
+            & new_line("a")//"it is replaced when all cases are done", .false.)
+      else if (earlier%state == partial_there .and. size(paths) == 0 .and. options%is_resumed) then
+         call monitor%say("remark: '"//study%path//"' has "//integer_text(earlier%computed)//" of "// &
+            & counted(study%facts%cases, "case")//", and their part files are gone: all cases are computed", .false.)
+      end if
+      call scan_all(paths, study%facts, index, error)
+      if (allocated(error)) return
+      call missing_runs(index, study%first, study%last, study%runs)
+      if (size(index%damages) == 0) return
+      call tell_damages(index, monitor)
+      if (run_total(study%runs) > 0) call monitor%say("remark: to be computed: "//runs_in_words(study%runs), .true.)
+   end subroutine find_work
+
+   !> Compute what is to be computed, into the part file of this process.
+   subroutine compute(deck, options, study, monitor, team, loop, error)
+      !> The deck
+      type(deck_t), intent(in) :: deck
+      !> How
+      type(sweep_options_t), intent(in) :: options
+      !> What is computed
+      type(study_t), intent(in) :: study
+      !> Who follows it
+      class(monitor_t), intent(inout), target :: monitor
+      !> Processes that share it
+      class(team_t), intent(inout), target :: team
+      !> How the loop ended
+      type(loop_t), intent(out), target :: loop
+      !> File error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(part_sink_t), target :: sink
+      type(error_t), allocatable :: last
+      real(wp) :: limit ! [s]
+
+      loop%series = series_choice(deck)
+      loop%profiles = loop%series
+      allocate (loop%series_cases(0))
+      call take(deck%settings, "sweep", "series_cases", loop%series_cases)
+      limit = 0.0_wp
+      call take(deck%settings, "sweep", "wall_time_limit_s", limit)
+      if (limit > 0.0_wp) loop%deadline = clock_in(limit)
+      call take(deck%settings, "sweep", "checkpoint_s", sink%interval)
+      call team%reset()
+      if (run_total(study%runs) == 0) return
+      call set_threads(loop, options%threads, error)
+      if (allocated(error)) return
+      call open_part(sink%part, part_name(study%path, options%shard, options%shards, team%rank), study%facts, error)
+      if (allocated(error)) return
+      call compute_cases(loop, deck, study%runs, sink, team, monitor, error)
+      call sync_part(sink%part, last)
+      call close_part(sink%part)
+      if (.not. allocated(error) .and. allocated(last)) call move_alloc(last, error)
+   end subroutine compute
+
+   !> The clock some time from now.
+   function clock_in(time) result(clock)
+      !> The time [s]
+      real(wp), intent(in) :: time
+      !> The clock
+      integer(int64) :: clock
+
+      integer(int64) :: rate
+
+      call system_clock(clock, rate)
+      clock = clock + int(time*real(rate, wp), int64)
+   end function clock_in
+
+   !> Make the result file where everything is done; say what is not.
+   subroutine finish(deck, options, study, ended, monitor, report, error)
+      !> The deck
+      type(deck_t), intent(in) :: deck
+      !> How
+      type(sweep_options_t), intent(in) :: options
+      !> What is computed
+      type(study_t), intent(in) :: study
+      !> What ended the loop
+      integer, intent(in) :: ended
+      !> Who hears of it
+      class(monitor_t), intent(inout) :: monitor
+      !> What came of it
+      type(sweep_report_t), intent(inout) :: report
+      !> What went wrong
+      type(error_t), allocatable, intent(out) :: error
+
+      type(index_t) :: index
+      type(line_t), allocatable :: paths(:)
+      type(runs_t) :: missing
+      type(study_facts_t) :: facts
+      character(len=:), allocatable :: reason
+
+      call study_facts(deck, facts)
+      if (facts%deck /= study%facts%deck) then
+         call raise(error, kind_file, "a table that the cases name has changed while they were computed, and it is not known "// &
+            & "which case had which; remove "//part_beginning(study%path)//"* to start again")
+         return
+      end if
+      if (ended /= ended_all .or. options%shards > 1) then
+         call find_parts(study%path, part_beginning(study%path), paths)
+         call scan_all(paths, study%facts, index, error)
+         if (allocated(error)) return
+         call missing_runs(index, study%first, study%last, missing)
+         if (run_total(missing) > 0) then
+            reason = "was stopped"
+            if (ended == ended_by_time) reason = "reached its time limit"
+            call raise(error, kind_unfinished, "the sweep "//reason//" with "//integer_text(run_total(missing))//" of "// &
+               & counted(study%last - study%first + 1, "case")//" to do; continue with --resume")
+            return
+         end if
+      end if
+      if (options%shards > 1) then
+         report%ending = sweep_shard_done
+         report%cases_of_shard = study%last - study%first + 1
+      else
+         call make_result(study, deck, options, .false., monitor, report, error)
+      end if
+   end subroutine finish
+
+end module camroller_sweep

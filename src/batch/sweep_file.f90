@@ -1,0 +1,271 @@
+!> The one result file of a sweep.
+!>
+!> In: a study, its cases from part files or from the loop that computes them. Out: the file, and what happened to the cases; part
+!> files are removed where all cases are in it. One process at a time makes the file of part files, so that none sees the parts
+!> while another removes them: parts go only when the complete file has its name, and a partial file never takes the place of a
+!> complete one of the same study.
+module camroller_sweep_file
+   use camroller_error, only : error_t, raise, kind_file, kind_unfinished
+   use camroller_assemble, only : assemble
+   use camroller_case_runs, only : missing_runs, run_total, runs_t
+   use camroller_case_writer, only : abandon_cases, case_writer_t, close_cases, open_cases, tally_t, write_missing
+   use camroller_deck, only : deck_t
+   use camroller_deck_sweep, only : case_in_words
+   use camroller_earlier_result, only : complete_there, earlier_t, failures_in_words, look_at_earlier, other_there
+   use camroller_mistakes, only : line_t
+   use camroller_monitor, only : monitor_t
+   use camroller_number_text, only : agreeing, counted, integer_text
+   use camroller_output, only : output_options_t
+   use camroller_part_file, only : find_parts, part_beginning, scan_part
+   use camroller_part_scan, only : index_t, study_facts_t
+   use camroller_result_claim, only : claim_result, claim_t, give_up_claim, remove_unfinished
+   use camroller_settings, only : get_word, take
+   use camroller_system_file, only : remove_file
+   implicit none
+   private
+
+   public :: study_t, sweep_options_t, sweep_report_t, sweep_unfinished, sweep_made, sweep_was_complete, sweep_shard_done
+   public :: make_result, open_result, conclude, scan_all, series_choice, tell_damages
+
+   !> How a sweep may end: without its file; the file was made; it was there with all cases; all cases of a shard are computed
+   integer, parameter :: sweep_unfinished = 0, sweep_made = 1, sweep_was_complete = 2, sweep_shard_done = 3
+
+   !> How a sweep is run
+   type :: sweep_options_t
+      !> Straight into the result file, in one thread, without part files? A stop then loses what was done
+      logical :: is_direct = .false.
+      !> Threads; 0 for one on each core
+      integer :: threads = 0
+      !> This shard, from 1, and the number of shards
+      integer :: shard = 1, shards = 1
+      !> Continue with part files, or with a result that is there?
+      logical :: is_resumed = .false.
+      !> Make the file also where cases are missing?
+      logical :: is_partial = .false.
+   end type sweep_options_t
+
+   !> What came of a sweep
+   type :: sweep_report_t
+      !> One of the above
+      integer :: ending = sweep_unfinished
+      !> Cases of the shard, where a shard was computed
+      integer :: cases_of_shard = 0
+      !> The cases of a file that was made
+      type(tally_t) :: tally
+   end type sweep_report_t
+
+   !> What is computed, and where to
+   type :: study_t
+      !> Path of the result file
+      character(len=:), allocatable :: path
+      !> What part files must agree on
+      type(study_facts_t) :: facts
+      !> First and last case of this shard, from 1
+      integer :: first = 1, last = 0
+      !> Cases still to be computed
+      type(runs_t) :: runs
+   end type study_t
+
+contains
+
+   !> Series of which cases are kept in a sweep.
+   function series_choice(deck) result(choice)
+      !> The deck
+      type(deck_t), intent(in) :: deck
+      !> One of the names of the key
+      character(len=:), allocatable :: choice
+
+      choice = get_word(deck%settings, "sweep", "series")
+      if (choice == "") choice = "none"
+   end function series_choice
+
+   !> Index of all part files.
+   subroutine scan_all(paths, facts, index, error)
+      !> Their paths
+      type(line_t), intent(in) :: paths(:)
+      !> The sweep they must belong to
+      type(study_facts_t), intent(in) :: facts
+      !> The index
+      type(index_t), intent(inout) :: index
+      !> File error
+      type(error_t), allocatable, intent(out) :: error
+
+      integer :: i
+
+      if (.not. allocated(index%entries)) allocate (index%entries(64), index%damages(0))
+      do i = 1, size(paths)
+         call scan_part(paths(i)%text, facts, index, error)
+         if (allocated(error)) return
+      end do
+   end subroutine scan_all
+
+   !> Say what of the part files is damaged.
+   subroutine tell_damages(index, monitor)
+      !> What they hold
+      type(index_t), intent(in) :: index
+      !> Who hears it
+      class(monitor_t), intent(inout) :: monitor
+
+      integer :: i
+
+      do i = 1, size(index%damages)
+         call monitor%say("remark: "//index%damages(i)%text//"; its cases have to be computed again", .true.)
+      end do
+   end subroutine tell_damages
+
+   !> Start the result file.
+   subroutine open_result(writer, study, deck, is_direct, error)
+      !> Gets the file
+      type(case_writer_t), intent(inout) :: writer
+      !> What is computed
+      type(study_t), intent(in) :: study
+      !> Its deck
+      type(deck_t), intent(in) :: deck
+      !> Do the cases go straight to the file? Then all have the series that the deck wants
+      logical, intent(in) :: is_direct
+      !> File error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(output_options_t) :: options
+      character(len=:), allocatable :: series
+
+      call take(deck%settings, "output", "series", options%series)
+      call take(deck%settings, "output", "compression", options%compression)
+      series = series_choice(deck)
+      if (.not. is_direct) options%series = series == "all" .or. series == "chosen"
+      call open_cases(writer, study%path, deck, study%facts, options, series == "chosen" .and. .not. is_direct, error)
+   end subroutine open_result
+
+   !> The error that a study ends with where cases failed.
+   subroutine conclude(tally, error)
+      !> What happened to the cases
+      type(tally_t), intent(in) :: tally
+      !> The first failure
+      type(error_t), allocatable, intent(out) :: error
+
+      if (tally%failed == 0) return
+      error = tally%failure
+      error%message = failures_in_words(tally%failed, tally%cases, error%message)
+   end subroutine conclude
+
+   !> Make the result file where the parts have every case, or where a partial one is asked for.
+   subroutine make_result(study, deck, options, is_merge, monitor, report, error)
+      !> What is computed
+      type(study_t), intent(in) :: study
+      !> Its deck
+      type(deck_t), intent(in) :: deck
+      !> How
+      type(sweep_options_t), intent(in) :: options
+      !> By a command of its own, or at the end of a sweep, which has said what it found?
+      logical, intent(in) :: is_merge
+      !> Who hears of it
+      class(monitor_t), intent(inout) :: monitor
+      !> What came of it
+      type(sweep_report_t), intent(inout) :: report
+      !> File error, or the first failure
+      type(error_t), allocatable, intent(out) :: error
+
+      type(claim_t) :: claim
+      logical :: is_mine
+
+      call claim_result(claim, study%path, .false., is_mine, error)
+      if (.not. (is_mine .or. allocated(error))) then
+         call monitor%say("waiting for another process that makes '"//study%path//"'", .false.)
+         call claim_result(claim, study%path, .true., is_mine, error)
+      end if
+      if (allocated(error)) return
+      call join_parts(study, deck, options, is_merge, monitor, report, error)
+      call give_up_claim(claim)
+   end subroutine make_result
+
+   !> Make the result file, alone.
+   subroutine join_parts(study, deck, options, is_merge, monitor, report, error)
+      !> What is computed
+      type(study_t), intent(in) :: study
+      !> Its deck
+      type(deck_t), intent(in) :: deck
+      !> How
+      type(sweep_options_t), intent(in) :: options
+      !> By a command of its own, or at the end of a sweep, which has said what it found?
+      logical, intent(in) :: is_merge
+      !> Who hears of it
+      class(monitor_t), intent(inout) :: monitor
+      !> What came of it
+      type(sweep_report_t), intent(inout) :: report
+      !> File error, or the first failure
+      type(error_t), allocatable, intent(out) :: error
+
+      type(index_t) :: index
+      type(line_t), allocatable :: paths(:)
+      type(runs_t) :: missing
+      type(earlier_t) :: earlier
+      character(len=:), allocatable :: advice
+
+      advice = "continue with --resume"
+      if (is_merge) advice = "compute them with 'camroller sweep --resume', or merge the others with --partial"
+      call find_parts(study%path, part_beginning(study%path), paths)
+      call look_at_earlier(earlier, study%path, study%facts)
+      if (size(paths) == 0 .and. earlier%state == complete_there) then
+         report%ending = sweep_was_complete
+         if (allocated(earlier%failure)) error = earlier%failure
+         return
+      else if (size(paths) == 0) then
+         call raise(error, kind_file, "there is no '"//part_beginning(study%path)//"*'")
+         return
+      end if
+      call scan_all(paths, study%facts, index, error)
+      if (allocated(error)) return
+      if (is_merge) call tell_damages(index, monitor)
+      call missing_runs(index, 1, study%facts%cases, missing)
+      if (run_total(missing) > 0 .and. .not. options%is_partial) then
+         call raise(error, kind_unfinished, integer_text(run_total(missing))//" of "//counted(study%facts%cases, "case")// &
+            & agreeing(run_total(missing), " is missing, ", " are missing, the first is ")// &
+            & case_in_words(deck%sweep, missing%first(1))//"; "//advice)
+      else if (run_total(missing) > 0 .and. earlier%state == complete_there) then
+         call raise(error, kind_file, "'"//study%path//"' is there with all cases, and a partial file would replace it; move "// &
+            & "it away first")
+      else
+         if (is_merge .and. earlier%state == other_there) call monitor%say("remark: '"//study%path// &
+            & "' is replaced, which is no result of this sweep: "//earlier%reason, .false.)
+         call write_result(study, deck, index, paths, report, error)
+      end if
+   end subroutine join_parts
+
+   !> Write the result file; the parts are removed where it is complete.
+   subroutine write_result(study, deck, index, paths, report, error)
+      !> What is computed
+      type(study_t), intent(in) :: study
+      !> Its deck
+      type(deck_t), intent(in) :: deck
+      !> What the part files hold
+      type(index_t), intent(inout) :: index
+      !> The part files
+      type(line_t), intent(in) :: paths(:)
+      !> What came of it
+      type(sweep_report_t), intent(inout) :: report
+      !> File error, or the first failure
+      type(error_t), allocatable, intent(out) :: error
+
+      type(case_writer_t) :: writer
+      integer :: i
+
+      call remove_unfinished(study%path)
+      call open_result(writer, study, deck, .false., error)
+      if (.not. allocated(error)) call assemble(index, paths, writer, error)
+      if (.not. allocated(error)) call write_missing(writer, study%facts%cases, error)
+      if (.not. allocated(error)) call close_cases(writer, error)
+      if (allocated(error)) then
+         call abandon_cases(writer)
+         return
+      end if
+      if (writer%tally%missing == 0) then
+         do i = 1, size(paths)
+            call remove_file(paths(i)%text)
+         end do
+      end if
+      report%ending = sweep_made
+      report%tally = writer%tally
+      call conclude(report%tally, error)
+   end subroutine write_result
+
+end module camroller_sweep_file
