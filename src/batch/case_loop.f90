@@ -17,7 +17,7 @@ module camroller_case_loop
    use camroller_case_runs, only : piece_of, run_total, runs_t
    use camroller_case_sink, only : name_layout, sink_t
    use camroller_deck, only : deck_t, make_sweep_case
-   use camroller_deck_sweep, only : case_in_words, sweep_size
+   use camroller_deck_sweep, only : case_in_words, sweep_size, values_beside
    use camroller_ehl_profiles, only : find_profiles
    use camroller_ehl_record, only : ehl_record_t
    use camroller_effect_words, only : choice_in_words
@@ -26,7 +26,7 @@ module camroller_case_loop
    use camroller_record, only : record_t
    use camroller_result, only : result_t
    use camroller_run, only : run_next_case
-   use camroller_kept_models, only : kept_models_t
+   use camroller_kept_models, only : kept_models_t, revised_groups
    use camroller_team, only : team_t
    implicit none
    private
@@ -342,13 +342,15 @@ contains
       type(computed_t), intent(out) :: computed
 
       type(case_t) :: case
+      character(len=:), allocatable :: train
 
       !$omp critical (camroller_texts)
       call make_sweep_case(deck, number, case, computed%failure)
+      train = values_beside(deck%sweep, number, revised_groups)
       !$omp end critical (camroller_texts)
       if (allocated(computed%failure)) return
       ! Profiles of the pressure are found from the series
-      call run_next_case(kept, case, computed%result, computed%failure, with_series .or. allocated(case%ehl))
+      call run_next_case(kept, train, case, computed%result, computed%failure, with_series .or. allocated(case%ehl))
       !$omp critical (camroller_texts)
       computed%reasons = ""
       if (allocated(computed%result%choice)) computed%reasons = choice_in_words(computed%result%choice)

@@ -17,7 +17,8 @@ module camroller_deck_sweep
    private
 
    public :: sweep_t, sweep_axis_t, sweep_kind_names, scale_names, is_sample, most_cases
-   public :: sweep_size, axis_size, sweep_position, sweep_overrides, sweep_value, sweep_numbers, sweep_words, case_in_words
+   public :: sweep_size, axis_size, sweep_position, sweep_overrides, sweep_value, values_beside, sweep_numbers, sweep_words
+   public :: case_in_words
 
    !> Ways to make cases of values
    character(len=*), parameter :: sweep_kind_names(*) = [character(len=name_length) :: "grid", "zip", "table", sample_names]
@@ -151,6 +152,28 @@ contains
          end if
       end if
    end function sweep_value
+
+   !> Values of the keys that vary and are not in some groups: cases that have them in common differ in these groups alone.
+   pure function values_beside(sweep, case_number, groups) result(text)
+      !> The sweep
+      type(sweep_t), intent(in) :: sweep
+      !> Number of the case, from 1
+      integer, intent(in) :: case_number
+      !> Names of the groups
+      character(len=*), intent(in) :: groups(:)
+      !> The values
+      character(len=:), allocatable :: text
+
+      integer :: i
+
+      text = ""
+      do i = 1, size(sweep%axes)
+         associate (key => sweep%axes(i)%key)
+            if (any(key(:index(key, ".") - 1) == groups)) cycle
+         end associate
+         text = text//sweep_value(sweep, i, case_number)//new_line("a")
+      end do
+   end function values_beside
 
    !> Coordinate of a case of a sample along a key.
    pure function coordinate_of(sweep, axis, case_number) result(coordinate)

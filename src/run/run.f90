@@ -51,9 +51,11 @@ contains
    end subroutine run_case
 
    !> Run a case after others, whose models serve again where geometry, masses and spring are the same.
-   subroutine run_next_case(kept, case, result, error, with_series)
+   subroutine run_next_case(kept, train, case, result, error, with_series)
       !> Models of the cases before
       type(kept_models_t), intent(inout) :: kept
+      !> What tells the case's geometry, masses and spring from those of the cases before
+      character(len=*), intent(in) :: train
       !> The case
       type(case_t), intent(in) :: case
       !> Its result
@@ -66,12 +68,12 @@ contains
       type(model_t), allocatable :: models(:)
       logical :: has_series
 
-      call recall_models(kept, case, models, error)
+      call recall_models(kept, train, case, models, error)
       if (allocated(error)) return
       if (.not. allocated(models)) then
          call build_models(case, models, error)
          if (allocated(error)) return
-         call keep_models(kept, case, models)
+         call keep_models(kept, train, models)
       end if
       has_series = .true.
       if (present(with_series)) has_series = with_series
