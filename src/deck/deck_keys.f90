@@ -9,6 +9,7 @@ module camroller_deck_keys
    use camroller_case, only : case_t, contact_policy_names, energy_names, method_choices, select_names, quantity_names
    use camroller_lift, only : lift_t, lift_law_names, largest_exponent
    use camroller_kinematics, only : rotation_names
+   use camroller_lift_forms, only : table_kind_names
    use camroller_dynamics, only : load_arm_names, seating_names
    use camroller_lubricant, only : temperature_law_names, pressure_law_names
    use camroller_oil_data, only : sae_grade_names
@@ -159,6 +160,8 @@ contains
          & is_optional=.true.)
       call add_text(schema, "table", "law 'table': file with two columns, cam angle in degrees and lift; "// &
          & "its path starts at the deck's folder", is_optional=.true.)
+      call add_name(schema, "table_kind", table_kind_names, table_kind_names(1), "what the table holds: lift of the valve, or "// &
+         & "how far the roller's centre moves away from the cam's")
       call add_name(schema, "table_unit", length_unit_names, length_unit_names(1), "unit of the lift in the table")
       call add_number(schema, "table_nose_angle_deg", from_to(-360.0_wp, 360.0_wp), &
          & "cam angle in the table at which the cam's nose is at the roller", default=pi)

@@ -9,6 +9,8 @@ module camroller_deck_tables
    use camroller_mistakes, only : mistakes_t, add_mistake
    use camroller_settings, only : settings_t, take, get_word, has_group
    use camroller_deck_complaint, only : complain
+   use camroller_kinematics, only : mechanism_t
+   use camroller_lift_forms, only : closes_triangle, kind_roller, table_kind_names, valve_lift_of
    use camroller_text_file, only : join_path
    use camroller_table_file, only : table_t, read_table, check_spacing
    implicit none
@@ -110,6 +112,9 @@ contains
       real(wp) :: largest
       !> Cam angle of the nose in the table [rad] and [deg]
       real(wp) :: nose, nose_degrees
+      type(mechanism_t) :: mechanism
+      type(unit_t) :: unit
+      logical :: is_there
       integer :: n, top
 
       if (.not. allocated(table%x)) return
@@ -127,6 +132,12 @@ contains
       if (abs(table%y(1)) > zero_lift*largest) call row_mistake(table, 1, "the lift must start at zero", mistakes)
       if (abs(table%y(n)) > zero_lift*largest) call row_mistake(table, n, "the lift must end at zero", mistakes)
       if (any(table%y < -zero_lift*largest)) call row_mistake(table, minloc(table%y, dim=1), "negative lift", mistakes)
+      if (get_word(settings, group, "table_kind") == table_kind_names(kind_roller)) then
+         call take_mechanism(settings, mechanism)
+         call find_unit(get_word(settings, group, "table_unit"), unit, is_there)
+         if (.not. closes_triangle(mechanism, to_si(unit, largest))) call row_mistake(table, top, "the roller cannot be so far "// &
+            & "from the cam: its arm is shorter; is this a lift of the roller ('table_kind'), and is 'table_unit' right?", mistakes)
+      end if
       if (abs(table%x(top) - nose_degrees) > nose_distance) then
          call row_mistake(table, top, "the largest lift, at "//number_text(table%x(top), 6)// &
             & " degrees, is far from the "// &
@@ -192,6 +203,7 @@ contains
 
       type(unit_t) :: unit
       logical :: is_known
+      type(mechanism_t) :: mechanism
       !> Cam angle of the nose in the table [rad]
       real(wp) :: nose
       integer :: first, last
@@ -203,7 +215,26 @@ contains
       last = min(size(table%y), findloc(table%y > 0.0_wp, .true., dim=1, back=.true.) + 1)
       angle = table%x(first:last)*degree - nose
       lift = to_si(unit, table%y(first:last))
+      if (get_word(settings, group, "table_kind") /= table_kind_names(kind_roller)) return
+      call take_mechanism(settings, mechanism)
+      lift = valve_lift_of(mechanism, lift)
    end subroutine get_lift_table
+
+   !> Dimensions that turn a lift of the roller into one of the valve.
+   subroutine take_mechanism(settings, mechanism)
+      !> The settings
+      type(settings_t), intent(in) :: settings
+      !> The dimensions
+      type(mechanism_t), intent(out) :: mechanism
+
+      call take(settings, "mechanism", "pivot_to_roller_mm", mechanism%pivot_to_roller)
+      call take(settings, "mechanism", "pivot_to_pad_mm", mechanism%pivot_to_pad)
+      call take(settings, "mechanism", "pivot_to_cam_mm", mechanism%pivot_to_cam)
+      call take(settings, "mechanism", "roller_arm_angle_deg", mechanism%roller_arm_angle)
+      call take(settings, "mechanism", "valve_axis_angle_deg", mechanism%valve_axis_angle)
+      call take(settings, "mechanism", "base_radius_mm", mechanism%base_radius)
+      call take(settings, "roller", "radius_mm", mechanism%roller_radius)
+   end subroutine take_mechanism
 
    !> Pressure over one turn from half a turn before full lift, increasing; a last row that repeats the first is left
    !> out.

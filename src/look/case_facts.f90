@@ -5,6 +5,7 @@ module camroller_case_facts
    use camroller_kinds, only : wp, degree, two_pi
    use camroller_error, only : error_t
    use camroller_case, only : case_t
+   use camroller_journal, only : journal_law_names
    use camroller_kinematics, only : position_t
    use camroller_lift, only : lift_t
    use camroller_lift_noise, only : find_lift_noise, lift_noise_t
@@ -23,6 +24,8 @@ module camroller_case_facts
    real(wp), parameter :: ramp_height = 1.0e-4_wp
    !> Digits of numbers
    integer, parameter :: digits = 3
+   !> Width over diameter from which a bearing counts as long: Cameron (1966), The Principles of Lubrication [-]
+   real(wp), parameter :: long_ratio = 2.0_wp
 
    !> Shape of one lobe
    type :: shape_t
@@ -138,6 +141,14 @@ contains
       if (model%oil%is_estimated) text = text//" (estimated by So and Klaus 1980, since the deck gives none)"
       text = text//n//"composite roughness: "//number_text(1.0e6_wp*model%roughness, digits)//" um; cam speed "// &
          & number_text(case%operating_point%speed*60.0_wp/two_pi, 4)//" rev/min"//n
+      if (.not. allocated(case%cam_bearings)) return
+      text = text//"camshaft bearings: width over diameter "// &
+         & number_text(case%cam_bearings%width/case%cam_bearings%diameter, digits)//", law '"//trim(case%cam_bearings%law)//"'"
+      if (case%cam_bearings%law == journal_law_names(1) .and. case%cam_bearings%width < long_ratio*case%cam_bearings%diameter) then
+         text = text//", which is for bearings wider than "//number_text(long_ratio)//" diameters; '"// &
+            & trim(journal_law_names(3))//"' covers 0.1 to 1"
+      end if
+      text = text//n
    end subroutine describe_oil
 
    !> Noise of a lift table and what smoothing does to it.

@@ -53,6 +53,13 @@ def test_check_says_what_a_person_wants_to_know(camroller):
     assert "?" not in text.split("&case")[0]
 
 
+def test_check_says_where_a_bearing_law_is_not_at_home(camroller):
+    text = run(camroller, "check", "decks/thesis.nml", "--no-sweep").stdout
+    assert "width over diameter 0.87, law 'long_full_sommerfeld', which is for bearings wider than 2 diameters; 'finite'" in text
+    text = run(camroller, "check", "decks/four_cylinder.nml", "--no-sweep").stdout
+    assert "width over diameter 0.708, law 'finite'\n" in text
+
+
 def test_smallest_cam_radius_is_that_of_the_series(camroller, tmp_path):
     text = run(camroller, "check", "decks/thesis.nml", "--no-sweep").stdout
     told = float(re.search(r"smallest cam radius ([\d.]+) mm", text)[1])

@@ -299,7 +299,7 @@ contains
          is_given = index(" vogel walther ", " "//deck_word(text, group, "temperature_law")//" ") > 0
       case ("viscosity_at_40_degC_mm2_s", "viscosity_at_100_degC_mm2_s")
          is_given = deck_word(text, group, "temperature_law") == "data_sheet"
-      case ("viscosity_index", "sae_grade")
+      case ("viscosity_index", "sae_grade", "table_kind")
          is_given = .false.
       case ("pressure_viscosity_coefficient_per_GPa")
          is_given = draft%is_first .or. (is_given .and. deck_word(text, group, "pressure_law") /= "roelands")
