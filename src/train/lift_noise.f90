@@ -24,11 +24,13 @@ module camroller_lift_noise
       real(wp) :: residual = 0.0_wp
    end type lift_noise_t
 
-   !> Fewest rows, and the largest step over the smallest [-]
+   !> Fewest rows
    integer, parameter :: fewest_rows = 24
+   !> Largest step over the smallest [-]
    real(wp), parameter :: most_uneven = 1.01_wp
-   !> Order of the differences; sum of their squared coefficients; median of the size of a normal deviate [-]
+   !> Order of the differences
    integer, parameter :: order = 6
+   !> Sum of their squared coefficients; median of the size of a normal deviate [-]
    real(wp), parameter :: squares = 924.0_wp, median_deviate = 0.6745_wp
    !> Step in which the acceleration is looked at [rad]
    real(wp), parameter :: step = 0.25_wp*degree
