@@ -10,7 +10,7 @@ module camroller_follower_samples
    use camroller_model, only : model_t
    use camroller_state, only : state_t
    use camroller_cycle, only : cycle_t, state_at
-   use camroller_catalogue, only : series_values, camshaft_values, camshaft_count, follower_torques, torque_count
+   use camroller_catalogue, only : series_values, follower_torques, torque_count
    use camroller_extremes, only : samples_t, add_sample, start_rows => start_samples
    use camroller_panels, only : sampled_t
    implicit none
@@ -41,8 +41,6 @@ module camroller_follower_samples
       type(state_t) :: state
       !> Series of the follower at the points met
       type(samples_t) :: rows
-      !> Series of the camshaft at the same points, where no bearings take part in them
-      type(samples_t) :: torque_rows
       !> Largest size of the sliding speed met [m/s]
       real(wp) :: largest_sliding = 0.0_wp
    contains
@@ -72,7 +70,6 @@ contains
          samples%first_torque = first_torque
       end if
       call start_rows(samples%rows, samples%first_torque - 1)
-      if (present(case)) call start_rows(samples%torque_rows, camshaft_count(case))
    end subroutine start_samples
 
    !> Series and torques at a cam angle, with zero for torques among the series and for what comes of stored energy.
@@ -86,18 +83,11 @@ contains
       !> Convergence error
       type(error_t), allocatable, intent(out) :: error
 
-      ! Series of the camshaft [unit of the series]
-      real(wp) :: torques(self%series - self%first_torque + 1)
-
       call state_at(self%cycle, self%model, x, self%hint, self%state, error)
       if (allocated(error)) return
       self%largest_sliding = max(self%largest_sliding, abs(self%state%contact%sliding_speed))
       call sampled_values(self, self%state, values)
-      if (.not. associated(self%case)) return
-      call add_sample(self%rows, x, values(:self%first_torque - 1), .false.)
-      if (allocated(self%case%cam_bearings)) return
-      call camshaft_values(self%case, reshape(follower_torques(self%state), [torque_count, 1]), [0.0_wp], torques)
-      call add_sample(self%torque_rows, x, torques, .false.)
+      if (associated(self%case)) call add_sample(self%rows, x, values(:self%first_torque - 1), .false.)
    end subroutine sample
 
    !> Values of a state of the follower, in the order of `sample`.

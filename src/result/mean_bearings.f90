@@ -86,11 +86,12 @@ contains
             if (allocated(error)) return
          end do
       end do
+      ! Not those of halved panels: what bearings ask for changes nothing but their own torque
+      rows = samples%rows
       halvings = most_halvings
       call refine_panels(panels, samples, mean_tolerance(maxval(cycles%tolerance)) &
          & *sum(panels%sizes(:, :panels%count), 2), halvings, error)
       if (allocated(error)) return
-      rows = samples%rows
       mean = sum(panels%integrals(:, :panels%count), 2)/two_pi
       mean_error = maxval(sum(panels%errors(:, :panels%count), 2)/max(sum(panels%sizes(:, :panels%count), 2), tiny(1.0_wp)))
    end subroutine mean_bearing_torque

@@ -38,7 +38,7 @@ module camroller_means
    type :: statistics_t
       !> Mean of each series of the follower, as if it were alone [unit of the series]
       real(wp), allocatable :: mean(:)
-      !> Series of the follower at the points met, and of the camshaft where no bearings take part in them
+      !> Series of the follower at the points met; of the camshaft at those of a flexible train
       type(samples_t) :: rows, torque_rows
       !> Mean torques of the follower [N m], last the energy residual [W]
       real(wp) :: torques(torque_count) = 0.0_wp
@@ -125,7 +125,6 @@ contains
          if (allocated(error)) return
       end if
       statistics%rows = samples%rows
-      statistics%torque_rows = samples%torque_rows
       statistics%largest_sliding = samples%largest_sliding
       span = cycle%trajectory%time(cycle%trajectory%count) - cycle%trajectory%time(1)
       call take_means(panels, samples, work, span, statistics)

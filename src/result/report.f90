@@ -133,12 +133,9 @@ contains
       allocate (bearing_torque(shaft%count))
       bearing_torque = 0.0_wp
       bearing_error = 0.0_wp
-      if (allocated(case%cam_bearings)) then
-         call mean_bearing_torque(case, shaft, models, cycles, bearing_torque, bearing_error, torque_rows, error)
-         if (allocated(error)) return
-      else
-         torque_rows = statistics(1)%torque_rows
-      end if
+      call mean_bearing_torque(case, shaft, models, cycles, bearing_torque, bearing_error, torque_rows, error)
+      if (allocated(error)) return
+      if (allocated(cycles(1)%flexible) .and. .not. allocated(case%cam_bearings)) torque_rows = statistics(1)%torque_rows
       if (bearing_error > maxval(statistics%mean_error)) then
          statistics%mean_error = bearing_error
          statistics%worst_mean = "torque_bearings"
