@@ -78,7 +78,7 @@ contains
       count = 0
       do i = 1, size(echo%keys)
          point = index(echo%keys(i), ".")
-         position = find_key(deck%schema, find_group(deck%schema, echo%keys(i)(:point - 1)), trim(echo%keys(i)(point + 1:)))
+         position = find_key(deck%schema, find_group(deck%schema, echo%keys(i) (:point - 1)), trim(echo%keys(i) (point + 1:)))
          values = ""
          if (position > 0) values = other_values(deck%schema%keys(position), trim(echo%values(i)))
          if (values == "" .or. index(echo%keys(i), "output.") == 1 .or. index(echo%keys(i), "numerics.") == 1) cycle
