@@ -48,7 +48,7 @@ DIMENSIONS = {
     r"spring_margin|margin_(event|base_circle|pivot)|min_event_contact_load|adjuster_force": FORCE,
     r"contact_loss_speed|margin_(event|base_circle|pivot)_speed|pump_up_speed": RATE,
     r"cam_angle|(estimated_error|margin_(event|base_circle|pivot))_angle": NUMBER,
-    r"revolution_slip|lost_contact_share|outside_film_range_share|relative_energy_residual|estimated_error(_of_means)?": NUMBER,
+    r"revolution_slip|lost_contact_share|outside_film_range_share|relative_energy_residual|estimated_error(_of_means|_of_extremes)?": NUMBER,
     r"entrainment_reversals|counter_(evaluations|jacobians|steps|rejected|cycles)|periodicity|status|film_table_error": NUMBER,
 }
 # The same for files of `ehl`, whose places across the contact are in half widths of the dry contact, and of `study`
