@@ -1,0 +1,86 @@
+"""Flexible trains: what a deck may say, what a result holds."""
+
+import pathlib
+import subprocess
+
+import h5py
+import pytest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+DECK = ROOT / "decks/dynamics.nml"
+ADJUSTER = ROOT / "decks/lash_adjuster.nml"
+# One case, with errors that make no difference here
+QUICK = ("--set", "sweep.values_1=300", "--set", "numerics.tolerance=1e-4", "--quiet")
+
+# Change of a deck, words of its mistake
+MISTAKES = [
+    (DECK, "dynamics.finger_stiffness_N_m=-1", "finger_stiffness_N_m"),
+    (DECK, "dynamics.pad_stiffness_N_m=0", "pad_stiffness_N_m"),
+    (DECK, "dynamics.seat_stiffness_N_m=0", "seat_stiffness_N_m"),
+    (DECK, "dynamics.seat_stiffness_N_m=1e5", "the seat is too soft for the spring"),
+    (DECK, "masses.finger_kg=0", "needs masses 'finger_kg' above 0"),
+    (DECK, "masses.valve_kg=0", "'valve_kg' must be above 0 with &dynamics"),
+    (DECK, "spring_surge.mass_kg=0.2", "a third of 'mass_kg' must be below masses 'valve_kg'"),
+    (DECK, "spring_surge.mass_kg=-0.1", "mass_kg"),
+    (DECK, "numerics.method='euler'", "'method' must be 'automatic', 'rodas5p', 'radau5' or 'dormand_prince' with &dynamics"),
+    (DECK, "asperity.mobilisation='stick_slip'", "'mobilisation' must be 'regularised' with &dynamics"),
+    (ADJUSTER, "dynamics.lash_um=50", "'lash_um' must be 0 with &lash_adjuster"),
+    (ADJUSTER, "lash_adjuster.plunger_spring_N=10", "give it or spring 'base_circle_load_N', not both"),
+    (ADJUSTER, "lash_adjuster.supply_pressure_MPa=0.5", "the supply pressure alone presses the plunger"),
+    (ADJUSTER, "lash_adjuster.air_content=0", "air_content"),
+]
+
+
+@pytest.mark.parametrize("deck, change, words", MISTAKES, ids=[change for _, change, _ in MISTAKES])
+def test_a_train_that_cannot_be_is_told_in_one_line(deck, change, words, camroller):
+    done = subprocess.run([camroller, "check", deck, "--set", change], capture_output=True, text=True)
+    assert done.returncode != 0
+    assert words in done.stderr
+
+
+def test_parts_of_a_flexible_train_need_it(tmp_path, camroller):
+    text = DECK.read_text().replace("&dynamics\n   finger_stiffness_N_m = 5.0e7\n   pad_stiffness_N_m = 5.0e7\n"
+                                    "   seat_stiffness_N_m = 5.0e7\n/\n", "")
+    assert "&dynamics" not in text
+    (tmp_path / "deck.nml").write_text(text)
+    done = subprocess.run([camroller, "check", tmp_path / "deck.nml"], capture_output=True, text=True)
+    assert done.returncode != 0 and "&spring_surge needs &dynamics" in done.stderr
+
+
+def run(camroller, deck, target, *changes):
+    """Summary of one case."""
+    options = [word for change in changes for word in ("--set", change)]
+    done = subprocess.run([camroller, "run", deck, "-o", target, *QUICK, *options], capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    with h5py.File(target) as file:
+        return {name: value[...].ravel()[0] for name, value in file["summary"].items()}, file["run/warnings"][...].ravel()[0].decode()
+
+
+def test_an_adjuster_is_periodic_and_its_energy_closes(tmp_path, camroller):
+    summary, _ = run(camroller, ADJUSTER, tmp_path / "run.h5")
+    assert summary["period_cycles"] == 1
+    # Round-off of powers some thousand times those lost
+    assert summary["relative_energy_residual"] < 1e-10
+    # The balance over the cycle, with integrals to the tolerance of the cycle
+    assert summary["mean_torque_drive"] + summary["gallery_torque"] == pytest.approx(summary["mean_torque_friction"], rel=1e-3)
+    assert summary["plunger_lowest"] < -2e-5 < 0 < summary["leak_volume"]
+
+
+def test_the_plungers_spring_makes_the_base_circle_load(tmp_path, camroller):
+    text = ADJUSTER.read_text().replace("   base_circle_load_N = 64\n", "").replace(
+        "   diameter_mm = 10\n", "   diameter_mm = 10\n   plunger_spring_N = 10.672235\n")
+    (tmp_path / "deck.nml").write_text(text)
+    one, _ = run(camroller, tmp_path / "deck.nml", tmp_path / "one.h5")
+    other, _ = run(camroller, ADJUSTER, tmp_path / "other.h5")
+    # The force is given to 7 digits, and that of 64 N is reckoned with the finger bent: 1e-6
+    assert one["dynamic_load_max"] == pytest.approx(other["dynamic_load_max"], rel=1e-5)
+
+
+def test_tension_and_overspeed_are_told(tmp_path, camroller):
+    summary, warnings = run(camroller, DECK, tmp_path / "run.h5", "sweep.values_1=2500")
+    assert summary["joint_force_min"] < 0 and "the joint of finger and pivot is in tension" in warnings
+    summary, warnings = run(camroller, DECK, tmp_path / "fast.h5", "sweep.values_1=4500", "numerics.tolerance=1e-3")
+    assert summary["losses_of_contact"] > 0 and "cam and roller part" in warnings
+    if summary["period_cycles"] == 0:
+        assert summary["summary_cycles"] == 40 and "does not repeat itself" in warnings
+        assert summary["dynamic_load_max_deviation"] > 0
