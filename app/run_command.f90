@@ -208,16 +208,15 @@ contains
       character(len=:), allocatable :: words, table
 
       words = output_path(config, ".h5")
-      if (config%command == "run" .and. report%ending == sweep_made .and. .not. config%is_quiet) then
-         call write_result_table(words, table, error)
-         if (.not. allocated(error)) call print_lines(table, error)
-         if (allocated(error)) return
-      end if
       select case (merge(-1, report%ending, config%is_quiet))
       case (sweep_made)
          words = words//": "//counted(report%tally%cases - report%tally%missing, "case")//" in "//seconds_since(console)
          if (report%tally%missing > 0) words = words//", "//integer_text(report%tally%missing)//" missing"
          call print_lines(words, error)
+         if (config%command == "run" .and. .not. allocated(error)) then
+            call write_result_table(output_path(config, ".h5"), table, error)
+            if (.not. allocated(error)) call print_lines(table, error)
+         end if
          call tell_remarks(report%tally%remarks, deck)
       case (sweep_was_complete)
          call print_lines(words//" is there with all cases", error)
