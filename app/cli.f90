@@ -5,8 +5,9 @@ module camroller_cli
    use camroller_error, only : error_t, raise, kind_usage
    use camroller_deck, only : override_t, add_override
    use camroller_export, only : export_formats
-   use camroller_mistakes, only : line_t, nearest_name
-   use camroller_names, only : list_names, index_of_name
+   use camroller_mistakes, only : line_t
+   use camroller_near_names, only : nearest_name
+   use camroller_names, only : write_names, index_of_name
    use camroller_number_text, only : integer_text
    implicit none
    private
@@ -172,7 +173,8 @@ contains
       if (nearest /= "") then
          call raise(error, kind_usage, "unknown command '"//config%command//"'; did you mean '"//nearest//"'?")
       else
-         call raise(error, kind_usage, "unknown command '"//config%command//"'; known are "//list_names(command_names))
+         call write_names(command_names, nearest)
+         call raise(error, kind_usage, "unknown command '"//config%command//"'; known are "//nearest)
       end if
    end subroutine read_command
 
@@ -278,6 +280,8 @@ contains
       !> Usage error
       type(error_t), allocatable, intent(out) :: error
 
+      character(len=:), allocatable :: known
+
       select case (option)
       case ("--point")
          config%has_no_sweep = .true.
@@ -294,8 +298,10 @@ contains
          config%columns = value
       case ("--format")
          config%form = value
-         if (index_of_name(value, export_formats) == 0) call raise(error, kind_usage, "option '--format' takes "// &
-            & list_names(export_formats)//", not '"//value//"'"//see(config))
+         if (index_of_name(value, export_formats) == 0) then
+            call write_names(export_formats, known)
+            call raise(error, kind_usage, "option '--format' takes "//known//", not '"//value//"'"//see(config))
+         end if
       case ("--draw")
          config%drawing = value
          if (value == "") call raise(error, kind_usage, "option '--draw' needs the name of a file"//see(config))

@@ -6,6 +6,7 @@ module camroller_commands
    use camroller_blas_threads, only : check_blas_memory, use_one_blas_thread
    use camroller_case, only : case_t
    use camroller_cli, only : config_t, command_names, get_arguments, read_arguments
+   use camroller_hdf5_columns, only : hdf5_columns_t
    use camroller_deck, only : deck_t, read_deck, make_case, make_sweep_case, add_places, drop_sweep, override_t
    use camroller_case_facts, only : describe_case
    use camroller_deck_document, only : write_defaults, write_page, write_resolved
@@ -187,13 +188,15 @@ contains
       !> File or deck error
       type(error_t), allocatable, intent(out) :: error
 
+      type(hdf5_columns_t) :: columns
+
       type(deck_t) :: deck
       type(case_t) :: case
       type(model_t), allocatable :: models(:)
       character(len=:), allocatable :: text
       integer :: i, checked, number
 
-      call read_deck(deck, config%subject, config%overrides, error)
+      call read_deck(deck, config%subject, config%overrides, error, columns)
       if (.not. allocated(error)) call check_blas_memory(1, error)
       if (allocated(error)) return
       if (config%has_no_sweep) call drop_sweep(deck)

@@ -7,6 +7,7 @@ module camroller_ehl_command
    use camroller_error, only : error_t, add_context
    use camroller_case, only : case_t
    use camroller_cli, only : config_t
+   use camroller_hdf5_columns, only : hdf5_columns_t
    use camroller_deck, only : deck_t, read_deck, make_sweep_case
    use camroller_deck_sweep, only : sweep_size, case_in_words
    use camroller_ehl_converged, only : fewest_nodes, integrate_converged
@@ -39,6 +40,8 @@ contains
       !> What went wrong; the first case that was not solved where there are several
       type(error_t), allocatable, intent(out) :: error
 
+      type(hdf5_columns_t) :: columns
+
       type(deck_t) :: deck
       type(output_t) :: writer
       type(ehl_file_t) :: file
@@ -47,7 +50,7 @@ contains
       type(error_t), allocatable :: failure, unheard
       character(len=:), allocatable :: path
 
-      call read_deck(deck, config%subject, config%overrides, error)
+      call read_deck(deck, config%subject, config%overrides, error, columns)
       if (.not. allocated(error)) call check_cases(deck, error)
       if (allocated(error)) return
       call find_place(config, deck, "_ehl.h5", path, error)

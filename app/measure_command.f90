@@ -8,6 +8,7 @@ module camroller_measure_command
    use camroller_audit_page, only : audit_page
    use camroller_case, only : case_t
    use camroller_cli, only : config_t
+   use camroller_hdf5_columns, only : hdf5_columns_t
    use camroller_deck, only : deck_t, read_deck, make_sweep_case
    use camroller_deck_sweep, only : sweep_size, case_in_words
    use camroller_laws_page, only : show_laws
@@ -42,10 +43,11 @@ contains
       !> What went wrong; the first case without a reference where there are several
       type(error_t), allocatable, intent(out) :: error
 
+      type(hdf5_columns_t) :: columns
       type(deck_t) :: deck
 
       if (config%is_laws) then
-         call read_deck(deck, config%subject, config%overrides, error)
+         call read_deck(deck, config%subject, config%overrides, error, columns)
          if (.not. allocated(error)) call show_laws(deck, error)
       else
          call measure_deck(config, merge(of_film, of_accuracy, config%is_film), error)
@@ -71,6 +73,8 @@ contains
       !> What went wrong; the first failure where there are several
       type(error_t), allocatable, intent(out) :: error
 
+      type(hdf5_columns_t) :: columns
+
       type(deck_t) :: deck
       type(output_t) :: writer
       type(console_t) :: progress
@@ -78,7 +82,7 @@ contains
       type(error_t), allocatable :: failure
       character(len=:), allocatable :: path
 
-      call read_deck(deck, config%subject, config%overrides, error)
+      call read_deck(deck, config%subject, config%overrides, error, columns)
       if (.not. allocated(error)) call check_cases(deck, error)
       if (allocated(error)) return
       call find_place(config, deck, trim(endings(what)), path, error)

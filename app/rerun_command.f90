@@ -9,6 +9,7 @@ module camroller_rerun_command
    use camroller_case_runs, only : runs_t
    use camroller_cli, only : config_t
    use camroller_comparison_sink, only : comparison_sink_t
+   use camroller_hdf5_columns, only : hdf5_columns_t
    use camroller_deck, only : deck_t, override_t, add_override, parse_deck
    use camroller_deck_sweep, only : sweep_size
    use camroller_deck_tables, only : deck_tables_t
@@ -110,6 +111,7 @@ contains
       !> File or deck error
       type(error_t), allocatable, intent(out) :: error
 
+      type(hdf5_columns_t) :: columns
       type(deck_tables_t) :: tables
       type(override_t), allocatable :: overrides(:)
       character(len=:), allocatable :: text, format
@@ -124,7 +126,7 @@ contains
       if (.not. allocated(error)) call read_table(file, "lift", tables%lift, error)
       if (.not. allocated(error)) call read_table(file, "second_lift", tables%second_lift, error)
       if (.not. allocated(error)) call read_table(file, "gas_force", tables%pressure, error)
-      if (.not. allocated(error)) call parse_deck(deck, text, path//":/deck/text", "", overrides, error, tables)
+      if (.not. allocated(error)) call parse_deck(deck, text, path//":/deck/text", "", overrides, error, tables, columns)
       if (.not. allocated(error)) call read_extents(file, "/case", 1, extents, error)
       if (allocated(error)) return
       if (extents(1) /= sweep_size(deck%sweep)) then

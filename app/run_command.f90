@@ -9,6 +9,7 @@ module camroller_run_command
    use camroller_blas_threads, only : check_blas_memory
    use camroller_case, only : case_t
    use camroller_cli, only : config_t
+   use camroller_hdf5_columns, only : hdf5_columns_t
    use camroller_console, only : console_t, seconds_since, start_console
    use camroller_deck, only : deck_t, drop_sweep, read_deck, make_sweep_case
    use camroller_deck_files, only : list_deck_files
@@ -39,12 +40,13 @@ contains
       !> What went wrong; the first failure where there are several
       type(error_t), allocatable, intent(out) :: error
 
+      type(hdf5_columns_t) :: columns
       type(deck_t) :: deck
       type(console_t) :: console
       type(sweep_report_t) :: report
       type(error_t), allocatable :: failure
 
-      call read_deck(deck, config%subject, config%overrides, error)
+      call read_deck(deck, config%subject, config%overrides, error, columns)
       if (allocated(error)) return
       if (config%has_no_sweep) call drop_sweep(deck)
       if (.not. config%is_quiet) call tell_unused_values(deck)
@@ -65,6 +67,7 @@ contains
       !> What went wrong, on the first process
       type(error_t), allocatable, intent(out) :: error
 
+      type(hdf5_columns_t) :: columns
       type(deck_t) :: deck
       type(console_t) :: console
       type(sweep_report_t) :: report
@@ -73,7 +76,7 @@ contains
 
       call ignore_size_signal(former)
       call heed_stop_signals()
-      call read_deck(deck, config%subject, config%overrides, error)
+      call read_deck(deck, config%subject, config%overrides, error, columns)
       if (agreed_code(team, error) /= 0) return
       if (team%rank == 0 .and. .not. config%is_quiet) call tell_unused_values(deck)
       if (team%rank == 0 .and. .not. config%is_quiet) call tell_deck_remarks(deck)
@@ -90,12 +93,13 @@ contains
       !> What went wrong
       type(error_t), allocatable, intent(out) :: error
 
+      type(hdf5_columns_t) :: columns
       type(deck_t) :: deck
       type(console_t) :: console
       type(sweep_report_t) :: report
       type(error_t), allocatable :: failure
 
-      call read_deck(deck, config%subject, config%overrides, error)
+      call read_deck(deck, config%subject, config%overrides, error, columns)
       if (allocated(error)) return
       call start_console(console, config%is_quiet)
       call merge_sweep(deck, output_path(config, ".h5"), options_of(config), report, failure, console)

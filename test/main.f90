@@ -31,6 +31,7 @@ program main
    use test_new_file, only : collect_new_file
    use test_deck_document, only : collect_deck_document
    use test_deck_tables, only : collect_deck_tables
+   use test_deck_threads, only : collect_deck_threads
    use test_number_text, only : collect_number_text
    use test_units, only : collect_units
    use test_journal, only : collect_journal
@@ -179,6 +180,7 @@ contains
          new_testsuite("new_file", collect_new_file), &
          new_testsuite("deck_document", collect_deck_document), &
          new_testsuite("deck_tables", collect_deck_tables), &
+         new_testsuite("deck_threads", collect_deck_threads), &
          new_testsuite("number_text", collect_number_text), &
          new_testsuite("units", collect_units), &
          new_testsuite("journal", collect_journal), &

@@ -7,7 +7,7 @@ module camroller_names
    implicit none
    private
 
-   public :: name_length, index_of_name, find_name, list_names
+   public :: name_length, index_of_name, find_name, write_names
 
    !> Length of every name of a choice
    integer, parameter :: name_length = 32
@@ -49,17 +49,6 @@ contains
       call write_names(known, names)
       call raise(error, kind_deck, "unknown "//what//" '"//trim(name)//"'; known are "//names)
    end subroutine find_name
-
-   !> The names of a list, quoted and separated by commas.
-   pure function list_names(known) result(text)
-      !> The known names
-      character(len=*), intent(in) :: known(:)
-      !> One line of text
-      ! style: text because decks are read by one thread at a time
-      character(len=:), allocatable :: text
-
-      call write_names(known, text)
-   end function list_names
 
    !> The names of a list, quoted and separated by commas.
    pure subroutine write_names(known, text)

@@ -17,7 +17,7 @@ module camroller_case_loop
    use camroller_case_runs, only : piece_of, run_total, runs_t
    use camroller_case_sink, only : name_layout, sink_t
    use camroller_deck, only : deck_t, make_sweep_case
-   use camroller_deck_sweep, only : case_in_words, sweep_size, values_beside
+   use camroller_deck_sweep, only : case_in_words, sweep_size, get_values_beside
    use camroller_ehl_profiles, only : find_profiles
    use camroller_ehl_record, only : ehl_record_t
    use camroller_effect_words, only : choice_in_words
@@ -346,7 +346,7 @@ contains
 
       !$omp critical (camroller_texts)
       call make_sweep_case(deck, number, case, computed%failure)
-      train = values_beside(deck%sweep, number, revised_groups)
+      call get_values_beside(deck%sweep, number, revised_groups, train)
       !$omp end critical (camroller_texts)
       if (allocated(computed%failure)) return
       ! Profiles of the pressure are found from the series

@@ -7,9 +7,10 @@ module camroller_deck
    use camroller_error, only : error_t, raise, add_context, kind_usage
    use camroller_case, only : case_t
    use camroller_number_text, only : integer_text
+   use camroller_case_columns, only : column_reader_t
    use camroller_mistakes, only : mistakes_t, raise_mistakes, override_place
    use camroller_text_file, only : read_standard_input, read_text_file, folder_of
-   use camroller_deck_include, only : origins_t, expand_includes, origin_in_words, place_mistakes
+   use camroller_deck_include, only : origins_t, expand_includes, say_origin, place_mistakes
    use camroller_deck_text, only : deck_text_t, read_shape
    use camroller_deck_schema, only : schema_t
    use camroller_deck_keys, only : new_schema
@@ -53,7 +54,7 @@ module camroller_deck
 contains
 
    !> Read a deck from a file, or from the standard input where the path is `-`.
-   subroutine read_deck(deck, path, overrides, error)
+   subroutine read_deck(deck, path, overrides, error, reader)
       !> The deck
       type(deck_t), intent(out) :: deck
       !> Path of the file
@@ -62,6 +63,8 @@ contains
       type(override_t), intent(in) :: overrides(:)
       !> File error where it cannot be read, deck error with all mistakes in it
       type(error_t), allocatable, intent(out) :: error
+      !> Reader of tables of cases that are no text
+      class(column_reader_t), intent(in), optional :: reader
 
       character(len=:), allocatable :: text
 
@@ -72,14 +75,14 @@ contains
       end if
       if (allocated(error)) return
       if (path == "-") then
-         call parse_deck(deck, text, "standard input", "", overrides, error)
+         call parse_deck(deck, text, "standard input", "", overrides, error, reader=reader)
       else
-         call parse_deck(deck, text, path, folder_of(path), overrides, error)
+         call parse_deck(deck, text, path, folder_of(path), overrides, error, reader=reader)
       end if
    end subroutine read_deck
 
    !> Read a deck from a text.
-   subroutine parse_deck(deck, text, name, folder, overrides, error, tables)
+   subroutine parse_deck(deck, text, name, folder, overrides, error, tables, reader)
       !> The deck
       type(deck_t), intent(out) :: deck
       !> Its text
@@ -94,6 +97,8 @@ contains
       type(error_t), allocatable, intent(out) :: error
       !> Tables that are at hand; others are read from their files
       type(deck_tables_t), intent(in), optional :: tables
+      !> Reader of tables of cases that are no text
+      class(column_reader_t), intent(in), optional :: reader
 
       type(mistakes_t) :: mistakes
       integer :: i
@@ -112,7 +117,7 @@ contains
       end do
       call demand_required(deck%schema, deck%settings, mistakes)
       call complete(deck%settings, deck%folder, deck%tables, mistakes)
-      call read_sweep(deck%schema, deck%settings, deck%folder, deck%sweep, mistakes)
+      call read_sweep(deck%schema, deck%settings, deck%folder, deck%sweep, mistakes, reader)
       call place_mistakes(deck%origins, deck%shape%lines, mistakes)
       call raise_mistakes(mistakes, name, deck%shape%lines, error)
    end subroutine parse_deck
@@ -216,7 +221,7 @@ contains
       !> An error on its way up; left alone where not allocated
       type(error_t), allocatable, intent(inout) :: error
 
-      character(len=:), allocatable :: name, places
+      character(len=:), allocatable :: name, places, origin
       integer :: i
 
       if (.not. allocated(error)) return
@@ -228,8 +233,8 @@ contains
             if (allocated(value%source)) then
                places = places//new_line("a")//override_place//": "//value%source
             else if (value%line > 0) then
-               places = places//new_line("a")//origin_in_words(deck%origins, deck%name, value%line)//": "//name//" = "// &
-                  & value%text
+               call say_origin(deck%origins, deck%name, value%line, origin)
+               places = places//new_line("a")//origin//": "//name//" = "//value%text
             end if
          end associate
       end do

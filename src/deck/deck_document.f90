@@ -3,15 +3,15 @@
 !> In: the schema, or a deck. Out: text, or lists of strings.
 module camroller_deck_document
    use camroller_deck_bounds, only : write_bounds
-   use camroller_deck_schema, only : schema_t, key_t, find_group, group_names, allowed_values, usual_values, group_required, &
+   use camroller_deck_schema, only : schema_t, key_t, find_group, group_names, say_allowed, say_usual, group_required, &
       & group_standard, group_effect, type_number, type_integer, type_logical, type_name, type_text, type_numbers, &
       & type_integers, key_length
    use camroller_deck_keys, only : new_schema
    use camroller_deck, only : deck_t
    use camroller_deck_values, only : longest_text
    use camroller_error, only : error_t, raise, kind_usage
-   use camroller_mistakes, only : nearest_name
-   use camroller_names, only : list_names
+   use camroller_near_names, only : nearest_name
+   use camroller_names, only : write_names
    use camroller_units, only : unit_name_length
    implicit none
    private
@@ -93,8 +93,8 @@ contains
             text = text//"&"//trim(group%name)//new_line("a")
             do j = group%first, group%last
                if (.not. is_shown(deck, j)) cycle
-               text = text//with_comment("   "//trim(deck%schema%keys(j)%name)//" = "//deck%settings%values(j)%text, &
-                  & trim(merge("       ", "default", deck%settings%values(j)%is_given)))//new_line("a")
+               call add_line("   "//trim(deck%schema%keys(j)%name)//" = "//deck%settings%values(j)%text, &
+                  & trim(merge("       ", "default", deck%settings%values(j)%is_given)), text)
             end do
             text = text//"/"//new_line("a")
          end associate
@@ -151,7 +151,8 @@ contains
       if (nearest /= "") then
          call raise(error, kind_usage, "no group '"//group//"'; did you mean '"//nearest//"'?")
       else
-         call raise(error, kind_usage, "no group '"//group//"'; known are "//list_names(group_names(schema)))
+         call write_names(group_names(schema), nearest)
+         call raise(error, kind_usage, "no group '"//group//"'; known are "//nearest)
       end if
    end subroutine find_wanted
 
@@ -166,17 +167,18 @@ contains
       !> Text to add to
       character(len=:), allocatable, intent(inout) :: text
 
-      character(len=:), allocatable :: line
+      character(len=:), allocatable :: line, value, comment
       integer :: i
 
       associate (group => schema%groups(position))
-         text = text//"! "//group%meaning//" ("//kind_in_words(group%kind)//")"//new_line("a")
+         text = text//"! "//group%meaning//" ("//trim(kind_in_words(group%kind))//")"//new_line("a")
          text = text//mark//"&"//trim(group%name)//new_line("a")
          do i = group%first, group%last
             line = mark//"   "
             if (.not. has_shown_value(schema%keys(i)) .and. mark == "") line = "!  "
-            line = line//trim(schema%keys(i)%name)//" = "//shown_value(schema%keys(i))
-            text = text//with_comment(line, described(schema%keys(i)))//new_line("a")
+            call show_value(schema%keys(i), value)
+            call describe_key(schema%keys(i), comment)
+            call add_line(line//trim(schema%keys(i)%name)//" = "//value, comment, text)
          end do
          text = text//mark//"/"//new_line("a")
       end associate
@@ -187,7 +189,7 @@ contains
       !> Kind of the group
       integer, intent(in) :: kind
       !> The words
-      character(len=:), allocatable :: words
+      character(len=40) :: words
 
       select case (kind)
       case (group_required)
@@ -210,11 +212,11 @@ contains
    end function has_shown_value
 
    !> Default, example, or a sign for the kind of value.
-   pure function shown_value(key) result(value)
+   pure subroutine show_value(key, value)
       !> The key
       type(key_t), intent(in) :: key
       !> What to show
-      character(len=:), allocatable :: value
+      character(len=:), allocatable, intent(out) :: value
 
       if (allocated(key%default)) then
          value = key%default
@@ -226,34 +228,37 @@ contains
       else
          value = ""
       end if
-   end function shown_value
+   end subroutine show_value
 
    !> Meaning of a key, its limits, and whether it must be given.
-   pure function described(key) result(words)
+   pure subroutine describe_key(key, words)
       !> The key
       type(key_t), intent(in) :: key
       !> The words
-      character(len=:), allocatable :: words
+      character(len=:), allocatable, intent(out) :: words
+
+      character(len=:), allocatable :: allowed
 
       words = key%meaning
-      if (allowed_values(key) /= "") words = words//"; "//allowed_values(key)
-      if (usual_values(key) /= "") words = words//"; "//usual_values(key)
+      call say_allowed(key, allowed)
+      if (allowed /= "") words = words//"; "//allowed
+      call say_usual(key, allowed)
+      if (allowed /= "") words = words//"; "//allowed
       if (key%is_required) words = words//"; must be given"
-   end function described
+   end subroutine describe_key
 
-   !> A line with a comment beside it, in several lines where it is long.
-   pure function with_comment(line, comment) result(text)
+   !> Add a line with a comment beside it, in several lines where it is long.
+   pure subroutine add_line(line, comment, text)
       !> The line
       character(len=*), intent(in) :: line
       !> The comment, without its mark
       character(len=*), intent(in) :: comment
-      !> Both
-      character(len=:), allocatable :: text
+      !> Text to add to
+      character(len=:), allocatable, intent(inout) :: text
 
       integer :: first, last, room, start
 
-      text = line
-      if (comment == "") return
+      text = text//line
       start = max(comment_column, len(line) + 2)
       room = max(comment_width - start - 2, 40)
       first = 1
@@ -268,7 +273,8 @@ contains
          text = text//"! "//comment(first:last)
          first = last + 2
       end do
-   end function with_comment
+      text = text//new_line("a")
+   end subroutine add_line
 
    !> The same as a page with a table for each group.
    subroutine write_page(group, text, error)
@@ -308,16 +314,19 @@ contains
       !> Text to add to
       character(len=:), allocatable, intent(inout) :: text
 
+      character(len=:), allocatable :: value, default
       integer :: i
 
       associate (group => schema%groups(position))
          text = text//new_line("a")//"## &"//trim(group%name)//new_line("a")//new_line("a")//capital(group%meaning)// &
-            & " ("//kind_in_words(group%kind)//")."//new_line("a")//new_line("a")// &
+            & " ("//trim(kind_in_words(group%kind))//")."//new_line("a")//new_line("a")// &
             & "| key | unit | takes | default | meaning |"//new_line("a")//"|---|---|---|---|---|"//new_line("a")
          do i = group%first, group%last
             associate (key => schema%keys(i))
-               text = text//"| `"//trim(key%name)//"` | "//unit_in_words(key)//" | "//takes(key)//" | "// &
-                  & default_in_words(key)//" | "//key%meaning//" |"//new_line("a")
+               call say_kind(key, value)
+               call say_default(key, default)
+               text = text//"| `"//trim(key%name)//"` | "//trim(unit_in_words(key))//" | "//value//" | "// &
+                  & default//" | "//key%meaning//" |"//new_line("a")
             end associate
          end do
       end associate
@@ -328,9 +337,9 @@ contains
       !> The key
       type(key_t), intent(in) :: key
       !> The unit
-      character(len=:), allocatable :: words
+      character(len=unit_name_length) :: words
 
-      words = trim(key%unit%symbol)
+      words = key%unit%symbol
       if (words == "1") words = "-"
    end function unit_in_words
 
@@ -346,11 +355,13 @@ contains
    end function capital
 
    !> Kind of value and its limits.
-   pure function takes(key) result(words)
+   pure subroutine say_kind(key, words)
       !> The key
       type(key_t), intent(in) :: key
       !> The words
-      character(len=:), allocatable :: words
+      character(len=:), allocatable, intent(out) :: words
+
+      character(len=:), allocatable :: allowed
 
       select case (key%type)
       case (type_number)
@@ -360,7 +371,7 @@ contains
       case (type_logical)
          words = ".true. or .false."
       case (type_name)
-         words = allowed_values(key)
+         call say_allowed(key, words)
          return
       case (type_text)
          words = "text"
@@ -371,16 +382,18 @@ contains
       case default
          words = "list of values"
       end select
-      if (allowed_values(key) /= "") words = words//", "//allowed_values(key)
-      if (usual_values(key) /= "") words = words//", "//usual_values(key)
-   end function takes
+      call say_allowed(key, allowed)
+      if (allowed /= "") words = words//", "//allowed
+      call say_usual(key, allowed)
+      if (allowed /= "") words = words//", "//allowed
+   end subroutine say_kind
 
    !> Default of a key.
-   pure function default_in_words(key) result(words)
+   pure subroutine say_default(key, words)
       !> The key
       type(key_t), intent(in) :: key
       !> The words
-      character(len=:), allocatable :: words
+      character(len=:), allocatable, intent(out) :: words
 
       if (allocated(key%default)) then
          words = "`"//key%default//"`"
@@ -389,6 +402,6 @@ contains
       else
          words = "none"
       end if
-   end function default_in_words
+   end subroutine say_default
 
 end module camroller_deck_document

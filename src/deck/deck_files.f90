@@ -36,14 +36,14 @@ contains
          paths(count + i)%text = deck%origins%files(i)%text
       end do
       do i = 1, size(groups)
-         paths(1 + i)%text = path_of(deck, get_word(deck%settings, trim(groups(i)), "table"))
+         call find_path(deck, get_word(deck%settings, trim(groups(i)), "table"), paths(1 + i)%text)
       end do
       count = 1 + size(groups)
       do k = 1, size(deck%sweep%axes)
          if (.not. names_files(deck%sweep%axes(k)%key)) cycle
          do place = 1, deck%sweep%axes(k)%values%count
             count = count + 1
-            paths(count)%text = path_of(deck, text_at(deck%sweep%axes(k)%values, place))
+            call find_path(deck, text_at(deck%sweep%axes(k)%values, place), paths(count)%text)
          end do
       end do
    end subroutine list_deck_files
@@ -63,13 +63,13 @@ contains
    end function names_files
 
    !> Path of a file that a deck names.
-   pure function path_of(deck, name) result(path)
+   pure subroutine find_path(deck, name, path)
       !> The deck
       type(deck_t), intent(in) :: deck
       !> Name of the file, in quotes or not; blank where there is none
       character(len=*), intent(in) :: name
       !> Its path, or blank
-      character(len=:), allocatable :: path
+      character(len=:), allocatable, intent(out) :: path
 
       path = ""
       if (name == "") return
@@ -78,6 +78,6 @@ contains
       else
          path = join_path(deck%folder, name)
       end if
-   end function path_of
+   end subroutine find_path
 
 end module camroller_deck_files

@@ -33,6 +33,10 @@ module camroller_deck_remarks
    !> Units that nobody takes for a thousand of another
    character(len=*), parameter :: of_one_size(*) = [character(len=4) :: "rpm", "deg", "degC"]
 
+   !> A question about a number that may be a kinematic viscosity, before and behind the number
+   character(len=*), parameter :: question = "; did you mean ", kinematic_keys = " mm^2/s? That is viscosity_at_40_degC_mm2_s "// &
+      & "or viscosity_at_100_degC_mm2_s of temperature_law 'data_sheet'"
+
 contains
 
    !> Remarks on the values of a deck, those of its sweep included.
@@ -71,7 +75,8 @@ contains
       !> Position of the key
       integer, intent(in) :: position
       !> As `group.key`
-      character(len=:), allocatable :: name
+      character(len=1 + len_trim(deck%schema%groups(deck%schema%keys(position)%group)%name) &
+         & + len_trim(deck%schema%keys(position)%name)) :: name
 
       name = trim(deck%schema%groups(deck%schema%keys(position)%group)%name)//"."//trim(deck%schema%keys(position)%name)
    end function name_of
@@ -162,10 +167,9 @@ contains
       !> The number [mm^2/s]
       real(wp), intent(in) :: number
       !> The question
-      character(len=:), allocatable :: words
+      character(len=len(question) + len(number_text(number, digits)) + len(kinematic_keys)) :: words
 
-      words = "; did you mean "//number_text(number, digits)//" mm^2/s? That is viscosity_at_40_degC_mm2_s or "// &
-         & "viscosity_at_100_degC_mm2_s of temperature_law 'data_sheet'"
+      words = question//number_text(number, digits)//kinematic_keys
    end function as_kinematic
 
    !> Viscosities that no oil has at their temperature.
@@ -285,10 +289,10 @@ contains
       !> Its unit
       type(unit_t), intent(in) :: unit
       !> Both
-      character(len=:), allocatable :: words
+      character(len=len(number_text(number, digits)) + merge(0, 1 + len_trim(unit%symbol), unit%symbol == "1")) :: words
 
       words = number_text(number, digits)
-      if (unit%symbol /= "1") words = words//" "//trim(unit%symbol)
+      if (unit%symbol /= "1") words = number_text(number, digits)//" "//unit%symbol
    end function with_unit
 
    !> Lengthen the list. A constructor within a list would leak its text with gfortran.

@@ -17,7 +17,7 @@ module camroller_deck_sweep
    private
 
    public :: sweep_t, sweep_axis_t, sweep_kind_names, scale_names, is_sample, most_cases
-   public :: sweep_size, axis_size, sweep_position, sweep_overrides, sweep_value, values_beside, sweep_numbers, sweep_words
+   public :: sweep_size, axis_size, sweep_position, sweep_overrides, get_sweep_value, get_values_beside, sweep_numbers, sweep_words
    public :: case_in_words
 
    !> Ways to make cases of values
@@ -129,7 +129,7 @@ contains
    end function sweep_position
 
    !> Value of a key in a case, as text: a number, or a name in quotes where the deck has them.
-   pure function sweep_value(sweep, axis, case_number) result(text)
+   pure subroutine get_sweep_value(sweep, axis, case_number, text)
       !> The sweep
       type(sweep_t), intent(in) :: sweep
       !> Number of the key
@@ -137,24 +137,24 @@ contains
       !> Number of the case, from 1
       integer, intent(in) :: case_number
       !> The value
-      character(len=:), allocatable :: text
+      character(len=:), allocatable, intent(out) :: text
 
       integer :: position(size(sweep%axes))
 
       if (is_sample(sweep)) then
-         text = spread_value(sweep%axes(axis), coordinate_of(sweep, axis, case_number))
+         call spread_value(sweep%axes(axis), coordinate_of(sweep, axis, case_number), text)
       else
          position = sweep_position(sweep, case_number)
          if (sweep%axes(axis)%values%count > 0) then
             text = text_at(sweep%axes(axis)%values, position(axis))
          else
-            text = range_value(sweep%axes(axis), real(position(axis) - 1, wp)/real(sweep%axes(axis)%count - 1, wp))
+            call range_value(sweep%axes(axis), real(position(axis) - 1, wp)/real(sweep%axes(axis)%count - 1, wp), text)
          end if
       end if
-   end function sweep_value
+   end subroutine get_sweep_value
 
    !> Values of the keys that vary and are not in some groups: cases that have them in common differ in these groups alone.
-   pure function values_beside(sweep, case_number, groups) result(text)
+   pure subroutine get_values_beside(sweep, case_number, groups, text)
       !> The sweep
       type(sweep_t), intent(in) :: sweep
       !> Number of the case, from 1
@@ -162,8 +162,9 @@ contains
       !> Names of the groups
       character(len=*), intent(in) :: groups(:)
       !> The values
-      character(len=:), allocatable :: text
+      character(len=:), allocatable, intent(out) :: text
 
+      character(len=:), allocatable :: value
       integer :: i
 
       text = ""
@@ -171,9 +172,10 @@ contains
          associate (key => sweep%axes(i)%key)
             if (any(key(:index(key, ".") - 1) == groups)) cycle
          end associate
-         text = text//sweep_value(sweep, i, case_number)//new_line("a")
+         call get_sweep_value(sweep, i, case_number, value)
+         text = text//value//new_line("a")
       end do
-   end function values_beside
+   end subroutine get_values_beside
 
    !> Coordinate of a case of a sample along a key.
    pure function coordinate_of(sweep, axis, case_number) result(coordinate)
@@ -197,13 +199,13 @@ contains
    end function coordinate_of
 
    !> Value of a key at a coordinate of the unit cube: lists and whole numbers have equal shares of it.
-   pure function spread_value(axis, coordinate) result(text)
+   pure subroutine spread_value(axis, coordinate, text)
       !> The key
       type(sweep_axis_t), intent(in) :: axis
       !> From 0 to 1 [-]
       real(wp), intent(in) :: coordinate
       !> The value
-      character(len=:), allocatable :: text
+      character(len=:), allocatable, intent(out) :: text
 
       !> Ends of a range of whole numbers [-]
       real(wp) :: first, last
@@ -215,18 +217,18 @@ contains
          last = max(axis%first, axis%last)
          text = integer_text(int(min(last, first + aint(coordinate*(last - first + 1.0_wp)))))
       else
-         text = range_value(axis, coordinate)
+         call range_value(axis, coordinate, text)
       end if
-   end function spread_value
+   end subroutine spread_value
 
    !> Value at a part of a range.
-   pure function range_value(axis, part) result(text)
+   pure subroutine range_value(axis, part, text)
       !> The key
       type(sweep_axis_t), intent(in) :: axis
       !> From 0 at the first value to 1 at the last [-]
       real(wp), intent(in) :: part
       !> The value
-      character(len=:), allocatable :: text
+      character(len=:), allocatable, intent(out) :: text
 
       !> The value [unit of the key]
       real(wp) :: value
@@ -241,10 +243,10 @@ contains
       else
          text = number_text(value, value_digits)
       end if
-   end function range_value
+   end subroutine range_value
 
    !> What is different in a case.
-   subroutine sweep_overrides(sweep, case_number, overrides)
+   pure subroutine sweep_overrides(sweep, case_number, overrides)
       !> The sweep
       type(sweep_t), intent(in) :: sweep
       !> Number of the case, from 1
@@ -252,22 +254,54 @@ contains
       !> One override for each key that varies
       type(override_t), allocatable, intent(out) :: overrides(:)
 
+      character(len=:), allocatable :: value
       integer :: i
 
       allocate (overrides(size(sweep%axes)))
       do i = 1, size(sweep%axes)
-         overrides(i)%text = sweep%axes(i)%key//"="//sweep_value(sweep, i, case_number)
+         call get_sweep_value(sweep, i, case_number, value)
+         overrides(i)%text = sweep%axes(i)%key//"="//value
       end do
    end subroutine sweep_overrides
 
+   !> Length of a case in words.
+   pure function length_in_words(sweep, case_number) result(length)
+      !> The sweep
+      type(sweep_t), intent(in) :: sweep
+      !> Number of the case, from 1
+      integer, intent(in) :: case_number
+      !> The length
+      integer :: length
+
+      character(len=:), allocatable :: text
+
+      call describe_case(sweep, case_number, text)
+      length = len(text)
+   end function length_in_words
+
    !> A case in words: its number as in result files, from 0, and what is different in it.
-   function case_in_words(sweep, case_number) result(words)
+   pure function case_in_words(sweep, case_number) result(words)
       !> The sweep
       type(sweep_t), intent(in) :: sweep
       !> Number of the case, from 1
       integer, intent(in) :: case_number
       !> The words
-      character(len=:), allocatable :: words
+      character(len=length_in_words(sweep, case_number)) :: words
+
+      character(len=:), allocatable :: text
+
+      call describe_case(sweep, case_number, text)
+      words = text
+   end function case_in_words
+
+   !> Put a case in words.
+   pure subroutine describe_case(sweep, case_number, words)
+      !> The sweep
+      type(sweep_t), intent(in) :: sweep
+      !> Number of the case, from 1
+      integer, intent(in) :: case_number
+      !> The words
+      character(len=:), allocatable, intent(out) :: words
 
       type(override_t), allocatable :: overrides(:)
       integer :: i
@@ -278,7 +312,7 @@ contains
          words = words//merge(" (", ", ", i == 1)//overrides(i)%text
       end do
       if (size(overrides) > 0) words = words//")"
-   end function case_in_words
+   end subroutine describe_case
 
    !> Values of one key that varies, for every case.
    subroutine sweep_numbers(sweep, axis, numbers)
@@ -294,7 +328,7 @@ contains
 
       allocate (numbers(sweep_size(sweep)))
       do i = 1, size(numbers)
-         text = sweep_value(sweep, axis, i)
+         call get_sweep_value(sweep, axis, i, text)
          read (text, *) numbers(i)
       end do
    end subroutine sweep_numbers
@@ -314,7 +348,7 @@ contains
       length = sweep%axes(axis)%values%width
       allocate (character(len=length) :: words(sweep_size(sweep)))
       do i = 1, size(words)
-         word = sweep_value(sweep, axis, i)
+         call get_sweep_value(sweep, axis, i, word)
          if (scan(word, "'""") == 1) word = word(2:len(word) - 1)
          words(i) = word
       end do

@@ -12,9 +12,10 @@ module camroller_deck_sweep_read
    use camroller_settings, only : settings_t, take, is_known, is_wrong, get_word, has_group
    use camroller_deck_complaint, only : complain, complain_about_group
    use camroller_deck_matching, only : override_t, apply_override, find_override
-   use camroller_deck_sweep, only : sweep_t, sweep_axis_t, axis_size, is_sample, most_cases, sweep_size, sweep_value
+   use camroller_deck_sweep, only : sweep_t, sweep_axis_t, axis_size, is_sample, most_cases, sweep_size, get_sweep_value
    use camroller_text_list, only : new_text_list, put_text_at, text_at, first_repeated
-   use camroller_sweep_table, only : column_t, read_columns
+   use camroller_case_columns, only : column_t, column_reader_t
+   use camroller_sweep_table, only : read_columns
    use camroller_text_file, only : join_path
    use camroller_error, only : error_t
    implicit none
@@ -25,7 +26,7 @@ module camroller_deck_sweep_read
 contains
 
    !> Read the group &sweep.
-   subroutine read_sweep(schema, settings, folder, sweep, mistakes)
+   subroutine read_sweep(schema, settings, folder, sweep, mistakes, reader)
       !> The schema
       type(schema_t), intent(in) :: schema
       !> The settings
@@ -36,6 +37,8 @@ contains
       type(sweep_t), intent(out) :: sweep
       !> Mistakes so far
       type(mistakes_t), intent(inout) :: mistakes
+      !> Reader of tables of cases that are no text
+      class(column_reader_t), intent(in), optional :: reader
 
       allocate (sweep%axes(0))
       if (.not. has_group(settings, "sweep")) return
@@ -43,7 +46,7 @@ contains
       call take(settings, "sweep", "cases", sweep%points)
       call take(settings, "sweep", "seed", sweep%seed)
       if (sweep%kind == "table") then
-         call read_table_axes(schema, settings, folder, sweep, mistakes)
+         call read_table_axes(schema, settings, folder, sweep, mistakes, reader)
       else
          call read_axes(schema, settings, sweep, mistakes)
       end if
@@ -85,7 +88,7 @@ contains
             cycle
          end if
          sweep%axes = [sweep%axes, axis]
-         call try_values(schema, settings, sweep, values_key(settings, digit), mistakes)
+         call try_values(schema, settings, sweep, trim(values_key(settings, digit)), mistakes)
       end do
    end subroutine read_axes
 
@@ -96,10 +99,10 @@ contains
       !> Number of the key
       character(len=1), intent(in) :: digit
       !> Name of the key in &sweep
-      character(len=:), allocatable :: key
+      character(len=8) :: key
 
       key = "values_"//digit
-      if (.not. is_known(settings, "sweep", key)) key = "from_"//digit
+      if (.not. is_known(settings, "sweep", trim(key))) key = "from_"//digit
    end function values_key
 
    !> Do the keys make up a sweep?
@@ -342,6 +345,7 @@ contains
       type(sweep_t) :: alone
       type(mistakes_t) :: found
       type(override_t) :: override
+      character(len=:), allocatable :: value
       integer :: i, n, step
 
       alone%kind = "zip"
@@ -352,7 +356,8 @@ contains
       if (alone%axes(1)%values%count == 0) step = n - 1
       trial = settings
       do i = 1, n, step
-         override%text = alone%axes(1)%key//"="//sweep_value(alone, 1, i)
+         call get_sweep_value(alone, 1, i, value)
+         override%text = alone%axes(1)%key//"="//value
          call apply_override(schema, override, trial, found)
          if (found%count == 0) cycle
          if (present(path)) then
@@ -371,7 +376,7 @@ contains
    end subroutine try_values
 
    !> Keys and values from a table of cases.
-   subroutine read_table_axes(schema, settings, folder, sweep, mistakes)
+   subroutine read_table_axes(schema, settings, folder, sweep, mistakes, reader)
       !> The schema
       type(schema_t), intent(in) :: schema
       !> The settings
@@ -382,6 +387,8 @@ contains
       type(sweep_t), intent(inout) :: sweep
       !> Mistakes so far
       type(mistakes_t), intent(inout) :: mistakes
+      !> Reader of tables of cases that are no text
+      class(column_reader_t), intent(in), optional :: reader
 
       type(column_t), allocatable :: columns(:)
       type(sweep_axis_t) :: axis
@@ -399,7 +406,7 @@ contains
          return
       end if
       path = join_path(folder, get_word(settings, "sweep", "table"))
-      call read_columns(path, columns, mistakes, error)
+      call read_columns(path, columns, mistakes, error, reader)
       if (allocated(error)) then
          call complain(mistakes, settings, "sweep", "table", error%message)
          return

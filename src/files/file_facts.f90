@@ -59,6 +59,10 @@ module camroller_file_facts
       end function c_statx
    end interface
 
+   !> Kinds of files in words
+   character(len=*), parameter :: kind_words(*) = [character(len=25) :: "a file", "a folder", "a pipe", "a device", "a socket", &
+      & "a link that leads nowhere", "no file"]
+
 contains
 
    !> Facts of the file that a path leads to.
@@ -114,29 +118,39 @@ contains
       verdict = some%is_there .and. other%is_there .and. some%node == other%node .and. all(some%device == other%device)
    end function is_same_file
 
+   !> Position of what kind of file it is in `kind_words`.
+   pure function kind_position(facts) result(position)
+      !> Its facts
+      type(file_facts_t), intent(in) :: facts
+      !> The position
+      integer :: position
+
+      select case (facts%kind)
+      case (kind_regular)
+         position = 1
+      case (kind_folder)
+         position = 2
+      case (kind_pipe)
+         position = 3
+      case (kind_characters, kind_blocks)
+         position = 4
+      case (kind_socket)
+         position = 5
+      case (kind_link)
+         position = 6
+      case default
+         position = 7
+      end select
+   end function kind_position
+
    !> What kind of file it is.
    pure function kind_in_words(facts) result(words)
       !> Its facts
       type(file_facts_t), intent(in) :: facts
       !> The words
-      character(len=:), allocatable :: words
+      character(len=len_trim(kind_words(kind_position(facts)))) :: words
 
-      select case (facts%kind)
-      case (kind_regular)
-         words = "a file"
-      case (kind_folder)
-         words = "a folder"
-      case (kind_pipe)
-         words = "a pipe"
-      case (kind_characters, kind_blocks)
-         words = "a device"
-      case (kind_socket)
-         words = "a socket"
-      case (kind_link)
-         words = "a link that leads nowhere"
-      case default
-         words = "no file"
-      end select
+      words = kind_words(kind_position(facts))
    end function kind_in_words
 
 end module camroller_file_facts

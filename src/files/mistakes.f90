@@ -10,7 +10,7 @@ module camroller_mistakes
    implicit none
    private
 
-   public :: line_t, mistakes_t, add_mistake, is_shown_at, raise_mistakes, nearest_name, shown, override_place
+   public :: line_t, mistakes_t, add_mistake, is_shown_at, raise_mistakes, shown, override_place
 
    !> Where a mistake is that stands in no file: in a value given beside the deck
    character(len=*), parameter :: override_place = "override"
@@ -20,8 +20,6 @@ module camroller_mistakes
    integer, parameter :: longest_message = 3000
    !> Letters that are shown of a line, and of a word within a sentence
    integer, parameter :: longest_line = 160, longest_word = 60
-   !> Letters of a name that may be a misspelt one
-   integer, parameter :: longest_name = 64
 
    !> One line of text
    type :: line_t
@@ -157,7 +155,7 @@ contains
       !> Deck error with a paragraph for each mistake that is shown; not allocated where there is none
       type(error_t), allocatable, intent(out) :: error
 
-      character(len=:), allocatable :: message
+      character(len=:), allocatable :: message, words
       integer, allocatable :: order(:)
       integer :: i
 
@@ -167,22 +165,26 @@ contains
       message = ""
       do i = 1, mistakes%kept
          if (i > 1) message = message//new_line("a")
-         message = message//described(mistakes%list(order(i)), deck_name, lines)
+         call describe(mistakes%list(order(i)), deck_name, lines, words)
+         message = message//words
       end do
       if (mistakes%count > mistakes%kept) message = message//new_line("a")//"... and "// &
          & integer_text(mistakes%count - mistakes%kept)//" more"
-      if (mistakes%count > 1) message = counts_in_words(mistakes, deck_name)//new_line("a")//message
+      if (mistakes%count > 1) then
+         call count_in_words(mistakes, deck_name, words)
+         message = words//new_line("a")//message
+      end if
       call raise(error, kind_deck, message)
    end subroutine raise_mistakes
 
    !> How many mistakes there are, and in which files: the deck first, values given beside it last.
-   function counts_in_words(mistakes, deck_name) result(words)
+   pure subroutine count_in_words(mistakes, deck_name, words)
       !> All mistakes
       type(mistakes_t), intent(in) :: mistakes
       !> Name of the deck
       character(len=*), intent(in) :: deck_name
       !> The words
-      character(len=:), allocatable :: words
+      character(len=:), allocatable, intent(out) :: words
 
       integer :: pass, i
 
@@ -201,7 +203,7 @@ contains
             end associate
          end do
       end do
-   end function counts_in_words
+   end subroutine count_in_words
 
    !> Order of files: the deck, its tables, values given beside it.
    pure function rank_of_file(file) result(rank)
@@ -251,7 +253,7 @@ contains
    end function is_before
 
    !> Place, sentence, line and caret of a mistake.
-   function described(mistake, deck_name, lines) result(text)
+   pure subroutine describe(mistake, deck_name, lines, text)
       !> The mistake
       type(mistake_t), intent(in) :: mistake
       !> Name of the deck
@@ -259,9 +261,9 @@ contains
       !> Lines of the deck
       type(text_lines_t), intent(in) :: lines
       !> A few lines of text
-      character(len=:), allocatable :: text
+      character(len=:), allocatable, intent(out) :: text
 
-      character(len=:), allocatable :: source, number, before, after
+      character(len=:), allocatable :: source, number, before, after, marks
       integer :: first, last
 
       text = deck_name
@@ -290,18 +292,18 @@ contains
       source = before//printable(source(first:last))//after
       text = text//new_line("a")//repeat(" ", max(0, 5 - len(number)))//number//" | "//source
       if (mistake%column == 0) return
-      text = text//new_line("a")//repeat(" ", max(5, len(number)))//" | "// &
-         & caret(source, mistake%column - first + 1 + len(before), min(mistake%width, last - mistake%column + 1))
-   end function described
+      call mark_columns(source, mistake%column - first + 1 + len(before), min(mistake%width, last - mistake%column + 1), marks)
+      text = text//new_line("a")//repeat(" ", max(5, len(number)))//" | "//marks
+   end subroutine describe
 
    !> Blanks and carets below some columns of a line; bytes that continue a character have no width.
-   pure function caret(source, column, width) result(text)
+   pure subroutine mark_columns(source, column, width, text)
       !> The line
       character(len=*), intent(in) :: source
       !> First column and number of columns
       integer, intent(in) :: column, width
       !> The line below it
-      character(len=:), allocatable :: text
+      character(len=:), allocatable, intent(out) :: text
 
       integer :: i
 
@@ -312,7 +314,7 @@ contains
          end if
          text = text//merge("^", " ", i >= column)
       end do
-   end function caret
+   end subroutine mark_columns
 
    !> Does a byte continue a character in UTF-8?
    elemental function continues(byte) result(verdict)
@@ -355,12 +357,23 @@ contains
       last = place
    end function last_whole
 
+   !> Length of what is shown of a word.
+   pure function shown_length(word) result(length)
+      !> The word
+      character(len=*), intent(in) :: word
+      !> The length
+      integer :: length
+
+      length = len(word)
+      if (length > longest_word) length = last_whole(word, longest_word) + len("...")
+   end function shown_length
+
    !> A word of the user's for a sentence, cut where it is long.
    pure function shown(word) result(text)
       !> The word
       character(len=*), intent(in) :: word
       !> The same, or its beginning
-      character(len=:), allocatable :: text
+      character(len=shown_length(word)) :: text
 
       text = word
       if (len(word) > longest_word) text = word(:last_whole(word, longest_word))//"..."
@@ -417,71 +430,5 @@ contains
          verdict = verdict .and. continues(bytes(i:i))
       end do
    end function all_continue
-
-   !> The known name that a word was probably meant to be; blank where none is near.
-   pure function nearest_name(word, known) result(nearest)
-      !> The word
-      character(len=*), intent(in) :: word
-      !> The known names
-      character(len=*), intent(in) :: known(:)
-      !> The nearest of them, or nothing
-      character(len=:), allocatable :: nearest
-
-      integer :: i, distance, smallest, shared, most_shared
-
-      nearest = ""
-      if (len_trim(word) > longest_name) return
-      smallest = max(2, len_trim(word)/3)
-      most_shared = -1
-      do i = 1, size(known)
-         distance = edit_distance(trim(word), trim(known(i)))
-         if (index(known(i), trim(word)//"_") == 1) distance = 1
-         shared = shared_letters(word, known(i))
-         if (distance >= len_trim(known(i)) .or. distance > smallest) cycle
-         if (distance == smallest .and. shared <= most_shared) cycle
-         smallest = distance
-         most_shared = shared
-         nearest = trim(known(i))
-      end do
-   end function nearest_name
-
-   !> Number of letters that two words begin with together.
-   pure function shared_letters(one, other) result(number)
-      !> The two words
-      character(len=*), intent(in) :: one, other
-      !> How many
-      integer :: number
-
-      do number = 0, min(len_trim(one), len_trim(other)) - 1
-         if (one(number + 1:number + 1) /= other(number + 1:number + 1)) return
-      end do
-   end function shared_letters
-
-   !> Number of letters to insert, delete, replace or swap to make one word the other.
-   !>
-   !> Source: Damerau (1964), Levenshtein (1966), in the restricted form (no edits between swapped letters).
-   pure function edit_distance(one, other) result(distance)
-      !> The two words
-      character(len=*), intent(in) :: one, other
-      !> Number of edits
-      integer :: distance
-
-      integer :: table(0:len(one), 0:len(other))
-      integer :: i, j
-
-      table(:, 0) = [(i, i=0, len(one))]
-      table(0, :) = [(j, j=0, len(other))]
-      do j = 1, len(other)
-         do i = 1, len(one)
-            table(i, j) = min(table(i - 1, j) + 1, table(i, j - 1) + 1, &
-               & table(i - 1, j - 1) + merge(0, 1, one(i:i) == other(j:j)))
-            if (i < 2 .or. j < 2) cycle
-            if (one(i:i) == other(j - 1:j - 1) .and. one(i - 1:i - 1) == other(j:j)) then
-               table(i, j) = min(table(i, j), table(max(i - 2, 0), max(j - 2, 0)) + 1)
-            end if
-         end do
-      end do
-      distance = table(len(one), len(other))
-   end function edit_distance
 
 end module camroller_mistakes

@@ -413,6 +413,7 @@ contains
    !> The system's message for the last error.
    function last_words() result(words)
       !> The words
+      ! style: text because files are written by one thread at a time
       character(len=:), allocatable :: words
 
       words = system_words(last_number())

@@ -160,6 +160,7 @@ contains
       !> Path of a file that is there
       character(len=*), intent(in) :: path
       !> The path from the root; the given one where the system has none
+      ! style: text because files are written by one thread at a time
       character(len=:), allocatable :: resolved
 
       character(kind=c_char) :: letters(longest_path)
@@ -240,6 +241,7 @@ contains
       !> The number
       integer(c_int), intent(in) :: number
       !> The words
+      ! style: text because files are written by one thread at a time
       character(len=:), allocatable :: words
 
       words = text_at_address(c_strerror(number))
@@ -250,6 +252,7 @@ contains
       !> Where it starts
       type(c_ptr), intent(in) :: address
       !> The text, as long as it is there
+      ! style: text because files are written by one thread at a time
       character(len=:), allocatable :: text
 
       character(kind=c_char), pointer :: letters(:)

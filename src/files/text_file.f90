@@ -122,10 +122,13 @@ contains
       !> Name of the file
       character(len=*), intent(in) :: name
       !> Path of the file
-      character(len=:), allocatable :: path
+      character(len=len(name) + len(folder)*merge(0, 1, index(name, "/") == 1)) :: path
 
-      path = folder//name
-      if (name(1:1) == "/") path = name
+      if (index(name, "/") == 1) then
+         path = name
+      else
+         path = folder//name
+      end if
    end function join_path
 
    !> Folder of a file, with `/` at its end; blank for the present one.
@@ -133,9 +136,9 @@ contains
       !> Path of the file
       character(len=*), intent(in) :: path
       !> Its folder
-      character(len=:), allocatable :: folder
+      character(len=index(path, "/", back=.true.)) :: folder
 
-      folder = path(:index(path, "/", back=.true.))
+      folder = path
    end function folder_of
 
 end module camroller_text_file

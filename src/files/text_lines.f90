@@ -59,7 +59,7 @@ contains
       !> Number of the line, from 1
       integer, intent(in) :: number
       !> Its characters, without the end of line
-      character(len=:), allocatable :: line
+      character(len=max(0, lines%last(number) - lines%first(number) + 1)) :: line
 
       line = lines%text(lines%first(number):lines%last(number))
    end function line_at

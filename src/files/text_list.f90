@@ -46,6 +46,18 @@ contains
       list%fields((position - 1)*list%width + 1:position*list%width) = text
    end subroutine put_text_at
 
+   !> Length of a text without the blanks at its end.
+   pure function text_length(list, position) result(length)
+      !> The list
+      type(text_list_t), intent(in) :: list
+      !> Position, from 1
+      integer, intent(in) :: position
+      !> Its length
+      integer :: length
+
+      length = len_trim(list%fields((position - 1)*list%width + 1:position*list%width))
+   end function text_length
+
    !> Text at an index, without trailing blanks.
    pure function text_at(list, position) result(text)
       !> The list
@@ -53,9 +65,9 @@ contains
       !> Position, from 1
       integer, intent(in) :: position
       !> The text
-      character(len=:), allocatable :: text
+      character(len=text_length(list, position)) :: text
 
-      text = trim(list%fields((position - 1)*list%width + 1:position*list%width))
+      text = list%fields((position - 1)*list%width + 1:position*list%width)
    end function text_at
 
    !> The first index whose text occurs at a lower index as well; 0 where there is none.

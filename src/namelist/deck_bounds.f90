@@ -9,7 +9,7 @@ module camroller_deck_bounds
    implicit none
    private
 
-   public :: smallest_size, largest_size, is_bounded, bounds_in_words, write_bounds
+   public :: smallest_size, largest_size, is_bounded, say_bounds, write_bounds
 
    !> Units that share their bounds, and the bounds
    type :: bounds_t
@@ -106,20 +106,20 @@ contains
    end function is_bounded
 
    !> The bounds of a unit in words.
-   pure function bounds_in_words(unit, takes_zero, takes_negative) result(words)
+   pure subroutine say_bounds(unit, takes_zero, takes_negative, words)
       !> The unit
       type(unit_t), intent(in) :: unit
       !> May the number be 0, or negative?
       logical, intent(in) :: takes_zero, takes_negative
       !> The words
-      character(len=:), allocatable :: words
+      character(len=:), allocatable, intent(out) :: words
 
       words = number_text(largest_size(unit), digits)//" or less"
       if (smallest_size(unit) > 0.0_wp) words = "from "//number_text(smallest_size(unit), digits)//" to "// &
          & number_text(largest_size(unit), digits)
       if (smallest_size(unit) > 0.0_wp .and. takes_zero) words = "0, or "//words
       if (takes_negative) words = words//" in size"
-   end function bounds_in_words
+   end subroutine say_bounds
 
    !> The bounds of all quantities as a table of a page.
    subroutine write_bounds(text)

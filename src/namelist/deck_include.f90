@@ -12,7 +12,7 @@ module camroller_deck_include
    implicit none
    private
 
-   public :: origins_t, expand_includes, place_mistakes, origin_in_words
+   public :: origins_t, expand_includes, place_mistakes, say_origin
 
    !> Files that a deck may include, all together, and one within the other
    integer, parameter :: most_files = 100, deepest = 10
@@ -256,7 +256,7 @@ contains
    end function span_of
 
    !> Place of a line of the whole text.
-   pure function origin_in_words(origins, name, line) result(words)
+   pure subroutine say_origin(origins, name, line, words)
       !> Where lines are from
       type(origins_t), intent(in) :: origins
       !> Name of the deck
@@ -264,7 +264,7 @@ contains
       !> The line
       integer, intent(in) :: line
       !> As `file:line`
-      character(len=:), allocatable :: words
+      character(len=:), allocatable, intent(out) :: words
 
       integer :: span
 
@@ -274,6 +274,6 @@ contains
       words = name
       if (origins%spans(span)%file > 0) words = origins%files(origins%spans(span)%file)%text
       words = words//":"//integer_text(line - origins%spans(span)%first + origins%spans(span)%line)
-   end function origin_in_words
+   end subroutine say_origin
 
 end module camroller_deck_include

@@ -4,8 +4,9 @@
 !> not fit.
 module camroller_deck_matching
    use camroller_kinds, only : wp
-   use camroller_names, only : list_names
-   use camroller_mistakes, only : mistakes_t, add_mistake, is_shown_at, nearest_name, override_place, shown
+   use camroller_names, only : write_names
+   use camroller_mistakes, only : mistakes_t, add_mistake, is_shown_at, override_place, shown
+   use camroller_near_names, only : nearest_name
    use camroller_deck_text, only : deck_text_t, assignment_t, to_lower
    use camroller_deck_schema, only : schema_t, key_length, find_group, group_names, key_names, group_required, &
       & group_effect, type_name, type_text
@@ -75,13 +76,15 @@ contains
 
       integer :: positions(size(deck%groups))
       integer :: i
+      character(len=:), allocatable :: words
 
       do i = 1, size(deck%groups)
          associate (group => deck%groups(i))
             positions(i) = find_group(schema, group%name)
             if (positions(i) == 0) then
-               call add_mistake(mistakes, "unknown group &"//shown(group%name)//advice(group%name, group_names(schema), &
-                  & "known are "), group%line, group%column, len(group%name) + 1)
+               call advise(group%name, group_names(schema), "known are ", words)
+               call add_mistake(mistakes, "unknown group &"//shown(group%name)//words, group%line, group%column, &
+                  & len(group%name) + 1)
                call excuse_group(schema, nearest_name(group%name, group_names(schema)), settings)
             else
                settings%groups(positions(i))%is_present = .true.
@@ -135,8 +138,8 @@ contains
          call add_mistake(mistakes, "", assignment%line, assignment%column, len(assignment%key))
          return
       else if (key == 0) then
-         call add_mistake(mistakes, unknown_key(schema, group, assignment%key), assignment%line, assignment%column, &
-            & len(assignment%key))
+         call explain_key(schema, group, assignment%key, reason)
+         call add_mistake(mistakes, reason, assignment%line, assignment%column, len(assignment%key))
          key = find_key_without_case(schema, group, nearest_name(assignment%key, key_names(schema, group)))
          if (key > 0) settings%values(key)%is_wrong = .true.
          return
@@ -184,7 +187,7 @@ contains
    end function find_key_without_case
 
    !> The nearest known name, or all of them.
-   pure function advice(name, known, introduction) result(words)
+   pure subroutine advise(name, known, introduction, words)
       !> The name that is unknown
       character(len=*), intent(in) :: name
       !> The known ones
@@ -192,18 +195,19 @@ contains
       !> Words before the list of all
       character(len=*), intent(in) :: introduction
       !> What to say
-      character(len=:), allocatable :: words
+      character(len=:), allocatable, intent(out) :: words
 
       words = nearest_name(name, known)
       if (words /= "") then
          words = "; did you mean '"//words//"'?"
       else
-         words = "; "//introduction//list_names(known)
+         call write_names(known, words)
+         words = "; "//introduction//words
       end if
-   end function advice
+   end subroutine advise
 
    !> What to say about a key that a group does not have.
-   pure function unknown_key(schema, group, name) result(words)
+   pure subroutine explain_key(schema, group, name, words)
       !> The schema
       type(schema_t), intent(in) :: schema
       !> Position of the group
@@ -211,8 +215,9 @@ contains
       !> The key
       character(len=*), intent(in) :: name
       !> What to say
-      character(len=:), allocatable :: words
+      character(len=:), allocatable, intent(out) :: words
 
+      character(len=:), allocatable :: advice
       integer :: i
 
       words = "unknown key '"//shown(name)//"' in &"//trim(schema%groups(group)%name)
@@ -221,8 +226,9 @@ contains
          words = words//"; it belongs to &"//trim(schema%groups(i)%name)
          return
       end do
-      words = words//advice(name, key_names(schema, group), "it has ")
-   end function unknown_key
+      call advise(name, key_names(schema, group), "it has ", advice)
+      words = words//advice
+   end subroutine explain_key
 
    !> Take a value that is given beside the deck.
    subroutine apply_override(schema, override, settings, mistakes)
@@ -286,12 +292,13 @@ contains
       end if
       group = find_group(schema, to_lower(trim(adjustl(text(:point - 1)))))
       if (group == 0) then
-         reason = "unknown group '"//shown(text(:point - 1))//"'"//advice(text(:point - 1), group_names(schema), "known are ")
+         call advise(text(:point - 1), group_names(schema), "known are ", reason)
+         reason = "unknown group '"//shown(text(:point - 1))//"'"//reason
          return
       end if
       key = find_key_without_case(schema, group, trim(adjustl(text(point + 1:equals - 1))))
       if (key == 0) then
-         reason = unknown_key(schema, group, trim(adjustl(text(point + 1:equals - 1))))
+         call explain_key(schema, group, trim(adjustl(text(point + 1:equals - 1))), reason)
       else if (schema%groups(group)%kind == group_effect .and. .not. settings%groups(group)%is_present) then
          reason = "&"//trim(schema%groups(group)%name)//" is not in the deck; add the group to switch its effect on"
       end if

@@ -5,7 +5,7 @@
 !> documenting and echoing decks.
 module camroller_deck_schema
    use camroller_kinds, only : wp
-   use camroller_names, only : name_length, list_names
+   use camroller_names, only : name_length, write_names
    use camroller_units, only : unit_t, unit_of_key, from_si
    use camroller_deck_text, only : to_lower
    use camroller_number_text, only : number_text, integer_text
@@ -14,7 +14,7 @@ module camroller_deck_schema
 
    public :: schema_t, group_t, key_t, range_t
    public :: add_group, add_number, add_integer, add_logical, add_name, add_text, add_numbers, add_integers, add_words
-   public :: find_group, find_key, allowed_values, usual_values, group_names, key_names
+   public :: find_group, find_key, say_allowed, say_usual, group_names, key_names
    public :: group_required, group_standard, group_effect
    public :: type_number, type_integer, type_logical, type_name, type_text, type_numbers, type_integers, type_words
    public :: anything, positive, not_negative, proper_fraction, up_to, from_to, one_or_more
@@ -376,27 +376,30 @@ contains
    end function key_names
 
    !> What a key's value usually is, in words; blank where that is not known.
-   pure function usual_values(key) result(words)
+   pure subroutine say_usual(key, words)
       !> The key
       type(key_t), intent(in) :: key
       !> The range
-      character(len=:), allocatable :: words
+      character(len=:), allocatable, intent(out) :: words
 
       words = ""
       if (key%has_usual) words = "usually "//number_text(key%usual%smallest)//" to "//number_text(key%usual%largest)
-   end function usual_values
+   end subroutine say_usual
 
    !> What a key's value may be, in words; blank where there is no limit.
-   pure function allowed_values(key) result(words)
+   pure subroutine say_allowed(key, words)
       !> The key
       type(key_t), intent(in) :: key
       !> Range or names
-      character(len=:), allocatable :: words
+      character(len=:), allocatable, intent(out) :: words
 
       logical :: has_smallest, has_largest
 
       words = ""
-      if (allocated(key%choices)) words = "one of "//list_names(key%choices)
+      if (allocated(key%choices)) then
+         call write_names(key%choices, words)
+         words = "one of "//words
+      end if
       has_smallest = key%range%smallest > -huge(1.0_wp)
       has_largest = key%range%largest < huge(1.0_wp)
       if (has_smallest .and. has_largest .and. key%range%with_smallest .and. key%range%with_largest) then
@@ -415,6 +418,6 @@ contains
             words = words//"below "//number_text(key%range%largest)
          end if
       end if
-   end function allowed_values
+   end subroutine say_allowed
 
 end module camroller_deck_schema

@@ -1,16 +1,19 @@
 !> Values of a deck's keys: read from text as the schema says, checked one by one, held in SI.
 !>
 !> In: the text of a value and its key. Out: a value, or what is wrong with it in words. The value syntax is that
-!> of Fortran: the text goes through a namelist read of its own.
+!> of Fortran: a text that keeps to it goes through a namelist read of its own. One that does not is never read: gfortran's library
+!> hands what it had of a failed read to the next one, of whatever thread.
 module camroller_deck_values
    use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
    use camroller_kinds, only : wp
    use camroller_names, only : index_of_name
    use camroller_units, only : to_si
    use camroller_number_text, only : integer_text, is_beyond_range
-   use camroller_mistakes, only : nearest_name, shown
-   use camroller_deck_bounds, only : is_bounded, bounds_in_words
-   use camroller_deck_schema, only : key_t, range_t, key_length, allowed_values, type_number, type_integer, &
+   use camroller_value_syntax, only : is_number_list, is_quoted, is_yes_or_no
+   use camroller_mistakes, only : shown
+   use camroller_near_names, only : nearest_name
+   use camroller_deck_bounds, only : is_bounded, say_bounds
+   use camroller_deck_schema, only : key_t, range_t, key_length, say_allowed, type_number, type_integer, &
       & type_logical, type_name, type_text, type_numbers, type_integers, type_words
    implicit none
    private
@@ -21,6 +24,10 @@ module camroller_deck_values
    integer, parameter :: longest_list = 512, longest_text = 512
    !> Longest value of a key but a list of &sweep: a list of numbers with all their digits is shorter
    integer, parameter :: longest_value = 64*longest_list
+
+   !> What keys for numbers take, in words
+   character(len=*), parameter :: number_words(*) = [character(len=23) :: "one number", "one whole number", "a list of numbers", &
+      & "a list of whole numbers"]
 
    !> Value of one key
    type :: value_t
@@ -61,7 +68,8 @@ contains
       !> What is wrong with it; not allocated where nothing is
       character(len=:), allocatable, intent(out) :: reason
 
-      value%text = without_comma(text)
+      value%text = trim(adjustl(text))
+      call cut_comma(value%text)
       value%is_known = .false.
       if (len(value%text) == 0) then
          reason = "'"//trim(key%name)//"' has no value"
@@ -85,38 +93,16 @@ contains
       end if
       value%is_wrong = allocated(reason)
       value%is_known = .not. value%is_wrong
-      if (value%is_wrong) call spend_read()
    end subroutine read_value
 
-   !> Read and discard a value.
-   !>
-   !> After some values that cannot be read (`3` for a logical, `1e` for a number) gfortran's library hands what it had of them to
-   !> the next read, which then finds nothing and says that all is well.
-   subroutine spend_read()
-      integer, parameter :: most_reads = 3
-      character(len=:), allocatable :: buffer
-      integer :: item, status, i
-      namelist /value_group/ item
+   !> Take a comma at the end of a text away, with the blanks before it.
+   pure subroutine cut_comma(text)
+      !> The text, without blanks around it
+      character(len=:), allocatable, intent(inout) :: text
 
-      buffer = "&value_group item=1 /"
-      item = 0
-      do i = 1, most_reads
-         read (buffer, nml=value_group, iostat=status)
-         if (status == 0 .and. item == 1) return
-      end do
-   end subroutine spend_read
-
-   !> A text without blanks around it and without a comma at its end.
-   pure function without_comma(text) result(trimmed)
-      !> The text
-      character(len=*), intent(in) :: text
-      !> The same, shorter
-      character(len=:), allocatable :: trimmed
-
-      trimmed = trim(adjustl(text))
-      if (len(trimmed) == 0) return
-      if (trimmed(len(trimmed):) == ",") trimmed = trim(trimmed(:len(trimmed) - 1))
-   end function without_comma
+      if (len(text) == 0) return
+      if (text(len(text):) == ",") text = trim(text(:len(text) - 1))
+   end subroutine cut_comma
 
    !> One number or a list of numbers.
    subroutine read_numbers(key, value, reason)
@@ -132,7 +118,7 @@ contains
       !> What marks an empty place [unit of the key]
       real(wp), parameter :: empty = -huge(1.0_wp)
       integer :: status, n
-      character(len=:), allocatable :: buffer
+      character(len=:), allocatable :: buffer, allowed
       namelist /value_group/ list
 
       if (is_beyond_range(value%text)) then
@@ -141,7 +127,8 @@ contains
       end if
       list = empty
       buffer = "&value_group list="//value%text//" /"
-      read (buffer, nml=value_group, iostat=status)
+      status = merge(0, 1, is_number_list(value%text, longest_list, .false.))
+      if (status == 0) read (buffer, nml=value_group, iostat=status)
       if (status /= 0) then
          reason = "'"//trim(key%name)//"' takes "//number_or_list(key)//", not "//shown(value%text)
          return
@@ -154,12 +141,13 @@ contains
       call check_count(key, n, all(list(:n) > empty), value%text, reason)
       if (allocated(reason)) return
       if (.not. all(is_within(list(:n), key%range))) then
-         reason = "'"//trim(key%name)//"' must be "//allowed_values(key)//", not "//shown(value%text)
+         call say_allowed(key, allowed)
+         reason = "'"//trim(key%name)//"' must be "//allowed//", not "//shown(value%text)
          return
       end if
       if (.not. all(is_bounded(list(:n), key%unit))) then
-         reason = "'"//trim(key%name)//"' must be "//bounds_in_words(key%unit, is_within(0.0_wp, key%range), &
-            & key%range%smallest < 0.0_wp)//", not "//shown(value%text)
+         call say_bounds(key%unit, is_within(0.0_wp, key%range), key%range%smallest < 0.0_wp, allowed)
+         reason = "'"//trim(key%name)//"' must be "//allowed//", not "//shown(value%text)
          return
       end if
       value%numbers = to_si(key%unit, list(:n))
@@ -177,12 +165,13 @@ contains
       integer, parameter :: empty = -huge(1)
       integer :: list(longest_list)
       integer :: status, n
-      character(len=:), allocatable :: buffer
+      character(len=:), allocatable :: buffer, allowed
       namelist /value_group/ list
 
       list = empty
       buffer = "&value_group list="//value%text//" /"
-      read (buffer, nml=value_group, iostat=status)
+      status = merge(0, 1, is_number_list(value%text, longest_list, .true.))
+      if (status == 0) read (buffer, nml=value_group, iostat=status)
       if (status /= 0) then
          reason = "'"//trim(key%name)//"' takes "//number_or_list(key)//", not "//shown(value%text)
          return
@@ -191,7 +180,8 @@ contains
       call check_count(key, n, all(list(:n) > empty), value%text, reason)
       if (allocated(reason)) return
       if (.not. all(is_within(real(list(:n), wp), key%range))) then
-         reason = "'"//trim(key%name)//"' must be "//allowed_values(key)//", not "//shown(value%text)
+         call say_allowed(key, allowed)
+         reason = "'"//trim(key%name)//"' must be "//allowed//", not "//shown(value%text)
          return
       end if
       value%integers = list(:n)
@@ -213,7 +203,8 @@ contains
 
       item = .false.
       buffer = "&value_group item="//value%text//" /"
-      read (buffer, nml=value_group, iostat=status)
+      status = merge(0, 1, is_yes_or_no(value%text))
+      if (status == 0) read (buffer, nml=value_group, iostat=status)
       if (status /= 0) reason = "'"//trim(key%name)//"' takes .true. or .false., not "//shown(value%text)
       value%flag = item
    end subroutine read_logical
@@ -228,7 +219,7 @@ contains
       character(len=:), allocatable, intent(out) :: reason
 
       character(len=longest_text) :: item
-      character(len=:), allocatable :: buffer
+      character(len=:), allocatable :: buffer, allowed
       integer :: status
       namelist /value_group/ item
 
@@ -238,13 +229,16 @@ contains
          reason = "'"//trim(key%name)//"' is longer than "//integer_text(longest_text - 2)//" characters"
          return
       end if
-      if (index("'""", value%text(1:1)) > 0) then
+      if (is_quoted(value%text)) then
          buffer = "&value_group item="//value%text//" /"
          read (buffer, nml=value_group, iostat=status)
       end if
       if (status /= 0) then
          reason = "'"//trim(key%name)//"' takes one text in quotes, not "//shown(value%text)
-         if (allocated(key%choices)) reason = reason//"; it is "//allowed_values(key)
+         if (allocated(key%choices)) then
+            call say_allowed(key, allowed)
+            reason = reason//"; it is "//allowed
+         end if
       else if (allocated(key%choices)) then
          call check_choice(key, trim(item), reason)
       else if (item == "") then
@@ -262,10 +256,11 @@ contains
       !> What is wrong
       character(len=:), allocatable, intent(out) :: reason
 
-      character(len=:), allocatable :: nearest
+      character(len=:), allocatable :: nearest, allowed
 
       if (index_of_name(name, key%choices) > 0) return
-      reason = "'"//trim(key%name)//"' must be "//allowed_values(key)//", not "//shown("'"//name//"'")
+      call say_allowed(key, allowed)
+      reason = "'"//trim(key%name)//"' must be "//allowed//", not "//shown("'"//name//"'")
       nearest = nearest_name(name, key%choices)
       if (nearest /= "") reason = reason//"; did you mean '"//nearest//"'?"
    end subroutine check_choice
@@ -290,23 +285,24 @@ contains
       end if
    end subroutine check_count
 
+   !> Position of what a key takes in `number_words`.
+   pure function number_kind(key) result(position)
+      !> The key
+      type(key_t), intent(in) :: key
+      !> The position
+      integer :: position
+
+      position = max(1, findloc([type_integer, type_numbers, type_integers], key%type, dim=1) + 1)
+   end function number_kind
+
    !> What a key takes, in words.
    pure function number_or_list(key) result(words)
       !> The key
       type(key_t), intent(in) :: key
       !> The words
-      character(len=:), allocatable :: words
+      character(len=len_trim(number_words(number_kind(key)))) :: words
 
-      select case (key%type)
-      case (type_integer)
-         words = "one whole number"
-      case (type_numbers)
-         words = "a list of numbers"
-      case (type_integers)
-         words = "a list of whole numbers"
-      case default
-         words = "one number"
-      end select
+      words = number_words(number_kind(key))
    end function number_or_list
 
    !> Is a number in a range?

@@ -113,6 +113,22 @@ contains
       verdict = settings%values(find_value(settings, group, key))%is_wrong
    end function is_wrong
 
+   !> Length of the name or text of a key; 0 where there is none.
+   pure function word_length(settings, group, key) result(length)
+      !> The settings
+      type(settings_t), intent(in) :: settings
+      !> Names of group and key
+      character(len=*), intent(in) :: group, key
+      !> The length
+      integer :: length
+
+      integer :: position
+
+      length = 0
+      position = find_value(settings, group, key)
+      if (settings%values(position)%is_known) length = len(settings%values(position)%word)
+   end function word_length
+
    !> Name or text of a key; blank where there is none.
    pure function get_word(settings, group, key) result(word)
       !> The settings
@@ -120,13 +136,9 @@ contains
       !> Names of group and key
       character(len=*), intent(in) :: group, key
       !> Name or text
-      character(len=:), allocatable :: word
+      character(len=word_length(settings, group, key)) :: word
 
-      integer :: position
-
-      word = ""
-      position = find_value(settings, group, key)
-      if (settings%values(position)%is_known) word = settings%values(position)%word
+      if (len(word) > 0) word = settings%values(find_value(settings, group, key))%word
    end function get_word
 
    !> Give a number the value of a key.

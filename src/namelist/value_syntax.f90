@@ -1,0 +1,146 @@
+!> The syntax of values in a namelist: is a text one that a read takes?
+!>
+!> In: a text. Out: a verdict. What passes is read without an error; what does not is never handed to a read.
+module camroller_value_syntax
+   use camroller_deck_text, only : to_lower
+   use camroller_number_text, only : is_number
+   implicit none
+   private
+
+   public :: is_number_list, is_quoted, is_yes_or_no
+
+   !> What parts the values of a list
+   character(len=*), parameter :: separators = " ,"//char(9)//char(10)//char(13)
+   character(len=*), parameter :: digits = "0123456789"
+   !> Words for yes and no
+   character(len=*), parameter :: yes_or_no(*) = [character(len=7) :: ".true.", ".false.", "true", "false", ".t.", ".f.", "t", "f"]
+   !> Words that a read takes for a number that is none
+   character(len=*), parameter :: no_numbers(*) = [character(len=8) :: "nan", "inf", "infinity"]
+
+contains
+
+   !> Is a text a list of numbers, `3*1.5` for three of them, with empty places or without?
+   pure function is_number_list(text, most, is_whole) result(verdict)
+      !> The text
+      character(len=*), intent(in) :: text
+      !> Most values that there may be
+      integer, intent(in) :: most
+      !> Are whole numbers wanted?
+      logical, intent(in) :: is_whole
+      !> Is it?
+      logical :: verdict
+
+      integer :: first, last, star, repeats, count
+
+      count = 0
+      verdict = .true.
+      last = 0
+      do while (verdict)
+         first = verify(text(last + 1:), separators) + last
+         if (first == last) exit
+         count = count + max(0, number_of_commas(text(last + 1:first - 1)) - merge(1, 0, last > 0))
+         last = scan(text(first:), separators)
+         last = merge(len(text), first + last - 2, last == 0)
+         star = index(text(first:last), "*")
+         repeats = 1
+         if (star > 0) call read_repeats(text(first:first + star - 2), most, repeats, verdict)
+         count = min(count + repeats, most + 1)
+         if (verdict .and. first + star <= last) verdict = is_value(text(first + star:last), is_whole)
+      end do
+      verdict = verdict .and. count + number_of_commas(text(last + 1:)) <= most
+   end function is_number_list
+
+   !> Number of commas in a text.
+   pure function number_of_commas(text) result(commas)
+      !> The text
+      character(len=*), intent(in) :: text
+      !> Their number
+      integer :: commas
+
+      integer :: i
+
+      commas = 0
+      do i = 1, len(text)
+         if (text(i:i) == ",") commas = commas + 1
+      end do
+   end function number_of_commas
+
+   !> How often a value is repeated.
+   pure subroutine read_repeats(word, most, repeats, is_right)
+      !> What stands before the star
+      character(len=*), intent(in) :: word
+      !> Most repeats that matter
+      integer, intent(in) :: most
+      !> The repeats, `most + 1` for more
+      integer, intent(out) :: repeats
+      !> Is the word a number above zero?
+      logical, intent(out) :: is_right
+
+      integer :: i
+
+      repeats = 0
+      is_right = len(word) > 0 .and. verify(word, digits) == 0
+      if (.not. is_right) return
+      do i = 1, len(word)
+         repeats = min(10*repeats + index(digits, word(i:i)) - 1, most + 1)
+      end do
+      is_right = repeats > 0
+   end subroutine read_repeats
+
+   !> Is a word a number of its kind?
+   pure function is_value(word, is_whole) result(verdict)
+      !> The word
+      character(len=*), intent(in) :: word
+      !> Is a whole number wanted?
+      logical, intent(in) :: is_whole
+      !> Is it?
+      logical :: verdict
+
+      integer :: start
+
+      start = 1
+      if (scan(word, "+-") == 1) start = 2
+      if (is_whole) then
+         verdict = start <= len(word) .and. verify(word(start:), digits) == 0
+      else
+         verdict = is_number(word) .or. any(to_lower(word(start:)) == no_numbers)
+      end if
+   end function is_value
+
+   !> Is a text one text in quotes, quotes inside doubled?
+   pure function is_quoted(text) result(verdict)
+      !> The text, without blanks around it
+      character(len=*), intent(in) :: text
+      !> Is it?
+      logical :: verdict
+
+      integer :: place
+
+      verdict = .false.
+      if (len(text) < 2) return
+      if (scan(text(1:1), "'""") == 0) return
+      place = 2
+      do while (place <= len(text))
+         if (text(place:place) == text(1:1)) then
+            if (place == len(text)) then
+               verdict = .true.
+               return
+            end if
+            if (text(place + 1:place + 1) /= text(1:1)) return
+            place = place + 1
+         end if
+         place = place + 1
+      end do
+   end function is_quoted
+
+   !> Is a text a logical value?
+   pure function is_yes_or_no(text) result(verdict)
+      !> The text, without blanks around it
+      character(len=*), intent(in) :: text
+      !> Is it?
+      logical :: verdict
+
+      verdict = any(to_lower(text) == yes_or_no)
+   end function is_yes_or_no
+
+end module camroller_value_syntax
