@@ -33,7 +33,7 @@ module camroller
    use camroller_monitor, only : monitor_t
    use camroller_sweep, only : run_sweep
    use camroller_sweep_file, only : sweep_options_t, sweep_report_t
-   use camroller_simulation, only : simulation_t, outcome_t, start_simulation, advance
+   use camroller_simulation, only : simulation_t, outcome_t, inputs_t, start_simulation, advance, halt
    implicit none
    private
 
@@ -44,6 +44,6 @@ module camroller
    public :: deck_t, override_t, read_deck, parse_deck, make_case
    public :: run_case, result_t, quantity_t, find_quantity, get_series, get_summary, use_one_blas_thread
    public :: run_sweep, sweep_options_t, sweep_report_t, sweep_cases, sink_t, case_outcome_t, layout_t, monitor_t
-   public :: simulation_t, outcome_t, start_simulation, advance
+   public :: simulation_t, outcome_t, inputs_t, start_simulation, advance, halt
 
 end module camroller

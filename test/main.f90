@@ -78,6 +78,7 @@ program main
    use test_spin_slopes, only : collect_spin_slopes
    use test_simulation, only : collect_simulation
    use test_simulation_faults, only : collect_simulation_faults
+   use test_simulation_inputs, only : collect_simulation_inputs
    use test_quasi_static, only : collect_quasi_static
    use test_ode_barrier, only : collect_ode_barrier
    use test_ode_bridge, only : collect_ode_bridge
@@ -218,6 +219,7 @@ contains
          new_testsuite("roller_problem", collect_roller_problem), &
          new_testsuite("simulation", collect_simulation), &
          new_testsuite("simulation_faults", collect_simulation_faults), &
+         new_testsuite("simulation_inputs", collect_simulation_inputs), &
          new_testsuite("quasi_static", collect_quasi_static) &
          ]
    end function all_suites

@@ -85,7 +85,7 @@ contains
    end subroutine check_numerics
 
    !> Is a number finite and in a range?
-   pure function is_within(value, smallest, largest) result(verdict)
+   elemental function is_within(value, smallest, largest) result(verdict)
       !> The number, its smallest and its largest value [any]
       real(wp), intent(in) :: value, smallest, largest
       !> True where it is

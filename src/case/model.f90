@@ -11,6 +11,7 @@ module camroller_model
    use camroller_lift, only : lift_t, lift_law_t, new_lift_law, evaluate_lift, stop_angles
    use camroller_kinematics, only : linkage_t, position_t, new_linkage, evaluate_position
    use camroller_dynamics, only : train_t, moments_t, evaluate_moments, seating_names, load_arm_names
+   use camroller_input_ramp, only : ramp_t
    use camroller_pivot, only : pivot_t, new_pivot
    use camroller_flexible_parts, only : flexible_t, set_oil
    use camroller_flexible_setup, only : base_load, set_flexible
@@ -118,6 +119,9 @@ module camroller_model
       real(wp) :: eyring_stress
       !> Cam speed, omega [rad/s]
       real(wp) :: speed
+      !> Its change with the cam angle, over a step of a host program [rad/s over rad]
+      real(wp) :: speed_slope = 0.0_wp
+      type(ramp_t) :: ramp
       !> Cam angles from full lift, within one turn, where the lift's third derivative jumps [rad]
       real(wp), allocatable :: lift_stops(:)
    end type model_t

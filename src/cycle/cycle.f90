@@ -285,6 +285,7 @@ contains
       piece%stops = stops
       call choose_method(piece, model, numerics, scale, problem, method, options, error)
       if (allocated(error)) return
+      options%fewest_steps = ceiling(options%fewest_steps*(stops(last) - stops(1))/two_pi)
       state = roller_spin*model%roller_radius
       if (.not. piece%has_surface_speed) state = rolling_speed_at_angle(model, stops(1)) - state
       call integrate_spin(piece, problem, method, options, stops, state, error)

@@ -4,6 +4,7 @@
 module camroller_cycle_start
    use camroller_kinds, only : wp, pi, two_pi, degree
    use camroller_model, only : model_t, evaluate_geometry
+   use camroller_ramp, only : speed_on_ramp
    use camroller_kinematics, only : position_t
    use camroller_spin, only : rolling_speed_at
    use camroller_balance, only : follow_balance, least_slip
@@ -82,7 +83,7 @@ contains
       run_up = [stops(1) - run_up_angle, pack(earlier, earlier > stops(1) - run_up_angle)]
    end function run_up_stops
 
-   !> Speed of the roller's surface in pure rolling at a cam angle.
+   !> Speed of the roller's surface in pure rolling at a cam angle, where a host's speed changes at the speed of the cam there.
    function rolling_speed_at_angle(model, angle) result(speed)
       !> The model
       type(model_t), intent(in) :: model
@@ -96,6 +97,7 @@ contains
 
       call evaluate_geometry(model, angle, position, status)
       speed = rolling_speed_at(model, position)
+      if (model%ramp%is_moving) speed = speed*speed_on_ramp(model, angle)/model%speed
    end function rolling_speed_at_angle
 
 end module camroller_cycle_start

@@ -13,6 +13,7 @@ module camroller_stick_slip
    use camroller_kinds, only : wp, degree
    use camroller_error, only : error_t, raise, kind_convergence
    use camroller_model, only : model_t
+   use camroller_ramp, only : follow_ramp
    use camroller_spin, only : spin_problem_t
    use camroller_stick, only : rates_at_rest, breakaway, rest_speed, touching_capacity
    use camroller_ode, only : method_t, options_t, counters_t, integrate
@@ -410,6 +411,7 @@ contains
       call start_bracket(bracket, ends(1), ends(2), direction*rates_at_ends(which, 1) - threshold, &
          & direction*rates_at_ends(which, 2) - threshold, 0.0_wp)
       do while (bracket%status == root_wanted)
+         call follow_ramp(problem%model, bracket%trial)
          call rates_at_rest(problem%model, bracket%trial, rates, status)
          counters%evaluations = counters%evaluations + size(rates)
          call narrow_bracket(bracket, direction*rates(which) - threshold)
@@ -432,6 +434,7 @@ contains
 
       integer :: status
 
+      call follow_ramp(problem%model, angle)
       call rates_at_rest(problem%model, angle, rates, status)
       counters%evaluations = counters%evaluations + size(rates)
       if (status /= 0) call raise(error, kind_convergence, "the right-hand side cannot be evaluated at "// &

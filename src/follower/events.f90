@@ -20,7 +20,8 @@ module camroller_events
 
    !> Longest step of a scan [rad]
    real(wp), parameter :: longest_step = 0.25_wp*degree
-   !> Least number of steps of a scan, shared out evenly between the pieces of the lift: an event may be shorter than a step
+   !> Least number of steps of a scan of a turn, shared out evenly between the pieces of the lift: an event may be shorter than a
+   !> step
    integer, parameter :: least_steps = 256
    !> Steps of a scan in the shortest angle over which a lift bends [-]
    real(wp), parameter :: steps_of_bend = 4.0_wp
@@ -89,7 +90,7 @@ contains
       ! Ends of the pieces, longest step in each [rad]
       real(wp), allocatable :: edges(:), longest(:)
       integer, allocatable :: steps(:)
-      integer :: piece, last, i
+      integer :: piece, last, i, least
 
       edges = lift_stops_between(model, start, finish)
       edges = [start, pack(edges, edges > start), finish]
@@ -98,7 +99,8 @@ contains
          if (is_at_rest(model%lift_law, 0.5_wp*(edges(piece) + edges(piece + 1)))) cycle
          longest(piece) = min(longest_step, finest_bend(model%lift_law)/steps_of_bend)
       end do
-      steps = max(ceiling((edges(2:) - edges(:size(edges) - 1))/longest), 1 + least_steps/size(edges))
+      least = ceiling(least_steps*min(1.0_wp, (finish - start)/two_pi))
+      steps = max(ceiling((edges(2:) - edges(:size(edges) - 1))/longest), 1 + least/size(edges))
       allocate (angles(1 + sum(steps)))
       angles(1) = start
       last = 1

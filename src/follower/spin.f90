@@ -8,6 +8,7 @@ module camroller_spin
    use camroller_number_text, only : fixed_text
    use camroller_ode_problem, only : problem_t, linear_t, counters_t, time_increment, linearise_in_two, words_length
    use camroller_model, only : model_t, evaluate_geometry
+   use camroller_ramp, only : follow_ramp
    use camroller_kinematics, only : position_t
    use camroller_dynamics, only : moments_t
    use camroller_contact_forces, only : contact_t
@@ -63,6 +64,7 @@ contains
       real(wp) :: force, acceleration
 
       rate = 0.0_wp
+      call follow_ramp(self%model, time)
       call evaluate_loading(self%model, time, position, force, moments, status)
       if (status /= 0) return
       call evaluate_spin(self%model, position, moments, sliding_speed_of(self, position, state(1)), contact, acceleration, &
@@ -90,6 +92,7 @@ contains
       integer :: status
 
       decay_rate = 0.0_wp
+      call follow_ramp(self%model, time)
       call evaluate_loading(self%model, time, position, force, moments, status)
       if (status /= 0) return
       decay_rate = full_decay_rate(self%model, time, position, moments, sliding_speed_of(self, position, state(1)), &
@@ -165,8 +168,8 @@ contains
       type(contact_t) :: contact
       ! Gas force [N]; angular acceleration of the roller [rad/s^2], its derivatives [rad/s/m, 1/s^2]
       real(wp) :: force, acceleration, speed_slope, angle_slope
-      ! Surface of the roller per turn of the cam [m/rad over rad/s]
-      real(wp) :: factor
+      ! Surface of the roller per turn of the cam [m/rad over rad/s]; relative error of load and forces that is good enough [-]
+      real(wp) :: factor, accuracy
 
       if (self%has_surface_speed) then
          call linearise_in_two(self, time, state, horizon, linear, counters, status)
@@ -174,10 +177,13 @@ contains
       end if
       counters%evaluations = counters%evaluations + 1
       counters%jacobians = counters%jacobians + 1
+      ! What inputs add to the derivative is a difference of two solutions
+      accuracy = merge(0.0_wp, self%accuracy, self%model%ramp%is_moving)
+      call follow_ramp(self%model, time)
       call evaluate_loading(self%model, time, position, force, moments, status)
       if (status /= 0) return
       call evaluate_spin_slopes(self%model, time, position, moments, force, state(1), contact, acceleration, speed_slope, &
-         & angle_slope, status, self%accuracy, self%mobilised)
+         & angle_slope, status, accuracy, self%mobilised)
       if (status /= 0) return
       factor = self%model%roller_radius/self%model%speed
       linear%rate(1) = rolling_speed_slope(self%model, position) - factor*acceleration
@@ -187,7 +193,43 @@ contains
       linear%resolution = max(min(coarsest_resolution, accuracy_ratio*self%accuracy), finest_resolution)
       linear%clearance = huge(1.0_wp)
       if (contact%is_touching) linear%clearance = 2.0_wp*contact%entrainment_speed
+      if (self%model%ramp%is_moving) call add_inputs(self, time, state(1), position, linear, counters, status)
    end subroutine linearise
+
+   !> Add what changing inputs do to the derivative over the cam angle: a difference at one position.
+   subroutine add_inputs(self, time, sliding_speed, position, linear, counters, status)
+      !> The problem, with its model at the inputs of the angle
+      class(spin_problem_t), intent(in) :: self
+      !> Cam angle from full lift [rad]
+      real(wp), intent(in) :: time
+      !> Sliding speed [m/s]
+      real(wp), intent(in) :: sliding_speed
+      !> Geometry at this angle
+      type(position_t), intent(in) :: position
+      !> Rate with its derivatives; out: with the inputs'
+      type(linear_t), intent(inout) :: linear
+      !> Work done
+      type(counters_t), intent(inout) :: counters
+      !> 0 fine, positive: try a smaller step, negative: give up
+      integer, intent(out) :: status
+
+      ! Angle over which inputs change for the difference [rad]: their part in the rate is smooth, and solutions hold round-off
+      real(wp), parameter :: increment = 1.0e-5_wp
+      type(moments_t) :: moments
+      type(position_t) :: same
+      type(contact_t) :: contact
+      ! Gas force [N]; angular acceleration of the roller [rad/s^2]; rate [m/s/rad]
+      real(wp) :: force, acceleration, rate
+
+      counters%evaluations = counters%evaluations + 1
+      call follow_ramp(self%model, time + increment)
+      call evaluate_loading(self%model, time, same, force, moments, status)
+      if (status == 0) call evaluate_spin(self%model, position, moments, sliding_speed, contact, acceleration, status, &
+         & mobilised=self%mobilised)
+      rate = rolling_speed_slope(self%model, position) - self%model%roller_radius*acceleration/self%model%speed
+      if (status == 0) linear%time_slope(1) = linear%time_slope(1) + (rate - linear%rate(1))/increment
+      call follow_ramp(self%model, time)
+   end subroutine add_inputs
 
    !> From the sliding speed to that without entrainment, where the film collapses and friction may hold the roller.
    subroutine get_clearance(self, time, state, clearance)
@@ -205,6 +247,7 @@ contains
 
       clearance = huge(1.0_wp)
       if (self%has_surface_speed) return
+      call follow_ramp(self%model, time)
       call evaluate_geometry(self%model, time, position, status)
       if (status == 0) clearance = 2.0_wp*self%model%speed*position%surface_travel - state(1)
    end subroutine get_clearance
@@ -275,6 +318,9 @@ contains
       real(wp) :: slope
 
       slope = model%speed*merge(position%rolling_travel_slope, position%surface_travel_slope, model%has_exact_spin)
+      if (abs(model%speed_slope) > 0.0_wp) then
+         slope = slope + model%speed_slope*merge(position%rolling_travel, position%surface_travel, model%has_exact_spin)
+      end if
    end function rolling_speed_slope
 
    !> Second derivative of the speed in pure rolling; by a difference of geometry where it would take the lift's fourth derivative.
@@ -295,12 +341,16 @@ contains
 
       if (model%has_exact_spin) then
          curvature = model%speed*position%rolling_travel_curvature
-         return
+      else
+         step = time_increment(angle, horizon)
+         call evaluate_geometry(model, angle + step, ahead, status)
+         curvature = 0.0_wp
+         if (status == 0) curvature = model%speed*(ahead%surface_travel_slope - position%surface_travel_slope)/step
       end if
-      step = time_increment(angle, horizon)
-      call evaluate_geometry(model, angle + step, ahead, status)
-      curvature = 0.0_wp
-      if (status == 0) curvature = model%speed*(ahead%surface_travel_slope - position%surface_travel_slope)/step
+      if (abs(model%speed_slope) > 0.0_wp) then
+         curvature = curvature + model%speed_slope*merge(position%rolling_travel_slope, position%surface_travel_slope, &
+            & model%has_exact_spin)
+      end if
    end function rolling_speed_curvature
 
 end module camroller_spin

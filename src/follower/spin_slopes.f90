@@ -7,7 +7,7 @@ module camroller_spin_slopes
    use camroller_kinds, only : wp
    use camroller_model, only : model_t
    use camroller_kinematics, only : position_t
-   use camroller_dynamics, only : moments_t, moment_slope
+   use camroller_dynamics, only : moments_t, moment_slope, acceleration_slope
    use camroller_gas, only : gas_force_slope
    use camroller_contact, only : prepare_and_solve, finger_moment
    use camroller_contact_forces, only : contact_t, setting_t, parts_t, motion_t, slopes_t, follow_contact
@@ -70,6 +70,9 @@ contains
       if (allocated(model%gas)) gas_slope = gas_force_slope(model%gas, angle)
       moment = finger_moment(model, position, moments)
       slope = moment_slope(model%train, position, model%speed, gas_force, gas_slope)
+      if (abs(model%speed_slope) > 0.0_wp) then
+         slope = slope + acceleration_slope(model%train, position, model%speed*model%speed_slope)
+      end if
       if (model%is_consistent) then
          if (allocated(model%guide_drag)) slope = slope + model%guide_drag*model%speed &
             & *(position%lift_curvature*position%valve_arm + position%lift_slope*position%valve_arm_slope)

@@ -5,7 +5,7 @@ module camroller_state
    use camroller_kinds, only : wp
    use camroller_model, only : model_t, evaluate_geometry
    use camroller_kinematics, only : position_t
-   use camroller_dynamics, only : moments_t, evaluate_moments, stored_power
+   use camroller_dynamics, only : moments_t, evaluate_moments, add_acceleration, kinetic_energy, stored_power
    use camroller_gas, only : gas_force
    use camroller_contact, only : solve_contact
    use camroller_contact_forces, only : contact_t
@@ -95,6 +95,7 @@ contains
       if (status /= 0) return
       if (allocated(model%gas)) force = gas_force(model%gas, angle)
       call evaluate_moments(model%train, position, model%speed, force, moments)
+      if (abs(model%speed_slope) > 0.0_wp) call add_acceleration(model%train, position, model%speed*model%speed_slope, moments)
    end subroutine evaluate_loading
 
    !> Contact and angular acceleration of the roller: what the integration of its spin needs.
@@ -226,7 +227,12 @@ contains
          & state%position%equivalent_radius)
       lost = (state%torque_contact + state%torque_needle + state%torque_guide)*model%speed
       stored = model%roller_inertia*state%contact%roller_spin*state%spin_acceleration
-      if (state%contact%is_touching) stored = stored + stored_power(model%train, state%position, model%speed, state%gas_force)
+      if (state%contact%is_touching) then
+         stored = stored + stored_power(model%train, state%position, model%speed, state%gas_force)
+         if (abs(model%speed_slope) > 0.0_wp) then
+            stored = stored + 2.0_wp*model%speed_slope*kinetic_energy(model%train, state%position, model%speed)
+         end if
+      end if
       state%energy_residual = equilibrium*model%speed - lost - stored
    end subroutine add_consistent_torques
 

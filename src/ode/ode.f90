@@ -25,9 +25,6 @@ module camroller_ode
    real(wp), parameter :: max_growth = 5.0_wp, max_shrinkage = 0.2_wp
    !> Error over tolerance below which smaller ones make no difference [-]
    real(wp), parameter :: least_error = 1.0e-4_wp
-   !> Fewest steps, shared out evenly between the segments: what happens within a segment shows between its ends only, and a
-   !> method may check nothing but the ends of its steps
-   integer, parameter :: fewest_steps = 32
    !> Part of the stability limit that a step may use [-]
    real(wp), parameter :: stability_margin = 0.95_wp
 
@@ -87,7 +84,7 @@ contains
          end if
          call append_point(trajectory, start, state, rate)
          if (.not. is_fixed(method, options)) then
-            limits%max_step = min(options%max_step, (finish - start)/max(1, fewest_steps/segments))
+            limits%max_step = min(options%max_step, (finish - start)/max(1, options%fewest_steps/segments))
          end if
          call integrate_segment(problem, method, limits, start, finish, state, rate, step, last_error, trajectory, &
             & counters, error)

@@ -51,6 +51,9 @@ module camroller_ode_method
       real(wp) :: max_step = huge(1.0_wp)
       !> Steps and evaluations after which the integration is given up
       integer :: max_steps = 1000000, max_evaluations = huge(1)
+      !> Fewest steps, shared out evenly between the segments: what happens within a segment shows between its ends only, and a
+      !> method may check nothing but the ends of its steps
+      integer :: fewest_steps = 32
    end type options_t
 
    abstract interface

@@ -10,7 +10,7 @@ module camroller_export
    use camroller_hdf5_object, only : hdf5_object_t
    use camroller_hdf5_file, only : discard_file
    use camroller_hdf5_read, only : check_extents, has_member, list_members, member_length, read_extents, read_numbers, read_text
-   use camroller_mistakes, only : nearest_name
+   use camroller_near_names, only : nearest_name
    use camroller_new_file, only : begin_new_file, drop_new_file, end_new_file, new_file_t
    use camroller_number_text, only : integer_text, write_number, number_length
    use camroller_raw_file, only : append_text, close_raw, create_raw, raw_file_t

@@ -8,15 +8,17 @@ module camroller_follower_samples
    use camroller_error, only : error_t
    use camroller_case, only : case_t
    use camroller_model, only : model_t
+   use camroller_ramp, only : follow_ramp
    use camroller_state, only : state_t
    use camroller_cycle, only : cycle_t, state_at
    use camroller_catalogue, only : series_values, follower_torques, torque_count
+   use camroller_hertz, only : peak_pressure
    use camroller_extremes, only : samples_t, add_sample, start_rows => start_samples
    use camroller_panels, only : sampled_t
    implicit none
    private
 
-   public :: follower_samples_t, start_samples, sampled_values, entrainment_t, entrainment_of
+   public :: follower_samples_t, start_samples, sampled_values, entrainment_t, entrainment_of, extremes_t
 
    !> One point of a cycle, for the search of standstills
    type :: entrainment_t
@@ -26,6 +28,18 @@ module camroller_follower_samples
       real(wp) :: entrainment_speed = 0.0_wp
       logical :: is_touching = .false.
    end type entrainment_t
+
+   !> Smallest and largest values of a follower at the points met
+   type :: extremes_t
+      !> Normal load [N], torque that drives this follower [N m]
+      real(wp) :: contact_load(2) = [huge(1.0_wp), -huge(1.0_wp)], torque_drive(2) = [huge(1.0_wp), -huge(1.0_wp)]
+      !> Sliding speed [m/s]
+      real(wp) :: sliding_speed(2) = [huge(1.0_wp), -huge(1.0_wp)]
+      !> Largest pressure of the dry contact [Pa]
+      real(wp) :: hertz_pressure = 0.0_wp
+      !> Smallest film where there is contact; huge where there is none [m]
+      real(wp) :: film_min = huge(1.0_wp)
+   end type extremes_t
 
    !> A follower on its cycle
    type, extends(sampled_t) :: follower_samples_t
@@ -43,6 +57,8 @@ module camroller_follower_samples
       type(samples_t) :: rows
       !> Largest size of the sliding speed met [m/s]
       real(wp) :: largest_sliding = 0.0_wp
+      !> Extremes at the points met, without a case
+      type(extremes_t) :: extremes
    contains
       procedure :: sample
    end type follower_samples_t
@@ -83,11 +99,16 @@ contains
       !> Convergence error
       type(error_t), allocatable, intent(out) :: error
 
+      call follow_ramp(self%model, x)
       call state_at(self%cycle, self%model, x, self%hint, self%state, error)
       if (allocated(error)) return
       self%largest_sliding = max(self%largest_sliding, abs(self%state%contact%sliding_speed))
       call sampled_values(self, self%state, values)
-      if (associated(self%case)) call add_sample(self%rows, x, values(:self%first_torque - 1), .false.)
+      if (associated(self%case)) then
+         call add_sample(self%rows, x, values(:self%first_torque - 1), .false.)
+      else
+         call widen(self%extremes, self%model, self%state)
+      end if
    end subroutine sample
 
    !> Values of a state of the follower, in the order of `sample`.
@@ -112,6 +133,34 @@ contains
       torques(5) = 0.0_wp
       values(samples%series + 1:) = torques
    end subroutine sampled_values
+
+   !> Let extremes take in a state.
+   pure subroutine widen(extremes, model, state)
+      !> The extremes
+      type(extremes_t), intent(inout) :: extremes
+      !> Model of the lobe
+      type(model_t), intent(in) :: model
+      !> State of the follower
+      type(state_t), intent(in) :: state
+
+      call widen_range(extremes%contact_load, state%contact%load)
+      call widen_range(extremes%torque_drive, state%torque_drive)
+      call widen_range(extremes%sliding_speed, state%contact%sliding_speed)
+      if (.not. state%contact%is_touching) return
+      extremes%hertz_pressure = max(extremes%hertz_pressure, peak_pressure(state%contact%load, state%position%equivalent_radius, &
+         & model%contact_width, model%modulus))
+      extremes%film_min = min(extremes%film_min, state%contact%film_min)
+   end subroutine widen
+
+   !> Let a range take in a value.
+   pure subroutine widen_range(range, value)
+      !> Smallest and largest [any]
+      real(wp), intent(inout) :: range(2)
+      !> The value [any]
+      real(wp), intent(in) :: value
+
+      range = [min(range(1), value), max(range(2), value)]
+   end subroutine widen_range
 
    !> The point that was sampled last, for the search of standstills.
    pure function entrainment_of(samples, angle) result(speed)

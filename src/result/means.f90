@@ -20,7 +20,7 @@ module camroller_means
    use camroller_defects, only : find_defect
    use camroller_error_estimate, only : estimate_t, add_defect, end_interval, estimated_error
    use camroller_extremes, only : samples_t
-   use camroller_follower_samples, only : follower_samples_t, start_samples, entrainment_t, entrainment_of
+   use camroller_follower_samples, only : follower_samples_t, start_samples, entrainment_t, entrainment_of, extremes_t
    use camroller_slip_errors, only : slip_points_t, slip_errors_t, start_points, keep_point, set_errors, find_slip_errors
    use camroller_names, only : name_length
    use camroller_panels, only : panels_t, panel_points, panel_places, panel_weights, gauss_points, gauss_weights, &
@@ -404,7 +404,7 @@ contains
    end subroutine judge_means
 
    !> Mean torques of a follower over a cycle or a piece of one.
-   subroutine integrate_torques(model, cycle, torques, error)
+   subroutine integrate_torques(model, cycle, torques, error, extremes)
       !> Model of the lobe
       type(model_t), intent(in), target :: model
       !> Cycle or a piece of one
@@ -413,6 +413,8 @@ contains
       real(wp), intent(out) :: torques(torque_count)
       !> Convergence error
       type(error_t), allocatable, intent(out) :: error
+      !> Smallest and largest values at the points that the means are made of
+      type(extremes_t), intent(out), optional :: extremes
 
       type(follower_samples_t) :: samples
       type(panels_t) :: panels
@@ -427,6 +429,7 @@ contains
       if (allocated(error)) return
       span = cycle%trajectory%time(cycle%trajectory%count) - cycle%trajectory%time(1)
       torques = sum(panels%integrals(:, :panels%count), 2)/span + stored_torques(samples, work, span)
+      if (present(extremes)) extremes = samples%extremes
    end subroutine integrate_torques
 
    !> Sample a cycle or a piece of one for its torques alone, two intervals a panel where no stop parts them.

@@ -11,6 +11,7 @@ module camroller_stored_work
    use camroller_follower_samples, only : follower_samples_t
    use camroller_kinematics, only : position_t
    use camroller_model, only : evaluate_geometry
+   use camroller_ramp, only : speed_on_ramp
    use camroller_spin, only : rolling_speed_at
    use camroller_state, only : state_t
    use camroller_cycle, only : state_at
@@ -121,7 +122,8 @@ contains
             spins(i) = path%state(1, point)/model%roller_radius
             if (samples%cycle%has_surface_speed) cycle
             call evaluate_geometry(model, path%time(point), position, status)
-            spins(i) = rolling_speed_at(model, position)/model%roller_radius - spins(i)
+            spins(i) = rolling_speed_at(model, position)/model%roller_radius*(speed_on_ramp(model, path%time(point))/model%speed) &
+               & - spins(i)
          end do
          done = 0.5_wp*model%roller_inertia*(spins(2) - spins(1))*(spins(2) + spins(1))
       end associate
@@ -140,7 +142,7 @@ contains
       integer :: status
 
       call evaluate_geometry(samples%model, angle, position, status)
-      energy = stored_energy(samples%model%train, position, samples%model%speed)
+      energy = stored_energy(samples%model%train, position, speed_on_ramp(samples%model, angle))
    end function energy_at
 
 end module camroller_stored_work

@@ -22,7 +22,7 @@ module camroller_run
    implicit none
    private
 
-   public :: run_case, run_next_case, build_models, build_model
+   public :: run_case, run_next_case, build_models, build_model, take_way_out
 
    !> One try to integrate the cycles of a case
    type :: try_t

@@ -11,6 +11,7 @@ module camroller_dynamics
 
    public :: masses_t, spring_t, gas_force_t, train_t, moments_t, seating_names, load_arm_names
    public :: seat_force, unseated_share, evaluate_moments, moment_slope, stored_energy, stored_power
+   public :: add_acceleration, acceleration_slope, kinetic_energy
 
    !> How the contact load passes from the base circle to the event
    character(len=*), parameter :: seating_names(*) = [character(len=name_length) :: "continuous", "maximum"]
@@ -147,6 +148,56 @@ contains
       moments%gas = gas_force*unseated_share(train, position%lift)*position%valve_arm
       moments%total = moments%spring - moments%seat + moments%valve + moments%finger + moments%gas
    end subroutine evaluate_moments
+
+   !> Add what a cam that gains speed asks of the masses.
+   pure subroutine add_acceleration(train, position, acceleration, moments)
+      !> Masses and stiffnesses
+      type(train_t), intent(in) :: train
+      !> Geometry at this angle
+      type(position_t), intent(in) :: position
+      !> Angular acceleration of the cam [rad/s^2]
+      real(wp), intent(in) :: acceleration
+      !> Moments at a steady speed; out: at this acceleration
+      type(moments_t), intent(inout) :: moments
+
+      ! Moments of valve and finger [N m]
+      real(wp) :: valve, finger
+
+      valve = train%valve_mass*acceleration*position%lift_slope*position%valve_arm
+      finger = train%finger_inertia*acceleration*position%finger_slope
+      moments%valve = moments%valve + valve
+      moments%finger = moments%finger + finger
+      moments%total = moments%total + valve + finger
+   end subroutine add_acceleration
+
+   !> Derivative of those moments with respect to the cam angle at a constant acceleration.
+   pure function acceleration_slope(train, position, acceleration) result(slope)
+      !> Masses and stiffnesses
+      type(train_t), intent(in) :: train
+      !> Geometry at this angle
+      type(position_t), intent(in) :: position
+      !> Angular acceleration of the cam [rad/s^2]
+      real(wp), intent(in) :: acceleration
+      !> Derivative [N m/rad]
+      real(wp) :: slope
+
+      slope = acceleration*(train%valve_mass*(position%lift_curvature*position%valve_arm &
+         & + position%lift_slope*position%valve_arm_slope) + train%finger_inertia*position%finger_curvature)
+   end function acceleration_slope
+
+   !> Energy of the moving masses without the roller's spin, `m omega^2 l'^2/2 + I_f omega^2 gamma'^2/2`.
+   elemental function kinetic_energy(train, position, speed) result(energy)
+      !> Masses and stiffnesses
+      type(train_t), intent(in) :: train
+      !> Geometry at this angle
+      type(position_t), intent(in) :: position
+      !> Cam speed, omega [rad/s]
+      real(wp), intent(in) :: speed
+      !> Energy [J]
+      real(wp) :: energy
+
+      energy = 0.5_wp*speed**2*(train%valve_mass*position%lift_slope**2 + train%finger_inertia*position%finger_slope**2)
+   end function kinetic_energy
 
    !> Derivative of the sum of the moments with respect to the cam angle.
    pure function moment_slope(train, position, speed, gas_force, gas_slope) result(slope)

@@ -9,7 +9,7 @@ module camroller_gas
    implicit none
    private
 
-   public :: gas_law_t, new_gas_law, gas_force, gas_force_slope
+   public :: gas_law_t, new_gas_law, give_pressure, gas_force, gas_force_slope
 
    !> Pressure table ready for evaluation
    type :: gas_law_t
@@ -19,6 +19,12 @@ module camroller_gas
       real(wp) :: first_angle = 0.0_wp
       !> Area of the valve head [m^2]
       real(wp) :: valve_area = 0.0_wp
+      !> Does a host program give the pressure in the place of the table?
+      logical :: is_given = .false.
+      !> Cam angle from full lift that its pressure counts from [rad]
+      real(wp) :: given_angle = 0.0_wp
+      !> Pressure there [Pa] and its change with the cam angle [Pa/rad]
+      real(wp) :: given_pressure = 0.0_wp, given_slope = 0.0_wp
    end type gas_law_t
 
 contains
@@ -54,6 +60,21 @@ contains
       law%valve_area = gas%valve_area
    end subroutine new_gas_law
 
+   !> Take a pressure that changes linearly between two cam angles in the place of the table.
+   pure subroutine give_pressure(law, angles, pressures)
+      !> The law
+      type(gas_law_t), intent(inout) :: law
+      !> Two cam angles from full lift, increasing [rad]
+      real(wp), intent(in) :: angles(2)
+      !> Gauge pressure there, positive where it presses the valve shut [Pa]
+      real(wp), intent(in) :: pressures(2)
+
+      law%is_given = .true.
+      law%given_angle = angles(1)
+      law%given_pressure = pressures(1)
+      law%given_slope = (pressures(2) - pressures(1))/(angles(2) - angles(1))
+   end subroutine give_pressure
+
    !> Cylinder pressure times valve area, positive where it presses the valve shut.
    pure function gas_force(law, angle) result(force)
       !> The law
@@ -67,6 +88,10 @@ contains
       real(wp) :: values(0:3)
       integer :: status
 
+      if (law%is_given) then
+         force = (law%given_pressure + law%given_slope*(angle - law%given_angle))*law%valve_area
+         return
+      end if
       call evaluate_spline(law%pressure, law%first_angle + modulo(angle - law%first_angle, two_pi), values, status)
       force = values(0)*law%valve_area
    end function gas_force
@@ -84,6 +109,8 @@ contains
       real(wp) :: values(0:3)
       integer :: status
 
+      slope = law%given_slope*law%valve_area
+      if (law%is_given) return
       call evaluate_spline(law%pressure, law%first_angle + modulo(angle - law%first_angle, two_pi), values, status)
       slope = values(1)*law%valve_area
    end function gas_force_slope

@@ -1,0 +1,252 @@
+!> A follower driven with inputs that change within a step: order in the host's step, gas pressure, energy, a stop, an estimate.
+module test_simulation_inputs
+   use testdrive, only : unittest_type, new_unittest, error_type, check, test_failed
+   use camroller, only : wp, pi, two_pi, degree, error_t, case_t, simulation_t, outcome_t, inputs_t, start_simulation, advance, halt
+   use camroller_error, only : kind_usage
+   use reference_cases, only : thesis_case, add_gas_force
+   implicit none
+   private
+
+   public :: collect_simulation_inputs
+
+   !> What a turn comes to
+   type :: turn_t
+      !> Mean torques to drive and for friction [N m], sliding speed at the end [m/s]
+      real(wp) :: values(3) = 0.0_wp
+      !> Energy that the drive gives, and that is lost, over the turn [J]
+      real(wp) :: driven = 0.0_wp, lost = 0.0_wp
+   end type turn_t
+
+contains
+
+   subroutine collect_simulation_inputs(testsuite)
+      type(unittest_type), allocatable, intent(out) :: testsuite(:)
+
+      testsuite = [ &
+         new_unittest("under a ripple torques and slip are of second order in the host's step", test_order), &
+         new_unittest("a turn from a speed back to it gives what is lost, whatever the ripple", test_energy), &
+         new_unittest("a pressure from the host does what the same table of the case does", test_pressure), &
+         new_unittest("an engine that stops and starts again has its roller at rest between", test_halt), &
+         new_unittest("inputs that cannot be are refused, and nothing has moved", test_refusals) &
+         ]
+   end subroutine collect_simulation_inputs
+
+   !> Case with a tolerance far below what steps of the host make.
+   function tight_case() result(the_case)
+      type(case_t) :: the_case
+
+      the_case = thesis_case()
+      the_case%operating_point%speed = 60.0_wp
+      the_case%operating_point%oil_temperature = 350.0_wp
+      the_case%lubricant%temperature_law = "vogel"
+      the_case%lubricant%temperature_points = [313.15_wp, 343.15_wp, 373.15_wp]
+      the_case%lubricant%viscosity_points = [0.08_wp, 0.025_wp, 0.011_wp]
+      the_case%numerics%tolerance = 1.0e-9_wp
+      call add_gas_force(the_case)
+   end function tight_case
+
+   !> Inputs of an engine whose speed, oil and gas pressure go round with the cam.
+   pure function inputs_at(angle, has_pressure) result(inputs)
+      !> Cam angle [rad]
+      real(wp), intent(in) :: angle
+      logical, intent(in) :: has_pressure
+      type(inputs_t) :: inputs
+
+      inputs%speed = 60.0_wp*(1.0_wp + 0.05_wp*sin(4.0_wp*angle))
+      inputs%oil_temperature = 350.0_wp + 4.0_wp*cos(angle)
+      inputs%has_pressure = has_pressure
+      inputs%gas_pressure = 2.0e5_wp*(1.0_wp + sin(2.0_wp*angle))
+   end function inputs_at
+
+   !> Two turns in equal steps from the base circle on; what the second comes to.
+   subroutine drive(steps, has_gas, turn, failure)
+      integer, intent(in) :: steps
+      !> Is there gas force, with the pressure from the host?
+      logical, intent(in) :: has_gas
+      type(turn_t), intent(out) :: turn
+      type(error_t), allocatable, intent(out) :: failure
+      type(simulation_t) :: simulation
+      type(outcome_t) :: outcome
+      type(case_t) :: the_case
+      ! Cam angles at start and end of a step [rad]
+      real(wp) :: ends(2)
+      integer :: i
+
+      the_case = tight_case()
+      if (.not. has_gas) deallocate (the_case%gas_force)
+      call start_simulation(simulation, the_case, 0.0_wp, failure)
+      do i = 1, 2*steps
+         if (allocated(failure)) return
+         ends = two_pi*[i - 1, i]/steps
+         call advance(simulation, ends(2), inputs_at(ends(1), has_gas), inputs_at(ends(2), has_gas), outcome, failure)
+         if (i <= steps) cycle
+         turn%values(:2) = turn%values(:2) + [outcome%mean_torque_drive, outcome%mean_torque_friction]/steps
+      end do
+      turn%values(3) = outcome%state%contact%sliding_speed
+      turn%driven = turn%values(1)*two_pi
+      turn%lost = turn%values(2)*two_pi
+   end subroutine drive
+
+   subroutine test_order(error)
+      type(error_type), allocatable, intent(out) :: error
+      integer, parameter :: steps(*) = [90, 180, 360, 2880]
+      type(turn_t) :: turns(size(steps))
+      type(error_t), allocatable :: failure
+      ! Errors of three lengths of the step
+      real(wp) :: errors(3, 3)
+      integer :: i
+
+      do i = 1, size(steps)
+         call drive(steps(i), .true., turns(i), failure)
+         if (allocated(failure)) then
+            call test_failed(error, failure%message)
+            return
+         end if
+      end do
+      do i = 1, 3
+         errors(:, i) = abs(turns(i)%values - turns(4)%values)
+      end do
+      ! halving a step divides an error of second order by four, as far as higher ones are small; from four degrees to one by 16
+      call check(error, all(errors(:2, 3) < errors(:2, 1)/10.0_wp), "torques are not of second order in the step")
+      if (allocated(error)) return
+      call check(error, errors(3, 3) < errors(3, 1)/10.0_wp, "slip is not of second order in the step")
+      if (allocated(error)) return
+      ! a straight line over one degree of a ripple with a period of 90 degrees is off by (4 degree)^2/8 of its size
+      call check(error, all(errors(:, 3) < 6.0e-4_wp*abs(turns(4)%values)), "errors at one degree are large")
+   end subroutine test_order
+
+   !> Over a turn that ends with the speed it began with, spring and masses give back what they got.
+   subroutine test_energy(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(turn_t) :: turn
+      type(error_t), allocatable :: failure
+
+      call drive(360, .false., turn, failure)
+      if (allocated(failure)) then
+         call test_failed(error, failure%message)
+         return
+      end if
+      ! energies at the ends of 360 steps to round-off of the largest; the roller's spin is that of a turn before to the tolerance
+      call check(error, abs(turn%driven - turn%lost) < 1.0e-9_wp*turn%lost, "energy is made or lost over a turn")
+   end subroutine test_energy
+
+   subroutine test_pressure(error)
+      type(error_type), allocatable, intent(out) :: error
+      ! Steps of a turn
+      integer, parameter :: steps = 1440
+      type(case_t) :: the_case
+      type(simulation_t) :: by_table, by_host
+      type(outcome_t) :: from_table, from_host
+      type(inputs_t) :: ends(2)
+      type(error_t), allocatable :: failure
+      ! Mean torques of a turn [N m]; largest drive torque [N m]
+      real(wp) :: torques(2), largest
+      integer :: i, k
+
+      the_case = tight_case()
+      ! the table is that of `inputs_at`, dense enough for its spline to be exact to 1e-9
+      the_case%gas_force%angle = [(two_pi*i/360.0_wp - pi, i=0, 360)]
+      the_case%gas_force%pressure = 2.0e5_wp*(1.0_wp + sin(2.0_wp*(the_case%gas_force%angle + pi)))
+      the_case%gas_force%pressure(361) = the_case%gas_force%pressure(1)
+      call start_simulation(by_table, the_case, 0.0_wp, failure)
+      if (.not. allocated(failure)) call start_simulation(by_host, the_case, 0.0_wp, failure)
+      torques = 0.0_wp
+      largest = 0.0_wp
+      do i = 1, steps
+         do k = 1, 2
+            ends(k) = inputs_at(two_pi*(i + k - 2)/steps, .false.)
+         end do
+         if (.not. allocated(failure)) call advance(by_table, two_pi*i/steps, ends(1), ends(2), from_table, failure)
+         ends%has_pressure = .true.
+         if (.not. allocated(failure)) call advance(by_host, two_pi*i/steps, ends(1), ends(2), from_host, failure)
+         if (allocated(failure)) then
+            call test_failed(error, failure%message)
+            return
+         end if
+         torques = torques + [from_table%mean_torque_drive, from_host%mean_torque_drive]/steps
+         largest = max(largest, abs(from_table%torque_drive))
+         ! pressures agree at the ends of steps, and between to (pi/720)^2/2 of their amplitude
+         call check(error, abs(from_table%torque_drive - from_host%torque_drive) < 1.0e-5_wp*largest, "torque at the end of a step")
+         if (allocated(error)) return
+      end do
+      call check(error, abs(torques(1) - torques(2)) < 1.0e-5_wp*largest, "mean torque of a turn")
+   end subroutine test_pressure
+
+   subroutine test_halt(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(simulation_t) :: simulation, started
+      type(outcome_t) :: outcome, after
+      type(inputs_t) :: slow, fast
+      type(error_t), allocatable :: failure
+      integer :: i
+
+      slow = inputs_t(speed=0.5_wp, oil_temperature=350.0_wp)
+      fast = inputs_t(speed=60.0_wp, oil_temperature=350.0_wp)
+      call start_simulation(simulation, tight_case(), 0.0_wp, failure)
+      if (.not. allocated(failure)) call advance(simulation, 1.0_wp, fast, slow, outcome, failure)
+      call halt(simulation)
+      ! over the shortest step the roller hardly gets any spin
+      if (.not. allocated(failure)) call advance(simulation, 1.0_wp + 1.0e-9_wp, slow, slow, outcome, failure)
+      if (allocated(failure)) then
+         call test_failed(error, failure%message)
+         return
+      end if
+      call check(error, abs(outcome%state%contact%roller_spin) < 1.0e-2_wp*abs(outcome%state%contact%rolling_speed) &
+         & /0.0085_wp, "the roller is not at rest")
+      if (allocated(error)) return
+      call start_simulation(started, tight_case(), 1.0_wp + 1.0e-9_wp, failure)
+      do i = 1, 8
+         if (.not. allocated(failure)) call advance(simulation, 1.0_wp + i, fast, fast, outcome, failure)
+         if (.not. allocated(failure)) call advance(started, 1.0_wp + i, fast, fast, after, failure)
+      end do
+      if (allocated(failure)) then
+         call test_failed(error, failure%message)
+         return
+      end if
+      ! more than a turn later nothing is left of the stop but the tolerance
+      call check(error, abs(outcome%torque_friction - after%torque_friction) < 1.0e-6_wp*after%torque_friction, &
+         & "the stop is not forgotten after a turn")
+   end subroutine test_halt
+
+   subroutine test_refusals(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: without_gas
+      type(simulation_t) :: simulation
+      type(outcome_t) :: outcome
+      type(inputs_t) :: right, wrong
+      type(error_t), allocatable :: failure
+
+      right = inputs_t(speed=60.0_wp, oil_temperature=350.0_wp)
+      call start_simulation(simulation, tight_case(), 0.0_wp, failure)
+      wrong = inputs_t(speed=0.0_wp, oil_temperature=350.0_wp)
+      call try(wrong, "halt")
+      wrong = inputs_t(speed=60.0_wp, oil_temperature=-1.0_wp)
+      if (.not. allocated(error)) call try(wrong, "temperature")
+      wrong = inputs_t(speed=60.0_wp, oil_temperature=350.0_wp, has_pressure=.true.)
+      if (.not. allocated(error)) call try(wrong, "both ends")
+      if (allocated(error)) return
+      without_gas = thesis_case()
+      call start_simulation(simulation, without_gas, 0.0_wp, failure)
+      call advance(simulation, 0.1_wp, wrong, wrong, outcome, failure)
+      call check(error, allocated(failure), "a pressure without the valve's area is accepted")
+      if (allocated(error)) return
+      call check(error, index(failure%message, "&gas_force") > 0, failure%message)
+
+   contains
+
+      subroutine try(inputs, word)
+         type(inputs_t), intent(in) :: inputs
+         character(len=*), intent(in) :: word
+
+         call advance(simulation, 0.1_wp, right, inputs, outcome, failure)
+         call check(error, allocated(failure), "accepted, no error about "//word)
+         if (allocated(error)) return
+         call check(error, index(failure%message, word) > 0 .and. failure%kind == kind_usage, failure%message)
+         if (allocated(error)) return
+         call advance(simulation, 0.1_wp, inputs, right, outcome, failure)
+         call check(error, allocated(failure), "accepted at the start, no error about "//word)
+      end subroutine try
+
+   end subroutine test_refusals
+
+end module test_simulation_inputs
