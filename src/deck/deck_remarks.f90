@@ -139,38 +139,30 @@ contains
 
       ! Round-off of the unit's factor [-]
       real(wp), parameter :: round_off = 1.0e-12_wp
-      character(len=:), allocatable :: words
+      character(len=:), allocatable :: words, unit
       integer :: i
 
+      unit = ""
+      if (key%unit%symbol /= "1") unit = " "//trim(key%unit%symbol)
       associate (low => key%usual%smallest - round_off*abs(key%usual%smallest), &
          & high => key%usual%largest + round_off*abs(key%usual%largest))
          if (number >= low .and. number <= high) return
          words = ""
          if (index(name, "viscosity_") > 0 .and. key%unit%suffix == "Pa_s" .and. number >= sheet_range(1) .and. &
             & number <= sheet_range(2)) then
-            words = as_kinematic(number)
+            words = question//number_text(number, digits)//kinematic_keys
          else if (.not. any(key%unit%suffix == of_one_size)) then
             do i = 1, size(slips)
                if (number*10.0_wp**slips(i) < low .or. number*10.0_wp**slips(i) > high) cycle
                if (.not. abs(number) > 0.0_wp) cycle
-               words = "; did you mean "//with_unit(number*10.0_wp**slips(i), key%unit)//"?"
+               words = question//number_text(number*10.0_wp**slips(i), digits)//unit//"?"
                exit
             end do
          end if
       end associate
       call add_remark(remarks, name//" = "//number_text(number, digits)//" is unusual: engines have "// &
-         & number_text(key%usual%smallest)//" to "//with_unit(key%usual%largest, key%unit)//words)
+         & number_text(key%usual%smallest)//" to "//number_text(key%usual%largest, digits)//unit//words)
    end subroutine remark_number
-
-   !> A question about a number that may be a kinematic viscosity.
-   pure function as_kinematic(number) result(words)
-      !> The number [mm^2/s]
-      real(wp), intent(in) :: number
-      !> The question
-      character(len=len(question) + len(number_text(number, digits)) + len(kinematic_keys)) :: words
-
-      words = question//number_text(number, digits)//kinematic_keys
-   end function as_kinematic
 
    !> Viscosities that no oil has at their temperature.
    subroutine remark_viscosity(deck, remarks)
@@ -207,7 +199,7 @@ contains
          if (temperatures(i) < warm .or. viscosities(i) <= thickest_warm .or. viscosities(i) > 20.0_wp) cycle
          call add_remark(remarks, "lubricant: "//number_text(viscosities(i), digits)//" Pa s at "// &
             & number_text(from_si(celsius, temperatures(i)), digits)//" degC is unusual: no engine oil is thicker than "// &
-            & number_text(thickest_warm)//" Pa s above 20 degC"//as_kinematic(viscosities(i)))
+            & number_text(thickest_warm)//" Pa s above 20 degC"//question//number_text(viscosities(i), digits)//kinematic_keys)
       end do
    end subroutine remark_viscosity
 
@@ -281,19 +273,6 @@ contains
          & " in &"//group//" it is "//number_text(1.0e3_wp*noise%smoothed(1), 3)//" to "// &
          & number_text(1.0e3_wp*noise%smoothed(2), 3)//". Loads and the speed at which contact is lost follow it")
    end subroutine remark_noise
-
-   !> A number with its unit.
-   pure function with_unit(number, unit) result(words)
-      !> The number [the unit]
-      real(wp), intent(in) :: number
-      !> Its unit
-      type(unit_t), intent(in) :: unit
-      !> Both
-      character(len=len(number_text(number, digits)) + merge(0, 1 + len_trim(unit%symbol), unit%symbol == "1")) :: words
-
-      words = number_text(number, digits)
-      if (unit%symbol /= "1") words = number_text(number, digits)//" "//unit%symbol
-   end function with_unit
 
    !> Lengthen the list. A constructor within a list would leak its text with gfortran.
    subroutine add_remark(remarks, text)
