@@ -5,27 +5,12 @@
 !> `run_sweep` for all cases of a deck into one file, `sweep_cases` to have them handed over to an extension of `sink_t`. Where
 !> cases have a numerical film, it calls `use_one_blas_thread` first, or its last digits depend on how many threads OpenBLAS takes.
 module camroller
-   use camroller_kinds, only : wp, pi, two_pi, degree
-   use camroller_blas_threads, only : use_one_blas_thread
-   use camroller_error, only : error_t, kind_usage, kind_deck, kind_domain, kind_convergence, kind_file, kind_internal
-   use camroller_version, only : version_text, version_number
-   use camroller_case, only : case_t, operating_point_t, numerics_t
-   use camroller_lift, only : lift_t
-   use camroller_kinematics, only : mechanism_t
-   use camroller_dynamics, only : masses_t, spring_t, gas_force_t
-   use camroller_materials, only : materials_t, surface_t
-   use camroller_lubricant, only : lubricant_t
-   use camroller_film, only : film_t
-   use camroller_ehl_table, only : ehl_t
-   use camroller_asperity, only : asperity_t
-   use camroller_traction, only : traction_t
-   use camroller_needle, only : needle_bearing_t
-   use camroller_guide, only : valve_guide_t
-   use camroller_roller, only : roller_t
-   use camroller_journal, only : cam_bearings_t
-   use camroller_deck, only : deck_t, override_t, read_deck, parse_deck, make_case
-   use camroller_run, only : run_case
-   use camroller_result, only : result_t, quantity_t, find_quantity, get_series, get_summary
+   use camroller_core, only : wp, pi, two_pi, degree, version_text, version_number, error_t, kind_usage, kind_deck, &
+      & kind_domain, kind_convergence, kind_file, kind_internal, case_t, operating_point_t, numerics_t, lift_t, mechanism_t, &
+      & masses_t, spring_t, gas_force_t, materials_t, surface_t, lubricant_t, film_t, ehl_t, asperity_t, traction_t, &
+      & needle_bearing_t, valve_guide_t, roller_t, cam_bearings_t, deck_t, override_t, read_deck, parse_deck, make_case, &
+      & run_case, result_t, quantity_t, find_quantity, get_series, get_summary, use_one_blas_thread, simulation_t, outcome_t, &
+      & inputs_t, start_simulation, advance, halt, save_simulation, restore_simulation
    use camroller_case_loop, only : sweep_cases
    use camroller_case_record, only : case_outcome_t
    use camroller_case_sink, only : sink_t
@@ -33,7 +18,6 @@ module camroller
    use camroller_monitor, only : monitor_t
    use camroller_sweep, only : run_sweep
    use camroller_sweep_file, only : sweep_options_t, sweep_report_t
-   use camroller_simulation, only : simulation_t, outcome_t, inputs_t, start_simulation, advance, halt
    implicit none
    private
 
@@ -44,6 +28,6 @@ module camroller
    public :: deck_t, override_t, read_deck, parse_deck, make_case
    public :: run_case, result_t, quantity_t, find_quantity, get_series, get_summary, use_one_blas_thread
    public :: run_sweep, sweep_options_t, sweep_report_t, sweep_cases, sink_t, case_outcome_t, layout_t, monitor_t
-   public :: simulation_t, outcome_t, inputs_t, start_simulation, advance, halt
+   public :: simulation_t, outcome_t, inputs_t, start_simulation, advance, halt, save_simulation, restore_simulation
 
 end module camroller

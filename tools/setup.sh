@@ -20,6 +20,7 @@ missing_packages() {
     command -v pkg-config > /dev/null || echo pkg-config
     has_hdf5 || echo libhdf5-dev
     pkg-config --exists openblas 2> /dev/null || echo libopenblas-dev
+    command -v cmake > /dev/null || echo cmake
     command -v python3 > /dev/null || echo python3
     python3 -c 'import ensurepip, venv' 2> /dev/null || echo python3-venv
 }

@@ -12,7 +12,9 @@ module camroller_simulation
    use camroller_accuracy, only : resolve_numerics, has_error_control, is_within, above_zero
    use camroller_case, only : case_t
    use camroller_model, only : set_operating_point
+   use camroller_catalogue, only : follower_values
    use camroller_kinematics, only : position_t
+   use camroller_state, only : state_t
    use camroller_balance, only : find_balance
    use camroller_follower_step, only : follower_t, point_t, inputs_t, outcome_t, step_follower
    use camroller_spin, only : rolling_speed_at
@@ -22,7 +24,7 @@ module camroller_simulation
    private
 
    public :: simulation_t, outcome_t, inputs_t, start_simulation, advance, halt, least_step
-   public :: get_point, set_point, is_started
+   public :: get_point, set_point, get_lobe, get_values, is_started
 
    !> A follower between two steps
    type :: simulation_t
@@ -201,6 +203,30 @@ contains
       point = simulation%follower%point
    end function get_point
 
+   !> Values of the series of one follower at the end of its last step.
+   subroutine get_values(simulation, case, state, values)
+      !> The follower
+      type(simulation_t), intent(in) :: simulation
+      !> The case that it was started with
+      type(case_t), intent(in) :: case
+      !> State at the end of the step
+      type(state_t), intent(in) :: state
+      !> Values, in the order of the series of a result [unit of the series]
+      real(wp), intent(out) :: values(:)
+
+      call follower_values(case, simulation%follower%model, state, values)
+   end subroutine get_values
+
+   !> Lobe shape that drives a follower.
+   pure function get_lobe(simulation) result(lobe)
+      !> The follower
+      type(simulation_t), intent(in) :: simulation
+      !> 1 or 2
+      integer :: lobe
+
+      lobe = simulation%follower%lobe
+   end function get_lobe
+
    !> Put a follower that has been started where another one of the same case was.
    subroutine set_point(simulation, point, error)
       !> The follower
@@ -213,7 +239,8 @@ contains
       simulation%follower%model%speed_slope = 0.0_wp
       call set_operating_point(simulation%follower%model, point%film_speed, point%film_temperature, error)
       simulation%follower%point = point
-      simulation%follower%point%oil_temperature = point%film_temperature
+      ! The next step sets speed and oil anew
+      simulation%follower%point%oil_temperature = -1.0_wp
    end subroutine set_point
 
    !> Shortest step at a cam angle.

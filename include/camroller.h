@@ -1,0 +1,123 @@
+/* camroller: friction, film, slip and drive torque of roller-finger-follower valve trains, for C and all that calls C.
+ *
+ * Every call that can fail returns 0, or the kind of what went wrong, and fills the caller's error struct, which may be NULL.
+ * No call prints or ends the program. What is freed may be NULL.
+ *
+ * SI units and radians everywhere; cam angles have the nose, full lift, at pi and grow with the turns. Values of deck keys alone
+ * have the unit that the key's name says.
+ *
+ * Threads: different objects in different threads, at any time. A case is only read by camroller_case_run, camroller_case_check and
+ * camroller_simulation_new, so that threads may share it there.
+ */
+#ifndef CAMROLLER_H
+#define CAMROLLER_H
+
+#include <stddef.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Version that this header belongs to: 10000*major + 100*minor + patch. While major is 0, programs need the same major and minor:
+ * camroller_library_version()/100 == CAMROLLER_VERSION/100. */
+#define CAMROLLER_VERSION 200
+int camroller_library_version(void);
+void camroller_library_version_text(char *buffer, size_t room);
+
+/* Kinds of errors: what calls return */
+enum {
+   CAMROLLER_OK = 0,
+   CAMROLLER_USAGE = 2,       /* a call that cannot be: NULL, an unknown name, an angle that does not grow */
+   CAMROLLER_DECK = 3,        /* a mistake in a deck or a table that a deck names */
+   CAMROLLER_DOMAIN = 4,      /* numbers that describe something impossible, or a law outside its range where that is forbidden */
+   CAMROLLER_CONVERGENCE = 5, /* an iteration or integration that did not reach its tolerance */
+   CAMROLLER_FILE = 6,        /* a file that cannot be read */
+   CAMROLLER_INTERNAL = 70    /* a broken promise inside the library */
+};
+
+/* Set `size` to sizeof(camroller_error) before the first call */
+typedef struct {
+   size_t size;
+   int code;           /* one of the kinds above */
+   int cause;          /* 0, or a number that tells errors of one kind apart */
+   char message[4096]; /* one sentence, or one line for each mistake of a deck; cut where it is longer */
+} camroller_error;
+
+typedef struct camroller_case camroller_case;
+typedef struct camroller_result camroller_result;
+typedef struct camroller_simulation camroller_simulation;
+
+/* A case from the text or the file of a deck. Paths of tables start at `folder` (NULL: the present folder) or at the deck's own. */
+int camroller_case_from_text(const char *text, const char *folder, camroller_case **out, camroller_error *error);
+int camroller_case_from_file(const char *path, camroller_case **out, camroller_error *error);
+/* Give a key, named `group.key`, another value, as a deck would; the case stays as it was where that fails. */
+int camroller_case_set(camroller_case *self, const char *key, const char *value, camroller_error *error);
+/* Laws, geometry and oil, without a run */
+int camroller_case_check(const camroller_case *self, camroller_error *error);
+void camroller_case_free(camroller_case *self);
+
+/* Run a case. */
+int camroller_case_run(const camroller_case *self, camroller_result **out, camroller_error *error);
+/* Scalars and series by name; units by camroller_result_unit. The series `cam_angle` holds the angle of each row, in radians. */
+int camroller_result_scalar(const camroller_result *self, const char *name, double *value, camroller_error *error);
+size_t camroller_result_rows(const camroller_result *self);
+int camroller_result_series(const camroller_result *self, const char *name, double *values, size_t room, camroller_error *error);
+int camroller_result_unit(const camroller_result *self, const char *name, char *buffer, size_t room, camroller_error *error);
+/* Name, unit and meaning of quantity `number`, from 0, of the series (kind 0) or the scalars (kind 1): three buffers of `room`
+ * characters, any of them NULL. CAMROLLER_USAGE tells that there are no more. */
+int camroller_result_quantity(const camroller_result *self, int kind, size_t number, char *const texts[3], size_t room,
+                              camroller_error *error);
+/* Remarks, one a line; empty where there are none */
+void camroller_result_remarks(const camroller_result *self, char *buffer, size_t room);
+void camroller_result_free(camroller_result *self);
+
+/* What a host gives at an end of a step; between both ends everything is linear in the cam angle.
+ * Set `size` to sizeof(camroller_inputs). */
+typedef struct {
+   size_t size;
+   double speed;           /* of the cam, above zero [rad/s] */
+   double oil_temperature; /* [K] */
+   double gas_pressure;    /* gauge, pressing the valve shut [Pa] */
+   int has_pressure;       /* 1: in the place of the case's table, whose group &gas_force gives the valve's area; 0: the table */
+} camroller_inputs;
+
+/* What a step gives. Set `size` to sizeof(camroller_outcome). */
+typedef struct {
+   size_t size;
+   double mean_torque_drive, torque_drive;       /* mean over the step and at its end [N m] */
+   double mean_torque_friction, torque_friction; /* the part for losses [N m] */
+   /* by source: against spring, masses and gas; contact; roller bearing; valve guide; inertia of the roller [N m] */
+   double mean_torques[5], torques[5];
+   double cam_force[2]; /* of the follower on the cam at the end, x from the finger's pivot to the cam's centre [N] */
+   /* smallest and largest within the step, at the points that its means are made of */
+   double contact_load[2];   /* [N] */
+   double extreme_torque[2]; /* torque that drives [N m] */
+   double sliding_speed[2];  /* [m/s] */
+   double largest_pressure;  /* of the dry contact [Pa] */
+   double smallest_film;     /* [m]; huge where there is no contact all the step */
+} camroller_outcome;
+
+/* A follower at a cam angle; lobe 1 is the case's lift, 2 its second lift. */
+int camroller_simulation_new(const camroller_case *self, int lobe, double cam_angle, camroller_simulation **out,
+                             camroller_error *error);
+/* Advance to a cam angle beyond the present one. A step that fails leaves the follower as it was, to the last bit. */
+int camroller_simulation_step(camroller_simulation *self, double cam_angle, const camroller_inputs *start,
+                              const camroller_inputs *end, camroller_outcome *outcome, camroller_error *error);
+/* Number at the end of the last step, by the name of a follower's series */
+int camroller_simulation_value(const camroller_simulation *self, const char *name, double *value, camroller_error *error);
+double camroller_simulation_angle(const camroller_simulation *self);
+/* The engine has stopped: the roller comes to rest, and the next step starts without spin. */
+int camroller_simulation_halt(camroller_simulation *self, camroller_error *error);
+/* A copy, e.g. to go back to; a block of bytes, from which the same case makes the same follower in another process. */
+int camroller_simulation_copy(const camroller_simulation *self, camroller_simulation **out, camroller_error *error);
+size_t camroller_simulation_save_size(void);
+int camroller_simulation_save(const camroller_simulation *self, void *buffer, size_t room, camroller_error *error);
+int camroller_simulation_restore(const camroller_case *self, const void *buffer, size_t bytes, camroller_simulation **out,
+                                 camroller_error *error);
+void camroller_simulation_free(camroller_simulation *self);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,392 @@
+!> A follower driven step by step, for C: `include/camroller.h` says what each call does.
+!>
+!> In: a case, cam angles, inputs at both ends of a step. Out: torques, numbers by name, blocks of bytes.
+module camroller_c_simulation
+   use, intrinsic :: iso_c_binding, only : c_associated, c_double, c_f_pointer, c_int, c_loc, c_null_ptr, c_ptr, c_size_t
+   use, intrinsic :: iso_fortran_env, only : int8
+   use camroller_kinds, only : wp
+   use camroller_error, only : error_t, raise, kind_usage
+   use camroller_case, only : case_t
+   use camroller_catalogue, only : follower_count, list_series
+   use camroller_follower_step, only : point_t
+   use camroller_result, only : quantity_t, find_quantity
+   use camroller_simulation, only : simulation_t, outcome_t, inputs_t, start_simulation, advance, halt, get_point, get_values
+   use camroller_saved_simulation, only : save_simulation, restore_simulation, block_size
+   use camroller_c_case, only : case_handle_t
+   use camroller_c_texts, only : take_text, give_error, refuse_null
+   implicit none
+   private
+
+   !> A follower with its case and what its last step gave
+   type :: simulation_handle_t
+      type(simulation_t) :: simulation
+      type(case_t) :: case
+      type(outcome_t) :: outcome
+      !> Has it made a step?
+      logical :: has_outcome = .false.
+   end type simulation_handle_t
+
+   !> Inputs as the header has them
+   type, bind(C) :: c_inputs_t
+      integer(c_size_t) :: size
+      !> Cam speed [rad/s], oil temperature [K], gauge pressure [Pa]
+      real(c_double) :: speed, oil_temperature, gas_pressure
+      integer(c_int) :: has_pressure
+   end type c_inputs_t
+
+   !> What a step gives, as the header has it
+   type, bind(C) :: c_outcome_t
+      integer(c_size_t) :: size
+      !> Torques: mean over the step and at its end, all and for losses [N m]
+      real(c_double) :: mean_torque_drive, torque_drive, mean_torque_friction, torque_friction
+      !> By source: against spring, masses and gas; contact; roller bearing; guide; inertia of the roller [N m]
+      real(c_double) :: mean_torques(5), torques(5)
+      !> Force on the cam, x from pivot to cam centre [N]
+      real(c_double) :: cam_force(2)
+      !> Smallest and largest values: load [N], torque [N m], sliding speed [m/s]; largest pressure [Pa], smallest film [m]
+      real(c_double) :: contact_load(2), extreme_torque(2), sliding_speed(2), largest_pressure, smallest_film
+   end type c_outcome_t
+
+contains
+
+   !> Start a follower.
+   function simulation_new(case, lobe, angle, out, error) bind(C, name="camroller_simulation_new") result(code)
+      !> The case; its values are copied
+      type(c_ptr), value, intent(in) :: case
+      !> Lobe shape, 1 or 2
+      integer(c_int), value, intent(in) :: lobe
+      !> Cam angle, pi at full lift [rad]
+      real(c_double), value, intent(in) :: angle
+      !> Gets the follower, NULL where there is an error
+      type(c_ptr), value, intent(in) :: out
+      !> Error struct or NULL
+      type(c_ptr), value, intent(in) :: error
+      !> 0 or the kind of the error
+      integer(c_int) :: code
+
+      type(case_handle_t), pointer :: given
+      type(simulation_handle_t), pointer :: made
+      type(error_t), allocatable :: failure
+
+      call refuse_null(case, "camroller_case", failure)
+      call refuse_null(out, "out", failure)
+      if (.not. allocated(failure)) then
+         call c_f_pointer(case, given)
+         allocate (made)
+         made%case = given%case
+         call start_simulation(made%simulation, made%case, angle, failure, int(lobe))
+         call give_simulation(out, made, failure)
+      end if
+      call give_error(failure, error, code)
+   end function simulation_new
+
+   !> Give a caller a follower, or NULL where there is an error.
+   subroutine give_simulation(place, made, error)
+      !> Where the caller wants it
+      type(c_ptr), intent(in) :: place
+      !> The follower; freed where there is an error
+      type(simulation_handle_t), pointer, intent(inout) :: made
+      !> The error, if any
+      type(error_t), allocatable, intent(in) :: error
+
+      type(c_ptr), pointer :: address
+
+      call c_f_pointer(place, address)
+      address = c_null_ptr
+      if (allocated(error)) then
+         deallocate (made)
+      else
+         address = c_loc(made)
+      end if
+   end subroutine give_simulation
+
+   !> Copy of a follower.
+   function simulation_copy(handle, out, error) bind(C, name="camroller_simulation_copy") result(code)
+      !> The follower
+      type(c_ptr), value, intent(in) :: handle
+      !> Gets the copy, NULL where there is an error
+      type(c_ptr), value, intent(in) :: out
+      !> Error struct or NULL
+      type(c_ptr), value, intent(in) :: error
+      !> 0 or the kind of the error
+      integer(c_int) :: code
+
+      type(simulation_handle_t), pointer :: given, made
+      type(error_t), allocatable :: failure
+
+      call refuse_null(handle, "camroller_simulation", failure)
+      call refuse_null(out, "out", failure)
+      if (.not. allocated(failure)) then
+         call c_f_pointer(handle, given)
+         allocate (made)
+         made = given
+         call give_simulation(out, made, failure)
+      end if
+      call give_error(failure, error, code)
+   end function simulation_copy
+
+   !> Free a follower; NULL is nothing to free.
+   subroutine simulation_free(handle) bind(C, name="camroller_simulation_free")
+      !> The follower
+      type(c_ptr), value, intent(in) :: handle
+
+      type(simulation_handle_t), pointer :: given
+
+      if (.not. c_associated(handle)) return
+      call c_f_pointer(handle, given)
+      deallocate (given)
+   end subroutine simulation_free
+
+   !> Advance a follower to a cam angle.
+   function simulation_step(handle, angle, start, finish, outcome, error) bind(C, name="camroller_simulation_step") result(code)
+      !> The follower; left as it was where there is an error
+      type(c_ptr), value, intent(in) :: handle
+      !> Cam angle at the end of the step [rad]
+      real(c_double), value, intent(in) :: angle
+      !> Inputs at both ends
+      type(c_ptr), value, intent(in) :: start, finish
+      !> Gets what the step gives; NULL takes nothing
+      type(c_ptr), value, intent(in) :: outcome
+      !> Error struct or NULL
+      type(c_ptr), value, intent(in) :: error
+      !> 0 or the kind of the error
+      integer(c_int) :: code
+
+      type(simulation_handle_t), pointer :: given
+      type(outcome_t) :: made
+      type(inputs_t) :: ends(2)
+      type(error_t), allocatable :: failure
+
+      call refuse_null(handle, "camroller_simulation", failure)
+      call refuse_null(start, "start", failure)
+      call refuse_null(finish, "finish", failure)
+      if (.not. allocated(failure)) call take_inputs(start, ends(1), failure)
+      if (.not. allocated(failure)) call take_inputs(finish, ends(2), failure)
+      if (.not. allocated(failure)) call check_outcome(outcome, failure)
+      if (.not. allocated(failure)) then
+         call c_f_pointer(handle, given)
+         call advance(given%simulation, angle, ends(1), ends(2), made, failure)
+         if (.not. allocated(failure)) then
+            given%outcome = made
+            given%has_outcome = .true.
+            call give_outcome(made, outcome)
+         end if
+      end if
+      call give_error(failure, error, code)
+   end function simulation_step
+
+   !> Inputs from the caller's struct.
+   subroutine take_inputs(address, inputs, error)
+      !> The struct
+      type(c_ptr), intent(in) :: address
+      !> The inputs
+      type(inputs_t), intent(out) :: inputs
+      !> Usage error where the struct is not one of this version
+      type(error_t), allocatable, intent(out) :: error
+
+      type(c_inputs_t), pointer :: given
+
+      call c_f_pointer(address, given)
+      if (given%size /= storage_size(given)/8) then
+         call raise(error, kind_usage, "camroller_inputs: set its size to sizeof(camroller_inputs), of the header that belongs "// &
+            & "to this library")
+         return
+      end if
+      inputs%speed = given%speed
+      inputs%oil_temperature = given%oil_temperature
+      inputs%has_pressure = given%has_pressure /= 0
+      inputs%gas_pressure = given%gas_pressure
+   end subroutine take_inputs
+
+   !> Refuse a struct for the outcome that is not one of this version.
+   subroutine check_outcome(address, error)
+      !> The struct; NULL is fine
+      type(c_ptr), intent(in) :: address
+      !> Usage error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(c_outcome_t), pointer :: given
+
+      if (.not. c_associated(address)) return
+      call c_f_pointer(address, given)
+      if (given%size /= storage_size(given)/8) call raise(error, kind_usage, "camroller_outcome: set its size to "// &
+         & "sizeof(camroller_outcome), of the header that belongs to this library")
+   end subroutine check_outcome
+
+   !> Fill the caller's struct.
+   subroutine give_outcome(outcome, address)
+      !> What the step gave
+      type(outcome_t), intent(in) :: outcome
+      !> The struct; NULL takes nothing
+      type(c_ptr), intent(in) :: address
+
+      type(c_outcome_t), pointer :: given
+
+      if (.not. c_associated(address)) return
+      call c_f_pointer(address, given)
+      given%mean_torque_drive = outcome%mean_torque_drive
+      given%torque_drive = outcome%torque_drive
+      given%mean_torque_friction = outcome%mean_torque_friction
+      given%torque_friction = outcome%torque_friction
+      given%mean_torques = outcome%mean_torques(:5)
+      given%torques = outcome%torques(:5)
+      given%cam_force = outcome%cam_force
+      given%contact_load = outcome%extremes%contact_load
+      given%extreme_torque = outcome%extremes%torque_drive
+      given%sliding_speed = outcome%extremes%sliding_speed
+      given%largest_pressure = outcome%extremes%hertz_pressure
+      given%smallest_film = outcome%extremes%film_min
+   end subroutine give_outcome
+
+   !> Number of the follower at the end of its last step, by the name of a series.
+   function simulation_value(handle, name, value, error) bind(C, name="camroller_simulation_value") result(code)
+      !> The follower, the name
+      type(c_ptr), value, intent(in) :: handle, name
+      !> Gets the number
+      type(c_ptr), value, intent(in) :: value
+      !> Error struct or NULL
+      type(c_ptr), value, intent(in) :: error
+      !> 0 or the kind of the error
+      integer(c_int) :: code
+
+      type(simulation_handle_t), pointer :: given
+      type(error_t), allocatable :: failure
+      type(quantity_t), allocatable :: series(:)
+      character(len=:), allocatable :: word
+      ! The caller's number, all numbers of the follower [unit of the series]
+      real(c_double), pointer :: number
+      real(wp), allocatable :: values(:)
+      integer :: position
+
+      call refuse_null(handle, "camroller_simulation", failure)
+      call refuse_null(name, "name", failure)
+      call refuse_null(value, "value", failure)
+      if (.not. allocated(failure)) then
+         call c_f_pointer(handle, given)
+         call take_text(name, word)
+         call list_series(given%case, series)
+         position = find_quantity(series, word)
+         allocate (values(follower_count(given%case)))
+         if (position < 1 .or. position > size(values)) then
+            call raise(failure, kind_usage, "a follower has no number '"//word//"'; it has the series of a result that belong "// &
+               & "to one follower")
+         else if (.not. given%has_outcome) then
+            call raise(failure, kind_usage, "the follower has made no step yet")
+         else
+            call get_values(given%simulation, given%case, given%outcome%state, values)
+            call c_f_pointer(value, number)
+            number = values(position)
+         end if
+      end if
+      call give_error(failure, error, code)
+   end function simulation_value
+
+   !> Cam angle of a follower; 0 for NULL.
+   function simulation_angle(handle) bind(C, name="camroller_simulation_angle") result(angle)
+      !> The follower
+      type(c_ptr), value, intent(in) :: handle
+      !> Its cam angle [rad]
+      real(c_double) :: angle
+
+      type(simulation_handle_t), pointer :: given
+      type(point_t) :: point
+
+      angle = 0.0_c_double
+      if (.not. c_associated(handle)) return
+      call c_f_pointer(handle, given)
+      point = get_point(given%simulation)
+      angle = point%angle
+   end function simulation_angle
+
+   !> Bring the roller to rest.
+   function simulation_halt(handle, error) bind(C, name="camroller_simulation_halt") result(code)
+      !> The follower
+      type(c_ptr), value, intent(in) :: handle
+      !> Error struct or NULL
+      type(c_ptr), value, intent(in) :: error
+      !> 0 or the kind of the error
+      integer(c_int) :: code
+
+      type(simulation_handle_t), pointer :: given
+      type(error_t), allocatable :: failure
+
+      call refuse_null(handle, "camroller_simulation", failure)
+      if (.not. allocated(failure)) then
+         call c_f_pointer(handle, given)
+         call halt(given%simulation)
+      end if
+      call give_error(failure, error, code)
+   end function simulation_halt
+
+   !> Bytes that a saved follower takes.
+   function simulation_save_size() bind(C, name="camroller_simulation_save_size") result(bytes)
+      !> The number
+      integer(c_size_t) :: bytes
+
+      bytes = block_size
+   end function simulation_save_size
+
+   !> Save a follower.
+   function simulation_save(handle, buffer, room, error) bind(C, name="camroller_simulation_save") result(code)
+      !> The follower, the buffer
+      type(c_ptr), value, intent(in) :: handle, buffer
+      !> Size of the buffer
+      integer(c_size_t), value, intent(in) :: room
+      !> Error struct or NULL
+      type(c_ptr), value, intent(in) :: error
+      !> 0 or the kind of the error
+      integer(c_int) :: code
+
+      type(simulation_handle_t), pointer :: given
+      type(error_t), allocatable :: failure
+      integer(int8), allocatable :: bytes(:)
+      integer(int8), pointer :: letters(:)
+
+      call refuse_null(handle, "camroller_simulation", failure)
+      call refuse_null(buffer, "buffer", failure)
+      if (.not. allocated(failure) .and. room < block_size) call raise(failure, kind_usage, "the buffer is too small; ask "// &
+         & "camroller_simulation_save_size")
+      if (.not. allocated(failure)) then
+         call c_f_pointer(handle, given)
+         call save_simulation(given%simulation, given%case, bytes, failure)
+      end if
+      if (.not. allocated(failure)) then
+         call c_f_pointer(buffer, letters, [room])
+         letters(:size(bytes)) = bytes
+      end if
+      call give_error(failure, error, code)
+   end function simulation_save
+
+   !> Make a follower of what was saved.
+   function simulation_restore(case, buffer, room, out, error) bind(C, name="camroller_simulation_restore") result(code)
+      !> The case that the saved follower had, the buffer
+      type(c_ptr), value, intent(in) :: case, buffer
+      !> Bytes in it
+      integer(c_size_t), value, intent(in) :: room
+      !> Gets the follower, NULL where there is an error
+      type(c_ptr), value, intent(in) :: out
+      !> Error struct or NULL
+      type(c_ptr), value, intent(in) :: error
+      !> 0 or the kind of the error
+      integer(c_int) :: code
+
+      type(case_handle_t), pointer :: given
+      type(simulation_handle_t), pointer :: made
+      type(error_t), allocatable :: failure
+      integer(int8), pointer :: letters(:)
+
+      call refuse_null(case, "camroller_case", failure)
+      call refuse_null(buffer, "buffer", failure)
+      call refuse_null(out, "out", failure)
+      if (.not. allocated(failure)) then
+         call c_f_pointer(case, given)
+         call c_f_pointer(buffer, letters, [room])
+         allocate (made)
+         made%case = given%case
+         call restore_simulation(made%simulation, made%case, letters, failure)
+         call give_simulation(out, made, failure)
+      end if
+      call give_error(failure, error, code)
+   end function simulation_restore
+
+end module camroller_c_simulation

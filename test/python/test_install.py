@@ -1,0 +1,122 @@
+"""The installed library: from an empty prefix a C program is built and tries every call of the interface.
+
+The libraries are built by CMake, without HDF5, into build/cmake, which is kept from run to run.
+"""
+
+from __future__ import annotations
+
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+
+import pytest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+DECK = ROOT / "decks" / "thesis.nml"
+
+pytestmark = pytest.mark.skipif(shutil.which("cmake") is None, reason="cmake is not installed")
+
+
+def run(*command, **options):
+    """Run a command that must succeed; its output."""
+    done = subprocess.run([str(word) for word in command], capture_output=True, text=True, check=False, **options)
+    assert done.returncode == 0, done.stdout + done.stderr
+    return done.stdout
+
+
+@pytest.fixture(scope="module")
+def prefix(tmp_path_factory):
+    """A prefix with the core installed."""
+    place = tmp_path_factory.mktemp("prefix")
+    build = ROOT / "build" / "cmake"
+    run("cmake", "-S", ROOT, "-B", build, "-DCAMROLLER_IO=OFF", "-DCMAKE_INSTALL_LIBDIR=lib", f"-DCMAKE_INSTALL_PREFIX={place}")
+    run("cmake", "--build", build, "-j2")
+    run("cmake", "--install", build)
+    return place
+
+
+@pytest.fixture(scope="module")
+def host(prefix, tmp_path_factory):
+    """The C program, built by what pkg-config says of the prefix."""
+    program = tmp_path_factory.mktemp("host") / "interface"
+    flags = run("pkg-config", "--cflags", "--libs", "camroller",
+                env={**os.environ, "PKG_CONFIG_PATH": str(prefix / "lib" / "pkgconfig")}).split()
+    run("gcc", "-std=c11", "-Wall", "-Wextra", "-Werror", "-g", ROOT / "test" / "c" / "interface.c", *flags, "-lm",
+        f"-Wl,-rpath,{prefix}/lib", "-o", program)
+    return program
+
+
+def test_every_call_of_the_c_interface(host):
+    assert "0 failures" in run(host, DECK, cwd=ROOT)
+
+
+def test_no_memory_is_lost_or_misused(host):
+    if shutil.which("valgrind") is None:
+        pytest.skip("valgrind is not installed")
+    run("valgrind", "-q", "--leak-check=full", "--error-exitcode=3", host, DECK, cwd=ROOT)
+
+
+def test_a_follower_goes_on_in_another_process_bit_by_bit(host, tmp_path):
+    block = tmp_path / "block"
+    first = run(host, DECK, block, cwd=ROOT)
+    assert block.stat().st_size > 0
+    assert run(host, DECK, block, cwd=ROOT) == first
+
+
+def test_header_is_c_plus_plus_too(prefix, tmp_path):
+    source = tmp_path / "use.cpp"
+    source.write_text("#include <camroller.h>\nint main() { return camroller_library_version() / 100 != CAMROLLER_VERSION / 100; }\n")
+    run("gcc", "-x", "c++", "-fsyntax-only", "-Wall", "-Wextra", "-Werror", f"-I{prefix}/include", source)
+
+
+def test_the_library_shows_its_own_names_and_needs_no_hdf5(prefix):
+    library = prefix / "lib" / "libcamroller.so"
+    shown = [line.split()[-1] for line in run("nm", "-D", "--defined-only", library).splitlines()]
+    assert [name for name in shown if not name.startswith(("camroller_", "__camroller_"))] == []
+    declared = set(re.findall(r"\b(camroller_\w+)\(", (ROOT / "include" / "camroller.h").read_text()))
+    assert declared == {name for name in shown if name.startswith("camroller_")}
+    assert "hdf5" not in run("ldd", library)
+    assert re.search(r"SONAME.*libcamroller\.so\.\d+\.\d+\]", run("readelf", "-d", library))
+
+
+def test_no_call_of_c_has_the_name_of_a_module():
+    """Both are global names of a program: gfortran takes one for the other without a word."""
+    sources = [path.read_text() for top in ("src", "app") for path in (ROOT / top).rglob("*.f90")]
+    calls = {name for text in sources for name in re.findall(r'bind\(C, name="(\w+)"\)', text)}
+    modules = {name for text in sources for name in re.findall(r"^module (\w+)$", text, re.MULTILINE)}
+    assert "camroller_case_run" in calls and not calls & modules
+
+
+def test_a_fortran_program_and_a_cmake_project_find_the_prefix(prefix, tmp_path):
+    (tmp_path / "host.f90").write_text("""program host
+   use camroller_core, only : wp, error_t, deck_t, override_t, case_t, simulation_t, outcome_t, inputs_t, read_deck, make_case, &
+      & start_simulation, advance
+   implicit none
+   type(deck_t) :: deck
+   type(case_t) :: case
+   type(simulation_t) :: simulation
+   type(outcome_t) :: outcome
+   type(override_t) :: none(0)
+   type(error_t), allocatable :: error
+   character(len=512) :: path
+   call get_command_argument(1, path)
+   call read_deck(deck, trim(path), none, error)
+   if (.not. allocated(error)) call make_case(deck, none, case, error)
+   if (.not. allocated(error)) call start_simulation(simulation, case, 0.0_wp, error)
+   if (.not. allocated(error)) call advance(simulation, 1.0_wp, inputs_t(30.0_wp, 333.15_wp), inputs_t(31.0_wp, 333.15_wp), &
+      & outcome, error)
+   if (allocated(error)) stop 1
+   if (.not. outcome%mean_torque_friction > 0.0_wp) stop 2
+end program host
+""")
+    (tmp_path / "CMakeLists.txt").write_text("""cmake_minimum_required(VERSION 3.16)
+project(host LANGUAGES C Fortran)
+find_package(camroller REQUIRED)
+add_executable(host host.f90)
+target_link_libraries(host PRIVATE camroller::camroller_shared)
+""")
+    run("cmake", "-S", tmp_path, "-B", tmp_path / "build", f"-DCMAKE_PREFIX_PATH={prefix}")
+    run("cmake", "--build", tmp_path / "build")
+    run(tmp_path / "build" / "host", DECK)
