@@ -69,10 +69,10 @@ contains
          call take(deck%settings, "sweep", "series_cases", chosen)
          space = space + number_size*real(cost%words_with_series - cost%words, wp)*size(chosen)
       end if
-      text = text//"! 'camroller run' writes about "//megabytes(number_size*real(cost%words_with_series, wp)*cases)// &
-         & " with the series of every case, 'camroller sweep' about "//megabytes(space)//new_line("a")
       text = text//"! memory about "//megabytes(peak_memory() + cores*thread_size)//"; on disk at most "// &
          & megabytes(space)//" in parts while it runs, and as much again for the result file at the end"//new_line("a")
+      text = text//"! 'camroller run' writes about "//megabytes(number_size*real(cost%words_with_series, wp)*cases)// &
+         & " with the series of every case, 'camroller sweep' about "//megabytes(space)//new_line("a")
    end subroutine cost_in_words
 
    !> The n-th case of the sample that stands for all.
