@@ -156,7 +156,7 @@ contains
       end if
       if (case%dynamics%lash > 0.0_wp) then
          if (.not. allocated(flexible%adjuster)) return
-         call raise(error, kind_deck, "dynamics: a lash adjuster leaves no lash; dynamics.lash_mm must be 0 with it")
+         call raise(error, kind_deck, "dynamics: a lash adjuster leaves no lash; its lash must be 0")
          return
       end if
       call find_rest(flexible, linkage, train, load, rest, error)

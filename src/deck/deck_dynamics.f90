@@ -44,8 +44,6 @@ contains
          & is_optional=.true.)
       call add_number(schema, "seat_restitution_speed_m_s", positive, "speed of that impact", &
          & default=standard%seat_restitution_speed)
-      call add_number(schema, "lash_um", not_negative, "mechanical lash at the pad of the closed valve; 0: the base circle "// &
-         & "load presses the train together", default=standard%lash)
       call add_surge_keys(schema)
       call add_adjuster_keys(schema)
    end subroutine add_dynamics_keys
@@ -129,7 +127,6 @@ contains
          call take(settings, "dynamics", "seat_damping_s_m", dynamics%seat_damping)
          call take(settings, "dynamics", "seat_restitution", dynamics%seat_restitution)
          call take(settings, "dynamics", "seat_restitution_speed_m_s", dynamics%seat_restitution_speed)
-         call take(settings, "dynamics", "lash_um", dynamics%lash)
       end associate
       if (has_group(settings, "spring_surge")) then
          allocate (case%spring_surge)
@@ -206,7 +203,6 @@ contains
       end select
       call finger_is_known(settings, mistakes)
       call spring_leaves_a_valve(settings, mistakes)
-      call lash_has_no_adjuster(settings, mistakes)
    end subroutine check_dynamics
 
    !> The base circle load is given, or the plunger's spring that makes it.
@@ -268,22 +264,5 @@ contains
       call complain(mistakes, settings, "spring_surge", "mass_kg", "a third of 'mass_kg' must be below masses 'valve_kg', "// &
          & "which holds it")
    end subroutine spring_leaves_a_valve
-
-   !> An adjuster takes up all lash.
-   subroutine lash_has_no_adjuster(settings, mistakes)
-      !> The settings
-      type(settings_t), intent(in) :: settings
-      !> Mistakes so far
-      type(mistakes_t), intent(inout) :: mistakes
-
-      !> The lash [m]
-      real(wp) :: lash
-
-      if (.not. has_group(settings, "lash_adjuster")) return
-      lash = 0.0_wp
-      call take(settings, "dynamics", "lash_um", lash)
-      if (lash > 0.0_wp) call complain(mistakes, settings, "dynamics", "lash_um", "'lash_um' must be 0 with &lash_adjuster, "// &
-         & "which takes up all lash")
-   end subroutine lash_has_no_adjuster
 
 end module camroller_deck_dynamics

@@ -24,7 +24,6 @@ MISTAKES = [
     (DECK, "spring_surge.mass_kg=-0.1", "mass_kg"),
     (DECK, "numerics.method='euler'", "'method' must be 'automatic', 'rodas5p', 'radau5' or 'dormand_prince' with &dynamics"),
     (DECK, "asperity.mobilisation='stick_slip'", "'mobilisation' must be 'regularised' with &dynamics"),
-    (ADJUSTER, "dynamics.lash_um=50", "'lash_um' must be 0 with &lash_adjuster"),
     (ADJUSTER, "lash_adjuster.plunger_spring_N=10", "give it or spring 'base_circle_load_N', not both"),
     (ADJUSTER, "lash_adjuster.supply_pressure_MPa=0.5", "the supply pressure alone presses the plunger"),
     (ADJUSTER, "lash_adjuster.air_content=0", "air_content"),
