@@ -26,6 +26,9 @@ module camroller_report
 
    public :: take_statistics, make_result, output_angles
 
+   !> Distance of the states on both sides of a stop, where series may jump [rad]
+   real(wp), parameter :: beside = 1.0e-9_wp
+
 contains
 
    !> Means of all lobe shapes, and what is met on the way.
@@ -269,16 +272,16 @@ contains
 
       type(state_t) :: state
       ! Cam angles from full lift [rad]; a row [unit of the series]
-      real(wp) :: angles(size(cycle%stops) + 1), values(size(samples%values, 1))
+      real(wp) :: angles(3*size(cycle%stops) + 1), values(size(samples%values, 1))
       integer :: hint, i
 
       hint = 1
-      angles = [cycle%stops, margins%event%angle]
+      angles = [cycle%stops - beside, cycle%stops, cycle%stops + beside, margins%event%angle]
       do i = 1, size(angles)
          call state_at(cycle, model, angles(i), hint, state, error)
          if (allocated(error)) return
          call follower_values(case, model, state, values)
-         call add_sample(samples, angles(i), values, i <= size(cycle%stops))
+         call add_sample(samples, angles(i), values, i < size(angles))
       end do
    end subroutine add_stops
 
@@ -381,6 +384,7 @@ contains
       integer :: i, series, sense
 
       stops = [(cycles(shaft%lobes(i))%stops + shaft%phases(i), i=1, size(shaft%lobes))]
+      stops = [stops - beside, stops, stops + beside]
       do i = 1, size(stops)
          call camshaft_row(case, models, cycles, shaft, stops(i), values, error)
          if (allocated(error)) return
