@@ -1,4 +1,4 @@
-!> What is public of the core, under one name: no code. The core is everything up to decks, runs and followers, without files of HDF5.
+!> What is public of the core, under one name: no code. The core is everything up to decks, runs and followers, without HDF5 files.
 !>
 !> A program that links libcamroller without libcamroller_io needs this module alone; `camroller` has the same and sweeps beside.
 module camroller_core
