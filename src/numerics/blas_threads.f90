@@ -96,8 +96,9 @@ contains
          & counted(threads, "thread")//"; allow more (ulimit -v) or take fewer threads (--threads)")
    end subroutine check_blas_memory
 
-   !> Can buffers be mapped beside what there is?
-   function can_map(buffers) result(answer)
+   !> Can buffers be mapped beside what there is? One by one: a system that lends more memory than there is refuses a single request
+   !> for all of it.
+   recursive function can_map(buffers) result(answer)
       !> How many
       integer, intent(in) :: buffers
       !> Can they?
@@ -107,8 +108,9 @@ contains
       integer(int8), allocatable, volatile :: room(:)
       integer :: status
 
-      allocate (room(int(buffers, int64)*(buffer_size + own_need)*megabyte), stat=status)
+      allocate (room(int(buffer_size + own_need, int64)*megabyte), stat=status)
       answer = status == 0
+      if (answer .and. buffers > 1) answer = can_map(buffers - 1)
    end function can_map
 
    !> Address of a routine of the program or its libraries; not associated where there is none.
