@@ -13,8 +13,8 @@ import re
 import subprocess
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-# Folders that one thread at a time runs through: they write results, with a library that is not made for threads.
-ONE_THREAD = {"hdf5", "output", "batch", "app"}
+# Folders that one thread at a time runs through: they write results and pages, with a library that is not made for threads.
+ONE_THREAD = {"hdf5", "output", "parts", "batch", "look", "app"}
 # What files are written by, beside them; the texts of signal handlers, set once; constants of the compiler's.
 KNOWN = {
     "files/raw_file.f90": r"slen\.",
