@@ -43,7 +43,7 @@ def host(prefix, tmp_path_factory):
     program = tmp_path_factory.mktemp("host") / "interface"
     flags = run("pkg-config", "--cflags", "--libs", "camroller",
                 env={**os.environ, "PKG_CONFIG_PATH": str(prefix / "lib" / "pkgconfig")}).split()
-    run("gcc", "-std=c11", "-Wall", "-Wextra", "-Werror", "-g", ROOT / "test" / "c" / "interface.c", *flags, "-lm",
+    run("gcc", "-std=c11", "-Wall", "-Wextra", "-Werror", "-g", ROOT / "tools" / "try_c_interface.c", *flags, "-lm",
         f"-Wl,-rpath,{prefix}/lib", "-o", program)
     return program
 
