@@ -19,7 +19,13 @@ contains
       !> The case
       type(case_t), intent(inout) :: case
 
-      if (case%lubricant%temperature_law /= "direct") case%lubricant%viscosity = case%lubricant%viscosity_points(2)
+      ! Of the order of engine oils when hot; oils of a data sheet have no points [Pa s]
+      real(wp), parameter :: usual_viscosity = 1.0e-2_wp
+
+      if (case%lubricant%temperature_law /= "direct") then
+         case%lubricant%viscosity = usual_viscosity
+         if (allocated(case%lubricant%viscosity_points)) case%lubricant%viscosity = case%lubricant%viscosity_points(2)
+      end if
       case%lubricant%temperature_law = "direct"
       case%lubricant%pressure_law = "barus"
       if (.not. case%lubricant%pressure_viscosity > 0.0_wp) case%lubricant%pressure_viscosity = 2.0e-8_wp
