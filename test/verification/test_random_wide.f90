@@ -157,7 +157,9 @@ contains
 
       name = " "//group//"."//trim(key%name)
       if (.not. is_seen(mark_given)) missing = missing//name//";"
-      if (.not. (is_seen(mark_absent) .or. key%is_required .or. key%type == type_name)) missing = missing//name//" left out;"
+      ! Without an adjuster the base circle load has to be given
+      if (.not. (is_seen(mark_absent) .or. key%is_required .or. key%type == type_name .or. &
+         & index(name, "spring.base_circle_load_N") > 0)) missing = missing//name//" left out;"
       select case (key%type)
       case (type_name)
          do i = 1, size(key%choices)
@@ -346,8 +348,9 @@ contains
 
       trouble = ""
       do i = 1, size(estimates)
-         if (scalar_of(result, trim(estimates(i))) > case%numerics%accuracy .and. all(result%remarks%kind /= kinds(i))) &
-            & trouble = trouble//" "//trim(estimates(i))//" above the accuracy without a remark;"
+         if (scalar_of(result, trim(estimates(i))) > case%numerics%accuracy .and. all(result%remarks%kind /= kinds(i))) then
+            trouble = trouble//" "//trim(estimates(i))//" above the accuracy without a remark;"
+         end if
       end do
    end function missing_remarks
 

@@ -154,8 +154,9 @@ contains
       if (case%energy /= energy_names(1)) return
       lost = scalar_of(result, "lost_contact_share") + scalar_of(result, "lobe_2_lost_contact_share")
       if (.not. allocated(case%gas_force) .and. .not. lost > 0.0_wp) then
-         if (abs(scalar_of(result, "mean_torque_geometric")) > rounding*scalar_of(result, "max_torque_geometric")) &
-            & trouble = " the mean of the geometric torque is not zero;"
+         if (abs(scalar_of(result, "mean_torque_geometric")) > rounding*scalar_of(result, "max_torque_geometric")) then
+            trouble = " the mean of the geometric torque is not zero;"
+         end if
       end if
       power = abs(series_of(result, "torque_geometric")) + abs(series_of(result, "torque_friction")) &
          & + abs(series_of(result, "torque_roller_inertia"))
@@ -186,8 +187,9 @@ contains
       if (.not. found <= allowed) trouble = " sliding speeds"//words_of_difference(found, allowed)
       ! Each rise or fall of the calmer curve may be longer or shorter by the difference at both of its ends; what goes beyond are
       ! rises and falls that it does not have
-      if (abs(variation(first) - variation(second)) > 2.0_wp*min(pieces(first), pieces(second))*scale*max(found, allowed)) &
-         & trouble = trouble//" the sliding speed chatters;"
+      if (abs(variation(first) - variation(second)) > 2.0_wp*min(pieces(first), pieces(second))*scale*max(found, allowed)) then
+         trouble = trouble//" the sliding speed chatters;"
+      end if
       ! A remark takes the promise back
       if (.not. has_remark(one, other, [missed_means, loose_tolerance])) call compare_means(one, other, &
          & promised_error(case, one, "estimated_error_of_means") + promised_error(case, other, "estimated_error_of_means"), trouble)
@@ -255,8 +257,9 @@ contains
       scale = 0.0_wp
       if (name == lobe//"sliding_speed") scale = least_slip*scalar_of(result, "max_"//lobe//"rolling_speed")
       if (name == lobe//"slip_ratio") scale = least_slip
-      if (index(name, "friction_") > 0 .or. index(name, "traction") > 0) &
-         & scale = least_force*scalar_of(result, "max_"//lobe//"contact_load")
+      if (index(name, "friction_") > 0 .or. index(name, "traction") > 0) then
+         scale = least_force*scalar_of(result, "max_"//lobe//"contact_load")
+      end if
       if (index(name, "asperity_friction_share") > 0) scale = least_force
    end function least_scale
 
@@ -298,8 +301,9 @@ contains
                difference = max(0.0_wp, abs(values(1, k) - values(2, k)) - least)
                if (difference > allowed*range) trouble = trouble//" "//merge("min_", "max_", k == 1)//name// &
                   & words_of_difference(difference/range, allowed)
-               if (k == 1 .and. index(name, "film_thickness_min") > 0 .and. difference > allowed*minval(values(:, 1))) &
-                  & trouble = trouble//" min_"//name//" by itself"//words_of_difference(difference/maxval(values(:, 1)), allowed)
+               if (k == 1 .and. index(name, "film_thickness_min") > 0 .and. difference > allowed*minval(values(:, 1))) then
+                  trouble = trouble//" min_"//name//" by itself"//words_of_difference(difference/maxval(values(:, 1)), allowed)
+               end if
             end do
          end associate
       end do

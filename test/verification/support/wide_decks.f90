@@ -49,6 +49,9 @@ module wide_decks
    real(wp), parameter :: source_share = 0.3_wp, stop_share = 0.05_wp, needed_share = 0.2_wp
    !> Width of a bearing that the law of finite width takes for every diameter drawn [mm]
    real(wp), parameter :: widest_finite = 17.0_wp
+   !> Groups that are not drawn
+   character(len=*), parameter :: left_out_groups(*) = [character(len=13) :: "sweep", "engine", "dynamics", "spring_surge", &
+      & "lash_adjuster"]
    character(len=*), parameter :: nl = new_line("a")
 
 contains
@@ -119,17 +122,18 @@ contains
       end do
    end subroutine start_stream
 
-   !> Keys that say what is done with a result, not what it is.
+   !> Keys that say what is done with a result, not what it is, and what is not drawn yet: engines, flexible trains, grades of oil.
    pure function is_left_out(group, key)
       !> Names of group and key
       character(len=*), intent(in) :: group, key
       logical :: is_left_out
 
       select case (trim(group)//"."//trim(key))
-      case ("case.title", "ehl.profiles", "output.series", "output.compression")
+      case ("case.title", "ehl.profiles", "output.series", "output.compression", "cam_bearings.cam_cylinders", "lift.table_kind", &
+         & "second_lift.table_kind", "lubricant.viscosity_index", "lubricant.sae_grade")
          is_left_out = .true.
       case default
-         is_left_out = group == "sweep"
+         is_left_out = any(group == left_out_groups)
       end select
    end function is_left_out
 
@@ -185,7 +189,7 @@ contains
       if (schema%groups(group)%kind == group_required) has_group = .true.
       if (schema%groups(group)%name == "cam_bearings") has_group = draft%has_cams
       if (schema%groups(group)%name == "second_lift") has_group = draft%has_second
-      if (schema%groups(group)%name == "sweep") has_group = .false.
+      if (any(schema%groups(group)%name == left_out_groups)) has_group = .false.
    end function has_group
 
    !> Draw one key, or leave it out.
@@ -299,8 +303,8 @@ contains
          is_given = index(" vogel walther ", " "//deck_word(text, group, "temperature_law")//" ") > 0
       case ("viscosity_at_40_degC_mm2_s", "viscosity_at_100_degC_mm2_s")
          is_given = deck_word(text, group, "temperature_law") == "data_sheet"
-      case ("viscosity_index", "sae_grade", "table_kind")
-         is_given = .false.
+      case ("base_circle_load_N")
+         is_given = .true.
       case ("pressure_viscosity_coefficient_per_GPa")
          is_given = draft%is_first .or. (is_given .and. deck_word(text, group, "pressure_law") /= "roelands")
       case ("roelands_index")
