@@ -172,7 +172,7 @@ contains
          best = min(best, cycle%closure)
       end do
       call raise(error, kind_convergence, "the cycle did not become periodic: after numerics.max_cycles cycles, sliding "// &
-         & "speeds at start and end, "//trim(problem%name_time(cycle%start))//", differ by more than numerics.periodicity. "// &
+         & "speeds at start and end, at "//trim(problem%name_time(cycle%start))//", differ by more than numerics.periodicity. "// &
          & "Reasons may be a spin with little damping, or explicit steps beyond the stability limit")
    end subroutine integrate_roller
 

@@ -257,7 +257,7 @@ contains
       scale = 0.0_wp
       if (name == lobe//"sliding_speed") scale = least_slip*scalar_of(result, "max_"//lobe//"rolling_speed")
       if (name == lobe//"slip_ratio") scale = least_slip
-      if (index(name, "friction_") > 0 .or. index(name, "traction") > 0) then
+      if (index(name, "friction_") > 0 .or. index(name, "traction") > 0 .or. index(name, "asperity_load") > 0) then
          scale = least_force*scalar_of(result, "max_"//lobe//"contact_load")
       end if
       if (index(name, "asperity_friction_share") > 0) scale = least_force
