@@ -92,7 +92,7 @@ contains
             estimate%shares(:size(nodes)) = estimate%contraction
          end where
          if (i == size(cuts)) exit
-         part = cuts(i + 1) - cuts(i)
+         part = cuts(min(i + 1, size(cuts))) - cuts(i)
          do j = 0, 2
             defects(j + 1) = value_at(places(:known), values(:known), cuts(i) + 0.5_wp*j*part)
          end do
