@@ -46,7 +46,8 @@ contains
       type(sweep_report_t) :: report
       type(error_t), allocatable :: failure
 
-      call read_deck(deck, config%subject, config%overrides, error, columns)
+      call check_blas_memory(1, error)
+      if (.not. allocated(error)) call read_deck(deck, config%subject, config%overrides, error, columns)
       if (allocated(error)) return
       if (config%has_no_sweep) call drop_sweep(deck)
       if (.not. config%is_quiet) call tell_unused_values(deck)
@@ -76,7 +77,8 @@ contains
 
       call ignore_size_signal(former)
       call heed_stop_signals()
-      call read_deck(deck, config%subject, config%overrides, error, columns)
+      call check_blas_memory(1, error)
+      if (.not. allocated(error)) call read_deck(deck, config%subject, config%overrides, error, columns)
       if (agreed_code(team, error) /= 0) return
       if (team%rank == 0 .and. .not. config%is_quiet) call tell_unused_values(deck)
       if (team%rank == 0 .and. .not. config%is_quiet) call tell_deck_remarks(deck)
@@ -216,11 +218,11 @@ contains
       case (sweep_made)
          words = words//": "//counted(report%tally%cases - report%tally%missing, "case")//" in "//seconds_since(console)
          if (report%tally%missing > 0) words = words//", "//integer_text(report%tally%missing)//" missing"
-         call print_lines(words, error)
-         if (config%command == "run" .and. .not. allocated(error)) then
+         if (config%command == "run") then
             call write_result_table(output_path(config, ".h5"), table, error)
             if (.not. allocated(error)) call print_lines(table, error)
          end if
+         if (.not. allocated(error)) call print_lines(words, error)
          call tell_remarks(report%tally%remarks, deck)
       case (sweep_was_complete)
          call print_lines(words//" is there with all cases", error)
