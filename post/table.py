@@ -27,6 +27,7 @@ COLUMNS = [
     ('mean_torque_contact', 'contact', 'N mm'),
     ('mean_torque_needle', 'roller bearing', 'N mm'),
     ('mean_torque_guide', 'guide', 'N mm'),
+    ('mean_torque_damping', 'damping', 'N mm'),
     ('mean_torque_bearings', 'cam bearings', 'N mm'),
     ('mean_torque_friction', 'all friction', 'N mm'),
     ('mean_slip_ratio', 'mean slip', '%'),

@@ -1,6 +1,7 @@
 """Tests of reading and drawing, on small made-up files in the layout that the solver writes."""
 
 from pathlib import Path
+import re
 import subprocess
 import sys
 
@@ -14,8 +15,9 @@ from figures import FIGURES, draw
 from layout import Layout, chosen_cases, thin_out
 from parts import closed, event_window, set_values_axis
 from plot import main
-from quantities import CURVES, values_of
+from quantities import CURVES, SOURCES, values_of
 from read import ResultError, read_result
+from table import COLUMNS
 
 SPEED, OIL = "operating_point.speed_rpm", "operating_point.oil_temperature_degC"
 UNITS = {SPEED: "rpm", OIL: "degC"}
@@ -312,3 +314,12 @@ def test_it_runs_from_anywhere_without_a_display(nine, tmp_path):
         codes.append(done.returncode)
     assert codes == [0, 2]
     assert drawn_files(tmp_path) == ["nine_load.png"]
+
+
+def test_every_loss_of_the_program_has_a_colour_and_a_column():
+    """Figures and tables know each loss that the program's list of torques names."""
+    rows = (Path(__file__).parent.parent / "src/losses/torque_list.f90").read_text(encoding="utf-8")
+    losses = {f"mean_torque_{name}" for name in re.findall(r'torque_row_t\("(\w+)".*kind_loss', rows)}
+    assert len(losses) >= 5
+    assert losses == {name for name, *_ in SOURCES}
+    assert losses <= {name for name, *_ in COLUMNS}

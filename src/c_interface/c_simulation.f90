@@ -12,6 +12,7 @@ module camroller_c_simulation
    use camroller_result, only : quantity_t, find_quantity
    use camroller_simulation, only : simulation_t, outcome_t, inputs_t, start_simulation, advance, halt, get_point, get_values
    use camroller_saved_simulation, only : save_simulation, restore_simulation, block_size
+   use camroller_torque_list, only : of_geometric, of_contact, of_needle, of_guide, of_roller_inertia
    use camroller_c_case, only : case_handle_t
    use camroller_c_texts, only : take_text, give_error, refuse_null
    implicit none
@@ -220,6 +221,8 @@ contains
       !> The struct; NULL takes nothing
       type(c_ptr), intent(in) :: address
 
+      ! Torques in the order of the struct
+      integer, parameter :: listed(*) = [of_geometric, of_contact, of_needle, of_guide, of_roller_inertia]
       type(c_outcome_t), pointer :: given
 
       if (.not. c_associated(address)) return
@@ -228,8 +231,8 @@ contains
       given%torque_drive = outcome%torque_drive
       given%mean_torque_friction = outcome%mean_torque_friction
       given%torque_friction = outcome%torque_friction
-      given%mean_torques = outcome%mean_torques(:5)
-      given%torques = outcome%torques(:5)
+      given%mean_torques = outcome%mean_torques(listed)
+      given%torques = outcome%torques(listed)
       given%cam_force = outcome%cam_force
       given%contact_load = outcome%extremes%contact_load
       given%extreme_torque = outcome%extremes%torque_drive

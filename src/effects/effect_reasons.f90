@@ -13,6 +13,7 @@ module camroller_effect_reasons
    use camroller_film, only : groups_t
    use camroller_hertz, only : peak_pressure
    use camroller_number_text, only : fixed_text, scientific_text
+   use camroller_torque_list, only : of_guide, of_needle
    implicit none
    private
 
@@ -51,11 +52,11 @@ contains
             reason = "film ratio from "//trim(text(minval(contact%film_ratio)))//" to "//trim(text(maxval(contact%film_ratio))) &
                & //", asperities carry up to "//trim(percent(maxval(contact%asperity_load/contact%load)))//" of the load"
          case (effect_needle)
-            losses = states%torque_needle
+            losses = states%torques(of_needle)
             lost = mean_over(survey%grid, losses)
             reason = "takes "//trim(percent(lost/all_lost))//" of the follower's friction torque"
          case (effect_guide)
-            losses = states%torque_guide
+            losses = states%torques(of_guide)
             lost = mean_over(survey%grid, losses)
             reason = "takes "//trim(percent(lost/all_lost))//" of the follower's friction torque"
          case (effect_bearings)

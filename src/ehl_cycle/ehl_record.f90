@@ -13,6 +13,7 @@ module camroller_ehl_record
    use camroller_roller, only : spin_acceleration
    use camroller_state, only : state_t, add_torques, evaluate_loading
    use camroller_stick, only : has_stick
+   use camroller_torque_list, only : of_contact, of_residual
    implicit none
    private
 
@@ -106,8 +107,8 @@ contains
             & cycle%moments(i)%films%peak, state%contact%film_min, closed%film_min, state%contact%film_central, &
             & closed%film_central, cycle%moments(i)%films%asperity_share, closed%asperity_load/max(closed%load, tiny(1.0_wp)), &
             & state%contact%shear, closed%shear, state%contact%rolling_resistance, abs(closed%rolling_resistance), &
-            & state%contact%boundary_mobilised, closed%boundary_mobilised, state%contact%traction, state%torque_contact, &
-            & state%torque_friction, state%torque_drive, state%energy_residual]
+            & state%contact%boundary_mobilised, closed%boundary_mobilised, state%contact%traction, state%torques(of_contact), &
+            & state%torque_friction, state%torque_drive, state%torques(of_residual)]
       end do
    end subroutine make_ehl_record
 

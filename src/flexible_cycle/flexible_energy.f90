@@ -6,6 +6,7 @@ module camroller_flexible_energy
    use camroller_kinds, only : wp
    use camroller_model, only : model_t
    use camroller_torque, only : contact_power
+   use camroller_torque_list, only : torque_count, of_contact, of_needle, of_guide, of_damping
    use camroller_contact_compliance, only : series_energy
    use camroller_spring_modes, only : mode_energy
    use camroller_lash_adjuster, only : relative_volume, bulk_modulus, pressure_work, chamber_volume, oil_energy
@@ -21,8 +22,8 @@ module camroller_flexible_energy
       real(wp) :: drive = 0.0_wp, gallery = 0.0_wp
       !> On the gas in the cylinder [W]
       real(wp) :: gas = 0.0_wp
-      !> Losses: contact, roller bearing, guide [W]
-      real(wp) :: contact = 0.0_wp, bearing = 0.0_wp, guide = 0.0_wp
+      !> Losses, the rows of `torque_list` [W]; dampers, leak and check valve are one of them, and stand apart below
+      real(wp) :: losses(torque_count) = 0.0_wp
       !> Losses of dampers: cam and roller, pad, seat, spring, plunger, its stops [W]
       real(wp) :: cam_damping = 0.0_wp, pad_damping = 0.0_wp, seat_damping = 0.0_wp, spring_damping = 0.0_wp, &
          & plunger_drag = 0.0_wp, stop_damping = 0.0_wp
@@ -30,8 +31,6 @@ module camroller_flexible_energy
       real(wp) :: leak = 0.0_wp, check_valve = 0.0_wp
       !> Rate of the energy that is stored: without the roller's spin, and that of the spin [W]
       real(wp) :: stored = 0.0_wp, spin = 0.0_wp
-      !> All losses of dampers, leak and check valve [W]
-      real(wp) :: damping = 0.0_wp
       !> What is left of drive and gallery: round-off [W]
       real(wp) :: residual = 0.0_wp
    end type powers_t
@@ -49,16 +48,16 @@ contains
       !> The powers
       type(powers_t), intent(out) :: powers
 
-      integer :: first
+      integer :: first, i
 
       associate (contact => now%contact, touch => now%touch, modes => model%flexible%modes)
          powers%drive = model%speed*(contact%load*touch%normal_arm + contact%tangential_force*touch%tangent_arm &
             & + 2.0_wp*contact%rolling_resistance*touch%position%equivalent_radius)
          powers%gas = now%gas_force*state(at_speed)
-         powers%contact = contact_power(contact%traction, contact%sliding_speed, contact%rolling_resistance, &
+         powers%losses(of_contact) = contact_power(contact%traction, contact%sliding_speed, contact%rolling_resistance, &
             & contact%cam_surface_speed, contact%roller_surface_speed)
-         powers%bearing = contact%bearing_torque*contact%relative_spin
-         powers%guide = now%guide_drag*state(at_speed)**2
+         powers%losses(of_needle) = contact%bearing_torque*contact%relative_spin
+         powers%losses(of_guide) = now%guide_drag*state(at_speed)**2
          powers%cam_damping = (contact%load - now%cam%elastic)*now%cam%rate
          powers%pad_damping = (now%pad%force - now%pad%elastic)*now%pad%rate
          powers%seat_damping = (now%seat%force - now%seat%elastic)*now%seat%rate
@@ -70,10 +69,13 @@ contains
       end associate
       if (allocated(model%flexible%adjuster)) call add_oil(model, now, powers)
       powers%stored = stored_rate(model, state, now)
-      powers%damping = powers%cam_damping + powers%pad_damping + powers%seat_damping + powers%spring_damping &
+      powers%losses(of_damping) = powers%cam_damping + powers%pad_damping + powers%seat_damping + powers%spring_damping &
          & + powers%plunger_drag + powers%stop_damping + powers%leak + powers%check_valve
-      powers%residual = powers%drive + powers%gallery - powers%gas - powers%contact - powers%bearing - powers%guide &
-         & - powers%damping - powers%spin - powers%stored
+      powers%residual = powers%drive + powers%gallery - powers%gas
+      do i = 1, torque_count
+         powers%residual = powers%residual - powers%losses(i)
+      end do
+      powers%residual = powers%residual - powers%spin - powers%stored
    end subroutine evaluate_powers
 
    !> Powers of the oil: from the gallery, and lost in leak, check valve and the plunger's gap.

@@ -10,6 +10,7 @@ module camroller_flexible_follower
    use camroller_flexible_geometry, only : dot, cross
    use camroller_flexible_train, only : flexible_state_t, evaluate_train, first_mode, at_finger, at_finger_rate, at_lift, at_speed
    use camroller_flexible_energy, only : powers_t, evaluate_powers, stored_energy
+   use camroller_torque_list, only : of_geometric, of_roller_inertia, of_residual
    use camroller_flexible_measures, only : pivot_force
    implicit none
    private
@@ -44,13 +45,10 @@ contains
       call place_finger(model, train, now, state%position)
       state%boundary_friction = abs(now%contact%boundary_mobilised)
       state%contact_friction = abs(now%contact%shear) + state%boundary_friction + abs(now%contact%rolling_resistance)
-      state%torque_geometric = (powers%stored + powers%gas - powers%gallery)/model%speed
-      state%torque_contact = powers%contact/model%speed
-      state%torque_needle = powers%bearing/model%speed
-      state%torque_guide = powers%guide/model%speed
-      state%torque_roller_inertia = powers%spin/model%speed
-      state%torque_damping = powers%damping/model%speed
-      state%energy_residual = powers%residual
+      state%torques = powers%losses/model%speed
+      state%torques(of_geometric) = (powers%stored + powers%gas - powers%gallery)/model%speed
+      state%torques(of_roller_inertia) = powers%spin/model%speed
+      state%torques(of_residual) = powers%residual
       call add_sums(state)
       call take_values(model, angle, train, now, state, status)
    end subroutine evaluate_follower

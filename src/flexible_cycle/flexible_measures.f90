@@ -13,6 +13,7 @@ module camroller_flexible_measures
    use camroller_flexible_geometry, only : dot, imaginary
    use camroller_flexible_train, only : flexible_state_t, evaluate_train, first_mode, at_finger_rate, at_lift, at_speed
    use camroller_flexible_energy, only : powers_t, evaluate_powers
+   use camroller_torque_list, only : of_damping
    implicit none
    private
 
@@ -183,9 +184,8 @@ contains
       values(smallest_pivot_force) = min(values(smallest_pivot_force), joint)
       if (joint < 0.0_wp) values(tension_share) = values(tension_share) + weight
       values(drive_torque) = values(drive_torque) + weight*powers%drive/model%speed
-      values(loss_torque) = values(loss_torque) + weight*(powers%contact + powers%bearing + powers%guide + powers%damping) &
-         & /model%speed
-      values(damping_torque) = values(damping_torque) + weight*powers%damping/model%speed
+      values(loss_torque) = values(loss_torque) + weight*sum(powers%losses)/model%speed
+      values(damping_torque) = values(damping_torque) + weight*powers%losses(of_damping)/model%speed
       values(residual_work) = values(residual_work) + weight*powers%residual/model%speed
       call add_spring(model, state, values)
       if (size(values) == residual_work) return

@@ -11,6 +11,8 @@ module camroller_state
    use camroller_contact_forces, only : contact_t
    use camroller_roller, only : spin_acceleration
    use camroller_torque, only : cam_torque, contact_power, normal_direction
+   use camroller_torque_list, only : torque_count, is_loss, of_geometric, of_contact, of_needle, of_guide, of_roller_inertia, &
+      & of_residual
    implicit none
    private
 
@@ -51,24 +53,13 @@ module camroller_state
       real(wp) :: boundary_friction
       !> Friction of the contact, `(1 - A_r/A_a)|F_h| + F_b + F_r` [N]
       real(wp) :: contact_friction
-      !> Torque against spring, inertia and gas: what the cam gives and gets back [N m]
-      real(wp) :: torque_geometric
-      !> Torque for the losses in the contact [N m]
-      real(wp) :: torque_contact
-      !> Torque for the roller's bearing [N m]
-      real(wp) :: torque_needle
-      !> Torque for the valve guide [N m]
-      real(wp) :: torque_guide
-      !> Torque that spins the roller up [N m]
-      real(wp) :: torque_roller_inertia
-      !> Torque for the losses in dampers, leak and check valve of a flexible train [N m]
-      real(wp) :: torque_damping
+      !> Torques of this follower by source, the rows of `torque_list` [N m], last the energy residual: the power that the cam needs
+      !> by its own equilibrium, less losses, less what is stored [W]; zero where the bookkeeping is not consistent
+      real(wp) :: torques(torque_count)
       !> Sum of the losses as torque [N m]
       real(wp) :: torque_friction
       !> Sum of everything [N m]
       real(wp) :: torque_drive
-      !> Power that the cam needs by its own equilibrium, less losses, less what is stored [W]; consistent bookkeeping
-      real(wp) :: energy_residual
       !> What a flexible train has beside
       type(flexible_values_t) :: flexible
    end type state_t
@@ -156,12 +147,37 @@ contains
       type(state_t), intent(inout) :: state
 
       call add_friction(model, state)
-      if (model%is_consistent) then
-         call add_consistent_torques(model, state)
-      else
-         call add_source_torques(model, state)
-      end if
+      state%torques = 0.0_wp
+      call add_losses(model, state)
+      if (state%contact%is_touching) state%torques(of_geometric) = state%moments%total*state%position%finger_slope
+      if (model%is_consistent) state%torques(of_roller_inertia) = model%roller_inertia*state%contact%roller_spin &
+         & *state%spin_acceleration/model%speed
+      call add_sums(state)
+      if (model%is_consistent) call add_residual(model, state)
    end subroutine add_torques
+
+   !> Losses of a follower as torques: one line for each loss of `torque_list`. The bookkeeping of the source puts the friction of
+   !> the contact on the arm of the tangent, and lets the bearing slide by the whole spin of the roller.
+   pure subroutine add_losses(model, state)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> State with its contact solved, and torques of zero
+      type(state_t), intent(inout) :: state
+
+      associate (torques => state%torques, contact => state%contact)
+         if (model%is_consistent) then
+            torques(of_contact) = contact_power(contact%traction, contact%sliding_speed, contact%rolling_resistance, &
+               & contact%cam_surface_speed, contact%roller_surface_speed)/model%speed
+         else
+            torques(of_contact) = state%contact_friction*state%position%cam_arm
+         end if
+         if (allocated(model%bearing)) torques(of_needle) = contact%bearing_torque*merge(contact%relative_spin, &
+            & contact%roller_spin, model%is_consistent)/model%speed
+         if (allocated(model%guide_drag) .and. contact%is_touching) then
+            torques(of_guide) = model%guide_drag*model%speed*state%position%lift_slope**2
+         end if
+      end associate
+   end subroutine add_losses
 
    !> Force of the follower on the cam, x from pivot to cam centre: the load of the camshaft bearings.
    pure function cam_force(model, state) result(force)
@@ -194,38 +210,19 @@ contains
       state%contact_friction = abs(state%contact%shear) + state%boundary_friction + abs(state%contact%rolling_resistance)
    end subroutine add_friction
 
-   !> Torques whose sum is the torque of the cam's equilibrium; the difference of the two is the energy residual.
-   pure subroutine add_consistent_torques(model, state)
+   !> Energy residual: torque of the cam's equilibrium, which is independent of how losses are added up, less losses and storage.
+   pure subroutine add_residual(model, state)
       !> The model
       type(model_t), intent(in) :: model
-      !> State with its contact solved
+      !> State with its torques
       type(state_t), intent(inout) :: state
 
-      ! Torque by the cam's equilibrium [N m]; power lost, power stored [W]
-      real(wp) :: equilibrium, lost, stored
-
-      state%torque_geometric = 0.0_wp
-      state%torque_guide = 0.0_wp
-      state%torque_needle = 0.0_wp
-      state%torque_damping = 0.0_wp
-      state%torque_contact = contact_power(state%contact%traction, state%contact%sliding_speed, &
-         & state%contact%rolling_resistance, state%contact%cam_surface_speed, state%contact%roller_surface_speed)/model%speed
-      if (state%contact%is_touching) then
-         state%torque_geometric = state%moments%total*state%position%finger_slope
-         if (allocated(model%guide_drag)) then
-            state%torque_guide = model%guide_drag*model%speed*state%position%lift_slope**2
-         end if
-      end if
-      if (allocated(model%bearing)) then
-         state%torque_needle = state%contact%bearing_torque*state%contact%relative_spin/model%speed
-      end if
-      state%torque_roller_inertia = model%roller_inertia*state%contact%roller_spin*state%spin_acceleration/model%speed
-      call add_sums(state)
+      ! Torque by the cam's equilibrium [N m]; power stored [W]
+      real(wp) :: equilibrium, stored
 
       equilibrium = cam_torque(state%contact%load, state%position%normal_arm, state%position%finger_slope, &
          & state%contact%tangential_force, state%position%cam_arm, state%contact%rolling_resistance, &
          & state%position%equivalent_radius)
-      lost = (state%torque_contact + state%torque_needle + state%torque_guide)*model%speed
       stored = model%roller_inertia*state%contact%roller_spin*state%spin_acceleration
       if (state%contact%is_touching) then
          stored = stored + stored_power(model%train, state%position, model%speed, state%gas_force)
@@ -233,42 +230,16 @@ contains
             stored = stored + 2.0_wp*model%speed_slope*kinetic_energy(model%train, state%position, model%speed)
          end if
       end if
-      state%energy_residual = equilibrium*model%speed - lost - stored
-   end subroutine add_consistent_torques
+      state%torques(of_residual) = equilibrium*model%speed - state%torque_friction*model%speed - stored
+   end subroutine add_residual
 
-   !> Torques as the source adds them up: contact friction on the arm of the tangent, needle and guide on top.
-   pure subroutine add_source_torques(model, state)
-      !> The model
-      type(model_t), intent(in) :: model
-      !> State with its contact solved
-      type(state_t), intent(inout) :: state
-
-      state%torque_geometric = 0.0_wp
-      state%torque_guide = 0.0_wp
-      state%torque_needle = 0.0_wp
-      state%torque_damping = 0.0_wp
-      state%torque_contact = state%contact_friction*state%position%cam_arm
-      if (state%contact%is_touching) then
-         state%torque_geometric = state%moments%total*state%position%finger_slope
-         if (allocated(model%guide_drag)) then
-            state%torque_guide = model%guide_drag*model%speed*state%position%lift_slope**2
-         end if
-      end if
-      if (allocated(model%bearing)) then
-         state%torque_needle = state%contact%bearing_torque*state%contact%roller_spin/model%speed
-      end if
-      state%torque_roller_inertia = 0.0_wp
-      state%energy_residual = 0.0_wp
-      call add_sums(state)
-   end subroutine add_source_torques
-
-   !> Sums of the torques.
+   !> Sums of the torques: all losses, and everything.
    pure subroutine add_sums(state)
-      !> State with its torques apart
+      !> State with its torques by source
       type(state_t), intent(inout) :: state
 
-      state%torque_friction = state%torque_contact + state%torque_needle + state%torque_guide + state%torque_damping
-      state%torque_drive = state%torque_geometric + state%torque_friction + state%torque_roller_inertia
+      state%torque_friction = sum(state%torques, mask=is_loss)
+      state%torque_drive = state%torques(of_geometric) + state%torque_friction + state%torques(of_roller_inertia)
    end subroutine add_sums
 
 end module camroller_state

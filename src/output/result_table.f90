@@ -7,8 +7,10 @@ module camroller_result_table
    use camroller_hdf5_file, only : discard_file
    use camroller_hdf5_object, only : hdf5_object_t
    use camroller_hdf5_read, only : has_member, list_members, member_length, read_numbers
+   use camroller_names, only : name_length
    use camroller_number_text, only : integer_text, number_text, right_text
    use camroller_result_columns, only : make_columns, open_result, read_column, table_t
+   use camroller_torque_list, only : torque_count, torque_list, torque_series
    implicit none
    private
 
@@ -17,25 +19,13 @@ module camroller_result_table
    !> One column of the table
    type :: column_t
       !> Scalar of the summary
-      character(len=24) :: scalar
+      character(len=name_length + 5) :: scalar
       !> Heading and unit
       character(len=14) :: heading
       character(len=5) :: unit
       !> What its value is multiplied with [unit/SI unit]
       real(wp) :: factor
    end type column_t
-
-   type(column_t), parameter :: columns(*) = [ &
-      column_t("mean_torque_contact", "contact", "N mm", 1.0e3_wp), &
-      column_t("mean_torque_needle", "roller bearing", "N mm", 1.0e3_wp), &
-      column_t("mean_torque_guide", "guide", "N mm", 1.0e3_wp), &
-      column_t("mean_torque_bearings", "cam bearings", "N mm", 1.0e3_wp), &
-      column_t("mean_torque_friction", "all friction", "N mm", 1.0e3_wp), &
-      column_t("fmep_friction", "fmep", "kPa", 1.0e-3_wp), &
-      column_t("mean_slip_ratio", "mean slip", "%", 1.0e2_wp), &
-      column_t("max_hertz_pressure", "peak pressure", "GPa", 1.0e-9_wp), &
-      column_t("min_film_thickness_min", "smallest film", "um", 1.0e6_wp), &
-      column_t("min_film_ratio", "film ratio", "1", 1.0_wp)]
 
    !> Cases that are shown
    integer, parameter :: most_rows = 40
@@ -56,8 +46,9 @@ contains
       type(hdf5_object_t) :: file
       type(table_t) :: table
       character(len=member_length), allocatable :: swept(:)
-      ! Which columns there are, number of cases
-      integer, allocatable :: chosen(:), cases(:)
+      type(column_t), allocatable :: columns(:)
+      ! Number of cases
+      integer, allocatable :: cases(:)
       ! Status of the cases [-]
       real(wp), allocatable :: status(:)
       integer :: i, k
@@ -67,13 +58,13 @@ contains
       if (.not. allocated(error)) call list_members(file, "/sweep", swept, error)
       if (.not. allocated(error)) call read_numbers(file, "/summary/status", [0], cases, status, error)
       if (.not. allocated(error)) then
-         chosen = pack([(i, i=1, size(columns))], [(has_member(file, "/summary/"//trim(columns(i)%scalar)), i=1, size(columns))])
-         call make_columns(table, cases(1), size(swept) + size(chosen))
+         columns = shown_columns(file)
+         call make_columns(table, cases(1), size(swept) + size(columns))
          do i = 1, size(table%names)
             if (i <= size(swept)) then
                call read_column(file, "/sweep/"//trim(swept(i)), table, i, error)
             else
-               call read_column(file, "/summary/"//trim(columns(chosen(i - size(swept)))%scalar), table, i, error)
+               call read_column(file, "/summary/"//trim(columns(i - size(swept))%scalar), table, i, error)
             end if
             if (allocated(error)) exit
          end do
@@ -84,17 +75,37 @@ contains
          table%names(k)%text = table%names(k)%text(index(table%names(k)%text, ".") + 1:)
          if (index(table%names(k)%text, trim(table%units(k)%text)) > 0 .or. table%units(k)%text == "1") table%units(k)%text = ""
       end do
-      call put_lines(table, size(swept), chosen, status, text)
+      call put_lines(table, size(swept), columns, status, text)
    end subroutine write_result_table
 
+   !> Columns of the table: of those that are asked for first, the ones that the file has.
+   function shown_columns(file) result(columns)
+      !> The file
+      type(hdf5_object_t), intent(in) :: file
+      !> The columns
+      type(column_t), allocatable :: columns(:)
+
+      integer :: i
+
+      columns = [(column_t("mean_"//torque_series(i), torque_list(i)%heading, "N mm", 1.0e3_wp), i=1, torque_count), &
+         & column_t("mean_torque_friction", "all friction", "N mm", 1.0e3_wp), &
+         & column_t("fmep_friction", "fmep", "kPa", 1.0e-3_wp), &
+         & column_t("mean_slip_ratio", "mean slip", "%", 1.0e2_wp), &
+         & column_t("max_hertz_pressure", "peak pressure", "GPa", 1.0e-9_wp), &
+         & column_t("min_film_thickness_min", "smallest film", "um", 1.0e6_wp), &
+         & column_t("min_film_ratio", "film ratio", "1", 1.0_wp)]
+      columns = pack(columns, columns%heading /= "")
+      columns = pack(columns, [(has_member(file, "/summary/"//trim(columns(i)%scalar)), i=1, size(columns))])
+   end function shown_columns
+
    !> The lines: heading, units, one for each case that is shown, and how many are not.
-   subroutine put_lines(table, keys, chosen, status, text)
+   subroutine put_lines(table, keys, columns, status, text)
       !> Numbers and words of the cases
       type(table_t), intent(inout) :: table
       !> Number of columns with keys that vary
       integer, intent(in) :: keys
-      !> Which of `columns` the others are
-      integer, intent(in) :: chosen(:)
+      !> The others
+      type(column_t), intent(in) :: columns(:)
       !> Status of the cases: above zero for one that failed [-]
       real(wp), intent(in) :: status(:)
       !> The lines
@@ -109,8 +120,8 @@ contains
       unit = ""
       do column = 1, size(table%names)
          if (column > keys) then
-            table%names(column)%text = trim(columns(chosen(column - keys))%heading)
-            table%units(column)%text = trim(columns(chosen(column - keys))%unit)
+            table%names(column)%text = trim(columns(column - keys)%heading)
+            table%units(column)%text = trim(columns(column - keys)%unit)
             if (table%units(column)%text == "1") table%units(column)%text = ""
          end if
          widths(column) = max(len(table%names(column)%text), len(table%units(column)%text))
@@ -147,7 +158,7 @@ contains
          else if (table%has_words(column)) then
             words = table%words(row, column)%text
          else if (column > keys) then
-            words = number_text(table%numbers(row, column)*columns(chosen(column - keys))%factor, digits)
+            words = number_text(table%numbers(row, column)*columns(column - keys)%factor, digits)
          else
             words = number_text(table%numbers(row, column), 6)
          end if

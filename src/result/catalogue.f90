@@ -3,35 +3,26 @@
 !> In: a case and states. Out: the list of series that the case has, and their values in the same order.
 !> Name and value of a series stand in one line, in `add_follower` or `add_camshaft`; the former is read for each lobe.
 module camroller_catalogue
+   use, intrinsic :: iso_fortran_env, only : int8
    use camroller_kinds, only : wp
    use camroller_case, only : camshaft_number, has_engine, case_t, energy_names
    use camroller_model, only : model_t
    use camroller_number_text, only : integer_text
-   use camroller_result, only : quantity_t, lobe_scope, scope_camshaft, scope_engine, scope_length
-   use camroller_state, only : state_t, flexible_values_t, most_surge_modes
+   use camroller_effect_list, only : effect_names, has_effect
+   use camroller_result, only : quantity_t, quantity_list_t, add => append_quantity, lobe_scope, scope_camshaft, scope_engine, &
+      & scope_length
+   use camroller_state, only : state_t, flexible_values_t
+   use camroller_torque_list, only : torque_list, torque_count, is_loss, is_torque, of_residual, torque_series
    use camroller_hertz, only : peak_pressure
    use camroller_traction, only : rolling_law_names, rolling_none
    implicit none
    private
 
-   public :: list_series, follower_values, camshaft_values, series_values, follower_torques, torque_count
+   public :: list_series, follower_values, camshaft_values, series_values
    public :: follower_count, camshaft_count, lobe_columns, camshaft_columns, lobe_prefix
 
-   !> More series than any case has
-   integer, parameter :: max_series = 160
-   !> Number of torques of one follower that `follower_torques` gives
-   integer, parameter :: torque_count = 7
    !> Beginning of the names of series of one of several camshafts
    character(len=*), parameter :: camshaft_prefix = "camshaft_"
-
-   !> Series that are being named, read, or both
-   type :: list_t
-      integer :: count = 0
-      !> Values [unit of the series]
-      real(wp) :: values(max_series)
-      !> Their meaning; allocated where it is wanted
-      type(quantity_t), allocatable :: items(:)
-   end type list_t
 
 contains
 
@@ -42,14 +33,14 @@ contains
       !> Its series
       type(quantity_t), allocatable, intent(out) :: series(:)
 
-      type(list_t) :: list
+      type(quantity_list_t) :: list
       type(model_t) :: model
       type(state_t) :: state
       ! Torques of each camshaft [N m], last the energy residual [W]
-      real(wp), allocatable :: none(:, :)
+      real(wp) :: none(torque_count, camshaft_number(case))
       integer :: lobe, first
 
-      allocate (list%items(max_series), none(torque_count, camshaft_number(case)))
+      allocate (list%items(0), list%values(0))
       none = 0.0_wp
       call set_blank(model, state)
       do lobe = 1, merge(2, 1, allocated(case%second_lift))
@@ -59,7 +50,7 @@ contains
          call name_lobe(list%items(first:list%count), lobe)
          if (lobe > 1) cycle
          first = list%count + 1
-         call add_camshafts(list, case, none, none(1, :))
+         call add_camshafts(list, case, none)
          list%items(first:list%count)%scope = merge(scope_engine, scope_camshaft, has_engine(case))
          call set_camshaft_scopes(list%items(first:list%count))
       end do
@@ -73,11 +64,12 @@ contains
       !> The number
       integer :: count
 
-      type(list_t) :: list
+      type(quantity_list_t) :: list
       type(model_t) :: model
       type(state_t) :: state
 
       call set_blank(model, state)
+      allocate (list%values(0))
       call add_follower(list, case, model, state)
       count = list%count
    end function follower_count
@@ -89,13 +81,13 @@ contains
       !> The number
       integer :: count
 
-      type(list_t) :: list
+      type(quantity_list_t) :: list
       ! Torques of each camshaft [N m], last the energy residual [W]
-      real(wp), allocatable :: none(:, :)
+      real(wp) :: none(torque_count, camshaft_number(case))
 
-      allocate (none(torque_count, camshaft_number(case)))
       none = 0.0_wp
-      call add_camshafts(list, case, none, none(1, :))
+      allocate (list%values(0))
+      call add_camshafts(list, case, none)
       count = list%count
    end function camshaft_count
 
@@ -136,62 +128,58 @@ contains
       !> Values, in the order of `list_series` [unit of the series]
       real(wp), intent(out) :: values(:)
 
-      type(list_t) :: list
+      type(quantity_list_t) :: list
 
+      allocate (list%values(size(values)))
       call add_follower(list, case, model, state)
       values = list%values(:list%count)
    end subroutine follower_values
 
    !> Values of the series of the camshafts.
-   pure subroutine camshaft_values(case, torques, bearing_torque, values)
+   pure subroutine camshaft_values(case, torques, values)
       !> The case
       type(case_t), intent(in) :: case
-      !> Torques of all followers of each camshaft, as `follower_torques` orders them [N m], last the energy residual [W]
+      !> Torques on each camshaft, the rows of `torque_list` [N m], last the energy residual [W]
       real(wp), intent(in) :: torques(:, :)
-      !> Torque of all bearings of each camshaft [N m]
-      real(wp), intent(in) :: bearing_torque(:)
       !> Values, in the order of `list_series` [unit of the series]
       real(wp), intent(out) :: values(:)
 
-      type(list_t) :: list
+      type(quantity_list_t) :: list
 
-      call add_camshafts(list, case, torques, bearing_torque)
+      allocate (list%values(size(values)))
+      call add_camshafts(list, case, torques)
       values = list%values(:list%count)
    end subroutine camshaft_values
 
    !> Values of the series of one follower, then of the camshafts, with the follower on the first one.
-   pure subroutine series_values(case, model, state, torques, bearing_torque, values)
+   pure subroutine series_values(case, model, state, torques, values)
       !> The case
       type(case_t), intent(in) :: case
       !> The model of the follower's lobe
       type(model_t), intent(in) :: model
       !> State of the follower
       type(state_t), intent(in) :: state
-      !> Torques, as `follower_torques` orders them [N m], last the energy residual [W]
+      !> Torques, the rows of `torque_list` [N m], last the energy residual [W]
       real(wp), intent(in) :: torques(torque_count)
-      !> Torque of all camshaft bearings [N m]
-      real(wp), intent(in) :: bearing_torque
       !> Values [unit of the series]
       real(wp), intent(out) :: values(:)
 
-      type(list_t) :: list
-      ! Torques of each camshaft [N m], last the energy residual [W]; of its bearings [N m]
-      real(wp), dimension(torque_count, camshaft_number(case)) :: of_shafts
-      real(wp), dimension(camshaft_number(case)) :: of_bearings
+      type(quantity_list_t) :: list
+      ! Torques on each camshaft [N m], last the energy residual [W]
+      real(wp) :: of_shafts(torque_count, camshaft_number(case))
 
       of_shafts = 0.0_wp
       of_shafts(:, 1) = torques
-      of_bearings = 0.0_wp
-      of_bearings(1) = bearing_torque
+      allocate (list%values(size(values)))
       call add_follower(list, case, model, state)
-      call add_camshafts(list, case, of_shafts, of_bearings)
+      call add_camshafts(list, case, of_shafts)
       values = list%values(:list%count)
    end subroutine series_values
 
    !> Series of one follower: the one place where each has its name, unit, meaning, part of the model and value.
    pure subroutine add_follower(list, case, model, state)
       !> List to extend
-      type(list_t), intent(inout) :: list
+      type(quantity_list_t), intent(inout) :: list
       !> The case
       type(case_t), intent(in) :: case
       !> The model of its lobe
@@ -249,7 +237,7 @@ contains
    !> Series of a flexible train.
    pure subroutine add_flexible(list, case, train)
       !> List to extend
-      type(list_t), intent(inout) :: list
+      type(quantity_list_t), intent(inout) :: list
       !> The case
       type(case_t), intent(in) :: case
       !> What the train has beside a rigid one
@@ -285,25 +273,23 @@ contains
    end subroutine add_flexible
 
    !> Series of all camshafts together, then, where there are several, of each.
-   pure subroutine add_camshafts(list, case, torques, bearing_torque)
+   pure subroutine add_camshafts(list, case, torques)
       !> List to extend
-      type(list_t), intent(inout) :: list
+      type(quantity_list_t), intent(inout) :: list
       !> The case
       type(case_t), intent(in) :: case
-      !> Torques of all followers of each camshaft, as `follower_torques` orders them [N m], last the energy residual [W]
+      !> Torques on each camshaft, the rows of `torque_list` [N m], last the energy residual [W]
       real(wp), intent(in) :: torques(:, :)
-      !> Torque of all bearings of each camshaft [N m]
-      real(wp), intent(in) :: bearing_torque(:)
 
       integer :: k
 
-      call add_camshaft(list, case, sum(torques, 2), sum(bearing_torque))
-      if (size(bearing_torque) == 1) return
-      do k = 1, size(bearing_torque)
+      call add_camshaft(list, case, sum(torques, 2))
+      if (size(torques, 2) == 1) return
+      do k = 1, size(torques, 2)
          call add(list, camshaft_prefix//integer_text(k)//"_torque_friction", "N m", "torque for all losses of camshaft "// &
-            & integer_text(k), "torque", sum(torques(2:4, k)) + torques(6, k) + bearing_torque(k))
+            & integer_text(k), "torque", sum(torques(:, k), mask=is_loss))
          call add(list, camshaft_prefix//integer_text(k)//"_torque_drive", "N m", "torque that drives camshaft "// &
-            & integer_text(k), "torque", sum(torques(1:6, k)) + bearing_torque(k))
+            & integer_text(k), "torque", sum(torques(:, k), mask=is_torque))
       end do
    end subroutine add_camshafts
 
@@ -321,42 +307,47 @@ contains
       end do
    end subroutine set_camshaft_scopes
 
-   !> Series of the camshaft: torques of all followers and bearings.
-   pure subroutine add_camshaft(list, case, torques, bearing_torque)
+   !> Series of the camshaft: the torques that the case has, and their sums.
+   pure subroutine add_camshaft(list, case, torques)
       !> List to extend
-      type(list_t), intent(inout) :: list
+      type(quantity_list_t), intent(inout) :: list
       !> The case
       type(case_t), intent(in) :: case
-      !> Torques of all followers together, as `follower_torques` orders them [N m], last the energy residual [W]
+      !> Torques of all followers and bearings together, the rows of `torque_list` [N m], last the energy residual [W]
       real(wp), intent(in) :: torques(torque_count)
-      !> Torque of all camshaft bearings [N m]
-      real(wp), intent(in) :: bearing_torque
 
-      call add(list, "torque_geometric", "N m", "torque against spring, inertia and gas force", "torque", torques(1))
-      call add(list, "torque_contact", "N m", "torque for the losses of the contact", "torque", torques(2))
-      if (allocated(case%needle_bearing)) then
-         call add(list, "torque_needle", "N m", "torque for the roller's bearing", "needle_bearing", torques(3))
-      end if
-      if (allocated(case%valve_guide)) call add(list, "torque_guide", "N m", "torque for the valve guide", "valve_guide", &
-         & torques(4))
-      if (allocated(case%cam_bearings)) then
-         call add(list, "torque_bearings", "N m", "torque for the camshaft bearings", "cam_bearings", bearing_torque)
-      end if
-      if (allocated(case%dynamics)) then
-         call add(list, "torque_damping", "N m", "torque for the losses in dampers, leak and check valve", "dynamics", torques(6))
-      end if
-      if (case%energy == energy_names(1)) then
-         call add(list, "torque_roller_inertia", "N m", "torque for the inertia of the roller", "roller", torques(5))
-      end if
-      call add(list, "torque_friction", "N m", "torque for all losses", "torque", sum(torques(2:4)) + torques(6) &
-         & + bearing_torque)
-      call add(list, "torque_drive", "N m", "torque that drives the camshaft", "torque", sum(torques(1:6)) &
-         & + bearing_torque)
-      if (case%energy == energy_names(1)) then
-         call add(list, "energy_residual", "W", "drive power less losses less stored power", "torque", &
-            & torques(7))
-      end if
+      integer :: row
+
+      do row = 1, torque_count
+         if (is_torque(row) .and. has_torque(case, row)) call add(list, trim(torque_series(row)), "N m", &
+            & trim(torque_list(row)%meaning), trim(torque_list(row)%source), torques(row))
+      end do
+      call add(list, "torque_friction", "N m", "torque for all losses", "torque", sum(torques, mask=is_loss))
+      call add(list, "torque_drive", "N m", "torque that drives the camshaft", "torque", sum(torques, mask=is_torque))
+      if (has_torque(case, of_residual)) call add(list, trim(torque_series(of_residual)), "W", &
+         & trim(torque_list(of_residual)%meaning), trim(torque_list(of_residual)%source), torques(of_residual))
    end subroutine add_camshaft
+
+   !> Does a case have a torque of the list? It follows from the part of the model that the torque comes from.
+   pure function has_torque(case, row) result(has)
+      !> The case
+      type(case_t), intent(in) :: case
+      !> Row of `torque_list`
+      integer, intent(in) :: row
+      !> True where the result has a series of it
+      logical :: has
+
+      select case (torque_list(row)%source)
+      case ("torque")
+         has = is_torque(row) .or. case%energy == energy_names(1)
+      case ("roller")
+         has = case%energy == energy_names(1)
+      case ("dynamics")
+         has = allocated(case%dynamics)
+      case default
+         has = has_effect(case, findloc(effect_names, torque_list(row)%source, 1))
+      end select
+   end function has_torque
 
    !> Beginning of the names of series and scalars of a lobe; blank for the first one.
    pure function lobe_prefix(lobe) result(prefix)
@@ -385,53 +376,21 @@ contains
       end do
    end subroutine name_lobe
 
-   !> What series are named from: a state in which all of them are zero.
+   !> What series are named from: a state that is zero all over, but for what series divide by.
    pure subroutine set_blank(model, state)
       !> Model: what series take from it
       type(model_t), intent(out) :: model
       !> State: what series take from it
       type(state_t), intent(out) :: state
 
+      integer :: i
+
+      state = transfer([(0_int8, i=1, storage_size(state)/storage_size(0_int8))], state)
+      state%position%equivalent_radius = 1.0_wp
       model%speed = 0.0_wp
       model%contact_width = 1.0_wp
       model%modulus = 1.0_wp
-      state%position%lift = 0.0_wp
-      state%position%lift_slope = 0.0_wp
-      state%position%equivalent_radius = 1.0_wp
-      state%contact%load = 0.0_wp
-      state%contact%cam_surface_speed = 0.0_wp
-      state%contact%rolling_speed = 0.0_wp
-      state%contact%roller_surface_speed = 0.0_wp
-      state%contact%roller_spin = 0.0_wp
-      state%contact%sliding_speed = 0.0_wp
-      state%contact%entrainment_speed = 0.0_wp
-      state%contact%half_width = 0.0_wp
-      state%contact%film_min = 0.0_wp
-      state%contact%film_central = 0.0_wp
-      state%contact%film_ratio = 0.0_wp
-      state%contact%asperity_load = 0.0_wp
-      state%contact%real_area = 0.0_wp
-      state%contact%shear = 0.0_wp
-      state%contact%boundary_capacity = 0.0_wp
-      state%contact%boundary_mobilised = 0.0_wp
-      state%contact%rolling_resistance = 0.0_wp
-      state%contact%traction = 0.0_wp
-      state%contact_friction = 0.0_wp
-      state%boundary_friction = 0.0_wp
-      state%flexible = flexible_values_t(0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, &
-         & 0.0_wp, 0.0_wp, spread(0.0_wp, 1, most_surge_modes))
    end subroutine set_blank
-
-   !> Torques of one follower in a fixed order: geometric, contact, needle, guide, roller inertia, damping; last energy residual.
-   pure function follower_torques(state) result(torques)
-      !> State of the follower
-      type(state_t), intent(in) :: state
-      !> Torques [N m], last the energy residual [W]
-      real(wp) :: torques(torque_count)
-
-      torques = [state%torque_geometric, state%torque_contact, state%torque_needle, state%torque_guide, &
-         & state%torque_roller_inertia, state%torque_damping, state%energy_residual]
-   end function follower_torques
 
    !> Does the case have rolling resistance?
    pure function has_rolling(case) result(has)
@@ -455,23 +414,5 @@ contains
       quotient = 0.0_wp
       if (abs(denominator) > 0.0_wp) quotient = numerator/denominator
    end function ratio
-
-   !> Append a series to a list.
-   pure subroutine add(list, name, unit, description, source, value)
-      !> List to extend
-      type(list_t), intent(inout) :: list
-      !> Name, unit, meaning, part of the model
-      character(len=*), intent(in) :: name, unit, description, source
-      !> Value [unit of the series]
-      real(wp), intent(in) :: value
-
-      list%count = list%count + 1
-      list%values(list%count) = value
-      if (.not. allocated(list%items)) return
-      list%items(list%count)%name = name
-      list%items(list%count)%unit = unit
-      list%items(list%count)%description = description
-      list%items(list%count)%source = source
-   end subroutine add
 
 end module camroller_catalogue

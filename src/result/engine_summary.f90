@@ -6,47 +6,37 @@ module camroller_engine_summary
    use camroller_case, only : case_t
    use camroller_engine, only : cam_turns, crank_angle_at_nose
    use camroller_number_text, only : integer_text
-   use camroller_result, only : result_t, quantity_t, find_quantity, scope_engine
+   use camroller_result, only : result_t, quantity_list_t, append_quantity, find_quantity, scope_engine
+   use camroller_torque_list, only : torque_list, torque_count, is_loss
    implicit none
    private
 
-   public :: list_engine_scalars, engine_scalar_count
+   public :: add_engine_scalars
 
    !> Harmonics of the drive torque that are listed
    integer, parameter :: most_harmonics = 12
-   !> Losses with a mean effective pressure of their own
-   character(len=*), parameter :: sources(*) = [character(len=8) :: "contact", "needle", "guide", "bearings", "friction"]
-   !> Most scalars of an engine
-   integer, parameter :: engine_scalar_count = most_harmonics + size(sources) + 2
-
 contains
 
    !> Scalars of the engine; none where the case has no engine or no camshaft bearings, without which it has one cam only.
-   subroutine list_engine_scalars(case, result, means, quantities, values, count)
+   subroutine add_engine_scalars(list, case, result, means)
+      !> List to extend
+      type(quantity_list_t), intent(inout) :: list
       !> The case
       type(case_t), intent(in) :: case
       !> Series
       type(result_t), intent(in) :: result
       !> Means of the series [unit of the series]
       real(wp), intent(in) :: means(:)
-      !> The scalars
-      type(quantity_t), intent(inout) :: quantities(:)
-      !> Their values [unit of the scalar]
-      real(wp), intent(inout) :: values(:)
-      !> Scalars so far
-      integer, intent(inout) :: count
 
       ! Amplitude of a harmonic [N m]
       real(wp) :: amplitude
       integer :: i, series
 
       if (.not. allocated(case%engine) .or. .not. allocated(case%cam_bearings)) return
-      do i = 1, size(sources)
-         series = find_quantity(result%series, "torque_"//trim(sources(i)))
-         if (series == 0) cycle
-         call add("fmep_"//trim(sources(i)), "Pa", "friction mean effective pressure of the valve trains, "//trim(sources(i)), &
-            & result%series(series)%source, two_pi*means(series)/case%engine%displacement)
+      do i = 1, torque_count
+         if (is_loss(i)) call add_pressure(trim(torque_list(i)%name))
       end do
+      call add_pressure("friction")
       series = find_quantity(result%series, "torque_drive")
       do i = 1, most_harmonics
          if (2*i >= size(result%angle)) exit
@@ -60,6 +50,16 @@ contains
 
    contains
 
+      !> Friction mean effective pressure of a loss, where the case has it.
+      subroutine add_pressure(loss)
+         !> Name of the loss
+         character(len=*), intent(in) :: loss
+
+         series = find_quantity(result%series, "torque_"//loss)
+         if (series > 0) call add("fmep_"//loss, "Pa", "friction mean effective pressure of the valve trains, "//loss, &
+            & result%series(series)%source, two_pi*means(series)/case%engine%displacement)
+      end subroutine add_pressure
+
       !> Add a scalar.
       subroutine add(name, unit, description, source, value)
          !> Name, unit, meaning, part of the model
@@ -67,16 +67,10 @@ contains
          !> Its value [unit of the scalar]
          real(wp), intent(in) :: value
 
-         count = count + 1
-         quantities(count)%name = name
-         quantities(count)%unit = unit
-         quantities(count)%description = description
-         quantities(count)%source = source
-         quantities(count)%scope = scope_engine
-         values(count) = value
+         call append_quantity(list, name, unit, description, source, value, scope_engine)
       end subroutine add
 
-   end subroutine list_engine_scalars
+   end subroutine add_engine_scalars
 
    !> Amplitude of a harmonic of what is sampled at equal distances over one turn.
    pure subroutine get_amplitude(samples, harmonic, amplitude)

@@ -5,7 +5,7 @@
 !> for statistics where there is none, count alike.
 module camroller_flexible_report
    use camroller_case, only : case_t
-   use camroller_catalogue, only : follower_torques, series_values, torque_count
+   use camroller_catalogue, only : series_values
    use camroller_contact_forces, only : film_groups
    use camroller_error, only : error_t, kind_convergence, kind_domain, raise
    use camroller_extremes, only : add_sample, samples_t, start_samples
@@ -20,13 +20,14 @@ module camroller_flexible_report
    use camroller_number_text, only : integer_text, number_text
    use camroller_quadrature, only : gauss_legendre
    use camroller_remarks, only : add_remark, clashing_coils, long_period, lost_contact, no_period, open_pivot, remark_t
-   use camroller_result, only : quantity_t
+   use camroller_result, only : quantity_list_t, append_quantity
    use camroller_state, only : state_t
+   use camroller_torque_list, only : torque_count
    use camroller_trajectory, only : interpolate_state, trajectory_t
    implicit none
    private
 
-   public :: flexible_means_t, integrate_turns, list_flexible, most_flexible, judge_train
+   public :: flexible_means_t, integrate_turns, add_train_scalars, judge_train
 
    !> Points of the rule for a step
    integer, parameter :: points = 3
@@ -52,9 +53,6 @@ module camroller_flexible_report
       !> Largest size of the sliding speed met [m/s]
       real(wp) :: largest_sliding = 0.0_wp
    end type flexible_means_t
-
-   !> More scalars than a train has
-   integer, parameter :: most_flexible = 4*size(measures) + 8
 
    !> Rev/min in a rad/s [-]
    real(wp), parameter :: per_minute = 30.0_wp/pi
@@ -90,7 +88,7 @@ contains
             & turn > size(solution%turns) - most_searched, state, means, error)
          if (allocated(error)) return
       end do
-      call series_values(case, model, state, means%torques, 0.0_wp, values)
+      call series_values(case, model, state, means%torques, values)
       means%mean(first_torque:) = values(first_torque:)
    end subroutine integrate_turns
 
@@ -115,8 +113,8 @@ contains
 
       ! Places and weights of the rule on [-1, 1] [-]; length of a step and angle [rad], part of all turns [-]
       real(wp) :: places(points), weights(points), length, angle, weight
-      ! State of the train [state], series [unit of the series], torques [N m]
-      real(wp) :: train(size(path%state, 1)), values(size(means%mean)), torques(torque_count)
+      ! State of the train [state], series [unit of the series]
+      real(wp) :: train(size(path%state, 1)), values(size(means%mean))
       integer :: step, i, hint, status
 
       call gauss_legendre(places, weights)
@@ -133,10 +131,9 @@ contains
                call raise(error, kind_convergence, "a state between the steps of the flexible train cannot be evaluated")
                return
             end if
-            torques = follower_torques(state)
-            call series_values(case, model, state, torques, 0.0_wp, values)
+            call series_values(case, model, state, state%torques, values)
             means%mean = means%mean + weight*values
-            means%torques = means%torques + weight*torques
+            means%torques = means%torques + weight*state%torques
             means%largest_sliding = max(means%largest_sliding, abs(state%contact%sliding_speed))
             if (is_kept) then
                call add_sample(means%rows, angle, values(:size(means%rows%values, 1)), .false.)
@@ -170,25 +167,22 @@ contains
       end if
       if (.not. is_inside .and. means%film_range%share <= 0.0_wp) means%first_outside = angle
       call note_film(means%film_range, film_groups(model, state%position, state%contact), is_inside, &
-         & state%position%lift > 0.0_wp, state%torque_contact + state%torque_needle + state%torque_guide, weight)
+         & state%position%lift > 0.0_wp, state%torque_friction, weight)
    end subroutine add_shares
 
    !> Scalars of a train.
-   subroutine list_flexible(model, solution, quantities, values, count)
+   subroutine add_train_scalars(list, model, solution, prefix, scope)
+      !> List to extend
+      type(quantity_list_t), intent(inout) :: list
       !> Model of the lobe
       type(model_t), intent(in) :: model
       !> Solution of its train
       type(flexible_solution_t), intent(in) :: solution
-      !> Scalars: name, unit, meaning, part of the model
-      type(quantity_t), intent(out) :: quantities(:)
-      !> Their values [unit of the scalar]
-      real(wp), intent(out) :: values(:)
-      !> Number of them
-      integer, intent(out) :: count
+      !> Beginning of the names, and what they belong to
+      character(len=*), intent(in) :: prefix, scope
 
       integer :: i
 
-      count = 0
       do i = 1, size(solution%mean)
          associate (measure => measures(i))
             if (i == largest_load_angle) then
@@ -224,15 +218,10 @@ contains
          !> Its value [unit of the scalar]
          real(wp), intent(in) :: value
 
-         count = count + 1
-         quantities(count)%name = name
-         quantities(count)%unit = unit
-         quantities(count)%description = meaning
-         quantities(count)%source = "dynamics"
-         values(count) = value
+         call append_quantity(list, prefix//name, unit, meaning, "dynamics", value, scope)
       end subroutine add
 
-   end subroutine list_flexible
+   end subroutine add_train_scalars
 
    !> Remarks on a train.
    subroutine judge_train(model, solution, lost_share, remarks, error)

@@ -11,7 +11,8 @@ module camroller_follower_samples
    use camroller_ramp, only : follow_ramp
    use camroller_state, only : state_t
    use camroller_cycle, only : cycle_t, state_at
-   use camroller_catalogue, only : series_values, follower_torques, torque_count
+   use camroller_catalogue, only : series_values
+   use camroller_torque_list, only : torque_count, of_geometric, of_roller_inertia
    use camroller_hertz, only : peak_pressure
    use camroller_extremes, only : samples_t, add_sample, start_rows => start_samples
    use camroller_panels, only : sampled_t
@@ -123,14 +124,14 @@ contains
       ! Torques of the follower [N m]
       real(wp) :: torques(torque_count)
 
-      torques = follower_torques(state)
+      torques = state%torques
       if (associated(samples%case)) then
-         call series_values(samples%case, samples%model, state, torques, 0.0_wp, values(:samples%series))
+         call series_values(samples%case, samples%model, state, torques, values(:samples%series))
          values(samples%first_torque:samples%series) = 0.0_wp
       end if
-      torques(1) = 0.0_wp
-      if (state%contact%is_touching) torques(1) = state%moments%gas*state%position%finger_slope
-      torques(5) = 0.0_wp
+      torques(of_geometric) = 0.0_wp
+      if (state%contact%is_touching) torques(of_geometric) = state%moments%gas*state%position%finger_slope
+      torques(of_roller_inertia) = 0.0_wp
       values(samples%series + 1:) = torques
    end subroutine sampled_values
 

@@ -8,13 +8,14 @@ module camroller_mean_bearings
    use camroller_model, only : model_t
    use camroller_state, only : state_t
    use camroller_case, only : case_t
-   use camroller_catalogue, only : camshaft_count, camshaft_values, torque_count
+   use camroller_catalogue, only : camshaft_count, camshaft_values
    use camroller_cycle, only : cycle_t
    use camroller_events, only : cycle_stops
    use camroller_extremes, only : samples_t, start_samples, add_sample
    use camroller_means, only : mean_tolerance, most_halvings
    use camroller_panels, only : sampled_t, panels_t, start_panels, sample_panel, refine_panels
    use camroller_shaft, only : shaft_t, shaft_torques
+   use camroller_torque_list, only : torque_count, of_bearings
    implicit none
    private
 
@@ -108,14 +109,15 @@ contains
       type(error_t), allocatable, intent(out) :: error
 
       type(state_t) :: state
-      ! Torques of the followers of each camshaft [N m]
+      ! Torques on each camshaft [N m]
       real(wp) :: torques(torque_count, self%shaft%count)
       ! Series of the camshafts [unit of the series]
       real(wp) :: series(camshaft_count(self%case))
 
-      call shaft_torques(self%shaft, self%models, self%cycles, x, state, torques, values, error)
+      call shaft_torques(self%shaft, self%models, self%cycles, x, state, torques, error)
       if (allocated(error)) return
-      call camshaft_values(self%case, torques, values, series)
+      values = torques(of_bearings, :)
+      call camshaft_values(self%case, torques, series)
       call add_sample(self%rows, x, series, .false.)
    end subroutine sample_bearings
 

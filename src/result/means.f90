@@ -16,7 +16,8 @@ module camroller_means
    use camroller_film, only : is_in_range
    use camroller_film_range, only : film_range_t, note_film
    use camroller_cycle, only : cycle_t
-   use camroller_catalogue, only : list_series, series_values, torque_count
+   use camroller_catalogue, only : list_series, series_values
+   use camroller_torque_list, only : torque_count, is_loss, of_geometric, of_roller_inertia, of_residual, torque_series
    use camroller_defects, only : find_defect
    use camroller_error_estimate, only : estimate_t, add_defect, end_interval, estimated_error
    use camroller_extremes, only : samples_t
@@ -79,9 +80,6 @@ module camroller_means
    integer, parameter :: most_passes = 5
    !> Least tolerance of a mean: below it rounding counts [-]
    real(wp), parameter :: least_tolerance = 1.0e-10_wp
-   !> Names of the torques that are integrated, as series have them; the one that spins the roller up is not
-   character(len=*), parameter :: torque_names(torque_count) = [character(len=name_length) :: "torque_drive", &
-      & "torque_contact", "torque_needle", "torque_guide", "", "torque_damping", "energy_residual"]
 
 contains
 
@@ -239,7 +237,7 @@ contains
          is_inside = has_film_in_range(model, state)
          if (.not. is_inside .and. statistics%film_range%share <= 0.0_wp) statistics%first_outside = angle
          call note_film(statistics%film_range, film_groups(model, state%position, state%contact), is_inside, &
-            & state%position%lift > model%train%seat_lift, state%torque_contact + state%torque_needle + state%torque_guide, weight)
+            & state%position%lift > model%train%seat_lift, state%torque_friction, weight)
       end associate
    end subroutine add_shares
 
@@ -327,8 +325,10 @@ contains
       real(wp) :: sizes(series + torque_count)
 
       sizes = max(sum(panels%sizes(:, :panels%count), 2), tiny(1.0_wp)/least_tolerance)
-      sizes(series + 1) = sum(sizes(series + 2:series + 4))
-      sizes(series + torque_count) = huge(1.0_wp)
+      associate (torques => sizes(series + 1:))
+         torques(of_geometric) = sum(torques, mask=is_loss)
+         torques(of_residual) = huge(1.0_wp)
+      end associate
       sizes(films(1):films(2)) = huge(1.0_wp)
    end function mean_sizes
 
@@ -350,7 +350,7 @@ contains
 
       means = sum(panels%integrals(:, :panels%count), 2)/span
       statistics%torques = means(samples%series + 1:) + stored_torques(samples, work, span)
-      call series_values(samples%case, samples%model, samples%state, statistics%torques, 0.0_wp, series)
+      call series_values(samples%case, samples%model, samples%state, statistics%torques, series)
       statistics%mean = [means(:samples%first_torque - 1), series(samples%first_torque:)]
    end subroutine take_means
 
@@ -366,8 +366,8 @@ contains
       real(wp) :: torques(torque_count)
 
       torques = 0.0_wp
-      torques(1) = end_work(work, samples)/span
-      if (samples%model%is_consistent) torques(5) = spin_work(samples)/span
+      torques(of_geometric) = end_work(work, samples)/span
+      if (samples%model%is_consistent) torques(of_roller_inertia) = spin_work(samples)/span
    end function stored_torques
 
    !> Largest error of a mean, over the mean size of its quantity.
@@ -389,18 +389,24 @@ contains
       real(wp) :: errors(size(panels%integrals, 1)), relative(size(panels%integrals, 1))
       integer :: worst
 
-      associate (first => size(series) + 1)
-         errors = sum(panels%errors(:, :panels%count), 2) + slip_errors
+      errors = sum(panels%errors(:, :panels%count), 2) + slip_errors
+      associate (torques => errors(size(series) + 1:))
          ! The drive has the errors of all losses, and what the spin of the roller differs by between start and end
-         errors(first) = sum(errors(first:first + 3)) + abs(statistics%torques(5))*span
-         relative = errors/mean_sizes(panels, size(series), films)
-         ! What is not there has no error
-         where (errors <= 0.0_wp) relative = 0.0_wp
-         worst = maxloc(relative, 1)
-         statistics%mean_error = relative(worst)
-         if (worst < first) statistics%worst_mean = series(worst)%name
-         if (worst >= first) statistics%worst_mean = torque_names(worst - first + 1)
+         torques(of_geometric) = torques(of_geometric) + sum(torques, mask=is_loss) &
+            & + abs(statistics%torques(of_roller_inertia))*span
       end associate
+      relative = errors/mean_sizes(panels, size(series), films)
+      ! What is not there has no error
+      where (errors <= 0.0_wp) relative = 0.0_wp
+      worst = maxloc(relative, 1)
+      statistics%mean_error = relative(worst)
+      if (worst <= size(series)) then
+         statistics%worst_mean = series(worst)%name
+      else if (worst == size(series) + of_geometric) then
+         statistics%worst_mean = "torque_drive"
+      else
+         statistics%worst_mean = torque_series(worst - size(series))
+      end if
    end subroutine judge_means
 
    !> Mean torques of a follower over a cycle or a piece of one.

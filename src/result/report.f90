@@ -10,7 +10,7 @@ module camroller_report
    use camroller_cycle, only : cycle_t, state_at
    use camroller_cycle_remarks, only : judge_lobe
    use camroller_catalogue, only : list_series, follower_values, camshaft_values, follower_count, camshaft_count, lobe_columns, &
-      & camshaft_columns, torque_count
+      & camshaft_columns
    use camroller_extremes, only : samples_t, add_sample, start_search, most_steps
    use camroller_extremum, only : extremum_t, narrow_extremum
    use camroller_margins, only : margins_t, find_margins
@@ -20,6 +20,7 @@ module camroller_report
    use camroller_means, only : statistics_t, integrate_lobe
    use camroller_slip_errors, only : error_of_extreme
    use camroller_flexible_report, only : flexible_means_t, integrate_turns
+   use camroller_torque_list, only : torque_count
    use camroller_summary, only : make_summary, extremes_t
    implicit none
    private
@@ -181,8 +182,8 @@ contains
       type(error_t), allocatable, intent(out) :: error
 
       type(state_t) :: state
-      ! Torques of the followers and of the bearings of each camshaft [N m]; values of the series; cam angle from full lift [rad]
-      real(wp) :: torques(torque_count, shaft%count), bearing_torque(shaft%count), values(size(result%series)), angle
+      ! Torques on each camshaft [N m]; values of the series; cam angle from full lift [rad]
+      real(wp) :: torques(torque_count, shaft%count), values(size(result%series)), angle
       integer :: hints(size(models)), columns(2, size(models)), of_camshaft(2), i, lobe
       ! Is the first cam's follower the first lobe's, at the same angle?
       logical :: is_first
@@ -195,9 +196,9 @@ contains
       is_first = shaft%lobes(1) == 1 .and. abs(shaft%phases(1)) <= 0.0_wp
       do i = 1, size(result%series_values, 1)
          angle = (result%angle(i) - 180.0_wp)*degree
-         call shaft_torques(shaft, models, cycles, angle, state, torques, bearing_torque, error)
+         call shaft_torques(shaft, models, cycles, angle, state, torques, error)
          if (allocated(error)) return
-         call camshaft_values(case, torques, bearing_torque, values(of_camshaft(1):of_camshaft(2)))
+         call camshaft_values(case, torques, values(of_camshaft(1):of_camshaft(2)))
          do lobe = 1, size(models)
             if (lobe > 1 .or. .not. is_first) call state_at(cycles(lobe), models(lobe), angle, hints(lobe), state, error)
             if (allocated(error)) return
@@ -422,12 +423,12 @@ contains
       type(error_t), allocatable, intent(out) :: error
 
       type(state_t) :: state
-      ! Torques of the followers and of the bearings of each camshaft [N m]
-      real(wp) :: torques(torque_count, shaft%count), bearing_torque(shaft%count)
+      ! Torques on each camshaft [N m]
+      real(wp) :: torques(torque_count, shaft%count)
 
-      call shaft_torques(shaft, models, cycles, angle, state, torques, bearing_torque, error)
+      call shaft_torques(shaft, models, cycles, angle, state, torques, error)
       if (allocated(error)) return
-      call camshaft_values(case, torques, bearing_torque, values)
+      call camshaft_values(case, torques, values)
    end subroutine camshaft_row
 
    !> Smallest contact load with the valve off its seat; over the whole cycle where it never leaves it.

@@ -12,7 +12,8 @@ module camroller_result
    implicit none
    private
 
-   public :: quantity_t, result_t, get_series, get_summary, find_quantity, check_numbers, lobe_scope
+   public :: quantity_t, quantity_list_t, append_quantity, result_t, get_series, get_summary, find_quantity, check_numbers, &
+      & lobe_scope
    public :: scope_length, scope_camshaft, scope_engine, scope_case
 
    !> Length of a scope
@@ -36,6 +37,15 @@ module camroller_result
       !> Has infinity a meaning, as for the speed at which something that never happens would happen?
       logical :: may_be_infinite = .false.
    end type quantity_t
+
+   !> Quantities with a value each, as many as there are
+   type :: quantity_list_t
+      integer :: count = 0
+      !> Values; those behind `count` are not set [unit of the quantity]
+      real(wp), allocatable :: values(:)
+      !> Their meaning; not allocated where values alone are wanted
+      type(quantity_t), allocatable :: items(:)
+   end type quantity_list_t
 
    !> Result of one case
    type :: result_t
@@ -62,6 +72,43 @@ module camroller_result
    end type result_t
 
 contains
+
+   !> Append a quantity to a list, which grows as it has to.
+   pure subroutine append_quantity(list, name, unit, description, source, value, scope)
+      !> The list; it has room for something, and items where names are wanted
+      type(quantity_list_t), intent(inout) :: list
+      !> Name, unit, meaning, part of the model
+      character(len=*), intent(in) :: name, unit, description, source
+      !> Value [unit of the quantity]
+      real(wp), intent(in) :: value
+      !> What it belongs to; the case as a whole where absent
+      character(len=*), intent(in), optional :: scope
+
+      type(quantity_t), allocatable :: items(:)
+      ! Longer list of values [unit of each]
+      real(wp), allocatable :: values(:)
+
+      if (list%count == size(list%values)) then
+         allocate (values(2*list%count + 16))
+         values(:list%count) = list%values(:list%count)
+         call move_alloc(values, list%values)
+      end if
+      list%count = list%count + 1
+      list%values(list%count) = value
+      if (.not. allocated(list%items)) return
+      if (list%count > size(list%items)) then
+         allocate (items(size(list%values)))
+         items(:list%count - 1) = list%items(:list%count - 1)
+         call move_alloc(items, list%items)
+      end if
+      associate (item => list%items(list%count))
+         item%name = name
+         item%unit = unit
+         item%description = description
+         item%source = source
+         if (present(scope)) item%scope = scope
+      end associate
+   end subroutine append_quantity
 
    !> Position of a quantity in a list, 0 where it is not there.
    pure function find_quantity(quantities, name) result(position)

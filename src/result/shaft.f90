@@ -9,7 +9,7 @@ module camroller_shaft
    use camroller_model, only : model_t
    use camroller_state, only : state_t, cam_force
    use camroller_cycle, only : cycle_t, state_at
-   use camroller_catalogue, only : follower_torques, torque_count
+   use camroller_torque_list, only : of_bearings
    use camroller_journal, only : cam_bearings_t, journal_t, new_journal, journal_torque
    use camroller_camshaft, only : share_loads
    implicit none
@@ -76,7 +76,7 @@ contains
    end subroutine new_shaft
 
    !> Torques at a cam angle, and the state of the first cam's follower.
-   subroutine shaft_torques(shaft, models, cycles, angle, first_state, torques, bearing_torque, error)
+   subroutine shaft_torques(shaft, models, cycles, angle, first_state, torques, error)
       !> The shaft; its search hints move
       type(shaft_t), intent(inout) :: shaft
       !> Model of each lobe shape
@@ -87,10 +87,8 @@ contains
       real(wp), intent(in) :: angle
       !> State of the first follower
       type(state_t), intent(out) :: first_state
-      !> Torques of all followers of each camshaft [N m], last the energy residual [W], shape (torque, camshaft)
+      !> Torques of all followers and bearings of each camshaft, the rows of `torque_list` [N m], last the energy residual [W]
       real(wp), intent(out) :: torques(:, :)
-      !> Torque of all bearings of each camshaft [N m]
-      real(wp), intent(out) :: bearing_torque(:)
       !> Convergence or domain error
       type(error_t), allocatable, intent(out) :: error
 
@@ -100,13 +98,12 @@ contains
       integer :: cam, k
 
       torques = 0.0_wp
-      bearing_torque = 0.0_wp
       do cam = 1, size(shaft%lobes)
          call state_at(cycles(shaft%lobes(cam)), models(shaft%lobes(cam)), angle - shaft%phases(cam), shaft%hints(cam), &
             & state, error)
          if (allocated(error)) return
          if (cam == 1) first_state = state
-         torques(:, shaft%shafts(cam)) = torques(:, shaft%shafts(cam)) + follower_torques(state)
+         torques(:, shaft%shafts(cam)) = torques(:, shaft%shafts(cam)) + state%torques
          if (.not. allocated(shaft%journal)) cycle
          force = cam_force(models(shaft%lobes(cam)), state)
          associate (c => shaft%directions(1, cam), s => shaft%directions(2, cam))
@@ -115,7 +112,8 @@ contains
       end do
       if (.not. allocated(shaft%journal)) return
       do k = 1, shaft%count
-         call add_bearings(shaft, pack([(cam, cam=1, size(shaft%lobes))], shaft%shafts == k), forces, bearing_torque(k), error)
+         call add_bearings(shaft, pack([(cam, cam=1, size(shaft%lobes))], shaft%shafts == k), forces, &
+            & torques(of_bearings, k), error)
          if (allocated(error)) return
       end do
    end subroutine shaft_torques

@@ -6,7 +6,8 @@
 module camroller_standstills
    use camroller_kinds, only : wp
    use camroller_error, only : error_t
-   use camroller_catalogue, only : follower_values, torque_count
+   use camroller_catalogue, only : follower_values
+   use camroller_torque_list, only : torque_count
    use camroller_state, only : evaluate_state
    use camroller_extremes, only : add_sample
    use camroller_follower_samples, only : follower_samples_t, entrainment_t

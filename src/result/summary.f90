@@ -6,20 +6,18 @@ module camroller_summary
    use camroller_case, only : case_t, energy_names
    use camroller_model, only : model_t
    use camroller_cycle, only : cycle_t
-   use camroller_flexible_report, only : list_flexible, most_flexible
-   use camroller_catalogue, only : camshaft_columns, camshaft_values, lobe_columns, lobe_prefix, torque_count
-   use camroller_engine_summary, only : list_engine_scalars, engine_scalar_count
+   use camroller_flexible_report, only : add_train_scalars
+   use camroller_catalogue, only : camshaft_columns, camshaft_values, lobe_columns, lobe_prefix
+   use camroller_torque_list, only : torque_list, torque_count, is_loss, of_bearings, of_residual, torque_series
+   use camroller_engine_summary, only : add_engine_scalars
    use camroller_margins, only : margin_t, margins_t
    use camroller_means, only : statistics_t
-   use camroller_result, only : result_t, quantity_t, find_quantity, lobe_scope, scope_camshaft, scope_case
+   use camroller_result, only : result_t, quantity_list_t, add => append_quantity, find_quantity, lobe_scope, scope_camshaft
    use camroller_shaft, only : shaft_t
    implicit none
    private
 
    public :: make_summary, extremes_t
-
-   !> Scalars that do not belong to a series: room for them
-   integer, parameter :: more_scalars = 84 + engine_scalar_count + 2*most_flexible
 
    !> Smallest and largest values
    type :: extremes_t
@@ -52,39 +50,39 @@ contains
       !> In: series; out: with the summary
       type(result_t), intent(inout) :: result
 
-      type(quantity_t), allocatable :: quantities(:)
-      ! Values of the scalars [unit of the scalar]; means of the series [unit of the series]
-      real(wp), allocatable :: values(:), means(:)
-      integer :: count, worst, lobe
+      type(quantity_list_t) :: list
+      ! Means of the series [unit of the series]
+      real(wp), allocatable :: means(:)
+      integer :: worst, lobe
 
-      allocate (quantities(3*size(result%series) + more_scalars), values(3*size(result%series) + more_scalars))
-      count = 0
+      allocate (list%items(0), list%values(0))
       means = all_means(case, result, shaft, statistics, bearing_torque)
-      call add_series_statistics(result, extremes, means, quantities, values, count)
-      call add_losses(case, result, means, extremes, quantities, values, count)
-      call list_engine_scalars(case, result, means, quantities, values, count)
+      call add_series_statistics(result, extremes, means, list)
+      call add_losses(case, result, means, extremes, list)
+      call add_engine_scalars(list, case, result, means)
       do lobe = 1, size(models)
-         call add_slip(lobe, result, means, statistics(lobe), quantities, values, count)
-         call add_margins(lobe, margins(lobe), extremes%event_load(lobe), quantities, values, count)
-         call add_shares(lobe, models(lobe), statistics(lobe), quantities, values, count)
-         if (allocated(cycles(lobe)%flexible)) call add_train(lobe, models(lobe), cycles(lobe), quantities, values, count)
+         call add_slip(lobe, result, means, statistics(lobe), list)
+         call add_margins(lobe, margins(lobe), extremes%event_load(lobe), list)
+         call add_shares(lobe, models(lobe), statistics(lobe), list)
+         if (allocated(cycles(lobe)%flexible)) call add_train_scalars(list, models(lobe), cycles(lobe)%flexible, &
+            & trim(lobe_prefix(lobe)), lobe_scope(lobe))
       end do
-      call add(quantities, values, count, "estimated_error", "1", &
+      call add(list, "estimated_error", "1", &
          & "estimate of the largest error of the sliding speed relative to its largest value (at least 1e-5 of the largest "// &
          & "speed in pure rolling)", "numerics", maxval(statistics%error))
       worst = maxloc(statistics%error, 1)
-      call add(quantities, values, count, "estimated_error_angle", "deg", "cam angle where the estimated error is largest", &
+      call add(list, "estimated_error_angle", "deg", "cam angle where the estimated error is largest", &
          & "numerics", modulo(180.0_wp + statistics(worst)%error_angle/degree, 360.0_wp))
-      call add(quantities, values, count, "estimated_error_of_means", "1", "estimate of the largest error of a mean relative "// &
+      call add(list, "estimated_error_of_means", "1", "estimate of the largest error of a mean relative "// &
          & "to the mean magnitude of its quantity, of geometric and drive torque relative to the mean friction torque; "// &
          & "without films where contact is lost", "numerics", &
          & maxval(statistics%mean_error))
-      call add(quantities, values, count, "estimated_error_of_extremes", "1", "estimate of the largest error of a smallest or "// &
+      call add(list, "estimated_error_of_extremes", "1", "estimate of the largest error of a smallest or "// &
          & "largest value relative to the range of its series, of the smallest film relative to itself; without torques, and "// &
          & "without films where contact is lost", "numerics", maxval(statistics%extreme_error))
-      call add_counters(cycles, quantities, values, count)
-      result%summary = quantities(:count)
-      result%summary_values = values(:count)
+      call add_counters(cycles, list)
+      result%summary = list%items(:list%count)
+      result%summary_values = list%values(:list%count)
    end subroutine make_summary
 
    !> Means of all series: those of each lobe's follower, and the torques of the whole camshaft.
@@ -102,7 +100,7 @@ contains
       !> Means [unit of the series]
       real(wp) :: means(size(result%series))
 
-      ! Mean torques of the followers of each camshaft, and those of the first follower alone [N m]; the camshafts' series with each
+      ! Mean torques on each camshaft, and those of the first follower alone [N m]; the camshafts' series with each
       real(wp), dimension(torque_count, shaft%count) :: torques, first
       real(wp), allocatable :: with_all(:), with_first(:)
       integer :: cam, lobe, columns(2)
@@ -119,13 +117,14 @@ contains
       end do
       columns = camshaft_columns(case)
       allocate (with_all(columns(2) - columns(1) + 1), with_first(columns(2) - columns(1) + 1))
-      call camshaft_values(case, torques, bearing_torque, with_all)
-      call camshaft_values(case, first, 0.0_wp*bearing_torque, with_first)
+      torques(of_bearings, :) = bearing_torque
+      call camshaft_values(case, torques, with_all)
+      call camshaft_values(case, first, with_first)
       means(columns(1):columns(2)) = statistics(1)%mean(columns(1):columns(2)) + (with_all - with_first)
    end function all_means
 
    !> Mean, smallest and largest value of every series.
-   subroutine add_series_statistics(result, extremes, means, quantities, values, count)
+   subroutine add_series_statistics(result, extremes, means, list)
       !> Series
       type(result_t), intent(in) :: result
       !> Extremes of the series
@@ -133,28 +132,24 @@ contains
       !> Means [unit of the series]
       real(wp), intent(in) :: means(:)
       !> List of scalars
-      type(quantity_t), intent(inout) :: quantities(:)
-      !> Their values [unit of the scalar]
-      real(wp), intent(inout) :: values(:)
-      !> Scalars so far
-      integer, intent(inout) :: count
+      type(quantity_list_t), intent(inout) :: list
 
       integer :: i
 
       do i = 1, size(result%series)
          associate (series => result%series(i))
-            call add(quantities, values, count, "mean_"//series%name, series%unit, "mean over the cycle: "// &
+            call add(list, "mean_"//series%name, series%unit, "mean over the cycle: "// &
                & series%description, series%source, means(i), series%scope)
-            call add(quantities, values, count, "min_"//series%name, series%unit, "smallest value: "//series%description, &
+            call add(list, "min_"//series%name, series%unit, "smallest value: "//series%description, &
                & series%source, extremes%lowest(i), series%scope)
-            call add(quantities, values, count, "max_"//series%name, series%unit, "largest value: "//series%description, &
+            call add(list, "max_"//series%name, series%unit, "largest value: "//series%description, &
                & series%source, extremes%highest(i), series%scope)
          end associate
       end do
    end subroutine add_series_statistics
 
    !> Loss of each source as power and as energy per cam revolution.
-   subroutine add_losses(case, result, means, extremes, quantities, values, count)
+   subroutine add_losses(case, result, means, extremes, list)
       !> The case
       type(case_t), intent(in) :: case
       !> Series
@@ -164,36 +159,43 @@ contains
       !> Smallest and largest value of each series
       type(extremes_t), intent(in) :: extremes
       !> List of scalars
-      type(quantity_t), intent(inout) :: quantities(:)
-      !> Their values [unit of the scalar]
-      real(wp), intent(inout) :: values(:)
-      !> Scalars so far
-      integer, intent(inout) :: count
+      type(quantity_list_t), intent(inout) :: list
 
-      character(len=*), parameter :: sources(*) = [character(len=8) :: "contact", "needle", "guide", "bearings", "friction"]
       integer :: i, series
 
-      do i = 1, size(sources)
-         series = find_quantity(result%series, "torque_"//trim(sources(i)))
-         if (series == 0) cycle
-         associate (source => result%series(series)%source)
-            call add(quantities, values, count, "power_"//trim(sources(i)), "W", "mean power lost, "//trim(sources(i)), source, &
-               & means(series)*case%operating_point%speed, scope_camshaft)
-            call add(quantities, values, count, "work_"//trim(sources(i)), "J", "energy lost per cam revolution, "// &
-               & trim(sources(i)), source, means(series)*two_pi, scope_camshaft)
-         end associate
+      do i = 1, torque_count
+         if (is_loss(i)) call add_loss(trim(torque_list(i)%name))
       end do
+      call add_loss("friction")
       if (case%energy /= energy_names(1)) return
-      series = find_quantity(result%series, "energy_residual")
-      call add(quantities, values, count, "relative_energy_residual", "1", &
+      series = find_quantity(result%series, trim(torque_series(of_residual)))
+      call add(list, "relative_energy_residual", "1", &
          & "largest energy residual relative to the mean power lost", "torque", &
          & max(-extremes%lowest(series), extremes%highest(series)) &
          & /max(tiny(1.0_wp), case%operating_point%speed*means(find_quantity(result%series, "torque_friction"))), &
          & scope_camshaft)
+
+   contains
+
+      !> Power and energy of a loss, where the case has it.
+      subroutine add_loss(loss)
+         !> Its name
+         character(len=*), intent(in) :: loss
+
+         series = find_quantity(result%series, "torque_"//loss)
+         if (series == 0) return
+         associate (source => result%series(series)%source)
+            call add(list, "power_"//loss, "W", "mean power lost, "//loss, source, means(series)*case%operating_point%speed, &
+               & scope_camshaft)
+            call add(list, "work_"//loss, "J", "energy lost per cam revolution, "//loss, source, means(series)*two_pi, &
+               & scope_camshaft)
+         end associate
+      end subroutine add_loss
+
    end subroutine add_losses
 
    !> Slip of a lobe's follower over the whole revolution.
-   subroutine add_slip(lobe, result, means, statistics, quantities, values, count)
+   subroutine add_slip(lobe, result, means, statistics, list)
       !> The lobe shape, from 1
       integer, intent(in) :: lobe
       !> Series
@@ -203,27 +205,23 @@ contains
       !> Means over the lobe's cycle
       type(statistics_t), intent(in) :: statistics
       !> List of scalars
-      type(quantity_t), intent(inout) :: quantities(:)
-      !> Their values [unit of the scalar]
-      real(wp), intent(inout) :: values(:)
-      !> Scalars so far
-      integer, intent(inout) :: count
+      type(quantity_list_t), intent(inout) :: list
 
       ! Means of sliding speed and speed of pure rolling [m/s]
       real(wp) :: sliding, rolling
 
       sliding = means(find_quantity(result%series, trim(lobe_prefix(lobe))//"sliding_speed"))
       rolling = means(find_quantity(result%series, trim(lobe_prefix(lobe))//"rolling_speed"))
-      call add(quantities, values, count, trim(lobe_prefix(lobe))//"revolution_slip", "1", &
+      call add(list, trim(lobe_prefix(lobe))//"revolution_slip", "1", &
          & "slip per cam revolution, relative to the turns of the roller in pure rolling", "roller", sliding/rolling, &
          & lobe_scope(lobe))
-      call add(quantities, values, count, trim(lobe_prefix(lobe))//"entrainment_reversals", "1", &
+      call add(list, trim(lobe_prefix(lobe))//"entrainment_reversals", "1", &
          & "times per cam revolution that the entrainment speed passes through zero in contact or stays there; the smallest "// &
          & "film is then that of a standstill", "film", real(statistics%standstills, wp), lobe_scope(lobe))
    end subroutine add_slip
 
    !> Margins of a lobe against loss of contact and opening of the pivot's joint.
-   subroutine add_margins(lobe, margins, event_load, quantities, values, count)
+   subroutine add_margins(lobe, margins, event_load, list)
       !> The lobe shape, from 1
       integer, intent(in) :: lobe
       !> Its margins
@@ -231,37 +229,33 @@ contains
       !> Smallest contact load with the valve off its seat [N]
       real(wp), intent(in) :: event_load
       !> List of scalars
-      type(quantity_t), intent(inout) :: quantities(:)
-      !> Their values [unit of the scalar]
-      real(wp), intent(inout) :: values(:)
-      !> Scalars so far
-      integer, intent(inout) :: count
+      type(quantity_list_t), intent(inout) :: list
 
       integer :: first, i
 
-      first = count + 1
-      call add(quantities, values, count, "spring_margin", "N", &
+      first = list%count + 1
+      call add(list, "spring_margin", "N", &
          & "smaller of margin_event and margin_base_circle; negative where contact is lost", "dynamics", &
          & min(margins%event%force, margins%base_circle%force))
-      call add(quantities, values, count, "contact_loss_speed", "rad s-1", &
+      call add(list, "contact_loss_speed", "rad s-1", &
          & "cam speed at which contact is first lost, without friction; infinite if never", "dynamics", &
          & min(margins%event%speed, margins%base_circle%speed))
       call add_margin("event", "contact load with the valve off its seat", margins%event)
-      call add(quantities, values, count, "min_event_contact_load", "N", &
+      call add(list, "min_event_contact_load", "N", &
          & "smallest contact load with the valve off its seat, with friction; zero where contact is lost", "dynamics", event_load)
       call add_margin("base_circle", "contact load with the valve on its seat or about to leave or reach it", margins%base_circle)
       if (allocated(margins%pivot)) then
          call add_margin("pivot", "force in the joint of finger and lash adjuster with the valve off its seat", margins%pivot)
-         call add(quantities, values, count, "adjuster_force", "N", &
+         call add(list, "adjuster_force", "N", &
             & "force of the lash adjuster that makes the base circle load", "dynamics", margins%adjuster_force)
-         call add(quantities, values, count, "pump_up_speed", "rad s-1", "cam speed at which the force in the pivot's joint "// &
+         call add(list, "pump_up_speed", "rad s-1", "cam speed at which the force in the pivot's joint "// &
             & "first falls to the adjuster's, which then follows; without friction, infinite if never", "dynamics", &
             & margins%pump_up_speed)
       end if
-      do i = first, count
-         quantities(i)%name = trim(lobe_prefix(lobe))//quantities(i)%name
-         quantities(i)%scope = lobe_scope(lobe)
-         quantities(i)%may_be_infinite = quantities(i)%unit == "rad s-1"
+      do i = first, list%count
+         list%items(i)%name = trim(lobe_prefix(lobe))//list%items(i)%name
+         list%items(i)%scope = lobe_scope(lobe)
+         list%items(i)%may_be_infinite = list%items(i)%unit == "rad s-1"
       end do
 
    contains
@@ -273,18 +267,18 @@ contains
          !> The margin
          type(margin_t), intent(in) :: margin
 
-         call add(quantities, values, count, "margin_"//name, "N", "smallest "//force//", without friction", "dynamics", &
+         call add(list, "margin_"//name, "N", "smallest "//force//", without friction", "dynamics", &
             & margin%force)
-         call add(quantities, values, count, "margin_"//name//"_angle", "deg", "cam angle of margin_"//name, "dynamics", &
+         call add(list, "margin_"//name//"_angle", "deg", "cam angle of margin_"//name, "dynamics", &
             & modulo(180.0_wp + margin%angle/degree, 360.0_wp))
-         call add(quantities, values, count, "margin_"//name//"_speed", "rad s-1", "cam speed at which margin_"//name// &
+         call add(list, "margin_"//name//"_speed", "rad s-1", "cam speed at which margin_"//name// &
             & " is zero; infinite if never", "dynamics", margin%speed)
       end subroutine add_margin
 
    end subroutine add_margins
 
    !> Parts of the cycle in which a lobe's follower is not where the model is at home, and the error of its film table.
-   subroutine add_shares(lobe, model, statistics, quantities, values, count)
+   subroutine add_shares(lobe, model, statistics, list)
       !> The lobe shape, from 1
       integer, intent(in) :: lobe
       !> Its model
@@ -292,97 +286,37 @@ contains
       !> Means over its cycle
       type(statistics_t), intent(in) :: statistics
       !> List of scalars
-      type(quantity_t), intent(inout) :: quantities(:)
-      !> Their values [unit of the scalar]
-      real(wp), intent(inout) :: values(:)
-      !> Scalars so far
-      integer, intent(inout) :: count
+      type(quantity_list_t), intent(inout) :: list
 
-      call add(quantities, values, count, trim(lobe_prefix(lobe))//"lost_contact_share", "1", &
+      call add(list, trim(lobe_prefix(lobe))//"lost_contact_share", "1", &
          & "fraction of the cycle without contact", "dynamics", statistics%lost_share, lobe_scope(lobe))
-      call add(quantities, values, count, trim(lobe_prefix(lobe))//"outside_film_range_share", "1", &
+      call add(list, trim(lobe_prefix(lobe))//"outside_film_range_share", "1", &
          & "fraction of the cycle outside the film law's published range", "film", statistics%film_range%share, lobe_scope(lobe))
       if (.not. allocated(model%film_table)) return
-      call add(quantities, values, count, trim(lobe_prefix(lobe))//"film_table_error", "1", &
+      call add(list, trim(lobe_prefix(lobe))//"film_table_error", "1", &
          & "largest error of the film: of the polynomials of its table, and of the solutions at its points", "film", &
          & model%film_table%error, lobe_scope(lobe))
    end subroutine add_shares
 
-   !> Measures of a lobe's flexible train.
-   subroutine add_train(lobe, model, cycle, quantities, values, count)
-      !> The lobe shape, from 1
-      integer, intent(in) :: lobe
-      !> Its model
-      type(model_t), intent(in) :: model
-      !> Its cycle, of a flexible train
-      type(cycle_t), intent(in) :: cycle
-      !> List of scalars
-      type(quantity_t), intent(inout) :: quantities(:)
-      !> Their values [unit of the scalar]
-      real(wp), intent(inout) :: values(:)
-      !> Scalars so far
-      integer, intent(inout) :: count
-
-      type(quantity_t) :: of_train(most_flexible)
-      ! Their values [unit of the scalar]
-      real(wp) :: train_values(most_flexible)
-      integer :: number, i
-
-      call list_flexible(model, cycle%flexible, of_train, train_values, number)
-      do i = 1, number
-         call add(quantities, values, count, trim(lobe_prefix(lobe))//trim(of_train(i)%name), of_train(i)%unit, &
-            & of_train(i)%description, of_train(i)%source, train_values(i), lobe_scope(lobe))
-      end do
-   end subroutine add_train
-
    !> Work done by the integration, all lobe shapes together.
-   subroutine add_counters(cycles, quantities, values, count)
+   subroutine add_counters(cycles, list)
       !> Cycle of each lobe shape
       type(cycle_t), intent(in) :: cycles(:)
       !> List of scalars
-      type(quantity_t), intent(inout) :: quantities(:)
-      !> Their values [unit of the scalar]
-      real(wp), intent(inout) :: values(:)
-      !> Scalars so far
-      integer, intent(inout) :: count
+      type(quantity_list_t), intent(inout) :: list
 
-      call add(quantities, values, count, "counter_evaluations", "1", "evaluations of the roller equation", "numerics", &
+      call add(list, "counter_evaluations", "1", "evaluations of the roller equation", "numerics", &
          & real(sum(cycles%counters%evaluations), wp))
-      call add(quantities, values, count, "counter_jacobians", "1", "Jacobians of the roller equation", "numerics", &
+      call add(list, "counter_jacobians", "1", "Jacobians of the roller equation", "numerics", &
          & real(sum(cycles%counters%jacobians), wp))
-      call add(quantities, values, count, "counter_steps", "1", "accepted steps", "numerics", &
+      call add(list, "counter_steps", "1", "accepted steps", "numerics", &
          & real(sum(cycles%counters%accepted), wp))
-      call add(quantities, values, count, "counter_rejected", "1", "rejected steps", "numerics", &
+      call add(list, "counter_rejected", "1", "rejected steps", "numerics", &
          & real(sum(cycles%counters%rejected), wp))
-      call add(quantities, values, count, "counter_cycles", "1", "cycles integrated until periodic", "numerics", &
+      call add(list, "counter_cycles", "1", "cycles integrated until periodic", "numerics", &
          & real(maxval(cycles%cycles), wp))
-      call add(quantities, values, count, "periodicity", "1", &
+      call add(list, "periodicity", "1", &
          & "difference of the sliding speed between end and start, relative to the largest", "numerics", maxval(cycles%closure))
    end subroutine add_counters
-
-   !> Append a scalar.
-   subroutine add(quantities, values, count, name, unit, description, source, value, scope)
-      !> List of scalars
-      type(quantity_t), intent(inout) :: quantities(:)
-      !> Their values [unit of the scalar]
-      real(wp), intent(inout) :: values(:)
-      !> Scalars so far
-      integer, intent(inout) :: count
-      !> Name, unit, meaning, part of the model
-      character(len=*), intent(in) :: name, unit, description, source
-      !> Value [unit of the scalar]
-      real(wp), intent(in) :: value
-      !> What it belongs to; the case as a whole where absent
-      character(len=*), intent(in), optional :: scope
-
-      count = count + 1
-      quantities(count)%name = name
-      quantities(count)%unit = unit
-      quantities(count)%description = description
-      quantities(count)%source = source
-      quantities(count)%scope = scope_case
-      if (present(scope)) quantities(count)%scope = scope
-      values(count) = value
-   end subroutine add
 
 end module camroller_summary

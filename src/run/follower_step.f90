@@ -16,7 +16,7 @@ module camroller_follower_step
    use camroller_gas, only : give_pressure
    use camroller_kinematics, only : position_t
    use camroller_state, only : state_t, evaluate_state, cam_force
-   use camroller_catalogue, only : torque_count, follower_torques
+   use camroller_torque_list, only : torque_count, is_loss, is_torque
    use camroller_events, only : find_stops_between
    use camroller_follower_samples, only : extremes_t
    use camroller_spin, only : rolling_speed_at
@@ -72,8 +72,7 @@ module camroller_follower_step
       real(wp) :: mean_torque_drive = 0.0_wp, torque_drive = 0.0_wp
       !> The part of it for losses: mean over the step, and at its end [N m]
       real(wp) :: mean_torque_friction = 0.0_wp, torque_friction = 0.0_wp
-      !> By source, mean over the step and at its end: against spring, masses and gas; contact; roller bearing; guide; inertia of
-      !> the roller [N m]; last the energy residual [W]
+      !> By source, the rows of `torque_list`: mean over the step and at its end [N m]; last the energy residual [W]
       real(wp) :: mean_torques(torque_count) = 0.0_wp, torques(torque_count) = 0.0_wp
       !> Force of the follower on the cam, x from the finger's pivot to the cam centre, at the end of the step [N]
       real(wp) :: cam_force(2) = 0.0_wp
@@ -145,9 +144,9 @@ contains
       !> Outcome with mean torques and state
       type(outcome_t), intent(inout) :: outcome
 
-      outcome%torques = follower_torques(outcome%state)
-      outcome%mean_torque_friction = sum(outcome%mean_torques(2:4))
-      outcome%mean_torque_drive = sum(outcome%mean_torques(1:5))
+      outcome%torques = outcome%state%torques
+      outcome%mean_torque_friction = sum(outcome%mean_torques, mask=is_loss)
+      outcome%mean_torque_drive = sum(outcome%mean_torques, mask=is_torque)
       outcome%torque_friction = outcome%state%torque_friction
       outcome%torque_drive = outcome%state%torque_drive
       outcome%cam_force = cam_force(model, outcome%state)

@@ -9,6 +9,7 @@ module test_contact
    use camroller_film, only : film_law_names
    use camroller_balance, only : find_balance
    use camroller_spin, only : rolling_speed_slope
+   use camroller_torque_list, only : of_contact
    use closeness, only : check_close, check_scaled
    use reference_cases, only : thesis_case, source_case, skewed_case, make_model, set_point, add_gas_force, point_speeds, &
       point_viscosities
@@ -96,7 +97,7 @@ contains
          call evaluate_state(model, 5*i*degree, 0.01_wp, state, status)
          call check_close(error, state%contact%load, state%moments%total/state%position%parallel_arm, 1.0e-14_wp, "load")
          if (allocated(error)) return
-         call check_scaled(error, state%torque_contact, state%contact_friction*state%position%cam_arm, 0.01_wp, 1.0e-14_wp, &
+         call check_scaled(error, state%torques(of_contact), state%contact_friction*state%position%cam_arm, 0.01_wp, 1.0e-14_wp, &
             "torque")
          if (allocated(error)) return
          call check_close(error, state%contact%rolling_speed, state%contact%cam_surface_speed, 1.0e-14_wp, "pure rolling")

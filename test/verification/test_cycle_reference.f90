@@ -11,6 +11,7 @@ module test_cycle_reference
    use camroller_state, only : state_t, evaluate_state
    use camroller_cycle, only : cycle_t, state_at
    use camroller_quadrature, only : gauss_legendre
+   use camroller_torque_list, only : of_geometric, of_contact, of_needle, of_guide, of_roller_inertia
    use labelled_table, only : read_labelled_table, label_length
    use closeness, only : check_close, check_scaled
    use reference_cases, only : named_case, make_model, make_cycle
@@ -60,7 +61,7 @@ contains
          state%contact%film_central, state%contact%asperity_load, state%contact%real_area, &
          state%contact%shear/(1.0_wp - state%contact%real_area/state%contact%apparent_area), state%contact%boundary_capacity, &
          state%contact%traction, state%contact%rolling_resistance, state%contact%bearing_torque, state%torque_drive, &
-         state%torque_geometric, state%torque_contact, state%torque_needle, state%torque_guide, state%torque_roller_inertia]
+         state%torques([of_geometric, of_contact, of_needle, of_guide, of_roller_inertia])]
    end function quantities
 
    !> What a difference of each quantity is judged by: its own size; what asperities carry by the load, of which it is a part that
@@ -229,8 +230,8 @@ contains
             start = cycle%stops(segment) + (piece - 1)*width
             do i = 1, size(places)
                call state_at(cycle, model, start + 0.5_wp*width*(1.0_wp + places(i)), hint, state, failure)
-               means = means + 0.5_wp*width*weights(i)/two_pi*[state%torque_drive, state%torque_geometric, state%torque_contact, &
-                  state%torque_needle, state%torque_guide, state%torque_roller_inertia, &
+               means = means + 0.5_wp*width*weights(i)/two_pi*[state%torque_drive, &
+                  state%torques([of_geometric, of_contact, of_needle, of_guide, of_roller_inertia]), &
                   state%contact%sliding_speed/state%contact%cam_surface_speed, &
                   state%contact%sliding_speed/state%contact%rolling_speed, state%contact%roller_spin]
             end do

@@ -12,6 +12,7 @@ module test_energy
    use camroller_events, only : find_stops
    use camroller_film, only : film_law_names
    use camroller_quadrature, only : gauss_legendre, integrand_t, integrate, integral_reached
+   use camroller_torque_list, only : of_geometric, of_roller_inertia, of_residual
    use closeness, only : check_scaled
    use reference_cases, only : thesis_case, skewed_case, set_point, add_gas_force, make_model, make_cycle, point_speeds, &
       point_viscosities
@@ -75,7 +76,7 @@ contains
          if (allocated(error)) return
          if (.not. state%contact%is_touching) call test_failed(error, "contact is lost")
          if (allocated(error)) return
-         largest = max(largest, abs(state%energy_residual))
+         largest = max(largest, abs(state%torques(of_residual)))
          lost = lost + state%torque_friction*model%speed/angle_count
       end do
       call check_scaled(error, largest, 0.0_wp, lost, residual_tolerance, "largest energy residual")
@@ -152,8 +153,8 @@ contains
                if (status /= 0) call test_failed(error, "no state")
                if (allocated(error)) return
                ! the parts of the balance are powers of up to this size
-               call check_scaled(error, state%energy_residual, 0.0_wp, model%speed*(abs(state%torque_geometric) &
-                  + abs(state%torque_friction) + abs(state%torque_roller_inertia)), 1.0e-13_wp, "energy residual")
+               call check_scaled(error, state%torques(of_residual), 0.0_wp, model%speed*(abs(state%torques(of_geometric)) &
+                  + abs(state%torque_friction) + abs(state%torques(of_roller_inertia))), 1.0e-13_wp, "energy residual")
                if (allocated(error)) return
             end do
          end do

@@ -6,7 +6,7 @@ module test_means
    use camroller_dynamics, only : stored_energy
    use camroller_error, only : error_t
    use camroller_case, only : case_t, numerics_t
-   use camroller_catalogue, only : follower_torques, list_series, torque_count
+   use camroller_catalogue, only : list_series
    use camroller_cycle, only : cycle_t, integrate_cycle, state_at
    use camroller_deck, only : deck_t, override_t, read_deck, parse_deck, make_case, make_sweep_case
    use camroller_means, only : statistics_t, integrate_lobe, integrate_torques
@@ -16,6 +16,7 @@ module test_means
    use camroller_run, only : build_models, run_case
    use camroller_simulation, only : simulation_t, outcome_t, start_simulation, advance
    use camroller_state, only : state_t
+   use camroller_torque_list, only : torque_count, is_torque, of_geometric, of_contact, of_needle, of_guide, of_roller_inertia
    use random_decks, only : random_t, start_random, random_deck
    use reference_cases, only : thesis_case, source_case, set_point, point_viscosities
    use run_settings, only : has_checks
@@ -25,7 +26,7 @@ module test_means
    public :: collect_means
 
    !> Torques that are losses: contact, roller bearing, guide
-   integer, parameter :: losses(3) = [2, 3, 4]
+   integer, parameter :: losses(3) = [of_contact, of_needle, of_guide]
    !> Rule of three points of Gauss on [0, 1] [-]
    real(wp), parameter :: nodes(3) = 0.5_wp*[1.0_wp - sqrt(0.6_wp), 1.0_wp, 1.0_wp + sqrt(0.6_wp)]
    real(wp), parameter :: weights(3) = [5.0_wp, 8.0_wp, 5.0_wp]/18.0_wp
@@ -137,8 +138,8 @@ contains
                      call test_failed(error, failure%message)
                      return
                   end if
-                  torques = torques + weights(node)*length/span*follower_torques(state)
-                  sizes = sizes + weights(node)*length/span*abs(follower_torques(state))
+                  torques = torques + weights(node)*length/span*state%torques
+                  sizes = sizes + weights(node)*length/span*abs(state%torques)
                end do
             end do
          end do
@@ -210,7 +211,7 @@ contains
                call take_statistics(the_case, models, cycle, statistics, error)
                if (allocated(error)) return
                largest = maxval(abs(statistics%torques(losses) - right%torques(losses))/sizes(losses), mask=sizes(losses) > 0.0_wp)
-               largest = max(largest, abs(sum(statistics%torques(1:5) - right%torques(1:5)))/sum(sizes(losses)))
+               largest = max(largest, abs(sum(statistics%torques - right%torques, mask=is_torque))/sum(sizes(losses)))
                write (words, "(2a, 2i2, 2es10.2)") "case, power, error, estimate: ", methods(method), number, power, largest, &
                   & statistics%mean_error
                ! The reference itself is good to a few times its tolerance
@@ -240,10 +241,11 @@ contains
       the_case%numerics = numerics_t()
       call take_statistics(the_case, models, cycle, statistics, error)
       if (allocated(error)) return
-      call check(error, abs(statistics%torques(1)) <= 0.0_wp, "mean of the geometric torque")
+      call check(error, abs(statistics%torques(of_geometric)) <= 0.0_wp, "mean of the geometric torque")
       if (allocated(error)) return
       closed = models(1)%roller_inertia*cycle%closure*cycle%scale/models(1)%roller_radius*fastest*models(1)%speed
-      call check(error, abs(statistics%torques(5))*two_pi <= closed*(1.0_wp + 1.0e-6_wp) + 1.0e-15_wp, "spin of the roller")
+      call check(error, abs(statistics%torques(of_roller_inertia))*two_pi &
+         & <= closed*(1.0_wp + 1.0e-6_wp) + 1.0e-15_wp, "spin of the roller")
    end subroutine test_closed
 
    subroutine test_lost(error)
@@ -265,14 +267,16 @@ contains
          if (allocated(error)) return
          call check(error, statistics%lost_share > 0.01_wp, "contact is not lost")
          if (allocated(error)) return
-         write (words, "(4es13.5)") statistics%torques(1), torques(1), sizes(1), sum(sizes(losses))
+         write (words, "(4es13.5)") statistics%torques(of_geometric), torques(of_geometric), sizes(of_geometric), sum(sizes(losses))
          ! Brute force has 16 panels of three points in each interval, whose ends are all kinks there are: rounding of the large
          ! torque that goes to and fro is what is left
-         call check(error, abs(statistics%torques(1) - torques(1)) <= 1.0e-9_wp*sizes(1) + cycle%tolerance*sum(sizes(losses)), &
+         call check(error, abs(statistics%torques(of_geometric) - torques(of_geometric)) <= 1.0e-9_wp*sizes(of_geometric) &
+            & + cycle%tolerance*sum(sizes(losses)), &
             & words)
          if (allocated(error)) return
          ! The lift is even: without gas contact comes back with the energy that it was lost with
-         call check(error, (abs(statistics%torques(1)) > 1.0e-3_wp*sizes(1)) .eqv. i == 1, "what is lost or gained")
+         call check(error, (abs(statistics%torques(of_geometric)) > 1.0e-3_wp*sizes(of_geometric)) &
+            & .eqv. i == 1, "what is lost or gained")
          if (allocated(error)) return
       end do
    end subroutine test_lost

@@ -91,8 +91,7 @@ contains
       associate (state => outcome%state, contact => outcome%state%contact)
          values = [values, state%position%lift, state%position%lift_slope, state%position%equivalent_radius, &
             & state%moments%total, state%gas_force, state%spin_acceleration, state%boundary_friction, state%contact_friction, &
-            & state%torque_geometric, state%torque_contact, state%torque_needle, state%torque_guide, &
-            & state%torque_roller_inertia, state%torque_friction, state%torque_drive, state%energy_residual]
+            & state%torques, state%torque_friction, state%torque_drive]
          values = [values, contact%cam_surface_speed, contact%roller_surface_speed, contact%rolling_speed, &
             & contact%sliding_speed, contact%entrainment_speed, contact%roller_spin, contact%relative_spin, contact%load, &
             & contact%half_width, contact%apparent_area, contact%film_min, contact%film_central, contact%film_ratio, &

@@ -9,10 +9,10 @@ module test_stick_slip
    use camroller_cycle, only : cycle_t, state_at, integrate_cycle
    use camroller_stick, only : rates_at_rest
    use camroller_means, only : integrate_torques
-   use camroller_catalogue, only : torque_count
    use camroller_simulation, only : simulation_t, outcome_t, start_simulation, advance
    use camroller_spin, only : rolling_speed_slope
    use camroller_trajectory, only : trajectory_t, start_trajectory, append_point, append_curve, append_until, interpolate_state
+   use camroller_torque_list, only : torque_count, is_loss, of_residual
    use closeness, only : check_scaled
    use reference_cases, only : thesis_case, skewed_case, set_point, make_model, make_cycle, point_speeds, point_viscosities
    implicit none
@@ -122,11 +122,11 @@ contains
          sample%capacity(i) = state%contact%boundary_capacity
          sample%rate(i) = rolling_speed_slope(model, state%position) &
             - model%roller_radius*state%spin_acceleration/model%speed
-         sample%residual = max(sample%residual, abs(state%energy_residual))
+         sample%residual = max(sample%residual, abs(state%torques(of_residual)))
       end do
       call integrate_torques(model, cycle, torques, failure)
       if (allocated(failure)) call test_failed(error, failure%message)
-      sample%torque = sum(torques(2:4))
+      sample%torque = sum(torques, mask=is_loss)
       sample%residual = sample%residual/(sample%torque*model%speed)
    end subroutine sample_cycle
 

@@ -9,6 +9,7 @@ module cycle_checks
    use camroller_model, only : model_t
    use camroller_cycle, only : cycle_t, integrate_cycle, state_at
    use camroller_state, only : state_t
+   use camroller_torque_list, only : is_torque, of_residual
    implicit none
    private
 
@@ -102,9 +103,8 @@ contains
          if (.not. is_possible(state)) sample%trouble = "a state has a number that cannot be"
          sample%sliding_speed(i) = state%contact%sliding_speed
          sample%scale = max(sample%scale, abs(state%contact%sliding_speed), least_slip*abs(state%contact%rolling_speed))
-         residual = max(residual, abs(state%energy_residual))
-         power = max(power, model%speed*sum(abs([state%torque_geometric, state%torque_contact, state%torque_needle, &
-            & state%torque_guide, state%torque_roller_inertia])))
+         residual = max(residual, abs(state%torques(of_residual)))
+         power = max(power, model%speed*sum(abs(state%torques), mask=is_torque))
       end do
       if (.not. residual <= energy_tolerance*power) sample%trouble = "energy does not close"
    end subroutine look_at_states
@@ -119,8 +119,8 @@ contains
       associate (contact => state%contact)
          is_possible = all(ieee_is_finite([contact%sliding_speed, contact%traction, contact%traction_slope, contact%load, &
             & contact%film_min, contact%film_central, contact%asperity_load, contact%rolling_resistance, contact%bearing_torque, &
-            & state%torque_drive, state%torque_friction, state%torque_geometric, state%torque_contact, state%torque_needle, &
-            & state%torque_guide, state%torque_roller_inertia, state%energy_residual, state%spin_acceleration]))
+            & state%torque_drive, state%torque_friction, state%torques, &
+            & state%spin_acceleration]))
          if (.not. is_possible) return
          is_possible = min(contact%load, contact%film_min, contact%asperity_load, contact%real_area, &
             & contact%boundary_capacity, contact%traction_slope) >= 0.0_wp .and. contact%asperity_load <= contact%load &

@@ -1,0 +1,70 @@
+!> The torques on a camshaft by source: one list with the name, the meaning and the kind of each.
+!>
+!> A loss has one row here and one line in `camroller_state` that calls its formula. Its series, its mean and extremes, its power
+!> and work, its part of the friction mean effective pressure and its term of the energy balance follow from the row.
+!>
+!> A vector of torques holds one value for each row, in this order; last stands the energy residual, in watts.
+module camroller_torque_list
+   use camroller_names, only : name_length
+   implicit none
+   private
+
+   public :: torque_row_t, torque_list, torque_count, is_loss, is_torque, torque_series
+   public :: of_geometric, of_contact, of_needle, of_guide, of_roller_inertia, of_damping, of_bearings, of_residual
+
+   !> Rows of the list
+   enum, bind(C)
+      enumerator :: of_geometric = 1, of_contact, of_needle, of_guide, of_roller_inertia, of_damping, of_bearings, of_residual
+   end enum
+
+   !> Kinds of rows: energy that comes back, energy that is lost, the error of the energy balance
+   enum, bind(C)
+      enumerator :: kind_stored = 1, kind_loss, kind_residual
+   end enum
+
+   !> One row
+   type :: torque_row_t
+      !> Short name; the series is called `torque_` and this name
+      character(len=name_length) :: name
+      !> Meaning of the series
+      character(len=56) :: meaning
+      !> Part of the model that it comes from, without which a case has no such torque: a group of the deck, `roller` for the
+      !> consistent bookkeeping, `torque` for what every case has
+      character(len=name_length) :: source
+      !> One of the kinds
+      integer :: kind
+      !> Heading in tables; blank: not in tables
+      character(len=14) :: heading
+   end type torque_row_t
+
+   !> The list
+   type(torque_row_t), parameter :: torque_list(*) = [ &
+      torque_row_t("geometric", "torque against spring, inertia and gas force", "torque", kind_stored, ""), &
+      torque_row_t("contact", "torque for the losses of the contact", "torque", kind_loss, "contact"), &
+      torque_row_t("needle", "torque for the roller's bearing", "needle_bearing", kind_loss, "roller bearing"), &
+      torque_row_t("guide", "torque for the valve guide", "valve_guide", kind_loss, "guide"), &
+      torque_row_t("roller_inertia", "torque for the inertia of the roller", "roller", kind_stored, ""), &
+      torque_row_t("damping", "torque for the losses in dampers, leak and check valve", "dynamics", kind_loss, "damping"), &
+      torque_row_t("bearings", "torque for the camshaft bearings", "cam_bearings", kind_loss, "cam bearings"), &
+      torque_row_t("residual", "drive power less losses less stored power", "torque", kind_residual, "")]
+
+   !> Number of rows
+   integer, parameter :: torque_count = size(torque_list)
+   !> Which rows are losses, and which are torques
+   logical, parameter :: is_loss(torque_count) = torque_list%kind == kind_loss, &
+      & is_torque(torque_count) = torque_list%kind /= kind_residual
+
+contains
+
+   !> Name of the series of a row.
+   pure function torque_series(row) result(name)
+      !> The row
+      integer, intent(in) :: row
+      !> The name
+      character(len=name_length) :: name
+
+      name = "torque_"//torque_list(row)%name
+      if (row == of_residual) name = "energy_residual"
+   end function torque_series
+
+end module camroller_torque_list
