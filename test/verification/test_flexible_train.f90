@@ -9,6 +9,7 @@ module test_flexible_train
    use camroller_flexible_setup, only : rest_t, find_rest
    use camroller_flexible_geometry, only : touch_t, find_touch
    use camroller_flexible_train, only : flexible_state_t, state_size, evaluate_train, at_sliding
+   use camroller_torque_list, only : of_contact, of_damping
    use camroller_flexible_energy, only : powers_t, evaluate_powers, stored_energy
    use camroller_flexible_problem, only : flexible_problem_t, state_scales
    use camroller_ode_problem, only : linear_t, counters_t, new_linear
@@ -250,13 +251,14 @@ contains
             call evaluate_powers(model, state, now, powers)
             met = met + merge([1, 0], [0, 1], now%contact%is_touching)
             ! Powers are some 1e4 times those below where oil is pressed at the stops
-            call check_scaled(error, powers%residual, 0.0_wp, abs(powers%drive) + abs(powers%stored) + abs(powers%damping) &
-               & + abs(powers%spin) + abs(now%cam%elastic*now%cam%rate) + abs(now%pad%elastic*now%pad%rate) &
+            call check_scaled(error, powers%residual, 0.0_wp, abs(powers%drive) + abs(powers%stored) &
+               & + abs(powers%losses(of_damping)) + abs(powers%spin) &
+               & + abs(now%cam%elastic*now%cam%rate) + abs(now%pad%elastic*now%pad%rate) &
                & + abs(now%pressure*model%roller_radius**2*now%pivot_rate), 2.0e-12_wp, "energy residual")
             if (allocated(error)) return
             call check(error, min(powers%cam_damping, powers%pad_damping, powers%seat_damping, powers%stop_damping, &
-               & powers%spring_damping, powers%plunger_drag, powers%leak, powers%check_valve, powers%contact) >= -1.0e-13_wp, &
-               & "a loss gives power back")
+               & powers%spring_damping, powers%plunger_drag, powers%leak, powers%check_valve, powers%losses(of_contact)) &
+               & >= -1.0e-13_wp, "a loss gives power back")
             if (allocated(error)) return
          end do
       end do
