@@ -3,6 +3,7 @@
 !> In: the arguments of the program. Out: what to do, or a usage error.
 module camroller_cli
    use camroller_error, only : error_t, raise, kind_usage
+   use camroller_command_table, only : command_t, find_command, find_option, list_commands
    use camroller_deck, only : override_t, add_override
    use camroller_export, only : export_formats
    use camroller_mistakes, only : line_t
@@ -12,36 +13,14 @@ module camroller_cli
    implicit none
    private
 
-   public :: config_t, command_names, get_arguments, read_arguments
-
-   !> Commands
-   character(len=*), parameter :: command_names(*) = [character(len=8) :: &
-      & "run", "check", "study", "defaults", "export", "version", "help", "sweep", "merge", "rerun", "audit", &
-      & "ehl", "selftest"]
-   !> Options of each command, in the same order
-   character(len=*), parameter :: option_names(*) = [character(len=80) :: &
-      & "--output --set --point --no-sweep --quiet --help", "--set --point --no-sweep --draw --help", &
-      & "--output --set --repeats --quick --film --laws --quiet --help", "--markdown --help", &
-      & "--series --summary --case --columns --format --output --help", &
-      & "--help", "--help", "--output --set --threads --shard --resume --log-every --quiet --help", &
-      & "--output --set --partial --quiet --help", "--threads --log-every --quiet --help", &
-      & "--output --set --repeats --quiet --help", "--output --set --quiet --help", "--help"]
-   !> Most words beside options that each command takes
-   integer, parameter :: most_words(*) = [1, 1, 1, 1, 1, 0, 1, 1, 1, 1, 1, 1, 0]
-   !> Does each command need a word?
-   logical, parameter :: needs_word(*) = [.true., .true., .true., .false., .true., .false., .false., .true., .true., .true., &
-      & .true., .true., .false.]
-
-   !> Options with a value
-   character(len=*), parameter :: with_value = " --output --set --point --case --columns --format --draw --repeats --threads "// &
-      & "--shard --log-every "
+   public :: config_t, get_arguments, read_arguments
 
    !> Most threads: more than machines have cores, fewer than the system refuses to start
    integer, parameter :: most_threads = 1024
 
    !> What to do
    type :: config_t
-      !> One of `command_names`
+      !> Name of the command
       character(len=:), allocatable :: command
       !> Deck, result file, group or command that the command is about; blank where not given
       character(len=:), allocatable :: subject
@@ -112,7 +91,8 @@ contains
       !> Usage error
       type(error_t), allocatable, intent(out) :: error
 
-      integer :: i, command, words
+      type(command_t), allocatable :: commands(:)
+      integer :: i, words
 
       config%subject = ""
       config%output = ""
@@ -120,34 +100,38 @@ contains
       config%form = export_formats(1)
       config%drawing = ""
       allocate (config%overrides(0))
-      call read_command(arguments, config, error)
+      call list_commands(commands)
+      call read_command(arguments, commands%name, config, error)
       if (allocated(error)) return
-      command = index_of_name(config%command, command_names)
-      words = 0
-      i = 2
-      do while (i <= size(arguments))
-         if (index(arguments(i)%text, "-") == 1 .and. len(arguments(i)%text) > 1) then
-            call read_option(arguments, command, i, config, error)
-            if (allocated(error)) return
-         else
-            words = words + 1
-            if (words > most_words(command)) then
-               call raise(error, kind_usage, "'"//config%command//"' does not take '"//arguments(i)%text//"'"// &
-                  & see(config))
-               return
+      associate (command => commands(find_command(commands, config%command)))
+         words = 0
+         i = 2
+         do while (i <= size(arguments))
+            if (index(arguments(i)%text, "-") == 1 .and. len(arguments(i)%text) > 1) then
+               call read_option(arguments, command, i, config, error)
+               if (allocated(error)) return
+            else
+               words = words + 1
+               if (words > 1 .or. command%subject == "") then
+                  call raise(error, kind_usage, "'"//config%command//"' does not take '"//arguments(i)%text//"'"// &
+                     & see(config))
+                  return
+               end if
+               config%subject = arguments(i)%text
             end if
-            config%subject = arguments(i)%text
-         end if
-         i = i + 1
-      end do
-      if (config%is_help .or. .not. needs_word(command) .or. config%subject /= "") return
+            i = i + 1
+         end do
+         if (config%is_help .or. command%subject == "" .or. index(command%subject, "[") > 0 .or. config%subject /= "") return
+      end associate
       call raise(error, kind_usage, "'"//config%command//"' needs the name of a file"//see(config))
    end subroutine read_arguments
 
    !> The first word.
-   subroutine read_command(arguments, config, error)
+   subroutine read_command(arguments, names, config, error)
       !> Words after the name of the program
       type(line_t), intent(in) :: arguments(:)
+      !> Names of the commands
+      character(len=*), intent(in) :: names(:)
       !> Gets the command
       type(config_t), intent(inout) :: config
       !> Usage error
@@ -168,12 +152,12 @@ contains
          return
       end select
       config%command = arguments(1)%text
-      if (index_of_name(config%command, command_names) > 0) return
-      nearest = nearest_name(config%command, command_names)
+      if (index_of_name(config%command, names) > 0) return
+      nearest = nearest_name(config%command, names)
       if (nearest /= "") then
          call raise(error, kind_usage, "unknown command '"//config%command//"'; did you mean '"//nearest//"'?")
       else
-         call write_names(command_names, nearest)
+         call write_names(names, nearest)
          call raise(error, kind_usage, "unknown command '"//config%command//"'; known are "//nearest)
       end if
    end subroutine read_command
@@ -182,8 +166,8 @@ contains
    subroutine read_option(arguments, command, position, config, error)
       !> Words after the name of the program
       type(line_t), intent(in) :: arguments(:)
-      !> Position of the command
-      integer, intent(in) :: command
+      !> The command
+      type(command_t), intent(in) :: command
       !> Position of the option; moved to its value
       integer, intent(inout) :: position
       !> What to do
@@ -192,19 +176,20 @@ contains
       type(error_t), allocatable, intent(out) :: error
 
       character(len=:), allocatable :: option, value
-      integer :: equals
+      integer :: equals, found
 
       value = ""
       option = arguments(position)%text
       equals = index(option, "=")
       if (equals > 0 .and. index(option, "--") == 1) option = option(:equals - 1)
-      option = long_form(option)
-      if (index(" "//option_names(command), " "//option//" ") == 0) then
+      found = find_option(command, option)
+      if (found == 0) then
          call raise(error, kind_usage, "'"//config%command//"' has no option '"//arguments(position)%text//"'"// &
             & see(config))
          return
       end if
-      if (index(with_value, " "//option//" ") > 0) then
+      option = trim(command%options(found)%name)
+      if (command%options(found)%value /= "") then
          if (equals > 0 .and. index(arguments(position)%text, "--") == 1) then
             value = arguments(position)%text(equals + 1:)
          else if (position < size(arguments)) then
@@ -352,29 +337,6 @@ contains
       end if
       if (allocated(error)) call raise(error, kind_usage, "option '--shard' takes "//meaning//", not '"//value//"'"//advice)
    end subroutine read_shard
-
-   !> Long name of an option.
-   pure function long_form(option) result(long)
-      !> The option as given
-      character(len=*), intent(in) :: option
-      !> Its long name
-      character(len=:), allocatable :: long
-
-      select case (option)
-      case ("-o")
-         long = "--output"
-      case ("-s")
-         long = "--set"
-      case ("-q")
-         long = "--quiet"
-      case ("-j")
-         long = "--threads"
-      case ("-h")
-         long = "--help"
-      case default
-         long = option
-      end select
-   end function long_form
 
    !> Where to read more.
    pure function see(config) result(words)

@@ -5,7 +5,8 @@ module camroller_commands
    use camroller_error, only : error_t, raise, add_context, kind_file, kind_usage
    use camroller_blas_threads, only : check_blas_memory, use_one_blas_thread
    use camroller_case, only : case_t
-   use camroller_cli, only : config_t, command_names, get_arguments, read_arguments
+   use camroller_cli, only : config_t, get_arguments, read_arguments
+   use camroller_command_table, only : command_t, find_command, help_for, help_for_all, list_commands
    use camroller_hdf5_columns, only : hdf5_columns_t
    use camroller_deck, only : deck_t, read_deck, make_case, make_sweep_case, add_places, drop_sweep, override_t
    use camroller_case_facts, only : describe_case
@@ -19,11 +20,9 @@ module camroller_commands
    use camroller_effect_words, only : choice_in_words
    use camroller_ehl_command, only : ehl_deck
    use camroller_export, only : export_csv, export_series, export_summary
-   use camroller_help_text, only : help_for
    use camroller_measure_command, only : audit_deck, study_deck
    use camroller_mistakes, only : line_t
    use camroller_model, only : model_t
-   use camroller_names, only : index_of_name
    use camroller_new_file, only : check_place
    use camroller_new_text, only : save_text
    use camroller_number_text, only : counted, integer_text
@@ -86,7 +85,7 @@ contains
 
       if (team%rank > 0 .and. config%command /= "sweep") return
       if (config%is_help) then
-         call print_lines(help_for(config%command), error)
+         call show_help(config%command, error)
          return
       end if
       select case (config%command)
@@ -97,7 +96,7 @@ contains
       case ("version")
          call show_version(error)
       case ("help")
-         call show_help(config, error)
+         call show_help(config%subject, error)
       case ("run")
          call run_deck(config, error)
       case ("sweep")
@@ -139,17 +138,27 @@ contains
    end subroutine export_table
 
    !> Help, or help for a command.
-   subroutine show_help(config, error)
-      !> What to do
-      type(config_t), intent(in) :: config
+   subroutine show_help(name, error)
+      !> Name of the command; blank for the program
+      character(len=*), intent(in) :: name
       !> Usage error where there is no such command
       type(error_t), allocatable, intent(out) :: error
 
-      if (config%subject /= "" .and. index_of_name(config%subject, command_names) == 0) then
-         call raise(error, kind_usage, "unknown command '"//config%subject//"'; see 'camroller help'")
+      type(command_t), allocatable :: commands(:)
+      character(len=:), allocatable :: text
+      integer :: found
+
+      call list_commands(commands)
+      found = find_command(commands, name)
+      if (found > 0) then
+         call help_for(commands(found), text)
+      else if (name == "") then
+         call help_for_all(commands, text)
+      else
+         call raise(error, kind_usage, "unknown command '"//name//"'; see 'camroller help'")
          return
       end if
-      call print_lines(help_for(config%subject), error)
+      call print_lines(text, error)
    end subroutine show_help
 
    !> Version and build.

@@ -13,7 +13,7 @@ module camroller_ehl_command
    use camroller_ehl_converged, only : fewest_nodes, integrate_converged
    use camroller_ehl_cycle, only : ehl_cycle_t, ehl_cycle_options_t, integrate_ehl_cycle
    use camroller_ehl_file, only : ehl_file_t, open_ehl, write_ehl, close_ehl
-   use camroller_ehl_page, only : line_t, page_head, page_line, friction_page
+   use camroller_ehl_page, only : line_t, write_friction, write_head, write_line
    use camroller_ehl_profiles, only : plain_model
    use camroller_ehl_record, only : ehl_record_t, keep_nodes, make_ehl_record
    use camroller_ehl_summary, only : make_ehl_summary
@@ -48,7 +48,7 @@ contains
       type(case_t) :: case
       type(line_t), allocatable :: lines(:)
       type(error_t), allocatable :: failure, unheard
-      character(len=:), allocatable :: path
+      character(len=:), allocatable :: path, text
 
       call read_deck(deck, config%subject, config%overrides, error, columns)
       if (.not. allocated(error)) call check_cases(deck, error)
@@ -70,7 +70,8 @@ contains
       end if
       call close_study(writer, error)
       if (allocated(error)) return
-      if (.not. (config%is_quiet .or. allocated(unheard))) call print_lines(friction_page(lines)//new_line("a")//path// &
+      call write_friction(lines, text)
+      if (.not. (config%is_quiet .or. allocated(unheard))) call print_lines(text//new_line("a")//path// &
          & ": pressure, film and friction in /ehl", unheard)
       if (allocated(unheard)) call move_alloc(unheard, error)
       if (allocated(failure) .and. .not. allocated(error)) call move_alloc(failure, error)
@@ -99,10 +100,12 @@ contains
       type(ehl_record_t) :: record
       type(line_t) :: line
       type(error_t), allocatable :: trouble, without_steady
+      character(len=:), allocatable :: text
       integer :: i, lobe
 
       allocate (lines(0))
-      if (.not. is_quiet) call print_lines(page_head(), unheard)
+      call write_head(text)
+      if (.not. is_quiet) call print_lines(text, unheard)
       do i = 1, sweep_size(deck%sweep)
          do lobe = 1, size(file%lobes)
             call make_sweep_case(deck, i, case, trouble)
@@ -121,7 +124,8 @@ contains
             line%case_number = i - 1
             line%lobe = lobe
             lines = [lines, line]
-            if (.not. (is_quiet .or. allocated(unheard))) call print_lines(page_line(line), unheard)
+            call write_line(line, text)
+            if (.not. (is_quiet .or. allocated(unheard))) call print_lines(text, unheard)
          end do
       end do
    end subroutine solve_cases

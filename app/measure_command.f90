@@ -5,13 +5,13 @@
 module camroller_measure_command
    use camroller_error, only : error_t, add_context
    use camroller_audit, only : new_audit_table, audit_case
-   use camroller_audit_page, only : audit_page
+   use camroller_audit_page, only : write_audit_page
    use camroller_case, only : case_t
    use camroller_cli, only : config_t
    use camroller_hdf5_columns, only : hdf5_columns_t
    use camroller_deck, only : deck_t, read_deck, make_sweep_case
    use camroller_deck_sweep, only : sweep_size, case_in_words
-   use camroller_laws_page, only : show_laws
+   use camroller_laws_page, only : add_laws_table
    use camroller_number_text, only : counted
    use camroller_output, only : output_t, output_options_t, open_output, abandon_output
    use camroller_console, only : console_t, seconds_since, start_console
@@ -20,7 +20,7 @@ module camroller_measure_command
    use camroller_streams, only : print_lines
    use camroller_study, only : new_study_table, study_case, study_film
    use camroller_study_file, only : write_study, close_study
-   use camroller_study_page, only : study_page
+   use camroller_study_page, only : write_study_page
    use camroller_study_table, only : study_table_t, column_of
    implicit none
    private
@@ -54,6 +54,28 @@ contains
       end if
    end subroutine study_deck
 
+   !> Print what each film law makes of the cases.
+   subroutine show_laws(deck, error)
+      !> The deck
+      type(deck_t), intent(in) :: deck
+      !> Deck error of a case, file error of the output unit
+      type(error_t), allocatable, intent(out) :: error
+
+      type(case_t) :: case
+      character(len=:), allocatable :: text
+      integer :: i
+
+      call print_lines(counted(sweep_size(deck%sweep), "case")//" with each film law; > marks that of the deck", error)
+      do i = 1, sweep_size(deck%sweep)
+         if (.not. allocated(error)) call make_sweep_case(deck, i, case, error)
+         if (allocated(error)) return
+         text = ""
+         if (size(deck%sweep%axes) > 0) text = new_line("a")//case_in_words(deck%sweep, i)
+         call add_laws_table(case, text)
+         call print_lines(text, error)
+      end do
+   end subroutine show_laws
+
    !> What each effect is worth and costs.
    subroutine audit_deck(config, error)
       !> What to do
@@ -80,7 +102,7 @@ contains
       type(console_t) :: progress
       type(study_table_t) :: table
       type(error_t), allocatable :: failure
-      character(len=:), allocatable :: path
+      character(len=:), allocatable :: path, page
 
       call read_deck(deck, config%subject, config%overrides, error, columns)
       if (.not. allocated(error)) call check_cases(deck, error)
@@ -101,8 +123,13 @@ contains
       call write_study(writer, trim(names(what)), trim(titles(what)), table, error)
       if (.not. allocated(error)) call close_study(writer, error)
       if (allocated(error)) return
-      if (.not. config%is_quiet) call print_lines(page_of(table, what)//new_line("a")//path//": "// &
-         & counted(sweep_size(deck%sweep), "case")//" in "//seconds_since(progress), error)
+      if (what == of_effects) then
+         call write_audit_page(table, page)
+      else
+         call write_study_page(table, page)
+      end if
+      if (.not. config%is_quiet) call print_lines(page//new_line("a")//path//": "//counted(sweep_size(deck%sweep), "case")// &
+         & " in "//seconds_since(progress), error)
       if (allocated(failure) .and. .not. allocated(error)) call move_alloc(failure, error)
    end subroutine measure_deck
 
@@ -146,21 +173,5 @@ contains
          call progress%show(i, sweep_size(deck%sweep))
       end do
    end subroutine measure_cases
-
-   !> The table for the screen.
-   function page_of(table, what) result(text)
-      !> The table
-      type(study_table_t), intent(in) :: table
-      !> What was measured
-      integer, intent(in) :: what
-      !> Lines with a heading
-      character(len=:), allocatable :: text
-
-      if (what == of_effects) then
-         text = audit_page(table)
-      else
-         text = study_page(table)
-      end if
-   end function page_of
 
 end module camroller_measure_command

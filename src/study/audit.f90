@@ -3,7 +3,6 @@
 !>
 !> In: a case. Out: rows of `study_table_t`. A variant that fails is a row with a message and no numbers.
 module camroller_audit
-   use, intrinsic :: ieee_arithmetic, only : ieee_quiet_nan, ieee_value
    use camroller_kinds, only : wp
    use camroller_error, only : error_t
    use camroller_case, only : case_t, select_names, quantity_names
@@ -13,7 +12,7 @@ module camroller_audit
    use camroller_model, only : model_t
    use camroller_result, only : quantity_t
    use camroller_run, only : build_models
-   use camroller_study_table, only : study_table_t, word_length, new_table, add_row
+   use camroller_study_table, only : study_table_t, new_table, new_row, set_number, set_word
    use camroller_study_trial, only : trial_t, run_trial
    implicit none
    private
@@ -24,6 +23,9 @@ module camroller_audit
    !> Runs of an audit: everything; without an effect; without all; with one alone; with those that are needed
    character(len=*), parameter :: run_listed = "listed", run_without = "without", run_none = "none", run_alone = "alone", &
       & run_needed = "needed"
+
+   !> What effects are judged by, as columns, in the order of `quantity_names`
+   character(len=*), parameter, public :: judged(*) = [character(len=12) :: "mean_torque", "minimum_film", "slip"]
 
 contains
 
@@ -122,32 +124,40 @@ contains
       !> What was decided, for the run with the effects that are needed
       type(choice_t), intent(in), optional :: choice
 
-      character(len=word_length) :: words(4)
-      ! Numbers of the row [unit of the column]
-      real(wp) :: numbers(15)
+      ! Mean torque [N m], smallest film [m] and slip [-] of the run; their changes over the values with all effects [-]
+      real(wp), dimension(size(judged)) :: values, changes
+      integer :: i
 
-      words = ""
-      words(2) = run
-      words(4) = outcome%message
-      numbers = ieee_value(1.0_wp, ieee_quiet_nan)
-      numbers(1:2) = [real(position - 1, wp), real(outcome%status, wp)]
+      call new_row(table)
+      call set_number(table, "case", real(position - 1, wp))
+      call set_number(table, "status", real(outcome%status, wp))
+      call set_word(table, "run", run)
+      call set_word(table, "message", outcome%message)
       if (outcome%status == 0) then
-         numbers(3:5) = quantities_of(outcome)
-         numbers(13:14) = [outcome%evaluations, outcome%time]
+         values = quantities_of(outcome)
+         do i = 1, size(judged)
+            call set_number(table, trim(judged(i)), values(i))
+         end do
+         call set_number(table, "evaluations", outcome%evaluations)
+         call set_number(table, "time", outcome%time)
          if (full%status == 0 .and. base%status == 0) then
-            numbers(6:8) = (quantities_of(outcome) - quantities_of(base))/max(abs(quantities_of(full)), tiny(1.0_wp))
-            numbers(15) = (base%time - outcome%time)/max(full%time, tiny(1.0_wp))
+            changes = (values - quantities_of(base))/max(abs(quantities_of(full)), tiny(1.0_wp))
+            do i = 1, size(judged)
+               call set_number(table, "change_"//trim(judged(i)), changes(i))
+            end do
+            call set_number(table, "time_share", (base%time - outcome%time)/max(full%time, tiny(1.0_wp)))
          end if
       end if
-      if (present(effect)) words(1) = effect_names(effect)
+      if (present(effect)) call set_word(table, "effect", effect_names(effect))
       if (present(decision)) then
-         words(1) = effect_names(decision%effect)
-         words(3) = decision%reason
-         numbers(9:11) = decision%estimates
-         numbers(12) = merge(0.0_wp, 1.0_wp, decision%is_used)
+         call set_word(table, "effect", effect_names(decision%effect))
+         call set_word(table, "reason", decision%reason)
+         do i = 1, size(judged)
+            call set_number(table, "estimate_"//trim(judged(i)), decision%estimates(i))
+         end do
+         call set_number(table, "is_left_out", merge(0.0_wp, 1.0_wp, decision%is_used))
       end if
-      if (present(choice)) numbers(8 + choice%quantity) = choice%bound
-      call add_row(table, words, numbers)
+      if (present(choice)) call set_number(table, "estimate_"//trim(judged(choice%quantity)), choice%bound)
    end subroutine add_outcome
 
    !> What effects are judged by, in the order of `quantity_names`.
@@ -155,7 +165,7 @@ contains
       !> A trial
       type(trial_t), intent(in) :: trial
       !> Mean torque for all losses [N m], smallest film [m], slip per revolution [-]
-      real(wp) :: values(3)
+      real(wp) :: values(size(judged))
 
       values = [trial%mean_friction, trial%smallest_film, trial%revolution_slip]
    end function quantities_of

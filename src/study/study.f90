@@ -12,7 +12,7 @@ module camroller_study
    use camroller_number_text, only : number_text
    use camroller_ode_methods, only : method_facts
    use camroller_result, only : quantity_t
-   use camroller_study_table, only : study_table_t, new_table, add_row
+   use camroller_study_table, only : study_table_t, new_table, new_row, set_number, set_word
    use camroller_study_trial, only : trial_t, run_trial, solve_trial, errors_against, no_number, smallest_error
    implicit none
    private
@@ -290,15 +290,17 @@ contains
       !> Why there is no reference, if there is none
       type(error_t), allocatable, intent(in) :: error
 
-      character(len=:), allocatable :: words(:)
-
+      call new_row(table)
+      call set_number(table, "case", real(position - 1, wp))
+      call set_word(table, "way", name)
+      call set_word(table, "dial", dial_reference)
       if (allocated(error)) then
-         words = [character(len=max(len(error%message), name_length)) :: name, dial_reference, error%message]
-         call add_row(table, words, [real(position - 1, wp), real(error%kind, wp), spread(no_number(), 1, 8)])
+         call set_number(table, "status", real(error%kind, wp))
+         call set_word(table, "message", error%message)
       else
-         words = [character(len=name_length) :: name, dial_reference, ""]
-         call add_row(table, words, [real(position - 1, wp), 0.0_wp, no_number(), disagreement, spread(no_number(), 1, 2), &
-            & reference%estimated_error, reference%evaluations, reference%steps, reference%time])
+         call set_number(table, "status", 0.0_wp)
+         call set_number(table, "error_sliding_speed", disagreement)
+         call set_work(table, reference)
       end if
    end subroutine add_reference
 
@@ -315,16 +317,35 @@ contains
       !> Outcome of the trial
       type(trial_t), intent(in) :: trial
 
-      character(len=:), allocatable :: words(:)
+      ! Errors of sliding speed, mean torque for losses and smallest film [-]
+      real(wp) :: errors(3)
 
-      words = [character(len=max(len(trial%message), name_length)) :: way%name, way%dial, trial%message]
-      if (trial%status /= 0) then
-         call add_row(table, words, [real(position - 1, wp), real(trial%status, wp), way%setting, spread(no_number(), 1, 7)])
-      else
-         call add_row(table, words, [real(position - 1, wp), 0.0_wp, way%setting, &
-            & max(errors_against(reference, trial), smallest_error), trial%estimated_error, trial%evaluations, trial%steps, &
-            & trial%time])
-      end if
+      call new_row(table)
+      call set_number(table, "case", real(position - 1, wp))
+      call set_number(table, "status", real(trial%status, wp))
+      call set_number(table, "setting", way%setting)
+      call set_word(table, "way", way%name)
+      call set_word(table, "dial", way%dial)
+      call set_word(table, "message", trial%message)
+      if (trial%status /= 0) return
+      errors = max(errors_against(reference, trial), smallest_error)
+      call set_number(table, "error_sliding_speed", errors(1))
+      call set_number(table, "error_mean_friction", errors(2))
+      call set_number(table, "error_smallest_film", errors(3))
+      call set_work(table, trial)
    end subroutine add_trial
+
+   !> Give the last row what a run says of itself.
+   subroutine set_work(table, trial)
+      !> The table
+      type(study_table_t), intent(inout) :: table
+      !> The run
+      type(trial_t), intent(in) :: trial
+
+      call set_number(table, "estimated_error", trial%estimated_error)
+      call set_number(table, "evaluations", trial%evaluations)
+      call set_number(table, "steps", trial%steps)
+      call set_number(table, "time", trial%time)
+   end subroutine set_work
 
 end module camroller_study

@@ -1,13 +1,14 @@
 !> Table with the same text and number columns in every row: the result of a study, for files and for the screen.
 !>
-!> In: the meaning of each column, rows one by one. Out: `study_table_t`.
+!> In: the meaning of each column, rows one by one, values by the names of their columns. Out: `study_table_t`.
 module camroller_study_table
+   use, intrinsic :: ieee_arithmetic, only : ieee_quiet_nan, ieee_value
    use camroller_kinds, only : wp
-   use camroller_result, only : quantity_t
+   use camroller_result, only : find_quantity, quantity_t
    implicit none
    private
 
-   public :: study_table_t, word_length, new_table, add_row, column_of
+   public :: study_table_t, word_length, new_table, new_row, set_number, set_word, column_of, words_of
 
    !> Longest word of a table; messages are cut to it
    integer, parameter :: word_length = 240
@@ -40,14 +41,10 @@ contains
       allocate (table%words(first_room, size(word_columns)), table%numbers(first_room, size(number_columns)))
    end subroutine new_table
 
-   !> Append a row.
-   subroutine add_row(table, words, numbers)
+   !> Append a row without words and numbers.
+   subroutine new_row(table)
       !> The table
       type(study_table_t), intent(inout) :: table
-      !> A word for each column with words
-      character(len=*), intent(in) :: words(:)
-      !> A number for each column with numbers [unit of the column]
-      real(wp), intent(in) :: numbers(:)
 
       character(len=word_length), allocatable :: more_words(:, :)
       ! Larger copy [unit of the column]
@@ -63,25 +60,56 @@ contains
          call move_alloc(more_numbers, table%numbers)
       end if
       table%rows = n + 1
-      table%words(table%rows, :) = words
-      table%numbers(table%rows, :) = numbers
-   end subroutine add_row
+      table%words(table%rows, :) = ""
+      table%numbers(table%rows, :) = ieee_value(1.0_wp, ieee_quiet_nan)
+   end subroutine new_row
 
-   !> Numbers of a column by its name; empty where there is no such column.
+   !> Give the last row a number.
+   subroutine set_number(table, name, value)
+      !> The table
+      type(study_table_t), intent(inout) :: table
+      !> Name of the column
+      character(len=*), intent(in) :: name
+      !> The number [unit of the column]
+      real(wp), intent(in) :: value
+
+      table%numbers(table%rows, find_quantity(table%number_columns, name)) = value
+   end subroutine set_number
+
+   !> Give the last row a word.
+   subroutine set_word(table, name, word)
+      !> The table
+      type(study_table_t), intent(inout) :: table
+      !> Name of the column
+      character(len=*), intent(in) :: name
+      !> The word
+      character(len=*), intent(in) :: word
+
+      table%words(table%rows, find_quantity(table%word_columns, name)) = word
+   end subroutine set_word
+
+   !> Numbers of a column by its name.
    pure function column_of(table, name) result(values)
       !> The table
       type(study_table_t), intent(in) :: table
       !> Name of the column
       character(len=*), intent(in) :: name
       !> Its numbers, one for each row [unit of the column]
-      real(wp), allocatable :: values(:)
+      real(wp) :: values(table%rows)
 
-      integer :: i
-
-      allocate (values(0))
-      do i = 1, size(table%number_columns)
-         if (table%number_columns(i)%name == name) values = table%numbers(:table%rows, i)
-      end do
+      values = table%numbers(:table%rows, find_quantity(table%number_columns, name))
    end function column_of
+
+   !> Words of a column by its name.
+   pure function words_of(table, name) result(words)
+      !> The table
+      type(study_table_t), intent(in) :: table
+      !> Name of the column
+      character(len=*), intent(in) :: name
+      !> Its words, one for each row
+      character(len=word_length) :: words(table%rows)
+
+      words = table%words(:table%rows, find_quantity(table%word_columns, name))
+   end function words_of
 
 end module camroller_study_table

@@ -10,14 +10,14 @@ module test_needed
    use camroller_error, only : error_t
    use camroller_case, only : case_t, quantity_names, quantity_slip
    use camroller_balance, only : least_slip
-   use camroller_audit, only : new_audit_table, audit_case
+   use camroller_audit, only : new_audit_table, audit_case, judged
    use camroller_deck, only : deck_t, override_t, parse_deck, make_case
    use camroller_effect_choice, only : choose_effects
    use camroller_effect_list, only : choice_t, effect_names, effect_count
    use camroller_model, only : model_t
    use camroller_result, only : result_t, find_quantity
    use camroller_run, only : build_models, run_case
-   use camroller_study_table, only : study_table_t
+   use camroller_study_table, only : study_table_t, word_length, column_of, words_of
    use random_decks, only : random_t, start_random, random_deck
    use reference_cases, only : thesis_case, set_point, point_speeds, point_viscosities
    implicit none
@@ -246,7 +246,7 @@ contains
       if (trial%misses /= "") then
          call audit(case, high_accuracy, precise)
          ! A run that fails at the high accuracy proves nothing
-         is_precise = count(ieee_is_nan(precise%numbers(:precise%rows, 6:8))) <= count(ieee_is_nan(table%numbers(:table%rows, 6:8)))
+         is_precise = failures(precise) <= failures(table)
       end if
       before = len(tally%misses)
       if (is_precise) then
@@ -257,6 +257,17 @@ contains
       end if
       if (len(tally%misses) > before) tally%misses = tally%misses//new_line("a")//text
    end subroutine compare_seed
+
+   !> Changes that an audit has not got.
+   integer function failures(table)
+      type(study_table_t), intent(in) :: table
+      integer :: k
+
+      failures = 0
+      do k = 1, size(judged)
+         failures = failures + count(ieee_is_nan(column_of(table, "change_"//trim(judged(k)))))
+      end do
+   end function failures
 
    !> Nothing compared yet.
    subroutine start_tally(tally)
@@ -275,13 +286,24 @@ contains
       character(len=24) :: buffer
       ! What the runs leave of a change; change beyond that, over its estimate [-]
       real(wp) :: rest, ratio
+      ! Changes, their estimates, slip with all effects [-]
+      real(wp), dimension(table%rows, size(quantity_names)) :: changes, estimates
+      real(wp) :: slip(table%rows)
+      character(len=word_length), dimension(table%rows) :: effects, runs
       integer :: row, effect, k
 
+      effects = words_of(table, "effect")
+      runs = words_of(table, "run")
+      slip = column_of(table, "slip")
+      do k = 1, size(judged)
+         changes(:, k) = column_of(table, "change_"//trim(judged(k)))
+         estimates(:, k) = column_of(table, "estimate_"//trim(judged(k)))
+      end do
       do row = 1, table%rows
-         effect = findloc(effect_names, table%words(row, 1), 1)
+         effect = findloc(effect_names, effects(row), 1)
          if (effect == 0) effect = effect_count + 1
          do k = 1, size(quantity_names)
-            associate (change => table%numbers(row, 5 + k), estimate => table%numbers(row, 8 + k))
+            associate (change => changes(row, k), estimate => estimates(row, k))
                if (ieee_is_nan(change) .or. ieee_is_nan(estimate)) cycle
                tally%changes(effect, k) = tally%changes(effect, k) + 1
                if (estimate > 1.0e300_wp) cycle
@@ -290,14 +312,14 @@ contains
                rest = max(rest_share*run_accuracy, least_rest)
                ! Runs are accurate to a part of the slip that counts as none; what that hides is left to the more accurate ones
                if (k == quantity_slip .and. run_accuracy <= high_accuracy) rest = rest*max(1.0_wp, least_slip &
-                  /max(abs(table%numbers(1, 5)), tiny(1.0_wp)**0.5_wp))
+                  /max(abs(slip(1)), tiny(1.0_wp)**0.5_wp))
                ratio = max(abs(change) - rest, 0.0_wp)/max(estimate, tiny(1.0_wp)**0.5_wp)
                tally%ratios = [tally%ratios, ratio]
                tally%largest(effect, k) = max(tally%largest(effect, k), ratio)
                if (abs(change) <= estimate + rest) cycle
                write (buffer, "(2es12.3)") change, estimate
-               tally%misses = tally%misses//new_line("a")//what//": "//trim(table%words(row, 1))//" "// &
-                  trim(table%words(row, 2))//" "//trim(quantity_names(k))//buffer
+               tally%misses = tally%misses//new_line("a")//what//": "//trim(effects(row))//" "// &
+                  trim(runs(row))//" "//trim(quantity_names(k))//buffer
             end associate
          end do
       end do

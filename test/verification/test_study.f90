@@ -8,7 +8,7 @@ module test_study
    use camroller_ode_methods, only : method_names
    use camroller_result, only : quantity_t
    use camroller_study, only : way_t, apply_way, check_agreement, dial_reference, list_ways, new_study_table, study_case
-   use camroller_study_table, only : study_table_t, new_table, add_row, column_of
+   use camroller_study_table, only : study_table_t, new_table, new_row, set_number, set_word, column_of, words_of
    use camroller_study_trial, only : trial_t, errors_against, median, relative_error, run_trial, smallest_error
    use reference_cases, only : thesis_case
    implicit none
@@ -133,15 +133,17 @@ contains
       call new_table(table, [quantity_t("word", "", "", "")], [quantity_t("one", "1", "", ""), &
          & quantity_t("two", "1", "", "")])
       do i = 1, 200
-         call add_row(table, ["w"], [real(i, wp), -real(i, wp)])
+         call new_row(table)
+         call set_word(table, "word", "w")
+         call set_number(table, "two", -real(i, wp))
       end do
       call check(error, table%rows, 200)
       if (allocated(error)) return
       call check(error, sum(column_of(table, "two")), -20100.0_wp)
       if (allocated(error)) return
-      call check(error, size(column_of(table, "three")), 0)
+      call check(error, all(ieee_is_nan(column_of(table, "one"))), "a number that was not given")
       if (allocated(error)) return
-      call check(error, all(table%words(:200, 1) == "w"))
+      call check(error, all(words_of(table, "word") == "w"))
    end subroutine test_table
 
    subroutine test_failure(error)
@@ -167,6 +169,7 @@ contains
       ! Columns of the table [-]
       real(wp), allocatable :: status(:), errors(:), settings(:)
       logical, allocatable :: with_tolerance(:), with_accuracy(:)
+      character(len=:), allocatable :: dials(:)
 
       the_case = thesis_case()
       the_case%operating_point%speed = 40.0_wp
@@ -174,10 +177,11 @@ contains
       call study_case(table, 1, the_case, 1, .true., failure)
       call check(error, .not. allocated(failure))
       if (allocated(error)) return
-      call check(error, table%words(1, 2) == dial_reference .and. table%rows == 1 + 6 + 3*(size(method_names) - 1) + 2 + 1)
+      dials = words_of(table, "dial")
+      call check(error, dials(1) == dial_reference .and. table%rows == 1 + 6 + 3*(size(method_names) - 1) + 2 + 1)
       if (allocated(error)) return
-      with_tolerance = table%words(:table%rows, 2) == "tolerance" .and. table%words(:table%rows, 1) /= "quasi_static"
-      with_accuracy = table%words(:table%rows, 2) == "accuracy"
+      with_tolerance = words_of(table, "dial") == "tolerance" .and. words_of(table, "way") /= "quasi_static"
+      with_accuracy = words_of(table, "dial") == "accuracy"
       status = pack(column_of(table, "status"), with_tolerance .or. with_accuracy)
       call check(error, all(status <= 0.0_wp))
       if (allocated(error)) return

@@ -9,7 +9,7 @@ module camroller_ehl_page
    implicit none
    private
 
-   public :: line_t, page_head, page_line, friction_page
+   public :: line_t, write_head, write_line, write_friction
 
    character(len=*), parameter :: n = new_line("a")
    !> Longest line
@@ -51,23 +51,23 @@ contains
    end subroutine set_friction
 
    !> Head of the table of cycles.
-   pure function page_head() result(text)
+   pure subroutine write_head(text)
       !> Three lines
-      character(len=:), allocatable :: text
+      character(len=:), allocatable, intent(out) :: text
 
       text = "Contacts solved over the cycle, on as many nodes as the accuracy requires"//n// &
          & "case lobe  smallest   mean of    mean of    mean slip  | half of the nodes   "// &
          & "| steady films  | nodes   steps    time"//n// &
          & "           film [um]  min. [um]  cent. [um] [m/s]      | film [%]   slip [%] "// &
          & "| differ by [%] |                  [s]"
-   end function page_head
+   end subroutine write_head
 
    !> Line of the table of cycles.
-   pure function page_line(line) result(text)
+   pure subroutine write_line(line, text)
       !> The cycle
       type(line_t), intent(in) :: line
       !> The line
-      character(len=:), allocatable :: text
+      character(len=:), allocatable, intent(out) :: text
 
       character(len=width) :: buffer
 
@@ -86,14 +86,14 @@ contains
       buffer(94:) = right_text(integer_text(line%fine%nodes), 7)//right_text(integer_text(line%steps), 8)// &
          & right_text(fixed_text(line%time, 2), 8)
       text = trim(buffer)
-   end function page_line
+   end subroutine write_line
 
    !> Table of film and friction beside the closed formulas.
-   function friction_page(lines) result(text)
+   pure subroutine write_friction(lines, text)
       !> The cycles
       type(line_t), intent(in) :: lines(:)
-      !> The page
-      character(len=:), allocatable :: text
+      !> The table
+      character(len=:), allocatable, intent(out) :: text
 
       character(len=width) :: buffer
       integer :: i, k
@@ -112,7 +112,7 @@ contains
          text = text//n//trim(buffer)
       end do
       text = text//n
-   end function friction_page
+   end subroutine write_friction
 
    !> Change from the first to the second number in percent.
    pure function change(pair)

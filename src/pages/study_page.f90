@@ -6,11 +6,11 @@ module camroller_study_page
    use camroller_kinds, only : wp
    use camroller_number_text, only : fixed_text, integer_text, number_text, right_text, scientific_text
    use camroller_study, only : dial_reference
-   use camroller_study_table, only : study_table_t, column_of
+   use camroller_study_table, only : study_table_t, word_length, column_of, words_of
    implicit none
    private
 
-   public :: study_page
+   public :: write_study_page
 
    character(len=*), parameter :: n = new_line("a")
    !> Columns of errors, and of work, in the order of the page
@@ -21,12 +21,15 @@ module camroller_study_page
 contains
 
    !> The page.
-   function study_page(table) result(text)
+   subroutine write_study_page(table, text)
       !> Table of a study
       type(study_table_t), intent(in) :: table
       !> Lines with a heading
-      character(len=:), allocatable :: text
+      character(len=:), allocatable, intent(out) :: text
 
+      character(len=word_length), dimension(table%rows) :: ways, dials
+
+      character(len=:), allocatable :: line
       logical :: is_same(table%rows), is_done(table%rows)
       ! Settings [unit of the dial]
       real(wp), allocatable :: settings(:)
@@ -37,19 +40,21 @@ contains
          & "  failed"//n// &
          & "                                                  speed  friction      film      error    tions              [ms]"
       settings = column_of(table, "setting")
+      ways = words_of(table, "way")
+      dials = words_of(table, "dial")
       is_done = .false.
       do row = 1, table%rows
          if (is_done(row)) cycle
-         is_same = table%words(:table%rows, 1) == table%words(row, 1) .and. table%words(:table%rows, 2) == table%words(row, 2) &
-            & .and. equal(settings, settings(row))
+         is_same = ways == ways(row) .and. dials == dials(row) .and. equal(settings, settings(row))
          is_done = is_done .or. is_same
-         text = text//n//line_of(table, row, is_same)
+         call write_line(table, row, is_same, line)
+         text = text//n//line
       end do
       text = text//n
-   end function study_page
+   end subroutine write_study_page
 
    !> One line: all rows of one way with one setting.
-   function line_of(table, row, is_same) result(text)
+   subroutine write_line(table, row, is_same, text)
       !> Table of a study
       type(study_table_t), intent(in) :: table
       !> The first of the rows
@@ -57,14 +62,18 @@ contains
       !> Which rows they are
       logical, intent(in) :: is_same(:)
       !> The line
-      character(len=:), allocatable :: text
+      character(len=:), allocatable, intent(out) :: text
 
+      character(len=word_length), dimension(table%rows) :: ways, dials, messages
       logical :: fine(size(is_same))
       ! Numbers of a column that are known [unit of the column]
       real(wp), allocatable :: values(:)
       integer :: i, failed
 
-      text = table%words(row, 1) (:18)//" "//table%words(row, 2) (:18)
+      ways = words_of(table, "way")
+      dials = words_of(table, "dial")
+      messages = words_of(table, "message")
+      text = ways(row) (:18)//" "//dials(row) (:18)
       values = column_of(table, "setting")
       text = text//right_text(setting_text(values(row)), 8)
       fine = is_same .and. column_of(table, "status") <= 0.0_wp
@@ -84,16 +93,11 @@ contains
       end if
       failed = count(is_same) - count(fine)
       if (failed > 0) text = text//right_text(integer_text(failed), 132 - len(text) - 4)
-      if (failed > 0 .and. table%words(row, 2) == dial_reference) text = text(:46)//trim(table%words(first_failure(), 3))
+      if (failed > 0 .and. dials(row) == dial_reference) then
+         text = text(:46)//trim(messages(findloc(is_same .and. .not. fine, .true., 1)))
+      end if
       text = trim(text)
-
-   contains
-
-      !> The first of the rows that failed.
-      integer function first_failure()
-         first_failure = findloc(is_same .and. .not. fine, .true., 1)
-      end function first_failure
-   end function line_of
+   end subroutine write_line
 
    !> A setting in few digits; nothing where there is none.
    pure function setting_text(setting) result(text)

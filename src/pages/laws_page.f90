@@ -1,21 +1,18 @@
 !> The same cases with each film law: how far results depend on a choice that no measurement has made.
 !>
-!> In: a deck. Out: a table for each case, a line for each law and one with the range over all of them.
+!> In: a case. Out: a table with a line for each law and one with the range over all of them.
 module camroller_laws_page
    use camroller_kinds, only : wp
    use camroller_error, only : error_t
    use camroller_case, only : case_t
-   use camroller_deck, only : deck_t, make_sweep_case
-   use camroller_deck_sweep, only : case_in_words, sweep_size
    use camroller_film, only : film_law_names, law_masjedi_khonsari_rough
-   use camroller_number_text, only : counted, integer_text, number_text, right_text
+   use camroller_number_text, only : integer_text, number_text, right_text
    use camroller_result, only : get_summary, result_t
    use camroller_run, only : run_case
-   use camroller_streams, only : print_lines
    implicit none
    private
 
-   public :: show_laws
+   public :: add_laws_table
 
    !> One column of the table
    type :: column_t
@@ -38,30 +35,8 @@ module camroller_laws_page
 
 contains
 
-   !> Print the tables.
-   subroutine show_laws(deck, error)
-      !> The deck
-      type(deck_t), intent(in) :: deck
-      !> Deck error of a case, file error of the output unit; a law that a case cannot be run with is told in its line
-      type(error_t), allocatable, intent(out) :: error
-
-      type(case_t) :: case
-      character(len=:), allocatable :: text
-      integer :: i
-
-      call print_lines(counted(sweep_size(deck%sweep), "case")//" with each film law; > marks that of the deck", error)
-      do i = 1, sweep_size(deck%sweep)
-         if (.not. allocated(error)) call make_sweep_case(deck, i, case, error)
-         if (allocated(error)) return
-         text = ""
-         if (size(deck%sweep%axes) > 0) text = n//case_in_words(deck%sweep, i)
-         call add_table(case, text)
-         call print_lines(text, error)
-      end do
-   end subroutine show_laws
-
-   !> Table of one case.
-   subroutine add_table(case, text)
+   !> Table of one case; a law that the case cannot be run with is told in its line.
+   subroutine add_laws_table(case, text)
       !> The case
       type(case_t), intent(in) :: case
       !> Lines so far
@@ -114,7 +89,7 @@ contains
             & max(least_width, len_trim(columns(i)%heading)) + gap)
       end do
       text = text//n//line
-   end subroutine add_table
+   end subroutine add_laws_table
 
    !> Values of the columns.
    subroutine get_values(result, values)

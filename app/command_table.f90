@@ -1,0 +1,309 @@
+!> The commands of the program: one table with name, subject, options and help of each.
+!>
+!> Out: the table, texts of the command `help`. `cli` reads the words of a command line by it; `commands` has one line for each
+!> command that says what runs.
+module camroller_command_table
+   implicit none
+   private
+
+   public :: command_t, option_t, list_commands, find_command, find_option, help_for, help_for_all
+
+   !> One option of a command
+   type :: option_t
+      !> Long name with its dashes, short name or blank
+      character(len=12) :: name = ""
+      character(len=2) :: short = ""
+      !> What its value is; blank where it takes none
+      character(len=16) :: value = ""
+      !> Meaning, lines parted by `n`
+      character(len=:), allocatable :: meaning
+   end type option_t
+
+   !> One command
+   type :: command_t
+      character(len=8) :: name = ""
+      !> What it is about, in brackets where it may be left out; blank where it takes no word
+      character(len=9) :: subject = ""
+      !> A few words in the list of commands
+      character(len=:), allocatable :: summary
+      !> What it does
+      character(len=:), allocatable :: description
+      type(option_t), allocatable :: options(:)
+   end type command_t
+
+   character(len=*), parameter :: n = new_line("a")
+   !> Column where meanings of options and commands begin
+   integer, parameter :: meaning_column = 29
+   !> Meanings of options that several commands have
+   character(len=*), parameter :: meaning_set = "other value than the deck's; may be repeated", &
+      & meaning_quiet = "print errors only", meaning_repeats = "runs whose median time counts; 5 where not given", &
+      & meaning_threads = "threads, 1 to 1024; as many as there are cores where not given", &
+      & meaning_log = "seconds between lines in a log; 60 where not given", &
+      & meaning_default = "file to write: the deck's name with .h5 in the present folder where not given"
+
+contains
+
+   !> The table, in the order of the list of commands.
+   subroutine list_commands(commands)
+      !> The commands
+      type(command_t), allocatable, intent(out) :: commands(:)
+
+      allocate (commands(0))
+      call list_runs(commands)
+      call list_measurements(commands)
+      call list_texts(commands)
+   end subroutine list_commands
+
+   !> Commands that compute the cases of a deck, and `check`, which says what they come to.
+   subroutine list_runs(commands)
+      !> The commands
+      type(command_t), allocatable, intent(inout) :: commands(:)
+
+      call add(commands, "run", "DECK", "compute and write an HDF5 file", &
+         & "Compute every case of a deck and write one HDF5 file: the deck's name with .h5 in the present folder, or FILE."//n// &
+         & "An earlier file of that name is replaced only when the new one is complete. Ends with a table of the results."//n// &
+         & "DECK may be -, the standard input.")
+      call add_option(commands, "--output", "-o", "FILE", "file to write")
+      call add_option(commands, "--set", "-s", "group.key=value", meaning_set)
+      call add_option(commands, "--point", "", "key=value", "one case: the deck without its &sweep, with this value, as "// &
+         & "speed_rpm=3000 of"//n//"&operating_point or group.key=value; may be repeated")
+      call add_option(commands, "--no-sweep", "", "", "one case: the deck without its &sweep")
+      call add_option(commands, "--quiet", "-q", "", meaning_quiet)
+
+      call add(commands, "sweep", "DECK", "compute many cases in threads, restartable", &
+         & "Compute every case of a deck with a &sweep, in threads, and write one HDF5 file. While it runs, results are in"//n// &
+         & "FILE.part-*; after any kind of end, --resume computes the missing cases. The file does not depend on threads,"//n// &
+         & "shards and interruptions. Without --resume an earlier FILE is replaced when all cases are done; a remark says"//n// &
+         & "so where it is of another study.")
+      call add_option(commands, "--output", "-o", "FILE", meaning_default)
+      call add_option(commands, "--threads", "-j", "N", meaning_threads)
+      call add_option(commands, "--shard", "", "K/N", "only the K-th of N equal parts of the cases; 'camroller merge' makes "// &
+         & "the file")
+      call add_option(commands, "--resume", "", "", "continue from part files, or start where there are none; nothing to do "// &
+         & "where"//n//"FILE has every case of this study; an error where FILE is anything else")
+      call add_option(commands, "--log-every", "", "S", meaning_log)
+      call add_option(commands, "--set", "-s", "group.key=value", meaning_set)
+      call add_option(commands, "--quiet", "-q", "", meaning_quiet)
+
+      call add(commands, "merge", "DECK", "one file from the parts of a sweep", &
+         & "Make the one file of a sweep from its parts FILE.part-*, and remove them. Takes the deck, FILE and values that"//n// &
+         & "the sweep was given.")
+      call add_option(commands, "--output", "-o", "FILE", meaning_default)
+      call add_option(commands, "--partial", "", "", "also where cases are missing: they have status -1, FILE has the"//n// &
+         & "attributes 'complete' 0 and 'missing_cases'; the parts stay for 'camroller sweep"//n//"--resume'")
+      call add_option(commands, "--set", "-s", "group.key=value", meaning_set)
+      call add_option(commands, "--quiet", "-q", "", meaning_quiet)
+
+      call add(commands, "rerun", "FILE.h5", "compute a file again and compare every bit", &
+         & "Compute the cases of a result file (of 'ehl' too) again from the deck stored in it, and compare every bit."//n// &
+         & "Reports what differs and by how much, and which build made the file. The exit code is 7 where something differs.")
+      call add_option(commands, "--threads", "-j", "N", meaning_threads)
+      call add_option(commands, "--log-every", "", "S", meaning_log)
+      call add_option(commands, "--quiet", "-q", "", meaning_quiet)
+
+      call add(commands, "check", "DECK", "read and check a deck, print the resulting values", &
+         & "Read a deck, check every case of it, and print what it comes to: oil, cam, ramps, loads, margins and film of the"//n// &
+         & "deck's own case, then every value. Of many cases a few are run, to estimate the time, the memory and the disk"//n// &
+         & "space of all of them. DECK may be -, the standard input.")
+      call add_option(commands, "--set", "-s", "group.key=value", meaning_set)
+      call add_option(commands, "--point", "", "key=value", "the deck without its &sweep, with this value, as in "// &
+         & "'camroller run'")
+      call add_option(commands, "--no-sweep", "", "", "the deck without its &sweep")
+      call add_option(commands, "--draw", "", "FILE.svg", "draw the mechanism to scale")
+   end subroutine list_runs
+
+   !> Commands that measure, and the numerical film over the cycle.
+   subroutine list_measurements(commands)
+      !> The commands
+      type(command_t), allocatable, intent(inout) :: commands(:)
+
+      call add(commands, "study", "DECK", "measure what accuracy costs", &
+         & "Measure what accuracy costs: the default method for several accuracies, each other one for several tolerances"//n// &
+         & "or steps, with errors relative to a reference by two unrelated methods, work and time. Prints a table and"//n// &
+         & "writes one HDF5 file: the deck's name with _study.h5 in the present folder, or FILE.")
+      call add_option(commands, "--output", "-o", "FILE", "file to write")
+      call add_option(commands, "--repeats", "", "N", meaning_repeats)
+      call add_option(commands, "--quick", "", "", "a few settings of each method only")
+      call add_option(commands, "--film", "", "", "the numerical film instead: as a film law with tables of several "// &
+         & "accuracies, and"//n//"solved over the cycle on several grids, beside the film law of the deck;"//n// &
+         & "writes the deck's name with _film_study.h5")
+      call add_option(commands, "--laws", "", "", "the film laws instead: every case with each of them, and the range of "// &
+         & "results;"//n//"prints a table, writes no file")
+      call add_option(commands, "--set", "-s", "group.key=value", meaning_set)
+      call add_option(commands, "--quiet", "-q", "", meaning_quiet)
+
+      call add(commands, "audit", "DECK", "measure what each effect is worth and costs", &
+         & "Run every case with all its effects, without each of them, with each alone and with those that it needs."//n// &
+         & "Compare mean torque, smallest film, slip and time, and the changes with the estimates made before a run."//n// &
+         & "Prints a table and writes one HDF5 file: the deck's name with _audit.h5 in the present folder, or FILE.")
+      call add_option(commands, "--output", "-o", "FILE", "file to write")
+      call add_option(commands, "--repeats", "", "N", meaning_repeats)
+      call add_option(commands, "--set", "-s", "group.key=value", meaning_set)
+      call add_option(commands, "--quiet", "-q", "", meaning_quiet)
+
+      call add(commands, "ehl", "DECK", "solve the contact over the cycle, with squeeze", &
+         & "Solve the contact over the cycle with a transient film (squeeze), together with the roller's slip."//n// &
+         & "Prints film and slip of every case and lobe shape, their differences between two grids and from steady"//n// &
+         & "films, and film and friction beside the closed formulas. Writes one HDF5 file with pressure and film across"//n// &
+         & "the contact: the deck's name with _ehl.h5 in the present folder, or FILE. The number of nodes grows from"//n// &
+         & "129 to 513 until film and mean slip on two grids differ by less than ehl.accuracy; a case in which they"//n// &
+         & "never do is an error and has no numbers.")
+      call add_option(commands, "--output", "-o", "FILE", "file to write")
+      call add_option(commands, "--set", "-s", "group.key=value", meaning_set)
+      call add_option(commands, "--quiet", "-q", "", meaning_quiet)
+   end subroutine list_measurements
+
+   !> Commands that print.
+   subroutine list_texts(commands)
+      !> The commands
+      type(command_t), allocatable, intent(inout) :: commands(:)
+
+      call add(commands, "defaults", "[GROUP]", "print a complete deck with every key explained", &
+         & "Print a complete deck with every key explained, or one group of it.")
+      call add_option(commands, "--markdown", "", "", "the same as a page")
+
+      call add(commands, "export", "FILE.h5", "print results as comma-separated values or JSON", &
+         & "Print the series of one case, or the summary of all cases, as comma-separated values or JSON.")
+      call add_option(commands, "--series", "", "", "series over the cam angle (the default)")
+      call add_option(commands, "--case", "", "N", "case, from 0 as in the file; 0 where not given")
+      call add_option(commands, "--summary", "", "", "one row for each case")
+      call add_option(commands, "--columns", "", "NAMES", "these columns, parted by commas, beside the cam angle or the keys "// &
+         & "that vary")
+      call add_option(commands, "--format", "", "FORM", "'csv', with a line of names and one of units (the default), 'plain', "// &
+         & "with one"//n//"line of names with units, or 'json'")
+      call add_option(commands, "--output", "-o", "FILE", "file to write; printed where not given, or where FILE is -")
+
+      call add(commands, "version", "", "version and build", "Print version, commit, compiler and compiler options.")
+      call add(commands, "selftest", "", "compute a few numbers and compare them with values built in", &
+         & "Compute key numbers of a small deck and compare them with values that are built in. Takes a few seconds, reads"//n// &
+         & "and writes no file. Prints machine and build; where a number differs, the exit code is 7.")
+      call add(commands, "help", "[COMMAND]", "this, or more about a command", "Print the list of commands, or the help of one.")
+   end subroutine list_texts
+
+   !> Append a command; every command takes `--help`.
+   subroutine add(commands, name, subject, summary, description)
+      !> The commands
+      type(command_t), allocatable, intent(inout) :: commands(:)
+      !> Name, what it is about, a few words, what it does
+      character(len=*), intent(in) :: name, subject, summary, description
+
+      type(command_t), allocatable :: longer(:)
+
+      allocate (longer(size(commands) + 1))
+      longer(:size(commands)) = commands
+      call move_alloc(longer, commands)
+      associate (command => commands(size(commands)))
+         command%name = name
+         command%subject = subject
+         command%summary = summary
+         command%description = description
+         allocate (command%options(0))
+      end associate
+      call add_option(commands, "--help", "-h", "", "print this")
+   end subroutine add
+
+   !> Append an option to the last command.
+   subroutine add_option(commands, name, short, value, meaning)
+      !> The commands
+      type(command_t), intent(inout) :: commands(:)
+      !> Long name, short name, what its value is, meaning
+      character(len=*), intent(in) :: name, short, value, meaning
+
+      type(option_t), allocatable :: longer(:)
+
+      associate (command => commands(size(commands)))
+         allocate (longer(size(command%options) + 1))
+         longer(:size(command%options)) = command%options
+         call move_alloc(longer, command%options)
+         associate (option => command%options(size(command%options)))
+            option%name = name
+            option%short = short
+            option%value = value
+            option%meaning = meaning
+         end associate
+      end associate
+   end subroutine add_option
+
+   !> Position of a command, 0 where there is none of that name.
+   pure function find_command(commands, name) result(position)
+      !> The commands
+      type(command_t), intent(in) :: commands(:)
+      !> Name looked for
+      character(len=*), intent(in) :: name
+      !> Position, or 0
+      integer :: position
+
+      position = findloc(commands%name, name, 1)
+   end function find_command
+
+   !> Position of an option of a command by its long or short name, 0 where it has none.
+   pure function find_option(command, name) result(position)
+      !> The command
+      type(command_t), intent(in) :: command
+      !> Name looked for
+      character(len=*), intent(in) :: name
+      !> Position, or 0
+      integer :: position
+
+      position = 0
+      if (name == "") return
+      do position = size(command%options), 1, -1
+         if (name == command%options(position)%name .or. name == command%options(position)%short) return
+      end do
+   end function find_option
+
+   !> Help for a command.
+   subroutine help_for(command, text)
+      !> The command
+      type(command_t), intent(in) :: command
+      !> A few lines
+      character(len=:), allocatable, intent(out) :: text
+
+      character(len=:), allocatable :: line
+      integer :: i, k
+
+      text = "camroller "//trim(trim(command%name)//" "//command%subject)//" [options]"//n//n//command%description//n
+      ! The first option is --help
+      do i = 1, size(command%options)
+         associate (option => command%options(modulo(i, size(command%options)) + 1))
+            line = "  "
+            if (option%short /= "") line = "  "//option%short//", "
+            text = text//n//padded(line//trim(trim(option%name)//" "//option%value))
+            do k = 1, len(option%meaning)
+               text = text//option%meaning(k:k)
+               if (option%meaning(k:k) == n) text = text//padded("")
+            end do
+         end associate
+      end do
+   end subroutine help_for
+
+   !> Help for the program.
+   subroutine help_for_all(commands, text)
+      !> The commands
+      type(command_t), intent(in) :: commands(:)
+      !> A few lines
+      character(len=:), allocatable, intent(out) :: text
+
+      integer :: i
+
+      text = "camroller: friction, slip and drive torque of roller-finger-follower valve trains"//n
+      do i = 1, size(commands)
+         text = text//n//padded("  camroller "//trim(trim(commands(i)%name)//" "//commands(i)%subject))//commands(i)%summary
+      end do
+      text = text//n//n// &
+         & "Exit codes: 0 success, 2 command line, 3 deck or table, 4 impossible values or a law out of range,"//n// &
+         & "5 no convergence, 6 file, 7 a rerun differs, 8 stopped before the end, 9 too little memory,"//n// &
+         & "70 internal error."
+   end subroutine help_for_all
+
+   !> A text made as long as the column before a meaning.
+   pure function padded(text) result(long)
+      !> The text
+      character(len=*), intent(in) :: text
+      !> With blanks behind, at least one
+      character(len=max(meaning_column, len(text) + 1)) :: long
+
+      long = text
+   end function padded
+
+end module camroller_command_table
