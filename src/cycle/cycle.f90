@@ -4,6 +4,7 @@
 !> strong that a start from the quasi-static balance at the angle of fastest decay is periodic after one cycle; this is checked,
 !> and further cycles are integrated where it does not hold.
 module camroller_cycle
+   use camroller_cam_angle, only : cam_angle_text
    use camroller_kinds, only : wp, pi, two_pi, degree
    use camroller_error, only : error_t, raise, add_context, kind_convergence, kind_deck
    use camroller_accuracy, only : resolve_numerics, evaluations_allowed
@@ -11,7 +12,6 @@ module camroller_cycle
    use camroller_model, only : model_t, evaluate_geometry
    use camroller_kinematics, only : position_t
    use camroller_dynamics, only : moments_t
-   use camroller_number_text, only : fixed_text
    use camroller_state, only : state_t, evaluate_state, evaluate_loading
    use camroller_events, only : find_stops, cycle_stops
    use camroller_fold, only : explain_end
@@ -465,8 +465,8 @@ contains
          end if
       end if
       if (status /= 0) then
-         call raise(error, kind_convergence, "no load satisfies the equilibrium of the contact at cam angle "// &
-            & fixed_text(modulo(180.0_wp + angle/degree, 360.0_wp), 3)//" deg")
+         call raise(error, kind_convergence, "no load satisfies the equilibrium of the contact at "// &
+            & cam_angle_text(angle, 3))
       end if
    end subroutine state_at
 
@@ -493,8 +493,8 @@ contains
          call interpolate_state(path, min(max(angle, path%time(1)), path%time(path%count)), hint, train)
       end associate
       call evaluate_follower(model, angle, train, state, status)
-      if (status /= 0) call raise(error, kind_convergence, "the flexible train has no state at cam angle "// &
-         & fixed_text(modulo(180.0_wp + angle/degree, 360.0_wp), 3)//" deg")
+      if (status /= 0) call raise(error, kind_convergence, "the flexible train has no state at "// &
+         & cam_angle_text(angle, 3))
    end subroutine flexible_state_at
 
 end module camroller_cycle

@@ -7,7 +7,7 @@ module camroller_defects
    use camroller_state, only : state_t, evaluate_spin
    use camroller_contact_forces, only : contact_t
    use camroller_cycle, only : cycle_t
-   use camroller_spin, only : decay_rate_of, full_decay_rate, rolling_speed_slope
+   use camroller_spin, only : decay_rate_of, full_decay_rate, slip_rate, surface_rate
    use camroller_trajectory, only : curve_slope
    implicit none
    private
@@ -94,8 +94,8 @@ contains
       real(wp) :: slope(1), rate
 
       call curve_slope(cycle%trajectory, angle, interval, slope)
-      rate = model%roller_radius*state%spin_acceleration/model%speed
-      if (.not. cycle%has_surface_speed) rate = rolling_speed_slope(model, state%position) - rate
+      rate = surface_rate(model, state%spin_acceleration)
+      if (.not. cycle%has_surface_speed) rate = slip_rate(model, state%position, state%spin_acceleration)
       defect = slope(1) - rate
    end function defect_at
 

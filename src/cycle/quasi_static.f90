@@ -5,12 +5,12 @@
 !> (hot oil, the event), inaccurate where it does not (cold oil on the base circle). It needs no initial value and is periodic by
 !> construction.
 module camroller_quasi_static
+   use camroller_cam_angle, only : cam_angle_text
    use camroller_kinds, only : wp, degree
    use camroller_error, only : error_t, raise, kind_convergence
    use camroller_model, only : model_t
    use camroller_kinematics, only : position_t
    use camroller_balance, only : follow_balance
-   use camroller_number_text, only : fixed_text
    use camroller_ode, only : counters_t
    use camroller_trajectory, only : trajectory_t, start_trajectory, append_point
    implicit none
@@ -134,9 +134,8 @@ contains
       call follow_balance(model, angle, balance_part*tolerance, position, sliding_speed, decay_rate, counters%evaluations, &
          & is_found)
       if (is_found) return
-      call raise(error, kind_convergence, "quasi-static limit: the roller has no quasi-static balance at cam angle "// &
-         & fixed_text(modulo(180.0_wp + angle/degree, 360.0_wp), 3)// &
-         & " deg: no contact there, or traction cannot follow the kinematics; choose another method")
+      call raise(error, kind_convergence, "quasi-static limit: the roller has no quasi-static balance at "// &
+         & cam_angle_text(angle, 3)//": no contact there, or traction cannot follow the kinematics; choose another method")
    end subroutine balance_at
 
 end module camroller_quasi_static

@@ -33,9 +33,6 @@ module camroller_deck_keys
 
    public :: new_schema
 
-   !> More groups and keys than there are
-   integer, parameter :: most_groups = 40, most_keys = 400
-
 contains
 
    !> The schema of all decks.
@@ -45,7 +42,6 @@ contains
 
       type(case_t) :: standard
 
-      allocate (schema%groups(most_groups), schema%keys(most_keys))
       call add_case_keys(schema, standard)
       call add_mechanism_keys(schema, standard)
       call add_roller_keys(schema, standard)

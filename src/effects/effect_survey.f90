@@ -17,7 +17,7 @@ module camroller_effect_survey
    use camroller_kinematics, only : position_t
    use camroller_state, only : state_t, evaluate_state
    use camroller_balance, only : follow_balance, least_slip
-   use camroller_spin, only : rolling_speed_slope, decay_rate_of
+   use camroller_spin, only : decay_rate_of, slip_rate, surface_rate
    use camroller_stick, only : has_stick
    implicit none
    private
@@ -181,7 +181,7 @@ contains
       real(wp) :: rate, distance
 
       associate (state => survey%states(point), local => survey%decay(point))
-         rate = rolling_speed_slope(model, state%position) - model%roller_radius/model%speed*state%spin_acceleration
+         rate = slip_rate(model, state%position, state%spin_acceleration)
          distance = survey%sliding(point) - survey%balance(point)
          balance = survey%balance(point)
          if (-rate*distance > 0.0_wp .and. abs(distance) > epsilon(1.0_wp)*abs(survey%sliding(point))) then
@@ -281,7 +281,7 @@ contains
       !> Differences of dV_s/dtheta [m/s/rad]
       real(wp) :: rates(points)
 
-      rates = -model%roller_radius/model%speed*(states%spin_acceleration - others%spin_acceleration)
+      rates = -surface_rate(model, states%spin_acceleration - others%spin_acceleration)
    end function rate_change
 
    !> Changes of the quantities that matter, sizes added up.

@@ -5,13 +5,13 @@
 !> or contact have a kink, so that no event is stepped over. Cycles are repeated until start and end agree. After a loss of
 !> contact the film is computed without previous states.
 module camroller_ehl_cycle
+   use camroller_cam_angle, only : cam_angle_text
    use camroller_kinds, only : wp, pi, two_pi, degree
    use camroller_error, only : error_t, raise, kind_convergence, kind_domain
    use camroller_model, only : model_t, evaluate_geometry
    use camroller_kinematics, only : position_t
    use camroller_dynamics, only : moments_t
    use camroller_events, only : find_stops_between
-   use camroller_number_text, only : fixed_text
    use camroller_spin, only : rolling_speed_at
    use camroller_state, only : evaluate_loading
    use camroller_ehl_grid, only : new_ehl_grid
@@ -191,29 +191,19 @@ contains
       character(len=:), allocatable :: reason
 
       if (last%status /= in_range) then
-         call raise(error, kind_domain, "ehl: "//trim(range_text(last%status))//" at cam angle "//trim(angle_text(reached)))
+         call raise(error, kind_domain, "ehl: "//trim(range_text(last%status))//" at "//cam_angle_text(reached, 3))
       else if (cycle%tried >= most_steps .or. last%angle < start + two_pi - angle_tolerance) then
          reason = "no film was found"
          if (cycle%tried >= most_steps) reason = "the cycle takes too many steps"
          if (last%rounds == max_rounds .and. options%is_transient) reason = "no balance of load and friction was found"
          if (last%rounds == max_rounds .and. .not. options%is_transient) reason = "the balance of load and friction, "// &
             & "where the spike of the pressure is narrower than the nodes, jumps with steady films (a film with squeeze does not)"
-         call raise(error, kind_convergence, "ehl: the step size fell below its minimum at cam angle "// &
-            & trim(angle_text(reached))//": "//reason)
+         call raise(error, kind_convergence, "ehl: the step size fell below its minimum at "// &
+            & cam_angle_text(reached, 3)//": "//reason)
       else if (.not. is_periodic(cycle%moments, options%step_error)) then
          call raise(error, kind_convergence, "ehl: the cycle did not become periodic")
       end if
    end subroutine judge
-
-   !> A cam angle in words.
-   pure function angle_text(angle) result(text)
-      !> Cam angle from full lift [rad]
-      real(wp), intent(in) :: angle
-      !> The angle with full lift at 180 deg
-      character(len=12) :: text
-
-      text = fixed_text(modulo(180.0_wp + angle/degree, 360.0_wp), 3)//" deg"
-   end function angle_text
 
    !> Do start and end of a cycle agree as far as its steps are right? Where a cycle leaves a part of what the sliding speed
    !> was off, the change over the cycle is only the rest of it, and where it ends
@@ -282,8 +272,8 @@ contains
             if (pass == 1) cycle
             call new_ehl_problem(problem, contact_at(model, march, position, load, 0.0_wp), status)
             if (status /= in_range) then
-               call raise(error, kind_domain, "ehl: "//trim(range_text(status))//" at cam angle "// &
-                  & trim(angle_text(2.0_wp*i*degree)))
+               call raise(error, kind_domain, "ehl: "//trim(range_text(status))//" at "// &
+                  & cam_angle_text(2.0_wp*i*degree, 3))
                return
             end if
             films = [min(films(1), problem%expected_film), max(films(2), problem%expected_film)]

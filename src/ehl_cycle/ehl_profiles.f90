@@ -3,6 +3,7 @@
 !> In: case, its result. Out: `ehl_record_t` at the cam angles of the result, with the values of the film law and of the friction
 !> formulas at the same loads and speeds for comparison. The result itself is not changed.
 module camroller_ehl_profiles
+   use camroller_cam_angle, only : cam_angle_text
    use camroller_kinds, only : wp, pi, degree
    use camroller_error, only : error_t, raise, add_context, kind_convergence
    use camroller_case, only : case_t
@@ -16,7 +17,6 @@ module camroller_ehl_profiles
    use camroller_events, only : check_geometry
    use camroller_kinematics, only : position_t
    use camroller_model, only : model_t, new_model
-   use camroller_number_text, only : fixed_text
    use camroller_remarks, only : add_remark, missing_profiles
    use camroller_result, only : result_t, find_quantity
    use camroller_state, only : evaluate_loading
@@ -128,8 +128,7 @@ contains
          cycle%moments(i)%sliding_speed = speeds(i)
          call solve_at(model, march, before, state, cycle%moments(i), converged)
          if (.not. converged) then
-            call raise(error, kind_convergence, "ehl: no film at cam angle "// &
-               & fixed_text(modulo(180.0_wp + angles(i)/degree, 360.0_wp), 3)//" deg")
+            call raise(error, kind_convergence, "ehl: no film at "//cam_angle_text(angles(i), 3))
             return
          end if
          before(1) = cycle%moments(i)

@@ -6,7 +6,7 @@ module camroller_flexible_follower
    use camroller_model, only : model_t, evaluate_geometry
    use camroller_kinematics, only : position_t
    use camroller_dynamics, only : moments_t, evaluate_moments
-   use camroller_state, only : state_t, most_surge_modes, add_sums
+   use camroller_state, only : state_t, add_sums
    use camroller_flexible_geometry, only : dot, cross
    use camroller_flexible_train, only : flexible_state_t, evaluate_train, first_mode, at_finger, at_finger_rate, at_lift, at_speed
    use camroller_flexible_energy, only : powers_t, evaluate_powers, stored_energy
@@ -114,7 +114,7 @@ contains
          values%stored_energy = stored_energy(model, train, now)
          values%modes = 0.0_wp
          first = first_mode(model)
-         do n = 1, min(model%flexible%modes%count, most_surge_modes)
+         do n = 1, model%flexible%modes%count
             values%modes(n) = train(first + 2*(n - 1))
          end do
       end associate

@@ -2,8 +2,8 @@
 !>
 !> In: model, cam angle, state. Out: rate and exact Jacobian, as `ode` asks for them; the places where contacts are lost or return.
 module camroller_flexible_problem
-   use camroller_kinds, only : wp, degree
-   use camroller_number_text, only : fixed_text
+   use camroller_cam_angle, only : cam_angle_text
+   use camroller_kinds, only : wp
    use camroller_ode_problem, only : linear_t, counters_t, words_length
    use camroller_ode_switching, only : switching_problem_t
    use camroller_model, only : model_t
@@ -164,7 +164,7 @@ contains
       !> It in words
       character(len=words_length) :: text
 
-      text = "cam angle "//fixed_text(modulo(180.0_wp + time/degree, 360.0_wp), 3)//" deg"
+      text = cam_angle_text(time, 3)
       if (.not. associated(self%model)) text = ""
    end function name_time
 

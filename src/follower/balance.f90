@@ -9,7 +9,7 @@ module camroller_balance
    use camroller_dynamics, only : moments_t
    use camroller_contact_forces, only : contact_t
    use camroller_state, only : evaluate_loading, evaluate_spin
-   use camroller_spin, only : rolling_speed_at, rolling_speed_slope
+   use camroller_spin, only : film_decay_rate, rolling_speed_at, slip_rate
    use camroller_stick, only : has_stick, rates_at_rest, breakaway
    use camroller_roots, only : bracket_t, start_bracket, narrow_bracket, root_wanted, root_found
    implicit none
@@ -66,7 +66,7 @@ contains
       is_found = bracket%status == root_found .and. contact%is_touching
       if (.not. is_found) return
       sliding_speed = bracket%trial
-      decay_rate = model%roller_radius**2*contact%traction_slope/(model%roller_inertia*model%speed)
+      decay_rate = film_decay_rate(model, contact)
    end subroutine find_balance
 
    !> Is the balance a roller at rest on the cam, held there by friction?
@@ -168,7 +168,7 @@ contains
       do i = 1, max_steps
          call sliding_rate(model, position, moments, sliding_speed, part*tolerance/max(tolerance, rolling), contact, rate)
          evaluations = evaluations + 1
-         decay_rate = model%roller_radius**2*contact%traction_slope/(model%roller_inertia*model%speed)
+         decay_rate = film_decay_rate(model, contact)
          if (.not. decay_rate > 0.0_wp) exit
          step = rate/decay_rate
          if (.not. abs(sliding_speed + step) < rolling) exit
@@ -200,7 +200,7 @@ contains
       integer :: status
 
       call evaluate_spin(model, position, moments, sliding_speed, contact, acceleration, status, accuracy)
-      rate = rolling_speed_slope(model, position) - model%roller_radius*acceleration/model%speed
+      rate = slip_rate(model, position, acceleration)
    end subroutine sliding_rate
 
 end module camroller_balance

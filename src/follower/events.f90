@@ -3,13 +3,14 @@
 !> In: model. Out: stop angles for the integration, intervals without contact. All of them depend on the cam angle only, so they
 !> are known before a cycle is integrated, and no step passes over one.
 module camroller_events
+   use camroller_cam_angle, only : cam_angle_text
    use camroller_kinds, only : wp, pi, two_pi, degree
    use camroller_error, only : error_t, raise, kind_domain
    use camroller_model, only : model_t
    use camroller_lift, only : is_at_rest, finest_bend
    use camroller_kinematics, only : position_t
    use camroller_dynamics, only : moments_t
-   use camroller_number_text, only : fixed_text, in_mm => millimetres_text
+   use camroller_number_text, only : in_mm => millimetres_text
    use camroller_state, only : evaluate_loading
    use camroller_extremum, only : extremum_t, start_extremum, narrow_extremum
    use camroller_roots, only : bracket_t, start_bracket, narrow_bracket, root_wanted
@@ -322,38 +323,28 @@ contains
       bend = 0.0_wp
       call evaluate_loading(model, angle, position, force, moments, status)
       if (status /= 0) then
-         call raise(error, kind_domain, "the finger cannot reach the lift of "//in_mm(position%lift)//" mm"// &
-            & trim(at_angle(angle))//"; mechanism.pivot_to_pad_mm = "//in_mm(model%linkage%b)//" is too short for it")
+         call raise(error, kind_domain, "the finger cannot reach the lift of "//in_mm(position%lift)//" mm at "// &
+            & cam_angle_text(angle, 2)//"; mechanism.pivot_to_pad_mm = "//in_mm(model%linkage%b)//" is too short for it")
          return
       end if
       ! Hollow where the curvature is negative: |R_c| = -1/kappa + r_R
       bend = position%pitch_curvature*model%roller_radius
       if (grinding_wheel_radius > 0.0_wp) bend = max(bend, -position%pitch_curvature*(grinding_wheel_radius - model%roller_radius))
       if (position%normal_arm <= 0.0_wp) then
-         call raise(error, kind_domain, "the roller passes the line from pivot to cam centre"//trim(at_angle(angle))// &
+         call raise(error, kind_domain, "the roller passes the line from pivot to cam centre at "//cam_angle_text(angle, 2)// &
             & ", at a lift of "//in_mm(position%lift)//" mm, with mechanism.pivot_to_roller_mm = "//in_mm(model%linkage%a)// &
             & " and mechanism.pivot_to_cam_mm = "//in_mm(model%linkage%d))
       else if (position%equivalent_radius <= 0.0_wp) then
          call raise(error, kind_domain, "cam undercut: the path of the roller's centre has a radius of curvature of "// &
-            & in_mm(1.0_wp/position%pitch_curvature)//" mm"//trim(at_angle(angle))//", smaller than roller.radius_mm = "// &
+            & in_mm(1.0_wp/position%pitch_curvature)//" mm at "//cam_angle_text(angle, 2)//", smaller than roller.radius_mm = "// &
             & in_mm(model%roller_radius)//"; a larger mechanism.base_radius_mm, a smaller roller or a longer or lower lift "// &
             & "avoids it")
       else if (bend > 1.0_wp) then
          call raise(error, kind_domain, "hollow flank: the cam's radius of curvature is "// &
-            & in_mm(model%roller_radius - 1.0_wp/position%pitch_curvature)//" mm"//trim(at_angle(angle))// &
+            & in_mm(model%roller_radius - 1.0_wp/position%pitch_curvature)//" mm at "//cam_angle_text(angle, 2)// &
             & ", less than the grinding wheel's, mechanism.grinding_wheel_radius_mm = "//in_mm(grinding_wheel_radius))
       end if
    end subroutine check_position
-
-   !> Words that name a cam angle as files do: the nose at 180 deg.
-   function at_angle(angle) result(text)
-      !> Cam angle from full lift [rad]
-      real(wp), intent(in) :: angle
-      !> Text
-      character(len=32) :: text
-
-      text = " at cam angle "//fixed_text(180.0_wp + angle/degree, 2)//" deg"
-   end function at_angle
 
    !> Sort a short list by insertion.
    pure subroutine sort(values)

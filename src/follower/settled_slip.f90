@@ -9,7 +9,7 @@ module camroller_settled_slip
    use camroller_model, only : model_t
    use camroller_ode_bridge, only : solve_euler
    use camroller_ode_problem, only : counters_t
-   use camroller_spin, only : spin_problem_t, rolling_speed_slope
+   use camroller_spin, only : spin_problem_t, slip_rate
    use camroller_state, only : state_t
    implicit none
    private
@@ -50,7 +50,7 @@ contains
 
       is_moved = .false.
       if (.not. state%contact%is_touching .or. .not. reach > 0.0_wp) return
-      rate = rolling_speed_slope(model, state%position) - model%roller_radius*state%spin_acceleration/model%speed
+      rate = slip_rate(model, state%position, state%spin_acceleration)
       span = model%roller_radius**2/(model%roller_inertia*model%speed)*(model%limiting_coefficient*state%contact%load &
          & + state%contact%boundary_capacity)
       if (abs(rate - slope) <= small_part*span) return

@@ -4,8 +4,8 @@
 !> `dV_s/dtheta = omega dV_roll' - r_R (domega_R/dt)/omega`: friction depends on slip, which is a small difference of large
 !> speeds. The source integrates the roller's surface speed `r_R omega_R` instead; so does an integration with a fixed step here.
 module camroller_spin
-   use camroller_kinds, only : wp, degree
-   use camroller_number_text, only : fixed_text
+   use camroller_cam_angle, only : cam_angle_text
+   use camroller_kinds, only : wp
    use camroller_ode_problem, only : problem_t, linear_t, counters_t, time_increment, linearise_in_two, words_length
    use camroller_model, only : model_t, evaluate_geometry
    use camroller_ramp, only : follow_ramp
@@ -18,7 +18,8 @@ module camroller_spin
    implicit none
    private
 
-   public :: spin_problem_t, sliding_speed_of, rolling_speed_slope, rolling_speed_at, decay_rate_of, full_decay_rate
+   public :: spin_problem_t, sliding_speed_of, rolling_speed_slope, rolling_speed_at, slip_rate, surface_rate, film_decay_rate, &
+      & decay_rate_of, full_decay_rate
 
    !> The roller's spin over the cam angle
    type, extends(problem_t) :: spin_problem_t
@@ -70,8 +71,11 @@ contains
       call evaluate_spin(self%model, position, moments, sliding_speed_of(self, position, state(1)), contact, acceleration, &
          & status, self%accuracy, self%mobilised)
       if (status /= 0) return
-      rate(1) = self%model%roller_radius*acceleration/self%model%speed
-      if (.not. self%has_surface_speed) rate(1) = rolling_speed_slope(self%model, position) - rate(1)
+      if (self%has_surface_speed) then
+         rate(1) = surface_rate(self%model, acceleration)
+      else
+         rate(1) = slip_rate(self%model, position, acceleration)
+      end if
    end subroutine get_rate
 
    !> Decay rate of a disturbance of the spin per radian, with film and load following the slip.
@@ -129,6 +133,44 @@ contains
       if (status == 0) decay_rate = model%roller_radius*speed_slope/model%speed
    end function full_decay_rate
 
+   !> Rate of the sliding speed over the cam angle: the equation of the roller, `dV_roll/dtheta - r_R (domega_R/dt)/omega`.
+   pure function slip_rate(model, position, acceleration) result(rate)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> Geometry at this angle
+      type(position_t), intent(in) :: position
+      !> Angular acceleration of the roller [rad/s^2]
+      real(wp), intent(in) :: acceleration
+      !> The rate [m/s/rad]
+      real(wp) :: rate
+
+      rate = rolling_speed_slope(model, position) - surface_rate(model, acceleration)
+   end function slip_rate
+
+   !> Rate of the speed of the roller's surface over the cam angle.
+   elemental function surface_rate(model, acceleration) result(rate)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> Angular acceleration of the roller [rad/s^2]
+      real(wp), intent(in) :: acceleration
+      !> The rate [m/s/rad]
+      real(wp) :: rate
+
+      rate = model%roller_radius*acceleration/model%speed
+   end function surface_rate
+
+   !> Decay rate of a disturbance of the spin by the traction, with film and load as they are: `r_R^2 (dF_t/dV_s)/(I_R omega)`.
+   pure function film_decay_rate(model, contact) result(decay_rate)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> State of the contact
+      type(contact_t), intent(in) :: contact
+      !> Decay rate [1/rad]
+      real(wp) :: decay_rate
+
+      decay_rate = model%roller_radius**2*contact%traction_slope/(model%roller_inertia*model%speed)
+   end function film_decay_rate
+
    !> Decay rate of a disturbance of the spin with film and load as they are, `(r_R^2 dF_t/dV_s + dT_B/domega_R)/(I_R omega)`: of
    !> the traction, and of a bearing that holds the roller.
    pure function decay_rate_of(model, contact) result(decay_rate)
@@ -139,7 +181,7 @@ contains
       !> Decay rate [1/rad]
       real(wp) :: decay_rate
 
-      decay_rate = model%roller_radius**2*contact%traction_slope/(model%roller_inertia*model%speed)
+      decay_rate = film_decay_rate(model, contact)
       if (allocated(model%bearing)) then
          decay_rate = decay_rate + bearing_torque_slope(model%bearing%friction_coefficient, contact%load, model%bearing%radius, &
             & contact%relative_spin, model%bearing%reversal_spin)/(model%roller_inertia*model%speed)
@@ -226,7 +268,7 @@ contains
       call evaluate_loading(self%model, time, same, force, moments, status)
       if (status == 0) call evaluate_spin(self%model, position, moments, sliding_speed, contact, acceleration, status, &
          & mobilised=self%mobilised)
-      rate = rolling_speed_slope(self%model, position) - self%model%roller_radius*acceleration/self%model%speed
+      rate = slip_rate(self%model, position, acceleration)
       if (status == 0) linear%time_slope(1) = linear%time_slope(1) + (rate - linear%rate(1))/increment
       call follow_ramp(self%model, time)
    end subroutine add_inputs
@@ -277,7 +319,7 @@ contains
       !> It in words
       character(len=words_length) :: text
 
-      text = "cam angle "//fixed_text(modulo(180.0_wp + time/degree, 360.0_wp), 3)//" deg"
+      text = cam_angle_text(time, 3)
       if (self%has_surface_speed) text = trim(text)//" (fixed step)"
    end function name_time
 

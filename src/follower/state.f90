@@ -10,17 +10,15 @@ module camroller_state
    use camroller_contact, only : solve_contact
    use camroller_contact_forces, only : contact_t
    use camroller_roller, only : spin_acceleration
+   use camroller_spring_modes, only : most_modes
    use camroller_torque, only : cam_torque, contact_power, normal_direction
    use camroller_torque_list, only : torque_count, is_loss, of_geometric, of_contact, of_needle, of_guide, of_roller_inertia, &
       & of_residual
    implicit none
    private
 
-   public :: state_t, flexible_values_t, most_surge_modes, evaluate_state, evaluate_spin, evaluate_loading, add_torques, &
+   public :: state_t, flexible_values_t, evaluate_state, evaluate_spin, evaluate_loading, add_torques, &
       & add_sums, cam_force
-
-   !> Modes of the spring that are kept for series
-   integer, parameter :: most_surge_modes = 20
 
    !> What a flexible train has beside a rigid one
    type :: flexible_values_t
@@ -37,7 +35,7 @@ module camroller_state
       !> Energy that is stored [J]
       real(wp) :: stored_energy
       !> Amplitudes of the spring's modes [m]
-      real(wp) :: modes(most_surge_modes)
+      real(wp) :: modes(most_modes)
    end type flexible_values_t
 
    !> State of one follower; torques are on the camshaft, from this follower alone

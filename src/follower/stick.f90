@@ -10,7 +10,7 @@ module camroller_stick
    use camroller_dynamics, only : moments_t
    use camroller_contact_forces, only : contact_t
    use camroller_state, only : evaluate_loading, evaluate_spin
-   use camroller_spin, only : rolling_speed_slope
+   use camroller_spin, only : slip_rate
    use camroller_roots, only : bracket_t, start_bracket, narrow_bracket, root_wanted
    implicit none
    private
@@ -136,7 +136,7 @@ contains
       real(wp) :: acceleration
 
       call evaluate_spin(model, position, moments, 0.0_wp, contact, acceleration, status, mobilised=share)
-      rate = rolling_speed_slope(model, position) - model%roller_radius*acceleration/model%speed
+      rate = slip_rate(model, position, acceleration)
    end subroutine rate_at_rest
 
    !> Boundary friction that touching asperities can bear at a sliding speed; huge where the contact has no balance.

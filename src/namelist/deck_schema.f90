@@ -100,6 +100,9 @@ module camroller_deck_schema
       integer :: group_count = 0, key_count = 0
    end type schema_t
 
+   !> Groups and keys for which a new schema has room; it grows
+   integer, parameter :: first_room = 64
+
 contains
 
    !> A range from above zero up to an end.
@@ -133,6 +136,14 @@ contains
       !> What it holds
       character(len=*), intent(in) :: meaning
 
+      type(group_t), allocatable :: groups(:)
+
+      if (.not. allocated(schema%groups)) allocate (schema%groups(first_room))
+      if (schema%group_count == size(schema%groups)) then
+         allocate (groups(2*schema%group_count))
+         groups(:schema%group_count) = schema%groups
+         call move_alloc(groups, schema%groups)
+      end if
       schema%group_count = schema%group_count + 1
       associate (group => schema%groups(schema%group_count))
          group%name = name
@@ -158,6 +169,14 @@ contains
       !> Value for a deck that shows every key
       character(len=*), intent(in), optional :: example
 
+      type(key_t), allocatable :: keys(:)
+
+      if (.not. allocated(schema%keys)) allocate (schema%keys(first_room))
+      if (schema%key_count == size(schema%keys)) then
+         allocate (keys(2*schema%key_count))
+         keys(:schema%key_count) = schema%keys
+         call move_alloc(keys, schema%keys)
+      end if
       schema%key_count = schema%key_count + 1
       schema%groups(schema%group_count)%last = schema%key_count
       associate (key => schema%keys(schema%key_count))

@@ -2,7 +2,8 @@
 !>
 !> In: a cycle, its means and margins. Out: remarks, one per line, or an error where the case forbids what happens.
 module camroller_cycle_remarks
-   use camroller_kinds, only : wp, pi, degree
+   use camroller_cam_angle, only : cam_angle_text, file_angle
+   use camroller_kinds, only : wp, pi
    use camroller_error, only : error_t, raise, add_context, kind_domain
    use camroller_cycle, only : cycle_t
    use camroller_events, only : contact_losses
@@ -108,16 +109,6 @@ contains
       end if
    end subroutine check_contact
 
-   !> Cam angle as in files: the nose at 180.
-   elemental function file_angle(angle) result(degrees)
-      !> Cam angle from full lift [rad]
-      real(wp), intent(in) :: angle
-      !> The same from 0 to 360 [deg]
-      real(wp) :: degrees
-
-      degrees = modulo(180.0_wp + angle/degree, 360.0_wp)
-   end function file_angle
-
    !> Warn where the sliding speed is no answer, as with explicit steps beyond the stability limit.
    subroutine check_error(statistics, remarks)
       !> Means over the cycle of the lobe, with the estimate of its error
@@ -140,9 +131,9 @@ contains
 
       if (statistics%standstills == 0) return
       call add_remark(remarks, standing_entrainment, "the entrainment speed passes through zero "// &
-         & integer_text(statistics%standstills)//" times in contact, first at cam angle "// &
-         & fixed_text(file_angle(statistics%first_standstill), 1)// &
-         & " deg; the smallest film is that at standstill there, without a squeeze film", real(statistics%standstills, wp))
+         & integer_text(statistics%standstills)//" times in contact, first at "// &
+         & cam_angle_text(statistics%first_standstill, 1)// &
+         & "; the smallest film is that at standstill there, without a squeeze film", real(statistics%standstills, wp))
    end subroutine check_entrainment
 
    !> Say that the lash adjuster pumps up or its joint opens, which the model leaves out.
@@ -159,7 +150,7 @@ contains
       real(wp) :: lack
 
       if (.not. allocated(margins%pivot)) return
-      place = " N at cam angle "//fixed_text(file_angle(margins%pivot%angle), 1)//" deg at "// &
+      place = " N at "//cam_angle_text(margins%pivot%angle, 1)//" at "// &
          & number_text(model%speed*per_minute, 6)//" rev/min; this begins at "
       if (margins%pivot%force < 0.0_wp) then
          call add_remark(remarks, open_pivot, "the joint of finger and lash adjuster opens: it lacks "// &
@@ -188,7 +179,7 @@ contains
       if (statistics%film_range%share <= 0.0_wp) return
       call range_in_words(statistics%film_range, model%film_law, text)
       text = "the film law is outside its published range for "//number_text(100.0_wp*statistics%film_range%share, 3)// &
-         & " % of the cycle, first at cam angle "//fixed_text(file_angle(statistics%first_outside), 1)//" deg, "//text
+         & " % of the cycle, first at "//cam_angle_text(statistics%first_outside, 1)//", "//text
       if (model%stops_outside_range) then
          call raise(error, kind_domain, text//" (range_policy = 'stop')")
       else if (matters(statistics%film_range)) then

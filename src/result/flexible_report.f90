@@ -15,7 +15,8 @@ module camroller_flexible_report
    use camroller_flexible_measures, only : bounces, coil_ratio, largest_load_angle, losses_of_contact, measures, seating_speed, &
       & smallest_pivot_force, tension_share
    use camroller_flexible_solution, only : flexible_solution_t
-   use camroller_kinds, only : degree, pi, two_pi, wp
+   use camroller_cam_angle, only : file_angle
+   use camroller_kinds, only : pi, two_pi, wp
    use camroller_model, only : model_t
    use camroller_number_text, only : integer_text, number_text
    use camroller_quadrature, only : gauss_legendre
@@ -186,7 +187,7 @@ contains
       do i = 1, size(solution%mean)
          associate (measure => measures(i))
             if (i == largest_load_angle) then
-               call add(trim(measure%name), "deg", trim(measure%meaning), modulo(180.0_wp + solution%mean(i)/degree, 360.0_wp))
+               call add(trim(measure%name), "deg", trim(measure%meaning), file_angle(solution%mean(i)))
                cycle
             end if
             call add(trim(measure%name), trim(measure%unit), trim(measure%meaning), solution%mean(i))

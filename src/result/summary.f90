@@ -2,7 +2,8 @@
 !>
 !> In: statistics of the cycles. Out: the named scalars of `result_t`.
 module camroller_summary
-   use camroller_kinds, only : wp, two_pi, degree
+   use camroller_cam_angle, only : file_angle
+   use camroller_kinds, only : wp, two_pi
    use camroller_case, only : case_t, energy_names
    use camroller_model, only : model_t
    use camroller_cycle, only : cycle_t
@@ -72,7 +73,7 @@ contains
          & "speed in pure rolling)", "numerics", maxval(statistics%error))
       worst = maxloc(statistics%error, 1)
       call add(list, "estimated_error_angle", "deg", "cam angle where the estimated error is largest", &
-         & "numerics", modulo(180.0_wp + statistics(worst)%error_angle/degree, 360.0_wp))
+         & "numerics", file_angle(statistics(worst)%error_angle))
       call add(list, "estimated_error_of_means", "1", "estimate of the largest error of a mean relative "// &
          & "to the mean magnitude of its quantity, of geometric and drive torque relative to the mean friction torque; "// &
          & "without films where contact is lost", "numerics", &
@@ -270,7 +271,7 @@ contains
          call add(list, "margin_"//name, "N", "smallest "//force//", without friction", "dynamics", &
             & margin%force)
          call add(list, "margin_"//name//"_angle", "deg", "cam angle of margin_"//name, "dynamics", &
-            & modulo(180.0_wp + margin%angle/degree, 360.0_wp))
+            & file_angle(margin%angle))
          call add(list, "margin_"//name//"_speed", "rad s-1", "cam speed at which margin_"//name// &
             & " is zero; infinite if never", "dynamics", margin%speed)
       end subroutine add_margin

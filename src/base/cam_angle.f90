@@ -1,0 +1,36 @@
+!> Cam angles as files and messages count them: from 0 to 360 deg, the nose at 180.
+!>
+!> In: an angle from full lift, as the solver counts it. Out: the angle in degrees, or in words.
+module camroller_cam_angle
+   use camroller_kinds, only : wp, degree
+   use camroller_number_text, only : fixed_text
+   implicit none
+   private
+
+   public :: file_angle, cam_angle_text
+
+contains
+
+   !> Cam angle as in files.
+   elemental function file_angle(angle) result(degrees)
+      !> Cam angle from full lift [rad]
+      real(wp), intent(in) :: angle
+      !> The same from 0 to 360 [deg]
+      real(wp) :: degrees
+
+      degrees = modulo(180.0_wp + angle/degree, 360.0_wp)
+   end function file_angle
+
+   !> Cam angle in the words of messages, as `cam angle 183.250 deg`.
+   pure function cam_angle_text(angle, decimals) result(text)
+      !> Cam angle from full lift [rad]
+      real(wp), intent(in) :: angle
+      !> Digits behind the point
+      integer, intent(in) :: decimals
+      !> The words
+      character(len=len(fixed_text(file_angle(angle), decimals)) + 14) :: text
+
+      text = "cam angle "//fixed_text(file_angle(angle), decimals)//" deg"
+   end function cam_angle_text
+
+end module camroller_cam_angle
