@@ -33,7 +33,8 @@ module camroller_events
 
 contains
 
-   !> Stops within one turn, from -pi to pi: kinks of the lift, the valve leaving its seat, loss and return of contact.
+   !> Stops within one turn, from -pi to pi: kinks of the lift, the valve leaving its seat, loss and return of contact, the change
+   !> between the adjuster's load and the spring's with the larger of both.
    subroutine find_stops(model, stops)
       !> The model
       type(model_t), intent(in) :: model
@@ -123,7 +124,7 @@ contains
       !> Angles, increasing but for the accuracy of a scan step [rad]
       real(wp), allocatable :: angles(:)
 
-      ! Values at the ends of a scan interval: lift above the seat [m] and moment that keeps contact [N m]
+      ! Switches at the ends of a scan interval [m, N m]
       real(wp) :: before(2), after(2)
       ! Angles of the scan [rad]
       real(wp), allocatable :: scan(:)
@@ -149,7 +150,8 @@ contains
       end do
    end function switch_angles
 
-   !> Quantities whose sign matters: lift above that where the valve leaves its seat, and the moment that keeps contact.
+   !> Quantities whose sign matters: lift above that where the valve leaves its seat, and the moment that keeps contact, or, with the
+   !> larger of both loads, the moment beyond that of the base circle load.
    pure function switches(model, angle) result(values)
       !> The model
       type(model_t), intent(in) :: model
@@ -171,6 +173,9 @@ contains
       values(2) = moments%total
       if (model%is_consistent .and. allocated(model%guide_drag)) then
          values(2) = values(2) + model%guide_drag*model%speed*position%lift_slope*position%valve_arm
+      end if
+      if (model%takes_maximum_load) then
+         values(2) = values(2) - model%base_circle_load*merge(position%normal_arm, position%parallel_arm, model%has_exact_arm)
       end if
    end function switches
 
@@ -225,7 +230,7 @@ contains
       !> First and last cam angle of each, shape (2, interval) [rad]
       real(wp), allocatable :: intervals(:, :)
 
-      ! The intervals, one after the other [rad]; lift above the seat [m] and moment that keeps contact [N m]
+      ! The intervals, one after the other [rad]; switches [m, N m]
       real(wp), allocatable :: ends(:)
       real(wp) :: values(2)
       integer :: i

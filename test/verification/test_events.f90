@@ -6,7 +6,7 @@ module test_events
    use camroller_case, only : case_t
    use camroller_model, only : model_t, new_model
    use camroller_kinematics, only : position_t, rotation_names
-   use camroller_dynamics, only : moments_t
+   use camroller_dynamics, only : load_arm_names, moments_t
    use camroller_state, only : state_t, evaluate_state, evaluate_loading
    use camroller_events, only : find_stops, find_stops_between, cycle_stops, check_geometry
    use closeness, only : check_close, check_scaled, expect_error, expect_success
@@ -24,6 +24,7 @@ contains
       testsuite = [ &
          new_unittest("edges of the event and the valve's leaving its seat are stops", test_stops), &
          new_unittest("loss and return of contact are stops", test_loss_stops), &
+         new_unittest("the change between the adjuster's load and the spring's is a stop", test_load_stops), &
          new_unittest("stops of a cycle begin anywhere and keep their order", test_cycle_stops), &
          new_unittest("stops between two angles over several turns", test_stops_between), &
          new_unittest("an undercut cam is refused with its angle", test_undercut), &
@@ -90,6 +91,70 @@ contains
       end do
       call check(error, losses >= 2 .and. mod(losses, 2) == 0, "contact is not lost and found again")
    end subroutine test_loss_stops
+
+   !> The larger of both loads has a kink where they are equal: every change between them that a scan meets has its stop.
+   subroutine test_load_stops(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: case
+      type(model_t) :: model
+      type(state_t) :: state
+      real(wp), allocatable :: stops(:)
+      ! Angle [rad]
+      real(wp) :: angle
+      integer, parameter :: angles = 720
+      integer :: i, arm, status, changes
+      logical :: is_least, was_least
+
+      do arm = 1, size(load_arm_names)
+         case = source_case()
+         case%spring%load_arm = load_arm_names(arm)
+         case%spring%seating = "maximum"
+         ! Too weak to keep contact round the nose
+         case%spring%stiffness = 2500.0_wp
+         call set_point(case, point_speeds(3), point_viscosities(2))
+         call make_model(case, model, error)
+         if (allocated(error)) return
+         call find_stops(model, stops)
+         changes = 0
+         was_least = .false.
+         do i = 0, angles
+            angle = -pi + (i + 0.5_wp)*two_pi/angles
+            call evaluate_state(model, angle, 0.0_wp, state, status)
+            is_least = state%contact%load <= model%base_circle_load
+            if (i > 0 .and. (is_least .neqv. was_least)) then
+               changes = changes + 1
+               call check_stop(angle)
+               if (allocated(error)) return
+            end if
+            was_least = is_least
+         end do
+         call check(error, changes >= 2, "the load does not change between adjuster and spring")
+         if (allocated(error)) return
+      end do
+
+   contains
+
+      !> Among the stops of the last step there is one at which both loads are equal.
+      subroutine check_stop(last)
+         real(wp), intent(in) :: last
+         ! Stops in the step [rad]; loads on both sides of each over that of the base circle [-]
+         real(wp), allocatable :: near(:), loads(:, :)
+         integer :: k, side
+
+         near = pack(stops, stops > last - two_pi/angles .and. stops < last)
+         allocate (loads(2, size(near)))
+         do k = 1, size(near)
+            do side = 1, 2
+               call evaluate_state(model, near(k) + (2*side - 3)*1.0e-9_wp, 0.0_wp, state, status)
+               loads(side, k) = state%contact%load/model%base_circle_load
+            end do
+         end do
+         ! The load grows by a few hundred of itself in a radian
+         call check(error, any(minval(loads, 1) <= 1.0_wp .and. maxval(loads, 1) > 1.0_wp .and. &
+            & maxval(loads, 1) < 1.0_wp + 1.0e-6_wp), "no stop where both loads are equal")
+      end subroutine check_stop
+
+   end subroutine test_load_stops
 
    subroutine test_cycle_stops(error)
       type(error_type), allocatable, intent(out) :: error
