@@ -12,7 +12,7 @@ module camroller_defects
    implicit none
    private
 
-   public :: find_defect
+   public :: defect_at, find_defect
 
 contains
 

@@ -1,25 +1,25 @@
 !> Error of a cycle, estimated from the defect of its solution.
 !>
 !> In: at the nodes of the quadrature for means, the slope of the solution minus the rate of the roller equation there (its
-!> defect), and the decay rate. Out: the error of the sliding speed at these nodes, and the largest in the cycle.
+!> defect), and at those of its Gauss rule the decay rate. Out: the error of the sliding speed at the latter, and the largest in
+!> the cycle.
 !>
 !> The error obeys `d error/d angle = defect - decay_rate*error` in first order. Its terms are evaluated for the means anyway, so
 !> the estimate costs no further evaluation, and it holds for any method, interpolation included. Source: Enright, SIAM J. Numer.
 !> Anal. 26 (1989) 588, on defects as a measure of error.
 module camroller_error_estimate
    use camroller_kinds, only : wp
-   use camroller_panels, only : panel_places, gauss_points
+   use camroller_panels, only : gauss_points, panel_places, panel_points
    implicit none
    private
 
    public :: estimate_t, add_defect, end_interval, estimated_error, error_at_start, margin
 
-   !> Most points of a rule in an interval
-   integer, parameter :: most_points = 3
+   !> Most points of an interval with a decay rate
+   integer, parameter :: most_rates = size(gauss_points)
    !> Places that cut an interval into parts [-]: shorter ones at its ends, where the defect of a stiff method is largest. The
    !> points of all rules are among them
-   real(wp), parameter :: cuts(*) = [0.0_wp, 0.02_wp, panel_places(gauss_points(1)), 0.3_wp, panel_places(gauss_points(2)), &
-      & 0.7_wp, panel_places(gauss_points(3)), 1.0_wp]
+   real(wp), parameter :: cuts(*) = [0.0_wp, panel_places, 1.0_wp]
    !> The estimate is of first order; true errors were met at up to 1.25 times as much [-]
    real(wp), parameter :: margin = 2.0_wp
    !> Exponent of the growth over a part of an interval beyond which more makes no difference [-]
@@ -29,12 +29,14 @@ module camroller_error_estimate
 
    !> The estimate on its way round the cycle
    type :: estimate_t
-      !> Points of the present interval so far
-      integer :: points = 0
-      !> Defect [m/s/rad] and decay rate [1/rad] at each of them
-      real(wp) :: defects(most_points) = 0.0_wp, rates(most_points) = 0.0_wp
-      !> Error at each of them once the interval has ended [m/s], part of an error at the start of the cycle that is left there [-]
-      real(wp) :: errors(most_points) = 0.0_wp, shares(most_points) = 0.0_wp
+      !> Points of the present interval so far, and those of them with a decay rate
+      integer :: points = 0, rated = 0
+      !> Place of each point in the interval [-], defect there [m/s/rad]
+      real(wp) :: places(panel_points) = 0.0_wp, defects(panel_points) = 0.0_wp
+      !> Places of the points with a decay rate [-], the rate [1/rad]
+      real(wp) :: rate_places(most_rates) = 0.0_wp, rates(most_rates) = 0.0_wp
+      !> Error at each of those once the interval has ended [m/s], part of an error at the start of the cycle that is left there [-]
+      real(wp) :: errors(most_rates) = 0.0_wp, shares(most_rates) = 0.0_wp
       !> Error at the end of the last interval, largest so far [m/s]
       real(wp) :: error = 0.0_wp, largest = 0.0_wp
       !> Part of an error at the start of the cycle that is left [-]
@@ -44,65 +46,72 @@ module camroller_error_estimate
 contains
 
    !> Add a point of the present interval.
-   pure subroutine add_defect(estimate, defect, decay_rate)
+   pure subroutine add_defect(estimate, place, defect, decay_rate)
       !> The estimate
       type(estimate_t), intent(inout) :: estimate
+      !> Place in the interval, after those of the points before [-]
+      real(wp), intent(in) :: place
       !> Slope of the curve less rate of the equation [m/s/rad]
       real(wp), intent(in) :: defect
-      !> Decay rate of a disturbance [1/rad]
-      real(wp), intent(in) :: decay_rate
+      !> Decay rate of a disturbance, at two or three points of an interval [1/rad]
+      real(wp), intent(in), optional :: decay_rate
 
       estimate%points = estimate%points + 1
+      estimate%places(estimate%points) = place
       estimate%defects(estimate%points) = defect
-      estimate%rates(estimate%points) = decay_rate
+      if (.not. present(decay_rate)) return
+      estimate%rated = estimate%rated + 1
+      estimate%rate_places(estimate%rated) = place
+      estimate%rates(estimate%rated) = decay_rate
    end subroutine add_defect
 
    !> Carry the error over an interval.
    !>
    !> The defect is taken as the polynomial through its points, the decay rate as changing by the same factor over the same length
    !> between them, since it may span decades, and as constant over a part.
-   pure subroutine end_interval(estimate, nodes, length, ends)
+   pure subroutine end_interval(estimate, length, ends)
       !> The estimate; its points are used up
       type(estimate_t), intent(inout) :: estimate
-      !> Places of the points in the interval, in order [-]
-      real(wp), intent(in) :: nodes(:)
       !> Length of the interval [rad]
       real(wp), intent(in) :: length
       !> Defects at its start and at its end [m/s/rad], where the points are inside and these are known
       real(wp), intent(in), optional :: ends(2)
 
       ! Places [-] and defects [m/s/rad] that are known
-      real(wp) :: places(size(nodes) + 2), values(size(nodes) + 2)
+      real(wp) :: places(panel_points + 2), values(panel_points + 2)
       ! Defect at start, middle and end of a part [m/s/rad]; its length over the interval [-]; decay over it, what it leaves [-]
       real(wp) :: defects(3), part, decay, left
       integer :: i, j, known
 
-      known = size(nodes)
-      places(:known) = nodes
+      known = estimate%points
+      places(:known) = estimate%places(:known)
       values(:known) = estimate%defects(:known)
       if (present(ends)) then
-         places(known + 1:) = [0.0_wp, 1.0_wp]
-         values(known + 1:) = ends
+         places(known + 1:known + 2) = [0.0_wp, 1.0_wp]
+         values(known + 1:known + 2) = ends
          known = known + 2
       end if
-      estimate%points = 0
-      do i = 1, size(cuts)
-         where (abs(nodes - cuts(i)) <= epsilon(1.0_wp))
-            estimate%errors(:size(nodes)) = estimate%error
-            estimate%shares(:size(nodes)) = estimate%contraction
-         end where
-         if (i == size(cuts)) exit
-         part = cuts(min(i + 1, size(cuts))) - cuts(i)
-         do j = 0, 2
-            defects(j + 1) = value_at(places(:known), values(:known), cuts(i) + 0.5_wp*j*part)
+      associate (nodes => estimate%rate_places(:estimate%rated), rates => estimate%rates(:estimate%rated))
+         do i = 1, size(cuts)
+            where (abs(nodes - cuts(i)) <= epsilon(1.0_wp))
+               estimate%errors(:size(nodes)) = estimate%error
+               estimate%shares(:size(nodes)) = estimate%contraction
+            end where
+            if (i == size(cuts)) exit
+            part = cuts(i + 1) - cuts(i)
+            do j = 0, 2
+               defects(j + 1) = value_at(places(:known), values(:known), cuts(i) + 0.5_wp*j*part)
+            end do
+            decay = max(rate_at(nodes, rates, cuts(i) + 0.5_wp*part)*length*part, -largest_growth)
+            left = exp(-decay)
+            estimate%error = left*estimate%error + length*part*decayed_integral(defects, decay)
+            estimate%error = sign(min(abs(estimate%error), lost), estimate%error)
+            estimate%contraction = min(estimate%contraction*left, lost)
+            estimate%largest = max(estimate%largest, abs(estimate%error))
          end do
-         decay = max(rate_at(nodes, estimate%rates(:size(nodes)), cuts(i) + 0.5_wp*part)*length*part, -largest_growth)
-         left = exp(-decay)
-         estimate%error = left*estimate%error + length*part*decayed_integral(defects, decay)
-         estimate%error = sign(min(abs(estimate%error), lost), estimate%error)
-         estimate%contraction = min(estimate%contraction*left, lost)
-         estimate%largest = max(estimate%largest, abs(estimate%error))
-      end do
+      end associate
+      estimate%points = 0
+      estimate%rated = 0
    end subroutine end_interval
 
    !> Integral of the parabola through three values over [0, 1], of which what is left decays up to its end.

@@ -18,7 +18,7 @@ module camroller_means
    use camroller_cycle, only : cycle_t
    use camroller_catalogue, only : list_series, series_values
    use camroller_torque_list, only : torque_count, is_loss, of_geometric, of_roller_inertia, of_residual, torque_series
-   use camroller_defects, only : find_defect
+   use camroller_defects, only : defect_at, find_defect
    use camroller_error_estimate, only : estimate_t, add_defect, end_interval, estimated_error
    use camroller_extremes, only : samples_t
    use camroller_follower_samples, only : follower_samples_t, start_samples, entrainment_t, entrainment_of, extremes_t
@@ -157,6 +157,7 @@ contains
       ! Values at the places [unit of each]; ends of an interval, angle [rad]; largest error so far [m/s]
       real(wp) :: values(samples%series + torque_count, panel_points), left, right, angle, largest
       integer :: interval, point, count, kept
+      logical :: has_rate
 
       places = panel_places
       weights = panel_weights
@@ -185,8 +186,9 @@ contains
                call follow_contact(work, samples, angle, left, error)
                if (allocated(error)) return
                call add_shares(samples, angle, weights(point)*(right - left)/(times(size(times)) - times(1)), statistics)
-               if (.not. (samples%cycle%is_linear .or. any(gauss_points == point))) cycle
-               call add_point(samples, angle, interval, estimate)
+               has_rate = samples%cycle%is_linear .or. any(gauss_points == point)
+               call add_point(samples, angle, interval, places(point), has_rate, estimate)
+               if (.not. has_rate) cycle
                kept = kept + 1
                call keep_point(slips, samples, angle, slip_weights(kept)*(right - left), values(:, point))
             end do
@@ -202,21 +204,29 @@ contains
    end subroutine walk_round
 
    !> Add the point that was sampled last to the estimate of the error.
-   subroutine add_point(samples, angle, interval, estimate)
+   subroutine add_point(samples, angle, interval, place, has_rate, estimate)
       !> The samples
       type(follower_samples_t), intent(in) :: samples
       !> Cam angle from full lift [rad]
       real(wp), intent(in) :: angle
       !> Interval of the trajectory that holds it
       integer, intent(in) :: interval
+      !> Place of the point in the interval [-]
+      real(wp), intent(in) :: place
+      !> Is the decay rate found there?
+      logical, intent(in) :: has_rate
       !> Estimate of the error so far
       type(estimate_t), intent(inout) :: estimate
 
       ! Defect [m/s/rad], decay rate [1/rad]
       real(wp) :: defect, decay_rate
 
+      if (.not. has_rate) then
+         call add_defect(estimate, place, defect_at(samples%model, samples%cycle, angle, interval, samples%state))
+         return
+      end if
       call find_defect(samples%model, samples%cycle, angle, interval, samples%state, estimate%error, defect, decay_rate)
-      call add_defect(estimate, defect, decay_rate)
+      call add_defect(estimate, place, defect, decay_rate)
    end subroutine add_point
 
    !> Add the point that was sampled last to the shares of the cycle without contact and outside the film law's range.
@@ -252,24 +262,19 @@ contains
 
       ! Slope at an end [m/s/rad], defects at both [m/s/rad]
       real(wp) :: slope(1), ends(2)
-      ! Places of the points in the interval [-]
-      real(wp), allocatable :: nodes(:)
       integer :: i
-
-      nodes = panel_places(gauss_points)
-      if (cycle%is_linear) nodes = trapezoid
 
       associate (trajectory => cycle%trajectory, &
          & length => cycle%trajectory%time(interval + 1) - cycle%trajectory%time(interval))
          if (cycle%is_linear .or. allocated(cycle%phases)) then
-            call end_interval(estimate, nodes, length)
+            call end_interval(estimate, length)
             return
          end if
          do i = 0, 1
             call curve_slope(trajectory, trajectory%time(interval + i), interval, slope)
             ends(i + 1) = slope(1) - trajectory%rate(1, interval + i)
          end do
-         call end_interval(estimate, nodes, length, ends)
+         call end_interval(estimate, length, ends)
       end associate
    end subroutine close_interval
 

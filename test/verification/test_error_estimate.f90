@@ -9,6 +9,7 @@ module test_error_estimate
    use camroller_remarks, only : loose_tolerance, missed_accuracy, remark_lines
    use camroller_result, only : result_t, get_series, get_summary
    use camroller_run, only : run_case
+   use camroller_panels, only : gauss_points, panel_places, panel_points
    use camroller_error_estimate, only : estimate_t, add_defect, end_interval, estimated_error
    use camroller_study_trial, only : trial_t, errors_against, largest_deviation, run_trial
    use reference_cases, only : thesis_case, source_case, skewed_case, set_point, point_speeds, point_viscosities
@@ -31,6 +32,8 @@ contains
          new_unittest("a constant defect with decay gives the closed form", test_constant), &
          new_unittest("without decay a defect adds up to its integral", test_integral), &
          new_unittest("under fast decay the error is the defect over the decay rate", test_stiff), &
+         new_unittest("a defect that is none at the Gauss nodes still has its error between them", test_between), &
+         new_unittest("a defect at the ends of an interval counts", test_ends), &
          new_unittest("a cycle without decay has no finite error", test_no_decay), &
          new_unittest("where disturbances grow the error grows with them", test_growth), &
          new_unittest("the estimate holds up against the reference for every kind of method", test_methods), &
@@ -50,9 +53,9 @@ contains
 
       do i = 1, intervals
          do j = 1, 3
-            call add_defect(estimate, defects(j), rate)
+            call add_defect(estimate, nodes(j), defects(j), rate)
          end do
-         call end_interval(estimate, nodes, length)
+         call end_interval(estimate, length)
       end do
    end subroutine carry
 
@@ -87,6 +90,46 @@ contains
       if (allocated(error)) return
       call check(error, estimated_error(estimate), margin*3.0e-6_wp, thr=100.0_wp*epsilon(1.0_wp), rel=.true.)
    end subroutine test_stiff
+
+   !> Under fast decay the error at a place is the defect there over the decay rate; sampled at the Gauss nodes alone it would be none.
+   subroutine test_between(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(estimate_t) :: estimate
+      ! Decay rate [1/rad], length [rad]: the error is the defect a ten-thousandth of the interval before
+      real(wp), parameter :: rate = 1.0e6_wp, length = 0.01_wp
+      ! Defects at the places [m/s/rad]
+      real(wp) :: defects(panel_points)
+      integer :: i
+
+      defects = (panel_places - nodes(1))*(panel_places - nodes(2))*(panel_places - nodes(3))
+      defects(gauss_points) = 0.0_wp
+      do i = 1, panel_points
+         if (any(gauss_points == i)) then
+            call add_defect(estimate, panel_places(i), defects(i), rate)
+         else
+            call add_defect(estimate, panel_places(i), defects(i))
+         end if
+      end do
+      call end_interval(estimate, length)
+      ! At the end it is 0.05, the product of its distances from the nodes; a ten-thousandth before it is 12 of them less
+      call check(error, estimate%error, product(1.0_wp - nodes)/rate, thr=2.0e-3_wp, rel=.true.)
+      if (allocated(error)) return
+      call check(error, estimate%largest >= 0.99_wp*maxval(abs(defects))/rate)
+   end subroutine test_between
+
+   !> Without decay the integral of the polynomial through points and ends is the error.
+   subroutine test_ends(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(estimate_t) :: estimate
+      integer :: i
+
+      do i = 1, size(nodes)
+         call add_defect(estimate, nodes(i), nodes(i)**4, 0.0_wp)
+      end do
+      call end_interval(estimate, 1.0_wp, [0.0_wp, 1.0_wp])
+      ! Simpson's rule over a part of 0.39 at most, for a power of four: 0.39**5/120 of each
+      call check(error, estimate%error, 0.2_wp, thr=3.0e-4_wp)
+   end subroutine test_ends
 
    subroutine test_no_decay(error)
       type(error_type), allocatable, intent(out) :: error
