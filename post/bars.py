@@ -18,6 +18,7 @@ MOST_BARS = 40
 CHARACTER = 0.066  # width of a small digit [inch]
 AXES_PART = 0.85  # of the figure's width
 FILE_HATCHES = ["", "////", "....", "xxxx"]
+LONGEST_TURNED = 8  # characters of a value that may stand upright below its bar
 GAP = 0.7  # between groups, in bars
 
 
@@ -181,11 +182,17 @@ def _case_axis(axes, layout, colours, panels, labelled=True):
         return
     names = [layout.text(layout.colour_key, value) for value in colours]
     group = AXES_PART * _inches(axes) / len(panels)
-    room = int(group / CHARACTER / (max(map(len, names)) + 2))
+    longest = max(map(len, names))
+    room = int(group / CHARACTER / (longest + 2))
+    # Names that have no room beside each other stand upright
+    turned = room < len(names) and longest <= LONGEST_TURNED
+    if turned:
+        room = int(group / (1.6 * CHARACTER))
     named = thin_out(range(len(names)), room) if room > 1 or len(names) == 1 else []
+    turned = turned and bool(named)
     starts = [place * (len(colours) + GAP) for place in range(len(panels))]
     ticks = [(start + place, names[place]) for start in starts for place in named]
-    axes.set_xticks([tick for tick, _ in ticks], [name for _, name in ticks], fontsize="small")
+    axes.set_xticks([tick for tick, _ in ticks], [name for _, name in ticks], fontsize="small", rotation=90 if turned else 0)
     axes.tick_params(axis="x", length=0.0, labelbottom=labelled)
     last = starts[-1] + len(colours) - 1
     room = max(0.8, 0.5 * (4.0 - last))
@@ -198,7 +205,7 @@ def _case_axis(axes, layout, colours, panels, labelled=True):
         lower.set_xticks([start + 0.5 * (len(colours) - 1) for start in starts],
                          ["\n" + textwrap.fill(layout.panel_name(panel), max(6, int(group / CHARACTER))) for panel in panels],
                          fontsize="small")
-        lower.tick_params(length=0.0)
+        lower.tick_params(length=0.0, pad=72.0 * CHARACTER * (longest + 0.5) if turned else 3.0)
     if layout.colour_key:
         span = "" if named else f", from {names[0]} to {names[-1]} in each group"
         lower.set_xlabel(layout.axis_name(layout.colour_key) + span)

@@ -21,6 +21,7 @@ FAMILIES = ["Blues", "Oranges", "Greens", "Purples", "Greys", "Reds"]  # of the 
 LINE_STYLES = ["-", "--", "-.", ":", (0, (6, 1, 1, 1, 1, 1)), (0, (1, 2.5)), (0, (8, 3))]
 MOST_COLOURS = 7
 MOST_LISTED = 12  # cases of a list in a figure of curves
+SPEED = "operating_point.speed_rpm"  # of the shaft that `engine.given_speed` names, where there is an engine
 LIST = "case"  # stands for the swept keys where each case has a label of its own
 
 
@@ -278,6 +279,9 @@ def _texts(values):
 def _short_names(keys, results):
     """Each key in words and without its unit; the whole key where that is not unique."""
     short = {key: key_words(key, _file_unit(key, results)) for key in keys}
+    shafts = {str(result.deck["engine.given_speed"].values) for result in results if "engine.given_speed" in result.deck}
+    if SPEED in short and len(shafts) == 1:
+        short[SPEED] = f"{shafts.pop()} {short[SPEED]}"
     return {key: name if list(short.values()).count(name) == 1 else key for key, name in short.items()}
 
 

@@ -195,11 +195,14 @@ def _words(label):
 
 def several_cams(layout):
     """What belongs to the whole shaft and what to one cam, where there are several cams."""
-    cams = 1
+    cams = shafts = 1
     for result in layout.results:
+        shafts = max(shafts, int(result.deck["engine.camshafts"].values) if "engine.camshafts" in result.deck else 1)
         given = result.deck.get("cam_bearings.cam_positions_mm")
         if given is not None:
             cams = max(cams, len(str(given.values).split(",")) if isinstance(given.values, str) else np.size(given.values))
+    if shafts > 1:
+        return [f"torques of {shafts} camshafts with {cams} cams each, all else of the first cam"]
     return [f"torques of all {cams} cams, all else of the first"] if cams > 1 else []
 
 

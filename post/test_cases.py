@@ -262,6 +262,11 @@ def test_torques_of_a_shaft_whose_other_cams_are_at_work_are_shown_for_the_whole
     figure = draw("overview", layout)
     assert {axes.get_xlim() for axes in figure.subfigs[0].axes} == {(0.0, 360.0)}
     assert "torques of all 2 cams" in title(figure)
+    with h5py.File(path, "a") as file:
+        file["deck/values/engine.camshafts"] = 2
+        file["deck/values/engine.given_speed"] = "crankshaft"
+    layout = Layout([read_result(path)])
+    assert "torques of 2 camshafts with 2 cams each" in title(draw("overview", layout))
 
 
 def test_where_contact_is_lost_there_is_no_film(tmp_path):
