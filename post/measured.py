@@ -2,8 +2,8 @@
 
 A table has one heading with units in brackets, as `cam angle [deg], torque [N m]`, `crank angle [deg], torque [N m]` or
 `speed [rpm], temperature [degC], mean torque [N mm]`. Angles are compared with the drive torque over one turn of the camshaft, or
-with the friction torque where the column is called so; operating points with the mean torque of the case that has the same speed and
-temperature. Differences are measured less computed.
+with the friction torque where the column is called so; operating points with the mean friction torque of the case that has the same
+speed and temperature, which is the mean of the drive torque as well. Differences are measured less computed.
 """
 
 from dataclasses import dataclass
@@ -17,7 +17,7 @@ from read import ResultError
 from units import factor, number
 
 ANGLES = ("cam angle", "crank angle")
-POINT = ("speed", "temperature", "mean torque")
+POINT = {"speed": ("rpm", "rev/min", "1/min"), "temperature": ("degC", "°C")}  # with the units that they may have
 KEYS = {"speed": "operating_point.speed_rpm", "temperature": "operating_point.oil_temperature_degC"}
 SAME = 1e-6  # relative difference of two operating points that are one
 HEADING = re.compile(r"^\s*(.*?)\s*\[\s*(.*?)\s*\]\s*$")
@@ -90,16 +90,22 @@ def compare(table, result, case):
         return compare_angles(table, result, case)
     if set(POINT) <= set(table.columns):
         return compare_points(table, result)
-    raise ResultError(f"{table.path}: the columns have to be an angle ({' or '.join(ANGLES)}) and a torque, or {', '.join(POINT)}; "
-                      f"there is {', '.join(table.columns)}")
+    raise ResultError(f"{table.path}: the columns have to be an angle ({' or '.join(ANGLES)}) and a torque, or "
+                      f"{', '.join(POINT)} and a mean torque; there is {', '.join(table.columns)}")
+
+
+def torque_of(table):
+    """Name of the column of a torque."""
+    found = [name for name in table.columns if "torque" in name]
+    if len(found) != 1:
+        raise ResultError(f"{table.path}: one column has to be a torque, not {', '.join(found) or 'none'}")
+    return found[0]
 
 
 def compare_angles(table, result, case):
     """Torque over the angle."""
     angle_name = next(name for name in ANGLES if name in table.columns)
-    torque_name = next((name for name in table.columns if "torque" in name), None)
-    if torque_name is None:
-        raise ResultError(f"{table.path}: no column of a torque")
+    torque_name = torque_of(table)
     series = "torque_friction" if "friction" in torque_name else "torque_drive"
     if series not in result.series:
         raise ResultError(f"{result.path}: no {series} over the angle in it")
@@ -128,22 +134,26 @@ def unit_factor(table, name):
 
 def compare_points(table, result):
     """Mean torque of operating points."""
-    scale = unit_factor(table, "mean torque")
+    for name, units in POINT.items():
+        if table.units[name] not in units:
+            raise ResultError(f"{table.path}: the unit of '{name}' has to be {' or '.join(units)}, not {table.units[name]}")
+    name = torque_of(table)
+    scale = unit_factor(table, name)
     torque = result.scalar("mean_torque_friction").values
     measured, computed, places, left_out = [], [], [], 0
-    for speed, temperature, value in zip(*(table.columns[name] for name in POINT)):
+    for speed, temperature, value in zip(*(table.columns[column] for column in (*POINT, name))):
         wanted = {"speed": speed, "temperature": temperature}
         found = [case for case in range(result.cases) if np.isfinite(torque[case])
-                 and all(abs(result.value_of(KEYS[name], case) - place) <= SAME * max(1.0, abs(place)) for name, place in wanted.items())]
+                 and all(abs(result.value_of(KEYS[key], case) - place) <= SAME * max(1.0, abs(place)) for key, place in wanted.items())]
         if not found:
             left_out += 1
             continue
         measured.append(value)
         computed.append(scale * torque[found[0]])
-        places.append(f"{number(speed, 4)} rpm, {number(temperature, 4)} degC")
+        places.append(f"{number(speed, 4)} rev/min, {number(temperature, 4)} degC")
     if not measured:
         raise ResultError(f"{table.path}: none of its points is a case of {result.path}")
-    return Comparison(places, np.array(measured), np.array(computed), table.units["mean torque"], left_out)
+    return Comparison(places, np.array(measured), np.array(computed), table.units[name], left_out)
 
 
 def draw_comparison(table, result, case, comparison):
@@ -152,7 +162,7 @@ def draw_comparison(table, result, case, comparison):
     axes = figure.subplots()
     if any(name in table.columns for name in ANGLES):
         angle_name = next(name for name in ANGLES if name in table.columns)
-        torque_name = next(name for name in table.columns if "torque" in name)
+        torque_name = torque_of(table)
         series = "torque_friction" if "friction" in torque_name else "torque_drive"
         angle = result.cam_angle
         if angle_name == "crank angle":
@@ -176,7 +186,7 @@ def draw_comparison(table, result, case, comparison):
 
 def _draw_points(axes, result, table, comparison):
     """Mean torque over speed, a line for each temperature."""
-    torque = result.scalar("mean_torque_friction").values * unit_factor(table, "mean torque")
+    torque = result.scalar("mean_torque_friction").values * unit_factor(table, torque_of(table))
     speeds = np.array([result.value_of(KEYS["speed"], case) for case in range(result.cases)])
     temperatures = np.array([result.value_of(KEYS["temperature"], case) for case in range(result.cases)])
     tones = ["#08306b", "#7cc0ea", "#d55e00", "#1b7837", "#54278f", "0.4"]
@@ -186,7 +196,7 @@ def _draw_points(axes, result, table, comparison):
         chosen = chosen[np.argsort(speeds[chosen])]
         axes.plot(speeds[chosen], torque[chosen], "-", color=tone, label=f"computed, {temperature:g} degC")
         of_it = np.abs(table.columns["temperature"] - temperature) <= SAME * max(1.0, abs(temperature))
-        axes.plot(table.columns["speed"][of_it], table.columns["mean torque"][of_it], "o", markerfacecolor="none", color=tone,
+        axes.plot(table.columns["speed"][of_it], table.columns[torque_of(table)][of_it], "o", markerfacecolor="none", color=tone,
                   label=f"measured, {temperature:g} degC" if of_it.any() else None)
-    axes.set_xlabel("speed [rpm]")
-    axes.set_ylabel(f"mean torque [{comparison.unit}]")
+    axes.set_xlabel("speed [rev/min]")
+    axes.set_ylabel(f"mean friction torque [{comparison.unit}]")

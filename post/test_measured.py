@@ -66,7 +66,7 @@ def test_operating_points_find_their_cases(nine, tmp_path, capsys):
     assert main([str(nine), "--measured", str(table)]) == 0
     words = capsys.readouterr().out
     assert re.search(r"2 points, bias 2(\.00)? N mm", words)
-    assert re.search(r"worst 5(\.00)? N mm at 300 rpm, 25 degC; 1 points have no case", words)
+    assert re.search(r"worst 5(\.00)? N mm at 300 rev/min, 25 degC; 1 points have no case", words)
 
 
 @pytest.mark.parametrize(("text", "words"), [
@@ -83,3 +83,23 @@ def test_tables_that_are_none_are_told_in_one_line(nine, tmp_path, capsys, text,
     assert main([str(nine), "--measured", str(path)]) == 2
     message = capsys.readouterr().err
     assert words in message and message.count("\n") == 1
+
+
+@pytest.mark.parametrize("heading, words", [
+    ("speed [1/s], temperature [degC], mean torque [N mm]", "the unit of 'speed' has to be rpm or rev/min or 1/min, not 1/s"),
+    ("speed [rpm], temperature [K], mean torque [N mm]", "the unit of 'temperature' has to be degC or °C, not K"),
+    ("speed [rpm], temperature [degC], load [N]", "one column has to be a torque, not none"),
+    ("speed [rpm], oil [degC], torque [N mm]", "there is speed, oil, torque"),
+])
+def test_units_and_columns_that_are_not_meant_are_told(nine, tmp_path, heading, words):
+    table = write_table(tmp_path / "rig.csv", heading, [(300.0, 60.0, 30.0)])
+    with pytest.raises(ResultError, match=re.escape(words)):
+        compare(read_table(table), read_result(nine), 0)
+
+
+def test_a_friction_torque_of_operating_points_is_one(nine, tmp_path):
+    result = read_result(nine)
+    computed = 1e3 * result.scalar("mean_torque_friction").values[0]
+    table = write_table(tmp_path / "rig.csv", "speed [rev/min], temperature [°C], friction torque [N mm]", [
+        (result.value_of("operating_point.speed_rpm", 0), result.value_of("operating_point.oil_temperature_degC", 0), computed + 3.0)])
+    assert compare(read_table(table), result, 0).differences == pytest.approx([3.0])
