@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
 """Print a table of a result file: one row a case, in Markdown.
 
-Usage: post/table.py FILE [--columns NAME,NAME,...] [--cases WHICH]... [--rows N | --all]
+Usage: post/table.py FILE [--columns NAME,NAME,...] [--cases WHICH]... [--over KEY,... [--take WHAT]] [--rows N | --all]
 
 Columns are swept keys first, then scalars of the summary: by default mean friction torque of each source, mean slip ratio, peak
 Hertz pressure and smallest film. Units stand in the headings and suit the values, rotational speeds are in rev/min; three
-significant figures, whole numbers in full. Cases that are no grid, and chosen ones, have their number in the first column. Exit
+significant figures, whole numbers in full. With `--over` the cases that differ in these keys only, as speeds of one design, make one
+row, with the largest, smallest or mean value of each column. Cases that are no grid, and chosen ones, have their number in the first column. Exit
 code 2 where the file or a name cannot be used.
 """
 
@@ -35,6 +36,7 @@ COLUMNS = [
     ('min_film_thickness_min', 'smallest film', 'um'),
 ]
 MOST_ROWS = 50
+TAKEN = {'largest': np.max, 'smallest': np.min, 'mean': np.mean}
 
 
 def plain(value) -> str:
@@ -42,15 +44,33 @@ def plain(value) -> str:
     return f'{value:g}' if isinstance(value, float) else str(value)
 
 
-def column_of(result, name, cases, heading=None, unit=None) -> list[str]:
-    """Heading and cells of a scalar in the unit given, or in one that suits its values."""
+def groups_over(result, cases, over) -> list[list[int]]:
+    """Chosen cases that differ in some swept keys only, each group in the order of its cases."""
+    wanted = [matching_key(result, name) for name in over]
+    groups: dict[tuple, list[int]] = {}
+    for case in cases:
+        groups.setdefault(tuple(result.value_of(key, case) for key in result.sweep if key not in wanted), []).append(case)
+    return list(groups.values())
+
+
+def matching_key(result, name) -> str:
+    """The swept key with this name or last part."""
+    found = [key for key in result.sweep if name in (key, key.split('.')[-1])]
+    if len(found) != 1:
+        raise ResultError(f"{result.path}: --over: '{name}' is not one of the swept keys: {', '.join(result.sweep) or 'there is none'}")
+    return found[0]
+
+
+def column_of(result, name, groups, take, heading=None, unit=None) -> list[str]:
+    """Heading and cells of a scalar, one for each group of cases, in the unit given, or in one that suits its values."""
     if name not in result.summary:
         near = difflib.get_close_matches(name, result.summary, 3) or [other for other in result.summary if name in other][:3]
         raise ResultError(f'{result.path}: no scalar {name} in the summary' + (f'; there is {", ".join(near)}' if near else ''))
     quantity = result.scalar(name)
     if quantity.values.dtype.kind not in 'fiu':
-        return [heading or name, *(str(quantity.values[case]) for case in cases)]
-    values = quantity.values[cases]
+        return [heading or name, *(', '.join(dict.fromkeys(str(value) for value in quantity.values[group])) for group in groups)]
+    # A case without a result, which has no number, leaves its group without one
+    values = np.array([TAKEN[take](quantity.values[group]) if take else quantity.values[group[0]] for group in groups])
     scale = factor(quantity.units, unit) if unit else None
     if scale is None:
         unit, scale = fitting_unit(name, quantity.units, values)
@@ -58,7 +78,7 @@ def column_of(result, name, cases, heading=None, unit=None) -> list[str]:
     return [with_unit(heading or name, unit), *cells]
 
 
-def table_of(result, columns=None, selections=(), rows=None) -> str:
+def table_of(result, columns=None, selections=(), rows=None, over=(), take='') -> str:
     """The table as Markdown, of the first so many rows, and lines on what is not in it."""
     chosen = [c for c in COLUMNS if c[0] in result.summary] if columns is None else [(c, None, None) for c in columns]
     if not chosen:
@@ -66,23 +86,29 @@ def table_of(result, columns=None, selections=(), rows=None) -> str:
     cases = chosen_cases(result, selections)
     if not cases:
         raise ResultError('no case is left: see --cases')
-    shown = np.array(cases[:rows])
+    groups = groups_over(result, cases, over) if over else [[case] for case in cases]
+    shown = groups[:rows]
     last = [key.split('.')[-1] for key in result.sweep]
-    made = [['case', *map(str, shown)]] if selections or not result.is_grid() else []
-    made += [[name if last.count(name) == 1 else key, *(plain(result.value_of(key, case)) for case in shown)]
-             for key, name in zip(result.sweep, last)]
-    made += [column_of(result, name, shown, heading, unit) for name, heading, unit in chosen]
+    gone = [matching_key(result, name) for name in over]
+    made = [['case', *(str(group[0]) for group in shown)]] if not over and (selections or not result.is_grid()) else []
+    made += [[name if last.count(name) == 1 else key, *(plain(result.value_of(key, group[0])) for group in shown)]
+             for key, name in zip(result.sweep, last) if key not in gone]
+    if over:
+        made.append(['cases', *(str(len(group)) for group in shown)])
+        chosen = [(name, f'{take} {heading or name}', unit) for name, heading, unit in chosen]
+    made += [column_of(result, name, shown, take if over else '', heading, unit) for name, heading, unit in chosen]
     head, *body = (list(row) for row in zip(*made))
     lines = ['| ' + ' | '.join(row) + ' |' for row in (head, ['---'] * len(head), *body)]
-    return '\n'.join(lines + left_out(result, cases, len(shown)))
+    return '\n'.join(lines + left_out(result, groups, len(shown), 'rows' if over else 'cases'))
 
 
-def left_out(result, cases, count) -> list[str]:
-    """Lines below the table: how many rows are left out, and which of those shown have no result."""
+def left_out(result, groups, count, what) -> list[str]:
+    """Lines below the table: how many rows are left out, and which of the cases in those shown have no result."""
     lines = []
-    if count < len(cases):
-        lines.append(f'{len(cases) - count} of {len(cases)} cases are left out: --all prints them, --cases chooses.')
-    failed = [(case, reason) for case, reason in result.failed_cases() if case in set(cases[:count])]
+    if count < len(groups):
+        lines.append(f'{len(groups) - count} of {len(groups)} {what} are left out: --all prints them, --cases chooses.')
+    shown = {case for group in groups[:count] for case in group}
+    failed = [(case, reason) for case, reason in result.failed_cases() if case in shown]
     lines += [f'Case {case} has no result: {reason}'.rstrip(': ') for case, reason in failed]
     return [''] + lines if lines else []
 
@@ -95,6 +121,8 @@ def main(arguments=None) -> int:
     parser.add_argument('--cases', action='append', default=[], metavar='WHICH',
                         help='only these cases: numbers from 0 as in 0,2-4, values as in speed_rpm=300,600 or a range as in '
                              'speed_rpm=300:600; given more than once, a case must fit all')
+    parser.add_argument('--over', help='swept keys, separated by commas: cases that differ in them only make one row')
+    parser.add_argument('--take', choices=TAKEN, default='largest', help='value of a row of several cases (default: largest)')
     limit = parser.add_mutually_exclusive_group()
     limit.add_argument('--rows', type=whole_number(1, 10**9), default=MOST_ROWS, help=f'most rows (default: {MOST_ROWS})')
     limit.add_argument('--all', action='store_true', help='all rows')
@@ -102,7 +130,8 @@ def main(arguments=None) -> int:
     try:
         columns = [name.strip() for name in options.columns.split(',') if name.strip()] if options.columns else None
         result = read_result(options.file, with_series=False)
-        print(table_of(result, columns, options.cases, None if options.all else options.rows))
+        print(table_of(result, columns, options.cases, None if options.all else options.rows,
+                       options.over.split(',') if options.over else (), options.take))
     except ResultError as problem:
         print(f'table.py: {problem}', file=sys.stderr)
         return 2

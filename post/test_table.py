@@ -108,3 +108,24 @@ def test_keys_of_one_name_are_told_apart(tmp_path):
             file[f"sweep/{group}.law"] = np.array(["x", "y", "z"], dtype="S1")
     head = rows(table_of(read_result(path)))[0]
     assert {"film.law", "asperity.law", SPEED.split(".")[1]} <= set(head)
+
+
+def test_rows_over_speeds_have_the_worst_of_them(tmp_path):
+    path = write_result(tmp_path / "grid.h5", without=())
+    result = read_result(path)
+    slip = 100.0 * result.summary["mean_slip_ratio"].values.reshape(3, 3)
+    for take, function in (("largest", np.max), ("smallest", np.min), ("mean", np.mean)):
+        head, *body = rows(table_of(result, ["mean_slip_ratio"], over=["speed_rpm"], take=take))
+        assert head == ["oil_temperature_degC", "cases", f"{take} mean_slip_ratio [%]"]
+        assert [row[:2] for row in body] == [["25", "3"], ["60", "3"], ["95", "3"]]
+        assert [float(row[2]) for row in body] == pytest.approx(function(slip, axis=0), rel=6e-3)
+
+
+def test_a_row_with_a_case_without_result_has_no_number(tmp_path, capsys):
+    path = write_result(tmp_path / "grid.h5")
+    with h5py.File(path, "a") as file:
+        file["summary/mean_slip_ratio"][4] = np.nan
+    head, *body = rows(table_of(read_result(path), ["mean_slip_ratio"], over=["oil_temperature_degC"], take="largest"))
+    assert [row[2] for row in body][1] == "-" and all(float(row[2]) >= 0 for row in (body[0], body[2]))
+    assert main([str(path), "--over", "colour"]) == 2
+    assert "'colour' is not one of the swept keys" in capsys.readouterr().err
