@@ -372,8 +372,8 @@ contains
       !> 0, or negative: give up
       integer, intent(out) :: status
 
-      ! Error over tolerance that stands for an impossible trial; part of the largest step that is as good as all of it [-]
-      real(wp), parameter :: impossible = 1.0e3_wp, nearly = 0.999_wp
+      ! Error over tolerance that stands for an impossible trial [-]
+      real(wp), parameter :: impossible = 1.0e3_wp
       ! Error of the step [state]
       real(wp) :: estimate(size(state))
 
@@ -395,8 +395,8 @@ contains
          if (status > 0) scaled_error = impossible
       end if
       if (status == 0 .and. scaled_error <= 1.0_wp) then
-         call check_step(problem, method, is_fixed(method, options), time, new_time, finish, this_step, nearly*options%max_step, &
-            & state, rate, new_state, new_rate, estimate, counters, scaled_error)
+         call check_step(problem, method, is_fixed(method, options), time, new_time, finish, this_step, state, &
+            & rate, new_state, new_rate, estimate, counters, scaled_error)
       end if
       status = min(status, 0)
    end subroutine try_checked_step

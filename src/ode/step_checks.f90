@@ -1,5 +1,5 @@
-!> Checks of a step in addition to its error estimate: did the step pass over a saturation of the rate, the end of a fast decay,
-!> or an interval in which the state is held at a barrier?
+!> Checks of a step in addition to its error estimate: did the step pass over a saturation of the rate, or an interval in which
+!> the state is held at a barrier?
 !>
 !> In: rate with its derivatives at both ends of a step, its dense output. Out: the ratio of error to tolerance, raised where a
 !> check fails.
@@ -7,7 +7,7 @@ module camroller_step_checks
    use camroller_kinds, only : wp
    use camroller_ode_method, only : method_t
    use camroller_ode_problem, only : problem_t, linear_t, counters_t
-   use camroller_trajectory, only : curve_numbers, most_bends, curve_state
+   use camroller_trajectory, only : curve_numbers, curve_state
    implicit none
    private
 
@@ -15,15 +15,11 @@ module camroller_step_checks
 
    !> Departure from the linear rate over span and size of the rate, up to which a step is taken to have seen a saturation [-]
    real(wp), parameter :: largest_departure = 0.5_wp
-   !> Part of the error of a curve's slope at its end that counts: curves are of lower order than the states that they join [-]
-   real(wp), parameter :: part_of_curve = 1.0e-2_wp
-   !> Part of the error of a curve in its middle that counts [-]
-   real(wp), parameter :: part_of_middle = 0.1_wp
 
 contains
 
    !> Raise the error of a step for which one of the checks finds a reason.
-   subroutine check_step(problem, method, is_fixed, time, new_time, finish, step, long, state, rate, new_state, new_rate, &
+   subroutine check_step(problem, method, is_fixed, time, new_time, finish, step, state, rate, new_state, new_rate, &
       & estimate, counters, scaled_error)
       !> The problem
       class(problem_t), intent(in) :: problem
@@ -31,9 +27,8 @@ contains
       class(method_t), intent(inout) :: method
       !> Is the size of the step fixed?
       logical, intent(in) :: is_fixed
-      !> Time at the start and at the end of the step, end of the segment; size of the step, size that is not the estimate's choice
-      !> [time]
-      real(wp), intent(in) :: time, new_time, finish, step, long
+      !> Time at the start and at the end of the step, end of the segment; size of the step [time]
+      real(wp), intent(in) :: time, new_time, finish, step
       !> State [state] and rate [state/time] at the start
       real(wp), intent(in) :: state(:), rate(:)
       !> State [state] and rate [state/time] at the end
@@ -54,15 +49,7 @@ contains
          if (method%needs_jacobian .and. here%span < huge(1.0_wp)) then
             call check_saturation(here, there, method%error_order, step, rate, change, new_rate, estimate, scaled_error)
          end if
-         if (is_fixed) return
-         if (method%needs_jacobian .and. method%has_curve .and. new_time < finish) then
-            call check_end(there, method%bends, method%tolerance, step, change, new_rate, scaled_error)
-            if (scaled_error <= 1.0_wp .and. here%span < huge(1.0_wp)) call check_hold(problem, here, there, method%bends, &
-               & method%tolerance, new_time, step, change, new_state, new_rate, counters, scaled_error)
-            if (scaled_error <= 1.0_wp .and. .not. method%gives_rate .and. step > long) call check_middle(problem, here, there, &
-               & method%bends, method%tolerance, time, step, state, new_state, counters, scaled_error)
-         end if
-         if (scaled_error > 1.0_wp) return
+         if (is_fixed .or. scaled_error > 1.0_wp) return
          if (.not. has_derivatives) call problem%get_clearance(new_time, new_state, there%clearance)
          if (method%has_curve) then
             call check_barrier(problem, here, there, method%bends, time, step, state, new_state, counters, scaled_error)
@@ -107,139 +94,6 @@ contains
          end associate
       end do
    end subroutine check_saturation
-
-   !> Raise the error of a step whose curve ends with a slope far from the rate there.
-   !>
-   !> Where the decay collapses within a step, all stages may lie before, and the end is a state that does not stay. What is left of
-   !> the rate there tells: over the decay rate at the end, or over the step where that is slow, it is an error of the state.
-   pure subroutine check_end(there, bends, tolerance, step, change, new_rate, scaled_error)
-      !> Rate with its derivatives at the end
-      type(linear_t), intent(in) :: there
-      !> Curve of the step, as a trajectory takes it, shape (component, numbers given) [state]; error allowed [state]
-      real(wp), intent(in) :: bends(:, :), tolerance(:)
-      !> Size of the step [time]
-      real(wp), intent(in) :: step
-      !> Change of the state over the step [state], rate at the end [state/time]
-      real(wp), intent(in) :: change(:), new_rate(:)
-      !> Error over tolerance [-]
-      real(wp), intent(inout) :: scaled_error
-
-      ! Decay exponent of a step from which on a defect counts more [-]
-      real(wp), parameter :: fast_decay = 10.0_wp
-      ! Slope of the curve at the end less the rate there [state/time]; part of it that counts [-]
-      real(wp) :: defect, part
-      integer :: i
-
-      do i = 1, size(change)
-         defect = end_defect(bends(i, :), step, change(i), new_rate(i))
-         part = min(1.0_wp, part_of_curve*max(1.0_wp, step*abs(there%jacobian(i, i))/fast_decay))
-         scaled_error = max(scaled_error, part*abs(defect)/((abs(there%jacobian(i, i)) + 1.0_wp/step)*tolerance(i)))
-         if (.not. (there%span < huge(1.0_wp) .and. step*abs(there%jacobian(i, i)) > fast_decay)) cycle
-         scaled_error = max(scaled_error, abs(defect)/(there%resolution*(there%span + abs(new_rate(i)))))
-      end do
-   end subroutine check_end
-
-   !> Slope of a curve at its end less the rate there.
-   pure function end_defect(bends, step, change, new_rate) result(defect)
-      !> Curve of the step, as a trajectory takes it [state]
-      real(wp), intent(in) :: bends(:)
-      !> Size of the step [time], change of the state over it [state], rate at its end [state/time]
-      real(wp), intent(in) :: step, change, new_rate
-      !> The defect [state/time]
-      real(wp) :: defect
-
-      defect = (change - sum(bends(:min(size(bends), most_bends))))/step - new_rate
-      if (size(bends) == curve_numbers) then
-         associate (height => bends(curve_numbers - 1), exponent => bends(curve_numbers))
-            defect = defect + height*(1.0_wp + (exponent - 1.0_wp)*exp(exponent))/step
-         end associate
-      end if
-   end function end_defect
-
-   !> Raise the error of a step after which the decay is much slower, if the state that its curve stands for is not near.
-   !>
-   !> The slope of the curve less the rate at the end, over the decay rate there, is the way to the state that has the slope of the
-   !> curve. Where the rate has saturated in between, there is no such state, and what held the solution has given way within the
-   !> step. The rate at twice the way tells: beyond the state looked for, the difference has changed its sign.
-   subroutine check_hold(problem, here, there, bends, tolerance, time, step, change, new_state, new_rate, counters, scaled_error)
-      !> The problem
-      class(problem_t), intent(in) :: problem
-      !> Rate with its derivatives at both ends
-      type(linear_t), intent(in) :: here, there
-      !> Curve of the step, as a trajectory takes it, shape (component, numbers given) [state]; error allowed [state]
-      real(wp), intent(in) :: bends(:, :), tolerance(:)
-      !> End and size of the step [time]
-      real(wp), intent(in) :: time, step
-      !> Change of the state over the step, state at the end [state], rate there [state/time]
-      real(wp), intent(in) :: change(:), new_state(:), new_rate(:)
-      !> Work done so far
-      type(counters_t), intent(inout) :: counters
-      !> Error over tolerance [-]
-      real(wp), intent(inout) :: scaled_error
-
-      ! Decay exponent of a step from which on the state follows the rate at once; decay rate at the end over that at the start that
-      ! is no sign; way over the tolerance that is none [-]; error over tolerance of a step that has missed the end [-]
-      real(wp), parameter :: fast_decay = 10.0_wp, alike = 0.5_wp, short = 1.0e-3_wp, missed = 1.0e3_wp
-      ! Decay rate [1/time]; slope of the curve less rate [state/time]; state at twice the way [state]; rate there [state/time]
-      real(wp) :: decay, defect, beyond(size(change)), rate(size(change))
-      integer :: status
-
-      decay = -there%jacobian(1, 1)
-      if (step*decay < fast_decay .or. decay > -alike*here%jacobian(1, 1)) return
-      defect = end_defect(bends(1, :), step, change(1), new_rate(1))
-      if (abs(defect) <= short*decay*tolerance(1)) return
-      beyond = new_state
-      beyond(1) = beyond(1) - 2.0_wp*defect/decay
-      call problem%get_rate(time, beyond, rate, status)
-      counters%evaluations = counters%evaluations + 1
-      if (status /= 0) return
-      if ((new_rate(1) + defect - rate(1))*sign(1.0_wp, defect) > 0.0_wp) scaled_error = max(scaled_error, missed)
-   end subroutine check_hold
-
-   !> Raise the error of a step whose curve does not satisfy the equation in its middle.
-   !>
-   !> Where the decay is fast, the state at the end is right whatever the step, and the error estimate, which is that of the end,
-   !> says nothing of the curve between. The middle is looked at where the size of the step is not the estimate's choice and the
-   !> decay is fast at both ends.
-   subroutine check_middle(problem, here, there, bends, tolerance, time, step, state, new_state, counters, scaled_error)
-      !> The problem
-      class(problem_t), intent(in) :: problem
-      !> Rate with its derivatives at both ends
-      type(linear_t), intent(in) :: here, there
-      !> Curve of the step, as a trajectory takes it, shape (component, numbers given) [state]; error allowed [state]
-      real(wp), intent(in) :: bends(:, :), tolerance(:)
-      !> Start and size of the step [time]
-      real(wp), intent(in) :: time, step
-      !> State at the start and at the end [state]
-      real(wp), intent(in) :: state(:), new_state(:)
-      !> Work done so far
-      type(counters_t), intent(inout) :: counters
-      !> Error over tolerance [-]
-      real(wp), intent(inout) :: scaled_error
-
-      ! Decay exponent of a step from which on the end forgets the start [-]
-      real(wp), parameter :: fast_decay = 10.0_wp
-      ! Places beside the middle between which a slope is taken [-]
-      real(wp), parameter :: left = 0.499_wp, right = 0.501_wp
-      ! The curve with all its numbers, those that are not given zero [state]
-      real(wp) :: curve(size(state), curve_numbers)
-      ! Rate in the middle [state/time], slope of the curve less that rate [state/time], decay rate [1/time]
-      real(wp) :: rate(size(state)), defect(size(state)), decay
-      integer :: i, status
-
-      if (any([(step*min(abs(here%jacobian(i, i)), abs(there%jacobian(i, i))) < fast_decay, i=1, size(state))])) return
-      curve = 0.0_wp
-      curve(:, :size(bends, 2)) = bends
-      call problem%get_rate(time + 0.5_wp*step, curve_state(state, new_state, curve, 0.5_wp), rate, status)
-      counters%evaluations = counters%evaluations + 1
-      if (status /= 0) return
-      defect = (curve_state(state, new_state, curve, right) - curve_state(state, new_state, curve, left)) &
-         & /((right - left)*step) - rate
-      do i = 1, size(state)
-         decay = max(abs(here%jacobian(i, i)), abs(there%jacobian(i, i))) + 1.0_wp/step
-         scaled_error = max(scaled_error, part_of_middle*abs(defect(i))/(decay*tolerance(i)))
-      end do
-   end subroutine check_middle
 
    !> Raise the error of a step that crosses the barrier of a problem where the state would have been held.
    !>
