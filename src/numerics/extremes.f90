@@ -1,18 +1,23 @@
 !> Smallest and largest values of the series of a cycle, between the angles at which they were sampled as well.
 !>
-!> In: rows of series at cam angles, in any order. Out: for each series the search for its smallest and largest
-!> value near the row that has it, for which the caller evaluates the series. A value counts only where it was evaluated, so that
-!> an extreme is never outside what the series takes.
+!> In: rows of series at cam angles, in any order. Out: for each series the search for its smallest and largest value, for which the
+!> caller evaluates the series, and what may be left to gain:
+!>
+!>     call start_search(samples, series, sense, tolerance, search)
+!>     do while (search%is_wanted)
+!>        call narrow_search(samples, search, value of the series at search%trial)
+!>     end do
+!>
+!> It looks near the row that has the extreme, and near every other at which the series turns and that may hide a value beyond it:
+!> of two summits of nearly the same height, rows may show the lower one as the higher. A value counts only where it was evaluated,
+!> so that an extreme is never outside what the series takes.
 module camroller_extremes
-   use camroller_kinds, only : wp, pi, two_pi
-   use camroller_extremum, only : extremum_t, start_extremum
+   use camroller_kinds, only : wp, two_pi
+   use camroller_extremum, only : extremum_t, narrow_extremum, start_extremum
    implicit none
    private
 
-   public :: samples_t, start_samples, add_sample, start_search, most_steps
-
-   !> Sectors of a turn by which rows are found
-   integer, parameter :: sectors = 720
+   public :: samples_t, search_t, start_samples, add_sample, start_search, narrow_search
 
    !> Rows of series over one turn
    type :: samples_t
@@ -22,21 +27,42 @@ module camroller_extremes
       real(wp), allocatable :: angle(:)
       !> Values, shape (series, row) [unit of the series]
       real(wp), allocatable :: values(:, :)
-      !> Rows with the smallest and the largest value of each series
-      integer, allocatable, private :: lowest(:), highest(:)
-      !> Rows by their angles: the last row of each sector of the turn, and for each row the one before it in its sector; 0 for none
-      integer, private :: last(0:sectors - 1) = 0
-      integer, allocatable, private :: before(:)
       !> Is the row one at which the slope of series jumps?
       logical, allocatable, private :: is_kink(:)
+      !> For the first `sorted` rows: the last row at a smaller angle and the first at a larger one, round the turn, shape (side, row)
+      integer, allocatable, private :: beside(:, :)
+      integer, private :: sorted = 0
    end type samples_t
 
-   !> Values of an extreme that are asked for at most
-   integer, parameter :: most_steps = 8
+   !> Search for the smallest or largest value of a series; for the largest all values have the opposite sign
+   type :: search_t
+      !> Is the value at `trial` wanted?
+      logical :: is_wanted = .false.
+      !> Cam angle where it is wanted, that of the extreme so far [rad]
+      real(wp) :: trial = 0.0_wp, point = 0.0_wp
+      !> The extreme so far [unit of the series]
+      real(wp) :: value = 0.0_wp
+      !> What there may be beyond it [unit of the series]
+      real(wp) :: left = 0.0_wp
+      integer, private :: series = 0, sense = 1
+      !> Rows to look near, how many of them are done, and the search near one
+      integer, allocatable, private :: rows(:)
+      integer, private :: done = 0
+      type(extremum_t), private :: now
+      !> Extent of the series, lowest value that there may be where the search is done [unit of the series]
+      real(wp), private :: extent = 0.0_wp, bound = 0.0_wp
+      !> What may be left at a kink, over the extent [-]
+      real(wp), private :: coarse = 0.0_wp
+   end type search_t
+
+   !> Values that are asked for near a row at most, and at a kink, where each about halves what is left
+   integer, parameter :: most_steps = 8, most_halvings = 30
    !> Gain of an extreme that is not worth a value, over the extent of its series [-]
    real(wp), parameter :: worth = 1.0e-6_wp
-   !> Widest distance to a neighbour that a search may begin with, in sectors
-   integer, parameter :: widest = 30
+   !> Widest distance to a neighbour that a search may begin with [rad]
+   real(wp), parameter :: widest = two_pi/24.0_wp
+   !> Rows that are looked near at most
+   integer, parameter :: most_rows = 8
    !> Rows for which there is room at first
    integer, parameter :: first_room = 1536
 
@@ -49,11 +75,7 @@ contains
       !> Number of series
       integer, intent(in) :: series
 
-      allocate (samples%angle(first_room), samples%values(series, first_room), samples%before(first_room))
-      allocate (samples%is_kink(first_room))
-      allocate (samples%lowest(series), samples%highest(series))
-      samples%lowest = 1
-      samples%highest = 1
+      allocate (samples%angle(first_room), samples%values(series, first_room), samples%is_kink(first_room))
    end subroutine start_samples
 
    !> Add a row.
@@ -67,21 +89,11 @@ contains
       !> Does the slope of series jump there?
       logical, intent(in) :: is_kink
 
-      integer :: row, sector, i
-
       if (samples%count == size(samples%angle)) call make_room(samples)
-      row = samples%count + 1
-      samples%count = row
-      samples%angle(row) = modulo(angle, two_pi)
-      samples%values(:, row) = values
-      samples%is_kink(row) = is_kink
-      sector = sector_of(samples%angle(row))
-      samples%before(row) = samples%last(sector)
-      samples%last(sector) = row
-      do i = 1, size(values)
-         if (values(i) < samples%values(i, samples%lowest(i))) samples%lowest(i) = row
-         if (values(i) > samples%values(i, samples%highest(i))) samples%highest(i) = row
-      end do
+      samples%count = samples%count + 1
+      samples%angle(samples%count) = modulo(angle, two_pi)
+      samples%values(:, samples%count) = values
+      samples%is_kink(samples%count) = is_kink
    end subroutine add_sample
 
    !> Double the room for rows.
@@ -91,95 +103,233 @@ contains
 
       ! Longer lists [rad], [unit of the series]
       real(wp), allocatable :: angles(:), rows(:, :)
-      integer, allocatable :: before(:)
       logical, allocatable :: kinks(:)
 
       associate (n => samples%count)
-         allocate (angles(2*n), rows(size(samples%values, 1), 2*n), before(2*n), kinks(2*n))
+         allocate (angles(2*n), rows(size(samples%values, 1), 2*n), kinks(2*n))
          angles(:n) = samples%angle
          rows(:, :n) = samples%values
-         before(:n) = samples%before
          kinks(:n) = samples%is_kink
       end associate
       call move_alloc(angles, samples%angle)
       call move_alloc(rows, samples%values)
-      call move_alloc(before, samples%before)
       call move_alloc(kinks, samples%is_kink)
    end subroutine make_room
 
-   !> Sector of the turn that an angle is in.
-   pure function sector_of(angle) result(sector)
-      !> Cam angle within one turn [rad]
-      real(wp), intent(in) :: angle
-      !> The sector, from 0
-      integer :: sector
-
-      sector = min(int(angle/two_pi*sectors), sectors - 1)
-   end function sector_of
-
-   !> Begin the search for the smallest or largest value of a series near the row that has it. Each series is searched by itself, so
-   !> that what else is sampled changes no bit of it.
-   pure subroutine start_search(samples, series, sense, search)
+   !> Find the neighbours of every row.
+   pure subroutine find_neighbours(samples)
       !> The rows
-      type(samples_t), intent(in) :: samples
+      type(samples_t), intent(inout) :: samples
+
+      integer :: order(samples%count), place, before
+
+      call sort_rows(samples%angle(:samples%count), order)
+      if (allocated(samples%beside)) deallocate (samples%beside)
+      allocate (samples%beside(2, samples%count))
+      samples%sorted = samples%count
+      ! Rows that share an angle share their neighbours
+      before = order(samples%count)
+      do place = 1, samples%count
+         if (place > 1) then
+            if (samples%angle(order(place)) > samples%angle(order(place - 1))) before = order(place - 1)
+         end if
+         samples%beside(1, order(place)) = before
+      end do
+      before = order(1)
+      do place = samples%count, 1, -1
+         if (place < samples%count) then
+            if (samples%angle(order(place)) < samples%angle(order(place + 1))) before = order(place + 1)
+         end if
+         samples%beside(2, order(place)) = before
+      end do
+   end subroutine find_neighbours
+
+   !> Rows by their angles: runs are merged until one is left.
+   pure subroutine sort_rows(angle, order)
+      !> Angles [rad]
+      real(wp), intent(in) :: angle(:)
+      !> Rows, their angles rising
+      integer, intent(out) :: order(size(angle))
+
+      integer :: merged(size(angle)), length, first, left, right, last, i
+      logical :: takes_left
+
+      order = [(i, i=1, size(angle))]
+      length = 1
+      do while (length < size(angle))
+         do first = 1, size(angle), 2*length
+            left = first
+            right = first + length
+            last = min(first + 2*length - 1, size(angle))
+            do i = first, last
+               takes_left = right > last
+               if (left < first + length .and. .not. takes_left) takes_left = angle(order(left)) <= angle(order(right))
+               merged(i) = order(merge(left, right, takes_left))
+               left = left + merge(1, 0, takes_left)
+               right = right + merge(0, 1, takes_left)
+            end do
+         end do
+         order = merged
+         length = 2*length
+      end do
+   end subroutine sort_rows
+
+   !> Begin the search for the smallest or largest value of a series. Each series is searched by itself, so that what else is sampled
+   !> changes no bit of it.
+   pure subroutine start_search(samples, series, sense, tolerance, search)
+      !> The rows
+      type(samples_t), intent(inout) :: samples
       !> The series
       integer, intent(in) :: series
       !> 1 for the smallest value, -1 for the largest
       integer, intent(in) :: sense
-      !> The search, with the signs of all values changed for the largest; nothing is wanted where the row that has it is a kink or
-      !> has no row close by on a side
-      type(extremum_t), intent(out) :: search
+      !> What may be left at a kink, over the extent of the series [-]
+      real(wp), intent(in) :: tolerance
+      !> The search; nothing is wanted near a kink, or without a row close by on both sides
+      type(search_t), intent(out) :: search
 
-      ! Angles from that of the extreme row [rad]; extent of the series [unit of the series]
-      real(wp) :: x(3), extent
-      integer :: rows(3)
+      integer :: row
 
-      rows = merge(samples%lowest(series), samples%highest(series), sense > 0)
-      extent = samples%values(series, samples%highest(series)) - samples%values(series, samples%lowest(series))
-      if (.not. samples%is_kink(rows(2))) then
-         call find_neighbours(samples, rows, x)
-         if (all(rows > 0)) then
-            call start_extremum(search, samples%angle(rows(2)) + x, sense*samples%values(series, rows), worth*extent)
-            return
-         end if
-      end if
-      search%point(2) = samples%angle(rows(2))
-      search%value(2) = sense*samples%values(series, rows(2))
+      if (samples%sorted < samples%count) call find_neighbours(samples)
+      search%series = series
+      search%sense = sense
+      search%coarse = max(worth, tolerance)
+      associate (values => samples%values(series, :samples%count))
+         row = minloc(sense*values, 1)
+         search%extent = maxval(values) - minval(values)
+      end associate
+      search%point = samples%angle(row)
+      search%value = sense*samples%values(series, row)
+      search%bound = search%value
+      call list_rows(samples, row, search)
+      call enter_row(samples, search)
    end subroutine start_search
 
-   !> Rows next to one, on either side and round the turn.
-   pure subroutine find_neighbours(samples, rows, x)
+   !> Take the value of the series at the trial angle.
+   pure subroutine narrow_search(samples, search, value)
       !> The rows
       type(samples_t), intent(in) :: samples
-      !> In: the middle one; out: the nearest before and after it as well, 0 where there is none close by
-      integer, intent(inout) :: rows(3)
-      !> Their angles, from the middle one [rad]
-      real(wp), intent(out) :: x(3)
+      !> The search
+      type(search_t), intent(inout) :: search
+      !> The value, with its own sign [unit of the series]
+      real(wp), intent(in) :: value
 
-      ! Way from the middle row to another, backwards negative [rad]
-      real(wp) :: way
-      integer :: distance, side, sector, row
+      call narrow_extremum(search%now, search%sense*value)
+      search%trial = search%now%trial
+      search%is_wanted = search%now%is_wanted
+      if (search%now%steps >= most_steps) search%is_wanted = search%is_wanted .and. search%now%left > search%coarse*search%extent
+      if (search%is_wanted) return
+      call leave_row(search)
+      call enter_row(samples, search)
+   end subroutine narrow_search
 
-      rows([1, 3]) = 0
-      x = [-pi, 0.0_wp, pi]
-      do distance = 0, widest
-         do side = -1, merge(0, 1, distance == 0), 2
-            sector = modulo(sector_of(samples%angle(rows(2))) + side*distance, sectors)
-            row = samples%last(sector)
-            do while (row > 0)
-               way = modulo(samples%angle(row) - samples%angle(rows(2)) + pi, two_pi) - pi
-               if (way > 0.0_wp .and. way < x(3)) then
-                  x(3) = way
-                  rows(3) = row
-               else if (way < 0.0_wp .and. way > x(1)) then
-                  x(1) = way
-                  rows(1) = row
-               end if
-               row = samples%before(row)
-            end do
-         end do
-         if (all(rows > 0)) return
+   !> Rows near which there may be an extreme: the extreme one, then those that may hide a value beyond it, the most promising first.
+   pure subroutine list_rows(samples, extreme, search)
+      !> The rows
+      type(samples_t), intent(in) :: samples
+      !> The extreme one
+      integer, intent(in) :: extreme
+      !> The search
+      type(search_t), intent(inout) :: search
+
+      ! Rows that may, and the lowest value that each may hide [unit of the series]
+      integer :: rows(samples%count)
+      real(wp) :: bounds(samples%count), bound
+      integer :: found, row, best
+
+      found = 0
+      do row = 1, samples%count
+         if (row == extreme .or. samples%is_kink(row)) cycle
+         bound = lowest_hidden(samples, search, row)
+         if (bound >= search%value - worth*search%extent) cycle
+         found = found + 1
+         rows(found) = row
+         bounds(found) = bound
       end do
-   end subroutine find_neighbours
+      allocate (search%rows(min(found + 1, most_rows)))
+      search%rows(1) = extreme
+      do row = 2, size(search%rows)
+         best = minloc(bounds(:found), 1)
+         search%rows(row) = rows(best)
+         bounds(best) = huge(1.0_wp)
+      end do
+      if (found > 0) search%bound = min(search%bound, minval(bounds(:found)))
+   end subroutine list_rows
+
+   !> Lowest value that there may be beside a row at which the series turns. A curve that is bent to one side is nowhere below the
+   !> straight lines through the row and its neighbours, continued to the neighbour on the other side.
+   pure function lowest_hidden(samples, search, row) result(bound)
+      !> The rows
+      type(samples_t), intent(in) :: samples
+      !> The search
+      type(search_t), intent(in) :: search
+      !> The row
+      integer, intent(in) :: row
+      !> The value; large where the series does not turn [unit of the series]
+      real(wp) :: bound
+
+      ! Values at row and neighbours, rises from the row to these [unit of the series]; angles from the row [rad]
+      real(wp) :: values(3), rises(2), x(3)
+
+      bound = huge(1.0_wp)
+      values = search%sense*samples%values(search%series, [samples%beside(1, row), row, samples%beside(2, row)])
+      rises = values([1, 3]) - values(2)
+      if (minval(rises) < 0.0_wp .or. maxval(rises) <= 0.0_wp) return
+      x = ways(samples, row)
+      if (x(3) - x(1) > 2.0_wp*widest) return
+      bound = values(2) - max(-rises(1)*x(3)/x(1), -rises(2)*x(1)/x(3))
+   end function lowest_hidden
+
+   !> Angles of a row and its neighbours, from that of the row [rad].
+   pure function ways(samples, row) result(x)
+      !> The rows
+      type(samples_t), intent(in) :: samples
+      !> The row
+      integer, intent(in) :: row
+      !> The angles [rad]
+      real(wp) :: x(3)
+
+      associate (angles => samples%angle([samples%beside(1, row), row, samples%beside(2, row)]))
+         x = [-modulo(angles(2) - angles(1), two_pi), 0.0_wp, modulo(angles(3) - angles(2), two_pi)]
+      end associate
+   end function ways
+
+   !> Begin near the next row where there is anything to look for.
+   pure subroutine enter_row(samples, search)
+      !> The rows
+      type(samples_t), intent(in) :: samples
+      !> The search
+      type(search_t), intent(inout) :: search
+
+      ! Angles of row and neighbours from that of the row [rad]
+      real(wp) :: x(3)
+
+      do while (search%done < size(search%rows))
+         search%done = search%done + 1
+         associate (row => search%rows(search%done))
+            if (samples%is_kink(row)) cycle
+            x = ways(samples, row)
+            if (max(-x(1), x(3)) > widest) cycle
+            call start_extremum(search%now, samples%angle(row) + x, search%sense*samples%values(search%series, &
+               & [samples%beside(1, row), row, samples%beside(2, row)]), worth*search%extent, most_halvings)
+         end associate
+         search%is_wanted = search%now%is_wanted
+         search%trial = search%now%trial
+         if (search%is_wanted) return
+         call leave_row(search)
+      end do
+      search%left = search%value - min(search%value, search%bound)
+   end subroutine enter_row
+
+   !> Take what was found near a row.
+   pure subroutine leave_row(search)
+      !> The search
+      type(search_t), intent(inout) :: search
+
+      search%bound = min(search%bound, search%now%value(2) - search%now%left)
+      if (search%now%value(2) >= search%value) return
+      search%value = search%now%value(2)
+      search%point = search%now%point(2)
+   end subroutine leave_row
 
 end module camroller_extremes

@@ -8,8 +8,9 @@
 !>        call narrow_extremum(search, f(search%trial))
 !>     end do
 !>
-!> then `search%point(2)` is the position and `search%value(2)` the value of the minimum. For a maximum, pass the values with
-!> opposite sign.
+!> then `search%point(2)` is the position and `search%value(2)` the value of the minimum, and `search%left` what may be left to gain:
+!> what the last parabola missed or promised, or, at a kink, what its bracket may hide. For a maximum, pass the values with opposite
+!> sign.
 module camroller_extremum
    use camroller_kinds, only : wp
    implicit none
@@ -17,7 +18,8 @@ module camroller_extremum
 
    public :: extremum_t, start_extremum, narrow_extremum
 
-   !> Values asked for at most: a smooth function takes two to four, a kink one for each halving of its error
+   !> Values asked for at most, unless the caller has another number: a smooth function takes two to four, a kink one for each halving
+   !> of its error
    integer, parameter :: most_steps = 12
    !> Smallest distance of a trial from a point over the part of the bracket on that side [-]
    real(wp), parameter :: least_part = 0.05_wp
@@ -36,14 +38,17 @@ module camroller_extremum
       real(wp), private :: tolerance = 0.0_wp
       !> Value that the parabola has at the trial, and how far the last one was from that [f]
       real(wp), private :: expected = 0.0_wp, missed = huge(1.0_wp)
-      !> Values asked for so far
+      !> What a lower value than the lowest so far may gain [f]
+      real(wp) :: left = 0.0_wp
+      !> Values asked for so far, and at most
       integer :: steps = 0
+      integer, private :: limit = most_steps
    end type extremum_t
 
 contains
 
    !> Begin with three points in order; without a lowest one in the middle nothing is wanted.
-   pure subroutine start_extremum(search, points, values, tolerance)
+   pure subroutine start_extremum(search, points, values, tolerance, most)
       !> The search
       type(extremum_t), intent(out) :: search
       !> Three points, increasing [x]
@@ -52,7 +57,10 @@ contains
       real(wp), intent(in) :: values(3)
       !> Gain that is not worth a value [f]
       real(wp), intent(in) :: tolerance
+      !> Values asked for at most
+      integer, intent(in), optional :: most
 
+      if (present(most)) search%limit = most
       search%point = points
       search%value = values
       search%tolerance = tolerance
@@ -99,14 +107,19 @@ contains
       left = search%point(2) - search%point(1)
       right = search%point(3) - search%point(2)
       rises = [search%value(1) - search%value(2), search%value(3) - search%value(2)]
-      search%is_wanted = search%steps < most_steps .and. maxval(rises) > search%tolerance &
+      search%left = maxval(rises)
+      search%is_wanted = search%steps < search%limit .and. maxval(rises) > search%tolerance &
          & .and. min(left, right) > 16.0_wp*spacing(search%point(2))
-      if (.not. search%is_wanted) return
+      if (.not. min(left, right) > 0.0_wp) return
       slopes = rises/[left, right]
+      ! A curve bent to one side is nowhere below the lines through its middle point, continued to the other side
+      search%left = max(slopes(1)*right, slopes(2)*left)
+      if (.not. search%is_wanted) return
       shift = 0.5_wp*(slopes(1)*right - slopes(2)*left)/(slopes(1) + slopes(2))
       gain = shift**2*(slopes(1) + slopes(2))/(left + right)
       if (max(gain, search%missed) <= search%tolerance) then
          search%is_wanted = .false.
+         search%left = max(gain, search%missed)
          return
       end if
       if (abs(shift) < least_part*min(left, right)) shift = golden*merge(right, -left, right > left)

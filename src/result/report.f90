@@ -11,8 +11,7 @@ module camroller_report
    use camroller_cycle_remarks, only : judge_lobe
    use camroller_catalogue, only : list_series, follower_values, camshaft_values, follower_count, camshaft_count, lobe_columns, &
       & camshaft_columns
-   use camroller_extremes, only : samples_t, add_sample, start_search, most_steps
-   use camroller_extremum, only : extremum_t, narrow_extremum
+   use camroller_extremes, only : samples_t, search_t, add_sample, narrow_search, start_search
    use camroller_margins, only : margins_t, find_margins
    use camroller_result, only : result_t, quantity_t, find_quantity, check_numbers
    use camroller_shaft, only : shaft_t, new_shaft, shaft_torques
@@ -302,7 +301,7 @@ contains
       !> Convergence error
       type(error_t), allocatable, intent(out) :: error
 
-      type(extremum_t) :: search
+      type(search_t) :: search
       type(state_t) :: state
       ! Series at a cam angle [unit of the series]
       real(wp) :: values(size(lowest))
@@ -313,21 +312,24 @@ contains
       statistics%extreme_errors = 0.0_wp
       do series = 1, size(lowest)
          do sense = -1, 1, 2
-            call start_search(statistics%rows, series, sense, search)
-            do while (search%is_wanted .and. search%steps < most_steps .and. .not. cycle%is_linear)
+            call start_search(statistics%rows, series, sense, cycle%tolerance, search)
+            do while (search%is_wanted .and. .not. cycle%is_linear)
                call state_at(cycle, model, search%trial, hint, state, error)
                if (allocated(error)) return
                call follower_values(case, model, state, values)
-               call narrow_extremum(search, sense*values(series))
+               call narrow_search(statistics%rows, search, values(series))
             end do
-            if (sense > 0) lowest(series) = search%value(2)
-            if (sense < 0) highest(series) = -search%value(2)
+            if (sense > 0) lowest(series) = search%value
+            if (sense < 0) highest(series) = -search%value
             ! Errors of a flexible train are those of its load and sliding speed
             if (allocated(cycle%flexible)) cycle
-            call state_at(cycle, model, search%point(2), hint, state, error)
+            call state_at(cycle, model, search%point, hint, state, error)
             if (allocated(error)) return
-            call error_of_extreme(statistics%slip_errors, case, model, cycle, state, search%point(2), series, sense, &
-               & sense*search%value(2), statistics%extreme_errors(merge(1, 2, sense > 0), series))
+            associate (of_value => statistics%extreme_errors(merge(1, 2, sense > 0), series))
+               call error_of_extreme(statistics%slip_errors, case, model, cycle, state, search%point, series, sense, &
+                  & sense*search%value, of_value)
+               of_value = of_value + search%left
+            end associate
          end do
       end do
    end subroutine search_lobe
@@ -378,7 +380,7 @@ contains
       !> Convergence or domain error
       type(error_t), allocatable, intent(out) :: error
 
-      type(extremum_t) :: search
+      type(search_t) :: search
       ! Stops of all cams [rad]; a row [unit of the series]
       real(wp), allocatable :: stops(:)
       real(wp) :: values(size(lowest))
@@ -393,14 +395,14 @@ contains
       end do
       do series = 1, size(values)
          do sense = -1, 1, 2
-            call start_search(samples, series, sense, search)
-            do while (search%is_wanted .and. search%steps < most_steps .and. .not. any(cycles%is_linear))
+            call start_search(samples, series, sense, maxval(cycles%tolerance), search)
+            do while (search%is_wanted .and. .not. any(cycles%is_linear))
                call camshaft_row(case, models, cycles, shaft, search%trial, values, error)
                if (allocated(error)) return
-               call narrow_extremum(search, sense*values(series))
+               call narrow_search(samples, search, values(series))
             end do
-            if (sense > 0) lowest(series) = search%value(2)
-            if (sense < 0) highest(series) = -search%value(2)
+            if (sense > 0) lowest(series) = search%value
+            if (sense < 0) highest(series) = -search%value
          end do
       end do
    end subroutine search_camshaft

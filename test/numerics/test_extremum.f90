@@ -63,6 +63,9 @@ contains
          ! The lowest value is -1 at 0
          call check(error, search%value(2) + 1.0_wp <= 1.0e-6_wp .and. search%steps <= 8)
          if (allocated(error)) return
+         ! What is left is of the order of what the last value missed
+         call check(error, search%value(2) + 1.0_wp <= 2.0_wp*search%left .and. search%left <= 1.0e-6_wp)
+         if (allocated(error)) return
       end do
    end subroutine test_smooth
 
@@ -77,6 +80,16 @@ contains
       end do
       ! Twelve values at most, each of which about halves the bracket
       call check(error, search%value(2) <= 1.0e-2_wp)
+      if (allocated(error)) return
+      ! It is at zero
+      call check(error, search%value(2) <= search%left)
+      if (allocated(error)) return
+      call start_extremum(search, points, kink(points), 1.0e-6_wp, 40)
+      do while (search%is_wanted)
+         call narrow_extremum(search, kink(search%trial))
+      end do
+      ! A parabola that happens to tell the last value may end it at the order of the tolerance
+      call check(error, search%value(2) <= 2.0e-6_wp .and. search%value(2) <= 2.0_wp*search%left)
    end subroutine test_kink
 
    subroutine test_none(error)

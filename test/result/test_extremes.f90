@@ -2,8 +2,7 @@
 module test_extremes
    use testdrive, only : unittest_type, new_unittest, error_type, check
    use camroller_kinds, only : wp, pi, two_pi
-   use camroller_extremes, only : samples_t, start_samples, add_sample, start_search, most_steps
-   use camroller_extremum, only : extremum_t, narrow_extremum
+   use camroller_extremes, only : samples_t, search_t, start_samples, add_sample, start_search, narrow_search
    implicit none
    private
 
@@ -18,6 +17,9 @@ contains
          new_unittest("extremes between samples are found", test_between), &
          new_unittest("an extreme at the seam of the turn is found", test_seam), &
          new_unittest("a kink that is sampled stays the extreme", test_kink), &
+         new_unittest("of two summits the higher one is found, though rows show it lower", test_summits), &
+         new_unittest("a kink between rows is approached to the tolerance, and what is left is known", test_kink_between), &
+         new_unittest("of many summits those that are not looked near count as what may be left", test_many), &
          new_unittest("rows beyond the room at first are kept", test_room) &
          ]
    end subroutine collect_extremes
@@ -37,7 +39,7 @@ contains
       real(wp), intent(in) :: shift
       real(wp), intent(out) :: lowest(3), highest(3)
       integer, intent(out) :: evaluations
-      type(extremum_t) :: search
+      type(search_t) :: search
       real(wp) :: angle, values(3)
       integer :: i, half, series, sense
 
@@ -51,14 +53,14 @@ contains
       evaluations = 0
       do series = 1, 3
          do sense = -1, 1, 2
-            call start_search(samples, series, sense, search)
-            do while (search%is_wanted .and. search%steps < most_steps)
+            call start_search(samples, series, sense, 0.0_wp, search)
+            do while (search%is_wanted)
                values = row(search%trial, shift)
-               call narrow_extremum(search, sense*values(series))
+               call narrow_search(samples, search, values(series))
                evaluations = evaluations + 1
             end do
-            if (sense > 0) lowest(series) = search%value(2)
-            if (sense < 0) highest(series) = -search%value(2)
+            if (sense > 0) lowest(series) = search%value
+            if (sense < 0) highest(series) = -search%value
          end do
       end do
    end subroutine sample
@@ -96,7 +98,7 @@ contains
    subroutine test_kink(error)
       type(error_type), allocatable, intent(out) :: error
       type(samples_t) :: samples
-      type(extremum_t) :: search
+      type(search_t) :: search
       real(wp) :: angle
       integer :: i
 
@@ -106,11 +108,125 @@ contains
          call add_sample(samples, angle, [abs(angle - 1.0_wp)*merge(5.0_wp, 1.0_wp, angle > 1.0_wp)], .false.)
       end do
       call add_sample(samples, 1.0_wp, [0.0_wp], .true.)
-      call start_search(samples, 1, 1, search)
+      call start_search(samples, 1, 1, 0.0_wp, search)
       call check(error, .not. search%is_wanted, "a value beside a kink is wanted")
       if (allocated(error)) return
-      call check(error, search%value(2), 0.0_wp, thr=0.0_wp)
+      call check(error, search%value, 0.0_wp, thr=0.0_wp)
    end subroutine test_kink
+
+   !> Parabolas of heights 1 and 1.001; a row is on top of the lower one, and both rows of the higher one are off its top by half a step.
+   subroutine test_summits(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(samples_t) :: samples
+      type(search_t) :: search
+      ! Step of the rows [rad]
+      real(wp), parameter :: step = two_pi/36.0_wp
+      real(wp) :: angle
+      integer :: i, sense
+
+      do sense = -1, 1, 2
+         call start_samples(samples, 1)
+         do i = 0, 35
+            angle = i*step
+            call add_sample(samples, angle, [-sense*summits(angle)], .false.)
+         end do
+         call start_search(samples, 1, sense, 0.0_wp, search)
+         do while (search%is_wanted)
+            call narrow_search(samples, search, -sense*summits(search%trial))
+         end do
+         call check(error, -search%value, 1.001_wp, thr=1.0e-6_wp)
+         if (allocated(error)) return
+         call check(error, abs(search%point - 20.5_wp*step) < 1.0e-2_wp)
+         if (allocated(error)) return
+      end do
+
+   contains
+
+      pure function summits(x) result(height)
+         real(wp), intent(in) :: x
+         real(wp) :: height
+
+         height = max(0.0_wp, 1.0_wp - (x - 6.0_wp*step)**2, 1.001_wp - (x - 20.5_wp*step)**2)
+      end function summits
+
+   end subroutine test_summits
+
+   !> What is left bounds the error, is at most the tolerance of the extent, and takes more values the smaller it is.
+   subroutine test_kink_between(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(samples_t) :: samples
+      type(search_t) :: search
+      real(wp) :: angle, tolerance
+      integer :: i, power, values, values_before
+
+      values_before = 0
+      do power = 2, 5
+         call start_samples(samples, 1)
+         do i = 0, 35
+            angle = two_pi*i/36
+            call add_sample(samples, angle, [peak(angle)], .false.)
+         end do
+         tolerance = 10.0_wp**(-power)
+         call start_search(samples, 1, -1, tolerance, search)
+         values = 0
+         do while (search%is_wanted)
+            call narrow_search(samples, search, peak(search%trial))
+            values = values + 1
+         end do
+         call check(error, search%left <= tolerance*(maxval(samples%values(1, :36)) - minval(samples%values(1, :36))))
+         if (allocated(error)) return
+         call check(error, 2.0_wp + search%value <= search%left .and. 2.0_wp + search%value >= 0.0_wp)
+         if (allocated(error)) return
+         if (power > 3) call check(error, values > values_before)
+         if (allocated(error)) return
+         values_before = values
+      end do
+
+   contains
+
+      !> Highest at 3.01, where it is 2, steeper after it than before.
+      pure function peak(x) result(height)
+         real(wp), intent(in) :: x
+         real(wp) :: height
+
+         height = 2.0_wp - abs(x - 3.01_wp) - 2.0_wp*max(0.0_wp, x - 3.01_wp)
+      end function peak
+
+   end subroutine test_kink_between
+
+   !> A comb with 180 teeth of one height, rows at the same places of each.
+   subroutine test_many(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(samples_t) :: samples
+      type(search_t) :: search
+      real(wp) :: angle
+      integer :: i, values
+
+      call start_samples(samples, 1)
+      do i = 0, 719
+         angle = two_pi*(i + 0.2_wp)/720
+         call add_sample(samples, angle, [comb(angle)], .false.)
+      end do
+      call start_search(samples, 1, -1, 0.0_wp, search)
+      values = 0
+      do while (search%is_wanted)
+         call narrow_search(samples, search, comb(search%trial))
+         values = values + 1
+      end do
+      call check(error, values <= 8*8)
+      if (allocated(error)) return
+      call check(error, search%left > 1.0e-3_wp .and. 1.0_wp + search%value <= search%left)
+
+   contains
+
+      pure function comb(x) result(height)
+         real(wp), intent(in) :: x
+         real(wp) :: height
+
+         height = cos(180.0_wp*x)
+      end function comb
+
+   end subroutine test_many
 
    subroutine test_room(error)
       type(error_type), allocatable, intent(out) :: error

@@ -23,8 +23,6 @@ module result_checks
    character(len=*), parameter :: films(*) = [character(len=22) :: "film_thickness_min", "film_thickness_central", "film_ratio"]
    !> Means that are judged by the mean of all losses
    character(len=*), parameter :: drives(*) = [character(len=21) :: "torque_drive", "torque_geometric", "torque_roller_inertia"]
-   !> Gain that the search for an extreme leaves, over the range of its series [-]: it ends at a millionth, or after eight values
-   real(wp), parameter :: search_gain = 1.0e-5_wp
 
 contains
 
@@ -250,7 +248,7 @@ contains
       ! [unit of the series]
       real(wp) :: scale
       ! Tangential force over the largest load that is none: a roller that sticks slides by 1e-17 m/s where contact is lost [-]
-      real(wp), parameter :: least_force = 1.0e-10_wp
+      real(wp), parameter :: least_force = 1.0e-30_wp
       character(len=:), allocatable :: lobe
 
       lobe = name(:merge(7, 0, index(name, "lobe_2_") > 0))
@@ -296,7 +294,7 @@ contains
             values(1, :) = [scalar_of(one, "min_"//name), scalar_of(one, "max_"//name)]
             values(2, :) = [scalar_of(other, "min_"//name), scalar_of(other, "max_"//name)]
             range = max(maxval(values) - minval(values), least_scale(one, name))
-            least = search_gain*range + rounding*maxval(abs(values))
+            least = rounding*maxval(abs(values))
             do k = 1, 2
                difference = max(0.0_wp, abs(values(1, k) - values(2, k)) - least)
                if (difference > allowed*range) trouble = trouble//" "//merge("min_", "max_", k == 1)//name// &
