@@ -7,7 +7,7 @@
  * have the unit that the key's name says.
  *
  * Threads: different objects in different threads, at any time. A case is only read by camroller_case_run, camroller_case_check and
- * camroller_simulation_new, so that threads may share it there.
+ * by what makes a simulation or a shaft of it, so that threads may share it there.
  */
 #ifndef CAMROLLER_H
 #define CAMROLLER_H
@@ -46,6 +46,7 @@ typedef struct {
 typedef struct camroller_case camroller_case;
 typedef struct camroller_result camroller_result;
 typedef struct camroller_simulation camroller_simulation;
+typedef struct camroller_shaft camroller_shaft;
 
 /* A case from the text or the file of a deck. Paths of tables start at `folder` (NULL: the present folder) or at the deck's own. */
 int camroller_case_from_text(const char *text, const char *folder, camroller_case **out, camroller_error *error);
@@ -54,7 +55,18 @@ int camroller_case_from_file(const char *path, camroller_case **out, camroller_e
 int camroller_case_set(camroller_case *self, const char *key, const char *value, camroller_error *error);
 /* Laws, geometry and oil, without a run */
 int camroller_case_check(const camroller_case *self, camroller_error *error);
+int camroller_case_copy(const camroller_case *self, camroller_case **out, camroller_error *error);
 void camroller_case_free(camroller_case *self);
+/* Keys that the deck gives with one number each, by their place, from 0: name, unit and meaning, three buffers of `room` characters,
+ * any of them NULL, and the value in that unit. CAMROLLER_USAGE tells that there are no more. */
+int camroller_case_number(const camroller_case *self, size_t number, char *const texts[3], size_t room, double *value,
+                          camroller_error *error);
+/* Cases of the deck's sweep, 1 without one. A case stands for its deck without the sweep; the case of a number, from 0, is made
+ * of it. Name of a key that varies, from 0, and its value in a case as a deck has it; CAMROLLER_USAGE tells that there are no more. */
+size_t camroller_case_sweep_size(const camroller_case *self);
+int camroller_case_sweep_value(const camroller_case *self, size_t number, size_t key, char *const texts[2], size_t room,
+                               camroller_error *error);
+int camroller_case_sweep_case(const camroller_case *self, size_t number, camroller_case **out, camroller_error *error);
 
 /* Run a case. */
 int camroller_case_run(const camroller_case *self, camroller_result **out, camroller_error *error);
@@ -95,6 +107,8 @@ typedef struct {
    double sliding_speed[2];  /* [m/s] */
    double largest_pressure;  /* of the dry contact [Pa] */
    double smallest_film;     /* [m]; huge where there is no contact all the step */
+   /* of the mean torque that drives: what the case's accuracy leaves, not what inputs differ from straight lines [N m] */
+   double estimated_error;
 } camroller_outcome;
 
 /* A follower at a cam angle; lobe 1 is the case's lift, 2 its second lift. */
@@ -115,6 +129,52 @@ int camroller_simulation_save(const camroller_simulation *self, void *buffer, si
 int camroller_simulation_restore(const camroller_case *self, const void *buffer, size_t bytes, camroller_simulation **out,
                                  camroller_error *error);
 void camroller_simulation_free(camroller_simulation *self);
+
+/* All followers of a case, with their camshafts and the bearings that carry them. Without camshaft bearings a case has one cam. Cam
+ * angles are those of the first cam. `threads` share the followers in a step; bits do not depend on their number. */
+int camroller_shaft_new(const camroller_case *self, double cam_angle, int threads, camroller_shaft **out, camroller_error *error);
+/* Number of cams; where one stands. Set `size` to sizeof(camroller_cam). */
+typedef struct {
+   size_t size;
+   int lobe, camshaft; /* from 1 */
+   double phase;       /* by which its event follows the first cam's [rad] */
+} camroller_cam;
+int camroller_shaft_cams(const camroller_shaft *self);
+int camroller_shaft_cam(const camroller_shaft *self, int cam, camroller_cam *facts, camroller_error *error);
+
+/* What a step gives for all camshafts together. Set `size` to sizeof(camroller_shaft_outcome). */
+typedef struct {
+   size_t size;
+   double mean_torque_drive, torque_drive;       /* mean over the step and at its end [N m] */
+   double mean_torque_friction, torque_friction; /* the part for losses [N m] */
+   double mean_torque_bearings, torque_bearings; /* the part of that for the camshaft bearings [N m] */
+   /* of all followers by source, as in camroller_outcome [N m] */
+   double mean_torques[5], torques[5];
+   double extreme_torque[2]; /* smallest and largest torque that drives, at angles a degree apart at most [N m] */
+   double estimated_error;   /* of the mean torque that drives, as in camroller_outcome [N m] */
+} camroller_shaft_outcome;
+/* Advance to a cam angle beyond the present one. `gas_pressures` has one for each cam's valve at the start, then one for each at the
+ * end [Pa]; NULL: those of the inputs, for every cam, or of the case's table. A step that fails leaves all followers as they were,
+ * to the last bit. */
+int camroller_shaft_step(camroller_shaft *self, double cam_angle, const camroller_inputs *start, const camroller_inputs *end,
+                         const double *gas_pressures, camroller_shaft_outcome *outcome, camroller_error *error);
+/* What the last step gave for the follower of a cam, from 1 */
+int camroller_shaft_follower(const camroller_shaft *self, int cam, camroller_outcome *outcome, camroller_error *error);
+/* Numbers at the end of the last step: of the follower of a cam, from 1, or of the camshafts, 0. One by its name, or all in the
+ * order of camroller_shaft_quantity, which gives name, unit and meaning of the number at a place, from 0, as
+ * camroller_result_quantity does. */
+int camroller_shaft_value(const camroller_shaft *self, int cam, const char *name, double *value, camroller_error *error);
+int camroller_shaft_values(const camroller_shaft *self, int cam, double *values, size_t room, camroller_error *error);
+int camroller_shaft_quantity(const camroller_shaft *self, int cam, size_t number, char *const texts[3], size_t room,
+                             camroller_error *error);
+double camroller_shaft_angle(const camroller_shaft *self);
+int camroller_shaft_halt(camroller_shaft *self, camroller_error *error);
+int camroller_shaft_copy(const camroller_shaft *self, camroller_shaft **out, camroller_error *error);
+size_t camroller_shaft_save_size(const camroller_shaft *self);
+int camroller_shaft_save(const camroller_shaft *self, void *buffer, size_t room, camroller_error *error);
+int camroller_shaft_restore(const camroller_case *self, const void *buffer, size_t bytes, int threads, camroller_shaft **out,
+                            camroller_error *error);
+void camroller_shaft_free(camroller_shaft *self);
 
 #ifdef __cplusplus
 }

@@ -10,7 +10,8 @@ module camroller
       & masses_t, spring_t, gas_force_t, materials_t, surface_t, lubricant_t, film_t, ehl_t, asperity_t, traction_t, &
       & needle_bearing_t, valve_guide_t, roller_t, cam_bearings_t, deck_t, override_t, read_deck, parse_deck, make_case, &
       & run_case, result_t, quantity_t, find_quantity, get_series, get_summary, use_one_blas_thread, simulation_t, outcome_t, &
-      & inputs_t, start_simulation, advance, halt, save_simulation, restore_simulation
+      & inputs_t, start_simulation, advance, halt, save_simulation, restore_simulation, shaft_simulation_t, shaft_outcome_t, &
+      & start_shaft, advance_shaft, halt_shaft, save_shaft, restore_shaft, cam_number, cam_place, shaft_angle, shaft_values
    use camroller_case_loop, only : sweep_cases
    use camroller_case_record, only : case_outcome_t
    use camroller_case_sink, only : sink_t
@@ -29,5 +30,7 @@ module camroller
    public :: run_case, result_t, quantity_t, find_quantity, get_series, get_summary, use_one_blas_thread
    public :: run_sweep, sweep_options_t, sweep_report_t, sweep_cases, sink_t, case_outcome_t, layout_t, monitor_t
    public :: simulation_t, outcome_t, inputs_t, start_simulation, advance, halt, save_simulation, restore_simulation
+   public :: shaft_simulation_t, shaft_outcome_t, start_shaft, advance_shaft, halt_shaft, save_shaft, restore_shaft
+   public :: cam_number, cam_place, shaft_angle, shaft_values
 
 end module camroller

@@ -23,7 +23,9 @@ module camroller_core
    use camroller_deck, only : deck_t, override_t, read_deck, parse_deck, make_case
    use camroller_run, only : run_case
    use camroller_result, only : result_t, quantity_t, find_quantity, get_series, get_summary
-   use camroller_saved_simulation, only : save_simulation, restore_simulation
+   use camroller_saved_simulation, only : save_simulation, restore_simulation, save_shaft, restore_shaft
+   use camroller_shaft_simulation, only : shaft_simulation_t, shaft_outcome_t, start_shaft, advance_shaft, halt_shaft, &
+      & cam_number, cam_place, shaft_angle, shaft_values
    use camroller_simulation, only : simulation_t, outcome_t, inputs_t, start_simulation, advance, halt
    implicit none
    private
@@ -35,5 +37,7 @@ module camroller_core
    public :: deck_t, override_t, read_deck, parse_deck, make_case
    public :: run_case, result_t, quantity_t, find_quantity, get_series, get_summary, use_one_blas_thread
    public :: simulation_t, outcome_t, inputs_t, start_simulation, advance, halt, save_simulation, restore_simulation
+   public :: shaft_simulation_t, shaft_outcome_t, start_shaft, advance_shaft, halt_shaft, save_shaft, restore_shaft
+   public :: cam_number, cam_place, shaft_angle, shaft_values
 
 end module camroller_core

@@ -78,6 +78,7 @@ program main
    use test_spin_slopes, only : collect_spin_slopes
    use test_simulation, only : collect_simulation
    use test_simulation_faults, only : collect_simulation_faults
+   use test_shaft_simulation, only : collect_shaft_simulation
    use test_simulation_inputs, only : collect_simulation_inputs
    use test_quasi_static, only : collect_quasi_static
    use test_ode_barrier, only : collect_ode_barrier
@@ -217,6 +218,7 @@ contains
          new_testsuite("panels", collect_panels), &
          new_testsuite("extremum", collect_extremum), &
          new_testsuite("roller_problem", collect_roller_problem), &
+         new_testsuite("shaft_simulation", collect_shaft_simulation), &
          new_testsuite("simulation", collect_simulation), &
          new_testsuite("simulation_faults", collect_simulation_faults), &
          new_testsuite("simulation_inputs", collect_simulation_inputs), &

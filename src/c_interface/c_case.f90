@@ -13,6 +13,7 @@ module camroller_c_case
    use camroller_run, only : run_case, build_models
    use camroller_result, only : result_t, quantity_t, find_quantity, get_series, get_summary
    use camroller_remarks, only : remark_lines
+   use camroller_c_structs, only : give_address
    use camroller_c_texts, only : take_text, give_text, give_error, refuse_null
    implicit none
    private
@@ -122,19 +123,6 @@ contains
       end if
       call give_address(handle, c_loc(made))
    end subroutine new_case
-
-   !> Give a caller an address.
-   subroutine give_address(place, address)
-      !> Where the caller wants it
-      type(c_ptr), intent(in) :: place
-      !> The address
-      type(c_ptr), intent(in) :: address
-
-      type(c_ptr), pointer :: target_of_caller
-
-      call c_f_pointer(place, target_of_caller)
-      target_of_caller = address
-   end subroutine give_address
 
    !> Give a key another value, in the unit of the deck.
    function case_set(handle, key, value, error) bind(C, name="camroller_case_set") result(code)

@@ -12,8 +12,8 @@ module camroller_c_simulation
    use camroller_result, only : quantity_t, find_quantity
    use camroller_simulation, only : simulation_t, outcome_t, inputs_t, start_simulation, advance, halt, get_point, get_values
    use camroller_saved_simulation, only : save_simulation, restore_simulation, block_size
-   use camroller_torque_list, only : of_geometric, of_contact, of_needle, of_guide, of_roller_inertia
    use camroller_c_case, only : case_handle_t
+   use camroller_c_structs, only : take_inputs, check_outcome, give_outcome, give_address
    use camroller_c_texts, only : take_text, give_error, refuse_null
    implicit none
    private
@@ -26,27 +26,6 @@ module camroller_c_simulation
       !> Has it made a step?
       logical :: has_outcome = .false.
    end type simulation_handle_t
-
-   !> Inputs as the header has them
-   type, bind(C) :: c_inputs_t
-      integer(c_size_t) :: size
-      !> Cam speed [rad/s], oil temperature [K], gauge pressure [Pa]
-      real(c_double) :: speed, oil_temperature, gas_pressure
-      integer(c_int) :: has_pressure
-   end type c_inputs_t
-
-   !> What a step gives, as the header has it
-   type, bind(C) :: c_outcome_t
-      integer(c_size_t) :: size
-      !> Torques: mean over the step and at its end, all and for losses [N m]
-      real(c_double) :: mean_torque_drive, torque_drive, mean_torque_friction, torque_friction
-      !> By source: against spring, masses and gas; contact; roller bearing; guide; inertia of the roller [N m]
-      real(c_double) :: mean_torques(5), torques(5)
-      !> Force on the cam, x from pivot to cam centre [N]
-      real(c_double) :: cam_force(2)
-      !> Smallest and largest values: load [N], torque [N m], sliding speed [m/s]; largest pressure [Pa], smallest film [m]
-      real(c_double) :: contact_load(2), extreme_torque(2), sliding_speed(2), largest_pressure, smallest_film
-   end type c_outcome_t
 
 contains
 
@@ -90,14 +69,11 @@ contains
       !> The error, if any
       type(error_t), allocatable, intent(in) :: error
 
-      type(c_ptr), pointer :: address
-
-      call c_f_pointer(place, address)
-      address = c_null_ptr
+      call give_address(place, c_null_ptr)
       if (allocated(error)) then
          deallocate (made)
       else
-         address = c_loc(made)
+         call give_address(place, c_loc(made))
       end if
    end subroutine give_simulation
 
@@ -175,71 +151,6 @@ contains
       end if
       call give_error(failure, error, code)
    end function simulation_step
-
-   !> Inputs from the caller's struct.
-   subroutine take_inputs(address, inputs, error)
-      !> The struct
-      type(c_ptr), intent(in) :: address
-      !> The inputs
-      type(inputs_t), intent(out) :: inputs
-      !> Usage error where the struct is not one of this version
-      type(error_t), allocatable, intent(out) :: error
-
-      type(c_inputs_t), pointer :: given
-
-      call c_f_pointer(address, given)
-      if (given%size /= storage_size(given)/8) then
-         call raise(error, kind_usage, "camroller_inputs: set its size to sizeof(camroller_inputs), of the header that belongs "// &
-            & "to this library")
-         return
-      end if
-      inputs%speed = given%speed
-      inputs%oil_temperature = given%oil_temperature
-      inputs%has_pressure = given%has_pressure /= 0
-      inputs%gas_pressure = given%gas_pressure
-   end subroutine take_inputs
-
-   !> Refuse a struct for the outcome that is not one of this version.
-   subroutine check_outcome(address, error)
-      !> The struct; NULL is fine
-      type(c_ptr), intent(in) :: address
-      !> Usage error
-      type(error_t), allocatable, intent(out) :: error
-
-      type(c_outcome_t), pointer :: given
-
-      if (.not. c_associated(address)) return
-      call c_f_pointer(address, given)
-      if (given%size /= storage_size(given)/8) call raise(error, kind_usage, "camroller_outcome: set its size to "// &
-         & "sizeof(camroller_outcome), of the header that belongs to this library")
-   end subroutine check_outcome
-
-   !> Fill the caller's struct.
-   subroutine give_outcome(outcome, address)
-      !> What the step gave
-      type(outcome_t), intent(in) :: outcome
-      !> The struct; NULL takes nothing
-      type(c_ptr), intent(in) :: address
-
-      ! Torques in the order of the struct
-      integer, parameter :: listed(*) = [of_geometric, of_contact, of_needle, of_guide, of_roller_inertia]
-      type(c_outcome_t), pointer :: given
-
-      if (.not. c_associated(address)) return
-      call c_f_pointer(address, given)
-      given%mean_torque_drive = outcome%mean_torque_drive
-      given%torque_drive = outcome%torque_drive
-      given%mean_torque_friction = outcome%mean_torque_friction
-      given%torque_friction = outcome%torque_friction
-      given%mean_torques = outcome%mean_torques(listed)
-      given%torques = outcome%torques(listed)
-      given%cam_force = outcome%cam_force
-      given%contact_load = outcome%extremes%contact_load
-      given%extreme_torque = outcome%extremes%torque_drive
-      given%sliding_speed = outcome%extremes%sliding_speed
-      given%largest_pressure = outcome%extremes%hertz_pressure
-      given%smallest_film = outcome%extremes%film_min
-   end subroutine give_outcome
 
    !> Number of the follower at the end of its last step, by the name of a series.
    function simulation_value(handle, name, value, error) bind(C, name="camroller_simulation_value") result(code)
@@ -351,7 +262,7 @@ contains
          & "camroller_simulation_save_size")
       if (.not. allocated(failure)) then
          call c_f_pointer(handle, given)
-         call save_simulation(given%simulation, given%case, bytes, failure)
+         call save_simulation(given%simulation, bytes, failure)
       end if
       if (.not. allocated(failure)) then
          call c_f_pointer(buffer, letters, [room])

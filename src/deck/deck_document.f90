@@ -16,10 +16,12 @@ module camroller_deck_document
    implicit none
    private
 
-   public :: echo_t, get_echo, write_defaults, write_page, write_resolved
+   public :: echo_t, get_echo, write_defaults, write_page, write_resolved, given_numbers
 
    !> Width of a `key = value` before the comment on it
    integer, parameter :: comment_column = 46
+   !> Groups whose numbers say nothing about the valve train
+   character(len=*), parameter :: no_physics(*) = [character(len=7) :: "output", "sweep", "effects"]
    !> Length of a line of comment
    integer, parameter :: comment_width = 118
 
@@ -60,6 +62,26 @@ contains
          end associate
       end do
    end subroutine get_echo
+
+   !> Keys that a deck gives with one number each, outside its sweep and output: what a host may want to vary.
+   subroutine given_numbers(deck, positions)
+      !> The deck
+      type(deck_t), intent(in) :: deck
+      !> Their positions in the schema
+      integer, allocatable, intent(out) :: positions(:)
+
+      logical, allocatable :: is_wanted(:)
+      integer :: i
+
+      allocate (is_wanted(deck%schema%key_count))
+      do i = 1, size(is_wanted)
+         associate (key => deck%schema%keys(i), value => deck%settings%values(i))
+            is_wanted(i) = value%is_known .and. value%is_given .and. any(key%type == [type_number, type_integer]) .and. &
+               & .not. any(deck%schema%groups(key%group)%name == no_physics)
+         end associate
+      end do
+      positions = pack([(i, i=1, size(is_wanted))], is_wanted)
+   end subroutine given_numbers
 
    !> Has a key a value in a group that is in use?
    elemental function is_shown(deck, position) result(verdict)

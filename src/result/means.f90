@@ -17,7 +17,7 @@ module camroller_means
    use camroller_film_range, only : film_range_t, note_film
    use camroller_cycle, only : cycle_t
    use camroller_catalogue, only : list_series, series_values
-   use camroller_torque_list, only : torque_count, is_loss, of_geometric, of_roller_inertia, of_residual, torque_series
+   use camroller_torque_list, only : torque_count, is_loss, is_torque, of_geometric, of_roller_inertia, of_residual, torque_series
    use camroller_defects, only : defect_at, find_defect
    use camroller_error_estimate, only : estimate_t, add_defect, end_interval, estimated_error
    use camroller_extremes, only : samples_t
@@ -415,7 +415,7 @@ contains
    end subroutine judge_means
 
    !> Mean torques of a follower over a cycle or a piece of one.
-   subroutine integrate_torques(model, cycle, torques, error, extremes)
+   subroutine integrate_torques(model, cycle, torques, error, extremes, drive_error)
       !> Model of the lobe
       type(model_t), intent(in), target :: model
       !> Cycle or a piece of one
@@ -426,6 +426,8 @@ contains
       type(error_t), allocatable, intent(out) :: error
       !> Smallest and largest values at the points that the means are made of
       type(extremes_t), intent(out), optional :: extremes
+      !> Estimate of the error of the mean torque that drives, by the integration [N m]
+      real(wp), intent(out), optional :: drive_error
 
       type(follower_samples_t) :: samples
       type(panels_t) :: panels
@@ -441,6 +443,7 @@ contains
       span = cycle%trajectory%time(cycle%trajectory%count) - cycle%trajectory%time(1)
       torques = sum(panels%integrals(:, :panels%count), 2)/span + stored_torques(samples, work, span)
       if (present(extremes)) extremes = samples%extremes
+      if (present(drive_error)) drive_error = sum(sum(panels%errors(:, :panels%count), 2), mask=is_torque)/span
    end subroutine integrate_torques
 
    !> Sample a cycle or a piece of one for its torques alone, two intervals a panel where no stop parts them.

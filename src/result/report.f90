@@ -118,7 +118,7 @@ contains
 
       allocate (result%remarks(0))
       call list_series(case, result%series)
-      call new_shaft(shaft, case, models(1), error)
+      call new_shaft(shaft, case, models(1)%oil%viscosity, models(1)%speed, error)
       if (allocated(error)) return
       result%angle = output_angles(case%numerics%output_step)
       allocate (result%series_values(merge(size(result%angle), 0, with_series .or. allocated(case%engine)), &

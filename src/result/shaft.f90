@@ -15,7 +15,7 @@ module camroller_shaft
    implicit none
    private
 
-   public :: shaft_t, new_shaft, shaft_torques
+   public :: shaft_t, new_shaft, set_journal, shaft_torques, in_common_frame, bearing_torques
 
    !> Cams of a shaft
    type :: shaft_t
@@ -38,13 +38,13 @@ module camroller_shaft
 contains
 
    !> Cams and bearings of a case.
-   subroutine new_shaft(shaft, case, model, error)
+   subroutine new_shaft(shaft, case, viscosity, speed, error)
       !> The shaft
       type(shaft_t), intent(out) :: shaft
       !> The case
       type(case_t), intent(in) :: case
-      !> Model of any lobe: speed and viscosity
-      type(model_t), intent(in) :: model
+      !> Viscosity of the oil at ambient pressure [Pa s], cam speed [rad/s]
+      real(wp), intent(in) :: viscosity, speed
       !> Deck or domain error of the bearings
       type(error_t), allocatable, intent(out) :: error
 
@@ -72,8 +72,20 @@ contains
       shaft%directions(2, :) = sin(case%cam_bearings%follower_angles)
       shaft%hints = 1
       allocate (shaft%journal)
-      call new_journal(shaft%journal, case%cam_bearings, model%oil%viscosity, model%speed, error)
+      call set_journal(shaft, viscosity, speed, error)
    end subroutine new_shaft
+
+   !> Set the bearings, where there are any, to another viscosity and speed.
+   subroutine set_journal(shaft, viscosity, speed, error)
+      !> The shaft
+      type(shaft_t), intent(inout) :: shaft
+      !> Viscosity of the oil at ambient pressure [Pa s], cam speed [rad/s]
+      real(wp), intent(in) :: viscosity, speed
+      !> Deck or domain error of the bearings
+      type(error_t), allocatable, intent(out) :: error
+
+      if (allocated(shaft%journal)) call new_journal(shaft%journal, shaft%bearings, viscosity, speed, error)
+   end subroutine set_journal
 
    !> Torques at a cam angle, and the state of the first cam's follower.
    subroutine shaft_torques(shaft, models, cycles, angle, first_state, torques, error)
@@ -93,9 +105,9 @@ contains
       type(error_t), allocatable, intent(out) :: error
 
       type(state_t) :: state
-      ! Force on each cam in the frame of the first follower, force of one follower in its own [N]
-      real(wp) :: forces(2, size(shaft%lobes)), force(2)
-      integer :: cam, k
+      ! Force on each cam in the frame of the first follower [N]
+      real(wp) :: forces(2, size(shaft%lobes))
+      integer :: cam
 
       torques = 0.0_wp
       do cam = 1, size(shaft%lobes)
@@ -105,18 +117,47 @@ contains
          if (cam == 1) first_state = state
          torques(:, shaft%shafts(cam)) = torques(:, shaft%shafts(cam)) + state%torques
          if (.not. allocated(shaft%journal)) cycle
-         force = cam_force(models(shaft%lobes(cam)), state)
-         associate (c => shaft%directions(1, cam), s => shaft%directions(2, cam))
-            forces(:, cam) = [c*force(1) - s*force(2), s*force(1) + c*force(2)]
-         end associate
+         forces(:, cam) = in_common_frame(shaft, cam, cam_force(models(shaft%lobes(cam)), state))
       end do
+      call bearing_torques(shaft, forces, torques(of_bearings, :), error)
+   end subroutine shaft_torques
+
+   !> Force on a cam in the frame of the first follower.
+   pure function in_common_frame(shaft, cam, force) result(turned)
+      !> The shaft
+      type(shaft_t), intent(in) :: shaft
+      !> The cam
+      integer, intent(in) :: cam
+      !> Force in the frame of its own follower [N]
+      real(wp), intent(in) :: force(2)
+      !> The same force [N]
+      real(wp) :: turned(2)
+
+      associate (c => shaft%directions(1, cam), s => shaft%directions(2, cam))
+         turned = [c*force(1) - s*force(2), s*force(1) + c*force(2)]
+      end associate
+   end function in_common_frame
+
+   !> Torque of all bearings of each camshaft; zero where the case has none.
+   subroutine bearing_torques(shaft, forces, torques, error)
+      !> The shaft
+      type(shaft_t), intent(in) :: shaft
+      !> Force on each cam in the frame of the first follower, shape (2, cam) [N]
+      real(wp), intent(in) :: forces(:, :)
+      !> The torques [N m]
+      real(wp), intent(out) :: torques(:)
+      !> Domain error where a bearing law has no solution
+      type(error_t), allocatable, intent(out) :: error
+
+      integer :: cam, k
+
+      torques = 0.0_wp
       if (.not. allocated(shaft%journal)) return
       do k = 1, shaft%count
-         call add_bearings(shaft, pack([(cam, cam=1, size(shaft%lobes))], shaft%shafts == k), forces, &
-            & torques(of_bearings, k), error)
+         call add_bearings(shaft, pack([(cam, cam=1, size(shaft%lobes))], shaft%shafts == k), forces, torques(k), error)
          if (allocated(error)) return
       end do
-   end subroutine shaft_torques
+   end subroutine bearing_torques
 
    !> Torque of all bearings of a camshaft under the forces of its cams.
    subroutine add_bearings(shaft, cams, forces, bearing_torque, error)

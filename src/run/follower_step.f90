@@ -12,7 +12,7 @@ module camroller_follower_step
    use camroller_error, only : error_t, raise, kind_convergence
    use camroller_case, only : numerics_t
    use camroller_model, only : model_t, set_operating_point, evaluate_geometry
-   use camroller_ramp, only : keep_films
+   use camroller_ramp, only : follow_ramp, keep_films
    use camroller_gas, only : give_pressure
    use camroller_kinematics, only : position_t
    use camroller_state, only : state_t, evaluate_state, cam_force
@@ -22,13 +22,13 @@ module camroller_follower_step
    use camroller_spin, only : rolling_speed_at
    use camroller_stick, only : share_at_rest
    use camroller_stick_slip, only : direction_at
-   use camroller_cycle, only : cycle_t, integrate_between
+   use camroller_cycle, only : cycle_t, integrate_between, state_at
    use camroller_means, only : integrate_torques
    use camroller_run, only : take_way_out
    implicit none
    private
 
-   public :: follower_t, point_t, inputs_t, outcome_t, step_follower
+   public :: follower_t, point_t, inputs_t, outcome_t, step_follower, piece_number, inputs_between
 
    !> What a host program gives at an end of a step
    type :: inputs_t
@@ -64,6 +64,8 @@ module camroller_follower_step
       type(point_t) :: point
       !> Lobe shape
       integer :: lobe = 1
+      !> Mark of the model at the start
+      integer(int64) :: mark = 0_int64
    end type follower_t
 
    !> What one step gives
@@ -78,6 +80,9 @@ module camroller_follower_step
       real(wp) :: cam_force(2) = 0.0_wp
       !> Smallest and largest values within the step, at the points that the means are made of and at its end
       type(extremes_t) :: extremes
+      !> Estimate of the error of the mean torque that drives [N m]: what the accuracy of the case leaves, not what the inputs
+      !> of the host differ from straight lines
+      real(wp) :: estimated_error = 0.0_wp
       !> State of the follower at the end of the step
       type(state_t) :: state
    end type outcome_t
@@ -92,7 +97,7 @@ module camroller_follower_step
 contains
 
    !> Advance in pieces shorter than a turn.
-   subroutine step_follower(follower, cam_angle, start, finish, outcome, error)
+   subroutine step_follower(follower, cam_angle, start, finish, outcome, error, nodes)
       !> The follower; of no use where there is an error
       type(follower_t), intent(inout) :: follower
       !> Cam angle at the end of the step [rad]
@@ -103,18 +108,23 @@ contains
       type(outcome_t), intent(inout) :: outcome
       !> Deck, domain or convergence error
       type(error_t), allocatable, intent(out) :: error
+      !> Force on the cam [N] and torque that drives it [N m] at equally spaced angles of the step, the same number in each piece,
+      !> shape (3, angles)
+      real(wp), intent(out), optional :: nodes(:, 0:)
 
       type(inputs_t) :: here, there
-      ! First angle, end of a piece [rad]
-      real(wp) :: first, next
+      ! First angle, end of a piece [rad]; error of the mean torque of a piece [N m]
+      real(wp) :: first, next, torque_error
       ! Mean torques of a piece [N m], last the energy residual [W]
       real(wp) :: torques(torque_count)
-      integer :: piece, pieces
+      integer :: piece, pieces, places
       ! Direction of sliding at the end, 0 at rest; not allocated where the sliding speed decides
       integer, allocatable :: direction
 
       first = follower%point%angle
-      pieces = ceiling((cam_angle - first)/longest_piece)
+      pieces = piece_number(cam_angle - first)
+      places = 0
+      if (present(nodes)) places = ubound(nodes, 2)/pieces
       there = start
       do piece = 1, pieces
          here = there
@@ -124,18 +134,57 @@ contains
             next = first + (cam_angle - first)*piece/pieces
             there = inputs_between(start, finish, real(piece, wp)/pieces)
          end if
-         call advance_piece(follower, next, here, there, torques, outcome%extremes, direction, error)
+         if (places > 0) then
+            call advance_piece(follower, next, here, there, torques, torque_error, outcome%extremes, direction, error, &
+               & nodes(:, (piece - 1)*places:piece*places - 1))
+         else
+            call advance_piece(follower, next, here, there, torques, torque_error, outcome%extremes, direction, error)
+         end if
          if (allocated(error)) return
          outcome%mean_torques = outcome%mean_torques + torques/pieces
+         outcome%estimated_error = outcome%estimated_error + torque_error/pieces
       end do
       call set_model(follower, finish%speed, finish%oil_temperature, .false., error)
       if (.not. allocated(error)) call state_with_spin(follower, direction, outcome%state, error)
       if (allocated(error)) return
       call fill_outcome(follower%model, outcome)
+      call add_slip_error(follower, outcome)
+      if (present(nodes)) nodes(:, ubound(nodes, 2)) = [outcome%cam_force, outcome%torque_drive]
       if (.not. all(ieee_is_finite([outcome%mean_torque_drive, outcome%torque_drive, follower%point%roller_spin]))) then
          call raise(error, kind_convergence, "advance: torques or spin are not finite")
       end if
    end subroutine step_follower
+
+   !> Number of pieces that a step is integrated in.
+   elemental function piece_number(span) result(pieces)
+      !> Cam angle of the step [rad]
+      real(wp), intent(in) :: span
+      !> The number
+      integer :: pieces
+
+      pieces = ceiling(span/longest_piece)
+   end function piece_number
+
+   !> Add to the error of the mean torque what the error of the sliding speed makes of it: its tolerance, times the slope of the
+   !> torque at the end of the step. Where the roller rests on friction, nothing slides.
+   subroutine add_slip_error(follower, outcome)
+      !> The follower, at the end of the step
+      type(follower_t), intent(in) :: follower
+      !> Outcome with the state there
+      type(outcome_t), intent(inout) :: outcome
+
+      type(state_t) :: beside
+      ! Error of the sliding speed [m/s]
+      real(wp) :: slip_error
+      integer :: status
+
+      slip_error = follower%numerics%tolerance*follower%point%scale
+      if (abs(outcome%state%contact%sliding_speed) <= 0.0_wp) return
+      call evaluate_state(follower%model, follower%point%angle - pi, outcome%state%contact%sliding_speed + slip_error, beside, &
+         & status)
+      if (status == 0) outcome%estimated_error = outcome%estimated_error &
+         & + abs(beside%torque_friction - outcome%state%torque_friction)
+   end subroutine add_slip_error
 
    !> What follows from mean torques and the state at the end.
    pure subroutine fill_outcome(model, outcome)
@@ -228,7 +277,7 @@ contains
    end function same_bits
 
    !> One piece of a step, shorter than a turn.
-   subroutine advance_piece(follower, to, start, finish, torques, extremes, direction, error)
+   subroutine advance_piece(follower, to, start, finish, torques, torque_error, extremes, direction, error, nodes)
       !> The follower
       type(follower_t), intent(inout) :: follower
       !> Cam angle at the end [rad]
@@ -237,12 +286,16 @@ contains
       type(inputs_t), intent(in) :: start, finish
       !> Mean torques of the follower over the piece [N m], last the energy residual [W]
       real(wp), intent(out) :: torques(torque_count)
+      !> Error of the mean torque that drives, by its integration [N m]
+      real(wp), intent(out) :: torque_error
       !> Extremes so far, then with those of the piece
       type(extremes_t), intent(inout) :: extremes
       !> Direction of sliding at the end, 0 at rest; not allocated where the sliding speed decides
       integer, allocatable, intent(out) :: direction
       !> Convergence error
       type(error_t), allocatable, intent(out) :: error
+      !> Force on the cam [N] and torque that drives it [N m] at equally spaced angles from the start on, without the end
+      real(wp), intent(out), optional :: nodes(:, :)
 
       type(cycle_t) :: piece
       type(inputs_t) :: middle
@@ -251,6 +304,7 @@ contains
       real(wp), allocatable :: stops(:)
 
       torques = 0.0_wp
+      torque_error = 0.0_wp
       middle = inputs_between(start, finish, 0.5_wp)
       call set_model(follower, middle%speed, middle%oil_temperature, .true., error)
       if (allocated(error)) return
@@ -262,7 +316,8 @@ contains
          end if
          call find_stops_between(model, point%angle - pi, to - pi, stops)
          call integrate_piece(follower, stops, piece, error)
-         if (.not. allocated(error)) call integrate_torques(model, piece, torques, error, met)
+         if (.not. allocated(error)) call integrate_torques(model, piece, torques, error, met, torque_error)
+         if (present(nodes) .and. .not. allocated(error)) call sample_nodes(model, piece, [point%angle, to] - pi, nodes, error)
          ! On the way the model has followed the inputs
          if (model%ramp%is_moving) point%oil_temperature = -1.0_wp
          model%ramp%is_moving = .false.
@@ -272,6 +327,34 @@ contains
          if (allocated(piece%phases)) direction = direction_at(piece%phases, to - pi)
       end associate
    end subroutine advance_piece
+
+   !> Force on the cam and torque at equally spaced angles of a piece, without its end.
+   subroutine sample_nodes(model, piece, ends, nodes, error)
+      !> The model, which follows the inputs
+      type(model_t), intent(inout) :: model
+      !> The piece
+      type(cycle_t), intent(in) :: piece
+      !> Its first and last angle from full lift [rad]
+      real(wp), intent(in) :: ends(2)
+      !> Force [N] and torque [N m]
+      real(wp), intent(out) :: nodes(:, :)
+      !> Convergence error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(state_t) :: state
+      ! Cam angle from full lift [rad]
+      real(wp) :: angle
+      integer :: i, hint
+
+      hint = 1
+      do i = 1, size(nodes, 2)
+         angle = ends(1) + (ends(2) - ends(1))*(i - 1)/size(nodes, 2)
+         call follow_ramp(model, angle)
+         call state_at(piece, model, angle, hint, state, error)
+         if (allocated(error)) return
+         nodes(:, i) = [cam_force(model, state), state%torque_drive]
+      end do
+   end subroutine sample_nodes
 
    !> Let speed and oil change between two angles.
    pure subroutine set_ramp(model, angles, start, finish)

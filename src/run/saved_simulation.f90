@@ -1,57 +1,56 @@
-!> A follower between two steps as a block of bytes, and back: the same steps give the same bits, in another process as well.
+!> A follower, or all of a case, between two steps as a block of bytes, and back: the same steps give the same bits, in another
+!> process as well.
 !>
-!> In: a follower. Out: a block with the number of its format, a mark of the case, and what the follower remembers.
+!> In: a follower or a shaft. Out: a block with the number of its format, a mark of the case, and what the followers remember.
 module camroller_saved_simulation
    use, intrinsic :: iso_fortran_env, only : int8, int64
-   use camroller_kinds, only : wp, pi, two_pi
+   use camroller_kinds, only : wp
    use camroller_error, only : error_t, raise, kind_usage
    use camroller_case, only : case_t
    use camroller_follower_step, only : point_t
-   use camroller_model, only : model_t
-   use camroller_run, only : build_model
-   use camroller_simulation, only : simulation_t, start_simulation, get_point, set_point, get_lobe, is_started
-   use camroller_state, only : state_t, evaluate_state
+   use camroller_model_mark, only : beginning, mixed
+   use camroller_shaft_simulation, only : shaft_simulation_t, start_shaft, cam_number, cam_point, get_shaft_mark, set_shaft, &
+      & shaft_angle
+   use camroller_simulation, only : simulation_t, start_simulation, get_point, set_point, get_lobe, get_mark, is_started
    implicit none
    private
 
-   public :: save_simulation, restore_simulation, block_size
+   public :: save_simulation, restore_simulation, block_size, save_shaft, restore_shaft, shaft_block_size
 
-   !> Words of a block: mark, format, mark of the case, lobe shape, six numbers of the point, checksum
-   integer, parameter :: words = 11
-   !> Bytes of a block
+   !> Numbers of a point
+   integer, parameter :: point_words = 6
+   !> Words of a follower's block: beginning, format, mark of the case, lobe shape, point, checksum
+   integer, parameter :: words = point_words + 5
+   !> Words of a shaft's block without points: beginning, format, mark of the case, number of cams, cam angle, checksum
+   integer, parameter :: shaft_words = 6
+   !> Bytes of a follower's block
    integer, parameter :: block_size = 8*words
-   !> What a block begins with, and the format that this version writes and reads
-   integer(int64), parameter :: beginning = 7237970109966541155_int64, format_number = 1_int64
-   !> Cam angles at which states make up the mark of a case
-   integer, parameter :: places = 36
+   !> Added to what a block begins with where it is that of a shaft
+   integer(int64), parameter :: of_shaft = 1_int64
+   !> The format that this version writes and reads
+   integer(int64), parameter :: format_number = 1_int64
 
 contains
 
    !> Make a block of a follower.
-   subroutine save_simulation(simulation, case, bytes, error)
+   subroutine save_simulation(simulation, bytes, error)
       !> The follower
       type(simulation_t), intent(in) :: simulation
-      !> The case that it was started with
-      type(case_t), intent(in) :: case
       !> The block
       integer(int8), allocatable, intent(out) :: bytes(:)
       !> Usage error where the follower has no start
       type(error_t), allocatable, intent(out) :: error
 
-      type(point_t) :: point
       integer(int64) :: block(words)
 
       if (.not. is_started(simulation)) then
          call raise(error, kind_usage, "save_simulation: the follower has no start; call start_simulation first")
          return
       end if
-      point = get_point(simulation)
       block(1:2) = [beginning, format_number]
-      call mark_case(case, get_lobe(simulation), block(3), error)
-      if (allocated(error)) return
+      block(3) = get_mark(simulation)
       block(4) = get_lobe(simulation)
-      block(5:10) = transfer([point%angle, point%roller_spin, point%scale, point%film_temperature, point%film_speed, &
-         & point%oil_temperature], block)
+      block(5:10) = words_of(get_point(simulation))
       block(words) = mixed(block(:words - 1))
       bytes = transfer(block, bytes)
    end subroutine save_simulation
@@ -68,98 +67,160 @@ contains
       type(error_t), allocatable, intent(out) :: error
 
       type(point_t) :: point
-      integer(int64) :: block(words), mark
-      ! The six numbers of the point [rad, rad/s, m/s, K, rad/s, K]
-      real(wp) :: numbers(6)
+      integer(int64), allocatable :: block(:)
 
-      if (size(bytes) /= block_size) then
-         call raise(error, kind_usage, "restore_simulation: the block has the wrong size; give all of it, as it was saved")
+      call take_block(bytes, "restore_simulation", words, 0_int64, block, error)
+      if (allocated(error)) return
+      point = point_of(block(5:10))
+      call start_simulation(simulation, case, point%angle, error, int(block(4)))
+      if (.not. allocated(error)) call compare_marks("restore_simulation", get_mark(simulation), block(3), error)
+      if (.not. allocated(error)) call set_point(simulation, point, error)
+   end subroutine restore_simulation
+
+   !> Bytes of the block of a shaft.
+   pure function shaft_block_size(shaft) result(bytes)
+      !> The shaft
+      type(shaft_simulation_t), intent(in) :: shaft
+      !> The number
+      integer :: bytes
+
+      bytes = 8*(shaft_words + point_words*cam_number(shaft))
+   end function shaft_block_size
+
+   !> Make a block of a shaft.
+   subroutine save_shaft(shaft, bytes, error)
+      !> The shaft
+      type(shaft_simulation_t), intent(in) :: shaft
+      !> The block
+      integer(int8), allocatable, intent(out) :: bytes(:)
+      !> Usage error where the shaft has no start
+      type(error_t), allocatable, intent(out) :: error
+
+      integer(int64), allocatable :: block(:)
+      integer :: cam, last
+
+      if (cam_number(shaft) == 0) then
+         call raise(error, kind_usage, "save_shaft: the shaft has no start; call start_shaft first")
+         return
+      end if
+      last = shaft_words + point_words*cam_number(shaft)
+      allocate (block(last))
+      block(1:2) = [beginning + of_shaft, format_number]
+      call get_shaft_mark(shaft, block(3))
+      block(4) = cam_number(shaft)
+      block(5) = transfer(shaft_angle(shaft), block(5))
+      do cam = 1, cam_number(shaft)
+         block(point_words*cam:point_words*cam + point_words - 1) = words_of(cam_point(shaft, cam))
+      end do
+      block(last) = mixed(block(:last - 1))
+      bytes = transfer(block, bytes)
+   end subroutine save_shaft
+
+   !> Make a shaft of a block.
+   subroutine restore_shaft(shaft, case, bytes, error, threads)
+      !> The shaft; not to be advanced where there is an error
+      type(shaft_simulation_t), intent(out) :: shaft
+      !> The case that the block's shaft was started with
+      type(case_t), intent(in) :: case
+      !> The block
+      integer(int8), intent(in) :: bytes(:)
+      !> Usage error for a block that is none, is of another format or belongs to another case
+      type(error_t), allocatable, intent(out) :: error
+      !> Threads that share the followers in a step, 1 without it
+      integer, intent(in), optional :: threads
+
+      integer(int64), allocatable :: block(:)
+      type(point_t), allocatable :: points(:)
+      ! Cam angle of the first cam [rad]
+      real(wp) :: angle
+      integer(int64) :: mark
+      integer :: cam
+
+      call take_block(bytes, "restore_shaft", max(size(bytes)/8, shaft_words), of_shaft, block, error)
+      if (allocated(error)) return
+      angle = transfer(block(5), angle)
+      call start_shaft(shaft, case, angle, error, threads)
+      if (allocated(error)) return
+      call get_shaft_mark(shaft, mark)
+      call compare_marks("restore_shaft", mark, block(3), error)
+      if (allocated(error)) return
+      allocate (points(cam_number(shaft)))
+      do cam = 1, size(points)
+         points(cam) = point_of(block(point_words*cam:point_words*cam + point_words - 1))
+      end do
+      call set_shaft(shaft, angle, points, error)
+   end subroutine restore_shaft
+
+   !> Words of a block, which is refused where it is none.
+   subroutine take_block(bytes, caller, count, kind, block, error)
+      !> The block
+      integer(int8), intent(in) :: bytes(:)
+      !> Who asks
+      character(len=*), intent(in) :: caller
+      !> Number of words
+      integer, intent(in) :: count
+      !> Added to what a block begins with
+      integer(int64), intent(in) :: kind
+      !> The words
+      integer(int64), allocatable, intent(out) :: block(:)
+      !> Usage error
+      type(error_t), allocatable, intent(out) :: error
+
+      if (size(bytes) /= 8*count) then
+         call raise(error, kind_usage, caller//": the block has the wrong size; give all of it, as it was saved")
          return
       end if
       block = transfer(bytes, block)
-      if (block(1) /= beginning) then
-         call raise(error, kind_usage, "restore_simulation: the block is not one that save_simulation made on "// &
-            & "a machine of this kind")
+      if (block(1) /= beginning + kind) then
+         call raise(error, kind_usage, caller//": the block is not one that was saved for this on a machine of this kind")
       else if (block(2) /= format_number) then
-         call raise(error, kind_usage, "restore_simulation: the block is of another format; this version reads format 1")
-      else if (block(words) /= mixed(block(:words - 1))) then
-         call raise(error, kind_usage, "restore_simulation: the block is damaged")
+         call raise(error, kind_usage, caller//": the block is of another format; this version reads format 1")
+      else if (block(count) /= mixed(block(:count - 1))) then
+         call raise(error, kind_usage, caller//": the block is damaged")
       end if
-      if (allocated(error)) return
-      call mark_case(case, int(block(4)), mark, error)
-      if (allocated(error)) return
-      if (mark /= block(3)) then
-         call raise(error, kind_usage, "restore_simulation: the block belongs to another case, or to another version of "// &
-            & "the program")
-         return
-      end if
-      numbers = transfer(block(5:10), numbers)
-      call start_simulation(simulation, case, numbers(1), error, int(block(4)))
-      if (allocated(error)) return
+   end subroutine take_block
+
+   !> Refuse a block of another case.
+   subroutine compare_marks(caller, present_mark, saved_mark, error)
+      !> Who asks
+      character(len=*), intent(in) :: caller
+      !> Marks of the case and of the block
+      integer(int64), intent(in) :: present_mark, saved_mark
+      !> Usage error
+      type(error_t), allocatable, intent(out) :: error
+
+      if (present_mark /= saved_mark) call raise(error, kind_usage, caller//": the block belongs to another case, or to "// &
+         & "another version of the program")
+   end subroutine compare_marks
+
+   !> What a follower remembers, as words.
+   pure function words_of(point) result(block)
+      !> The point
+      type(point_t), intent(in) :: point
+      !> The words
+      integer(int64) :: block(point_words)
+
+      block = transfer([point%angle, point%roller_spin, point%scale, point%film_temperature, point%film_speed, &
+         & point%oil_temperature], block)
+   end function words_of
+
+   !> What a follower remembers, from words.
+   pure function point_of(block) result(point)
+      !> The words
+      integer(int64), intent(in) :: block(point_words)
+      !> The point
+      type(point_t) :: point
+
+      ! Its numbers [rad, rad/s, m/s, K, rad/s, K]
+      real(wp) :: numbers(point_words)
+
+      numbers = transfer(block, numbers)
       point%angle = numbers(1)
       point%roller_spin = numbers(2)
       point%scale = numbers(3)
       point%film_temperature = numbers(4)
       point%film_speed = numbers(5)
       point%oil_temperature = numbers(6)
-      call set_point(simulation, point, error)
-   end subroutine restore_simulation
-
-   !> Mark of a case and one of its lobe shapes: states over the turn, and how it is integrated. What no state follows is not in it.
-   subroutine mark_case(case, lobe, mark, error)
-      !> The case
-      type(case_t), intent(in) :: case
-      !> Its lobe shape
-      integer, intent(in) :: lobe
-      !> The mark
-      integer(int64), intent(out) :: mark
-      !> Usage, deck or domain error of the case
-      type(error_t), allocatable, intent(out) :: error
-
-      type(model_t) :: model
-      type(state_t) :: state
-      ! Cam angle from full lift [rad]; sliding speed [m/s]
-      real(wp) :: angle, sliding_speed
-      integer(int64) :: parts(5*places)
-      integer :: i, status
-
-      mark = 0_int64
-      if (lobe < 1 .or. lobe > 2 .or. (lobe == 2 .and. .not. allocated(case%second_lift))) then
-         call raise(error, kind_usage, "the case has no such lobe shape")
-         return
-      end if
-      call build_model(case, lobe, model, error)
-      if (allocated(error)) return
-      parts = 0_int64
-      do i = 1, places
-         angle = -pi + (i - 0.37_wp)*two_pi/places
-         sliding_speed = 0.02_wp*modulo(i, 3)*model%speed*model%roller_radius
-         call evaluate_state(model, angle, sliding_speed, state, status)
-         if (status /= 0) cycle
-         parts(5*i - 4:5*i) = transfer([state%contact%load, state%contact%traction, state%spin_acceleration, &
-            & state%torque_friction, state%torque_drive], parts)
-      end do
-      mark = mixed([parts, transfer([case%numerics%accuracy, case%numerics%tolerance], parts), &
-         & transfer(case%numerics%method, parts)])
-   end subroutine mark_case
-
-   !> A number that changes with every bit of others and with their order.
-   pure function mixed(list) result(mix)
-      !> The others
-      integer(int64), intent(in) :: list(:)
-      !> The number
-      integer(int64) :: mix
-
-      integer :: i, turn
-
-      mix = beginning
-      do i = 1, size(list)
-         mix = ieor(ishftc(mix, 9), list(i))
-         do turn = 1, 3
-            mix = ieor(mix, ieor(ishftc(mix, 23), ishftc(mix, 47)))
-            mix = ieor(mix, iand(ishftc(mix, 7), not(ishftc(mix, 1))))
-         end do
-      end do
-   end function mixed
+   end function point_of
 
 end module camroller_saved_simulation

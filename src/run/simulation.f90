@@ -3,9 +3,10 @@
 !> In: a case, then angles with inputs at both ends of each step, linear in the cam angle between. Out: torques of the follower by
 !> source, mean over the step and at its end, extremes within it, the state at its end. What is remembered between steps is cam
 !> angle, spin of the roller and oil temperature; a step that fails leaves all of it as it was, to the last bit. Camshaft bearings
-!> need all followers at once: `camshaft_drive`.
+!> need all followers at once: `shaft_simulation`.
 module camroller_simulation
    use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
+   use, intrinsic :: iso_fortran_env, only : int64
    use camroller_kinds, only : wp, pi, two_pi, degree
    use camroller_error, only : error_t, raise, kind_usage
    use camroller_number_text, only : number_text, integer_text
@@ -19,12 +20,14 @@ module camroller_simulation
    use camroller_follower_step, only : follower_t, point_t, inputs_t, outcome_t, step_follower
    use camroller_spin, only : rolling_speed_at
    use camroller_cycle_start, only : choose_start
+   use camroller_model_mark, only : mark_model
    use camroller_run, only : build_model
    implicit none
    private
 
    public :: simulation_t, outcome_t, inputs_t, start_simulation, advance, halt, least_step
-   public :: get_point, set_point, get_lobe, get_values, is_started
+   public :: prepare_simulation, place_simulation, check_angle, check_step, put_back, has_films
+   public :: get_point, set_point, get_lobe, get_mark, get_values, is_started
 
    !> A follower between two steps
    type :: simulation_t
@@ -61,16 +64,32 @@ contains
       integer, intent(in), optional :: lobe
 
       type(simulation_t) :: started
-      type(position_t) :: position
-      ! Sliding speed, least scale of it [m/s]; decay rate [1/rad]; an angle that is not needed [rad]
-      real(wp) :: sliding_speed, least_scale, decay_rate, unused
-      integer :: evaluations, used_lobe
-      logical :: is_found
+      integer :: used_lobe
 
       used_lobe = 1
       if (present(lobe)) used_lobe = lobe
       call check_start(case, cam_angle, used_lobe, error)
+      if (.not. allocated(error)) call prepare_simulation(started, case, used_lobe, error)
       if (allocated(error)) return
+      call place_simulation(started, cam_angle)
+      simulation = started
+   end subroutine start_simulation
+
+   !> Make the model of a follower, and what its steps are measured by.
+   subroutine prepare_simulation(started, case, used_lobe, error)
+      !> The follower; to be placed at a cam angle
+      type(simulation_t), intent(out) :: started
+      !> A case
+      type(case_t), intent(in) :: case
+      !> Lobe shape, which the case must have
+      integer, intent(in) :: used_lobe
+      !> Usage, deck or domain error
+      type(error_t), allocatable, intent(out) :: error
+
+      ! Sliding speed, least scale of it [m/s]; an angle that is not needed [rad]
+      real(wp) :: sliding_speed, least_scale, unused
+      integer :: evaluations
+
       call build_model(case, used_lobe, started%follower%model, error)
       if (allocated(error)) return
       if (allocated(started%follower%model%flexible)) then
@@ -89,14 +108,29 @@ contains
       started%follower%point%film_temperature = case%operating_point%oil_temperature
       started%follower%point%film_speed = case%operating_point%speed
       started%follower%point%oil_temperature = case%operating_point%oil_temperature
-      started%follower%point%angle = cam_angle
       evaluations = 0
       call choose_start(started%follower%model, unused, sliding_speed, started%follower%point%scale, least_scale, evaluations)
-      call find_balance(started%follower%model, cam_angle - pi, balance_tolerance, position, sliding_speed, decay_rate, is_found)
-      started%follower%point%roller_spin = (rolling_speed_at(started%follower%model, position) - sliding_speed) &
-         & /started%follower%model%roller_radius
-      simulation = started
-   end subroutine start_simulation
+      call mark_model(started%follower%model, case%numerics, started%follower%mark)
+   end subroutine prepare_simulation
+
+   !> Put a follower that is prepared at a cam angle, with the roller in its quasi-static balance there.
+   subroutine place_simulation(simulation, cam_angle)
+      !> The follower
+      type(simulation_t), intent(inout) :: simulation
+      !> Cam angle [rad]
+      real(wp), intent(in) :: cam_angle
+
+      type(position_t) :: position
+      ! Sliding speed [m/s]; decay rate [1/rad]
+      real(wp) :: sliding_speed, decay_rate
+      logical :: is_found
+
+      associate (model => simulation%follower%model, point => simulation%follower%point)
+         call find_balance(model, cam_angle - pi, balance_tolerance, position, sliding_speed, decay_rate, is_found)
+         point%angle = cam_angle
+         point%roller_spin = (rolling_speed_at(model, position) - sliding_speed)/model%roller_radius
+      end associate
+   end subroutine place_simulation
 
    !> Refuse a start that cannot be.
    subroutine check_start(case, cam_angle, lobe, error)
@@ -115,13 +149,27 @@ contains
       else if (lobe == 2 .and. .not. allocated(case%second_lift)) then
          call raise(error, kind_usage, "start_simulation: lobe 2 needs a case with second_lift; give the case "// &
             & "one, or take lobe 1")
-      else if (.not. ieee_is_finite(cam_angle)) then
-         call raise(error, kind_usage, "start_simulation: the cam angle must be a finite number")
-      else if (abs(cam_angle) > most_turns*two_pi) then
-         call raise(error, kind_usage, "start_simulation: the cam angle must be within "//integer_text(most_turns)// &
-            & " turns of zero; leave whole turns out")
+      else
+         call check_angle("start_simulation", cam_angle, error)
       end if
    end subroutine check_start
+
+   !> Refuse a cam angle to start at.
+   subroutine check_angle(caller, cam_angle, error)
+      !> Who asks
+      character(len=*), intent(in) :: caller
+      !> Cam angle [rad]
+      real(wp), intent(in) :: cam_angle
+      !> Usage error
+      type(error_t), allocatable, intent(out) :: error
+
+      if (.not. ieee_is_finite(cam_angle)) then
+         call raise(error, kind_usage, caller//": the cam angle must be a finite number")
+      else if (abs(cam_angle) > most_turns*two_pi) then
+         call raise(error, kind_usage, caller//": the cam angle must be within "//integer_text(most_turns)// &
+            & " turns of zero; leave whole turns out")
+      end if
+   end subroutine check_angle
 
    !> Advance to a cam angle at a speed and an oil temperature; the roller's spin carries over.
    subroutine advance_steady(simulation, cam_angle, speed, oil_temperature, outcome, error)
@@ -146,7 +194,7 @@ contains
    end subroutine advance_steady
 
    !> Advance to a cam angle with inputs at both ends of the step, linear in the cam angle between; the roller's spin carries over.
-   subroutine advance_inputs(simulation, cam_angle, start, finish, outcome, error)
+   subroutine advance_inputs(simulation, cam_angle, start, finish, outcome, error, nodes)
       !> The follower; left as it was where there is an error
       type(simulation_t), intent(inout) :: simulation
       !> Cam angle at the end of the step, beyond the present one [rad]
@@ -157,23 +205,49 @@ contains
       type(outcome_t), intent(out) :: outcome
       !> Usage, deck, domain or convergence error
       type(error_t), allocatable, intent(out) :: error
+      !> Force on the cam [N] and torque that drives it [N m] at equally spaced angles of the step, shape (3, angles)
+      real(wp), intent(out), optional :: nodes(:, 0:)
 
       type(simulation_t), allocatable :: kept
       type(point_t) :: before
 
-      call check_step(simulation, cam_angle, error)
+      if (is_started(simulation)) then
+         call check_step(simulation%follower%point%angle, cam_angle, error)
+      else
+         call raise(error, kind_usage, "advance: the follower has no start; call start_simulation first")
+      end if
       if (.not. allocated(error)) call check_inputs(simulation, start, finish, error)
       if (allocated(error)) return
       before = simulation%follower%point
       ! Films solved beforehand may be replaced on the way
-      if (allocated(simulation%follower%model%ehl)) allocate (kept, source=simulation)
-      call step_follower(simulation%follower, cam_angle, start, finish, outcome, error)
+      if (has_films(simulation)) allocate (kept, source=simulation)
+      call step_follower(simulation%follower, cam_angle, start, finish, outcome, error, nodes)
       if (.not. allocated(error)) return
-      simulation%follower%point = before
-      ! Whatever the model is set to, the next step sets it anew
-      simulation%follower%point%oil_temperature = -1.0_wp
+      call put_back(simulation, before)
       if (allocated(kept)) simulation = kept
    end subroutine advance_inputs
+
+   !> Does a follower have films solved beforehand, which steps may replace?
+   pure function has_films(simulation) result(verdict)
+      !> The follower
+      type(simulation_t), intent(in) :: simulation
+      !> Does it?
+      logical :: verdict
+
+      verdict = allocated(simulation%follower%model%ehl)
+   end function has_films
+
+   !> Put a follower without films solved beforehand back where it was.
+   pure subroutine put_back(simulation, point)
+      !> The follower
+      type(simulation_t), intent(inout) :: simulation
+      !> What it remembered there
+      type(point_t), intent(in) :: point
+
+      simulation%follower%point = point
+      ! Whatever the model is set to, the next step sets it anew
+      simulation%follower%point%oil_temperature = -1.0_wp
+   end subroutine put_back
 
    !> Bring the roller to rest, as in an engine that has stopped: the next step starts without spin.
    pure subroutine halt(simulation)
@@ -227,6 +301,16 @@ contains
       lobe = simulation%follower%lobe
    end function get_lobe
 
+   !> Mark of the model of a follower, as it was at the start.
+   pure function get_mark(simulation) result(mark)
+      !> The follower
+      type(simulation_t), intent(in) :: simulation
+      !> The mark
+      integer(int64) :: mark
+
+      mark = simulation%follower%mark
+   end function get_mark
+
    !> Put a follower that has been started where another one of the same case was.
    subroutine set_point(simulation, point, error)
       !> The follower
@@ -238,9 +322,7 @@ contains
 
       simulation%follower%model%speed_slope = 0.0_wp
       call set_operating_point(simulation%follower%model, point%film_speed, point%film_temperature, error)
-      simulation%follower%point = point
-      ! The next step sets speed and oil anew
-      simulation%follower%point%oil_temperature = -1.0_wp
+      call put_back(simulation, point)
    end subroutine set_point
 
    !> Shortest step at a cam angle.
@@ -254,34 +336,30 @@ contains
    end function least_step
 
    !> Refuse a step that cannot be resolved or ended.
-   subroutine check_step(simulation, cam_angle, error)
-      !> The follower
-      type(simulation_t), intent(in) :: simulation
-      !> Cam angle at the end of the step [rad]
-      real(wp), intent(in) :: cam_angle
+   subroutine check_step(present_angle, cam_angle, error)
+      !> Cam angles at the start and at the end of the step [rad]
+      real(wp), intent(in) :: present_angle, cam_angle
       !> Usage error that says what is allowed
       type(error_t), allocatable, intent(out) :: error
 
       ! Shortest step [rad]: the lobe's own angles are half a turn less
       real(wp) :: shortest
 
-      if (.not. simulation%follower%point%scale > 0.0_wp) then
-         call raise(error, kind_usage, "advance: the follower has no start; call start_simulation first")
-      else if (.not. ieee_is_finite(cam_angle)) then
+      if (.not. ieee_is_finite(cam_angle)) then
          call raise(error, kind_usage, "advance: the cam angle must be a finite number")
-      else if (.not. cam_angle > simulation%follower%point%angle) then
+      else if (.not. cam_angle > present_angle) then
          call raise(error, kind_usage, "advance: the cam angle must grow beyond the present "// &
-            & number_text(simulation%follower%point%angle/degree, 10)//" deg")
+            & number_text(present_angle/degree, 10)//" deg; a cam does not turn backward")
       else if (cam_angle > most_turns*two_pi) then
          call raise(error, kind_usage, "advance: the cam angle is more than "//integer_text(most_turns)// &
             & " turns from zero; start a new follower with whole turns left out")
-      else if (cam_angle - simulation%follower%point%angle > most_turns_of_step*two_pi) then
+      else if (cam_angle - present_angle > most_turns_of_step*two_pi) then
          call raise(error, kind_usage, "advance: a step may have "//integer_text(most_turns_of_step)// &
             & " turns at most; the cycle is periodic long before")
       end if
       if (allocated(error)) return
-      shortest = least_step(max(abs(cam_angle), abs(simulation%follower%point%angle)))
-      if (cam_angle - simulation%follower%point%angle >= shortest) return
+      shortest = least_step(max(abs(cam_angle), abs(present_angle)))
+      if (cam_angle - present_angle >= shortest) return
       call raise(error, kind_usage, "advance: at this cam angle a step must have at least "//number_text(shortest/degree, 2)// &
          & " deg, "//number_text(least_spacings, 2)//" times the distance of neighbouring numbers there")
    end subroutine check_step

@@ -1,0 +1,127 @@
+!> Structs of steps between C and Fortran: inputs of a host, what a step gives.
+!>
+!> In: structs of C, whose `size` the caller sets. Out: types of ours, and back.
+module camroller_c_structs
+   use, intrinsic :: iso_c_binding, only : c_associated, c_double, c_f_pointer, c_int, c_null_ptr, c_ptr, c_size_t
+   use camroller_error, only : error_t, raise, kind_usage
+   use camroller_simulation, only : outcome_t, inputs_t
+   use camroller_torque_list, only : of_geometric, of_contact, of_needle, of_guide, of_roller_inertia
+   implicit none
+   private
+
+   public :: listed_torques, take_inputs, check_outcome, give_outcome, refuse_size, give_address
+
+   !> Torques in the order of the structs
+   integer, parameter :: listed_torques(*) = [of_geometric, of_contact, of_needle, of_guide, of_roller_inertia]
+
+   !> Inputs as the header has them
+   type, bind(C) :: c_inputs_t
+      integer(c_size_t) :: size
+      !> Cam speed [rad/s], oil temperature [K], gauge pressure [Pa]
+      real(c_double) :: speed, oil_temperature, gas_pressure
+      integer(c_int) :: has_pressure
+   end type c_inputs_t
+
+   !> What a step gives, as the header has it
+   type, bind(C) :: c_outcome_t
+      integer(c_size_t) :: size
+      !> Torques: mean over the step and at its end, all and for losses [N m]
+      real(c_double) :: mean_torque_drive, torque_drive, mean_torque_friction, torque_friction
+      !> By source: against spring, masses and gas; contact; roller bearing; guide; inertia of the roller [N m]
+      real(c_double) :: mean_torques(5), torques(5)
+      !> Force on the cam, x from pivot to cam centre [N]
+      real(c_double) :: cam_force(2)
+      !> Smallest and largest values: load [N], torque [N m], sliding speed [m/s]; largest pressure [Pa], smallest film [m]
+      real(c_double) :: contact_load(2), extreme_torque(2), sliding_speed(2), largest_pressure, smallest_film
+      !> Of the mean torque that drives [N m]
+      real(c_double) :: estimated_error
+   end type c_outcome_t
+
+contains
+
+   !> Give a caller an address.
+   subroutine give_address(place, address)
+      !> Where the caller wants it
+      type(c_ptr), intent(in) :: place
+      !> The address
+      type(c_ptr), intent(in) :: address
+
+      type(c_ptr), pointer :: target_of_caller
+
+      call c_f_pointer(place, target_of_caller)
+      target_of_caller = address
+   end subroutine give_address
+
+   !> Inputs from the caller's struct.
+   subroutine take_inputs(address, inputs, error)
+      !> The struct
+      type(c_ptr), intent(in) :: address
+      !> The inputs
+      type(inputs_t), intent(out) :: inputs
+      !> Usage error where the struct is not one of this version
+      type(error_t), allocatable, intent(out) :: error
+
+      type(c_inputs_t), pointer :: given
+
+      call c_f_pointer(address, given)
+      if (given%size /= storage_size(given)/8) then
+         call refuse_size("camroller_inputs", error)
+         return
+      end if
+      inputs%speed = given%speed
+      inputs%oil_temperature = given%oil_temperature
+      inputs%has_pressure = given%has_pressure /= 0
+      inputs%gas_pressure = given%gas_pressure
+   end subroutine take_inputs
+
+   !> Refuse a struct for the outcome that is not one of this version.
+   subroutine check_outcome(address, error)
+      !> The struct; NULL is fine
+      type(c_ptr), intent(in) :: address
+      !> Usage error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(c_outcome_t), pointer :: given
+
+      if (.not. c_associated(address)) return
+      call c_f_pointer(address, given)
+      if (given%size /= storage_size(given)/8) call refuse_size("camroller_outcome", error)
+   end subroutine check_outcome
+
+   !> Refuse a struct of another version.
+   subroutine refuse_size(name, error)
+      !> Its name in the header
+      character(len=*), intent(in) :: name
+      !> Usage error
+      type(error_t), allocatable, intent(out) :: error
+
+      call raise(error, kind_usage, name//": set its size to sizeof("//name//"), of the header that belongs to this library")
+   end subroutine refuse_size
+
+   !> Fill the caller's struct.
+   subroutine give_outcome(outcome, address)
+      !> What the step gave
+      type(outcome_t), intent(in) :: outcome
+      !> The struct; NULL takes nothing
+      type(c_ptr), intent(in) :: address
+
+      type(c_outcome_t), pointer :: given
+
+      if (.not. c_associated(address)) return
+      call c_f_pointer(address, given)
+      given%mean_torque_drive = outcome%mean_torque_drive
+      given%torque_drive = outcome%torque_drive
+      given%mean_torque_friction = outcome%mean_torque_friction
+      given%torque_friction = outcome%torque_friction
+      given%mean_torques = outcome%mean_torques(listed_torques)
+      given%torques = outcome%torques(listed_torques)
+      given%cam_force = outcome%cam_force
+      given%contact_load = outcome%extremes%contact_load
+      given%extreme_torque = outcome%extremes%torque_drive
+      given%sliding_speed = outcome%extremes%sliding_speed
+      given%largest_pressure = outcome%extremes%hertz_pressure
+      given%smallest_film = outcome%extremes%film_min
+      given%estimated_error = outcome%estimated_error
+   end subroutine give_outcome
+
+end module camroller_c_structs

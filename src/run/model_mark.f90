@@ -1,0 +1,68 @@
+!> A number that tells one model from another, to be saved with what was computed with it.
+!>
+!> In: a model as a case makes it, how it is integrated. Out: the mark. What no state follows is not in it.
+module camroller_model_mark
+   use, intrinsic :: iso_fortran_env, only : int64
+   use camroller_kinds, only : wp, pi, two_pi
+   use camroller_case, only : numerics_t
+   use camroller_model, only : model_t
+   use camroller_state, only : state_t, evaluate_state
+   implicit none
+   private
+
+   public :: mark_model, mixed, beginning
+
+   !> What blocks of saved followers begin with
+   integer(int64), parameter :: beginning = 7237970109966541155_int64
+   !> Cam angles at which states make up the mark
+   integer, parameter :: places = 36
+
+contains
+
+   !> Mark of a model: states over the turn, and how it is integrated.
+   subroutine mark_model(model, numerics, mark)
+      !> The model, at the operating point of its case
+      type(model_t), intent(in) :: model
+      !> As the case has it
+      type(numerics_t), intent(in) :: numerics
+      !> The mark
+      integer(int64), intent(out) :: mark
+
+      type(state_t) :: state
+      ! Cam angle from full lift [rad]; sliding speed [m/s]
+      real(wp) :: angle, sliding_speed
+      integer(int64) :: parts(5*places)
+      integer :: i, status
+
+      parts = 0_int64
+      do i = 1, places
+         angle = -pi + (i - 0.37_wp)*two_pi/places
+         sliding_speed = 0.02_wp*modulo(i, 3)*model%speed*model%roller_radius
+         call evaluate_state(model, angle, sliding_speed, state, status)
+         if (status /= 0) cycle
+         parts(5*i - 4:5*i) = transfer([state%contact%load, state%contact%traction, state%spin_acceleration, &
+            & state%torque_friction, state%torque_drive], parts)
+      end do
+      mark = mixed([parts, transfer([numerics%accuracy, numerics%tolerance], parts), transfer(numerics%method, parts)])
+   end subroutine mark_model
+
+   !> A number that changes with every bit of others and with their order.
+   pure function mixed(list) result(mix)
+      !> The others
+      integer(int64), intent(in) :: list(:)
+      !> The number
+      integer(int64) :: mix
+
+      integer :: i, turn
+
+      mix = beginning
+      do i = 1, size(list)
+         mix = ieor(ishftc(mix, 9), list(i))
+         do turn = 1, 3
+            mix = ieor(mix, ieor(ishftc(mix, 23), ishftc(mix, 47)))
+            mix = ieor(mix, iand(ishftc(mix, 7), not(ishftc(mix, 1))))
+         end do
+      end do
+   end function mixed
+
+end module camroller_model_mark

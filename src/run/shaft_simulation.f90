@@ -1,0 +1,428 @@
+!> A whole case driven from outside: the followers of all cams with their phases, the camshafts and the bearings that carry them.
+!>
+!> In: a case, then cam angles with speed, oil temperature and, for each cam, gas pressure at both ends of each step. Out: torques
+!> of all camshafts together by source, means over the step and values at its end, and what each follower gives. A step that fails
+!> leaves everything as it was, to the last bit. Bits do not depend on the number of threads.
+!>
+!> Forces on the cams are taken at angles a degree apart at most; between them the bearings' torque follows Simpson's rule, whose
+!> difference from the trapezoidal rule counts for the error.
+module camroller_shaft_simulation
+   use, intrinsic :: iso_fortran_env, only : int64
+   use camroller_kinds, only : wp, degree
+   use camroller_error, only : error_t, raise, add_context, kind_usage
+   use camroller_number_text, only : integer_text
+   use camroller_case, only : case_t
+   use camroller_catalogue, only : camshaft_count, camshaft_values, follower_count
+   use camroller_lubricant, only : oil_t, get_oil
+   use camroller_follower_step, only : point_t, inputs_t, outcome_t, piece_number, inputs_between
+   use camroller_shaft, only : shaft_t, new_shaft, set_journal, in_common_frame, bearing_torques
+   use camroller_simulation, only : simulation_t, advance, halt, check_step, prepare_simulation, place_simulation, &
+      & check_angle, has_films, put_back, get_mark, get_point, set_point, get_values
+   use camroller_model_mark, only : mixed
+   use camroller_torque_list, only : torque_count, is_loss, is_torque, of_bearings
+   implicit none
+   private
+
+   public :: shaft_simulation_t, shaft_outcome_t, start_shaft, advance_shaft, halt_shaft
+   public :: cam_number, cam_place, shaft_angle, shaft_values, get_shaft_mark, cam_point, set_shaft
+
+   !> All followers of a case between two steps
+   type :: shaft_simulation_t
+      private
+      type(case_t) :: case
+      type(shaft_t) :: shaft
+      !> Follower of each cam; not allocated before the start
+      type(simulation_t), allocatable :: followers(:)
+      !> Cam angle of the first cam [rad]
+      real(wp) :: angle = 0.0_wp
+      !> Threads that share the followers
+      integer :: threads = 1
+   end type shaft_simulation_t
+
+   !> What one step gives
+   type :: shaft_outcome_t
+      !> Torque that drives all camshafts: mean over the step, and at its end [N m]
+      real(wp) :: mean_torque_drive = 0.0_wp, torque_drive = 0.0_wp
+      !> The part of it for losses: mean over the step, and at its end [N m]
+      real(wp) :: mean_torque_friction = 0.0_wp, torque_friction = 0.0_wp
+      !> By source, the rows of `torque_list`: mean over the step, and at its end [N m]; last the energy residual [W]
+      real(wp) :: mean_torques(torque_count) = 0.0_wp, torques(torque_count) = 0.0_wp
+      !> Smallest and largest torque that drives, at the angles at which forces are taken [N m]
+      real(wp) :: extreme_torque(2) = 0.0_wp
+      !> Estimate of the error of the mean torque that drives, as in `outcome_t` [N m]
+      real(wp) :: estimated_error = 0.0_wp
+      !> The same on each camshaft at the end, shape (torque, camshaft)
+      real(wp), allocatable :: by_camshaft(:, :)
+      !> What the follower of each cam gives
+      type(outcome_t), allocatable :: followers(:)
+   end type shaft_outcome_t
+
+   !> An error of one of several cams
+   type :: failure_t
+      type(error_t), allocatable :: error
+   end type failure_t
+
+   !> Largest distance of angles at which forces on the cams are taken [rad]
+   real(wp), parameter :: node_spacing = degree
+
+contains
+
+   !> Put all followers of a case at the cam angle of the first one.
+   subroutine start_shaft(shaft, case, cam_angle, error, threads)
+      !> The shaft; not to be advanced where there is an error
+      type(shaft_simulation_t), intent(out) :: shaft
+      !> A case; its operating point is that of the start. Without camshaft bearings it has one cam
+      type(case_t), intent(in) :: case
+      !> Cam angle, pi where the first cam has full lift [rad]
+      real(wp), intent(in) :: cam_angle
+      !> Usage, deck or domain error
+      type(error_t), allocatable, intent(out) :: error
+      !> Threads that share the followers in a step, 1 without it
+      integer, intent(in), optional :: threads
+
+      type(shaft_simulation_t) :: started
+      type(simulation_t) :: prepared(2)
+      type(oil_t) :: oil
+      integer :: cam, lobe
+
+      if (present(threads)) started%threads = threads
+      if (started%threads < 1) then
+         call raise(error, kind_usage, "start_shaft: the number of threads must be 1 or more")
+         return
+      end if
+      call check_angle("start_shaft", cam_angle, error)
+      if (.not. allocated(error)) call get_oil(case%lubricant, case%operating_point%oil_temperature, oil, error)
+      if (.not. allocated(error)) call new_shaft(started%shaft, case, oil%viscosity, case%operating_point%speed, error)
+      if (allocated(error)) return
+      do lobe = 1, maxval(started%shaft%lobes)
+         call prepare_simulation(prepared(lobe), case, lobe, error)
+         if (allocated(error)) return
+      end do
+      started%case = case
+      started%angle = cam_angle
+      started%followers = prepared(started%shaft%lobes)
+      do cam = 1, size(started%followers)
+         call place_simulation(started%followers(cam), cam_angle - started%shaft%phases(cam))
+      end do
+      shaft = started
+   end subroutine start_shaft
+
+   !> Advance all followers to a cam angle, with inputs at both ends of the step, linear in the cam angle between.
+   subroutine advance_shaft(shaft, cam_angle, start, finish, outcome, error, pressures)
+      !> The shaft; left as it was where there is an error
+      type(shaft_simulation_t), intent(inout) :: shaft
+      !> Cam angle of the first cam at the end of the step, beyond the present one [rad]
+      real(wp), intent(in) :: cam_angle
+      !> Speed and oil temperature at the start and at the end of the step; their gas pressure is that of every cam
+      type(inputs_t), intent(in) :: start, finish
+      !> Torques and states; of no meaning where there is an error. One that an earlier step has filled is not allocated again
+      type(shaft_outcome_t), intent(inout) :: outcome
+      !> Usage, deck, domain or convergence error
+      type(error_t), allocatable, intent(out) :: error
+      !> Gauge pressure of each cam's valve, in the place of that of the inputs, shape (cam, 2) for both ends [Pa]
+      real(wp), intent(in), optional :: pressures(:, :)
+
+      type(simulation_t), allocatable :: kept(:)
+      type(point_t), allocatable :: before(:)
+      type(failure_t), allocatable :: failures(:)
+      ! Force on each cam and its torque over the step, shape (3, angle, cam) [N, N m]
+      real(wp), allocatable :: nodes(:, :, :)
+      integer :: cam, intervals
+
+      if (.not. allocated(shaft%followers)) then
+         call raise(error, kind_usage, "advance_shaft: the shaft has no start; call start_shaft first")
+         return
+      end if
+      call check_shaft_step(shaft, cam_angle, pressures, error)
+      if (allocated(error)) return
+      intervals = interval_number(cam_angle - shaft%angle)
+      allocate (nodes(3, 0:intervals, size(shaft%followers)), failures(size(shaft%followers)), before(size(shaft%followers)))
+      if (has_films(shaft%followers(1))) kept = shaft%followers
+      if (allocated(outcome%followers)) then
+         if (size(outcome%followers) /= size(shaft%followers)) deallocate (outcome%followers)
+      end if
+      if (.not. allocated(outcome%followers)) allocate (outcome%followers(size(shaft%followers)))
+      !$omp parallel do num_threads(shaft%threads) schedule(static, 1)
+      do cam = 1, size(shaft%followers)
+         before(cam) = get_point(shaft%followers(cam))
+         call advance_cam(shaft, cam, cam_angle, [start, finish], outcome%followers(cam), nodes(:, :, cam), failures(cam)%error, &
+            & pressures)
+      end do
+      !$omp end parallel do
+      do cam = 1, size(failures)
+         if (.not. allocated(failures(cam)%error) .or. allocated(error)) cycle
+         call move_alloc(failures(cam)%error, error)
+         if (size(failures) > 1) call add_context(error, "cam "//integer_text(cam))
+      end do
+      if (.not. allocated(error)) call add_up(shaft, start, finish, nodes, outcome, error)
+      if (.not. allocated(error)) then
+         shaft%angle = cam_angle
+      else if (allocated(kept)) then
+         shaft%followers = kept
+      else
+         do cam = 1, size(before)
+            call put_back(shaft%followers(cam), before(cam))
+         end do
+      end if
+   end subroutine advance_shaft
+
+   !> Intervals between the angles at which forces are taken: an even number in each piece of a step.
+   elemental function interval_number(span) result(intervals)
+      !> Cam angle of the step [rad]
+      real(wp), intent(in) :: span
+      !> The number
+      integer :: intervals
+
+      intervals = 2*piece_number(span)*ceiling(span/piece_number(span)/(2.0_wp*node_spacing))
+   end function interval_number
+
+   !> Refuse a step that cannot be.
+   subroutine check_shaft_step(shaft, cam_angle, pressures, error)
+      !> The shaft
+      type(shaft_simulation_t), intent(in) :: shaft
+      !> Cam angle at the end of the step [rad]
+      real(wp), intent(in) :: cam_angle
+      !> Pressures of the cams, if any [Pa]
+      real(wp), intent(in), optional :: pressures(:, :)
+      !> Usage error
+      type(error_t), allocatable, intent(out) :: error
+
+      call check_step(shaft%angle, cam_angle, error)
+      if (allocated(error) .or. .not. present(pressures)) return
+      if (any(shape(pressures) /= [size(shaft%followers), 2])) call raise(error, kind_usage, "advance_shaft: give a gas "// &
+         & "pressure for each of the "//integer_text(size(shaft%followers))//" cams at both ends of the step")
+   end subroutine check_shaft_step
+
+   !> Advance the follower of one cam.
+   subroutine advance_cam(shaft, cam, cam_angle, inputs, outcome, nodes, error, pressures)
+      !> The shaft
+      type(shaft_simulation_t), intent(inout) :: shaft
+      !> The cam
+      integer, intent(in) :: cam
+      !> Cam angle of the first cam at the end of the step [rad]
+      real(wp), intent(in) :: cam_angle
+      !> Inputs at both ends
+      type(inputs_t), intent(in) :: inputs(2)
+      !> What the follower gives
+      type(outcome_t), intent(out) :: outcome
+      !> Force on the cam [N] and torque [N m]
+      real(wp), intent(out) :: nodes(:, :)
+      !> Usage, deck, domain or convergence error
+      type(error_t), allocatable, intent(out) :: error
+      !> Pressures of the cams [Pa]
+      real(wp), intent(in), optional :: pressures(:, :)
+
+      type(inputs_t) :: ends(2)
+
+      ends = inputs
+      if (present(pressures)) then
+         ends%has_pressure = .true.
+         ends%gas_pressure = pressures(cam, :)
+      end if
+      call advance(shaft%followers(cam), cam_angle - shaft%shaft%phases(cam), ends(1), ends(2), outcome, error, nodes)
+   end subroutine advance_cam
+
+   !> Add the followers and their bearings up.
+   subroutine add_up(shaft, start, finish, nodes, outcome, error)
+      !> The shaft; its bearings are set to the inputs
+      type(shaft_simulation_t), intent(inout) :: shaft
+      !> Inputs at both ends
+      type(inputs_t), intent(in) :: start, finish
+      !> Force on each cam [N] and torque [N m], shape (3, angle, cam)
+      real(wp), intent(in) :: nodes(:, 0:, :)
+      !> What the followers give; out: all of it
+      type(shaft_outcome_t), intent(inout) :: outcome
+      !> Domain error of the bearings
+      type(error_t), allocatable, intent(out) :: error
+
+      ! Torque of the bearings of each camshaft and of all, torque that drives everything, at the angles of the nodes [N m]
+      real(wp) :: by_shaft(shaft%shaft%count), bearings(0:ubound(nodes, 2)), drive
+      ! Means of the bearings by Simpson's and the trapezoidal rule [N m]
+      real(wp) :: mean, coarse
+      integer :: i, k, last
+
+      last = ubound(nodes, 2)
+      outcome%mean_torques = 0.0_wp
+      outcome%estimated_error = 0.0_wp
+      if (allocated(outcome%by_camshaft)) deallocate (outcome%by_camshaft)
+      allocate (outcome%by_camshaft(torque_count, shaft%shaft%count))
+      outcome%by_camshaft = 0.0_wp
+      do i = 1, size(outcome%followers)
+         k = shaft%shaft%shafts(i)
+         outcome%mean_torques = outcome%mean_torques + outcome%followers(i)%mean_torques
+         outcome%by_camshaft(:, k) = outcome%by_camshaft(:, k) + outcome%followers(i)%torques
+         outcome%estimated_error = outcome%estimated_error + outcome%followers(i)%estimated_error
+      end do
+      outcome%extreme_torque = [huge(1.0_wp), -huge(1.0_wp)]
+      do i = 0, last
+         call bearings_at(shaft, inputs_between(start, finish, real(i, wp)/last), nodes(:2, i, :), by_shaft, error)
+         if (allocated(error)) return
+         bearings(i) = sum(by_shaft)
+         drive = sum(nodes(3, i, :)) + bearings(i)
+         outcome%extreme_torque = [min(outcome%extreme_torque(1), drive), max(outcome%extreme_torque(2), drive)]
+      end do
+      mean = sum([(bearings(k - 2) + 4.0_wp*bearings(k - 1) + bearings(k), k=2, last, 2)])/(3.0_wp*last)
+      coarse = sum([(bearings(k - 1) + bearings(k), k=1, last)])/(2.0_wp*last)
+      outcome%by_camshaft(of_bearings, :) = by_shaft
+      outcome%torques = sum(outcome%by_camshaft, 2)
+      outcome%mean_torques(of_bearings) = mean
+      outcome%estimated_error = outcome%estimated_error + abs(mean - coarse)
+      outcome%mean_torque_friction = sum(outcome%mean_torques, mask=is_loss)
+      outcome%mean_torque_drive = sum(outcome%mean_torques, mask=is_torque)
+      outcome%torque_friction = sum(outcome%torques, mask=is_loss)
+      outcome%torque_drive = sum(outcome%torques, mask=is_torque)
+   end subroutine add_up
+
+   !> Torque of the bearings of each camshaft at inputs and forces.
+   subroutine bearings_at(shaft, inputs, forces, torques, error)
+      !> The shaft; its bearings are set to the inputs
+      type(shaft_simulation_t), intent(inout) :: shaft
+      !> Speed and oil temperature
+      type(inputs_t), intent(in) :: inputs
+      !> Force on each cam in the frame of its own follower, shape (2, cam) [N]
+      real(wp), intent(in) :: forces(:, :)
+      !> The torques [N m]
+      real(wp), intent(out) :: torques(:)
+      !> Domain error where a bearing law has no solution
+      type(error_t), allocatable, intent(out) :: error
+
+      type(oil_t) :: oil
+      ! Forces in the frame of the first follower [N]
+      real(wp) :: turned(2, size(forces, 2))
+      integer :: cam
+
+      torques = 0.0_wp
+      if (.not. allocated(shaft%shaft%journal)) return
+      call get_oil(shaft%case%lubricant, inputs%oil_temperature, oil, error)
+      if (.not. allocated(error)) call set_journal(shaft%shaft, oil%viscosity, inputs%speed, error)
+      if (allocated(error)) return
+      do cam = 1, size(forces, 2)
+         turned(:, cam) = in_common_frame(shaft%shaft, cam, forces(:, cam))
+      end do
+      call bearing_torques(shaft%shaft, turned, torques, error)
+   end subroutine bearings_at
+
+   !> Bring all rollers to rest, as in an engine that has stopped: the next step starts without spin.
+   pure subroutine halt_shaft(shaft)
+      !> The shaft
+      type(shaft_simulation_t), intent(inout) :: shaft
+
+      integer :: cam
+
+      if (.not. allocated(shaft%followers)) return
+      do cam = 1, size(shaft%followers)
+         call halt(shaft%followers(cam))
+      end do
+   end subroutine halt_shaft
+
+   !> Number of cams; 0 before the start.
+   pure function cam_number(shaft) result(cams)
+      !> The shaft
+      type(shaft_simulation_t), intent(in) :: shaft
+      !> The number
+      integer :: cams
+
+      cams = 0
+      if (allocated(shaft%followers)) cams = size(shaft%followers)
+   end function cam_number
+
+   !> Lobe shape, camshaft and phase of a cam.
+   pure subroutine cam_place(shaft, cam, lobe, camshaft, phase)
+      !> The shaft
+      type(shaft_simulation_t), intent(in) :: shaft
+      !> The cam, from 1
+      integer, intent(in) :: cam
+      !> Lobe shape, 1 or 2; camshaft, from 1
+      integer, intent(out) :: lobe, camshaft
+      !> Angle by which the cam's event follows that of the first cam [rad]
+      real(wp), intent(out) :: phase
+
+      lobe = shaft%shaft%lobes(cam)
+      camshaft = shaft%shaft%shafts(cam)
+      phase = shaft%shaft%phases(cam)
+   end subroutine cam_place
+
+   !> Cam angle of the first cam.
+   pure function shaft_angle(shaft) result(angle)
+      !> The shaft
+      type(shaft_simulation_t), intent(in) :: shaft
+      !> The angle [rad]
+      real(wp) :: angle
+
+      angle = shaft%angle
+   end function shaft_angle
+
+   !> Values of the series of one cam's follower, or of all camshafts, at the end of the last step.
+   subroutine shaft_values(shaft, cam, outcome, values)
+      !> The shaft
+      type(shaft_simulation_t), intent(in) :: shaft
+      !> The cam, from 1; 0 for the camshafts
+      integer, intent(in) :: cam
+      !> What the last step gave
+      type(shaft_outcome_t), intent(in) :: outcome
+      !> Values in the order of the series of a result [unit of the series]
+      real(wp), allocatable, intent(out) :: values(:)
+
+      if (cam > 0) then
+         allocate (values(follower_count(shaft%case)))
+         call get_values(shaft%followers(cam), shaft%case, outcome%followers(cam)%state, values)
+         return
+      end if
+      allocate (values(camshaft_count(shaft%case)))
+      call camshaft_values(shaft%case, outcome%by_camshaft, values)
+   end subroutine shaft_values
+
+   !> Mark of a shaft: of its followers, where they stand, and of the bearings.
+   subroutine get_shaft_mark(shaft, mark)
+      !> The shaft
+      type(shaft_simulation_t), intent(in) :: shaft
+      !> The mark
+      integer(int64), intent(out) :: mark
+
+      integer(int64), allocatable :: parts(:)
+      integer :: cam
+
+      parts = [(get_mark(shaft%followers(cam)), cam=1, size(shaft%followers))]
+      parts = [parts, transfer(shaft%shaft%phases, parts), transfer(shaft%shaft%directions, parts)]
+      if (allocated(shaft%shaft%bearings)) then
+         associate (bearings => shaft%shaft%bearings)
+            parts = [parts, transfer(bearings%law, parts), transfer([bearings%diameter, bearings%width, &
+               & bearings%radial_clearance, bearings%bearing_positions, bearings%cam_positions], parts)]
+         end associate
+      end if
+      mark = mixed(parts)
+   end subroutine get_shaft_mark
+
+   !> What the follower of a cam remembers.
+   pure function cam_point(shaft, cam) result(point)
+      !> The shaft
+      type(shaft_simulation_t), intent(in) :: shaft
+      !> The cam
+      integer, intent(in) :: cam
+      !> Angle, spin, scale, temperatures
+      type(point_t) :: point
+
+      point = get_point(shaft%followers(cam))
+   end function cam_point
+
+   !> Put a shaft that has been started where another one of the same case was.
+   subroutine set_shaft(shaft, angle, points, error)
+      !> The shaft
+      type(shaft_simulation_t), intent(inout) :: shaft
+      !> Cam angle of the first cam [rad]
+      real(wp), intent(in) :: angle
+      !> What the other one's followers remembered
+      type(point_t), intent(in) :: points(:)
+      !> Deck, domain or convergence error
+      type(error_t), allocatable, intent(out) :: error
+
+      integer :: cam
+
+      shaft%angle = angle
+      do cam = 1, size(points)
+         call set_point(shaft%followers(cam), points(cam), error)
+         if (allocated(error)) return
+      end do
+   end subroutine set_shaft
+
+end module camroller_shaft_simulation

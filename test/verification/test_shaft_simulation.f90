@@ -1,0 +1,394 @@
+!> All followers of a case driven together: against the run of the case, one follower alone, other numbers of threads and of steps.
+module test_shaft_simulation
+   use, intrinsic :: ieee_arithmetic, only : ieee_positive_inf, ieee_value
+   use, intrinsic :: iso_fortran_env, only : int8
+   use testdrive, only : unittest_type, new_unittest, error_type, check, test_failed
+   use camroller, only : wp, two_pi, error_t, deck_t, override_t, case_t, result_t, simulation_t, outcome_t, inputs_t, &
+      & shaft_simulation_t, shaft_outcome_t, kind_usage, read_deck, make_case, run_case, get_summary, start_simulation, advance, &
+      & start_shaft, advance_shaft, halt_shaft, save_shaft, restore_shaft, cam_number, cam_place, shaft_angle, shaft_values
+   use camroller_catalogue, only : list_series, camshaft_columns
+   use camroller_deck, only : add_override
+   use camroller_result, only : quantity_t, find_quantity
+   use camroller_torque_list, only : of_bearings
+   use reference_cases, only : thesis_case
+   implicit none
+   private
+
+   public :: collect_shaft_simulation
+
+contains
+
+   subroutine collect_shaft_simulation(testsuite)
+      type(unittest_type), allocatable, intent(out) :: testsuite(:)
+
+      testsuite = [ &
+         new_unittest("turns of an engine's camshafts tend to the means of its run", test_periodic), &
+         new_unittest("a case with one cam gives what its follower gives, to the last bit", test_one_cam), &
+         new_unittest("torques of bearings and followers are of second order in the host's step", test_order), &
+         new_unittest("the error that is estimated covers that of a step", test_estimate), &
+         new_unittest("numbers of threads change no bit", test_threads), &
+         new_unittest("a shaft that was saved goes on with the same bits", test_saved), &
+         new_unittest("a step that fails for one cam leaves all where they were", test_failure), &
+         new_unittest("backward turns, standstill and flexible trains are refused with a way out", test_refusals), &
+         new_unittest("numbers have the names of a run's series", test_names) &
+         ]
+   end subroutine collect_shaft_simulation
+
+   !> Case of a deck in the folder of decks.
+   subroutine get_case(name, words, the_case, failure)
+      character(len=*), intent(in) :: name
+      !> `group.key=value`, or blank
+      character(len=*), intent(in) :: words
+      type(case_t), intent(out) :: the_case
+      type(error_t), allocatable, intent(out) :: failure
+      type(deck_t) :: deck
+      type(override_t), allocatable :: overrides(:)
+      type(override_t) :: none(0)
+
+      allocate (overrides(0))
+      if (words /= "") call add_override(overrides, words)
+      call read_deck(deck, "decks/"//name//".nml", overrides, failure)
+      if (.not. allocated(failure)) call make_case(deck, none, the_case, failure)
+   end subroutine get_case
+
+   !> Inputs of an engine whose speed and oil go round with the cam.
+   pure function inputs_at(the_case, angle, ripple) result(inputs)
+      type(case_t), intent(in) :: the_case
+      !> Cam angle [rad]; size of the ripple of the speed [-]
+      real(wp), intent(in) :: angle, ripple
+      type(inputs_t) :: inputs
+
+      inputs%speed = the_case%operating_point%speed*(1.0_wp + ripple*sin(4.0_wp*angle))
+      inputs%oil_temperature = the_case%operating_point%oil_temperature*(1.0_wp + 0.1_wp*ripple*cos(angle))
+   end function inputs_at
+
+   !> Turn a shaft on in equal steps; means of the last turn to drive, for friction, of the bearings.
+   subroutine turn(shaft, the_case, steps, turns, ripple, means, failure, outcome)
+      type(shaft_simulation_t), intent(inout) :: shaft
+      type(case_t), intent(in) :: the_case
+      !> Steps of a turn, and turns
+      integer, intent(in) :: steps, turns
+      !> Size of the ripple of the speed [-]
+      real(wp), intent(in) :: ripple
+      !> Means [N m]
+      real(wp), intent(out) :: means(3)
+      type(error_t), allocatable, intent(out) :: failure
+      type(shaft_outcome_t), intent(out) :: outcome
+      ! Cam angle at the start [rad]
+      real(wp) :: from
+      integer :: i
+
+      means = 0.0_wp
+      from = shaft_angle(shaft)
+      do i = 1, turns*steps
+         call advance_shaft(shaft, from + two_pi*i/steps, inputs_at(the_case, from + two_pi*(i - 1)/steps, ripple), &
+            & inputs_at(the_case, from + two_pi*i/steps, ripple), outcome, failure)
+         if (allocated(failure)) return
+         if (i > (turns - 1)*steps) means = means + [outcome%mean_torque_drive, outcome%mean_torque_friction, &
+            & outcome%mean_torques(of_bearings)]/steps
+      end do
+   end subroutine turn
+
+   !> Report what went wrong, where something did.
+   logical function has_failed(failure, error)
+      type(error_t), allocatable, intent(in) :: failure
+      type(error_type), allocatable, intent(out) :: error
+
+      has_failed = allocated(failure)
+      if (has_failed) call test_failed(error, failure%message)
+   end function has_failed
+
+   subroutine test_periodic(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: the_case
+      type(shaft_simulation_t) :: shaft
+      type(shaft_outcome_t) :: outcome
+      type(result_t) :: result
+      type(error_t), allocatable :: failure
+      ! Means of the turn and of the run [N m]
+      real(wp) :: means(3), expected(3)
+
+      call get_case("four_cylinder", "", the_case, failure)
+      if (.not. allocated(failure)) call run_case(the_case, result, failure)
+      if (.not. allocated(failure)) call get_summary(result, "mean_torque_drive", expected(1), failure)
+      if (.not. allocated(failure)) call get_summary(result, "mean_torque_friction", expected(2), failure)
+      if (.not. allocated(failure)) call get_summary(result, "mean_torque_bearings", expected(3), failure)
+      if (.not. allocated(failure)) call start_shaft(shaft, the_case, 0.7_wp, failure)
+      if (.not. allocated(failure)) call turn(shaft, the_case, 45, 2, 0.0_wp, means, failure, outcome)
+      if (has_failed(failure, error)) return
+      call check(error, cam_number(shaft) == 16, "there are not sixteen cams")
+      if (allocated(error)) return
+      ! both are within the accuracy of the case
+      call check(error, all(abs(means - expected) < 2.0_wp*the_case%numerics%accuracy*expected), &
+         & "means of a turn are not those of the run")
+   end subroutine test_periodic
+
+   subroutine test_one_cam(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: the_case
+      type(shaft_simulation_t) :: shaft
+      type(simulation_t) :: follower
+      type(shaft_outcome_t) :: of_shaft
+      type(outcome_t) :: of_follower
+      type(error_t), allocatable :: failure
+      integer :: i
+
+      the_case = thesis_case()
+      call start_shaft(shaft, the_case, 0.2_wp, failure)
+      if (.not. allocated(failure)) call start_simulation(follower, the_case, 0.2_wp, failure)
+      do i = 1, 20
+         if (.not. allocated(failure)) call advance_shaft(shaft, 0.2_wp + 0.3_wp*i, inputs_at(the_case, 0.3_wp*i, 0.05_wp), &
+            & inputs_at(the_case, 0.3_wp*(i + 1), 0.05_wp), of_shaft, failure)
+         if (.not. allocated(failure)) call advance(follower, 0.2_wp + 0.3_wp*i, inputs_at(the_case, 0.3_wp*i, 0.05_wp), &
+            & inputs_at(the_case, 0.3_wp*(i + 1), 0.05_wp), of_follower, failure)
+         if (has_failed(failure, error)) return
+         call check(error, all(same([of_shaft%mean_torque_drive, of_shaft%torque_friction, of_shaft%estimated_error], &
+            & [of_follower%mean_torque_drive, of_follower%torque_friction, of_follower%estimated_error])), "bits differ")
+         if (allocated(error)) return
+      end do
+      associate (range => of_shaft%extreme_torque)
+         call check(error, range(1) < range(2) .and. range(1) <= of_shaft%torque_drive .and. of_shaft%torque_drive <= range(2), &
+            & "extremes leave the end out")
+      end associate
+   end subroutine test_one_cam
+
+   !> Are numbers the same?
+   elemental logical function same(one, other)
+      real(wp), intent(in) :: one, other
+
+      same = .not. (one < other .or. one > other)
+   end function same
+
+   subroutine test_order(error)
+      type(error_type), allocatable, intent(out) :: error
+      integer, parameter :: steps(*) = [9, 36, 720]
+      type(case_t) :: the_case
+      type(shaft_simulation_t) :: shaft
+      type(shaft_outcome_t) :: outcome
+      type(error_t), allocatable :: failure
+      ! Means of a turn for each length of the step [N m]
+      real(wp) :: means(3, size(steps))
+      integer :: i
+
+      call get_case("three_cam_head", "numerics.accuracy=1e-7", the_case, failure)
+      do i = 1, size(steps)
+         if (.not. allocated(failure)) call start_shaft(shaft, the_case, 0.0_wp, failure, threads=2)
+         if (.not. allocated(failure)) call turn(shaft, the_case, steps(i), 1, 0.05_wp, means(:, i), failure, outcome)
+         if (has_failed(failure, error)) return
+      end do
+      ! from 40 degrees to 10 an error of second order falls to a sixteenth, as far as higher ones are small
+      call check(error, all(abs(means(:, 2) - means(:, 3)) < abs(means(:, 1) - means(:, 3))/10.0_wp), &
+         & "torques are not of second order in the step")
+   end subroutine test_order
+
+   subroutine test_estimate(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: the_case, exact_case
+      type(shaft_simulation_t) :: shaft, exact
+      type(shaft_outcome_t) :: outcome, exact_outcome
+      type(error_t), allocatable :: failure
+      ! Sum of the errors met and of those estimated [N m]
+      real(wp) :: met, estimated
+      integer :: i
+
+      call get_case("three_cam_head", "numerics.accuracy=1e-3", the_case, failure)
+      if (.not. allocated(failure)) call get_case("three_cam_head", "numerics.accuracy=1e-8", exact_case, failure)
+      if (.not. allocated(failure)) call start_shaft(shaft, the_case, 0.0_wp, failure)
+      if (.not. allocated(failure)) call start_shaft(exact, exact_case, 0.0_wp, failure)
+      met = 0.0_wp
+      estimated = 0.0_wp
+      do i = 1, 40
+         if (.not. allocated(failure)) call advance_shaft(shaft, 0.15_wp*i, inputs_at(the_case, 0.15_wp*(i - 1), 0.05_wp), &
+            & inputs_at(the_case, 0.15_wp*i, 0.05_wp), outcome, failure)
+         if (.not. allocated(failure)) call advance_shaft(exact, 0.15_wp*i, inputs_at(the_case, 0.15_wp*(i - 1), 0.05_wp), &
+            & inputs_at(the_case, 0.15_wp*i, 0.05_wp), exact_outcome, failure)
+         if (has_failed(failure, error)) return
+         met = met + abs(outcome%mean_torque_drive - exact_outcome%mean_torque_drive)
+         estimated = estimated + outcome%estimated_error
+      end do
+      call check(error, met <= estimated, "errors are larger than estimated")
+      if (allocated(error)) return
+      ! an estimate that says nothing would be of the size of the torque
+      call check(error, estimated < 1.0e-2_wp*40*exact_outcome%mean_torque_friction, "the estimate is of no use")
+   end subroutine test_estimate
+
+   subroutine test_threads(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: the_case
+      type(shaft_simulation_t) :: shaft
+      type(shaft_outcome_t) :: outcome
+      type(error_t), allocatable :: failure
+      ! Means and what the last step gave, for one thread and for three [N m]
+      real(wp) :: means(3), numbers(4, 2)
+      integer :: i
+
+      call get_case("three_cam_head", "", the_case, failure)
+      do i = 1, 2
+         if (.not. allocated(failure)) call start_shaft(shaft, the_case, 0.0_wp, failure, threads=2*i - 1)
+         if (.not. allocated(failure)) call turn(shaft, the_case, 30, 1, 0.05_wp, means, failure, outcome)
+         if (has_failed(failure, error)) return
+         numbers(:, i) = [means, outcome%estimated_error]
+      end do
+      call check(error, all(same(numbers(:, 1), numbers(:, 2))), "bits depend on the number of threads")
+      if (allocated(error)) return
+      call start_shaft(shaft, the_case, 0.0_wp, failure, threads=0)
+      call check(error, allocated(failure), "no threads were accepted")
+   end subroutine test_threads
+
+   subroutine test_saved(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: the_case, other_case
+      type(shaft_simulation_t) :: shaft, copy, restored
+      type(shaft_outcome_t) :: outcome
+      integer(int8), allocatable :: block(:)
+      type(error_t), allocatable :: failure
+      ! Means of the turn after [N m]
+      real(wp) :: means(3, 3)
+
+      call get_case("three_cam_head", "", the_case, failure)
+      if (.not. allocated(failure)) call start_shaft(shaft, the_case, 0.3_wp, failure)
+      if (.not. allocated(failure)) call turn(shaft, the_case, 20, 1, 0.05_wp, means(:, 1), failure, outcome)
+      if (.not. allocated(failure)) call save_shaft(shaft, block, failure)
+      if (.not. allocated(failure)) call restore_shaft(restored, the_case, block, failure)
+      if (has_failed(failure, error)) return
+      copy = shaft
+      call turn(shaft, the_case, 20, 1, 0.05_wp, means(:, 1), failure, outcome)
+      if (.not. allocated(failure)) call turn(copy, the_case, 20, 1, 0.05_wp, means(:, 2), failure, outcome)
+      if (.not. allocated(failure)) call turn(restored, the_case, 20, 1, 0.05_wp, means(:, 3), failure, outcome)
+      if (has_failed(failure, error)) return
+      call check(error, all(same(means(:, 1), means(:, 2))) .and. all(same(means(:, 1), means(:, 3))), "bits differ")
+      if (allocated(error)) return
+      ! the followers are the same; the bearings tell
+      other_case = the_case
+      other_case%cam_bearings%radial_clearance = 1.1_wp*other_case%cam_bearings%radial_clearance
+      call restore_shaft(restored, other_case, block, failure)
+      call check(error, allocated(failure), "a block of other bearings was taken")
+      if (allocated(error)) return
+      call restore_shaft(restored, thesis_case(), block, failure)
+      call check(error, allocated(failure), "a block of more cams was taken")
+      if (allocated(error)) return
+      block(60) = not(block(60))
+      call restore_shaft(restored, the_case, block, failure)
+      call check(error, index(failure%message, "damaged") > 0, "a damaged block was taken")
+   end subroutine test_saved
+
+   subroutine test_failure(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: the_case
+      type(shaft_simulation_t) :: shaft, untouched
+      type(shaft_outcome_t) :: outcome
+      type(inputs_t) :: inputs
+      type(error_t), allocatable :: failure
+      ! Pressures of the cams [Pa]; means of the turn after [N m]
+      real(wp) :: pressures(3, 2), means(3, 2)
+
+      call get_case("three_cam_head", "", the_case, failure)
+      if (.not. allocated(failure)) call start_shaft(shaft, the_case, 0.0_wp, failure)
+      if (has_failed(failure, error)) return
+      untouched = shaft
+      inputs = inputs_at(the_case, 0.0_wp, 0.0_wp)
+      pressures = 1.0e5_wp
+      pressures(3, 2) = ieee_value(1.0_wp, ieee_positive_inf)
+      call advance_shaft(shaft, 0.1_wp, inputs, inputs, outcome, failure, pressures)
+      call check(error, allocated(failure), "an infinite pressure was taken")
+      if (allocated(error)) return
+      call check(error, shaft_angle(shaft) <= 0.0_wp, "the shaft has moved")
+      if (allocated(error)) return
+      call turn(shaft, the_case, 20, 1, 0.05_wp, means(:, 1), failure, outcome)
+      if (.not. allocated(failure)) call turn(untouched, the_case, 20, 1, 0.05_wp, means(:, 2), failure, outcome)
+      if (has_failed(failure, error)) return
+      call check(error, all(same(means(:, 1), means(:, 2))), "a failed step left something behind")
+   end subroutine test_failure
+
+   subroutine test_refusals(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: the_case
+      type(shaft_simulation_t) :: shaft, unstarted
+      type(simulation_t) :: follower
+      type(shaft_outcome_t) :: outcome
+      type(inputs_t) :: inputs, still
+      type(error_t), allocatable :: failure
+
+      the_case = thesis_case()
+      inputs = inputs_at(the_case, 0.0_wp, 0.0_wp)
+      still = inputs
+      still%speed = 0.0_wp
+      call start_shaft(shaft, the_case, 1.0_wp, failure)
+      if (has_failed(failure, error)) return
+      call advance_shaft(unstarted, 1.1_wp, inputs, inputs, outcome, failure)
+      call check_refusal("start_shaft")
+      call advance_shaft(shaft, 0.9_wp, inputs, inputs, outcome, failure)
+      call check_refusal("backward")
+      call advance_shaft(shaft, 1.0_wp, inputs, inputs, outcome, failure)
+      call check_refusal("grow")
+      call advance_shaft(shaft, 1.1_wp, inputs, still, outcome, failure)
+      call check_refusal("halt")
+      still%speed = -10.0_wp
+      call advance_shaft(shaft, 1.1_wp, still, still, outcome, failure)
+      call check_refusal("positive")
+      if (allocated(error)) return
+      ! the way out of a standstill
+      call halt_shaft(shaft)
+      call advance_shaft(shaft, 1.1_wp, inputs, inputs, outcome, failure)
+      if (has_failed(failure, error)) return
+      call check(error, outcome%followers(1)%extremes%sliding_speed(2) > 0.5_wp*outcome%followers(1)%state%contact%rolling_speed, &
+         & "the roller was not at rest")
+      if (allocated(error)) return
+      call get_case("dynamics", "", the_case, failure)
+      if (has_failed(failure, error)) return
+      call start_shaft(shaft, the_case, 0.0_wp, failure)
+      call check_refusal("dynamics")
+      call start_simulation(follower, the_case, 0.0_wp, failure)
+      call check_refusal("dynamics")
+
+   contains
+
+      !> The last call was refused, with a word in the message.
+      subroutine check_refusal(word)
+         character(len=*), intent(in) :: word
+
+         if (allocated(error)) return
+         call check(error, allocated(failure), "something was not refused: "//word)
+         if (allocated(error)) return
+         call check(error, failure%kind == kind_usage .and. index(failure%message, word) > 0, failure%message)
+      end subroutine check_refusal
+
+   end subroutine test_refusals
+
+   subroutine test_names(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: the_case
+      type(shaft_simulation_t) :: shaft
+      type(shaft_outcome_t) :: outcome
+      type(quantity_t), allocatable :: series(:)
+      type(error_t), allocatable :: failure
+      ! Phase of a cam [rad]; numbers of the camshafts and of a follower [unit of the series]; means of the turn [N m]
+      real(wp) :: phase, means(3)
+      real(wp), allocatable :: of_camshaft(:), of_cam(:)
+      integer :: columns(2), lobe, camshaft
+
+      call get_case("three_cam_head", "", the_case, failure)
+      if (.not. allocated(failure)) call start_shaft(shaft, the_case, 0.0_wp, failure)
+      if (.not. allocated(failure)) call turn(shaft, the_case, 20, 1, 0.0_wp, means, failure, outcome)
+      if (has_failed(failure, error)) return
+      call list_series(the_case, series)
+      columns = camshaft_columns(the_case)
+      call shaft_values(shaft, 0, outcome, of_camshaft)
+      call shaft_values(shaft, 2, outcome, of_cam)
+      series = series(columns(1):columns(2))
+      call check(error, abs(of_camshaft(find_quantity(series, "torque_drive")) - outcome%torque_drive) &
+         & <= 100*epsilon(1.0_wp)*sum(abs(outcome%torques(:5))), "the drive torque has another value by its name")
+      if (allocated(error)) return
+      call check(error, same(of_camshaft(find_quantity(series, "torque_bearings")), outcome%torques(of_bearings)), &
+         & "the bearings have another torque by their name")
+      if (allocated(error)) return
+      call list_series(the_case, series)
+      call check(error, same(of_cam(find_quantity(series, "contact_load")), outcome%followers(2)%state%contact%load), &
+         & "the second cam has another load by its name")
+      if (allocated(error)) return
+      call cam_place(shaft, 2, lobe, camshaft, phase)
+      call check(error, same(phase, the_case%cam_bearings%cam_phases(2)) .and. lobe == 2 .and. camshaft == 1, &
+         & "the second cam stands elsewhere")
+   end subroutine test_names
+
+end module test_shaft_simulation
