@@ -7,7 +7,7 @@ module camroller_text_file
    implicit none
    private
 
-   public :: read_text_file, read_standard_input, join_path, folder_of
+   public :: read_text_file, read_bytes, read_standard_input, join_path, folder_of
 
    !> Marks of a text at its first bytes: of UTF-8, which is skipped, and of UTF-16, which is not read
    character(len=*), parameter :: utf8_mark = char(239)//char(187)//char(191), utf16_marks(*) = &
@@ -60,6 +60,28 @@ contains
       !> File error where it cannot be read
       type(error_t), allocatable, intent(out) :: error
 
+      call read_bytes(path, largest_size, text, error)
+      if (allocated(error)) return
+      if (any(text(:min(2, len(text))) == utf16_marks)) then
+         call raise(error, kind_file, "'"//path//"' is a text in UTF-16; save it in UTF-8")
+      else if (.not. is_text(text)) then
+         call raise(error, kind_file, "'"//path//"' is not a text file: it contains bytes that do not occur in text")
+      else if (index(text, utf8_mark) == 1) then
+         text = text(len(utf8_mark) + 1:)
+      end if
+   end subroutine read_text_file
+
+   !> Read a file of any content into a string.
+   subroutine read_bytes(path, most, text, error)
+      !> Path of the file
+      character(len=*), intent(in) :: path
+      !> Larger files are refused [bytes]
+      integer(int64), intent(in) :: most
+      !> All that is in it
+      character(len=:), allocatable, intent(out) :: text
+      !> File error where it cannot be read
+      type(error_t), allocatable, intent(out) :: error
+
       character(len=256) :: message
       integer :: unit, status
       integer(int64) :: bytes
@@ -77,24 +99,16 @@ contains
          return
       end if
       inquire (unit=unit, size=bytes)
-      if (bytes > largest_size .or. bytes < 0) then
+      if (bytes > most .or. bytes < 0) then
          close (unit)
-         call raise(error, kind_file, "'"//path//"' is too large for a deck or a table")
+         call raise(error, kind_file, "'"//path//"' is too large for what it is read for")
          return
       end if
       allocate (character(len=bytes) :: text)
       if (bytes > 0) read (unit, iostat=status, iomsg=message) text
       close (unit)
-      if (status /= 0) then
-         call raise(error, kind_file, "cannot read '"//path//"': "//trim(message))
-      else if (any(text(:min(2, len(text))) == utf16_marks)) then
-         call raise(error, kind_file, "'"//path//"' is a text in UTF-16; save it in UTF-8")
-      else if (.not. is_text(text)) then
-         call raise(error, kind_file, "'"//path//"' is not a text file: it contains bytes that do not occur in text")
-      else if (index(text, utf8_mark) == 1) then
-         text = text(len(utf8_mark) + 1:)
-      end if
-   end subroutine read_text_file
+      if (status /= 0) call raise(error, kind_file, "cannot read '"//path//"': "//trim(message))
+   end subroutine read_bytes
 
    !> Are there no control characters but tabulators and those between lines and pages?
    pure function is_text(text) result(verdict)

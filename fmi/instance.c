@@ -1,0 +1,307 @@
+/* One instance of an FMU. What the numbers of its variables mean is read from a file beside its deck, which `camroller fmu` writes
+ * together with the model description: one line for each variable, its kind, cam and place, or its key, and its value at the start. */
+#include "instance.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Kinds of variables, by the first word of their line */
+enum kind {
+   TIME, SPEED, SPEED_SLOPE, TEMPERATURE, TEMPERATURE_SLOPE, START_ANGLE, HAS_PRESSURE, PRESSURE, PRESSURE_SLOPE, KEY,
+   CAM_ANGLE, MEAN_DRIVE, MEAN_FRICTION, MEAN_BEARINGS, SMALLEST_DRIVE, LARGEST_DRIVE, ESTIMATED_ERROR, SERIES, KINDS
+};
+static const char *const words[KINDS] = {
+   "time", "speed", "speed_slope", "oil_temperature", "oil_temperature_slope", "start_angle", "has_pressure", "gas_pressure",
+   "gas_pressure_slope", "key", "cam_angle", "mean_torque_drive", "mean_torque_friction", "mean_torque_bearings",
+   "smallest_torque_drive", "largest_torque_drive", "estimated_error", "series"
+};
+
+enum { KEY_ROOM = 96, PATH_ROOM = 4096, LINE_ROOM = 256 };
+
+typedef struct {
+   enum kind kind;
+   int cam, place;
+   char key[KEY_ROOM];
+   double start;
+} variable;
+
+struct state {
+   double time;
+   double *values;         /* of all variables */
+   camroller_shaft *shaft; /* NULL before the start */
+};
+
+struct instance {
+   char resources[PATH_ROOM];
+   listener tell;
+   void *who;
+   variable *variables;
+   size_t count;
+   int cams;
+   double *pressures, *row; /* room for pressures of all cams, and for the numbers of one */
+   size_t row_room;
+   state now;
+   camroller_error error;
+};
+
+int instance_refuse(instance *self, const char *message) {
+   self->tell(self->who, message);
+   return 0;
+}
+
+/* Was a call of the library right? */
+static int heard(instance *self, int code) {
+   return code == 0 ? 1 : instance_refuse(self, self->error.message);
+}
+
+static int read_variables(instance *self) {
+   char path[PATH_ROOM + 32], line[LINE_ROOM], word[32];
+   size_t room = 0;
+   snprintf(path, sizeof path, "%s/variables.txt", self->resources);
+   FILE *file = fopen(path, "r");
+   if (file == NULL) return instance_refuse(self, "the FMU has no resources/variables.txt");
+   while (fgets(line, sizeof line, file) != NULL) {
+      variable made = {KINDS, 0, 0, "", 0.0};
+      if (sscanf(line, "%31s %d %d %95s %lf", word, &made.cam, &made.place, made.key, &made.start) != 5) break;
+      for (made.kind = TIME; made.kind < KINDS && strcmp(word, words[made.kind]) != 0; made.kind++) continue;
+      if (made.kind == KINDS) break;
+      if (self->count == room) {
+         room = 2 * room + 64;
+         variable *larger = realloc(self->variables, room * sizeof *larger);
+         if (larger == NULL) break;
+         self->variables = larger;
+      }
+      if (made.cam > self->cams) self->cams = made.cam;
+      if ((size_t)made.place >= self->row_room) self->row_room = (size_t)made.place + 1;
+      self->variables[self->count++] = made;
+   }
+   int is_whole = feof(file);
+   fclose(file);
+   return is_whole && self->count > 0 ? 1 : instance_refuse(self, "resources/variables.txt of the FMU is damaged");
+}
+
+static void set_starts(instance *self) {
+   for (size_t i = 0; i < self->count; i++) self->now.values[i] = self->variables[i].start;
+}
+
+instance *instance_new(const char *resources, listener tell, void *who) {
+   instance *self = calloc(1, sizeof *self);
+   if (self == NULL) return NULL;
+   self->tell = tell;
+   self->who = who;
+   self->error.size = sizeof self->error;
+   snprintf(self->resources, sizeof self->resources, "%s", resources);
+   size_t length = strlen(self->resources);
+   while (length > 1 && self->resources[length - 1] == '/') self->resources[--length] = 0;
+   if (read_variables(self)) {
+      self->now.values = malloc(self->count * sizeof(double));
+      self->pressures = malloc((2 * (size_t)self->cams + 2) * sizeof(double));
+      self->row = malloc((self->row_room + 1) * sizeof(double));
+      if (self->now.values != NULL && self->pressures != NULL && self->row != NULL) {
+         set_starts(self);
+         return self;
+      }
+      instance_refuse(self, "there is no memory for the FMU");
+   }
+   instance_free(self);
+   return NULL;
+}
+
+void instance_free(instance *self) {
+   if (self == NULL) return;
+   camroller_shaft_free(self->now.shaft);
+   free(self->now.values);
+   free(self->variables);
+   free(self->pressures);
+   free(self->row);
+   free(self);
+}
+
+int instance_reset(instance *self) {
+   camroller_shaft_free(self->now.shaft);
+   self->now.shaft = NULL;
+   self->now.time = 0.0;
+   set_starts(self);
+   return 1;
+}
+
+int instance_get(instance *self, unsigned number, double *value) {
+   if (number >= self->count) return instance_refuse(self, "there is no variable of that number");
+   *value = self->variables[number].kind == TIME ? self->now.time : self->now.values[number];
+   return 1;
+}
+
+int instance_set(instance *self, unsigned number, double value) {
+   if (number >= self->count) return instance_refuse(self, "there is no variable of that number");
+   switch (self->variables[number].kind) {
+   case SPEED: case SPEED_SLOPE: case TEMPERATURE: case TEMPERATURE_SLOPE: case PRESSURE: case PRESSURE_SLOPE:
+      break;
+   case START_ANGLE: case HAS_PRESSURE: case KEY:
+      if (self->now.shaft != NULL) return instance_refuse(self, "parameters can be set before the end of the initialisation only");
+      break;
+   default:
+      return instance_refuse(self, "outputs cannot be set");
+   }
+   self->now.values[number] = value;
+   return 1;
+}
+
+/* The case of the FMU with the parameters of a state; NULL where there is an error */
+static camroller_case *case_of(instance *self, const double *values) {
+   char path[PATH_ROOM + 32], text[64];
+   camroller_case *made = NULL;
+   snprintf(path, sizeof path, "%s/deck.nml", self->resources);
+   if (!heard(self, camroller_case_from_file(path, &made, &self->error))) return NULL;
+   for (size_t i = 0; i < self->count; i++) {
+      if (self->variables[i].kind != KEY || values[i] == self->variables[i].start) continue;
+      snprintf(text, sizeof text, "%.17g", values[i]);
+      if (heard(self, camroller_case_set(made, self->variables[i].key, text, &self->error))) continue;
+      camroller_case_free(made);
+      return NULL;
+   }
+   return made;
+}
+
+/* Value of the only variable of a kind, or of that of a cam; 0 where there is none */
+static double value_of(const instance *self, enum kind kind, int cam) {
+   for (size_t i = 0; i < self->count; i++)
+      if (self->variables[i].kind == kind && self->variables[i].cam == cam) return self->now.values[i];
+   return 0.0;
+}
+
+int instance_start(instance *self, double time) {
+   camroller_case *made = case_of(self, self->now.values);
+   if (made == NULL) return 0;
+   camroller_shaft_free(self->now.shaft);
+   self->now.shaft = NULL;
+   int is_right = heard(self, camroller_shaft_new(made, value_of(self, START_ANGLE, 0), 1, &self->now.shaft, &self->error));
+   camroller_case_free(made);
+   if (is_right && camroller_shaft_cams(self->now.shaft) != self->cams)
+      is_right = instance_refuse(self, "parameters must not change the number of cams");
+   self->now.time = time;
+   return is_right;
+}
+
+/* Outputs after a step */
+static int take_outputs(instance *self, const camroller_shaft_outcome *outcome) {
+   int cam = -1;
+   for (size_t i = 0; i < self->count; i++) {
+      const variable *one = &self->variables[i];
+      double *value = &self->now.values[i];
+      switch (one->kind) {
+      case CAM_ANGLE: *value = camroller_shaft_angle(self->now.shaft); break;
+      case MEAN_DRIVE: *value = outcome->mean_torque_drive; break;
+      case MEAN_FRICTION: *value = outcome->mean_torque_friction; break;
+      case MEAN_BEARINGS: *value = outcome->mean_torque_bearings; break;
+      case SMALLEST_DRIVE: *value = outcome->extreme_torque[0]; break;
+      case LARGEST_DRIVE: *value = outcome->extreme_torque[1]; break;
+      case ESTIMATED_ERROR: *value = outcome->estimated_error; break;
+      case SERIES:
+         if (one->cam != cam) {
+            cam = one->cam;
+            if (!heard(self, camroller_shaft_values(self->now.shaft, cam, self->row, self->row_room, &self->error))) return 0;
+         }
+         *value = self->row[one->place];
+         break;
+      default: break;
+      }
+   }
+   return 1;
+}
+
+int instance_step(instance *self, double time, double length) {
+   camroller_shaft_outcome outcome = {.size = sizeof outcome};
+   camroller_inputs start = {.size = sizeof start}, end = {.size = sizeof end};
+   if (self->now.shaft == NULL) return instance_refuse(self, "a step needs an instance that is initialised");
+   if (!(fabs(time - self->now.time) <= 1e-9 * (1.0 + fabs(time))))
+      return instance_refuse(self, "a step must start where the one before ended, or a state of that time be set");
+   start.speed = value_of(self, SPEED, 0);
+   end.speed = start.speed + value_of(self, SPEED_SLOPE, 0) * length;
+   start.oil_temperature = value_of(self, TEMPERATURE, 0);
+   end.oil_temperature = start.oil_temperature + value_of(self, TEMPERATURE_SLOPE, 0) * length;
+   int has_pressure = value_of(self, HAS_PRESSURE, 0) != 0.0;
+   for (int cam = 1; cam <= self->cams && has_pressure; cam++) {
+      self->pressures[cam - 1] = value_of(self, PRESSURE, cam);
+      self->pressures[self->cams + cam - 1] = self->pressures[cam - 1] + value_of(self, PRESSURE_SLOPE, cam) * length;
+   }
+   double angle = camroller_shaft_angle(self->now.shaft) + 0.5 * (start.speed + end.speed) * length;
+   if (!heard(self, camroller_shaft_step(self->now.shaft, angle, &start, &end, has_pressure ? self->pressures : NULL, &outcome,
+                                         &self->error)))
+      return 0;
+   self->now.time = time + length;
+   return take_outputs(self, &outcome);
+}
+
+int state_take(instance *self, state **place) {
+   state *made = calloc(1, sizeof *made);
+   if (made == NULL || (made->values = malloc(self->count * sizeof(double))) == NULL) {
+      free(made);
+      return instance_refuse(self, "there is no memory for a state");
+   }
+   made->time = self->now.time;
+   memcpy(made->values, self->now.values, self->count * sizeof(double));
+   if (self->now.shaft != NULL && !heard(self, camroller_shaft_copy(self->now.shaft, &made->shaft, &self->error))) {
+      state_free(made);
+      return 0;
+   }
+   state_free(*place);
+   *place = made;
+   return 1;
+}
+
+int state_put_back(instance *self, const state *kept) {
+   camroller_shaft *copy = NULL;
+   if (kept->shaft != NULL && !heard(self, camroller_shaft_copy(kept->shaft, &copy, &self->error))) return 0;
+   camroller_shaft_free(self->now.shaft);
+   self->now.shaft = copy;
+   self->now.time = kept->time;
+   memcpy(self->now.values, kept->values, self->count * sizeof(double));
+   return 1;
+}
+
+void state_free(state *kept) {
+   if (kept == NULL) return;
+   camroller_shaft_free(kept->shaft);
+   free(kept->values);
+   free(kept);
+}
+
+/* Bytes of a state: time, values, then the block of the followers where there are any */
+size_t state_size(instance *self, const state *kept) {
+   return (self->count + 1) * sizeof(double) + camroller_shaft_save_size(kept->shaft);
+}
+
+int state_to_bytes(instance *self, const state *kept, char *bytes, size_t room) {
+   size_t numbers = self->count * sizeof(double), head = numbers + sizeof(double);
+   if (room < state_size(self, kept)) return instance_refuse(self, "there is room for fewer bytes than the state has");
+   memcpy(bytes, &kept->time, sizeof(double));
+   memcpy(bytes + sizeof(double), kept->values, numbers);
+   return kept->shaft == NULL || heard(self, camroller_shaft_save(kept->shaft, bytes + head, room - head, &self->error));
+}
+
+int state_from_bytes(instance *self, const char *bytes, size_t count, state **place) {
+   size_t numbers = self->count * sizeof(double), head = numbers + sizeof(double);
+   if (count < head) return instance_refuse(self, "the bytes are not those of a state of this FMU");
+   state *made = calloc(1, sizeof *made);
+   if (made == NULL || (made->values = malloc(numbers)) == NULL) {
+      free(made);
+      return instance_refuse(self, "there is no memory for a state");
+   }
+   memcpy(&made->time, bytes, sizeof(double));
+   memcpy(made->values, bytes + sizeof(double), numbers);
+   if (count > head) {
+      camroller_case *own = case_of(self, made->values);
+      int is_right = own != NULL && heard(self, camroller_shaft_restore(own, bytes + head, count - head, 1, &made->shaft,
+                                                                        &self->error));
+      camroller_case_free(own);
+      if (!is_right) {
+         state_free(made);
+         return 0;
+      }
+   }
+   state_free(*place);
+   *place = made;
+   return 1;
+}
