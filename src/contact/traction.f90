@@ -12,8 +12,8 @@ module camroller_traction
    private
 
    public :: traction_t, shear_law_names, cap_names, rolling_law_names
-   public :: film_pressure, newtonian_shear, eyring_shear, limit_shear, mobilised_share, sliding_direction, rolling_resistance, &
-      & resistance_speed_slope
+   public :: film_pressure, newtonian_shear, eyring_shear, blunt_shear, limit_shear, mobilised_share, sliding_direction, &
+      & rolling_resistance, resistance_speed_slope
    public :: law_newtonian, law_eyring, cap_smooth, cap_sharp, rolling_biboulet_houpert, rolling_goksem_hargreaves, rolling_none
 
    !> Shear of the film
@@ -121,6 +121,36 @@ contains
       slope = slope*area*eyring_stress
       peak_slope = peak_slope*area*eyring_stress
    end subroutine eyring_shear
+
+   !> Shear in series with a slip that is not resolved: the sliding speed that a force needs grows by at most about `resolution`.
+   !>
+   !> `1/F = 1/F_free + resolution/(limit V_s)`. Without it the traction of a film that pressure has made solid jumps from one limit
+   !> to the other at a sliding speed of zero, which no step of an integration ever meets.
+   elemental subroutine blunt_shear(sliding_speed, resolution, limit, slope, force, force_slope, limit_slope, speed_slope)
+      !> Sliding speed, V_s, and the difference of it that need not be resolved, positive [m/s]
+      real(wp), intent(in) :: sliding_speed, resolution
+      !> Limiting force, mu_lim W [N], positive
+      real(wp), intent(in) :: limit
+      !> d force/d sliding speed before [N s/m]
+      real(wp), intent(in) :: slope
+      !> Shear force, in and out [N]
+      real(wp), intent(inout) :: force
+      !> Derivatives of the force over the force before and over the limit [-], and over the sliding speed with both kept [N s/m]
+      real(wp), intent(out) :: force_slope, limit_slope, speed_slope
+
+      ! Force over sliding speed [N s/m]; slip not resolved over that of the film, parts of both in their sum [-]
+      real(wp) :: secant, ratio, film_part, slip_part
+
+      secant = slope
+      if (abs(sliding_speed) > 0.0_wp) secant = force/sliding_speed
+      ratio = resolution*secant/limit
+      film_part = 1.0_wp/(1.0_wp + ratio)
+      slip_part = ratio*film_part
+      force = force*film_part
+      force_slope = film_part**2
+      limit_slope = force*slip_part/limit
+      speed_slope = secant*film_part*slip_part
+   end subroutine blunt_shear
 
    !> Limit a shear force to a limiting traction: sharply, or smoothly as `limit tanh(force/limit)`.
    elemental subroutine limit_shear(cap, limit, force, force_slope, limit_slope)

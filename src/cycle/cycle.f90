@@ -492,7 +492,7 @@ contains
       associate (path => cycle%trajectory)
          call interpolate_state(path, min(max(angle, path%time(1)), path%time(path%count)), hint, train)
       end associate
-      call evaluate_follower(model, angle, train, state, status)
+      call evaluate_follower(model, angle, train, cycle%flexible%cycle%resolution, state, status)
       if (status /= 0) call raise(error, kind_convergence, "the flexible train has no state at "// &
          & cam_angle_text(angle, 3))
    end subroutine flexible_state_at

@@ -14,13 +14,13 @@ module camroller_flexible_cycle
    use camroller_ode_switching, only : integrate_switching
    use camroller_trajectory, only : trajectory_t
    use camroller_flexible_setup, only : rest_t, find_rest
-   use camroller_flexible_train, only : state_size, at_finger, at_lift, at_plunger, at_pressure, at_sliding
+   use camroller_flexible_train, only : resolution_t, state_size, at_finger, at_lift, at_plunger, at_pressure, at_sliding
    use camroller_flexible_problem, only : flexible_problem_t, state_scales, largest_sliding_scale
    use camroller_lapack, only : dgesv
    implicit none
    private
 
-   public :: flexible_cycle_t, turn_t, start_turns, integrate_turn, find_periodic, rest_of_train
+   public :: flexible_cycle_t, turn_t, start_turns, set_tolerance, integrate_turn, find_periodic, rest_of_train
 
    !> Most cycles that make a period together
    integer, parameter, public :: longest_period = 8
@@ -34,6 +34,9 @@ module camroller_flexible_cycle
    real(wp), parameter :: largest_step = 10.0_wp*degree
    !> Part of the tolerance to which the contact's forces are found [-]
    real(wp), parameter :: contact_accuracy = 1.0e-3_wp
+   !> Difference of sliding speeds that is not resolved, over the error allowed in a step: from 1 on the sliding speed sticks
+   !> where a film is as good as solid; at 0.5 it takes four times the steps [-]
+   real(wp), parameter :: unresolved = 2.0_wp
    !> Steps of a cycle after which it is given up
    integer, parameter :: most_steps = 400000
 
@@ -63,6 +66,8 @@ module camroller_flexible_cycle
       real(wp) :: closure = 0.0_wp
       !> Tolerance of a step, in the same units [-]
       real(wp) :: tolerance = 0.0_wp
+      !> What the last cycle did not tell apart, forces to round-off
+      type(resolution_t) :: resolution
    end type flexible_cycle_t
 
 contains
@@ -84,14 +89,25 @@ contains
       if (allocated(error)) return
       turn%problem%model => model
       turn%problem%switches = 3
-      turn%problem%accuracy = contact_accuracy*tolerance
+      turn%problem%resolution%forces = contact_accuracy*tolerance
       turn%scales = state_scales(model)
-      turn%options%tolerance = tolerance*turn%scales
+      call set_tolerance(turn, tolerance*turn%scales)
       turn%options%step = first_step
       turn%options%max_step = largest_step
       turn%options%max_steps = most_steps
       turn%stops = cycle_stops(model%lift_stops, -pi)
    end subroutine start_turns
+
+   !> Set the errors allowed in a step, and with that of the sliding speed what is not resolved of it.
+   pure subroutine set_tolerance(turn, tolerance)
+      !> What integrates
+      type(turn_t), intent(inout) :: turn
+      !> The errors allowed [state]
+      real(wp), intent(in) :: tolerance(:)
+
+      turn%options%tolerance = tolerance
+      turn%problem%resolution%sliding_speed = unresolved*tolerance(at_sliding)
+   end subroutine set_tolerance
 
    !> Rest of a train on the base circle: where the first cycle starts.
    subroutine rest_of_train(model, state, error)
@@ -168,6 +184,7 @@ contains
       ends(:, longest_period) = state/turn%scales
       do turns = 1, max_cycles
          first = state
+         cycle%resolution%sliding_speed = turn%problem%resolution%sliding_speed
          call integrate_turn(turn, state, cycle%trajectory, cycle%counters, error)
          if (allocated(error)) return
          cycle%cycles = cycle%cycles + 1
@@ -197,6 +214,7 @@ contains
          last_distance = distance
       end do
       cycle%closure = distance
+      cycle%resolution%sliding_speed = turn%problem%resolution%sliding_speed
    end subroutine find_periodic
 
    !> Make errors of the sliding speed relative to its largest value, where that is small: friction follows it.
@@ -212,13 +230,17 @@ contains
       real(wp), parameter :: least = 1.0e-4_wp, worth = 2.0_wp
       ! The scale as it should be and as it is [m/s]
       real(wp) :: scale, present
+      ! Errors allowed in a step [state]
+      real(wp) :: tolerance(size(turn%scales))
 
       present = turn%scales(at_sliding)
       scale = maxval(abs(trajectory%state(at_sliding, :trajectory%count)))
       scale = max(least, min(scale, largest_sliding_scale))
       is_scaled = max(scale, present) > worth*min(scale, present)
       if (.not. is_scaled) return
-      turn%options%tolerance(at_sliding) = turn%options%tolerance(at_sliding)*scale/present
+      tolerance = turn%options%tolerance
+      tolerance(at_sliding) = tolerance(at_sliding)*scale/present
+      call set_tolerance(turn, tolerance)
       turn%scales(at_sliding) = scale
    end subroutine scale_sliding
 
@@ -239,9 +261,11 @@ contains
       !> Turns since the last mixture
       integer, intent(inout) :: plain
 
+      ! End of this turn, rate there [state, state/rad]
+      real(wp) :: plain_end(size(state)), rate(size(state))
       ! Normal equations [-], weights of the differences [-], differences of residuals [-]
       real(wp) :: normal(depth, depth), weights(depth, 1), differences(size(state), depth)
-      integer :: pivots(depth), info, i
+      integer :: pivots(depth), info, status, i
 
       starts(:, 2:) = starts(:, :depth)
       residuals(:, 2:) = residuals(:, :depth)
@@ -261,11 +285,19 @@ contains
          weights(:n, 1) = matmul(transpose(differences(:, :n)), residuals(:, 1))
          call dgesv(n, 1, normal, depth, pivots, weights, depth, info)
          if (info /= 0) return
+         plain_end = state
          do i = 1, n
             state = state - weights(i, 1)*turn%scales*(starts(:, i) - starts(:, i + 1) + differences(:, i))
          end do
       end associate
-      plain = 0
+      ! A mixture need not be a state that a train can be in
+      call turn%problem%get_rate(turn%stops(1), state, rate, status)
+      if (status == 0) then
+         plain = 0
+      else
+         state = plain_end
+         kept = 0
+      end if
    end subroutine mix
 
 end module camroller_flexible_cycle

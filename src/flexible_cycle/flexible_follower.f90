@@ -8,7 +8,8 @@ module camroller_flexible_follower
    use camroller_dynamics, only : moments_t, evaluate_moments
    use camroller_state, only : state_t, add_sums
    use camroller_flexible_geometry, only : dot, cross
-   use camroller_flexible_train, only : flexible_state_t, evaluate_train, first_mode, at_finger, at_finger_rate, at_lift, at_speed
+   use camroller_flexible_train, only : flexible_state_t, resolution_t, evaluate_train, first_mode, at_finger, at_finger_rate, &
+      & at_lift, at_speed
    use camroller_flexible_energy, only : powers_t, evaluate_powers, stored_energy
    use camroller_torque_list, only : of_geometric, of_roller_inertia, of_residual
    use camroller_flexible_measures, only : pivot_force
@@ -20,13 +21,15 @@ module camroller_flexible_follower
 contains
 
    !> Everything at one angle.
-   pure subroutine evaluate_follower(model, angle, train, state, status)
+   pure subroutine evaluate_follower(model, angle, train, resolution, state, status)
       !> The model, with a flexible train
       type(model_t), intent(in) :: model
       !> Cam angle from full lift [rad]
       real(wp), intent(in) :: angle
       !> State of the train [state]
       real(wp), intent(in) :: train(:)
+      !> What its integration did not tell apart
+      type(resolution_t), intent(in) :: resolution
       !> State of the follower
       type(state_t), intent(out) :: state
       !> 0 fine, else the train cannot be in this state
@@ -35,7 +38,7 @@ contains
       type(flexible_state_t) :: now
       type(powers_t) :: powers
 
-      call evaluate_train(model, angle, train, 0.0_wp, now, status)
+      call evaluate_train(model, angle, train, resolution, now, status)
       if (status /= 0) return
       call evaluate_powers(model, train, now, powers)
       state%contact = now%contact

@@ -11,7 +11,8 @@ module camroller_flexible_measures
    use camroller_trajectory, only : trajectory_t, interpolate_state
    use camroller_quadrature, only : gauss_legendre
    use camroller_flexible_geometry, only : dot, imaginary
-   use camroller_flexible_train, only : flexible_state_t, evaluate_train, first_mode, at_finger_rate, at_lift, at_speed
+   use camroller_flexible_train, only : flexible_state_t, resolution_t, evaluate_train, first_mode, at_finger_rate, at_lift, &
+      & at_speed
    use camroller_flexible_energy, only : powers_t, evaluate_powers
    use camroller_torque_list, only : of_damping
    implicit none
@@ -72,11 +73,13 @@ module camroller_flexible_measures
 contains
 
    !> Measure a turn.
-   subroutine measure_turn(model, trajectory, values, error)
+   subroutine measure_turn(model, trajectory, resolution, values, error)
       !> The model
       type(model_t), intent(in) :: model
       !> Its steps
       type(trajectory_t), intent(in) :: trajectory
+      !> What its integration did not tell apart
+      type(resolution_t), intent(in) :: resolution
       !> The measures [unit of the measure]
       real(wp), intent(out) :: values(:)
       !> Convergence error where a state cannot be evaluated
@@ -105,10 +108,11 @@ contains
             angle = trajectory%time(step) + 0.5_wp*length*(1.0_wp + places(i))
             hint = step
             call interpolate_state(trajectory, angle, hint, state)
-            call add_point(model, angle, state, 0.5_wp*length*weights(i)/two_pi, top, values, touches, error)
+            call add_point(model, angle, state, resolution, 0.5_wp*length*weights(i)/two_pi, top, values, touches, error)
             if (allocated(error)) return
          end do
-         call add_point(model, trajectory%time(step + 1), trajectory%state(:, step + 1), 0.0_wp, top, values, touches, error)
+         call add_point(model, trajectory%time(step + 1), trajectory%state(:, step + 1), resolution, 0.0_wp, top, values, touches, &
+            & error)
          if (allocated(error)) return
          if (has_touched .and. .not. touches) values(losses_of_contact) = values(losses_of_contact) + 1.0_wp
          has_touched = touches
@@ -137,13 +141,15 @@ contains
    end function largest_lift
 
    !> Take a point into the measures.
-   subroutine add_point(model, angle, state, weight, top, values, touches, error)
+   subroutine add_point(model, angle, state, resolution, weight, top, values, touches, error)
       !> The model
       type(model_t), intent(in) :: model
       !> Cam angle [rad]
       real(wp), intent(in) :: angle
       !> State there [state]
       real(wp), intent(in) :: state(:)
+      !> What the integration did not tell apart
+      type(resolution_t), intent(in) :: resolution
       !> Part of the turn that it stands for [-]
       real(wp), intent(in) :: weight
       !> Largest lift of the rigid train [m]
@@ -163,7 +169,7 @@ contains
       integer :: status
 
       touches = .false.
-      call evaluate_train(model, angle, state, 0.0_wp, now, status)
+      call evaluate_train(model, angle, state, resolution, now, status)
       if (status == 0) call evaluate_geometry(model, angle, position, status)
       if (status /= 0) then
          call raise(error, kind_convergence, "a state between the steps of the flexible train cannot be evaluated")

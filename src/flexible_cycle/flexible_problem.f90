@@ -7,8 +7,8 @@ module camroller_flexible_problem
    use camroller_ode_problem, only : linear_t, counters_t, words_length
    use camroller_ode_switching, only : switching_problem_t
    use camroller_model, only : model_t
-   use camroller_flexible_train, only : flexible_state_t, evaluate_train, rates_of, state_size, first_mode, pad_approach, &
-      & at_finger, at_finger_rate, at_lift, at_plunger, at_plunger_rate
+   use camroller_flexible_train, only : flexible_state_t, resolution_t, evaluate_train, rates_of, state_size, first_mode, &
+      & pad_approach, at_finger, at_finger_rate, at_lift, at_plunger, at_plunger_rate
    use camroller_flexible_geometry, only : touch_t, find_touch
    use camroller_flexible_jacobian, only : slopes_of
    implicit none
@@ -23,8 +23,8 @@ module camroller_flexible_problem
    type, extends(switching_problem_t) :: flexible_problem_t
       !> The model; read only
       type(model_t), pointer :: model => null()
-      !> Relative error of the contact's forces that is good enough; zero: round-off [-]
-      real(wp) :: accuracy = 0.0_wp
+      !> What need not be told apart
+      type(resolution_t) :: resolution
    contains
       procedure :: get_rate
       procedure :: get_decay_rate
@@ -69,7 +69,7 @@ contains
       type(flexible_state_t) :: now
 
       rate = 0.0_wp
-      call evaluate_train(self%model, time, state, self%accuracy, now, status)
+      call evaluate_train(self%model, time, state, self%resolution, now, status)
       if (status == 0) call rates_of(self%model, state, now, rate)
    end subroutine get_rate
 
@@ -90,7 +90,7 @@ contains
       integer :: i, status
 
       decay_rate = 0.0_wp
-      call evaluate_train(self%model, time, state, self%accuracy, now, status)
+      call evaluate_train(self%model, time, state, self%resolution, now, status)
       if (status /= 0) return
       call slopes_of(self%model, time, state, now, jacobian, slope)
       scales = state_scales(self%model)
@@ -120,7 +120,7 @@ contains
 
       counters%evaluations = counters%evaluations + 1
       counters%jacobians = counters%jacobians + 1
-      call evaluate_train(self%model, min(time, horizon), state, self%accuracy, now, status)
+      call evaluate_train(self%model, min(time, horizon), state, self%resolution, now, status)
       if (status /= 0) return
       call rates_of(self%model, state, now, linear%rate)
       call slopes_of(self%model, time, state, now, linear%jacobian, linear%time_slope)

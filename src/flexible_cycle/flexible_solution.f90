@@ -11,8 +11,9 @@ module camroller_flexible_solution
    use camroller_model, only : model_t
    use camroller_ode_problem, only : counters_t
    use camroller_trajectory, only : trajectory_t, interpolate_state
-   use camroller_flexible_train, only : flexible_state_t, evaluate_train, at_sliding
-   use camroller_flexible_cycle, only : flexible_cycle_t, turn_t, start_turns, integrate_turn, find_periodic, rest_of_train
+   use camroller_flexible_train, only : flexible_state_t, resolution_t, evaluate_train, at_sliding
+   use camroller_flexible_cycle, only : flexible_cycle_t, turn_t, start_turns, set_tolerance, integrate_turn, find_periodic, &
+      & rest_of_train
    use camroller_flexible_measures, only : measure_count, measure_turn, loss_torque
    implicit none
    private
@@ -113,7 +114,7 @@ contains
       n = size(solution%turns)
       allocate (values(measure_count(merge(2, 1, allocated(model%flexible%adjuster))), n))
       do i = 1, n
-         call measure_turn(model, solution%turns(i), values(:, i), error)
+         call measure_turn(model, solution%turns(i), solution%cycle%resolution, values(:, i), error)
          if (allocated(error)) return
       end do
       solution%mean = sum(values, 2)/n
@@ -134,17 +135,18 @@ contains
       type(trajectory_t) :: other
       type(counters_t) :: counters
       type(flexible_state_t) :: now
+      type(resolution_t) :: coarse
       ! State of the other turn [state]; loads [N], sliding speeds [m/s]: of both turns
       real(wp) :: state(size(turn%scales)), loads(2), speeds(2)
       ! Largest load [N] and sliding speed [m/s], largest differences [N], [m/s], measures of the last turn [unit of the measure]
       real(wp) :: largest(2), differences(2), values(size(solution%mean)), others(size(solution%mean))
       integer :: i, hint, status
 
-      turn%options%tolerance = coarser*turn%options%tolerance
-      associate (path => solution%cycle%trajectory, model => turn%problem%model)
+      call set_tolerance(turn, coarser*turn%options%tolerance)
+      associate (path => solution%cycle%trajectory, model => turn%problem%model, fine => solution%cycle%resolution)
+         coarse = resolution_t(sliding_speed=turn%problem%resolution%sliding_speed)
          state = path%state(:, 1)
          call integrate_turn(turn, state, other, counters, error)
-         turn%options%tolerance = turn%options%tolerance/coarser
          call add_context(error, "estimating the error of the flexible train")
          if (allocated(error)) return
          hint = 1
@@ -152,9 +154,9 @@ contains
          differences = 0.0_wp
          do i = 1, path%count
             call interpolate_state(other, min(path%time(i), other%time(other%count)), hint, state)
-            call evaluate_train(model, path%time(i), path%state(:, i), 0.0_wp, now, status)
+            call evaluate_train(model, path%time(i), path%state(:, i), fine, now, status)
             loads(1) = now%contact%load
-            call evaluate_train(model, path%time(i), state, 0.0_wp, now, status)
+            call evaluate_train(model, path%time(i), state, coarse, now, status)
             loads(2) = now%contact%load
             speeds = [path%state(at_sliding, i), state(at_sliding)]
             largest = max(largest, [loads(1), abs(speeds(1))])
@@ -162,8 +164,8 @@ contains
             differences = max(differences, abs([loads(1) - loads(2), speeds(1) - speeds(2)]))
          end do
          solution%error = maxval(differences/largest)/(worse - 1.0_wp)
-         call measure_turn(model, path, values, error)
-         if (.not. allocated(error)) call measure_turn(model, other, others, error)
+         call measure_turn(model, path, fine, values, error)
+         if (.not. allocated(error)) call measure_turn(model, other, coarse, others, error)
          if (allocated(error)) return
          solution%mean_error = abs(values(loss_torque) - others(loss_torque))/max(abs(values(loss_torque)), tiny(1.0_wp))
       end associate

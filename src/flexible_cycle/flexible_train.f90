@@ -19,12 +19,20 @@ module camroller_flexible_train
    implicit none
    private
 
-   public :: flexible_state_t, push_t, state_size, first_mode, evaluate_train, rates_of, pad_approach
+   public :: flexible_state_t, resolution_t, push_t, state_size, first_mode, evaluate_train, rates_of, pad_approach
    public :: at_finger, at_finger_rate, at_lift, at_speed, at_sliding, at_plunger, at_plunger_rate, at_pressure
 
    !> Places in the state
    integer, parameter :: at_finger = 1, at_finger_rate = 2, at_lift = 3, at_speed = 4, at_sliding = 5, at_plunger = 6, &
       & at_plunger_rate = 7, at_pressure = 8
+
+   !> What an evaluation need not tell apart; zero: round-off
+   type :: resolution_t
+      !> Relative error of the contact's forces [-]
+      real(wp) :: forces = 0.0_wp
+      !> Difference of sliding speeds: friction that changes within less is stretched to it [m/s]
+      real(wp) :: sliding_speed = 0.0_wp
+   end type resolution_t
 
    !> A one-sided spring
    type :: push_t
@@ -94,15 +102,15 @@ contains
    end function first_mode
 
    !> Forces and accelerations at a state.
-   pure subroutine evaluate_train(model, angle, state, accuracy, now, status)
+   pure subroutine evaluate_train(model, angle, state, resolution, now, status)
       !> The model, with a flexible train
       type(model_t), intent(in) :: model
       !> Cam angle from full lift [rad]
       real(wp), intent(in) :: angle
       !> The state [state]
       real(wp), intent(in) :: state(:)
-      !> Relative error of the contact's forces that is good enough; zero: round-off [-]
-      real(wp), intent(in) :: accuracy
+      !> What need not be told apart
+      type(resolution_t), intent(in) :: resolution
       !> Everything there
       type(flexible_state_t), intent(out) :: now
       !> 0 fine, positive: an impossible state, negative: the rigid train is impossible
@@ -118,7 +126,7 @@ contains
       end if
       call find_touch(model, angle, state(at_finger), state(at_finger_rate), now%pivot, now%pivot_rate, now%touch, status)
       if (status /= 0) return
-      call set_contact(model, state, accuracy, now)
+      call set_contact(model, state, resolution, now)
       call set_valve_forces(model, angle, state, now)
       call accelerate(model, state, now)
    end subroutine evaluate_train
@@ -170,13 +178,13 @@ contains
    end subroutine push
 
    !> Load, film and friction of cam and roller.
-   pure subroutine set_contact(model, state, accuracy, now)
+   pure subroutine set_contact(model, state, resolution, now)
       !> The model
       type(model_t), intent(in) :: model
       !> The state [state]
       real(wp), intent(in) :: state(:)
-      !> Relative error that is good enough [-]
-      real(wp), intent(in) :: accuracy
+      !> What need not be told apart
+      type(resolution_t), intent(in) :: resolution
       !> In: geometry; out: with the contact
       type(flexible_state_t), intent(inout) :: now
 
@@ -199,7 +207,8 @@ contains
          end if
          contact%load = cam%force
          contact%film_ratio = 0.0_wp
-         call prepare_contact(model, touch%position, contact, accuracy, now%setting)
+         call prepare_contact(model, touch%position, contact, resolution%forces, now%setting, &
+            & resolution=resolution%sliding_speed)
          call evaluate_contact(model, touch%position, now%setting, cam%force, contact, now%parts, change)
          call limit_rolling(model, now)
       end associate

@@ -9,8 +9,8 @@ module camroller_contact_forces
    use camroller_lubricant, only : mean_relative_viscosity
    use camroller_film, only : groups_t, film_line_t, new_film_line
    use camroller_load_share, only : share_t, share_change_t, share_load, improve_share, share_change
-   use camroller_traction, only : film_pressure, newtonian_shear, eyring_shear, limit_shear, mobilised_share, sliding_direction, &
-      & rolling_resistance, resistance_speed_slope, law_newtonian, rolling_biboulet_houpert
+   use camroller_traction, only : film_pressure, newtonian_shear, eyring_shear, blunt_shear, limit_shear, mobilised_share, &
+      & sliding_direction, rolling_resistance, resistance_speed_slope, law_newtonian, rolling_biboulet_houpert
    use camroller_needle, only : bearing_torque, bearing_torque_slope
    implicit none
    private
@@ -68,6 +68,8 @@ module camroller_contact_forces
       real(wp) :: bearing_arm
       !> Relative change of the film ratio that may be the last where the load share is iterated again [-]
       real(wp) :: coarse
+      !> Difference of sliding speeds that need not be resolved; zero: all are [m/s]
+      real(wp) :: resolution
    end type setting_t
 
    !> Change of the film ratio that may be the last, over the root of the relative error that is good enough: its square is the
@@ -82,8 +84,8 @@ module camroller_contact_forces
       real(wp) :: load_group
       !> Shear of the film after its limit, over all of the contact [N]
       real(wp) :: shear
-      !> Derivative of that over the shear before the limit and over the limit [-]
-      real(wp) :: by_shear, by_limit
+      !> Derivative of that over the shear before the limit and over the limit [-], and over the sliding speed beside these [N s/m]
+      real(wp) :: by_shear, by_limit, by_speed
       !> Shear before its limit [N], derivative over ln(pressure) [N] and over the sliding speed [N s/m]
       real(wp) :: free_shear, pressure_slope, speed_slope
       !> Logarithmic slopes of the rolling resistance over load and speed group [-]
@@ -134,7 +136,7 @@ contains
    end subroutine set_speeds
 
    !> What the speeds alone decide.
-   pure subroutine prepare_contact(model, position, contact, enough, setting, mobilised)
+   pure subroutine prepare_contact(model, position, contact, enough, setting, mobilised, resolution)
       !> The model
       type(model_t), intent(in) :: model
       !> Geometry at this angle
@@ -147,7 +149,11 @@ contains
       type(setting_t), intent(out) :: setting
       !> Mobilised part of the boundary friction; absent: as the sliding speed has it [-]
       real(wp), intent(in), optional :: mobilised
+      !> Difference of sliding speeds that need not be resolved; absent: none [m/s]
+      real(wp), intent(in), optional :: resolution
 
+      setting%resolution = 0.0_wp
+      if (present(resolution)) setting%resolution = resolution
       setting%scale = model%modulus*position%equivalent_radius*model%contact_width
       setting%coarse = coarse_part*sqrt(enough)
       call new_film_line(setting%line, model%film_law, film_groups(model, position, contact), model%film_table)
@@ -159,8 +165,10 @@ contains
          if (model%boundary%is_set_valued) then
             setting%mobilised = sliding_direction(contact%sliding_speed)
          else
-            setting%mobilised = mobilised_share(contact%sliding_speed, model%boundary%mobilising_speed)
-            setting%mobilised_slope = (1.0_wp - setting%mobilised)*(1.0_wp + setting%mobilised)/model%boundary%mobilising_speed
+            associate (speed => model%boundary%mobilising_speed + setting%resolution)
+               setting%mobilised = mobilised_share(contact%sliding_speed, speed)
+               setting%mobilised_slope = (1.0_wp - setting%mobilised)*(1.0_wp + setting%mobilised)/speed
+            end associate
          end if
       end if
       setting%bearing_arm = 0.0_wp
@@ -254,6 +262,8 @@ contains
       real(wp) :: peak
       ! Mean viscosity ratio and its logarithmic slope over the pressure [-]
       real(wp) :: viscosity, viscosity_slope
+      ! Derivatives of the shear with a slip that is not resolved over that without, and over the limit [-]
+      real(wp) :: by_free, by_limit
 
       peak = film_pressure(contact%load - contact%asperity_load, contact%apparent_area, contact%real_area)
       if (model%shear_law == law_newtonian) then
@@ -266,11 +276,21 @@ contains
             & model%eyring_stress, parts%free_shear, parts%speed_slope, parts%pressure_slope)
       end if
       parts%shear = parts%free_shear
+      by_free = 1.0_wp
+      by_limit = 0.0_wp
+      parts%by_speed = 0.0_wp
+      if (setting%resolution > 0.0_wp) then
+         call blunt_shear(contact%sliding_speed, setting%resolution, model%limiting_coefficient*contact%load, parts%speed_slope, &
+            & parts%shear, by_free, by_limit, parts%by_speed)
+      end if
       call limit_shear(model%cap, model%limiting_coefficient*contact%load, parts%shear, parts%by_shear, parts%by_limit)
+      parts%by_limit = parts%by_limit + parts%by_shear*by_limit
+      parts%by_speed = parts%by_shear*parts%by_speed
+      parts%by_shear = parts%by_shear*by_free
 
       contact%shear = parts%shear*(1.0_wp - parts%share%real_area_ratio)
       contact%traction = contact%shear
-      contact%traction_slope = parts%by_shear*parts%speed_slope*(1.0_wp - parts%share%real_area_ratio)
+      contact%traction_slope = (parts%by_shear*parts%speed_slope + parts%by_speed)*(1.0_wp - parts%share%real_area_ratio)
       contact%boundary_capacity = 0.0_wp
       contact%boundary_mobilised = 0.0_wp
       if (.not. allocated(model%boundary)) return
@@ -308,7 +328,8 @@ contains
       pressure = change%film_load + motion%radius - area + change%real_area_ratio/(1.0_wp - parts%share%real_area_ratio)
       shear = parts%free_shear*area + parts%pressure_slope*pressure + parts%speed_slope*(motion%sliding_speed &
          & - contact%sliding_speed*(change%film_central + motion%radius))
-      shear = parts%by_shear*shear + parts%by_limit*model%limiting_coefficient*contact%load*motion%load
+      shear = parts%by_shear*shear + parts%by_limit*model%limiting_coefficient*contact%load*motion%load &
+         & + parts%by_speed*motion%sliding_speed
       slopes%traction = shear*(1.0_wp - parts%share%real_area_ratio) - parts%shear*change%real_area_ratio
       if (allocated(model%boundary)) then
          slopes%traction = slopes%traction + setting%mobilised*(model%boundary%film_shear_strength &

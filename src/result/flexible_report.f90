@@ -15,6 +15,7 @@ module camroller_flexible_report
    use camroller_flexible_measures, only : bounces, coil_ratio, largest_load_angle, losses_of_contact, measures, seating_speed, &
       & smallest_pivot_force, tension_share
    use camroller_flexible_solution, only : flexible_solution_t
+   use camroller_flexible_train, only : resolution_t
    use camroller_cam_angle, only : file_angle
    use camroller_kinds, only : pi, two_pi, wp
    use camroller_model, only : model_t
@@ -85,7 +86,7 @@ contains
       call start_samples(means%rows, first_torque - 1)
       call start_samples(means%torque_rows, series_count - first_torque + 1)
       do turn = 1, size(solution%turns)
-         call add_turn(case, model, solution%turns(turn), 1.0_wp/size(solution%turns), &
+         call add_turn(case, model, solution%turns(turn), solution%cycle%resolution, 1.0_wp/size(solution%turns), &
             & turn > size(solution%turns) - most_searched, state, means, error)
          if (allocated(error)) return
       end do
@@ -94,13 +95,15 @@ contains
    end subroutine integrate_turns
 
    !> Take a turn into the means.
-   subroutine add_turn(case, model, path, share, is_kept, state, means, error)
+   subroutine add_turn(case, model, path, resolution, share, is_kept, state, means, error)
       !> The case
       type(case_t), intent(in) :: case
       !> The model of the lobe
       type(model_t), intent(in) :: model
       !> The turn
       type(trajectory_t), intent(in) :: path
+      !> What its integration did not tell apart
+      type(resolution_t), intent(in) :: resolution
       !> Its share of all turns [-]
       real(wp), intent(in) :: share
       !> Are its points kept for the search of extremes?
@@ -127,7 +130,7 @@ contains
             weight = share*0.5_wp*length*weights(i)/two_pi
             hint = step
             call interpolate_state(path, angle, hint, train)
-            call evaluate_follower(model, angle, train, state, status)
+            call evaluate_follower(model, angle, train, resolution, state, status)
             if (status /= 0) then
                call raise(error, kind_convergence, "a state between the steps of the flexible train cannot be evaluated")
                return

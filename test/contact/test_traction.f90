@@ -4,7 +4,7 @@ module test_traction
    use camroller_kinds, only : wp, pi
    use camroller_error, only : error_t
    use camroller_lubricant, only : lubricant_t, oil_t, get_oil, mean_relative_viscosity
-   use camroller_traction, only : film_pressure, newtonian_shear, eyring_shear, limit_shear, mobilised_share, &
+   use camroller_traction, only : film_pressure, newtonian_shear, eyring_shear, blunt_shear, limit_shear, mobilised_share, &
       & sliding_direction, rolling_resistance, &
       cap_smooth, cap_sharp, rolling_biboulet_houpert, rolling_goksem_hargreaves, rolling_none
    implicit none
@@ -30,6 +30,7 @@ contains
          new_unittest("an Eyring oil of large stress is Newtonian", test_eyring_newtonian), &
          new_unittest("an Eyring oil under fast shear follows the logarithm", test_eyring_fast), &
          new_unittest("Eyring shear is odd, rises with slip and stays below Newton's", test_eyring_shape), &
+         new_unittest("slip that is not resolved: series with the film's, slopes", test_blunt), &
          new_unittest("smooth cap: odd, below its limit, straight for small forces", test_smooth_cap), &
          new_unittest("sharp cap: nothing below the limit, the limit above", test_sharp_cap), &
          new_unittest("boundary friction is mobilised by slip, odd and saturating", test_mobilised), &
@@ -124,6 +125,60 @@ contains
          before = force
       end do
    end subroutine test_eyring_shape
+
+   subroutine test_blunt(error)
+      type(error_type), allocatable, intent(out) :: error
+      ! Difference of sliding speeds that need not be resolved [m/s], limit [N]
+      real(wp), parameter :: resolution = 1.0e-4_wp, limit = 50.0_wp
+      ! Part of a quantity that differences step [-]; allowed for them: their third derivative and round-off [-]
+      real(wp), parameter :: h = 1.0e-5_wp, allowed = 1.0e-8_wp
+      real(wp) :: force, by_force, by_limit, by_speed, slope, speed
+      integer :: i
+
+      do i = -3, 14
+         slope = 10.0_wp**i
+         speed = 3.0e-4_wp
+         force = slope*speed
+         call blunt_shear(speed, resolution, limit, slope, force, by_force, by_limit, by_speed)
+         ! The speed that a force needs is that of the film and a part of the resolution
+         call check(error, force/slope + resolution*force/limit, speed, thr=roundings, rel=.true.)
+         if (allocated(error)) return
+         call check(error, force*(1.0_wp + epsilon(1.0_wp)) <= limit*speed/resolution .or. i < 8, "a solid film")
+         if (allocated(error)) return
+         call compare(by_force, slope*speed, 0.0_wp, 0.0_wp, "force")
+         if (allocated(error)) return
+         call compare(by_limit, 0.0_wp, limit, 0.0_wp, "limit")
+         if (allocated(error)) return
+         call compare(by_speed, 0.0_wp, 0.0_wp, speed, "speed")
+         if (allocated(error)) return
+         force = 0.0_wp
+         call blunt_shear(0.0_wp, resolution, limit, slope, force, by_force, by_limit, by_speed)
+         ! At rest the slopes of film and unresolved slip are in series
+         call check(error, by_force*slope + by_speed, 1.0_wp/(1.0_wp/slope + resolution/limit), thr=roundings, rel=.true.)
+         if (allocated(error)) return
+      end do
+
+   contains
+
+      !> Compare a slope with a difference along force [N], limit [N] or speed [m/s].
+      subroutine compare(derivative, force, limit_way, speed_way, what)
+         real(wp), intent(in) :: derivative, force, limit_way, speed_way
+         character(len=*), intent(in) :: what
+         real(wp) :: values(2), unused(3)
+         integer :: k
+
+         do k = 1, 2
+            associate (way => h*(2*k - 3))
+               values(k) = slope*speed + way*force
+               call blunt_shear(speed + way*speed_way, resolution, limit + way*limit_way, slope, values(k), unused(1), &
+                  & unused(2), unused(3))
+            end associate
+         end do
+         call check(error, (values(2) - values(1))/(2.0_wp*h*(force + limit_way + speed_way)), derivative, &
+            & thr=allowed*(abs(derivative) + values(2)/(force + limit_way + speed_way)), more=what)
+      end subroutine compare
+
+   end subroutine test_blunt
 
    subroutine test_smooth_cap(error)
       type(error_type), allocatable, intent(out) :: error

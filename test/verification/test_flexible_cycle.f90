@@ -35,7 +35,9 @@ contains
          new_unittest("fixed pivot, 900 rev/min: the same", test_fixed_fast), &
          new_unittest("lash adjuster, 300 rev/min: the same with travel, pressure and leak", test_adjuster), &
          new_unittest("two methods agree", test_methods), &
-         new_unittest("a stiff train is a rigid train", test_rigid_limit) &
+         new_unittest("a stiff train is a rigid train", test_rigid_limit), &
+         new_unittest("impacts on a film as good as solid take few steps, and means agree", test_impacts), &
+         new_unittest("acceleration never leaves what a train can be in", test_mixture) &
          ]
    end subroutine collect_flexible_cycle
 
@@ -61,7 +63,7 @@ contains
       if (.not. allocated(failure)) call rest_of_train(model, state, failure)
       if (.not. allocated(failure)) call find_periodic(cycle, turn, state, 10.0_wp*tolerance, 60, failure)
       allocate (values(measure_count(merge(2, 1, allocated(model%flexible%adjuster)))))
-      if (.not. allocated(failure)) call measure_turn(model, cycle%trajectory, values, failure)
+      if (.not. allocated(failure)) call measure_turn(model, cycle%trajectory, cycle%resolution, values, failure)
       if (allocated(failure)) call test_failed(error, failure%message)
       if (allocated(error)) return
       call check(error, cycle%period, 1, "the train is not periodic")
@@ -168,6 +170,50 @@ contains
       if (allocated(error)) return
       call check_close(error, one(seating_speed), other(seating_speed), 2.0e-4_wp, "seating speed")
    end subroutine test_methods
+
+   !> Above the speed where the train leaves its cam it lands with ten kilonewtons, and pressure makes the film solid.
+   subroutine test_impacts(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: the_case
+      type(model_t), target :: model
+      type(turn_t) :: turn
+      type(flexible_cycle_t) :: cycle
+      type(error_t), allocatable :: failure
+      ! State [state], measures of a turn with either tolerance [unit of the measure]
+      real(wp), allocatable :: state(:), values(:, :)
+      integer :: i
+
+      the_case = reference(4500.0_wp, .false.)
+      call make_model(the_case, model, error)
+      if (allocated(error)) return
+      allocate (values(measure_count(1), 2))
+      do i = 1, 2
+         call start_turns(turn, model, "rodas5p", 4.0_wp*10.0_wp**(-3 - i), failure)
+         if (.not. allocated(failure)) call rest_of_train(model, state, failure)
+         ! The first landing depends little on what went before
+         cycle = flexible_cycle_t()
+         if (.not. allocated(failure)) call find_periodic(cycle, turn, state, 0.0_wp, 1, failure)
+         if (.not. allocated(failure)) call measure_turn(model, cycle%trajectory, cycle%resolution, values(:, i), failure)
+         if (allocated(failure)) call test_failed(error, failure%message)
+         if (allocated(error)) return
+         ! 1 500 and 2 800; more than 50 000 where the sliding speed chatters
+         call check(error, cycle%counters%accepted + cycle%counters%rejected < 5000*i, "steps of a turn")
+         if (allocated(error)) return
+      end do
+      ! Errors of the coarser run
+      call check_close(error, values(largest_load, 1), values(largest_load, 2), 2.0e-3_wp, "largest load")
+      if (allocated(error)) return
+      call check_close(error, values(loss_torque, 1), values(loss_torque, 2), 2.0e-3_wp, "losses")
+   end subroutine test_impacts
+
+   !> Where the adjuster's check valve opens, a mixture of cycles may ask for less than no pressure.
+   subroutine test_mixture(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(flexible_cycle_t) :: cycle
+      real(wp), allocatable :: values(:)
+
+      call measure(reference(2500.0_wp, .true.), "rodas5p", 4.0e-4_wp, values, cycle, error)
+   end subroutine test_mixture
 
    !> Stiffness times 4 brings lift error to a quarter; a root of that keeps the damping ratio.
    subroutine test_rigid_limit(error)
