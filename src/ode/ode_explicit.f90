@@ -13,7 +13,7 @@
 !> (1993), II.6.
 module camroller_ode_explicit
    use camroller_kinds, only : wp
-   use camroller_ode, only : problem_t, method_t, counters_t
+   use camroller_ode, only : problem_t, method_t, step_t, counters_t
    implicit none
    private
 
@@ -103,26 +103,13 @@ contains
    end function method_difference
 
    !> One step of an explicit method.
-   subroutine try_explicit_step(self, problem, time, state, rate, step, new_state, new_rate, error_estimate, &
-      counters, status)
+   subroutine try_explicit_step(self, problem, step, counters, status)
       !> The method with its work space
       class(explicit_method_t), intent(inout) :: self
       !> The problem
       class(problem_t), intent(in) :: problem
-      !> Time at the start of the step [time]
-      real(wp), intent(in) :: time
-      !> State there [state]
-      real(wp), intent(in) :: state(:)
-      !> Rate there [state/time]
-      real(wp), intent(in) :: rate(:)
-      !> Size of the step [time]
-      real(wp), intent(in) :: step
-      !> State at the end [state]
-      real(wp), intent(out) :: new_state(:)
-      !> Rate at the end [state/time]
-      real(wp), intent(out) :: new_rate(:)
-      !> Estimate of the error made in this step [state]
-      real(wp), intent(out) :: error_estimate(:)
+      !> The step
+      type(step_t), intent(inout) :: step
       !> Work done so far
       type(counters_t), intent(inout) :: counters
       !> 0 fine, positive: try a smaller step, negative: give up
@@ -130,23 +117,25 @@ contains
 
       integer :: stage, i
 
-      error_estimate = 0.0_wp
-      new_rate = rate
-      self%stage_rates(:, 0) = rate
-      do stage = 1, self%stages
-         new_state = state
-         do i = 1, stage
-            new_state = new_state + step*self%weights(i, stage)*self%stage_rates(:, i - 1)
+      associate (state => step%state, new_state => step%new_state, new_rate => step%new_rate, length => step%length)
+         step%estimate(:) = 0.0_wp
+         new_rate(:) = step%rate
+         self%stage_rates(:, 0) = step%rate
+         do stage = 1, self%stages
+            new_state(:) = state
+            do i = 1, stage
+               new_state(:) = new_state + length*self%weights(i, stage)*self%stage_rates(:, i - 1)
+            end do
+            call problem%get_rate(step%time + length*self%nodes(stage), new_state, new_rate, status)
+            counters%evaluations = counters%evaluations + 1
+            if (status /= 0) return
+            self%stage_rates(:, stage) = new_rate
          end do
-         call problem%get_rate(time + step*self%nodes(stage), new_state, new_rate, status)
-         counters%evaluations = counters%evaluations + 1
-         if (status /= 0) return
-         self%stage_rates(:, stage) = new_rate
-      end do
-      do i = 0, self%stages
-         error_estimate = error_estimate + step*self%error_weights(i + 1)*self%stage_rates(:, i)
-      end do
-      if (self%has_curve) call bend_curve(self, step, new_state - state)
+         do i = 0, self%stages
+            step%estimate(:) = step%estimate + length*self%error_weights(i + 1)*self%stage_rates(:, i)
+         end do
+         if (self%has_curve) call bend_curve(self, length, new_state - state)
+      end associate
    end subroutine try_explicit_step
 
    !> Bends of the cubic on the rates at both ends, and a quartic term that vanishes there together with its slope.

@@ -21,7 +21,7 @@
 !> (2011) 889, with second derivatives as in Enright, SIAM J. Numer. Anal. 11 (1974) 321.
 module camroller_ode_hermite
    use camroller_kinds, only : wp
-   use camroller_ode, only : problem_t, method_t, counters_t
+   use camroller_ode, only : problem_t, method_t, step_t, counters_t
    use camroller_ode_remainder, only : point_t, past_t, remainder_t, look_back, close_remainder, correct_remainder, &
       & coefficients_of, integral_of
    use camroller_phi, only : phi_functions
@@ -73,25 +73,13 @@ contains
    end subroutine new_hermite_method
 
    !> One step.
-   subroutine try_hermite_step(self, problem, time, state, rate, step, new_state, new_rate, error_estimate, counters, status)
+   subroutine try_hermite_step(self, problem, step, counters, status)
       !> The method and the derivatives at this point; out: those at the end, too
       class(hermite_method_t), intent(inout) :: self
       !> The problem
       class(problem_t), intent(in) :: problem
-      !> Time at the start of the step [time]
-      real(wp), intent(in) :: time
-      !> State there [state]
-      real(wp), intent(in) :: state(:)
-      !> Rate there [state/time]
-      real(wp), intent(in) :: rate(:)
-      !> Size of the step [time]
-      real(wp), intent(in) :: step
-      !> State at the end [state]
-      real(wp), intent(out) :: new_state(:)
-      !> Rate at the end [state/time]
-      real(wp), intent(out) :: new_rate(:)
-      !> Estimate of the error made in this step [state]
-      real(wp), intent(out) :: error_estimate(:)
+      !> The step
+      type(step_t), intent(inout) :: step
       !> Work done so far
       type(counters_t), intent(inout) :: counters
       !> 0 fine, positive: try a smaller step, negative: give up
@@ -107,45 +95,45 @@ contains
       real(wp) :: denominator
       integer :: i
 
-      new_state = state
-      new_rate = rate
-      error_estimate = 0.0_wp
-      call remember(self, time, state(1), rate)
-      status = 1
-      if (step*self%start%slope > largest_growth) return
-      phi = phi_functions(6, step*self%start%slope)
-      weights = factorials*phi(3:)
-      counters%factorisations = counters%factorisations + 1
-      linear = state(1) + step*(phi(1)*rate(1) + step*phi(2)*self%start%time_slope)
-      past = look_back(self%start, self%before, self%before, self%start%state, step)
-      new_state(1) = linear + step*((past%value - past%slope*past%place)*weights(0) + past%slope*weights(1))
-      do i = 1, most_corrections
-         predicted = new_state(1)
+      associate (h => step%length, new_state => step%new_state, new_rate => step%new_rate)
+         new_state(:) = step%state
+         new_rate(:) = step%rate
+         step%estimate(:) = 0.0_wp
+         call remember(self, step%time, step%state(1), step%rate)
          status = 1
-         if (.not. abs(predicted) < huge(1.0_wp)) return
-         call problem%linearise(time + step, new_state, self%horizon, self%there, counters, status)
-         if (status /= 0) return
-         call close_remainder(self%there, 1, self%start, self%start%state, step, predicted, past, remainder, follower)
-         denominator = 1.0_wp - step*integral_of(follower, past%place, weights)
-         status = 1
-         if (.not. denominator > least_denominator) return
-         correction = (linear + step*integral_of(remainder, past%place, weights) - predicted)/denominator
-         new_state(1) = predicted + correction
-         if (has_settled(self, step, predicted, correction)) exit
-      end do
-      if (i > most_corrections) return
-      status = 0
-      call correct_remainder(remainder, follower, correction)
-      new_rate = self%there%rate + self%there%jacobian(:, 1)*correction
-      error_estimate(1) = step*abs(loss_of(self, step, remainder, past%place, weights))
-      call bend_curve(self, step, remainder, past%place, new_state(1))
-      if (size(state) > 1) then
-         call carry_integrals(self, step, predicted, correction, remainder, past%place, new_state, new_rate, error_estimate)
-      end if
-      self%there%rate(:) = new_rate
-      self%there%clearance = self%there%clearance - correction
-      self%end%time = time + step
-      self%end%state = new_state(1)
+         if (h*self%start%slope > largest_growth) return
+         phi = phi_functions(6, h*self%start%slope)
+         weights = factorials*phi(3:)
+         counters%factorisations = counters%factorisations + 1
+         linear = step%state(1) + h*(phi(1)*step%rate(1) + h*phi(2)*self%start%time_slope)
+         past = look_back(self%start, self%before, self%before, self%start%state, h)
+         new_state(1) = linear + h*((past%value - past%slope*past%place)*weights(0) + past%slope*weights(1))
+         do i = 1, most_corrections
+            predicted = new_state(1)
+            status = 1
+            if (.not. abs(predicted) < huge(1.0_wp)) return
+            call problem%linearise(step%time + h, new_state, self%horizon, self%there, counters, status)
+            if (status /= 0) return
+            call close_remainder(self%there, 1, self%start, self%start%state, h, predicted, past, remainder, follower)
+            denominator = 1.0_wp - h*integral_of(follower, past%place, weights)
+            status = 1
+            if (.not. denominator > least_denominator) return
+            correction = (linear + h*integral_of(remainder, past%place, weights) - predicted)/denominator
+            new_state(1) = predicted + correction
+            if (has_settled(self, h, predicted, correction)) exit
+         end do
+         if (i > most_corrections) return
+         status = 0
+         call correct_remainder(remainder, follower, correction)
+         new_rate(:) = self%there%rate + self%there%jacobian(:, 1)*correction
+         step%estimate(1) = h*abs(loss_of(self, h, remainder, past%place, weights))
+         call bend_curve(self, h, remainder, past%place, new_state(1))
+         if (size(new_state) > 1) call carry_integrals(self, step, predicted, correction, remainder, past%place)
+         self%there%rate(:) = new_rate
+         self%there%clearance = self%there%clearance - correction
+         self%end%time = step%time + h
+         self%end%state = new_state(1)
+      end associate
    end subroutine try_hermite_step
 
    !> Is one step of Newton's method enough? Not where it changes the sign of the state, and with it of friction. Nor where the
@@ -194,23 +182,17 @@ contains
    end subroutine remember
 
    !> Components that are integrals over the first: states at the end, error estimates, curves.
-   pure subroutine carry_integrals(self, step, predicted, correction, first, s, new_state, new_rate, error_estimate)
+   pure subroutine carry_integrals(self, step, predicted, correction, first, s)
       !> The method
       type(hermite_method_t), intent(inout) :: self
-      !> Size of the step [time]
-      real(wp), intent(in) :: step
+      !> The step, with the first component and all rates at its end; out: with all components and their errors
+      type(step_t), intent(inout) :: step
       !> First component at the end as predicted, its correction [state]
       real(wp), intent(in) :: predicted, correction
       !> Its remainder [state/time]
       type(remainder_t), intent(in) :: first
       !> Place of the start of the step before [-]
       real(wp), intent(in) :: s
-      !> In: first component at the end; out: all of them [state]
-      real(wp), intent(inout) :: new_state(:)
-      !> Rates at the end [state/time]
-      real(wp), intent(in) :: new_rate(:)
-      !> In: estimate of the first component; out: of all [state]
-      real(wp), intent(inout) :: error_estimate(:)
 
       ! Reciprocals of the powers that x^2 to x^5 are integrated to [-]
       real(wp), parameter :: parts(0:3) = [1.0_wp/3.0_wp, 0.25_wp, 0.2_wp, 1.0_wp/6.0_wp]
@@ -222,32 +204,33 @@ contains
       real(wp) :: place, changes(2), middle, ends
       integer :: i, k
 
-      rates = [self%start%rate, step*self%start%time_slope, factorials*coefficients_of(first, s)]
+      rates = [self%start%rate, step%length*self%start%time_slope, factorials*coefficients_of(first, s)]
       do k = 1, 2
          place = 0.5_wp*k
-         phi = phi_functions(7, place*step*self%start%slope)
-         integrals(k) = (place*step)**2*sum(rates*phi(2:)*[1.0_wp, place, place**2, place**3, place**4, place**5])
+         phi = phi_functions(7, place*step%length*self%start%slope)
+         integrals(k) = (place*step%length)**2*sum(rates*phi(2:)*[1.0_wp, place, place**2, place**3, place**4, place**5])
       end do
       do i = 1, size(self%others)
-         past = look_back(self%others(i), self%others_before(i), self%before, self%start%state, step)
-         call close_remainder(self%there, i + 1, self%others(i), self%start%state, step, predicted, past, remainder, follower)
+         past = look_back(self%others(i), self%others_before(i), self%before, self%start%state, step%length)
+         call close_remainder(self%there, i + 1, self%others(i), self%start%state, step%length, predicted, past, remainder, &
+            & follower)
          call correct_remainder(remainder, follower, correction)
          do k = 1, 2
             place = 0.5_wp*k
-            changes(k) = place*step*(self%others(i)%rate + place*step*self%others(i)%time_slope/2.0_wp &
+            changes(k) = place*step%length*(self%others(i)%rate + place*step%length*self%others(i)%time_slope/2.0_wp &
                & + place**2*sum(coefficients_of(remainder, s)*parts*[1.0_wp, place, place**2, place**3])) &
                & + self%others(i)%slope*integrals(k)
          end do
-         new_state(i + 1) = new_state(i + 1) + changes(2)
+         step%new_state(i + 1) = step%new_state(i + 1) + changes(2)
          if (s > 0.0_wp) part%slope = remainder%slope
          if (s <= 0.0_wp) part%twist = remainder%twist
-         error_estimate(i + 1) = step*(abs(integral_of(part, s, parts)) + abs(self%others(i)%slope)*error_estimate(1))
+         step%estimate(i + 1) = step%length*(abs(integral_of(part, s, parts)) + abs(self%others(i)%slope)*step%estimate(1))
          ! the quartic through slopes at both ends and the middle
          associate (b => self%bends(i + 1, :))
             b = 0.0_wp
-            b(1) = step*self%others(i)%rate - changes(2)
+            b(1) = step%length*self%others(i)%rate - changes(2)
             middle = 4.0_wp*changes(1) - 2.0_wp*changes(2) - b(1)
-            ends = changes(2) - step*new_rate(i + 1) - b(1)
+            ends = changes(2) - step%length*step%new_rate(i + 1) - b(1)
             b(2) = 4.0_wp*middle - ends
             b(3) = ends - b(2)
          end associate

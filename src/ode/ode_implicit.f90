@@ -7,7 +7,7 @@
 !> its starting values from the polynomial of the last step, its termination, and the filtered error estimate.
 module camroller_ode_implicit
    use camroller_kinds, only : wp
-   use camroller_ode, only : problem_t, method_t, counters_t
+   use camroller_ode, only : problem_t, method_t, step_t, counters_t
    use camroller_lapack, only : dgetrf, dgetrs
    implicit none
    private
@@ -96,48 +96,35 @@ contains
    end subroutine new_radau_method
 
    !> One step.
-   subroutine try_radau_step(self, problem, time, state, rate, step, new_state, new_rate, error_estimate, &
-      counters, status)
+   subroutine try_radau_step(self, problem, step, counters, status)
       !> The method with its work space and the Jacobian at this point
       class(radau_method_t), intent(inout) :: self
       !> The problem
       class(problem_t), intent(in) :: problem
-      !> Time at the start of the step [time]
-      real(wp), intent(in) :: time
-      !> State there [state]
-      real(wp), intent(in) :: state(:)
-      !> Rate there [state/time]
-      real(wp), intent(in) :: rate(:)
-      !> Size of the step [time]
-      real(wp), intent(in) :: step
-      !> State at the end [state]
-      real(wp), intent(out) :: new_state(:)
-      !> Left to the loop: zero [state/time]
-      real(wp), intent(out) :: new_rate(:)
-      !> Estimate of the error made in this step [state]
-      real(wp), intent(out) :: error_estimate(:)
+      !> The step
+      type(step_t), intent(inout) :: step
       !> Work done so far
       type(counters_t), intent(inout) :: counters
       !> 0 fine, positive: try a smaller step, negative: give up
       integer, intent(out) :: status
 
-      new_state = state
-      new_rate = 0.0_wp
-      error_estimate = 0.0_wp
-      call factorise(self, step, counters, status)
+      step%new_state(:) = step%state
+      step%new_rate(:) = 0.0_wp
+      step%estimate(:) = 0.0_wp
+      call factorise(self, step%length, counters, status)
       if (status /= 0) return
-      if (follows(self%tried, state)) self%last = self%tried
-      call guess_stages(self, state, step)
-      call iterate(self, problem, time, state, step, counters, status)
+      if (follows(self%tried, step%state)) self%last = self%tried
+      call guess_stages(self, step%state, step%length)
+      call iterate(self, problem, step, counters, status)
       if (status /= 0) return
-      new_state = state + self%stages(:, 3)
-      call estimate_error(self, problem, time, state, rate, step, error_estimate, counters, status)
+      step%new_state(:) = step%state + self%stages(:, 3)
+      call estimate_error(self, problem, step, counters, status)
       if (status /= 0) return
       call bend_curve(self)
-      if (follows(self%last, state)) error_estimate = max(abs(error_estimate), curve_error(self, step))
-      self%tried%step = step
-      self%tried%start = state
-      self%tried%end = new_state
+      if (follows(self%last, step%state)) step%estimate(:) = max(abs(step%estimate), curve_error(self, step%length))
+      self%tried%step = step%length
+      self%tried%start = step%state
+      self%tried%end = step%new_state
       self%tried%bends = self%bends(:, :2)
    end subroutine try_radau_step
 
@@ -230,17 +217,13 @@ contains
    end subroutine guess_stages
 
    !> Simplified Newton iteration for the stages.
-   subroutine iterate(self, problem, time, state, step, counters, status)
+   subroutine iterate(self, problem, step, counters, status)
       !> The method with its work space
       type(radau_method_t), intent(inout) :: self
       !> The problem
       class(problem_t), intent(in) :: problem
-      !> Time at the start of the step [time]
-      real(wp), intent(in) :: time
-      !> State there [state]
-      real(wp), intent(in) :: state(:)
-      !> Size of the step [time]
-      real(wp), intent(in) :: step
+      !> The step
+      type(step_t), intent(in) :: step
       !> Work done so far
       type(counters_t), intent(inout) :: counters
       !> 0 fine, positive: no convergence, try a smaller step, negative: give up
@@ -250,14 +233,14 @@ contains
       real(wp) :: change, last_change, contraction
       integer :: iteration, i, n
 
-      n = size(state)
+      n = size(step%state)
       last_change = 0.0_wp
       do iteration = 1, max_iterations
          do i = 1, 3
-            call problem%get_rate(time + nodes(i)*step, state + self%stages(:, i), self%stage_rate, status)
+            call problem%get_rate(step%time + nodes(i)*step%length, step%state + self%stages(:, i), self%stage_rate, status)
             counters%evaluations = counters%evaluations + 1
             if (status /= 0) return
-            self%correction(:, i) = self%stage_rate - matmul(self%stages, self%inverse(i, :))/step
+            self%correction(:, i) = self%stage_rate - matmul(self%stages, self%inverse(i, :))/step%length
          end do
          call dgetrs("N", 3*n, 1, self%matrix, 3*n, self%pivots, self%correction, 3*n, status)
          self%stages = self%stages + self%correction
@@ -266,7 +249,7 @@ contains
             change = max(change, maxval(abs(self%correction(:, i))/self%tolerance))
          end do
          if (.not. change < huge(1.0_wp)) exit
-         if (maxval(abs(self%correction)) <= rounding*maxval(abs(self%stages + spread(state, 2, 3)))) return
+         if (maxval(abs(self%correction)) <= rounding*maxval(abs(self%stages + spread(step%state, 2, 3)))) return
          if (iteration > 1) then
             contraction = change/last_change
             if (contraction >= 1.0_wp) exit
@@ -278,41 +261,33 @@ contains
    end subroutine iterate
 
    !> Difference to an embedded method of order 3, filtered so that stiff components do not blow it up.
-   subroutine estimate_error(self, problem, time, state, rate, step, estimate, counters, status)
+   subroutine estimate_error(self, problem, step, counters, status)
       !> The method with its work space
       type(radau_method_t), intent(inout) :: self
       !> The problem
       class(problem_t), intent(in) :: problem
-      !> Time at the start of the step [time]
-      real(wp), intent(in) :: time
-      !> State there [state]
-      real(wp), intent(in) :: state(:)
-      !> Rate there [state/time]
-      real(wp), intent(in) :: rate(:)
-      !> Size of the step [time]
-      real(wp), intent(in) :: step
-      !> Estimate of the error [state]
-      real(wp), intent(out) :: estimate(:)
+      !> The step; out: with its error
+      type(step_t), intent(inout) :: step
       !> Work done so far
       type(counters_t), intent(inout) :: counters
-      !> 0 fine, else as from the problem
+      !> 0 fine, positive: try a smaller step, negative: give up
       integer, intent(out) :: status
 
       ! What the stages say [state/time]
-      real(wp) :: difference(size(state))
+      real(wp) :: difference(size(step%state))
       integer :: n, info
 
-      n = size(state)
+      n = size(step%state)
       status = 0
-      difference = matmul(self%stages, estimate_weights)/step
-      estimate = difference + rate
-      call dgetrs("N", n, 1, self%estimate_matrix, n, self%estimate_pivots, estimate, n, info)
-      if (maxval(abs(estimate)/self%tolerance) <= 1.0_wp) return
-      call problem%get_rate(time, state + estimate, self%stage_rate, status)
+      difference = matmul(self%stages, estimate_weights)/step%length
+      step%estimate(:) = difference + step%rate
+      call dgetrs("N", n, 1, self%estimate_matrix, n, self%estimate_pivots, step%estimate, n, info)
+      if (maxval(abs(step%estimate)/self%tolerance) <= 1.0_wp) return
+      call problem%get_rate(step%time, step%state + step%estimate, self%stage_rate, status)
       counters%evaluations = counters%evaluations + 1
       if (status /= 0) return
-      estimate = difference + self%stage_rate
-      call dgetrs("N", n, 1, self%estimate_matrix, n, self%estimate_pivots, estimate, n, info)
+      step%estimate(:) = difference + self%stage_rate
+      call dgetrs("N", n, 1, self%estimate_matrix, n, self%estimate_pivots, step%estimate, n, info)
    end subroutine estimate_error
 
    !> The collocation polynomial as bends of a curve.

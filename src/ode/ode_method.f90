@@ -1,13 +1,14 @@
 !> Abstract type of an integration method.
 !>
-!> In: nothing. Out: `method_t`, which methods extend, and `options_t`. The integration loop is in `ode`.
+!> In: nothing. Out: `method_t`, which methods extend, `step_t`, which they fill, and `options_t`. The integration loop is in `ode`.
 module camroller_ode_method
    use camroller_kinds, only : wp
    use camroller_ode_problem, only : problem_t, linear_t, counters_t
+   use camroller_trajectory, only : trajectory_t, append_curve, append_point
    implicit none
    private
 
-   public :: method_t, options_t, allow_more
+   public :: method_t, options_t, step_t, allow_more, start_step, take_step, keep_point
 
    !> A way to make one step
    type, abstract :: method_t
@@ -39,6 +40,22 @@ module camroller_ode_method
       procedure(step_interface), deferred :: try_step
    end type method_t
 
+   !> A step from an accepted point
+   type :: step_t
+      !> Time at its start and at its end, its length [time]
+      real(wp) :: time = 0.0_wp, end_time = 0.0_wp, length = 0.0_wp
+      !> Does it end at a stop?
+      logical :: is_last = .false.
+      !> State [state] and rate [state/time] at its start, which a try leaves untouched
+      real(wp), allocatable :: state(:), rate(:)
+      !> State [state] and rate [state/time] at its end
+      real(wp), allocatable :: new_state(:), new_rate(:)
+      !> Estimate of the error made in it; zero where the method has none [state]
+      real(wp), allocatable :: estimate(:)
+      !> Error over tolerance [-]
+      real(wp) :: scaled_error = 0.0_wp
+   end type step_t
+
    !> How to integrate
    type :: options_t
       !> Error allowed per step, one value per component [state]; methods with an error estimate
@@ -57,28 +74,15 @@ module camroller_ode_method
    end type options_t
 
    abstract interface
-      !> One step from an accepted point, which it leaves untouched
-      subroutine step_interface(self, problem, time, state, rate, step, new_state, new_rate, error_estimate, &
-         counters, status)
-         import :: method_t, problem_t, counters_t, wp
+      !> Try a step: from its start and length to state, rate and error at its end
+      subroutine step_interface(self, problem, step, counters, status)
+         import :: method_t, problem_t, step_t, counters_t
          !> The method with its work space
          class(method_t), intent(inout) :: self
          !> The problem
          class(problem_t), intent(in) :: problem
-         !> Time at the start of the step [time]
-         real(wp), intent(in) :: time
-         !> State there [state]
-         real(wp), intent(in) :: state(:)
-         !> Rate there [state/time]
-         real(wp), intent(in) :: rate(:)
-         !> Size of the step [time]
-         real(wp), intent(in) :: step
-         !> State at the end [state]
-         real(wp), intent(out) :: new_state(:)
-         !> Rate at the end [state/time]
-         real(wp), intent(out) :: new_rate(:)
-         !> Estimate of the error made in this step [state]; zero where the method has none
-         real(wp), intent(out) :: error_estimate(:)
+         !> The step
+         type(step_t), intent(inout) :: step
          !> Work done so far
          type(counters_t), intent(inout) :: counters
          !> 0 fine, positive: try a smaller step, negative: give up
@@ -87,6 +91,43 @@ module camroller_ode_method
    end interface
 
 contains
+
+   !> A step with room for the components of a state.
+   pure subroutine start_step(step, state)
+      !> The step
+      type(step_t), intent(out) :: step
+      !> State at its start [state]
+      real(wp), intent(in) :: state(:)
+
+      step%state = state
+      allocate (step%rate, step%new_state, step%new_rate, step%estimate, mold=state)
+   end subroutine start_step
+
+   !> Go on to the end of a step.
+   pure subroutine take_step(step)
+      !> In: a step; out: one of no length where it ended
+      type(step_t), intent(inout) :: step
+
+      step%time = step%end_time
+      step%state(:) = step%new_state
+      step%rate(:) = step%new_rate
+   end subroutine take_step
+
+   !> Append the point where a step starts to a trajectory, with the curve that the method has left of the step before, if any.
+   pure subroutine keep_point(method, step, trajectory)
+      !> The method
+      class(method_t), intent(in) :: method
+      !> The step, taken
+      type(step_t), intent(in) :: step
+      !> Accepted points
+      type(trajectory_t), intent(inout) :: trajectory
+
+      if (method%has_curve) then
+         call append_curve(trajectory, step%time, step%state, step%rate, method%bends)
+      else
+         call append_point(trajectory, step%time, step%state, step%rate)
+      end if
+   end subroutine keep_point
 
    !> Options of an integration that goes on from another: what it may take is on top of what has been taken.
    pure subroutine allow_more(options, counters, further)

@@ -15,7 +15,7 @@
 !> | `rodas5p` | 5(4) | 8, no loss of order on stiff smooth solutions | Steinebach, BIT Numer. Math. 63 (2023) 27 |
 module camroller_ode_rosenbrock
    use camroller_kinds, only : wp
-   use camroller_ode, only : problem_t, method_t, counters_t
+   use camroller_ode, only : problem_t, method_t, step_t, counters_t
    use camroller_lapack, only : dgetrf, dgetrs
    implicit none
    private
@@ -131,26 +131,13 @@ contains
    end subroutine set_rodas5p
 
    !> One step of a Rosenbrock method.
-   subroutine try_rosenbrock_step(self, problem, time, state, rate, step, new_state, new_rate, error_estimate, &
-      counters, status)
+   subroutine try_rosenbrock_step(self, problem, step, counters, status)
       !> The method with its work space and the Jacobian at this point
       class(rosenbrock_method_t), intent(inout) :: self
       !> The problem
       class(problem_t), intent(in) :: problem
-      !> Time at the start of the step [time]
-      real(wp), intent(in) :: time
-      !> State there [state]
-      real(wp), intent(in) :: state(:)
-      !> Rate there [state/time]
-      real(wp), intent(in) :: rate(:)
-      !> Size of the step [time]
-      real(wp), intent(in) :: step
-      !> State at the end [state]
-      real(wp), intent(out) :: new_state(:)
-      !> Left to the loop: zero [state/time]
-      real(wp), intent(out) :: new_rate(:)
-      !> Estimate of the error made in this step [state]
-      real(wp), intent(out) :: error_estimate(:)
+      !> The step
+      type(step_t), intent(inout) :: step
       !> Work done so far
       type(counters_t), intent(inout) :: counters
       !> 0 fine, positive: try a smaller step, negative: give up
@@ -158,30 +145,32 @@ contains
 
       integer :: stage, i
 
-      new_state = state
-      new_rate = 0.0_wp
-      error_estimate = 0.0_wp
-      self%stage_rate = rate
-      call factorise(self, step, counters, status)
-      if (status /= 0) return
-      do stage = 1, self%stages
-         self%right_side = step*self%slope_weights(stage)*self%here%time_slope
-         new_state = state
-         do i = 1, stage - 1
-            new_state = new_state + self%weights(i, stage)*self%increments(:, i)
-            self%right_side = self%right_side + (self%couplings(i, stage)/step)*self%increments(:, i)
+      associate (new_state => step%new_state, length => step%length)
+         new_state(:) = step%state
+         step%new_rate(:) = 0.0_wp
+         step%estimate(:) = 0.0_wp
+         self%stage_rate = step%rate
+         call factorise(self, length, counters, status)
+         if (status /= 0) return
+         do stage = 1, self%stages
+            self%right_side = length*self%slope_weights(stage)*self%here%time_slope
+            new_state(:) = step%state
+            do i = 1, stage - 1
+               new_state(:) = new_state + self%weights(i, stage)*self%increments(:, i)
+               self%right_side = self%right_side + (self%couplings(i, stage)/length)*self%increments(:, i)
+            end do
+            if (stage > 1) then
+               call problem%get_rate(step%time + length*self%nodes(stage), new_state, self%stage_rate, status)
+               counters%evaluations = counters%evaluations + 1
+               if (status /= 0) return
+            end if
+            self%right_side = self%right_side + self%stage_rate
+            call solve(self)
+            self%increments(:, stage) = self%right_side
          end do
-         if (stage > 1) then
-            call problem%get_rate(time + step*self%nodes(stage), new_state, self%stage_rate, status)
-            counters%evaluations = counters%evaluations + 1
-            if (status /= 0) return
-         end if
-         self%right_side = self%right_side + self%stage_rate
-         call solve(self)
-         self%increments(:, stage) = self%right_side
-      end do
-      error_estimate = self%increments(:, self%stages)
-      new_state = new_state + error_estimate
+         step%estimate(:) = self%increments(:, self%stages)
+         new_state(:) = new_state + step%estimate
+      end associate
       do i = 1, 3
          self%bends(:, i) = 0.0_wp
          do stage = 1, self%stages

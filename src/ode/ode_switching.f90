@@ -6,8 +6,8 @@ module camroller_ode_switching
    use camroller_kinds, only : wp
    use camroller_error, only : error_t, raise, kind_convergence
    use camroller_ode_problem, only : problem_t, counters_t, new_linear, copy_linear
-   use camroller_ode_method, only : method_t, options_t
-   use camroller_trajectory, only : trajectory_t, start_trajectory, append_point, append_curve, curve_state, curve_numbers
+   use camroller_ode_method, only : method_t, options_t, step_t, start_step, take_step, keep_point
+   use camroller_trajectory, only : trajectory_t, start_trajectory, append_point, curve_state, curve_numbers
    implicit none
    private
 
@@ -23,12 +23,14 @@ module camroller_ode_switching
 
    !> Where an integration stands
    type :: walk_t
-      !> Time [time], step proposed [time]
-      real(wp) :: time, step
-      !> State [state] and its rate [state/time]
-      real(wp), allocatable :: state(:), rate(:)
-      !> Switches there [any]
-      real(wp), allocatable :: switches(:)
+      !> The step that is being made, from the point reached
+      type(step_t) :: step
+      !> Step proposed [time]
+      real(wp) :: proposed = 0.0_wp
+      !> Switches at the start and at the end of the step [any]
+      real(wp), allocatable :: switches(:), new_switches(:)
+      !> Place of the first kink in the step; beyond it where there is none [-]
+      real(wp) :: kink = 0.0_wp
    end type walk_t
 
    !> Part of the optimal step that is taken; largest growth and shrinkage of a step [-]
@@ -85,30 +87,32 @@ contains
       real(wp) :: margin
       integer :: segment, status
 
-      walk%state = state
-      allocate (walk%rate(size(state)), walk%switches(problem%switches))
-      walk%step = options%step
+      call start_step(walk%step, state)
+      allocate (walk%switches(problem%switches), walk%new_switches(problem%switches))
+      walk%proposed = options%step
       margin = 4.0_wp*spacing(maxval(abs(stops)))
       method%tolerance = options%tolerance
       call start_trajectory(trajectory, size(state))
       call new_linear(method%here, size(state))
       call new_linear(method%there, size(state))
-      do segment = 1, size(stops) - 1
-         if (stops(segment + 1) - stops(segment) <= 64.0_wp*margin) cycle
-         walk%time = stops(segment) + margin
-         method%horizon = stops(segment + 1) - margin
-         call problem%linearise(walk%time, walk%state, method%horizon, method%here, counters, status)
-         if (status == 0) call problem%get_switches(walk%time, walk%state, walk%switches, status)
-         if (status /= 0) then
-            call raise(error, kind_convergence, "the right-hand side has no value at "//trim(problem%name_time(walk%time)))
-            return
-         end if
-         walk%rate(:) = method%here%rate
-         call append_point(trajectory, walk%time, walk%state, walk%rate)
-         call walk_segment(problem, method, options, walk, trajectory, counters, error)
-         if (allocated(error)) return
-      end do
-      state = walk%state
+      associate (step => walk%step)
+         do segment = 1, size(stops) - 1
+            if (stops(segment + 1) - stops(segment) <= 64.0_wp*margin) cycle
+            step%time = stops(segment) + margin
+            method%horizon = stops(segment + 1) - margin
+            call problem%linearise(step%time, step%state, method%horizon, method%here, counters, status)
+            if (status == 0) call problem%get_switches(step%time, step%state, walk%switches, status)
+            if (status /= 0) then
+               call raise(error, kind_convergence, "the right-hand side has no value at "//trim(problem%name_time(step%time)))
+               return
+            end if
+            step%rate(:) = method%here%rate
+            call append_point(trajectory, step%time, step%state, step%rate)
+            call walk_segment(problem, method, options, walk, trajectory, counters, error)
+            if (allocated(error)) return
+         end do
+         state = step%state
+      end associate
    end subroutine integrate_switching
 
    !> Integrate to the end of a segment.
@@ -128,190 +132,162 @@ contains
       !> Convergence error
       type(error_t), allocatable, intent(out) :: error
 
-      ! Step and its end [time], error over tolerance [-], place of a kink [-], part of the step that the next one is [-]
-      real(wp) :: step, new_time, scaled_error, kink, factor
-      ! Trial state [state], its rate [state/time], switches there [any]
-      real(wp) :: new_state(size(walk%state)), new_rate(size(walk%state)), switches(problem%switches)
-      logical :: is_last, was_cut, is_good, was_rejected
+      ! Part of the step that the next one is [-]
+      real(wp) :: factor
+      logical :: was_cut, is_good, was_rejected
 
       was_cut = .false.
       was_rejected = .false.
       do
-         call choose_step(problem, method, options, walk, step, new_time, is_last, counters)
-         call try_step(problem, method, walk, step, new_time, new_state, new_rate, switches, scaled_error, kink, counters)
-         is_good = scaled_error <= 1.0_wp
-         factor = safety*max(scaled_error, least_error)**(-1.0_wp/method%error_order)
-         factor = min(max_growth, max(max_shrinkage, factor))
-         if (is_good .and. (kink > 1.0_wp - near_end .or. (was_cut .and. kink > 0.5_wp))) then
-            counters%accepted = counters%accepted + 1
-            walk%time = new_time
-            walk%state(:) = new_state
-            walk%rate(:) = new_rate
-            walk%switches(:) = switches
-            call keep_point(method, walk, trajectory)
-            if (is_last) then
-               walk%step = max(walk%step, step)
-               return
-            end if
-            if (was_rejected) factor = min(factor, 1.0_wp)
-            walk%step = merge(max(walk%step, step*factor), step*factor, was_cut)
-            call copy_linear(method%there, method%here)
-            was_cut = .false.
-            was_rejected = .false.
-         else
-            counters%rejected = counters%rejected + 1
-            was_cut = kink < 1.0_wp - near_end .and. (is_good .or. (kink > factor .and. .not. was_cut))
-            if (was_cut) then
-               walk%step = max(kink, near_end)*step
+         call choose_step(problem, method, options, walk, counters)
+         call try_step(problem, method, walk, counters)
+         associate (length => walk%step%length, kink => walk%kink)
+            is_good = walk%step%scaled_error <= 1.0_wp
+            factor = safety*max(walk%step%scaled_error, least_error)**(-1.0_wp/method%error_order)
+            factor = min(max_growth, max(max_shrinkage, factor))
+            if (is_good .and. (kink > 1.0_wp - near_end .or. (was_cut .and. kink > 0.5_wp))) then
+               counters%accepted = counters%accepted + 1
+               call take_step(walk%step)
+               walk%switches(:) = walk%new_switches
+               call keep_point(method, walk%step, trajectory)
+               if (walk%step%is_last) then
+                  walk%proposed = max(walk%proposed, length)
+                  return
+               end if
+               if (was_rejected) factor = min(factor, 1.0_wp)
+               walk%proposed = merge(max(walk%proposed, length*factor), length*factor, was_cut)
+               call copy_linear(method%there, method%here)
+               was_cut = .false.
+               was_rejected = .false.
             else
-               walk%step = step*min(factor, safety)
+               counters%rejected = counters%rejected + 1
+               was_cut = kink < 1.0_wp - near_end .and. (is_good .or. (kink > factor .and. .not. was_cut))
+               if (was_cut) then
+                  walk%proposed = max(kink, near_end)*length
+               else
+                  walk%proposed = length*min(factor, safety)
+               end if
+               was_rejected = .not. is_good
             end if
-            was_rejected = .not. is_good
-         end if
+         end associate
          if (counters%accepted + counters%rejected > options%max_steps) then
-            call raise(error, kind_convergence, "the number of steps is used up at "//trim(problem%name_time(walk%time)))
-         else if (walk%step <= 16.0_wp*spacing(abs(walk%time))) then
-            call raise(error, kind_convergence, "the step has become too small at "//trim(problem%name_time(walk%time)))
+            call raise(error, kind_convergence, "the number of steps is used up at "//trim(problem%name_time(walk%step%time)))
+         else if (walk%proposed <= 16.0_wp*spacing(abs(walk%step%time))) then
+            call raise(error, kind_convergence, "the step has become too small at "//trim(problem%name_time(walk%step%time)))
          end if
          if (allocated(error)) return
       end do
    end subroutine walk_segment
 
    !> Step that the proposal, the largest step, stability and the end of the segment allow.
-   subroutine choose_step(problem, method, options, walk, step, new_time, is_last, counters)
+   subroutine choose_step(problem, method, options, walk, counters)
       !> The problem
       class(switching_problem_t), intent(in) :: problem
       !> The method
       class(method_t), intent(in) :: method
       !> Tolerance and steps
       type(options_t), intent(in) :: options
-      !> Where the integration stands
-      type(walk_t), intent(in) :: walk
-      !> Step and its end [time]
-      real(wp), intent(out) :: step, new_time
-      !> Does it end the segment?
-      logical, intent(out) :: is_last
+      !> Where the integration stands; out: with length and end of the step
+      type(walk_t), intent(inout) :: walk
       !> Work done
       type(counters_t), intent(inout) :: counters
 
       ! Fastest decay rate [1/time]
       real(wp) :: decay_rate
 
-      step = min(walk%step, options%max_step)
-      if (method%stability_limit < huge(1.0_wp)) then
-         call problem%get_decay_rate(walk%time, walk%state, decay_rate)
-         counters%decay_rates = counters%decay_rates + 1
-         if (decay_rate*step > stability_margin*method%stability_limit) step = stability_margin*method%stability_limit/decay_rate
-      end if
-      is_last = walk%time + step*(1.0_wp + 1.0e-9_wp) >= method%horizon
-      if (is_last) step = method%horizon - walk%time
-      if (.not. is_last .and. walk%time + 2.0_wp*step > method%horizon) step = 0.5_wp*(method%horizon - walk%time)
-      new_time = merge(method%horizon, walk%time + step, is_last)
+      associate (step => walk%step, length => walk%step%length, finish => method%horizon)
+         length = min(walk%proposed, options%max_step)
+         if (method%stability_limit < huge(1.0_wp)) then
+            call problem%get_decay_rate(step%time, step%state, decay_rate)
+            counters%decay_rates = counters%decay_rates + 1
+            if (decay_rate*length > stability_margin*method%stability_limit) then
+               length = stability_margin*method%stability_limit/decay_rate
+            end if
+         end if
+         step%is_last = step%time + length*(1.0_wp + 1.0e-9_wp) >= finish
+         if (step%is_last) length = finish - step%time
+         if (.not. step%is_last .and. step%time + 2.0_wp*length > finish) length = 0.5_wp*(finish - step%time)
+         step%end_time = merge(finish, step%time + length, step%is_last)
+      end associate
    end subroutine choose_step
 
    !> Try a step, and look for the first kink in it.
-   subroutine try_step(problem, method, walk, step, new_time, new_state, new_rate, switches, scaled_error, kink, counters)
+   subroutine try_step(problem, method, walk, counters)
       !> The problem
       class(switching_problem_t), intent(in) :: problem
       !> The method
       class(method_t), intent(inout) :: method
-      !> Where the integration stands
-      type(walk_t), intent(in) :: walk
-      !> Step and its end [time]
-      real(wp), intent(in) :: step, new_time
-      !> State [state], rate [state/time] and switches [any] at the end
-      real(wp), intent(out) :: new_state(:), new_rate(:), switches(:)
-      !> Error over tolerance [-]
-      real(wp), intent(out) :: scaled_error
-      !> Place of the first kink in the step; beyond it where there is none [-]
-      real(wp), intent(out) :: kink
+      !> Where the integration stands; out: with the end of the step, its error and its first kink
+      type(walk_t), intent(inout) :: walk
       !> Work done
       type(counters_t), intent(inout) :: counters
 
-      ! Error of the step [state]
-      real(wp) :: estimate(size(new_state))
       integer :: status
 
-      kink = 2.0_wp
-      switches = walk%switches
-      scaled_error = impossible
-      call method%try_step(problem, walk%time, walk%state, walk%rate, step, new_state, new_rate, estimate, counters, status)
-      if (status /= 0) return
-      if (.not. all(abs(new_state) < huge(1.0_wp) .and. abs(estimate) < huge(1.0_wp))) return
-      call problem%get_switches(new_time, new_state, switches, status)
-      if (status /= 0) return
-      scaled_error = maxval(abs(estimate)/method%tolerance)
-      if (any(switches*walk%switches < 0.0_wp)) kink = first_kink(problem, method, walk, step, new_state, switches)
-      if (scaled_error > 1.0_wp .or. kink <= 0.5_wp) return
-      if (method%needs_jacobian) then
-         call problem%linearise(new_time, new_state, method%horizon, method%there, counters, status)
-         new_rate = method%there%rate
-      else if (.not. method%gives_rate) then
-         call problem%get_rate(new_time, new_state, new_rate, status)
-         counters%evaluations = counters%evaluations + 1
-      end if
-      if (status /= 0) scaled_error = impossible
+      walk%kink = 2.0_wp
+      walk%new_switches(:) = walk%switches
+      associate (step => walk%step)
+         call method%try_step(problem, step, counters, status)
+         step%scaled_error = impossible
+         if (status /= 0) return
+         if (.not. all(abs(step%new_state) < huge(1.0_wp) .and. abs(step%estimate) < huge(1.0_wp))) return
+         call problem%get_switches(step%end_time, step%new_state, walk%new_switches, status)
+         if (status /= 0) return
+         step%scaled_error = maxval(abs(step%estimate)/method%tolerance)
+         if (any(walk%new_switches*walk%switches < 0.0_wp)) walk%kink = first_kink(problem, method, walk)
+         if (step%scaled_error > 1.0_wp .or. walk%kink <= 0.5_wp) return
+         if (method%needs_jacobian) then
+            call problem%linearise(step%end_time, step%new_state, method%horizon, method%there, counters, status)
+            step%new_rate(:) = method%there%rate
+         else if (.not. method%gives_rate) then
+            call problem%get_rate(step%end_time, step%new_state, step%new_rate, status)
+            counters%evaluations = counters%evaluations + 1
+         end if
+         if (status /= 0) step%scaled_error = impossible
+      end associate
    end subroutine try_step
 
    !> Place of the first zero of a switch that changes its sign in a step, by halving on the step's curve.
-   function first_kink(problem, method, walk, step, new_state, switches) result(place)
+   function first_kink(problem, method, walk) result(place)
       !> The problem
       class(switching_problem_t), intent(in) :: problem
       !> The method after the step
       class(method_t), intent(in) :: method
-      !> Where the step begins
+      !> The step, with the switches at both ends
       type(walk_t), intent(in) :: walk
-      !> Step [time]
-      real(wp), intent(in) :: step
-      !> State [state] and switches [any] at its end
-      real(wp), intent(in) :: new_state(:), switches(:)
       !> The place [-]
       real(wp) :: place
 
       ! Curve of the step [state]; state [state] and switches [any] on it; part that holds the zero [-]
-      real(wp) :: bends(size(new_state), curve_numbers), state(size(new_state)), values(size(switches)), low, high
-      logical :: changes(size(switches))
+      real(wp) :: bends(size(walk%step%state), curve_numbers), state(size(walk%step%state)), values(size(walk%switches)), low, high
+      logical :: changes(size(walk%switches))
       integer :: i, status
 
-      bends = 0.0_wp
-      if (method%has_curve) then
-         bends(:, :size(method%bends, 2)) = method%bends
-      else
-         bends(:, 1) = step*walk%rate - (new_state - walk%state)
-      end if
-      ! A switch that is zero by a few roundings where the last kink ended its step is past it
-      low = 0.0_wp
-      high = 1.0_wp
-      changes = switches*walk%switches < 0.0_wp
-      do i = 1, halvings
-         place = 0.5_wp*(low + high)
-         state = curve_state(walk%state, new_state, bends, place)
-         call problem%get_switches(walk%time + place*step, state, values, status)
-         if (status /= 0) exit
-         if (any(changes .and. values*walk%switches <= 0.0_wp)) then
-            high = place
+      associate (step => walk%step)
+         bends = 0.0_wp
+         if (method%has_curve) then
+            bends(:, :size(method%bends, 2)) = method%bends
          else
-            low = place
+            bends(:, 1) = step%length*step%rate - (step%new_state - step%state)
          end if
-      end do
+         ! A switch that is zero by a few roundings where the last kink ended its step is past it
+         low = 0.0_wp
+         high = 1.0_wp
+         changes = walk%new_switches*walk%switches < 0.0_wp
+         do i = 1, halvings
+            place = 0.5_wp*(low + high)
+            state = curve_state(step%state, step%new_state, bends, place)
+            call problem%get_switches(step%time + place*step%length, state, values, status)
+            if (status /= 0) exit
+            if (any(changes .and. values*walk%switches <= 0.0_wp)) then
+               high = place
+            else
+               low = place
+            end if
+         end do
+      end associate
       place = high
       if (high <= near_end) place = 2.0_wp
    end function first_kink
-
-   !> Append the point that was reached to the trajectory, with the curve that the method has left, if any.
-   pure subroutine keep_point(method, walk, trajectory)
-      !> The method
-      class(method_t), intent(in) :: method
-      !> Where the integration stands
-      type(walk_t), intent(in) :: walk
-      !> Accepted points
-      type(trajectory_t), intent(inout) :: trajectory
-
-      if (method%has_curve) then
-         call append_curve(trajectory, walk%time, walk%state, walk%rate, method%bends)
-      else
-         call append_point(trajectory, walk%time, walk%state, walk%rate)
-      end if
-   end subroutine keep_point
 
 end module camroller_ode_switching

@@ -5,7 +5,7 @@
 !> check fails.
 module camroller_step_checks
    use camroller_kinds, only : wp
-   use camroller_ode_method, only : method_t
+   use camroller_ode_method, only : method_t, step_t
    use camroller_ode_problem, only : problem_t, linear_t, counters_t
    use camroller_trajectory, only : curve_numbers, curve_state
    implicit none
@@ -19,44 +19,33 @@ module camroller_step_checks
 contains
 
    !> Raise the error of a step for which one of the checks finds a reason.
-   subroutine check_step(problem, method, is_fixed, time, new_time, finish, step, state, rate, new_state, new_rate, &
-      & estimate, counters, scaled_error)
+   subroutine check_step(problem, method, is_fixed, step, counters)
       !> The problem
       class(problem_t), intent(in) :: problem
       !> The method after the step
       class(method_t), intent(inout) :: method
       !> Is the size of the step fixed?
       logical, intent(in) :: is_fixed
-      !> Time at the start and at the end of the step, end of the segment; size of the step [time]
-      real(wp), intent(in) :: time, new_time, finish, step
-      !> State [state] and rate [state/time] at the start
-      real(wp), intent(in) :: state(:), rate(:)
-      !> State [state] and rate [state/time] at the end
-      real(wp), intent(in) :: new_state(:), new_rate(:)
-      !> Error of the step [state]
-      real(wp), intent(in) :: estimate(:)
+      !> The step
+      type(step_t), intent(inout) :: step
       !> Work done so far
       type(counters_t), intent(inout) :: counters
-      !> Error over tolerance [-]
-      real(wp), intent(inout) :: scaled_error
 
       ! No bends [state]
-      real(wp) :: straight(size(state), 0)
+      real(wp) :: straight(size(step%state), 0)
       logical :: has_derivatives
 
-      has_derivatives = method%needs_jacobian .and. (method%gives_rate .or. new_time < finish)
-      associate (here => method%here, there => method%there, change => new_state - state)
-         if (method%needs_jacobian .and. here%span < huge(1.0_wp)) then
-            call check_saturation(here, there, method%error_order, step, rate, change, new_rate, estimate, scaled_error)
-         end if
-         if (is_fixed .or. scaled_error > 1.0_wp) return
-         if (.not. has_derivatives) call problem%get_clearance(new_time, new_state, there%clearance)
-         if (method%has_curve) then
-            call check_barrier(problem, here, there, method%bends, time, step, state, new_state, counters, scaled_error)
-         else
-            call check_barrier(problem, here, there, straight, time, step, state, new_state, counters, scaled_error)
-         end if
-      end associate
+      has_derivatives = method%needs_jacobian .and. (method%gives_rate .or. step%end_time < method%horizon)
+      if (method%needs_jacobian .and. method%here%span < huge(1.0_wp)) then
+         call check_saturation(method%here, method%there, method%error_order, step)
+      end if
+      if (is_fixed .or. step%scaled_error > 1.0_wp) return
+      if (.not. has_derivatives) call problem%get_clearance(step%end_time, step%new_state, method%there%clearance)
+      if (method%has_curve) then
+         call check_barrier(problem, method%here, method%there, method%bends, step, counters)
+      else
+         call check_barrier(problem, method%here, method%there, straight, step, counters)
+      end if
    end subroutine check_step
 
    !> Raise the error of a step that crosses a range of the state within which the rate saturates, without seeing it.
@@ -64,19 +53,13 @@ contains
    !> Two signs: an error of the state that the Jacobian turns into more than the allowed error of the rate, and a rate at
    !> the end that is far from the linear one. Without them a step may jump from one side of a narrow range to the other,
    !> again and again.
-   pure subroutine check_saturation(here, there, error_order, step, rate, change, new_rate, estimate, scaled_error)
+   pure subroutine check_saturation(here, there, error_order, step)
       !> Rate with its derivatives at the start and at the end
       type(linear_t), intent(in) :: here, there
       !> Order of the error estimate plus one
       integer, intent(in) :: error_order
-      !> Size of the step [time]
-      real(wp), intent(in) :: step
-      !> Rate at the start [state/time], change of the state [state], rate at the end [state/time]
-      real(wp), intent(in) :: rate(:), change(:), new_rate(:)
-      !> Error of the step [state]
-      real(wp), intent(in) :: estimate(:)
-      !> Error over tolerance [-]
-      real(wp), intent(inout) :: scaled_error
+      !> The step
+      type(step_t), intent(inout) :: step
 
       ! Departure from the linear rate, error of the rate, and size of the rates [state/time]
       real(wp) :: departure, error, span
@@ -84,15 +67,17 @@ contains
 
       span = here%span
       if (there%span < huge(1.0_wp)) span = max(span, there%span)
-      do i = 1, size(change)
-         associate (row => here%jacobian(i, :), size_of_rate => span + abs(rate(i)) + abs(new_rate(i)))
-            if (.not. size_of_rate > 0.0_wp) cycle
-            departure = new_rate(i) - rate(i) - sum(row*change) - here%time_slope(i)*step
-            error = sum(row*estimate)
-            scaled_error = max(scaled_error, abs(error)/(here%resolution*size_of_rate), &
-               & (abs(departure)/(largest_departure*size_of_rate))**error_order)
-         end associate
-      end do
+      associate (change => step%new_state - step%state)
+         do i = 1, size(change)
+            associate (row => here%jacobian(i, :), size_of_rate => span + abs(step%rate(i)) + abs(step%new_rate(i)))
+               if (.not. size_of_rate > 0.0_wp) cycle
+               departure = step%new_rate(i) - step%rate(i) - sum(row*change) - here%time_slope(i)*step%length
+               error = sum(row*step%estimate)
+               step%scaled_error = max(step%scaled_error, abs(error)/(here%resolution*size_of_rate), &
+                  & (abs(departure)/(largest_departure*size_of_rate))**error_order)
+            end associate
+         end do
+      end associate
    end subroutine check_saturation
 
    !> Raise the error of a step that crosses the barrier of a problem where the state would have been held.
@@ -100,32 +85,28 @@ contains
    !> What happens at a barrier may be too narrow for any step to meet it by chance. So where a step crosses it, the rate at the
    !> barrier itself, some roundings before it since the rate may have no limit there, is asked: if it moves the state back to where
    !> it came from, faster than the barrier moves, the step is wrong.
-   subroutine check_barrier(problem, here, there, bends, time, step, state, new_state, counters, scaled_error)
+   subroutine check_barrier(problem, here, there, bends, step, counters)
       !> The problem
       class(problem_t), intent(in) :: problem
       !> Clearances at the start and at the end
       type(linear_t), intent(in) :: here, there
       !> Curve of the step, as a trajectory takes it, shape (component, numbers given); no numbers: a straight line [state]
       real(wp), intent(in) :: bends(:, :)
-      !> Start and size of the step [time]
-      real(wp), intent(in) :: time, step
-      !> State at the start and at the end [state]
-      real(wp), intent(in) :: state(:), new_state(:)
+      !> The step
+      type(step_t), intent(inout) :: step
       !> Work done so far
       type(counters_t), intent(inout) :: counters
-      !> Error over tolerance [-]
-      real(wp), intent(inout) :: scaled_error
 
       ! Error over tolerance that stands for a step that must be shorter; distance of two places for a slope [-]
       real(wp), parameter :: far_too_large = 1.0e3_wp, apart = 1.0e-3_wp
       ! Roundings of a state [-]
       real(wp), parameter :: roundings = 4.0_wp
       ! The curve with all its numbers, those that are not given zero; states on it, moved to the barrier at last [state]
-      real(wp) :: curve(size(state), curve_numbers), between(size(state))
+      real(wp) :: curve(size(step%state), curve_numbers), between(size(step%state))
       ! Ends of a bracket and place of the crossing, places beside it [-]; clearances at these [state]
       real(wp) :: left, right, place, beside(2), clearance_left, clearance_right, clearance
       ! Places of the barrier [state]; its slope, rate there [state/time]
-      real(wp) :: barriers(2), slope, rate(size(state))
+      real(wp) :: barriers(2), slope, rate(size(step%state))
       ! Times that the crossing is narrowed down
       integer, parameter :: few = 4
       integer :: i, status
@@ -140,8 +121,8 @@ contains
       right = 1.0_wp
       do i = 1, few
          place = left + (right - left)*clearance_left/(clearance_left - clearance_right)
-         between = curve_state(state, new_state, curve, place)
-         call problem%get_clearance(time + place*step, between, clearance)
+         between = curve_state(step%state, step%new_state, curve, place)
+         call problem%get_clearance(step%time + place*step%length, between, clearance)
          if (i == few .or. abs(clearance) >= huge(1.0_wp)) exit
          if (clearance >= 0.0_wp .eqv. clearance_left >= 0.0_wp) then
             left = place
@@ -154,15 +135,15 @@ contains
       if (abs(clearance) >= huge(1.0_wp)) return
       between(1) = between(1) + clearance
       between(1) = between(1) - sign(roundings*spacing(between(1)), here%clearance)
-      call problem%get_rate(time + place*step, between, rate, status)
+      call problem%get_rate(step%time + place*step%length, between, rate, status)
       counters%evaluations = counters%evaluations + 1
       if (status /= 0) return
       beside = [max(place - apart, 0.0_wp), min(place + apart, 1.0_wp)]
       do i = 1, 2
-         call problem%get_clearance(time + beside(i)*step, between, barriers(i))
+         call problem%get_clearance(step%time + beside(i)*step%length, between, barriers(i))
       end do
-      slope = (barriers(2) - barriers(1))/((beside(2) - beside(1))*step)
-      if (sign(1.0_wp, here%clearance)*(slope - rate(1)) > 0.0_wp) scaled_error = max(scaled_error, far_too_large)
+      slope = (barriers(2) - barriers(1))/((beside(2) - beside(1))*step%length)
+      if (sign(1.0_wp, here%clearance)*(slope - rate(1)) > 0.0_wp) step%scaled_error = max(step%scaled_error, far_too_large)
    end subroutine check_barrier
 
 end module camroller_step_checks
