@@ -39,7 +39,7 @@ contains
          & attribute("canHandleVariableCommunicationStepSize", "true")//attribute(merge("canGetAndSetFMUState", &
          & "canGetAndSetFMUstate", version == 3), "true")//attribute(merge("canSerializeFMUState", "canSerializeFMUstate", &
          & version == 3), "true")//"/>"//n
-      call add_units(version, variables, text)
+      call add_units(variables, text)
       text = text//'  <DefaultExperiment startTime="0"'//attribute("stopTime", number_text(turn))//attribute("stepSize", &
          & number_text(turn/360.0_wp))//"/>"//n//"  <ModelVariables>"//n
       do i = 1, size(variables)
@@ -57,9 +57,7 @@ contains
    end subroutine describe_fmu
 
    !> All units, each once.
-   subroutine add_units(version, variables, text)
-      !> Version of FMI
-      integer, intent(in) :: version
+   subroutine add_units(variables, text)
       !> The variables
       type(variable_t), intent(in) :: variables(:)
       !> Text to extend
@@ -70,10 +68,8 @@ contains
 
       text = text//"  <UnitDefinitions>"//n
       do i = 1, size(variables)
-         if (version == 2 .and. variables(i)%role == role_time) cycle
          is_new = variables(i)%unit /= "1" .and. .not. variables(i)%is_logical
          do k = 1, i - 1
-            if (version == 2 .and. variables(k)%role == role_time) cycle
             is_new = is_new .and. variables(k)%unit /= variables(i)%unit
          end do
          if (is_new) text = text//"    <Unit"//attribute("name", variables(i)%unit)//"/>"//n
