@@ -79,6 +79,8 @@ contains
 
       ! Places [-] and defects [m/s/rad] that are known
       real(wp) :: places(panel_points + 2), values(panel_points + 2)
+      ! Weights of the polynomial through them [-]
+      real(wp) :: weights(panel_points + 2)
       ! Defect at start, middle and end of a part [m/s/rad]; its length over the interval [-]; decay over it, what it leaves [-]
       real(wp) :: defects(3), part, decay, left
       integer :: i, j, known
@@ -91,6 +93,7 @@ contains
          values(known + 1:known + 2) = ends
          known = known + 2
       end if
+      weights(:known) = node_weights(places(:known))
       associate (nodes => estimate%rate_places(:estimate%rated), rates => estimate%rates(:estimate%rated))
          do i = 1, size(cuts)
             where (abs(nodes - cuts(i)) <= epsilon(1.0_wp))
@@ -100,7 +103,7 @@ contains
             if (i == size(cuts)) exit
             part = cuts(i + 1) - cuts(i)
             do j = 0, 2
-               defects(j + 1) = value_at(places(:known), values(:known), cuts(i) + 0.5_wp*j*part)
+               defects(j + 1) = value_at(places(:known), weights(:known), values(:known), cuts(i) + 0.5_wp*j*part)
             end do
             decay = max(rate_at(nodes, rates, cuts(i) + 0.5_wp*part)*length*part, -largest_growth)
             left = exp(-decay)
@@ -191,10 +194,24 @@ contains
       end if
    end function rate_at
 
-   !> Value of the polynomial through some points.
-   pure function value_at(nodes, values, place) result(value)
+   !> Weights of the polynomial through some points: one over the product of the distances of each from the others.
+   pure function node_weights(nodes) result(weights)
       !> Places of the points [-]
       real(wp), intent(in) :: nodes(:)
+      !> The weights [-]
+      real(wp) :: weights(size(nodes))
+
+      integer :: i
+
+      do i = 1, size(nodes)
+         weights(i) = 1.0_wp/(product(nodes(i) - nodes(:i - 1))*product(nodes(i) - nodes(i + 1:)))
+      end do
+   end function node_weights
+
+   !> Value of the polynomial through some points, by the barycentric formula.
+   pure function value_at(nodes, weights, values, place) result(value)
+      !> Places of the points, and their weights [-]
+      real(wp), intent(in) :: nodes(:), weights(:)
       !> Values there [any]
       real(wp), intent(in) :: values(:)
       !> Place looked for [-]
@@ -202,18 +219,22 @@ contains
       !> Value there [any]
       real(wp) :: value
 
-      ! One point's polynomial [-]
-      real(wp) :: factor
-      integer :: i, j
+      ! A weight over the distance from its point, and the sum of all [-]
+      real(wp) :: share, shares
+      integer :: i
 
       value = 0.0_wp
+      shares = 0.0_wp
       do i = 1, size(nodes)
-         factor = 1.0_wp
-         do j = 1, size(nodes)
-            if (j /= i) factor = factor*(place - nodes(j))/(nodes(i) - nodes(j))
-         end do
-         value = value + factor*values(i)
+         if (abs(place - nodes(i)) <= epsilon(1.0_wp)) then
+            value = values(i)
+            return
+         end if
+         share = weights(i)/(place - nodes(i))
+         value = value + share*values(i)
+         shares = shares + share
       end do
+      value = value/shares
    end function value_at
 
 end module camroller_error_estimate

@@ -29,8 +29,9 @@ module camroller_extremes
       real(wp), allocatable :: values(:, :)
       !> Is the row one at which the slope of series jumps?
       logical, allocatable, private :: is_kink(:)
-      !> For the first `sorted` rows: the last row at a smaller angle and the first at a larger one, round the turn, shape (side, row)
-      integer, allocatable, private :: beside(:, :)
+      !> For the first `sorted` rows: they by their angles; for each the last row at a smaller angle and the first at a larger one,
+      !> round the turn, shape (side, row)
+      integer, allocatable, private :: order(:), beside(:, :)
       integer, private :: sorted = 0
    end type samples_t
 
@@ -121,27 +122,29 @@ contains
       !> The rows
       type(samples_t), intent(inout) :: samples
 
-      integer :: order(samples%count), place, before
+      integer :: place, before
 
-      call sort_rows(samples%angle(:samples%count), order)
-      if (allocated(samples%beside)) deallocate (samples%beside)
-      allocate (samples%beside(2, samples%count))
+      if (allocated(samples%order)) deallocate (samples%order, samples%beside)
+      allocate (samples%order(samples%count), samples%beside(2, samples%count))
+      call sort_rows(samples%angle(:samples%count), samples%order)
       samples%sorted = samples%count
-      ! Rows that share an angle share their neighbours
-      before = order(samples%count)
-      do place = 1, samples%count
-         if (place > 1) then
-            if (samples%angle(order(place)) > samples%angle(order(place - 1))) before = order(place - 1)
-         end if
-         samples%beside(1, order(place)) = before
-      end do
-      before = order(1)
-      do place = samples%count, 1, -1
-         if (place < samples%count) then
-            if (samples%angle(order(place)) < samples%angle(order(place + 1))) before = order(place + 1)
-         end if
-         samples%beside(2, order(place)) = before
-      end do
+      associate (order => samples%order)
+         ! Rows that share an angle share their neighbours
+         before = order(samples%count)
+         do place = 1, samples%count
+            if (place > 1) then
+               if (samples%angle(order(place)) > samples%angle(order(place - 1))) before = order(place - 1)
+            end if
+            samples%beside(1, order(place)) = before
+         end do
+         before = order(1)
+         do place = samples%count, 1, -1
+            if (place < samples%count) then
+               if (samples%angle(order(place)) < samples%angle(order(place + 1))) before = order(place + 1)
+            end if
+            samples%beside(2, order(place)) = before
+         end do
+      end associate
    end subroutine find_neighbours
 
    !> Rows by their angles: runs are merged until one is left.
@@ -188,20 +191,16 @@ contains
       !> The search; nothing is wanted near a kink, or without a row close by on both sides
       type(search_t), intent(out) :: search
 
-      integer :: row
+      ! Values by angle, round the turn [unit of the series]
+      real(wp) :: values(0:samples%count + 1)
 
       if (samples%sorted < samples%count) call find_neighbours(samples)
       search%series = series
       search%sense = sense
       search%coarse = max(worth, tolerance)
-      associate (values => samples%values(series, :samples%count))
-         row = minloc(sense*values, 1)
-         search%extent = maxval(values) - minval(values)
-      end associate
-      search%point = samples%angle(row)
-      search%value = sense*samples%values(series, row)
-      search%bound = search%value
-      call list_rows(samples, row, search)
+      values(1:samples%count) = sense*samples%values(series, samples%order)
+      values([0, samples%count + 1]) = values([samples%count, 1])
+      call list_rows(samples, values, search)
       call enter_row(samples, search)
    end subroutine start_search
 
@@ -224,33 +223,39 @@ contains
    end subroutine narrow_search
 
    !> Rows near which there may be an extreme: the extreme one, then those that may hide a value beyond it, the most promising first.
-   pure subroutine list_rows(samples, extreme, search)
+   pure subroutine list_rows(samples, values, search)
       !> The rows
       type(samples_t), intent(in) :: samples
-      !> The extreme one
-      integer, intent(in) :: extreme
+      !> Values by angle, round the turn [unit of the series]
+      real(wp), intent(in) :: values(0:)
       !> The search
       type(search_t), intent(inout) :: search
 
       ! Rows that may, and the lowest value that each may hide [unit of the series]
       integer :: rows(samples%count)
       real(wp) :: bounds(samples%count), bound
-      integer :: found, row, best
+      integer :: found, place, extreme, best
 
+      extreme = minloc(values(1:samples%count), 1)
+      search%value = values(extreme)
+      search%bound = search%value
+      search%extent = maxval(values) - search%value
+      search%point = samples%angle(samples%order(extreme))
       found = 0
-      do row = 1, samples%count
-         if (row == extreme .or. samples%is_kink(row)) cycle
-         bound = lowest_hidden(samples, search, row)
+      do place = 1, samples%count
+         if (values(place) > min(values(place - 1), values(place + 1))) cycle
+         if (place == extreme .or. samples%is_kink(samples%order(place))) cycle
+         bound = lowest_hidden(samples, search, samples%order(place))
          if (bound >= search%value - worth*search%extent) cycle
          found = found + 1
-         rows(found) = row
+         rows(found) = samples%order(place)
          bounds(found) = bound
       end do
       allocate (search%rows(min(found + 1, most_rows)))
-      search%rows(1) = extreme
-      do row = 2, size(search%rows)
+      search%rows(1) = samples%order(extreme)
+      do place = 2, size(search%rows)
          best = minloc(bounds(:found), 1)
-         search%rows(row) = rows(best)
+         search%rows(place) = rows(best)
          bounds(best) = huge(1.0_wp)
       end do
       if (found > 0) search%bound = min(search%bound, minval(bounds(:found)))
