@@ -17,6 +17,8 @@ module camroller_case
    use camroller_traction, only : traction_t
    use camroller_needle, only : needle_bearing_t
    use camroller_guide, only : valve_guide_t
+   use camroller_stem_friction, only : valve_tip_t, stem_seal_t, guide_side_load_t
+   use camroller_pivot_friction, only : finger_pivot_t
    use camroller_roller, only : roller_t
    use camroller_journal, only : cam_bearings_t
    use camroller_engine, only : engine_t
@@ -117,6 +119,11 @@ module camroller_case
       !> Numerical film in place of the film law
       type(ehl_t), allocatable :: ehl
       type(valve_guide_t), allocatable :: valve_guide
+      !> Friction at valve tip, stem seal, ends of the guide and pivot
+      type(valve_tip_t), allocatable :: valve_tip
+      type(stem_seal_t), allocatable :: stem_seal
+      type(guide_side_load_t), allocatable :: guide_side_load
+      type(finger_pivot_t), allocatable :: finger_pivot
       type(cam_bearings_t), allocatable :: cam_bearings
       !> Engine that the camshafts belong to; of no effect without their bearings
       type(engine_t), allocatable :: engine

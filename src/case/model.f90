@@ -27,6 +27,8 @@ module camroller_model
    use camroller_traction, only : traction_t, shear_law_names, cap_names, rolling_law_names
    use camroller_needle, only : friction_radius, roller_bearing_names
    use camroller_guide, only : guide_drag_coefficient
+   use camroller_joints, only : joints_t, set_joint_oil
+   use camroller_joint_setup, only : set_joints
    use camroller_roller, only : spin_names, ring_inertia
    use camroller_gas, only : gas_law_t, new_gas_law, gas_force
    implicit none
@@ -99,6 +101,8 @@ module camroller_model
       real(wp), allocatable :: guide_drag
       !> The same over the viscosity [m]
       real(wp) :: guide_factor = 0.0_wp
+      !> Sliding joints; allocated where the case has any
+      type(joints_t), allocatable :: joints
       !> Equivalent modulus, E' [Pa]
       real(wp) :: modulus
       !> Composite roughness, sigma [m]
@@ -180,6 +184,7 @@ contains
       if (allocated(model%bearing)) deallocate (model%bearing)
       if (allocated(model%guide_drag)) deallocate (model%guide_drag)
       if (allocated(model%gas)) deallocate (model%gas)
+      if (allocated(model%joints)) deallocate (model%joints)
       if (allocated(model%flexible)) deallocate (model%flexible)
       if (allocated(model%ehl)) deallocate (model%ehl)
       call choose_laws(model, case, error)
@@ -220,6 +225,7 @@ contains
       call get_oil(model%lubricant, oil_temperature, model%oil, error)
       if (allocated(error)) return
       if (allocated(model%guide_drag)) model%guide_drag = model%guide_factor*model%oil%viscosity
+      if (allocated(model%joints)) call set_joint_oil(model%joints, model%oil%viscosity)
       if (allocated(model%flexible)) call set_oil(model%flexible, model%oil%viscosity)
       if (allocated(model%bearing)) model%bearing%reversal_spin = model%bearing%reversal_ratio*speed
       if (allocated(model%ehl)) call set_film_table(model, error)
@@ -476,6 +482,8 @@ contains
          model%guide_factor = guide_drag_coefficient(1.0_wp, case%valve_guide%length, case%valve_guide%stem_diameter, &
             & case%valve_guide%radial_clearance)
       end if
+      call set_joints(model%joints, case, model%linkage, model%lift_law, error)
+      if (allocated(error)) return
       if (allocated(case%gas_force)) then
          allocate (model%gas)
          call new_gas_law(model%gas, case%gas_force, error)

@@ -11,6 +11,7 @@ module camroller_deck_case
    use camroller_settings, only : settings_t, take, get_word, has_group
    use camroller_deck_engine, only : fill_engine
    use camroller_deck_dynamics, only : fill_dynamics
+   use camroller_deck_joints, only : fill_joints
    use camroller_deck_tables, only : deck_tables_t, get_lift_table, get_pressure_table
    implicit none
    private
@@ -46,6 +47,7 @@ contains
       call fill_asperity(settings, case)
       call fill_bearings(settings, case)
       call fill_engine(settings, case)
+      call fill_joints(settings, case)
       call fill_dynamics(settings, case)
       call fill_numerics(settings, case)
    end subroutine fill_case

@@ -23,6 +23,7 @@ module camroller_deck_keys
    use camroller_deck_engine, only : add_engine_keys
    use camroller_deck_sweep_keys, only : add_sweep_keys
    use camroller_deck_dynamics, only : add_dynamics_keys
+   use camroller_deck_joints, only : add_joint_keys
    use camroller_usual_values, only : add_usual_ranges
    use camroller_output_options, only : output_options_t, compression_names
    use camroller_deck_schema, only : schema_t, add_group, add_number, add_integer, add_logical, add_name, add_text, &
@@ -60,6 +61,7 @@ contains
       call add_cam_bearing_keys(schema)
       call add_engine_keys(schema)
       call add_guide_keys(schema)
+      call add_joint_keys(schema)
       call add_dynamics_keys(schema)
       call add_selection_keys(schema, standard)
       call add_numerics_keys(schema, standard)

@@ -76,7 +76,17 @@ module camroller_usual_values
       usual_t("cam_bearings.cam_positions_mm", -3000.0_wp, 3000.0_wp), &
       usual_t("valve_guide.length_mm", 10.0_wp, 150.0_wp), &
       usual_t("valve_guide.stem_diameter_mm", 3.0_wp, 20.0_wp), &
-      usual_t("valve_guide.radial_clearance_um", 3.0_wp, 100.0_wp)]
+      usual_t("valve_guide.radial_clearance_um", 3.0_wp, 100.0_wp), &
+      usual_t("valve_tip.pad_radius_mm", 3.0_wp, 60.0_wp), &
+      usual_t("valve_tip.friction_coefficient", 0.0_wp, 0.3_wp), &
+      usual_t("stem_seal.lip_force_N", 0.0_wp, 40.0_wp), &
+      usual_t("stem_seal.viscous_drag_N_s_m", 0.0_wp, 100.0_wp), &
+      usual_t("guide_side_load.guide_length_mm", 10.0_wp, 150.0_wp), &
+      usual_t("guide_side_load.tip_height_mm", 5.0_wp, 100.0_wp), &
+      usual_t("guide_side_load.stem_axis_mm", 15.0_wp, 120.0_wp), &
+      usual_t("guide_side_load.friction_coefficient", 0.0_wp, 0.3_wp), &
+      usual_t("finger_pivot.ball_radius_mm", 2.0_wp, 15.0_wp), &
+      usual_t("finger_pivot.friction_coefficient", 0.0_wp, 0.3_wp)]
 
 contains
 

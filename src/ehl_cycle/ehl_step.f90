@@ -9,6 +9,9 @@ module camroller_ehl_step
    use camroller_model, only : model_t
    use camroller_kinematics, only : position_t
    use camroller_dynamics, only : moments_t
+   use camroller_dual, only : dual_t
+   use camroller_joint_forces, only : finger_moment, has_pivot_friction, set_pivot_forces
+   use camroller_pivot_friction, only : pivot_forces_t, pivot_moment
    use camroller_state, only : evaluate_loading
    use camroller_spin, only : rolling_speed_at, rolling_speed_slope
    use camroller_stick, only : has_stick
@@ -390,17 +393,51 @@ contains
       real(wp) :: moment, arm, tangential
 
       arm = merge(position%normal_arm, position%parallel_arm, model%has_exact_arm)
-      moment = moments%total
+      moment = finger_moment(model, position, moments)
       if (model%is_consistent) then
-         if (allocated(model%guide_drag)) moment = moment &
-            & + model%guide_drag*model%speed*position%lift_slope*position%valve_arm
          tangential = traction + rolling*(2.0_wp*position%equivalent_radius/model%roller_radius - 1.0_wp)
          moment = moment - model%linkage%sense*tangential*position%tangent_arm
          arm = arm + model%linkage%sense*bearing_moment(model, position, 1.0_wp, sliding_speed)
       end if
       load = moment/arm
+      if (has_pivot_friction(model)) call add_pivot_friction(model, position, moments, tangential, moment, arm, load)
       if (model%takes_maximum_load) load = max(load, model%base_circle_load)
       load = max(load, 0.0_wp)
    end function balanced_load
+
+   !> The same with the friction of the pivot, which depends on the load: a contraction, whose factor is the friction circle of the
+   !> ball over the arm of the load.
+   pure subroutine add_pivot_friction(model, position, moments, tangential, moment, arm, load)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> Geometry
+      type(position_t), intent(in) :: position
+      !> Moments about the pivot
+      type(moments_t), intent(in) :: moments
+      !> Net tangential force on the roller [N]
+      real(wp), intent(in) :: tangential
+      !> Moment that the load balances without the pivot's [N m], arm of the load [m]
+      real(wp), intent(in) :: moment, arm
+      !> In: load without the friction of the pivot, out: with it [N]
+      real(wp), intent(inout) :: load
+
+      ! Rounds, at most, and relative change of the load that ends them [-]
+      integer, parameter :: most_rounds = 50
+      real(wp), parameter :: tolerance = 4.0_wp*epsilon(1.0_wp)
+      type(pivot_forces_t) :: forces
+      ! Friction of the pivot [N m]
+      type(dual_t) :: friction
+      ! Load of the round before [N]
+      real(wp) :: before
+      integer :: round
+
+      call set_pivot_forces(model, position, moments, 0.0_wp, forces)
+      do round = 1, most_rounds
+         before = load
+         friction = pivot_moment(model%joints%pivot, forces, dual_t(load, 0.0_wp), dual_t(tangential, 0.0_wp))
+         load = (moment + friction%value)/arm
+         if (abs(load - before) <= tolerance*abs(load)) exit
+      end do
+   end subroutine add_pivot_friction
 
 end module camroller_ehl_step

@@ -2,19 +2,30 @@
 !> solved simultaneously.
 !>
 !> In: model, geometry, moments, sliding speed. Out: `contact_t`. The load is the one at which the finger is in equilibrium with
-!> the traction, rolling resistance and bearing torque that this load causes: one equation in the load, solved by Newton's method
-!> with the exact derivative from `contact_forces`, safeguarded by a bracket.
+!> the traction, rolling resistance, bearing torque and friction of the pivot that this load causes: one equation in the load,
+!> solved by Newton's method with the exact derivative from `contact_forces`, safeguarded by a bracket.
 module camroller_contact
    use camroller_kinds, only : wp
    use camroller_model, only : model_t
    use camroller_kinematics, only : position_t
    use camroller_dynamics, only : moments_t
+   use camroller_dual, only : dual_t
+   use camroller_joint_forces, only : contact_moment, has_pivot_friction, set_pivot_forces
+   use camroller_pivot_friction, only : pivot_forces_t, pivot_moment, hold_forces
    use camroller_contact_forces, only : contact_t, setting_t, parts_t, motion_t, slopes_t, set_speeds, prepare_contact, &
       & evaluate_contact, follow_contact, release_contact
    implicit none
    private
 
-   public :: solve_contact, prepare_and_solve, finger_moment
+   public :: solve_contact, prepare_and_solve
+
+   !> What the friction of the pivot is made of
+   type :: hinge_t
+      !> Forces at a cam angle that is held
+      type(pivot_forces_t) :: forces
+      !> Friction without a contact load [N m]
+      type(dual_t) :: unloaded
+   end type hinge_t
 
    !> Balance of the finger: loss of figures allowed against the moment [-]; a few roundings
    real(wp), parameter :: balance_tolerance = 8.0_wp*epsilon(1.0_wp)
@@ -86,7 +97,7 @@ contains
 
       status = 0
       call set_speeds(model, position, sliding_speed, contact)
-      moment = finger_moment(model, position, moments)
+      moment = contact_moment(model, position, moments)
       load = moment/merge(position%normal_arm, position%parallel_arm, model%has_exact_arm)
       if (model%takes_maximum_load) load = max(model%base_circle_load, load)
       if (.not. load > 0.0_wp) then
@@ -99,41 +110,26 @@ contains
       call prepare_contact(model, position, contact, enough, setting, mobilised)
       contact%film_ratio = 0.0_wp
       if (model%is_consistent) then
-         call balance_finger(model, position, setting, moment, enough, contact, parts, status)
+         call balance_finger(model, position, moments, setting, moment, enough, contact, parts, status)
       else
          call evaluate_contact(model, position, setting, load, contact, parts, change)
       end if
    end subroutine prepare_and_solve
 
-   !> Moment about the pivot that the contact balances; with the drag of the guide where the bookkeeping is closed.
-   pure function finger_moment(model, position, moments) result(moment)
+   !> Load at which `W h_W + sense (T' h_t + T_B) = moment + M_pivot`, by Newton's method inside a bracket.
+   !>
+   !> Friction changes the load by a few per cent at most, so the second evaluation is good to about 1e-5 and the third to
+   !> 1e-10. Without a load at which friction lets the balance be, contact is lost.
+   pure subroutine balance_finger(model, position, moments, setting, moment, enough, contact, parts, status)
       !> The model
       type(model_t), intent(in) :: model
       !> Geometry at this angle
       type(position_t), intent(in) :: position
       !> Moments about the pivot at this angle
       type(moments_t), intent(in) :: moments
-      !> Moment [N m]
-      real(wp) :: moment
-
-      moment = moments%total
-      if (model%is_consistent .and. allocated(model%guide_drag)) then
-         moment = moment + model%guide_drag*model%speed*position%lift_slope*position%valve_arm
-      end if
-   end function finger_moment
-
-   !> Load at which `W h_W + sense (T' h_t + T_B) = moment`, by Newton's method inside a bracket.
-   !>
-   !> Friction changes the load by a few per cent at most, so the second evaluation is good to about 1e-5 and the third to
-   !> 1e-10. Without a load at which friction lets the balance be, contact is lost.
-   pure subroutine balance_finger(model, position, setting, moment, enough, contact, parts, status)
-      !> The model
-      type(model_t), intent(in) :: model
-      !> Geometry at this angle
-      type(position_t), intent(in) :: position
       !> What does not change with the load
       type(setting_t), intent(in) :: setting
-      !> Moment to be balanced, positive [N m]
+      !> Moment to be balanced, with the friction of the pivot as it is without load, positive [N m]
       real(wp), intent(in) :: moment
       !> Relative error of load and forces that is good enough [-]
       real(wp), intent(in) :: enough
@@ -152,6 +148,7 @@ contains
       ! Relative change of the film ratio in the last step, of the load in the next [-]
       real(wp) :: change, shift
       type(setting_t) :: in_use
+      type(hinge_t) :: hinge
       integer :: iteration
 
       status = 0
@@ -159,6 +156,7 @@ contains
       load = moment/position%normal_arm
       low = 0.0_wp
       high = huge(1.0_wp)
+      if (has_pivot_friction(model)) call set_hinge(model, position, moments, hinge)
       do iteration = 1, max_iterations
          ! A share that is not quite found narrows no bracket: what has taken so long needs all of its figures
          if (iteration > usual_iterations) in_use%coarse = 0.0_wp
@@ -168,6 +166,7 @@ contains
             & + model%linkage%sense*(contact%tangential_force*position%tangent_arm + contact%bearing_torque)
          slope = load*position%normal_arm &
             & + model%linkage%sense*(slopes%tangential_force*position%tangent_arm + slopes%bearing_torque)
+         if (has_pivot_friction(model)) call take_pivot(model, hinge, contact, slopes, excess, slope)
          shift = -1.0_wp
          if (slope > 0.0_wp) shift = -excess/slope
          if (abs(shift)*step_curvature*max(abs(shift), share_tolerance) + change**2 <= enough) then
@@ -196,6 +195,44 @@ contains
       end do
       status = 1
    end subroutine balance_finger
+
+   !> What the pivot's friction is made of while the load is sought.
+   pure subroutine set_hinge(model, position, moments, hinge)
+      !> The model, whose pivot has friction
+      type(model_t), intent(in) :: model
+      !> Geometry at this angle
+      type(position_t), intent(in) :: position
+      !> Moments about the pivot at this angle
+      type(moments_t), intent(in) :: moments
+      !> What it is made of
+      type(hinge_t), intent(out) :: hinge
+
+      call set_pivot_forces(model, position, moments, 0.0_wp, hinge%forces)
+      call hold_forces(hinge%forces)
+      hinge%unloaded = pivot_moment(model%joints%pivot, hinge%forces, dual_t(0.0_wp, 0.0_wp), dual_t(0.0_wp, 0.0_wp))
+   end subroutine set_hinge
+
+   !> Take the pivot's friction, as far as the load makes it, from the moment too much and from its slope.
+   pure subroutine take_pivot(model, hinge, contact, slopes, excess, slope)
+      !> The model, whose pivot has friction
+      type(model_t), intent(in) :: model
+      !> What the friction is made of
+      type(hinge_t), intent(in) :: hinge
+      !> State of the contact
+      type(contact_t), intent(in) :: contact
+      !> Its derivatives over ln(load)
+      type(slopes_t), intent(in) :: slopes
+      !> Moment too much, and its derivative over ln(load) [N m]
+      real(wp), intent(inout) :: excess, slope
+
+      ! Friction of the pivot [N m]
+      type(dual_t) :: friction
+
+      friction = pivot_moment(model%joints%pivot, hinge%forces, dual_t(contact%load, contact%load), &
+         & dual_t(contact%tangential_force, slopes%tangential_force))
+      excess = excess - (friction%value - hinge%unloaded%value)
+      slope = slope - friction%slope
+   end subroutine take_pivot
 
    !> Move a contact along its slopes by the last, small step.
    pure subroutine shift_contact(contact, slopes, shift)

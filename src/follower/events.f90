@@ -11,6 +11,7 @@ module camroller_events
    use camroller_kinematics, only : position_t
    use camroller_dynamics, only : moments_t
    use camroller_number_text, only : in_mm => millimetres_text
+   use camroller_joint_forces, only : contact_moment
    use camroller_state, only : evaluate_loading
    use camroller_extremum, only : extremum_t, start_extremum, narrow_extremum
    use camroller_roots, only : bracket_t, start_bracket, narrow_bracket, root_wanted
@@ -170,10 +171,7 @@ contains
       values = 1.0_wp
       if (status /= 0) return
       values(1) = position%lift - model%train%seat_lift
-      values(2) = moments%total
-      if (model%is_consistent .and. allocated(model%guide_drag)) then
-         values(2) = values(2) + model%guide_drag*model%speed*position%lift_slope*position%valve_arm
-      end if
+      values(2) = contact_moment(model, position, moments)
       if (model%takes_maximum_load) then
          values(2) = values(2) - model%base_circle_load*merge(position%normal_arm, position%parallel_arm, model%has_exact_arm)
       end if

@@ -11,7 +11,9 @@ module camroller_fold
    use camroller_model, only : model_t
    use camroller_kinematics, only : position_t
    use camroller_dynamics, only : moments_t
-   use camroller_contact, only : finger_moment
+   use camroller_dual, only : dual_t
+   use camroller_joint_forces, only : finger_moment, contact_moment, has_pivot_friction, set_pivot_forces
+   use camroller_pivot_friction, only : pivot_forces_t, pivot_moment
    use camroller_contact_forces, only : contact_t, setting_t, parts_t, set_speeds, prepare_contact, evaluate_contact
    use camroller_state, only : evaluate_loading
    implicit none
@@ -72,7 +74,7 @@ contains
       if (.not. model%is_consistent) return
       call evaluate_loading(model, angle, position, force, moments, status)
       if (status /= 0) return
-      if (.not. finger_moment(model, position, moments) > 0.0_wp) return
+      if (.not. contact_moment(model, position, moments) > 0.0_wp) return
       do i = 0, speeds - 1
          sliding_speed = largest*speed_ratio**i
          verdict = has_several_loads(model, position, moments, sliding_speed)
@@ -97,6 +99,11 @@ contains
       type(contact_t) :: contact
       type(setting_t) :: setting
       type(parts_t) :: parts
+      type(pivot_forces_t) :: forces
+      ! Friction of the pivot [N m]
+      type(dual_t) :: friction
+      ! Moment that keeps contact [N m]
+      real(wp) :: kept
       ! Moment to be balanced, moment too much, the largest of it at smaller loads [N m]; load without friction, load [N]
       real(wp) :: moment, excess, highest, free_load, load
       ! Change of the film ratio [-]
@@ -106,7 +113,9 @@ contains
       verdict = .false.
       call set_speeds(model, position, sliding_speed, contact)
       moment = finger_moment(model, position, moments)
-      free_load = moment/position%normal_arm
+      kept = contact_moment(model, position, moments)
+      free_load = kept/position%normal_arm
+      if (has_pivot_friction(model)) call set_pivot_forces(model, position, moments, 0.0_wp, forces)
       contact%load = free_load
       contact%film_ratio = 0.0_wp
       call prepare_contact(model, position, contact, 0.0_wp, setting)
@@ -117,8 +126,12 @@ contains
          call evaluate_contact(model, position, setting, load, contact, parts, change)
          excess = load*position%normal_arm - moment &
             & + model%linkage%sense*(contact%tangential_force*position%tangent_arm + contact%bearing_torque)
+         if (has_pivot_friction(model)) then
+            friction = pivot_moment(model%joints%pivot, forces, dual_t(load, 0.0_wp), dual_t(contact%tangential_force, 0.0_wp))
+            excess = excess - friction%value
+         end if
          ! What was too much and is too little at a larger load passes zero twice more
-         verdict = highest > 0.0_wp .and. excess < -least_fall*moment
+         verdict = highest > 0.0_wp .and. excess < -least_fall*kept
          if (verdict) return
          highest = max(highest, excess)
       end do

@@ -9,7 +9,10 @@ module camroller_spin_slopes
    use camroller_kinematics, only : position_t
    use camroller_dynamics, only : moments_t, moment_slope, acceleration_slope
    use camroller_gas, only : gas_force_slope
-   use camroller_contact, only : prepare_and_solve, finger_moment
+   use camroller_contact, only : prepare_and_solve
+   use camroller_dual, only : dual_t
+   use camroller_joint_forces, only : finger_moment, finger_moment_slope, has_pivot_friction, set_pivot_forces
+   use camroller_pivot_friction, only : pivot_forces_t, pivot_moment, hold_forces
    use camroller_contact_forces, only : contact_t, setting_t, parts_t, motion_t, slopes_t, follow_contact
    use camroller_roller, only : spin_acceleration
    implicit none
@@ -50,8 +53,8 @@ contains
       type(setting_t) :: setting
       type(parts_t) :: parts
       type(slopes_t) :: by_load, by_speed, by_angle
-      ! Moment that the contact balances [N m], its derivative over the cam angle [N m/rad]; gas force over the angle [N/rad]
-      real(wp) :: moment, slope, gas_slope
+      ! Derivative of the moments' sum over the cam angle [N m/rad]; gas force over the angle [N/rad]
+      real(wp) :: slope, gas_slope
       ! Change of the load, its logarithm, over the sliding speed [s/m] and over the cam angle [1/rad]
       real(wp) :: load_by_speed, load_by_angle
 
@@ -68,18 +71,15 @@ contains
       by_angle = follow_contact(model, setting, contact, parts, angle_motion(model, position, contact))
       gas_slope = 0.0_wp
       if (allocated(model%gas)) gas_slope = gas_force_slope(model%gas, angle)
-      moment = finger_moment(model, position, moments)
       slope = moment_slope(model%train, position, model%speed, gas_force, gas_slope)
       if (abs(model%speed_slope) > 0.0_wp) then
          slope = slope + acceleration_slope(model%train, position, model%speed*model%speed_slope)
       end if
       if (model%is_consistent) then
-         if (allocated(model%guide_drag)) slope = slope + model%guide_drag*model%speed &
-            & *(position%lift_curvature*position%valve_arm + position%lift_slope*position%valve_arm_slope)
-         call follow_balance(model, position, contact, slope, by_load, by_speed, by_angle, load_by_speed, load_by_angle)
+         call follow_balance(model, position, moments, contact, slope, by_load, by_speed, by_angle, load_by_speed, load_by_angle)
       else
          load_by_speed = 0.0_wp
-         load_by_angle = slope/moment
+         load_by_angle = slope/finger_moment(model, position, moments)
          if (model%has_exact_arm) then
             load_by_angle = load_by_angle - position%normal_arm_slope/position%normal_arm
          else
@@ -124,16 +124,18 @@ contains
          & model%has_exact_spin)/model%roller_radius - model%linkage%sense*position%finger_curvature)
    end function angle_motion
 
-   !> How the load follows through `W h_W + sense (T' h_t + T_B) = moment`.
-   pure subroutine follow_balance(model, position, contact, moment_slope, by_load, by_speed, by_angle, load_by_speed, &
+   !> How the load follows through `W h_W + sense (T' h_t + T_B) = moment + M_pivot`.
+   pure subroutine follow_balance(model, position, moments, contact, moment_slope, by_load, by_speed, by_angle, load_by_speed, &
       & load_by_angle)
       !> The model
       type(model_t), intent(in) :: model
       !> Geometry at this angle
       type(position_t), intent(in) :: position
+      !> Moments about the pivot
+      type(moments_t), intent(in) :: moments
       !> State of the contact
       type(contact_t), intent(in) :: contact
-      !> Derivative of the moment over the cam angle [N m/rad]
+      !> Derivative of their sum over the cam angle [N m/rad]
       real(wp), intent(in) :: moment_slope
       !> Changes with ln(load), sliding speed and cam angle
       type(slopes_t), intent(in) :: by_load, by_speed, by_angle
@@ -142,14 +144,55 @@ contains
 
       ! Change of the moment that the contact makes, over ln(load) [N m]
       real(wp) :: stiffness
+      ! Changes of the same over the sliding speed [N s] and over the cam angle [N m/rad]
+      real(wp) :: speed_part, angle_part
 
       stiffness = contact%load*position%normal_arm + model%linkage%sense*(by_load%tangential_force*position%tangent_arm &
          & + by_load%bearing_torque)
-      load_by_speed = -model%linkage%sense*(by_speed%tangential_force*position%tangent_arm + by_speed%bearing_torque)/stiffness
-      load_by_angle = (moment_slope - contact%load*position%normal_arm_slope - model%linkage%sense &
-         & *(by_angle%tangential_force*position%tangent_arm + contact%tangential_force*position%tangent_arm_slope &
-         & + by_angle%bearing_torque))/stiffness
+      speed_part = model%linkage%sense*(by_speed%tangential_force*position%tangent_arm + by_speed%bearing_torque)
+      angle_part = model%linkage%sense*(by_angle%tangential_force*position%tangent_arm &
+         & + contact%tangential_force*position%tangent_arm_slope + by_angle%bearing_torque)
+      if (has_pivot_friction(model)) call follow_pivot(model, position, moments, contact, moment_slope, by_load, by_speed, &
+         & by_angle, stiffness, speed_part, angle_part)
+      load_by_speed = -speed_part/stiffness
+      load_by_angle = (finger_moment_slope(model, position, moments, moment_slope) - contact%load*position%normal_arm_slope &
+         & - angle_part)/stiffness
    end subroutine follow_balance
+
+   !> Take the friction of the pivot from the changes of the moment that the contact makes.
+   pure subroutine follow_pivot(model, position, moments, contact, moment_slope, by_load, by_speed, by_angle, stiffness, &
+      & speed_part, angle_part)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> Geometry at this angle
+      type(position_t), intent(in) :: position
+      !> Moments about the pivot
+      type(moments_t), intent(in) :: moments
+      !> State of the contact
+      type(contact_t), intent(in) :: contact
+      !> Derivative of their sum over the cam angle [N m/rad]
+      real(wp), intent(in) :: moment_slope
+      !> Changes with ln(load), sliding speed and cam angle
+      type(slopes_t), intent(in) :: by_load, by_speed, by_angle
+      !> Changes over ln(load) [N m], sliding speed [N s] and cam angle [N m/rad]
+      real(wp), intent(inout) :: stiffness, speed_part, angle_part
+
+      type(pivot_forces_t) :: forces
+      ! Friction of the pivot [N m]
+      type(dual_t) :: friction
+
+      call set_pivot_forces(model, position, moments, moment_slope, forces)
+      friction = pivot_moment(model%joints%pivot, forces, dual_t(contact%load, 0.0_wp), &
+         & dual_t(contact%tangential_force, by_angle%tangential_force))
+      angle_part = angle_part - friction%slope
+      call hold_forces(forces)
+      friction = pivot_moment(model%joints%pivot, forces, dual_t(contact%load, 0.0_wp), &
+         & dual_t(contact%tangential_force, by_speed%tangential_force))
+      speed_part = speed_part - friction%slope
+      friction = pivot_moment(model%joints%pivot, forces, dual_t(contact%load, contact%load), &
+         & dual_t(contact%tangential_force, by_load%tangential_force))
+      stiffness = stiffness - friction%slope
+   end subroutine follow_pivot
 
    !> Change of the angular acceleration along a motion with the load that goes with it.
    pure function slope_along(model, slopes, by_load, load) result(slope)

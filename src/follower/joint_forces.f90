@@ -1,0 +1,287 @@
+!> Forces and moments of the sliding joints at one cam angle: valve tip, stem in seal and guide, pivot.
+!>
+!> In: model, geometry, moments, and for the pivot the contact's forces. Out: forces, moments on the finger, each with its
+!> derivative over the cam angle at a constant cam speed.
+!>
+!> Frame: x from the pivot to the cam centre. The valve's axis points towards the cam, `u = (cos chi, -sin chi)`; across it, away
+!> from the pivot, `e = (sin chi, cos chi)`.
+module camroller_joint_forces
+   use camroller_kinds, only : wp
+   use camroller_dual, only : dual_t, operator(-), operator(*), operator(+)
+   use camroller_model, only : model_t
+   use camroller_kinematics, only : position_t
+   use camroller_dynamics, only : moments_t
+   use camroller_stem_friction, only : stem_motion_t, stem_t, find_stem_forces
+   use camroller_pivot_friction, only : pivot_forces_t, pivot_reaction, pivot_moment
+   implicit none
+   private
+
+   public :: joint_values_t, finger_moment, finger_moment_slope, contact_moment, has_pivot_friction, set_pivot_forces, &
+      & evaluate_joints
+
+   !> Forces of the joints and the torques that they cost; zero where the case has no such joint
+   type :: joint_values_t
+      !> Force of the finger on the valve's tip along the axis, and friction across it [N]
+      real(wp) :: tip_force = 0.0_wp, tip_friction = 0.0_wp
+      !> Speed of the pad over the tip, away from the pivot positive [m/s]
+      real(wp) :: tip_speed = 0.0_wp
+      !> Friction of seal and of the guide's ends on the stem, with the sign of the valve's speed [N]
+      real(wp) :: seal_friction = 0.0_wp, side_friction = 0.0_wp
+      !> Forces of the guide's upper and lower end on the stem, sizes [N]
+      real(wp) :: upper_force = 0.0_wp, lower_force = 0.0_wp
+      !> Force of the ball on the finger, size [N]
+      real(wp) :: pivot_force = 0.0_wp
+      !> Torques for the losses of tip, seal, guide's ends and pivot [N m]
+      real(wp) :: torque_tip = 0.0_wp, torque_seal = 0.0_wp, torque_side = 0.0_wp, torque_pivot = 0.0_wp
+   end type joint_values_t
+
+contains
+
+   !> Moment about the pivot that the contact balances: that of spring, seat, masses and gas; where the bookkeeping is closed also
+   !> of the drag of the guide and of friction at tip and stem. The pivot's own depends on the contact's load.
+   pure function finger_moment(model, position, moments) result(moment)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> Geometry at this angle
+      type(position_t), intent(in) :: position
+      !> Moments about the pivot at this angle
+      type(moments_t), intent(in) :: moments
+      !> Moment [N m]
+      real(wp) :: moment
+
+      type(stem_t) :: stem
+      ! Moment of the joints [N m]
+      type(dual_t) :: friction
+
+      moment = moments%total
+      if (.not. model%is_consistent) return
+      if (allocated(model%guide_drag)) then
+         moment = moment + model%guide_drag*model%speed*position%lift_slope*position%valve_arm
+      end if
+      if (.not. allocated(model%joints)) return
+      call set_stem(model, position, moments, 0.0_wp, stem)
+      friction = stem_moment(position, stem)
+      moment = moment + friction%value
+   end function finger_moment
+
+   !> Its derivative over the cam angle at a constant speed.
+   pure function finger_moment_slope(model, position, moments, moment_slope) result(slope)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> Geometry at this angle
+      type(position_t), intent(in) :: position
+      !> Moments about the pivot at this angle
+      type(moments_t), intent(in) :: moments
+      !> Derivative of the sum of the moments [N m/rad]
+      real(wp), intent(in) :: moment_slope
+      !> Derivative [N m/rad]
+      real(wp) :: slope
+
+      type(stem_t) :: stem
+      ! Moment of the joints [N m]
+      type(dual_t) :: friction
+
+      slope = moment_slope
+      if (.not. model%is_consistent) return
+      if (allocated(model%guide_drag)) slope = slope + model%guide_drag*model%speed &
+         & *(position%lift_curvature*position%valve_arm + position%lift_slope*position%valve_arm_slope)
+      if (.not. allocated(model%joints)) return
+      call set_stem(model, position, moments, axial_slope(model, position, moments, moment_slope), stem)
+      friction = stem_moment(position, stem)
+      slope = slope + friction%slope
+   end function finger_moment_slope
+
+   !> Moment that keeps cam and roller in contact: what the contact balances as its load vanishes.
+   pure function contact_moment(model, position, moments) result(moment)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> Geometry at this angle
+      type(position_t), intent(in) :: position
+      !> Moments about the pivot at this angle
+      type(moments_t), intent(in) :: moments
+      !> Moment [N m]
+      real(wp) :: moment
+
+      type(pivot_forces_t) :: forces
+      ! Friction of the pivot [N m]
+      type(dual_t) :: friction
+
+      moment = finger_moment(model, position, moments)
+      if (.not. has_pivot_friction(model)) return
+      call set_pivot_forces(model, position, moments, 0.0_wp, forces)
+      friction = pivot_moment(model%joints%pivot, forces, dual_t(0.0_wp, 0.0_wp), dual_t(0.0_wp, 0.0_wp))
+      moment = moment + friction%value
+   end function contact_moment
+
+   !> Does the finger's pivot have friction?
+   pure function has_pivot_friction(model) result(has)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> Does it?
+      logical :: has
+
+      has = allocated(model%joints)
+      if (has) has = allocated(model%joints%pivot)
+   end function has_pivot_friction
+
+   !> What the ball's force is made of.
+   pure subroutine set_pivot_forces(model, position, moments, moment_slope, forces)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> Geometry at this angle
+      type(position_t), intent(in) :: position
+      !> Moments about the pivot at this angle
+      type(moments_t), intent(in) :: moments
+      !> Derivative of their sum over the cam angle, where slopes are wanted [N m/rad]
+      real(wp), intent(in) :: moment_slope
+      !> What it is made of
+      type(pivot_forces_t), intent(out) :: forces
+
+      type(stem_t) :: stem
+
+      call set_stem(model, position, moments, axial_slope(model, position, moments, moment_slope), stem)
+      call place_forces(model, position, stem, forces)
+   end subroutine set_pivot_forces
+
+   !> Forces and torques of a state whose contact is solved.
+   pure subroutine evaluate_joints(model, position, moments, load, tangential_force, values)
+      !> The model, which has joints
+      type(model_t), intent(in) :: model
+      !> Geometry at this angle
+      type(position_t), intent(in) :: position
+      !> Moments about the pivot at this angle
+      type(moments_t), intent(in) :: moments
+      !> Contact load, W, and net tangential force on the roller, T' [N]
+      real(wp), intent(in) :: load, tangential_force
+      !> Forces and torques
+      type(joint_values_t), intent(out) :: values
+
+      type(stem_t) :: stem
+      type(pivot_forces_t) :: forces
+      ! Force of the ball [N]; friction of the pivot [N m]
+      type(dual_t) :: reaction(2), friction
+
+      call set_stem(model, position, moments, 0.0_wp, stem)
+      values%tip_force = stem%tip_force%value
+      values%tip_friction = stem%tip_friction%value
+      values%tip_speed = stem%tip_speed%value
+      values%seal_friction = stem%seal_friction%value
+      values%side_friction = stem%side_friction%value
+      values%upper_force = stem%upper_force%value
+      values%lower_force = stem%lower_force%value
+      values%torque_tip = values%tip_friction*values%tip_speed/model%speed
+      values%torque_seal = values%seal_friction*position%lift_slope
+      values%torque_side = values%side_friction*position%lift_slope
+      if (.not. has_pivot_friction(model)) return
+      call place_forces(model, position, stem, forces)
+      reaction = pivot_reaction(forces, dual_t(load, 0.0_wp), dual_t(tangential_force, 0.0_wp))
+      values%pivot_force = norm2(reaction%value)
+      friction = pivot_moment(model%joints%pivot, forces, dual_t(load, 0.0_wp), dual_t(tangential_force, 0.0_wp))
+      values%torque_pivot = friction%value*position%finger_slope
+   end subroutine evaluate_joints
+
+   !> Forces at the valve's end of the finger.
+   pure subroutine set_stem(model, position, moments, axial_slope, stem)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> Geometry at this angle
+      type(position_t), intent(in) :: position
+      !> Moments about the pivot at this angle
+      type(moments_t), intent(in) :: moments
+      !> Derivative over the cam angle of what spring, seat, valve and gas need at the tip [N/rad]
+      real(wp), intent(in) :: axial_slope
+      !> The forces
+      type(stem_t), intent(out) :: stem
+
+      type(stem_motion_t) :: motion
+
+      motion%lift = dual_t(position%lift, position%lift_slope)
+      motion%valve_speed = model%speed*dual_t(position%lift_slope, position%lift_curvature)
+      motion%finger_speed = model%speed*dual_t(position%finger_slope, position%finger_curvature)
+      motion%centre_height = model%linkage%b*model%linkage%base_cosine - motion%lift
+      motion%arm = dual_t(position%valve_arm, position%valve_arm_slope)
+      motion%axial_force = dual_t(axial_force(position, moments), axial_slope)
+      if (allocated(model%guide_drag)) motion%axial_force = motion%axial_force + model%guide_drag*motion%valve_speed
+      call find_stem_forces(model%joints%tip, model%joints%seal, model%joints%side, motion, stem)
+   end subroutine set_stem
+
+   !> Force that spring, seat, valve and gas need at the tip.
+   pure function axial_force(position, moments) result(force)
+      !> Geometry at this angle
+      type(position_t), intent(in) :: position
+      !> Moments about the pivot at this angle
+      type(moments_t), intent(in) :: moments
+      !> Force [N]
+      real(wp) :: force
+
+      force = (moments%spring - moments%seat + moments%valve + moments%gas)/position%valve_arm
+   end function axial_force
+
+   !> Its derivative over the cam angle, from that of the sum of the moments less the finger's.
+   pure function axial_slope(model, position, moments, moment_slope) result(slope)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> Geometry at this angle
+      type(position_t), intent(in) :: position
+      !> Moments about the pivot at this angle
+      type(moments_t), intent(in) :: moments
+      !> Derivative of their sum over the cam angle [N m/rad]
+      real(wp), intent(in) :: moment_slope
+      !> Derivative [N/rad]
+      real(wp) :: slope
+
+      slope = (moment_slope - model%train%finger_inertia*model%speed*(model%speed*position%finger_jerk &
+         & + model%speed_slope*position%finger_curvature) - axial_force(position, moments)*position%valve_arm_slope) &
+         & /position%valve_arm
+   end function axial_slope
+
+   !> Moment of friction at tip and stem, positive where it presses the roller on the cam.
+   pure function stem_moment(position, stem) result(moment)
+      !> Geometry at this angle
+      type(position_t), intent(in) :: position
+      !> Forces at the valve's end
+      type(stem_t), intent(in) :: stem
+      !> Moment [N m]
+      type(dual_t) :: moment
+
+      moment = (stem%seal_friction + stem%side_friction)*dual_t(position%valve_arm, position%valve_arm_slope) &
+         & + stem%tip_friction*stem%height
+   end function stem_moment
+
+   !> Forces on the finger but for load and traction, and the directions of these.
+   pure subroutine place_forces(model, position, stem, forces)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> Geometry at this angle
+      type(position_t), intent(in) :: position
+      !> Forces at the valve's end
+      type(stem_t), intent(in) :: stem
+      !> What the ball's force is made of
+      type(pivot_forces_t), intent(out) :: forces
+
+      ! Directions along and across the roller arm [-]; angular speed [rad/s] and acceleration [rad/s^2] of the finger
+      type(dual_t) :: along(2), across(2), acceleration
+      ! Sine and cosine of the roller arm's angle [-], sense of rotation over the length of the arm [1/m]
+      real(wp) :: sine, cosine, length
+
+      cosine = cos(position%arm_angle)
+      sine = sin(position%arm_angle)
+      along = [dual_t(cosine, -sine*position%finger_slope), dual_t(sine, cosine*position%finger_slope)]
+      across = [-along(2), along(1)]
+      length = model%linkage%a
+      forces%normal = across*dual_t(position%normal_arm/length, position%normal_arm_slope/length) &
+         & - along*dual_t(position%tangent_arm/length, position%tangent_arm_slope/length)
+      forces%tangent = model%linkage%sense*(across*dual_t(position%tangent_arm/length, position%tangent_arm_slope/length) &
+         & + along*dual_t(position%normal_arm/length, position%normal_arm_slope/length))
+      forces%finger_speed = model%speed*dual_t(position%finger_slope, position%finger_curvature)
+      acceleration = model%speed*(model%speed*dual_t(position%finger_curvature, position%finger_jerk) &
+         & + model%speed_slope*dual_t(position%finger_slope, position%finger_curvature))
+      associate (chi_cosine => model%linkage%axis_cosine, chi_sine => model%linkage%axis_sine)
+         forces%rest = [chi_sine*stem%tip_friction - chi_cosine*stem%tip_force, &
+            & chi_cosine*stem%tip_friction + chi_sine*stem%tip_force]
+      end associate
+      forces%rest = forces%rest + model%pivot%mass*model%pivot%centre*(acceleration*across &
+         & - forces%finger_speed*forces%finger_speed*along)
+   end subroutine place_forces
+
+end module camroller_joint_forces
