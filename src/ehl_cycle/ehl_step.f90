@@ -421,8 +421,9 @@ contains
       !> In: load without the friction of the pivot, out: with it [N]
       real(wp), intent(inout) :: load
 
-      ! Rounds, at most, and relative change of the load that ends them [-]
+      ! Rounds, at most
       integer, parameter :: most_rounds = 50
+      ! Relative change of the load that ends them [-]
       real(wp), parameter :: tolerance = 4.0_wp*epsilon(1.0_wp)
       type(pivot_forces_t) :: forces
       ! Friction of the pivot [N m]

@@ -6,7 +6,8 @@ module camroller_events
    use camroller_cam_angle, only : cam_angle_text
    use camroller_kinds, only : wp, pi, two_pi, degree
    use camroller_error, only : error_t, raise, kind_domain
-   use camroller_model, only : model_t
+   use camroller_model, only : model_t, evaluate_geometry
+   use camroller_joints, only : jumps_with_tip, jumps_with_valve
    use camroller_lift, only : is_at_rest, finest_bend
    use camroller_kinematics, only : position_t
    use camroller_dynamics, only : moments_t
@@ -35,14 +36,14 @@ module camroller_events
 contains
 
    !> Stops within one turn, from -pi to pi: kinks of the lift, the valve leaving its seat, loss and return of contact, the change
-   !> between the adjuster's load and the spring's with the larger of both.
+   !> between the adjuster's load and the spring's with the larger of both, friction that jumps.
    subroutine find_stops(model, stops)
       !> The model
       type(model_t), intent(in) :: model
       !> Cam angles from full lift, increasing [rad]
       real(wp), allocatable, intent(out) :: stops(:)
 
-      stops = [model%lift_stops, switch_angles(model, -pi, pi)]
+      stops = [model%lift_stops, switch_angles(model, -pi, pi), jump_angles(model, -pi, pi)]
       call sort(stops)
    end subroutine find_stops
 
@@ -55,7 +56,7 @@ contains
       !> Cam angles, increasing [rad]
       real(wp), allocatable, intent(out) :: stops(:)
 
-      stops = [lift_stops_between(model, start, finish), switch_angles(model, start, finish)]
+      stops = [lift_stops_between(model, start, finish), switch_angles(model, start, finish), jump_angles(model, start, finish)]
       call sort(stops)
       stops = [start, pack(stops, stops > start), finish]
    end subroutine find_stops_between
@@ -145,11 +146,78 @@ contains
          after = switches(model, scan(i))
          do kind = 1, size(before)
             if ((before(kind) > 0.0_wp) .eqv. (after(kind) > 0.0_wp)) cycle
-            angles = [angles, switch_angle(model, kind, scan(i - 1), scan(i), before(kind), after(kind))]
+            angles = [angles, switch_angle(model, kind, scan(i - 1), scan(i), before(kind), after(kind), switches)]
          end do
          before = after
       end do
    end function switch_angles
+
+   !> Angles between two others at which friction of a sliding joint jumps: where the valve turns round, sets off or comes to rest,
+   !> and where the pad's contact with the tip passes the pivot's height. There is a stop on each side, so that no step has the
+   !> jump inside and none begins or ends on it.
+   function jump_angles(model, start, finish) result(angles)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> First and last angle [rad]
+      real(wp), intent(in) :: start, finish
+      !> Angles, in pairs [rad]
+      real(wp), allocatable :: angles(:)
+
+      ! Half the distance of the stops of a pair [rad]: beyond the accuracy of the angle, and a part of 1e-12 of a step
+      real(wp), parameter :: side = 1.0e-13_wp
+      ! Slope of the lift [m/rad], height of the contact of pad and tip [m]: at the ends of a scan interval
+      real(wp) :: before(2), after(2)
+      ! Angles of the scan; angle of a jump [rad]
+      real(wp), allocatable :: scan(:)
+      real(wp) :: angle
+      integer :: i, kind
+
+      allocate (angles(0))
+      if (.not. allocated(model%joints)) return
+      if (.not. jumps_with_valve(model%joints)) return
+      scan = scan_angles(model, start, finish)
+      before = turning_values(model, start)
+      do i = 2, size(scan)
+         after = turning_values(model, scan(i))
+         do kind = 1, size(before)
+            if (is_same_sign(before(kind), after(kind))) cycle
+            angle = switch_angle(model, kind, scan(i - 1), scan(i), before(kind), after(kind), turning_values)
+            angles = [angles, angle - side, angle + side]
+         end do
+         before = after
+      end do
+      angles = pack(angles, angles > start .and. angles < finish)
+   end function jump_angles
+
+   !> Have two numbers the same sign, or are they both zero?
+   pure function is_same_sign(one, other)
+      !> The numbers [any]
+      real(wp), intent(in) :: one, other
+      !> Have they?
+      logical :: is_same_sign
+
+      is_same_sign = (one > 0.0_wp .eqv. other > 0.0_wp) .and. (one < 0.0_wp .eqv. other < 0.0_wp)
+   end function is_same_sign
+
+   !> Quantities with whose sign friction changes its direction: slope of the lift and height of the tip's contact over the pivot.
+   pure function turning_values(model, angle) result(values)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> Cam angle from full lift [rad]
+      real(wp), intent(in) :: angle
+      !> Slope of the lift [m/rad]; height, one where it does not matter [m]
+      real(wp) :: values(2)
+
+      type(position_t) :: position
+      integer :: status
+
+      call evaluate_geometry(model, angle, position, status)
+      values = 1.0_wp
+      if (status /= 0) return
+      values(1) = position%lift_slope
+      if (jumps_with_tip(model%joints)) values(2) = model%linkage%b*model%linkage%base_cosine - position%lift &
+         & - model%joints%tip%pad_radius
+   end function turning_values
 
    !> Quantities whose sign matters: lift above that where the valve leaves its seat, and the moment that keeps contact, or, with the
    !> larger of both loads, the moment beyond that of the base circle load.
@@ -178,25 +246,27 @@ contains
    end function switches
 
    !> Angle at which one of the switches changes its sign.
-   function switch_angle(model, kind, left, right, value_left, value_right) result(angle)
+   function switch_angle(model, kind, left, right, value_left, value_right, values_at) result(angle)
       !> The model
       type(model_t), intent(in) :: model
       !> Which of the switches
       integer, intent(in) :: kind
       !> Ends of the interval [rad]
       real(wp), intent(in) :: left, right
-      !> Values there [m] or [N m]
+      !> Values there [unit of the switch]
       real(wp), intent(in) :: value_left, value_right
+      !> Switches at an angle
+      procedure(switches) :: values_at
       !> Angle of the change [rad]
       real(wp) :: angle
 
       type(bracket_t) :: bracket
-      ! Both switches [m, N m]
+      ! Both switches [unit of each]
       real(wp) :: values(2)
 
       call start_bracket(bracket, left, right, value_left, value_right, angle_tolerance)
       do while (bracket%status == root_wanted)
-         values = switches(model, bracket%trial)
+         values = values_at(model, bracket%trial)
          call narrow_bracket(bracket, values(kind))
       end do
       angle = bracket%trial

@@ -16,24 +16,28 @@ module camroller_joint_forces
    implicit none
    private
 
-   public :: joint_values_t, finger_moment, finger_moment_slope, contact_moment, has_pivot_friction, set_pivot_forces, &
+   public :: joint_values_t, no_joints, finger_moment, finger_moment_slope, contact_moment, has_pivot_friction, set_pivot_forces, &
       & evaluate_joints
 
-   !> Forces of the joints and the torques that they cost; zero where the case has no such joint
+   !> Forces of the joints and the torques that they cost, each zero where the case has no such joint; not set without any joint
    type :: joint_values_t
       !> Force of the finger on the valve's tip along the axis, and friction across it [N]
-      real(wp) :: tip_force = 0.0_wp, tip_friction = 0.0_wp
+      real(wp) :: tip_force, tip_friction
       !> Speed of the pad over the tip, away from the pivot positive [m/s]
-      real(wp) :: tip_speed = 0.0_wp
+      real(wp) :: tip_speed
       !> Friction of seal and of the guide's ends on the stem, with the sign of the valve's speed [N]
-      real(wp) :: seal_friction = 0.0_wp, side_friction = 0.0_wp
+      real(wp) :: seal_friction, side_friction
       !> Forces of the guide's upper and lower end on the stem, sizes [N]
-      real(wp) :: upper_force = 0.0_wp, lower_force = 0.0_wp
+      real(wp) :: upper_force, lower_force
       !> Force of the ball on the finger, size [N]
-      real(wp) :: pivot_force = 0.0_wp
+      real(wp) :: pivot_force
       !> Torques for the losses of tip, seal, guide's ends and pivot [N m]
-      real(wp) :: torque_tip = 0.0_wp, torque_seal = 0.0_wp, torque_side = 0.0_wp, torque_pivot = 0.0_wp
+      real(wp) :: torque_tip, torque_seal, torque_side, torque_pivot
    end type joint_values_t
+
+   !> Joints without contact of cam and roller
+   type(joint_values_t), parameter :: no_joints = joint_values_t(0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, &
+      & 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp)
 
 contains
 
@@ -172,6 +176,8 @@ contains
       values%torque_tip = values%tip_friction*values%tip_speed/model%speed
       values%torque_seal = values%seal_friction*position%lift_slope
       values%torque_side = values%side_friction*position%lift_slope
+      values%pivot_force = 0.0_wp
+      values%torque_pivot = 0.0_wp
       if (.not. has_pivot_friction(model)) return
       call place_forces(model, position, stem, forces)
       reaction = pivot_reaction(forces, dual_t(load, 0.0_wp), dual_t(tangential_force, 0.0_wp))

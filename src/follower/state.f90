@@ -8,12 +8,13 @@ module camroller_state
    use camroller_dynamics, only : moments_t, evaluate_moments, add_acceleration, kinetic_energy, stored_power
    use camroller_gas, only : gas_force
    use camroller_contact, only : solve_contact
+   use camroller_joint_forces, only : joint_values_t, no_joints, evaluate_joints
    use camroller_contact_forces, only : contact_t
    use camroller_roller, only : spin_acceleration
    use camroller_spring_modes, only : most_modes
    use camroller_torque, only : cam_torque, contact_power, normal_direction
    use camroller_torque_list, only : torque_count, is_loss, of_geometric, of_contact, of_needle, of_guide, of_roller_inertia, &
-      & of_residual
+      & of_residual, of_tip, of_seal, of_guide_side, of_pivot
    implicit none
    private
 
@@ -58,6 +59,8 @@ module camroller_state
       real(wp) :: torque_friction
       !> Sum of everything [N m]
       real(wp) :: torque_drive
+      !> Sliding joints, where the case has any
+      type(joint_values_t) :: joints
       !> What a flexible train has beside
       type(flexible_values_t) :: flexible
    end type state_t
@@ -173,6 +176,13 @@ contains
             & contact%roller_spin, model%is_consistent)/model%speed
          if (allocated(model%guide_drag) .and. contact%is_touching) then
             torques(of_guide) = model%guide_drag*model%speed*state%position%lift_slope**2
+         end if
+         if (allocated(model%joints)) then
+            state%joints = no_joints
+            if (contact%is_touching) call evaluate_joints(model, state%position, state%moments, contact%load, &
+               & contact%tangential_force, state%joints)
+            torques([of_tip, of_seal, of_guide_side, of_pivot]) = [state%joints%torque_tip, state%joints%torque_seal, &
+               & state%joints%torque_side, state%joints%torque_pivot]
          end if
       end associate
    end subroutine add_losses

@@ -10,11 +10,13 @@ module camroller_torque_list
    private
 
    public :: torque_row_t, torque_list, torque_count, is_loss, is_torque, torque_series
-   public :: of_geometric, of_contact, of_needle, of_guide, of_roller_inertia, of_damping, of_bearings, of_residual
+   public :: of_geometric, of_contact, of_needle, of_guide, of_roller_inertia, of_damping, of_bearings, &
+      & of_tip, of_seal, of_guide_side, of_pivot, of_residual
 
    !> Rows of the list
    enum, bind(C)
-      enumerator :: of_geometric = 1, of_contact, of_needle, of_guide, of_roller_inertia, of_damping, of_bearings, of_residual
+      enumerator :: of_geometric = 1, of_contact, of_needle, of_guide, of_roller_inertia, of_damping, of_bearings, &
+         & of_tip, of_seal, of_guide_side, of_pivot, of_residual
    end enum
 
    !> Kinds of rows: energy that comes back, energy that is lost, the error of the energy balance
@@ -46,6 +48,10 @@ module camroller_torque_list
       torque_row_t("roller_inertia", "torque for the inertia of the roller", "roller", kind_stored, ""), &
       torque_row_t("damping", "torque for the losses in dampers, leak and check valve", "dynamics", kind_loss, "damping"), &
       torque_row_t("bearings", "torque for the camshaft bearings", "cam_bearings", kind_loss, "cam bearings"), &
+      torque_row_t("tip", "torque for friction at the valve's tip", "valve_tip", kind_loss, "valve tip"), &
+      torque_row_t("seal", "torque for the stem seal", "stem_seal", kind_loss, "stem seal"), &
+      torque_row_t("guide_side", "torque for friction at the ends of the guide", "guide_side_load", kind_loss, "guide ends"), &
+      torque_row_t("pivot", "torque for friction at the finger's pivot", "finger_pivot", kind_loss, "pivot"), &
       torque_row_t("residual", "drive power less losses less stored power", "torque", kind_residual, "")]
 
    !> Number of rows

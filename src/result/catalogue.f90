@@ -14,6 +14,7 @@ module camroller_catalogue
    use camroller_state, only : state_t, flexible_values_t
    use camroller_torque_list, only : torque_list, torque_count, is_loss, is_torque, of_residual, torque_series
    use camroller_hertz, only : peak_pressure
+   use camroller_joint_forces, only : joint_values_t
    use camroller_traction, only : rolling_law_names, rolling_none
    implicit none
    private
@@ -231,8 +232,40 @@ contains
          call add(list, "asperity_friction_share", "1", "fraction of boundary friction in contact friction", "asperity", &
             & ratio(state%boundary_friction, state%contact_friction))
       end if
+      call add_joints(list, case, state%joints)
       if (allocated(case%dynamics)) call add_flexible(list, case, state%flexible)
    end subroutine add_follower
+
+   !> Series of the sliding joints.
+   pure subroutine add_joints(list, case, joints)
+      !> List to extend
+      type(quantity_list_t), intent(inout) :: list
+      !> The case
+      type(case_t), intent(in) :: case
+      !> Their values
+      type(joint_values_t), intent(in) :: joints
+
+      if (allocated(case%valve_tip)) then
+         call add(list, "tip_force", "N", "force of the finger on the valve's tip, along the valve's axis", "valve_tip", &
+            & joints%tip_force)
+         call add(list, "tip_sliding_speed", "m s-1", "speed of the pad over the valve's tip, away from the pivot positive", &
+            & "valve_tip", joints%tip_speed)
+         call add(list, "friction_tip", "N", "friction on the valve's tip, away from the pivot positive", "valve_tip", &
+            & joints%tip_friction)
+      end if
+      if (allocated(case%stem_seal)) call add(list, "friction_seal", "N", "friction of the stem seal, against opening positive", &
+         & "stem_seal", joints%seal_friction)
+      if (allocated(case%guide_side_load)) then
+         call add(list, "guide_upper_force", "N", "force of the guide's upper end on the stem, its size", "guide_side_load", &
+            & joints%upper_force)
+         call add(list, "guide_lower_force", "N", "force of the guide's lower end on the stem, its size", "guide_side_load", &
+            & joints%lower_force)
+         call add(list, "friction_guide_side", "N", "friction of the stem at both ends of its guide, against opening positive", &
+            & "guide_side_load", joints%side_friction)
+      end if
+      if (allocated(case%finger_pivot)) call add(list, "pivot_force", "N", "force of the pivot on the finger, its size", &
+         & "finger_pivot", joints%pivot_force)
+   end subroutine add_joints
 
    !> Series of a flexible train.
    pure subroutine add_flexible(list, case, train)
