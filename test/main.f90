@@ -13,6 +13,8 @@ program main
    use test_version, only : collect_version
    use test_blas_threads, only : collect_blas_threads
    use test_roots, only : collect_roots
+   use test_dual, only : collect_dual
+   use test_joints, only : collect_joints
    use test_spline, only : collect_spline
    use test_lift, only : collect_lift
    use test_quadrature, only : collect_quadrature
@@ -166,6 +168,8 @@ contains
          new_testsuite("version", collect_version), &
          new_testsuite("blas_threads", collect_blas_threads), &
          new_testsuite("roots", collect_roots), &
+         new_testsuite("dual", collect_dual), &
+         new_testsuite("joints", collect_joints), &
          new_testsuite("spline", collect_spline), &
          new_testsuite("lift", collect_lift), &
          new_testsuite("quadrature", collect_quadrature), &

@@ -4,6 +4,7 @@ import time
 
 import numpy as np
 
+import joint_reference
 import kinematics_reference
 import roller_problem_reference
 from cycle_reference import DEGREE, TORQUES, Point, Train, integrate
@@ -70,6 +71,7 @@ def write_cycles():
 if __name__ == '__main__':
     start = time.time()
     for task in (lambda: kinematics_reference.write(DATA / 'kinematics_reference.csv'),
+                 lambda: joint_reference.write(DATA / 'joint_reference.csv'),
                  lambda: roller_problem_reference.write(DATA / 'roller_problem_reference.csv'), write_cycles):
         task()
         print(f'{time.time() - start:.0f} s')

@@ -10,8 +10,8 @@ module test_spin_slopes
    use camroller_lubricant, only : pressure_law_names
    use camroller_spin, only : spin_problem_t
    use camroller_ode_problem, only : linear_t, counters_t, new_linear
-   use reference_cases, only : thesis_case, source_case, skewed_case, make_model, set_point, add_gas_force, point_speeds, &
-      point_viscosities
+   use reference_cases, only : thesis_case, source_case, skewed_case, make_model, set_point, add_gas_force, add_joints, &
+      point_speeds, point_viscosities
    implicit none
    private
 
@@ -36,6 +36,7 @@ contains
          new_unittest("closed balance: every viscosity and shear law", test_shear_laws), &
          new_unittest("the source's bookkeeping", test_source), &
          new_unittest("with gas force; with asperities that yield; without any, nor bearing and guide", test_effects), &
+         new_unittest("with friction at valve tip, seal, guide and pivot, by either law", test_with_joints), &
          new_unittest("with a given part of the boundary friction, as sliding and sticking have it", test_given_share), &
          new_unittest("without contact only the kinematics is left", test_no_contact) &
          ]
@@ -127,6 +128,25 @@ contains
          end do
       end do
    end subroutine test_shear_laws
+
+   subroutine test_with_joints(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: case
+      type(model_t) :: model
+      integer :: law
+
+      do law = 1, 2
+         case = skewed_case(rotation_names(law))
+         call add_joints(case, merge("constant", "stribeck", law == 1))
+         call add_gas_force(case)
+         call set_point(case, point_speeds(1 + law), point_viscosities(law))
+         call make_model(case, model, error)
+         if (allocated(error)) return
+         model%speed_slope = 0.1_wp*model%speed
+         call compare(error, model, "friction "//merge("constant", "stribeck", law == 1))
+         if (allocated(error)) return
+      end do
+   end subroutine test_with_joints
 
    subroutine test_source(error)
       type(error_type), allocatable, intent(out) :: error

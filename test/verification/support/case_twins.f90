@@ -4,8 +4,9 @@ module case_twins
    use camroller_case, only : case_t
    use camroller_lift, only : lift_t
    use camroller_result, only : result_t
-   use unit_systems, only : units_t, dimension_t, scaled, number, angular_speed, area, force, inertia, length, mass, &
-      & per_pressure, pressure, speed, stiffness, viscosity
+   use camroller_sliding_friction, only : sliding_t
+   use unit_systems, only : units_t, dimension_t, scaled, number, angular_speed, area, drag, force, inertia, length, mass, &
+      & per_pressure, per_speed, pressure, speed, stiffness, viscosity
    implicit none
    private
 
@@ -78,6 +79,22 @@ contains
       if (allocated(case%valve_guide)) call change(case%valve_guide%length, length)
       if (allocated(case%valve_guide)) call change(case%valve_guide%stem_diameter, length)
       if (allocated(case%valve_guide)) call change(case%valve_guide%radial_clearance, length)
+      if (allocated(case%valve_tip)) call change(case%valve_tip%pad_radius, length)
+      if (allocated(case%valve_tip)) call change_sliding(case%valve_tip%sliding)
+      if (allocated(case%finger_pivot)) call change(case%finger_pivot%ball_radius, length)
+      if (allocated(case%finger_pivot)) call change_sliding(case%finger_pivot%sliding)
+      if (allocated(case%guide_side_load)) then
+         call change(case%guide_side_load%guide_length, length)
+         call change(case%guide_side_load%tip_height, length)
+         call change(case%guide_side_load%stem_axis, length)
+         call change_sliding(case%guide_side_load%sliding)
+      end if
+      if (allocated(case%stem_seal)) then
+         call change(case%stem_seal%lip_force, force)
+         call change(case%stem_seal%viscous_drag, drag)
+         call change(case%stem_seal%reference_viscosity, viscosity)
+         call change(case%stem_seal%reversal_speed, speed)
+      end if
       if (allocated(case%cam_bearings)) then
          call change(case%cam_bearings%diameter, length)
          call change(case%cam_bearings%width, length)
@@ -97,6 +114,18 @@ contains
 
          value = scaled(units, value, dimension)
       end subroutine change
+
+      !> A coefficient of friction in other units.
+      subroutine change_sliding(sliding)
+         !> The coefficient
+         type(sliding_t), intent(inout) :: sliding
+
+         call change(sliding%decay_speed, speed)
+         call change(sliding%viscous_part, per_speed)
+         call change(sliding%reference_viscosity, viscosity)
+         call change(sliding%reference_load, force)
+         call change(sliding%reversal_speed, speed)
+      end subroutine change_sliding
 
       !> A lift in other units.
       subroutine change_lift(lift)

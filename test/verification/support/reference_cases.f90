@@ -8,11 +8,12 @@ module reference_cases
    use camroller_error, only : error_t
    use camroller_case, only : case_t
    use camroller_model, only : model_t, new_model
+   use camroller_sliding_friction, only : sliding_t
    use camroller_cycle, only : cycle_t, integrate_cycle
    implicit none
    private
 
-   public :: thesis_case, source_case, skewed_case, named_case, make_model, make_cycle, set_point, add_gas_force
+   public :: thesis_case, source_case, skewed_case, named_case, make_model, make_cycle, set_point, add_gas_force, add_joints
    public :: point_speeds, point_viscosities
 
    !> Speeds of the nine operating points [rad/s]
@@ -171,6 +172,28 @@ contains
       the_case%gas_force%pressure(rows) = the_case%gas_force%pressure(1)
       the_case%gas_force%valve_area = 6.0e-4_wp
    end subroutine add_gas_force
+
+   !> Friction at valve tip, stem seal, ends of the guide and pivot, as `joint_reference.csv` has it, or by Stribeck's curve.
+   subroutine add_joints(the_case, law)
+      !> The case
+      type(case_t), intent(inout) :: the_case
+      !> Law of the coefficients
+      character(len=*), intent(in) :: law
+
+      allocate (the_case%valve_tip, the_case%stem_seal, the_case%guide_side_load, the_case%finger_pivot)
+      the_case%valve_tip%pad_radius = 8.0e-3_wp
+      the_case%valve_tip%sliding = sliding_t(law, 0.1_wp, 0.05_wp, 0.02_wp, 0.01_wp, 300.0_wp)
+      the_case%stem_seal%lip_force = 8.0_wp
+      the_case%guide_side_load%guide_length = 36.0e-3_wp
+      the_case%guide_side_load%tip_height = 25.0e-3_wp
+      the_case%guide_side_load%stem_axis = 34.0e-3_wp
+      the_case%guide_side_load%sliding = sliding_t(law, 0.08_wp, 0.2_wp, 0.01_wp, 0.01_wp, 20.0_wp)
+      the_case%finger_pivot%ball_radius = 5.0e-3_wp
+      the_case%finger_pivot%sliding = sliding_t(law, 0.12_wp, 0.01_wp, 0.1_wp, 0.01_wp, 300.0_wp)
+      if (law == "constant") return
+      the_case%stem_seal%viscous_drag = 10.0_wp
+      the_case%stem_seal%reference_viscosity = 0.01_wp
+   end subroutine add_joints
 
    !> Model of a case.
    subroutine make_model(the_case, model, error)

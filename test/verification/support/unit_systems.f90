@@ -33,7 +33,7 @@ module unit_systems
 
    public :: number, angular_speed, length, area, speed, acceleration, mass, inertia, force, torque, power, &
       stiffness, pressure, &
-      & viscosity, per_pressure, per_length, temperature, drag, angular_acceleration, energy, density, per_temperature
+      & viscosity, per_pressure, per_length, temperature, drag, per_speed, angular_acceleration, energy, density, per_temperature
 
    !> Dimensions of the quantities in use
    type(dimension_t), parameter :: number = dimension_t(0, 0, 0), angular_speed = dimension_t(0, 0, -1), &
@@ -43,6 +43,7 @@ module unit_systems
       & mass = dimension_t(0, 1, 0), inertia = dimension_t(2, 1, 0), density = dimension_t(-3, 1, 0), &
       & force = dimension_t(1, 1, -2), torque = dimension_t(2, 1, -2), energy = dimension_t(2, 1, -2), &
       & power = dimension_t(2, 1, -3), stiffness = dimension_t(0, 1, -2), drag = dimension_t(0, 1, -1), &
+      & per_speed = dimension_t(-1, 0, 1), &
       & pressure = dimension_t(-1, 1, -2), viscosity = dimension_t(-1, 1, -1), per_pressure = dimension_t(1, -1, 2), &
       & temperature = dimension_t(0, 0, 0, 1), per_temperature = dimension_t(0, 0, 0, -1)
 
