@@ -219,8 +219,8 @@ contains
          & - model%joints%tip%pad_radius
    end function turning_values
 
-   !> Quantities whose sign matters: lift above that where the valve leaves its seat, and the moment that keeps contact, or, with the
-   !> larger of both loads, the moment beyond that of the base circle load.
+   !> Quantities whose sign matters: lift above that where the valve leaves its seat, and the moment that keeps contact, or, with
+   !> the larger of both loads, the moment beyond that of the base circle load.
    pure function switches(model, angle) result(values)
       !> The model
       type(model_t), intent(in) :: model

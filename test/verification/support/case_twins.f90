@@ -79,22 +79,7 @@ contains
       if (allocated(case%valve_guide)) call change(case%valve_guide%length, length)
       if (allocated(case%valve_guide)) call change(case%valve_guide%stem_diameter, length)
       if (allocated(case%valve_guide)) call change(case%valve_guide%radial_clearance, length)
-      if (allocated(case%valve_tip)) call change(case%valve_tip%pad_radius, length)
-      if (allocated(case%valve_tip)) call change_sliding(case%valve_tip%sliding)
-      if (allocated(case%finger_pivot)) call change(case%finger_pivot%ball_radius, length)
-      if (allocated(case%finger_pivot)) call change_sliding(case%finger_pivot%sliding)
-      if (allocated(case%guide_side_load)) then
-         call change(case%guide_side_load%guide_length, length)
-         call change(case%guide_side_load%tip_height, length)
-         call change(case%guide_side_load%stem_axis, length)
-         call change_sliding(case%guide_side_load%sliding)
-      end if
-      if (allocated(case%stem_seal)) then
-         call change(case%stem_seal%lip_force, force)
-         call change(case%stem_seal%viscous_drag, drag)
-         call change(case%stem_seal%reference_viscosity, viscosity)
-         call change(case%stem_seal%reversal_speed, speed)
-      end if
+      call change_joints()
       if (allocated(case%cam_bearings)) then
          call change(case%cam_bearings%diameter, length)
          call change(case%cam_bearings%width, length)
@@ -114,6 +99,26 @@ contains
 
          value = scaled(units, value, dimension)
       end subroutine change
+
+      !> The sliding joints in other units.
+      subroutine change_joints()
+         if (allocated(case%valve_tip)) call change(case%valve_tip%pad_radius, length)
+         if (allocated(case%valve_tip)) call change_sliding(case%valve_tip%sliding)
+         if (allocated(case%finger_pivot)) call change(case%finger_pivot%ball_radius, length)
+         if (allocated(case%finger_pivot)) call change_sliding(case%finger_pivot%sliding)
+         if (allocated(case%guide_side_load)) then
+            call change(case%guide_side_load%guide_length, length)
+            call change(case%guide_side_load%tip_height, length)
+            call change(case%guide_side_load%stem_axis, length)
+            call change_sliding(case%guide_side_load%sliding)
+         end if
+         if (allocated(case%stem_seal)) then
+            call change(case%stem_seal%lip_force, force)
+            call change(case%stem_seal%viscous_drag, drag)
+            call change(case%stem_seal%reference_viscosity, viscosity)
+            call change(case%stem_seal%reversal_speed, speed)
+         end if
+      end subroutine change_joints
 
       !> A coefficient of friction in other units.
       subroutine change_sliding(sliding)
