@@ -346,16 +346,18 @@ contains
 
       ! Errors over the range [-]
       real(wp) :: relative(size(series))
+      ! Range that counts as none, whose quotients do not overflow [unit of the series]
+      real(wp), parameter :: least = sqrt(tiny(1.0_wp))
       integer :: i
 
       associate (errors => statistics%extreme_errors)
          do i = 1, size(series)
-            relative(i) = maxval(errors(:, i))
+            relative(i) = 0.0_wp
+            if (index(series(i)%name, "film_") > 0 .and. statistics%lost_share > 0.0_wp) cycle
             ! What is not there has no error
-            if (relative(i) > 0.0_wp) relative(i) = relative(i)/max(highest(i) - lowest(i), tiny(1.0_wp))
-            if (index(series(i)%name, "film_thickness_min") > 0 .and. errors(1, i) > 0.0_wp) relative(i) = max(relative(i), &
-               & errors(1, i)/max(lowest(i), tiny(1.0_wp)))
-            if (index(series(i)%name, "film_") > 0 .and. statistics%lost_share > 0.0_wp) relative(i) = 0.0_wp
+            if (.not. maxval(errors(:, i)) > 0.0_wp) cycle
+            relative(i) = maxval(errors(:, i))/max(highest(i) - lowest(i), least)
+            if (index(series(i)%name, "film_thickness_min") > 0) relative(i) = max(relative(i), errors(1, i)/max(lowest(i), least))
          end do
       end associate
       i = maxloc(relative, 1)
