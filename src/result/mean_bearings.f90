@@ -5,16 +5,13 @@
 module camroller_mean_bearings
    use camroller_kinds, only : wp, two_pi, degree
    use camroller_error, only : error_t
-   use camroller_model, only : model_t
    use camroller_state, only : state_t
-   use camroller_case, only : case_t
    use camroller_catalogue, only : camshaft_count, camshaft_values
-   use camroller_cycle, only : cycle_t
    use camroller_events, only : cycle_stops
    use camroller_extremes, only : samples_t, start_samples, add_sample
    use camroller_means, only : mean_tolerance, most_halvings
    use camroller_panels, only : sampled_t, panels_t, start_panels, sample_panel, refine_panels
-   use camroller_shaft, only : shaft_t, shaft_torques
+   use camroller_shaft, only : solved_t, shaft_torques
    use camroller_torque_list, only : torque_count, of_bearings
    implicit none
    private
@@ -26,10 +23,7 @@ module camroller_mean_bearings
 
    !> Bearings of a camshaft on its turn
    type, extends(sampled_t) :: bearing_samples_t
-      type(case_t), pointer :: case => null()
-      type(shaft_t), pointer :: shaft => null()
-      type(model_t), pointer :: models(:) => null()
-      type(cycle_t), pointer :: cycles(:) => null()
+      type(solved_t), pointer :: solved => null()
       !> Series of the camshaft at the angles met
       type(samples_t) :: rows
    contains
@@ -39,15 +33,9 @@ module camroller_mean_bearings
 contains
 
    !> Mean torque of the bearings of each camshaft, over panels that end at the stops of every cam.
-   subroutine mean_bearing_torque(case, shaft, models, cycles, mean, mean_error, rows, error)
-      !> The case
-      type(case_t), intent(in), target :: case
-      !> The shaft
-      type(shaft_t), intent(inout), target :: shaft
-      !> Model of each lobe shape
-      type(model_t), intent(in), target :: models(:)
-      !> Cycle of each lobe shape
-      type(cycle_t), intent(in), target :: cycles(:)
+   subroutine mean_bearing_torque(solved, mean, mean_error, rows, error)
+      !> The solved case; its search hints move
+      type(solved_t), intent(inout), target :: solved
       !> Mean torque of each camshaft [N m]
       real(wp), intent(out) :: mean(:)
       !> Estimate of the error over the mean, the largest [-]
@@ -67,17 +55,14 @@ contains
 
       mean = 0.0_wp
       mean_error = 0.0_wp
-      samples%case => case
-      samples%shaft => shaft
-      samples%models => models
-      samples%cycles => cycles
-      call start_samples(samples%rows, camshaft_count(case))
+      samples%solved => solved
+      call start_samples(samples%rows, camshaft_count(solved%case))
       allocate (stops(0))
-      do cam = 1, size(shaft%lobes)
-         stops = [stops, cycles(shaft%lobes(cam))%stops + shaft%phases(cam)]
+      do cam = 1, size(solved%shaft%lobes)
+         stops = [stops, solved%cycles(solved%shaft%lobes(cam))%stops + solved%shaft%phases(cam)]
       end do
-      stops = cycle_stops(stops, cycles(shaft%lobes(1))%start)
-      call start_panels(panels, shaft%count, 2*size(stops) + ceiling(two_pi/longest_panel))
+      stops = cycle_stops(stops, solved%cycles(solved%shaft%lobes(1))%start)
+      call start_panels(panels, solved%shaft%count, 2*size(stops) + ceiling(two_pi/longest_panel))
       do segment = 1, size(stops) - 1
          count = ceiling((stops(segment + 1) - stops(segment))/longest_panel)
          if (count == 0) cycle
@@ -90,7 +75,7 @@ contains
       ! Not those of halved panels: what bearings ask for changes nothing but their own torque
       rows = samples%rows
       halvings = most_halvings
-      call refine_panels(panels, samples, mean_tolerance(maxval(cycles%tolerance)) &
+      call refine_panels(panels, samples, mean_tolerance(maxval(solved%cycles%tolerance)) &
          & *sum(panels%sizes(:, :panels%count), 2), halvings, error)
       if (allocated(error)) return
       mean = sum(panels%integrals(:, :panels%count), 2)/two_pi
@@ -110,14 +95,14 @@ contains
 
       type(state_t) :: state
       ! Torques on each camshaft [N m]
-      real(wp) :: torques(torque_count, self%shaft%count)
+      real(wp) :: torques(torque_count, self%solved%shaft%count)
       ! Series of the camshafts [unit of the series]
-      real(wp) :: series(camshaft_count(self%case))
+      real(wp) :: series(camshaft_count(self%solved%case))
 
-      call shaft_torques(self%shaft, self%models, self%cycles, x, state, torques, error)
+      call shaft_torques(self%solved, x, state, torques, error)
       if (allocated(error)) return
       values = torques(of_bearings, :)
-      call camshaft_values(self%case, torques, series)
+      call camshaft_values(self%solved%case, torques, series)
       call add_sample(self%rows, x, series, .false.)
    end subroutine sample_bearings
 

@@ -14,7 +14,7 @@ module camroller_report
    use camroller_extremes, only : samples_t, search_t, add_sample, narrow_search, start_search
    use camroller_margins, only : margins_t, find_margins
    use camroller_result, only : result_t, quantity_t, find_quantity, check_numbers
-   use camroller_shaft, only : shaft_t, new_shaft, shaft_torques
+   use camroller_shaft, only : solved_t, new_shaft, shaft_torques
    use camroller_mean_bearings, only : mean_bearing_torque
    use camroller_means, only : statistics_t, integrate_lobe
    use camroller_slip_errors, only : error_of_extreme
@@ -93,11 +93,11 @@ contains
    !> Series and summary of a case.
    subroutine make_result(case, models, cycles, statistics, with_series, result, error)
       !> The case
-      type(case_t), intent(in) :: case
+      type(case_t), intent(in), target :: case
       !> Model of each lobe shape
-      type(model_t), intent(in) :: models(:)
+      type(model_t), intent(in), target :: models(:)
       !> Cycle of each lobe shape
-      type(cycle_t), intent(in) :: cycles(:)
+      type(cycle_t), intent(in), target :: cycles(:)
       !> Means of each lobe shape; out: with all that was met
       type(statistics_t), intent(inout) :: statistics(:)
       !> Does the result hold series at the output angles, or the summary alone, which is the same?
@@ -107,7 +107,7 @@ contains
       !> Convergence or domain error; domain error where a law is used outside its range and the case forbids it
       type(error_t), allocatable, intent(out) :: error
 
-      type(shaft_t) :: shaft
+      type(solved_t) :: solved
       type(margins_t), allocatable :: margins(:)
       type(extremes_t) :: extremes
       type(samples_t) :: torque_rows
@@ -118,12 +118,15 @@ contains
 
       allocate (result%remarks(0))
       call list_series(case, result%series)
-      call new_shaft(shaft, case, models(1)%oil%viscosity, models(1)%speed, error)
+      solved%case => case
+      solved%models => models
+      solved%cycles => cycles
+      call new_shaft(solved%shaft, case, models(1)%oil%viscosity, models(1)%speed, error)
       if (allocated(error)) return
       result%angle = output_angles(case%numerics%output_step)
       allocate (result%series_values(merge(size(result%angle), 0, with_series .or. allocated(case%engine)), &
          & size(result%series)))
-      call sample_series(case, models, cycles, shaft, result, error)
+      call sample_series(solved, result, error)
       if (allocated(error)) return
 
       allocate (margins(size(models)))
@@ -133,10 +136,10 @@ contains
             & result%remarks, error)
          if (allocated(error)) return
       end do
-      allocate (bearing_torque(shaft%count))
+      allocate (bearing_torque(solved%shaft%count))
       bearing_torque = 0.0_wp
       bearing_error = 0.0_wp
-      call mean_bearing_torque(case, shaft, models, cycles, bearing_torque, bearing_error, torque_rows, error)
+      call mean_bearing_torque(solved, bearing_torque, bearing_error, torque_rows, error)
       if (allocated(error)) return
       if (allocated(cycles(1)%flexible) .and. .not. allocated(case%cam_bearings)) torque_rows = statistics(1)%torque_rows
       if (bearing_error > maxval(statistics%mean_error)) then
@@ -144,10 +147,10 @@ contains
          statistics%worst_mean = "torque_bearings"
       end if
       result%worst_mean = statistics(maxloc(statistics%mean_error, 1))%worst_mean
-      call find_extremes(case, models, cycles, shaft, margins, statistics, torque_rows, result, extremes, error)
+      call find_extremes(solved, margins, statistics, torque_rows, result, extremes, error)
       if (allocated(error)) return
       result%worst_extreme = statistics(maxloc(statistics%extreme_error, 1))%worst_extreme
-      call make_summary(case, models, cycles, shaft, statistics, bearing_torque, margins, extremes, result)
+      call make_summary(solved, statistics, bearing_torque, margins, extremes, result)
       if (.not. with_series) result%series_values = result%series_values(:0, :)
       call check_numbers(result, error)
    end subroutine make_result
@@ -166,15 +169,9 @@ contains
    end function output_angles
 
    !> Series at the output angles: each lobe's follower over the angle from its own nose, torques over that from the first cam's.
-   subroutine sample_series(case, models, cycles, shaft, result, error)
-      !> The case
-      type(case_t), intent(in) :: case
-      !> Model of each lobe shape
-      type(model_t), intent(in) :: models(:)
-      !> Cycle of each lobe shape
-      type(cycle_t), intent(in) :: cycles(:)
-      !> The camshaft
-      type(shaft_t), intent(inout) :: shaft
+   subroutine sample_series(solved, result, error)
+      !> The solved case; its search hints move
+      type(solved_t), intent(inout) :: solved
       !> In: list of series, with room for as many angles as there are wanted; out: with their values
       type(result_t), intent(inout) :: result
       !> Convergence or domain error
@@ -182,26 +179,27 @@ contains
 
       type(state_t) :: state
       ! Torques on each camshaft [N m]; values of the series; cam angle from full lift [rad]
-      real(wp) :: torques(torque_count, shaft%count), values(size(result%series)), angle
-      integer :: hints(size(models)), columns(2, size(models)), of_camshaft(2), i, lobe
+      real(wp) :: torques(torque_count, solved%shaft%count), values(size(result%series)), angle
+      integer :: hints(size(solved%models)), columns(2, size(solved%models)), of_camshaft(2), i, lobe
       ! Is the first cam's follower the first lobe's, at the same angle?
       logical :: is_first
 
       hints = 1
-      of_camshaft = camshaft_columns(case)
-      do lobe = 1, size(models)
-         columns(:, lobe) = lobe_columns(case, lobe)
+      of_camshaft = camshaft_columns(solved%case)
+      do lobe = 1, size(solved%models)
+         columns(:, lobe) = lobe_columns(solved%case, lobe)
       end do
-      is_first = shaft%lobes(1) == 1 .and. abs(shaft%phases(1)) <= 0.0_wp
+      is_first = solved%shaft%lobes(1) == 1 .and. abs(solved%shaft%phases(1)) <= 0.0_wp
       do i = 1, size(result%series_values, 1)
          angle = (result%angle(i) - 180.0_wp)*degree
-         call shaft_torques(shaft, models, cycles, angle, state, torques, error)
+         call shaft_torques(solved, angle, state, torques, error)
          if (allocated(error)) return
-         call camshaft_values(case, torques, values(of_camshaft(1):of_camshaft(2)))
-         do lobe = 1, size(models)
-            if (lobe > 1 .or. .not. is_first) call state_at(cycles(lobe), models(lobe), angle, hints(lobe), state, error)
+         call camshaft_values(solved%case, torques, values(of_camshaft(1):of_camshaft(2)))
+         do lobe = 1, size(solved%models)
+            if (lobe > 1 .or. .not. is_first) call state_at(solved%cycles(lobe), solved%models(lobe), angle, hints(lobe), state, &
+               & error)
             if (allocated(error)) return
-            call follower_values(case, models(lobe), state, &
+            call follower_values(solved%case, solved%models(lobe), state, &
                & values(columns(1, lobe):columns(2, lobe)))
          end do
          result%series_values(i, :) = values
@@ -209,15 +207,9 @@ contains
    end subroutine sample_series
 
    !> Smallest and largest value of every series, at the stops and between the angles met as well.
-   subroutine find_extremes(case, models, cycles, shaft, margins, statistics, torque_rows, result, extremes, error)
-      !> The case
-      type(case_t), intent(in) :: case
-      !> Model of each lobe shape
-      type(model_t), intent(in) :: models(:)
-      !> Cycle of each lobe shape
-      type(cycle_t), intent(in) :: cycles(:)
-      !> The camshaft
-      type(shaft_t), intent(inout) :: shaft
+   subroutine find_extremes(solved, margins, statistics, torque_rows, result, extremes, error)
+      !> The solved case; its search hints move
+      type(solved_t), intent(inout) :: solved
       !> Margins of each lobe shape
       type(margins_t), intent(in) :: margins(:)
       !> Rows of each lobe shape; more are added
@@ -233,36 +225,35 @@ contains
 
       integer :: columns(2), lobe
 
-      allocate (extremes%lowest(size(result%series)), extremes%highest(size(result%series)), extremes%event_load(size(models)))
-      do lobe = 1, size(models)
-         columns = lobe_columns(case, lobe)
+      allocate (extremes%lowest(size(result%series)), extremes%highest(size(result%series)), &
+         & extremes%event_load(size(solved%models)))
+      do lobe = 1, size(solved%models)
+         columns = lobe_columns(solved%case, lobe)
          associate (samples => statistics(lobe)%rows)
-            call add_stops(case, models(lobe), cycles(lobe), margins(lobe), samples, error)
-            if (.not. allocated(error)) call search_lobe(case, models(lobe), cycles(lobe), statistics(lobe), &
+            call add_stops(solved, lobe, margins(lobe), samples, error)
+            if (.not. allocated(error)) call search_lobe(solved, lobe, statistics(lobe), &
                & extremes%lowest(columns(1):columns(2)), extremes%highest(columns(1):columns(2)), error)
             if (.not. allocated(error)) call judge_extremes(result%series(columns(1):columns(2)), &
                & extremes%lowest(columns(1):columns(2)), extremes%highest(columns(1):columns(2)), statistics(lobe))
             if (allocated(error)) return
-            if (allocated(cycles(lobe)%flexible)) then
-               statistics(lobe)%extreme_error = cycles(lobe)%flexible%error
+            if (allocated(solved%cycles(lobe)%flexible)) then
+               statistics(lobe)%extreme_error = solved%cycles(lobe)%flexible%error
                statistics(lobe)%worst_extreme = "contact_load"
             end if
-            extremes%event_load(lobe) = smallest_event_load(models(lobe), result, samples)
+            extremes%event_load(lobe) = smallest_event_load(solved%models(lobe), result, samples)
          end associate
       end do
-      columns = camshaft_columns(case)
-      call search_camshaft(case, models, cycles, shaft, torque_rows, extremes%lowest(columns(1):columns(2)), &
+      columns = camshaft_columns(solved%case)
+      call search_camshaft(solved, torque_rows, extremes%lowest(columns(1):columns(2)), &
          & extremes%highest(columns(1):columns(2)), error)
    end subroutine find_extremes
 
    !> Rows of a lobe's follower at the stops, and at the smallest load of the event without friction.
-   subroutine add_stops(case, model, cycle, margins, samples, error)
-      !> The case
-      type(case_t), intent(in) :: case
-      !> Model of the lobe
-      type(model_t), intent(in) :: model
-      !> Its cycle
-      type(cycle_t), intent(in) :: cycle
+   subroutine add_stops(solved, lobe, margins, samples, error)
+      !> The solved case
+      type(solved_t), intent(in) :: solved
+      !> The lobe shape, from 1
+      integer, intent(in) :: lobe
       !> Its margins
       type(margins_t), intent(in) :: margins
       !> The rows
@@ -272,28 +263,28 @@ contains
 
       type(state_t) :: state
       ! Cam angles from full lift [rad]; a row [unit of the series]
-      real(wp) :: angles(3*size(cycle%stops) + 1), values(size(samples%values, 1))
+      real(wp) :: angles(3*size(solved%cycles(lobe)%stops) + 1), values(size(samples%values, 1))
       integer :: hint, i
 
       hint = 1
-      angles = [cycle%stops - beside, cycle%stops, cycle%stops + beside, margins%event%angle]
+      associate (stops => solved%cycles(lobe)%stops)
+         angles = [stops - beside, stops, stops + beside, margins%event%angle]
+      end associate
       do i = 1, size(angles)
-         call state_at(cycle, model, angles(i), hint, state, error)
+         call state_at(solved%cycles(lobe), solved%models(lobe), angles(i), hint, state, error)
          if (allocated(error)) return
-         call follower_values(case, model, state, values)
+         call follower_values(solved%case, solved%models(lobe), state, values)
          call add_sample(samples, angles(i), values, i < size(angles))
       end do
    end subroutine add_stops
 
    !> Smallest and largest values of a lobe's follower, from its rows and between them; the rows alone where the solution itself is
    !> only linear between its points.
-   subroutine search_lobe(case, model, cycle, statistics, lowest, highest, error)
-      !> The case
-      type(case_t), intent(in) :: case
-      !> Model of the lobe
-      type(model_t), intent(in) :: model
-      !> Its cycle
-      type(cycle_t), intent(in) :: cycle
+   subroutine search_lobe(solved, lobe, statistics, lowest, highest, error)
+      !> The solved case
+      type(solved_t), intent(in) :: solved
+      !> The lobe shape, from 1
+      integer, intent(in) :: lobe
       !> Its statistics, with the rows; out: with the errors of the values
       type(statistics_t), intent(inout) :: statistics
       !> The values [unit of the series]
@@ -310,28 +301,30 @@ contains
       hint = 1
       allocate (statistics%extreme_errors(2, size(lowest)))
       statistics%extreme_errors = 0.0_wp
-      do series = 1, size(lowest)
-         do sense = -1, 1, 2
-            call start_search(statistics%rows, series, sense, cycle%tolerance, search)
-            do while (search%is_wanted .and. .not. cycle%is_linear)
-               call state_at(cycle, model, search%trial, hint, state, error)
+      associate (model => solved%models(lobe), cycle => solved%cycles(lobe))
+         do series = 1, size(lowest)
+            do sense = -1, 1, 2
+               call start_search(statistics%rows, series, sense, cycle%tolerance, search)
+               do while (search%is_wanted .and. .not. cycle%is_linear)
+                  call state_at(cycle, model, search%trial, hint, state, error)
+                  if (allocated(error)) return
+                  call follower_values(solved%case, model, state, values)
+                  call narrow_search(statistics%rows, search, values(series))
+               end do
+               if (sense > 0) lowest(series) = search%value
+               if (sense < 0) highest(series) = -search%value
+               ! Errors of a flexible train are those of its load and sliding speed
+               if (allocated(cycle%flexible)) cycle
+               call state_at(cycle, model, search%point, hint, state, error)
                if (allocated(error)) return
-               call follower_values(case, model, state, values)
-               call narrow_search(statistics%rows, search, values(series))
+               associate (of_value => statistics%extreme_errors(merge(1, 2, sense > 0), series))
+                  call error_of_extreme(statistics%slip_errors, solved, lobe, state, search%point, series, sense, &
+                     & sense*search%value, of_value)
+                  of_value = of_value + search%left
+               end associate
             end do
-            if (sense > 0) lowest(series) = search%value
-            if (sense < 0) highest(series) = -search%value
-            ! Errors of a flexible train are those of its load and sliding speed
-            if (allocated(cycle%flexible)) cycle
-            call state_at(cycle, model, search%point, hint, state, error)
-            if (allocated(error)) return
-            associate (of_value => statistics%extreme_errors(merge(1, 2, sense > 0), series))
-               call error_of_extreme(statistics%slip_errors, case, model, cycle, state, search%point, series, sense, &
-                  & sense*search%value, of_value)
-               of_value = of_value + search%left
-            end associate
          end do
-      end do
+      end associate
    end subroutine search_lobe
 
    !> Largest error of a smallest or largest value, over the range of its series; the smallest film counts by itself. Films have no
@@ -366,15 +359,9 @@ contains
    end subroutine judge_extremes
 
    !> Smallest and largest values of the camshaft's series.
-   subroutine search_camshaft(case, models, cycles, shaft, samples, lowest, highest, error)
-      !> The case
-      type(case_t), intent(in) :: case
-      !> Model of each lobe shape
-      type(model_t), intent(in) :: models(:)
-      !> Cycle of each lobe shape
-      type(cycle_t), intent(in) :: cycles(:)
-      !> The camshaft
-      type(shaft_t), intent(inout) :: shaft
+   subroutine search_camshaft(solved, samples, lowest, highest, error)
+      !> The solved case; its search hints move
+      type(solved_t), intent(inout) :: solved
       !> Rows of the camshaft; those of the stops are added
       type(samples_t), intent(inout) :: samples
       !> The values [unit of the series]
@@ -388,18 +375,18 @@ contains
       real(wp) :: values(size(lowest))
       integer :: i, series, sense
 
-      stops = [(cycles(shaft%lobes(i))%stops + shaft%phases(i), i=1, size(shaft%lobes))]
+      stops = [(solved%cycles(solved%shaft%lobes(i))%stops + solved%shaft%phases(i), i=1, size(solved%shaft%lobes))]
       stops = [stops - beside, stops, stops + beside]
       do i = 1, size(stops)
-         call camshaft_row(case, models, cycles, shaft, stops(i), values, error)
+         call camshaft_row(solved, stops(i), values, error)
          if (allocated(error)) return
          call add_sample(samples, stops(i), values, .true.)
       end do
       do series = 1, size(values)
          do sense = -1, 1, 2
-            call start_search(samples, series, sense, maxval(cycles%tolerance), search)
-            do while (search%is_wanted .and. .not. any(cycles%is_linear))
-               call camshaft_row(case, models, cycles, shaft, search%trial, values, error)
+            call start_search(samples, series, sense, maxval(solved%cycles%tolerance), search)
+            do while (search%is_wanted .and. .not. any(solved%cycles%is_linear))
+               call camshaft_row(solved, search%trial, values, error)
                if (allocated(error)) return
                call narrow_search(samples, search, values(series))
             end do
@@ -410,15 +397,9 @@ contains
    end subroutine search_camshaft
 
    !> The camshaft's series at a cam angle.
-   subroutine camshaft_row(case, models, cycles, shaft, angle, values, error)
-      !> The case
-      type(case_t), intent(in) :: case
-      !> Model of each lobe shape
-      type(model_t), intent(in) :: models(:)
-      !> Cycle of each lobe shape
-      type(cycle_t), intent(in) :: cycles(:)
-      !> The camshaft
-      type(shaft_t), intent(inout) :: shaft
+   subroutine camshaft_row(solved, angle, values, error)
+      !> The solved case; its search hints move
+      type(solved_t), intent(inout) :: solved
       !> Cam angle of the first cam from full lift [rad]
       real(wp), intent(in) :: angle
       !> The series [unit of the series]
@@ -428,11 +409,11 @@ contains
 
       type(state_t) :: state
       ! Torques on each camshaft [N m]
-      real(wp) :: torques(torque_count, shaft%count)
+      real(wp) :: torques(torque_count, solved%shaft%count)
 
-      call shaft_torques(shaft, models, cycles, angle, state, torques, error)
+      call shaft_torques(solved, angle, state, torques, error)
       if (allocated(error)) return
-      call camshaft_values(case, torques, values)
+      call camshaft_values(solved%case, torques, values)
    end subroutine camshaft_row
 
    !> Smallest contact load with the valve off its seat; over the whole cycle where it never leaves it.

@@ -15,7 +15,7 @@ module camroller_shaft
    implicit none
    private
 
-   public :: shaft_t, new_shaft, set_journal, shaft_torques, in_common_frame, bearing_torques
+   public :: shaft_t, solved_t, new_shaft, set_journal, shaft_torques, in_common_frame, bearing_torques
 
    !> Cams of a shaft
    type :: shaft_t
@@ -34,6 +34,14 @@ module camroller_shaft
       type(cam_bearings_t), allocatable :: bearings
       type(journal_t), allocatable :: journal
    end type shaft_t
+
+   !> A case that is solved: model and cycle of each lobe shape, and the camshafts that carry them
+   type :: solved_t
+      type(case_t), pointer :: case => null()
+      type(model_t), pointer :: models(:) => null()
+      type(cycle_t), pointer :: cycles(:) => null()
+      type(shaft_t) :: shaft
+   end type solved_t
 
 contains
 
@@ -88,13 +96,9 @@ contains
    end subroutine set_journal
 
    !> Torques at a cam angle, and the state of the first cam's follower.
-   subroutine shaft_torques(shaft, models, cycles, angle, first_state, torques, error)
-      !> The shaft; its search hints move
-      type(shaft_t), intent(inout) :: shaft
-      !> Model of each lobe shape
-      type(model_t), intent(in) :: models(:)
-      !> Cycle of each lobe shape
-      type(cycle_t), intent(in) :: cycles(:)
+   subroutine shaft_torques(solved, angle, first_state, torques, error)
+      !> The solved case; its search hints move
+      type(solved_t), intent(inout) :: solved
       !> Cam angle of the first cam from full lift [rad]
       real(wp), intent(in) :: angle
       !> State of the first follower
@@ -106,20 +110,22 @@ contains
 
       type(state_t) :: state
       ! Force on each cam in the frame of the first follower [N]
-      real(wp) :: forces(2, size(shaft%lobes))
+      real(wp) :: forces(2, size(solved%shaft%lobes))
       integer :: cam
 
       torques = 0.0_wp
-      do cam = 1, size(shaft%lobes)
-         call state_at(cycles(shaft%lobes(cam)), models(shaft%lobes(cam)), angle - shaft%phases(cam), shaft%hints(cam), &
-            & state, error)
-         if (allocated(error)) return
-         if (cam == 1) first_state = state
-         torques(:, shaft%shafts(cam)) = torques(:, shaft%shafts(cam)) + state%torques
-         if (.not. allocated(shaft%journal)) cycle
-         forces(:, cam) = in_common_frame(shaft, cam, cam_force(models(shaft%lobes(cam)), state))
-      end do
-      call bearing_torques(shaft, forces, torques(of_bearings, :), error)
+      associate (shaft => solved%shaft)
+         do cam = 1, size(shaft%lobes)
+            associate (model => solved%models(shaft%lobes(cam)), cycle => solved%cycles(shaft%lobes(cam)))
+               call state_at(cycle, model, angle - shaft%phases(cam), shaft%hints(cam), state, error)
+               if (allocated(error)) return
+               if (cam == 1) first_state = state
+               torques(:, shaft%shafts(cam)) = torques(:, shaft%shafts(cam)) + state%torques
+               if (allocated(shaft%journal)) forces(:, cam) = in_common_frame(shaft, cam, cam_force(model, state))
+            end associate
+         end do
+         call bearing_torques(shaft, forces, torques(of_bearings, :), error)
+      end associate
    end subroutine shaft_torques
 
    !> Force on a cam in the frame of the first follower.

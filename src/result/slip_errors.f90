@@ -9,12 +9,12 @@
 !> for little the force is off by the defect itself. Between intervals nothing is known of signs, and sizes add up.
 module camroller_slip_errors
    use camroller_kinds, only : wp, two_pi
-   use camroller_case, only : case_t
    use camroller_catalogue, only : follower_count, follower_values
    use camroller_cycle, only : cycle_t
    use camroller_error_estimate, only : estimate_t, error_at_start, margin
    use camroller_follower_samples, only : follower_samples_t, sampled_values
    use camroller_model, only : model_t
+   use camroller_shaft, only : solved_t
    use camroller_state, only : state_t, evaluate_spin, add_torques
    use camroller_stick_slip, only : direction_at
    implicit none
@@ -135,15 +135,13 @@ contains
 
    !> Error of a smallest or largest value: by how much the error of the sliding speed changes it where it is, or by how much a
    !> point would exceed it without that error.
-   pure subroutine error_of_extreme(errors, case, model, cycle, state, angle, series, sense, value, error)
+   pure subroutine error_of_extreme(errors, solved, lobe, state, angle, series, sense, value, error)
       !> The errors
       type(slip_errors_t), intent(in) :: errors
-      !> The case
-      type(case_t), intent(in) :: case
-      !> Model of the lobe
-      type(model_t), intent(in) :: model
-      !> Its cycle
-      type(cycle_t), intent(in) :: cycle
+      !> The solved case
+      type(solved_t), intent(in) :: solved
+      !> The lobe shape, from 1
+      integer, intent(in) :: lobe
       !> State of the follower where the extreme is
       type(state_t), intent(in) :: state
       !> Cam angle from full lift, of any turn [rad]
@@ -161,13 +159,13 @@ contains
       real(wp), parameter :: rounding = 1.0e-9_wp
       ! Series there [unit of the series]; angle within the cycle [rad]; error of the trajectory [m/s]; change of the value
       ! without it [unit of the series]
-      real(wp) :: values(follower_count(case)), inside, slip_error, change
+      real(wp) :: values(follower_count(solved%case)), inside, slip_error, change
 
       error = 0.0_wp
       if (sense > 0) error = max(0.0_wp, value - errors%lowest(series))
       if (sense < 0) error = max(0.0_wp, errors%highest(series) - value)
-      inside = cycle%start + modulo(angle - cycle%start, two_pi)
-      call follower_values(case, model, state, values)
+      inside = solved%cycles(lobe)%start + modulo(angle - solved%cycles(lobe)%start, two_pi)
+      call follower_values(solved%case, solved%models(lobe), state, values)
       ! The state of a standstill is not that of the curve: it is exact
       if (abs(values(series) - value) <= rounding*abs(value)) then
          slip_error = error_at(errors, inside)
@@ -195,8 +193,8 @@ contains
          real(wp) :: without(size(values))
          integer :: status
 
-         call state_without(model, cycle, inside, state, of_slip, right, status)
-         if (status == 0) call follower_values(case, model, right, without)
+         call state_without(solved%models(lobe), solved%cycles(lobe), inside, state, of_slip, right, status)
+         if (status == 0) call follower_values(solved%case, solved%models(lobe), right, without)
          if (status /= 0) without = 0.0_wp
          difference = sense*(without(series) - values(series))
       end function change_without

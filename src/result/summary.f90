@@ -14,7 +14,7 @@ module camroller_summary
    use camroller_margins, only : margin_t, margins_t
    use camroller_means, only : statistics_t
    use camroller_result, only : result_t, quantity_list_t, add => append_quantity, find_quantity, lobe_scope, scope_camshaft
-   use camroller_shaft, only : shaft_t
+   use camroller_shaft, only : solved_t
    implicit none
    private
 
@@ -31,15 +31,9 @@ module camroller_summary
 contains
 
    !> Fill the summary of a result whose series are there.
-   subroutine make_summary(case, models, cycles, shaft, statistics, bearing_torque, margins, extremes, result)
-      !> The case
-      type(case_t), intent(in) :: case
-      !> Model of each lobe shape
-      type(model_t), intent(in) :: models(:)
-      !> Cycle of each lobe shape
-      type(cycle_t), intent(in) :: cycles(:)
-      !> The camshaft
-      type(shaft_t), intent(in) :: shaft
+   subroutine make_summary(solved, statistics, bearing_torque, margins, extremes, result)
+      !> The solved case
+      type(solved_t), intent(in) :: solved
       !> Means over the cycle of each lobe shape
       type(statistics_t), intent(in) :: statistics(:)
       !> Mean torque of the bearings of each camshaft [N m]
@@ -57,16 +51,16 @@ contains
       integer :: worst, lobe
 
       allocate (list%items(0), list%values(0))
-      means = all_means(case, result, shaft, statistics, bearing_torque)
+      means = all_means(solved, result, statistics, bearing_torque)
       call add_series_statistics(result, extremes, means, list)
-      call add_losses(case, result, means, extremes, list)
-      call add_engine_scalars(list, case, result, means)
-      do lobe = 1, size(models)
+      call add_losses(solved%case, result, means, extremes, list)
+      call add_engine_scalars(list, solved%case, result, means)
+      do lobe = 1, size(solved%models)
          call add_slip(lobe, result, means, statistics(lobe), list)
          call add_margins(lobe, margins(lobe), extremes%event_load(lobe), list)
-         call add_shares(lobe, models(lobe), statistics(lobe), list)
-         if (allocated(cycles(lobe)%flexible)) call add_train_scalars(list, models(lobe), cycles(lobe)%flexible, &
-            & trim(lobe_prefix(lobe)), lobe_scope(lobe))
+         call add_shares(lobe, solved%models(lobe), statistics(lobe), list)
+         if (allocated(solved%cycles(lobe)%flexible)) call add_train_scalars(list, solved%models(lobe), &
+            & solved%cycles(lobe)%flexible, trim(lobe_prefix(lobe)), lobe_scope(lobe))
       end do
       call add(list, "estimated_error", "1", &
          & "estimate of the largest error of the sliding speed relative to its largest value (at least 1e-5 of the largest "// &
@@ -81,19 +75,17 @@ contains
       call add(list, "estimated_error_of_extremes", "1", "estimate of the largest error of a smallest or "// &
          & "largest value relative to the range of its series, of the smallest film relative to itself; without torques, and "// &
          & "without films where contact is lost", "numerics", maxval(statistics%extreme_error))
-      call add_counters(cycles, list)
+      call add_counters(solved%cycles, list)
       result%summary = list%items(:list%count)
       result%summary_values = list%values(:list%count)
    end subroutine make_summary
 
    !> Means of all series: those of each lobe's follower, and the torques of the whole camshaft.
-   pure function all_means(case, result, shaft, statistics, bearing_torque) result(means)
-      !> The case
-      type(case_t), intent(in) :: case
+   pure function all_means(solved, result, statistics, bearing_torque) result(means)
+      !> The solved case
+      type(solved_t), intent(in) :: solved
       !> Series
       type(result_t), intent(in) :: result
-      !> The camshaft
-      type(shaft_t), intent(in) :: shaft
       !> Means over the cycle of each lobe shape
       type(statistics_t), intent(in) :: statistics(:)
       !> Mean torque of the bearings of each camshaft [N m]
@@ -102,25 +94,25 @@ contains
       real(wp) :: means(size(result%series))
 
       ! Mean torques on each camshaft, and those of the first follower alone [N m]; the camshafts' series with each
-      real(wp), dimension(torque_count, shaft%count) :: torques, first
+      real(wp), dimension(torque_count, solved%shaft%count) :: torques, first
       real(wp), allocatable :: with_all(:), with_first(:)
       integer :: cam, lobe, columns(2)
 
       torques = 0.0_wp
-      do cam = 1, size(shaft%lobes)
-         torques(:, shaft%shafts(cam)) = torques(:, shaft%shafts(cam)) + statistics(shaft%lobes(cam))%torques
+      do cam = 1, size(solved%shaft%lobes)
+         torques(:, solved%shaft%shafts(cam)) = torques(:, solved%shaft%shafts(cam)) + statistics(solved%shaft%lobes(cam))%torques
       end do
       first = 0.0_wp
       first(:, 1) = statistics(1)%torques
       do lobe = 1, size(statistics)
-         columns = lobe_columns(case, lobe)
+         columns = lobe_columns(solved%case, lobe)
          means(columns(1):columns(2)) = statistics(lobe)%mean(:columns(2) - columns(1) + 1)
       end do
-      columns = camshaft_columns(case)
+      columns = camshaft_columns(solved%case)
       allocate (with_all(columns(2) - columns(1) + 1), with_first(columns(2) - columns(1) + 1))
       torques(of_bearings, :) = bearing_torque
-      call camshaft_values(case, torques, with_all)
-      call camshaft_values(case, first, with_first)
+      call camshaft_values(solved%case, torques, with_all)
+      call camshaft_values(solved%case, first, with_first)
       means(columns(1):columns(2)) = statistics(1)%mean(columns(1):columns(2)) + (with_all - with_first)
    end function all_means
 
