@@ -64,7 +64,7 @@ contains
             right = left + length
             call balance_at(model, right, tolerance, left_value, right_value, counters, error)
             if (allocated(error)) return
-            call refine(model, left, right, left_value, right_value, tolerance, 0, trajectory, counters, error)
+            call refine(model, [left, right], [left_value, right_value], tolerance, 0, trajectory, counters, error)
             if (allocated(error)) return
             left = right
             left_value = right_value
@@ -73,13 +73,13 @@ contains
    end subroutine quasi_static_cycle
 
    !> Append the points of an interval, its left end left out: the right end, and more where the balance bends.
-   recursive subroutine refine(model, left, right, left_value, right_value, tolerance, depth, trajectory, counters, error)
+   recursive subroutine refine(model, ends, values, tolerance, depth, trajectory, counters, error)
       !> The model
       type(model_t), intent(in) :: model
       !> Ends of the interval [rad]
-      real(wp), intent(in) :: left, right
+      real(wp), intent(in) :: ends(2)
       !> Balance there [m/s]
-      real(wp), intent(in) :: left_value, right_value
+      real(wp), intent(in) :: values(2)
       !> Error allowed between points [m/s]
       real(wp), intent(in) :: tolerance
       !> Halvings so far
@@ -94,18 +94,18 @@ contains
       ! Middle [rad] and balance there [m/s]
       real(wp) :: middle, value
 
-      middle = 0.5_wp*(left + right)
-      call balance_at(model, middle, tolerance, 0.5_wp*(left_value + right_value), value, counters, error)
+      middle = 0.5_wp*sum(ends)
+      call balance_at(model, middle, tolerance, 0.5_wp*sum(values), value, counters, error)
       if (allocated(error)) return
-      if (abs(value - 0.5_wp*(left_value + right_value)) <= tolerance .or. depth >= max_depth) then
+      if (abs(value - 0.5_wp*sum(values)) <= tolerance .or. depth >= max_depth) then
          call append_point(trajectory, middle, [value], [0.0_wp])
-         call append_point(trajectory, right, [right_value], [0.0_wp])
+         call append_point(trajectory, ends(2), values(2:), [0.0_wp])
          counters%accepted = counters%accepted + 2
          return
       end if
-      call refine(model, left, middle, left_value, value, tolerance, depth + 1, trajectory, counters, error)
+      call refine(model, [ends(1), middle], [values(1), value], tolerance, depth + 1, trajectory, counters, error)
       if (allocated(error)) return
-      call refine(model, middle, right, value, right_value, tolerance, depth + 1, trajectory, counters, error)
+      call refine(model, [middle, ends(2)], [value, values(2)], tolerance, depth + 1, trajectory, counters, error)
    end subroutine refine
 
    !> Balance at an angle; an error where there is none.

@@ -14,7 +14,7 @@ module camroller_spin
    use camroller_contact_forces, only : contact_t
    use camroller_needle, only : bearing_torque_slope
    use camroller_state, only : evaluate_loading, evaluate_spin
-   use camroller_spin_slopes, only : evaluate_spin_slopes
+   use camroller_spin_slopes, only : spin_slopes_t, evaluate_spin_slopes
    implicit none
    private
 
@@ -122,15 +122,12 @@ contains
       !> Decay rate; zero where the contact has no solution [1/rad]
       real(wp) :: decay_rate
 
-      type(contact_t) :: contact
-      ! Angular acceleration of the roller [rad/s^2], its derivatives [rad/s/m, 1/s^2]
-      real(wp) :: acceleration, speed_slope, angle_slope
+      type(spin_slopes_t) :: slopes
       integer :: status
 
       decay_rate = 0.0_wp
-      call evaluate_spin_slopes(model, angle, position, moments, 0.0_wp, sliding_speed, contact, acceleration, speed_slope, &
-         & angle_slope, status, accuracy, mobilised)
-      if (status == 0) decay_rate = model%roller_radius*speed_slope/model%speed
+      call evaluate_spin_slopes(model, angle, position, moments, sliding_speed, slopes, status, accuracy, mobilised)
+      if (status == 0) decay_rate = model%roller_radius*slopes%speed_slope/model%speed
    end function full_decay_rate
 
    !> Rate of the sliding speed over the cam angle: the equation of the roller, `dV_roll/dtheta - r_R (domega_R/dt)/omega`.
@@ -207,9 +204,9 @@ contains
 
       type(position_t) :: position
       type(moments_t) :: moments
-      type(contact_t) :: contact
-      ! Gas force [N]; angular acceleration of the roller [rad/s^2], its derivatives [rad/s/m, 1/s^2]
-      real(wp) :: force, acceleration, speed_slope, angle_slope
+      type(spin_slopes_t) :: slopes
+      ! Gas force [N]
+      real(wp) :: force
       ! Surface of the roller per turn of the cam [m/rad over rad/s]; relative error of load and forces that is good enough [-]
       real(wp) :: factor, accuracy
 
@@ -224,17 +221,16 @@ contains
       call follow_ramp(self%model, time)
       call evaluate_loading(self%model, time, position, force, moments, status)
       if (status /= 0) return
-      call evaluate_spin_slopes(self%model, time, position, moments, force, state(1), contact, acceleration, speed_slope, &
-         & angle_slope, status, accuracy, self%mobilised)
+      call evaluate_spin_slopes(self%model, time, position, moments, state(1), slopes, status, accuracy, self%mobilised)
       if (status /= 0) return
       factor = self%model%roller_radius/self%model%speed
-      linear%rate(1) = rolling_speed_slope(self%model, position) - factor*acceleration
-      linear%jacobian(1, 1) = -factor*speed_slope
-      linear%time_slope(1) = rolling_speed_curvature(self%model, position, time, horizon) - factor*angle_slope
+      linear%rate(1) = rolling_speed_slope(self%model, position) - factor*slopes%acceleration
+      linear%jacobian(1, 1) = -factor*slopes%speed_slope
+      linear%time_slope(1) = rolling_speed_curvature(self%model, position, time, horizon) - factor*slopes%angle_slope
       linear%span = largest_traction(self%model, position, moments)*self%model%roller_radius*factor/self%model%roller_inertia
       linear%resolution = max(min(coarsest_resolution, accuracy_ratio*self%accuracy), finest_resolution)
       linear%clearance = huge(1.0_wp)
-      if (contact%is_touching) linear%clearance = 2.0_wp*contact%entrainment_speed
+      if (slopes%contact%is_touching) linear%clearance = 2.0_wp*slopes%contact%entrainment_speed
       if (self%model%ramp%is_moving) call add_inputs(self, time, state(1), position, linear, counters, status)
    end subroutine linearise
 

@@ -8,7 +8,7 @@ module camroller_spin_slopes
    use camroller_model, only : model_t
    use camroller_kinematics, only : position_t
    use camroller_dynamics, only : moments_t, moment_slope, acceleration_slope
-   use camroller_gas, only : gas_force_slope
+   use camroller_gas, only : gas_force, gas_force_slope
    use camroller_contact, only : prepare_and_solve
    use camroller_dual, only : dual_t
    use camroller_joint_forces, only : finger_moment, finger_moment_slope, has_pivot_friction, set_pivot_forces
@@ -18,13 +18,21 @@ module camroller_spin_slopes
    implicit none
    private
 
-   public :: evaluate_spin_slopes
+   public :: spin_slopes_t, evaluate_spin_slopes
+
+   !> Contact, and angular acceleration of the roller with its derivatives
+   type :: spin_slopes_t
+      type(contact_t) :: contact
+      !> Angular acceleration of the roller [rad/s^2]
+      real(wp) :: acceleration
+      !> Its derivatives over the sliding speed [rad/s/m] and, at constant sliding speed, over the cam angle [1/s^2]
+      real(wp) :: speed_slope, angle_slope
+   end type spin_slopes_t
 
 contains
 
    !> Contact and angular acceleration with its derivatives.
-   pure subroutine evaluate_spin_slopes(model, angle, position, moments, gas_force, sliding_speed, contact, acceleration, &
-      & speed_slope, angle_slope, status, accuracy, mobilised)
+   pure subroutine evaluate_spin_slopes(model, angle, position, moments, sliding_speed, slopes, status, accuracy, mobilised)
       !> The model
       type(model_t), intent(in) :: model
       !> Cam angle from full lift [rad]
@@ -33,16 +41,10 @@ contains
       type(position_t), intent(in) :: position
       !> Moments about the pivot
       type(moments_t), intent(in) :: moments
-      !> Cylinder pressure times valve area [N]
-      real(wp), intent(in) :: gas_force
       !> Sliding speed [m/s]
       real(wp), intent(in) :: sliding_speed
-      !> State of the contact
-      type(contact_t), intent(out) :: contact
-      !> Angular acceleration of the roller [rad/s^2]
-      real(wp), intent(out) :: acceleration
-      !> Its derivatives over the sliding speed [rad/s/m] and, at constant sliding speed, over the cam angle [1/s^2]
-      real(wp), intent(out) :: speed_slope, angle_slope
+      !> Contact and acceleration with its derivatives
+      type(spin_slopes_t), intent(out) :: slopes
       !> 0 fine, positive: no balance found
       integer, intent(out) :: status
       !> Relative error of load and forces that is good enough; absent: round-off [-]
@@ -53,42 +55,48 @@ contains
       type(setting_t) :: setting
       type(parts_t) :: parts
       type(slopes_t) :: by_load, by_speed, by_angle
-      ! Derivative of the moments' sum over the cam angle [N m/rad]; gas force over the angle [N/rad]
-      real(wp) :: slope, gas_slope
+      ! Derivative of the moments' sum over the cam angle [N m/rad]; gas force [N], its derivative over the angle [N/rad]
+      real(wp) :: slope, force, gas_slope
       ! Change of the load, its logarithm, over the sliding speed [s/m] and over the cam angle [1/rad]
       real(wp) :: load_by_speed, load_by_angle
 
-      speed_slope = 0.0_wp
-      angle_slope = 0.0_wp
-      acceleration = 0.0_wp
-      call prepare_and_solve(model, position, moments, sliding_speed, contact, setting, parts, status, accuracy, mobilised)
-      if (status /= 0) return
-      acceleration = acceleration_of(model, contact%traction, contact%rolling_resistance, contact%bearing_torque)
-      if (.not. contact%is_touching) return
+      associate (contact => slopes%contact, speed_slope => slopes%speed_slope, angle_slope => slopes%angle_slope)
+         speed_slope = 0.0_wp
+         angle_slope = 0.0_wp
+         slopes%acceleration = 0.0_wp
+         call prepare_and_solve(model, position, moments, sliding_speed, contact, setting, parts, status, accuracy, mobilised)
+         if (status /= 0) return
+         slopes%acceleration = acceleration_of(model, contact%traction, contact%rolling_resistance, contact%bearing_torque)
+         if (.not. contact%is_touching) return
 
-      by_load = follow_contact(model, setting, contact, parts, motion_t(load=1.0_wp))
-      by_speed = follow_contact(model, setting, contact, parts, speed_motion(model, contact))
-      by_angle = follow_contact(model, setting, contact, parts, angle_motion(model, position, contact))
-      gas_slope = 0.0_wp
-      if (allocated(model%gas)) gas_slope = gas_force_slope(model%gas, angle)
-      slope = moment_slope(model%train, position, model%speed, gas_force, gas_slope)
-      if (abs(model%speed_slope) > 0.0_wp) then
-         slope = slope + acceleration_slope(model%train, position, model%speed*model%speed_slope)
-      end if
-      if (model%is_consistent) then
-         call follow_balance(model, position, moments, contact, slope, by_load, by_speed, by_angle, load_by_speed, load_by_angle)
-      else
-         load_by_speed = 0.0_wp
-         load_by_angle = slope/finger_moment(model, position, moments)
-         if (model%has_exact_arm) then
-            load_by_angle = load_by_angle - position%normal_arm_slope/position%normal_arm
-         else
-            load_by_angle = load_by_angle - position%parallel_arm_slope/position%parallel_arm
+         by_load = follow_contact(model, setting, contact, parts, motion_t(load=1.0_wp))
+         by_speed = follow_contact(model, setting, contact, parts, speed_motion(model, contact))
+         by_angle = follow_contact(model, setting, contact, parts, angle_motion(model, position, contact))
+         force = 0.0_wp
+         gas_slope = 0.0_wp
+         if (allocated(model%gas)) then
+            force = gas_force(model%gas, angle)
+            gas_slope = gas_force_slope(model%gas, angle)
          end if
-         if (model%takes_maximum_load .and. contact%load <= model%base_circle_load) load_by_angle = 0.0_wp
-      end if
-      speed_slope = slope_along(model, by_speed, by_load, load_by_speed)
-      angle_slope = slope_along(model, by_angle, by_load, load_by_angle)
+         slope = moment_slope(model%train, position, model%speed, force, gas_slope)
+         if (abs(model%speed_slope) > 0.0_wp) then
+            slope = slope + acceleration_slope(model%train, position, model%speed*model%speed_slope)
+         end if
+         if (model%is_consistent) then
+            call follow_balance(model, position, moments, contact, slope, by_load, by_speed, by_angle, load_by_speed, load_by_angle)
+         else
+            load_by_speed = 0.0_wp
+            load_by_angle = slope/finger_moment(model, position, moments)
+            if (model%has_exact_arm) then
+               load_by_angle = load_by_angle - position%normal_arm_slope/position%normal_arm
+            else
+               load_by_angle = load_by_angle - position%parallel_arm_slope/position%parallel_arm
+            end if
+            if (model%takes_maximum_load .and. contact%load <= model%base_circle_load) load_by_angle = 0.0_wp
+         end if
+         speed_slope = slope_along(model, by_speed, by_load, load_by_speed)
+         angle_slope = slope_along(model, by_angle, by_load, load_by_angle)
+      end associate
    end subroutine evaluate_spin_slopes
 
    !> What a change of the sliding speed moves at constant load.

@@ -16,7 +16,7 @@ module camroller_journal
    private
 
    public :: cam_bearings_t, journal_t, journal_law_names
-   public :: new_journal, journal_torque, journal_friction, law_covers_width, width_advice
+   public :: new_journal, journal_torque, journal_at_speed, journal_friction, law_covers_width, width_advice
    public :: journal_solved, journal_without_film
 
    !> Journal bearing laws
@@ -133,40 +133,9 @@ contains
       !> Friction [N], eccentricity over clearance [-]
       real(wp) :: friction, eccentricity
 
-      call solve_journal(journal, load, friction, eccentricity, status)
+      call journal_friction(journal, load, friction, eccentricity, status)
       torque = friction*journal%radius
    end subroutine journal_torque
-
-   !> Friction on a journal and its eccentricity.
-   !>
-   !> As the load goes to zero the friction tends to Petroff's; as it grows the eccentricity tends to one and, in the long
-   !> bearing, the friction to `W c/r`. Only the magnitudes of speed and load count.
-   pure subroutine journal_friction(law, diameter, width, radial_clearance, viscosity, speed, load, friction, eccentricity, &
-      & status)
-      !> Place in `journal_law_names`
-      integer, intent(in) :: law
-      !> Diameter of the journal, D [m]
-      real(wp), intent(in) :: diameter
-      !> Width of the bearing, L [m]
-      real(wp), intent(in) :: width
-      !> Radial clearance, c [m]
-      real(wp), intent(in) :: radial_clearance
-      !> Viscosity, eta [Pa s]
-      real(wp), intent(in) :: viscosity
-      !> Speed of the shaft, omega [rad/s]
-      real(wp), intent(in) :: speed
-      !> Load, W [N]
-      real(wp), intent(in) :: load
-      !> Friction at the journal's surface, against the rotation [N]
-      real(wp), intent(out) :: friction
-      !> Eccentricity over radial clearance, e [-]
-      real(wp), intent(out) :: eccentricity
-      !> `journal_solved` or `journal_without_film`
-      integer, intent(out) :: status
-
-      call solve_journal(journal_at_speed(law, diameter, width, radial_clearance, viscosity, speed), load, friction, &
-         eccentricity, status)
-   end subroutine journal_friction
 
    !> Constants of a bearing at a speed.
    pure function journal_at_speed(law, diameter, width, radial_clearance, viscosity, speed) result(journal)
@@ -199,12 +168,15 @@ contains
    end function journal_at_speed
 
    !> Friction and eccentricity of a bearing under a load.
-   pure subroutine solve_journal(journal, load, friction, eccentricity, status)
+   !>
+   !> As the load goes to zero the friction tends to Petroff's; as it grows the eccentricity tends to one and, in the long
+   !> bearing, the friction to `W c/r`. Only the magnitudes of speed and load count.
+   pure subroutine journal_friction(journal, load, friction, eccentricity, status)
       !> The bearing
       type(journal_t), intent(in) :: journal
       !> Load [N]
       real(wp), intent(in) :: load
-      !> Friction [N]
+      !> Friction at the journal's surface, against the rotation [N]
       real(wp), intent(out) :: friction
       !> Eccentricity over clearance [-]
       real(wp), intent(out) :: eccentricity
@@ -239,7 +211,7 @@ contains
             & *sin(attitude_angle(journal%width_ratio, t))
       end select
       status = journal_solved
-   end subroutine solve_journal
+   end subroutine journal_friction
 
    !> Load number `W (c/r)^2/(eta omega r L)` of a bearing; rises with t from 0.
    !>

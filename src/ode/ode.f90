@@ -10,7 +10,7 @@ module camroller_ode
    use camroller_kinds, only : wp
    use camroller_error, only : error_t, raise, kind_convergence
    use camroller_ode_problem, only : problem_t, counters_t, new_linear, copy_linear
-   use camroller_ode_method, only : method_t, options_t, step_t, start_step, take_step, keep_point
+   use camroller_ode_method, only : method_t, options_t, step_t, start_step, take_step, keep_point, keep_stable
    use camroller_trajectory, only : trajectory_t, start_trajectory, append_point, append_curve
    use camroller_step_checks, only : check_step
    use camroller_ode_bridge, only : footing_t, bridge_t, watch, is_stuck, try_bridge, note_bridge
@@ -25,8 +25,6 @@ module camroller_ode
    real(wp), parameter :: max_growth = 5.0_wp, max_shrinkage = 0.2_wp
    !> Error over tolerance below which smaller ones make no difference [-]
    real(wp), parameter :: least_error = 1.0e-4_wp
-   !> Part of the stability limit that a step may use [-]
-   real(wp), parameter :: stability_margin = 0.95_wp
 
    !> Where an integration stands
    type :: walk_t
@@ -271,18 +269,9 @@ contains
       !> Work done
       type(counters_t), intent(inout) :: counters
 
-      ! Fastest decay rate [1/time]
-      real(wp) :: decay_rate
-
       associate (step => walk%step, finish => method%horizon)
          step%length = min(walk%proposed, options%max_step)
-         if (.not. is_fixed(method, options) .and. method%stability_limit < huge(1.0_wp)) then
-            call problem%get_decay_rate(step%time, step%state, decay_rate)
-            counters%decay_rates = counters%decay_rates + 1
-            if (decay_rate*step%length > stability_margin*method%stability_limit) then
-               step%length = stability_margin*method%stability_limit/decay_rate
-            end if
-         end if
+         if (.not. is_fixed(method, options)) call keep_stable(method, problem, step, counters)
          step%is_last = step%time + step%length*(1.0_wp + 1.0e-9_wp) >= finish
          if (step%is_last) step%length = finish - step%time
          if (.not. (step%is_last .or. is_fixed(method, options))) step%length = min(step%length, 0.5_wp*(finish - step%time))

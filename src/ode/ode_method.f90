@@ -8,7 +8,10 @@ module camroller_ode_method
    implicit none
    private
 
-   public :: method_t, options_t, step_t, allow_more, start_step, take_step, keep_point
+   public :: method_t, options_t, step_t, allow_more, start_step, take_step, keep_point, keep_stable
+
+   !> Part of the stability limit that a step may use [-]
+   real(wp), parameter :: stability_margin = 0.95_wp
 
    !> A way to make one step
    type, abstract :: method_t
@@ -128,6 +131,28 @@ contains
          call append_point(trajectory, step%time, step%state, step%rate)
       end if
    end subroutine keep_point
+
+   !> Shorten a step to what the stability of the method allows.
+   subroutine keep_stable(method, problem, step, counters)
+      !> The method
+      class(method_t), intent(in) :: method
+      !> The problem
+      class(problem_t), intent(in) :: problem
+      !> The step
+      type(step_t), intent(inout) :: step
+      !> Work done
+      type(counters_t), intent(inout) :: counters
+
+      ! Fastest decay rate [1/time]
+      real(wp) :: decay_rate
+
+      if (method%stability_limit >= huge(1.0_wp)) return
+      call problem%get_decay_rate(step%time, step%state, decay_rate)
+      counters%decay_rates = counters%decay_rates + 1
+      if (decay_rate*step%length > stability_margin*method%stability_limit) then
+         step%length = stability_margin*method%stability_limit/decay_rate
+      end if
+   end subroutine keep_stable
 
    !> Options of an integration that goes on from another: what it may take is on top of what has been taken.
    pure subroutine allow_more(options, counters, further)

@@ -6,7 +6,7 @@ module camroller_ode_switching
    use camroller_kinds, only : wp
    use camroller_error, only : error_t, raise, kind_convergence
    use camroller_ode_problem, only : problem_t, counters_t, new_linear, copy_linear
-   use camroller_ode_method, only : method_t, options_t, step_t, start_step, take_step, keep_point
+   use camroller_ode_method, only : method_t, options_t, step_t, start_step, take_step, keep_point, keep_stable
    use camroller_trajectory, only : trajectory_t, start_trajectory, append_point, curve_state, curve_numbers
    implicit none
    private
@@ -35,8 +35,6 @@ module camroller_ode_switching
 
    !> Part of the optimal step that is taken; largest growth and shrinkage of a step [-]
    real(wp), parameter :: safety = 0.9_wp, max_growth = 4.0_wp, max_shrinkage = 0.2_wp
-   !> Part of the stability limit that a step may use [-]
-   real(wp), parameter :: stability_margin = 0.95_wp
    !> Error over tolerance below which smaller ones make no difference, and that of an impossible trial [-]
    real(wp), parameter :: least_error = 1.0e-3_wp, impossible = 1.0e3_wp
    !> Kinks this near to either end of a step are at that end, over the step [-]
@@ -192,22 +190,13 @@ contains
       !> Work done
       type(counters_t), intent(inout) :: counters
 
-      ! Fastest decay rate [1/time]
-      real(wp) :: decay_rate
-
-      associate (step => walk%step, length => walk%step%length, finish => method%horizon)
-         length = min(walk%proposed, options%max_step)
-         if (method%stability_limit < huge(1.0_wp)) then
-            call problem%get_decay_rate(step%time, step%state, decay_rate)
-            counters%decay_rates = counters%decay_rates + 1
-            if (decay_rate*length > stability_margin*method%stability_limit) then
-               length = stability_margin*method%stability_limit/decay_rate
-            end if
-         end if
-         step%is_last = step%time + length*(1.0_wp + 1.0e-9_wp) >= finish
-         if (step%is_last) length = finish - step%time
-         if (.not. step%is_last .and. step%time + 2.0_wp*length > finish) length = 0.5_wp*(finish - step%time)
-         step%end_time = merge(finish, step%time + length, step%is_last)
+      associate (step => walk%step, finish => method%horizon)
+         step%length = min(walk%proposed, options%max_step)
+         call keep_stable(method, problem, step, counters)
+         step%is_last = step%time + step%length*(1.0_wp + 1.0e-9_wp) >= finish
+         if (step%is_last) step%length = finish - step%time
+         if (.not. step%is_last .and. step%time + 2.0_wp*step%length > finish) step%length = 0.5_wp*(finish - step%time)
+         step%end_time = merge(finish, step%time + step%length, step%is_last)
       end associate
    end subroutine choose_step
 

@@ -4,7 +4,7 @@ module test_journal
    use camroller_kinds, only : wp, pi
    use camroller_error, only : error_t, kind_deck, kind_domain
    use camroller_journal, only : cam_bearings_t, journal_t, journal_law_names, new_journal, journal_torque, &
-      journal_friction, journal_solved, journal_without_film
+      journal_at_speed, journal_friction, journal_solved, journal_without_film
    use table_file, only : read_table
    implicit none
    private
@@ -51,7 +51,7 @@ contains
       real(wp), intent(out) :: e
       integer :: status
 
-      call journal_friction(law, diameter, length, clearance, viscosity, speed, load, friction, e, status)
+      call journal_friction(journal_at_speed(law, diameter, length, clearance, viscosity, speed), load, friction, e, status)
       if (status /= journal_solved) e = -huge(e)
    end subroutine solve
 
@@ -218,7 +218,8 @@ contains
             do i = 0, 60
                load = 10.0_wp**(0.1_wp*real(i, wp) - 1.0_wp)
                call solve(law, length, load, friction, e)
-               call journal_friction(law, diameter, length, clearance, viscosity, -speed, -load, mirrored, e, status)
+               call journal_friction(journal_at_speed(law, diameter, length, clearance, viscosity, -speed), &
+                  & -load, mirrored, e, status)
                call check(error, friction > before .and. e > e_before .and. abs(friction - mirrored) <= 0.0_wp, &
                   journal_law_names(law))
                if (allocated(error)) return
@@ -251,7 +252,7 @@ contains
       real(wp) :: friction, e
       integer :: status
 
-      call journal_friction(long, diameter, width, clearance, viscosity, 0.0_wp, 100.0_wp, friction, e, status)
+      call journal_friction(journal_at_speed(long, diameter, width, clearance, viscosity, 0.0_wp), 100.0_wp, friction, e, status)
       call check(error, status == journal_without_film .and. abs(friction) <= 0.0_wp)
    end subroutine test_no_film
 

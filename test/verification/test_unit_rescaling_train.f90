@@ -12,7 +12,7 @@ module test_unit_rescaling_train
    use camroller_guide, only : guide_drag_coefficient
    use camroller_roller, only : ring_inertia, spin_acceleration
    use camroller_torque, only : cam_torque, contact_power, normal_direction
-   use camroller_journal, only : journal_law_names, journal_friction
+   use camroller_journal, only : journal_law_names, journal_at_speed, journal_friction
    use camroller_camshaft, only : share_loads
    use camroller_lift, only : lift_t, lift_law_t, lift_law_names, new_lift_law, evaluate_lift
    use camroller_spline, only : spline_t, new_clamped_spline, evaluate_spline
@@ -302,12 +302,10 @@ contains
       do i = 1, size(systems)
          u = systems(i)
          do law = 1, size(journal_law_names)
-            call journal_friction(law, 0.026_wp, 0.018_wp, 5.0e-5_wp, eta, 63.0_wp, load, friction, e, status)
-            call journal_friction(law, scaled(u, 0.026_wp, length), scaled(u, 0.018_wp, length), scaled(u, &
-               5.0e-5_wp, length), &
-               & scaled(u, eta, viscosity), scaled(u, 63.0_wp, angular_speed), scaled(u, load, force), &
-               friction_in_units, &
-               & e_in_units, status)
+            call journal_friction(journal_at_speed(law, 0.026_wp, 0.018_wp, 5.0e-5_wp, eta, 63.0_wp), load, friction, e, status)
+            call journal_friction(journal_at_speed(law, scaled(u, 0.026_wp, length), scaled(u, 0.018_wp, length), &
+               & scaled(u, 5.0e-5_wp, length), scaled(u, eta, viscosity), scaled(u, 63.0_wp, angular_speed)), &
+               & scaled(u, load, force), friction_in_units, e_in_units, status)
             call compare(error, journal_law_names(law), u, force, [friction], [friction_in_units])
             if (allocated(error)) return
             call compare(error, "eccentricity", u, number, [e], [e_in_units])
