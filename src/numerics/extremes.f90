@@ -50,7 +50,7 @@ module camroller_extremes
       integer, allocatable, private :: rows(:)
       integer, private :: done = 0
       type(extremum_t), private :: now
-      !> Extent of the series, lowest value that there may be where the search is done [unit of the series]
+      !> What a gain is small against, the extent of the series as a rule; lowest value that there may be where the search is done [unit of the series]
       real(wp), private :: extent = 0.0_wp, bound = 0.0_wp
       !> What may be left at a kink, over the extent [-]
       real(wp), private :: coarse = 0.0_wp
@@ -179,7 +179,7 @@ contains
 
    !> Begin the search for the smallest or largest value of a series. Each series is searched by itself, so that what else is sampled
    !> changes no bit of it.
-   pure subroutine start_search(samples, series, sense, tolerance, search)
+   pure subroutine start_search(samples, series, sense, tolerance, search, by_itself)
       !> The rows
       type(samples_t), intent(inout) :: samples
       !> The series
@@ -190,6 +190,8 @@ contains
       real(wp), intent(in) :: tolerance
       !> The search; nothing is wanted near a kink, or without a row close by on both sides
       type(search_t), intent(out) :: search
+      !> Is the extreme itself what a gain is small against, where it is less than the extent?
+      logical, intent(in), optional :: by_itself
 
       ! Values by angle, round the turn [unit of the series]
       real(wp) :: values(0:samples%count + 1)
@@ -200,6 +202,11 @@ contains
       search%coarse = max(worth, tolerance)
       values(1:samples%count) = sense*samples%values(series, samples%order)
       values([0, samples%count + 1]) = values([samples%count, 1])
+      search%value = minval(values)
+      search%extent = maxval(values) - search%value
+      if (present(by_itself)) then
+         if (by_itself) search%extent = min(search%extent, abs(search%value))
+      end if
       call list_rows(samples, values, search)
       call enter_row(samples, search)
    end subroutine start_search
@@ -237,9 +244,7 @@ contains
       integer :: found, place, extreme, best
 
       extreme = minloc(values(1:samples%count), 1)
-      search%value = values(extreme)
       search%bound = search%value
-      search%extent = maxval(values) - search%value
       search%point = samples%angle(samples%order(extreme))
       found = 0
       do place = 1, samples%count

@@ -1,4 +1,4 @@
-!> Remarks on the cycle of a lobe: lost contact, range of the film law, accuracy, standstills, the pivot's joint.
+!> Remarks on the cycle of a lobe: lost contact, range of the film law, accuracy, standstills, the pivot's joint, films without limit.
 !>
 !> In: a cycle, its means and margins. Out: remarks, one per line, or an error where the case forbids what happens.
 module camroller_cycle_remarks
@@ -13,18 +13,21 @@ module camroller_cycle_remarks
    use camroller_means, only : statistics_t
    use camroller_model, only : model_t
    use camroller_number_text, only : number_text, fixed_text, integer_text
-   use camroller_remarks, only : remark_t, add_remark, lost_contact, open_pivot, outside_range, pumped_adjuster, &
-      & standing_entrainment, unresolved_slip
+   use camroller_remarks, only : remark_t, add_remark, film_without_limit, lost_contact, open_pivot, outside_range, &
+      & pumped_adjuster, standing_entrainment, unresolved_slip
    use camroller_result, only : lobe_scope
    implicit none
    private
 
-   public :: judge_lobe
+   public :: judge_lobe, judge_films, has_film_limit
 
    !> Estimate of the error of the sliding speed, over the largest, beyond which a result is worth a warning [-]
    real(wp), parameter :: worth_a_warning = 0.1_wp
    !> Rev/min in a rad/s [-]
    real(wp), parameter :: per_minute = 30.0_wp/pi
+   !> Film over the equivalent radius beyond which formulas for films say nothing: they hold for gaps that are small against the
+   !> radius, with errors of the order of this ratio [-]
+   real(wp), parameter :: thickest_film = 0.01_wp
    !> Intervals without contact that a remark lists
    integer, parameter :: most_intervals = 4
 
@@ -66,6 +69,39 @@ contains
          remarks(i)%text = trim(lobe_scope(lobe))//": "//remarks(i)%text
       end do
    end subroutine judge_lobe
+
+   !> Say that films have no mean and no largest value: formulas let them grow without limit as the load goes to zero, and how far
+   !> they get hangs on how closely a loss of contact is met.
+   subroutine judge_films(statistics, lobe, remarks)
+      !> Statistics of the lobe
+      type(statistics_t), intent(in) :: statistics
+      !> Lobe shape to be named; 0 where there is one alone
+      integer, intent(in) :: lobe
+      !> Remarks so far
+      type(remark_t), allocatable, intent(inout) :: remarks(:)
+
+      integer :: last
+
+      if (has_film_limit(statistics)) return
+      call add_remark(remarks, film_without_limit, "mean and largest value of film_thickness_min, film_thickness_central and "// &
+         & "film_ratio have no limit: the load falls to next to nothing, where formulas let the film grow; at cam angle "// &
+         & fixed_text(file_angle(statistics%thickest_angle), 1)//" deg it is "//number_text(statistics%thickest_film, 2)// &
+         & " of the equivalent radius, and formulas hold for a small part of it", statistics%thickest_film)
+      if (lobe == 0) return
+      last = size(remarks)
+      remarks(last)%lobe = lobe
+      remarks(last)%text = trim(lobe_scope(lobe))//": "//remarks(last)%text
+   end subroutine judge_films
+
+   !> Have mean and largest film of a lobe a limit?
+   elemental function has_film_limit(statistics) result(verdict)
+      !> Statistics of the lobe
+      type(statistics_t), intent(in) :: statistics
+      !> True where they have
+      logical :: verdict
+
+      verdict = statistics%thickest_film <= thickest_film .and. statistics%lost_share <= 0.0_wp
+   end function has_film_limit
 
    !> Warn or stop where contact is lost.
    subroutine check_contact(model, cycle, statistics, margins, remarks, error)

@@ -66,6 +66,8 @@ module camroller_means
       !> Estimate of the largest error of a smallest or largest value over the range of its series [-], and the series that has it
       real(wp) :: extreme_error = 0.0_wp
       character(len=name_length) :: worst_extreme = ""
+      !> Largest central film over the equivalent radius [-], and its cam angle from full lift [rad]
+      real(wp) :: thickest_film = 0.0_wp, thickest_angle = 0.0_wp
       !> Number of standstills of the contact, where nothing is entrained
       integer :: standstills = 0
       !> Cam angle from full lift of the first of them [rad]

@@ -8,7 +8,7 @@ module camroller_report
    use camroller_model, only : model_t
    use camroller_state, only : state_t
    use camroller_cycle, only : cycle_t, state_at
-   use camroller_cycle_remarks, only : judge_lobe
+   use camroller_cycle_remarks, only : has_film_limit, judge_films, judge_lobe
    use camroller_catalogue, only : list_series, follower_values, camshaft_values, follower_count, camshaft_count, lobe_columns, &
       & camshaft_columns
    use camroller_extremes, only : samples_t, search_t, add_sample, narrow_search, start_search
@@ -150,6 +150,9 @@ contains
       call find_extremes(solved, margins, statistics, torque_rows, result, extremes, error)
       if (allocated(error)) return
       result%worst_extreme = statistics(maxloc(statistics%extreme_error, 1))%worst_extreme
+      do lobe = 1, size(solved%models)
+         call judge_films(statistics(lobe), merge(lobe, 0, size(solved%models) > 1), result%remarks)
+      end do
       call make_summary(solved, statistics, bearing_torque, margins, extremes, result)
       if (.not. with_series) result%series_values = result%series_values(:0, :)
       call check_numbers(result, error)
@@ -231,7 +234,8 @@ contains
          columns = lobe_columns(solved%case, lobe)
          associate (samples => statistics(lobe)%rows)
             call add_stops(solved, lobe, margins(lobe), samples, error)
-            if (.not. allocated(error)) call search_lobe(solved, lobe, statistics(lobe), &
+            call find_thickest_film(result%series, statistics(lobe))
+            if (.not. allocated(error)) call search_lobe(solved, lobe, result%series(columns(1):columns(2)), statistics(lobe), &
                & extremes%lowest(columns(1):columns(2)), extremes%highest(columns(1):columns(2)), error)
             if (.not. allocated(error)) call judge_extremes(result%series(columns(1):columns(2)), &
                & extremes%lowest(columns(1):columns(2)), extremes%highest(columns(1):columns(2)), statistics(lobe))
@@ -278,13 +282,34 @@ contains
       end do
    end subroutine add_stops
 
+   !> Largest central film among the rows of a lobe, over the equivalent radius there.
+   pure subroutine find_thickest_film(series, statistics)
+      !> List of series, of which the first lobe's stand in the order of every lobe's
+      type(quantity_t), intent(in) :: series(:)
+      !> Statistics of the lobe, with the rows; out: with the film
+      type(statistics_t), intent(inout) :: statistics
+
+      integer :: row
+
+      associate (rows => statistics%rows)
+         associate (films => rows%values(find_quantity(series, "film_thickness_central"), :rows%count) &
+            & /rows%values(find_quantity(series, "equivalent_radius"), :rows%count))
+            row = maxloc(films, 1)
+            statistics%thickest_film = films(row)
+            statistics%thickest_angle = rows%angle(row)
+         end associate
+      end associate
+   end subroutine find_thickest_film
+
    !> Smallest and largest values of a lobe's follower, from its rows and between them; the rows alone where the solution itself is
    !> only linear between its points.
-   subroutine search_lobe(solved, lobe, statistics, lowest, highest, error)
+   subroutine search_lobe(solved, lobe, list, statistics, lowest, highest, error)
       !> The solved case
       type(solved_t), intent(in) :: solved
       !> The lobe shape, from 1
       integer, intent(in) :: lobe
+      !> The series of the follower
+      type(quantity_t), intent(in) :: list(:)
       !> Its statistics, with the rows; out: with the errors of the values
       type(statistics_t), intent(inout) :: statistics
       !> The values [unit of the series]
@@ -304,7 +329,8 @@ contains
       associate (model => solved%models(lobe), cycle => solved%cycles(lobe))
          do series = 1, size(lowest)
             do sense = -1, 1, 2
-               call start_search(statistics%rows, series, sense, cycle%tolerance, search)
+               call start_search(statistics%rows, series, sense, cycle%tolerance, search, &
+                  & sense > 0 .and. index(list(series)%name, "film_") > 0)
                do while (search%is_wanted .and. .not. cycle%is_linear)
                   call state_at(cycle, model, search%trial, hint, state, error)
                   if (allocated(error)) return
@@ -327,8 +353,8 @@ contains
       end associate
    end subroutine search_lobe
 
-   !> Largest error of a smallest or largest value, over the range of its series; the smallest film counts by itself. Films have no
-   !> limit where contact is lost.
+   !> Largest error of a smallest or largest value, over the range of its series; the smallest film counts by itself, and so does that
+   !> of every film where the largest has no limit.
    pure subroutine judge_extremes(series, lowest, highest, statistics)
       !> The series of the follower
       type(quantity_t), intent(in) :: series(:)
@@ -346,9 +372,12 @@ contains
       associate (errors => statistics%extreme_errors)
          do i = 1, size(series)
             relative(i) = 0.0_wp
-            if (index(series(i)%name, "film_") > 0 .and. statistics%lost_share > 0.0_wp) cycle
             ! What is not there has no error
             if (.not. maxval(errors(:, i)) > 0.0_wp) cycle
+            if (index(series(i)%name, "film_") > 0 .and. .not. has_film_limit(statistics)) then
+               if (lowest(i) > least) relative(i) = errors(1, i)/lowest(i)
+               cycle
+            end if
             relative(i) = maxval(errors(:, i))/max(highest(i) - lowest(i), least)
             if (index(series(i)%name, "film_thickness_min") > 0) relative(i) = max(relative(i), errors(1, i)/max(lowest(i), least))
          end do

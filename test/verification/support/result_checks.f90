@@ -5,7 +5,7 @@ module result_checks
    use camroller_kinds, only : wp
    use camroller_accuracy, only : is_checked
    use camroller_case, only : case_t, energy_names
-   use camroller_remarks, only : loose_tolerance, missed_extremes, missed_means
+   use camroller_remarks, only : film_without_limit, loose_tolerance, missed_extremes, missed_means
    use camroller_result, only : result_t, find_quantity
    implicit none
    private
@@ -18,8 +18,8 @@ module result_checks
    real(wp), parameter :: rounding = 1.0e-11_wp
    !> Part of the speed of pure rolling that counts as no slip [-]
    real(wp), parameter :: least_slip = 1.0e-5_wp
-   !> Films by formula grow without limit as the load goes to zero: where contact is lost, and a remark says so, their means and
-   !> extremes hang on how closely the loss is met
+   !> Films by formula grow without limit as the load goes to zero; where a remark says so, their means and extremes hang on how closely
+   !> the loss is met
    character(len=*), parameter :: films(*) = [character(len=22) :: "film_thickness_min", "film_thickness_central", "film_ratio"]
    !> Means that are judged by the mean of all losses
    character(len=*), parameter :: drives(*) = [character(len=21) :: "torque_drive", "torque_geometric", "torque_roller_inertia"]
@@ -261,19 +261,19 @@ contains
       if (index(name, "asperity_friction_share") > 0) scale = least_force
    end function least_scale
 
-   !> Is a series a film of a lobe that loses contact?
+   !> Is a series a film of which a remark says that it has no limit?
    function is_film_without_limit(one, other, name) result(verdict)
       !> The results
       type(result_t), intent(in) :: one, other
       !> Name of a series
       character(len=*), intent(in) :: name
       logical :: verdict
-      integer :: first
+      integer :: lobe
 
-      first = merge(8, 1, index(name, "lobe_2_") > 0)
-      verdict = any(films == name(first:))
-      if (verdict) verdict = scalar_of(one, name(:first - 1)//"lost_contact_share") > 0.0_wp .or. &
-         & scalar_of(other, name(:first - 1)//"lost_contact_share") > 0.0_wp
+      lobe = merge(2, 1, index(name, "lobe_2_") > 0)
+      verdict = any(films == name(merge(8, 1, lobe == 2):))
+      if (verdict) verdict = any(one%remarks%kind == film_without_limit .and. max(one%remarks%lobe, 1) == lobe) .or. &
+         & any(other%remarks%kind == film_without_limit .and. max(other%remarks%lobe, 1) == lobe)
    end function is_film_without_limit
 
    !> Smallest and largest values of all series but torques, over the range of each, and the smallest film over itself.
