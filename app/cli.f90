@@ -56,6 +56,11 @@ module camroller_cli
       integer :: log_interval = 60
       !> The deck as it stands, without its sweep?
       logical :: has_no_sweep = .false.
+      !> Version of FMI, and the folder of the library of an FMU; blank for that beside the program
+      integer :: fmi_version = 3
+      character(len=:), allocatable :: library
+      !> Help as a manual page, or as completion for a shell?
+      logical :: is_manual = .false., is_completion = .false.
       !> Columns to export, parted by commas; blank for all
       character(len=:), allocatable :: columns
       !> Form of an exported table
@@ -99,6 +104,7 @@ contains
       config%columns = ""
       config%form = export_formats(1)
       config%drawing = ""
+      config%library = ""
       allocate (config%overrides(0))
       call list_commands(commands)
       call read_command(arguments, commands%name, config, error)
@@ -287,6 +293,14 @@ contains
             call write_names(export_formats, known)
             call raise(error, kind_usage, "option '--format' takes "//known//", not '"//value//"'"//see(config))
          end if
+      case ("--fmi")
+         call read_whole_number(option, value, "a version of FMI, 2 or 3", see(config), 2, 3, config%fmi_version, error)
+      case ("--library")
+         config%library = value
+      case ("--man")
+         config%is_manual = .true.
+      case ("--completion")
+         config%is_completion = .true.
       case ("--draw")
          config%drawing = value
          if (value == "") call raise(error, kind_usage, "option '--draw' needs the name of a file"//see(config))

@@ -162,6 +162,17 @@ contains
          & "Print a complete deck with every key explained, or one group of it.")
       call add_option(commands, "--markdown", "", "", "the same as a page")
 
+      call add(commands, "fmu", "DECK", "write an FMU for co-simulation", &
+         & "Write the valve trains of a deck as a Functional Mock-up Unit for co-simulation: the deck's name with .fmu in"//n// &
+         & "the present folder, or FILE. Inputs are speed, oil temperature and gas pressure; parameters the numbers that the"//n// &
+         & "deck gives; outputs torques, loads, films and slip of all cams. It holds the library and what that needs, which"//n// &
+         & "are taken from ../lib/camroller of the program's folder, where cmake --install puts them.")
+      call add_option(commands, "--output", "-o", "FILE", "file to write")
+      call add_option(commands, "--fmi", "", "N", "version of FMI, 2 or 3; 3 where not given")
+      call add_option(commands, "--library", "", "FOLDER", "folder of the library")
+      call add_option(commands, "--set", "-s", "group.key=value", meaning_set)
+      call add_option(commands, "--quiet", "-q", "", meaning_quiet)
+
       call add(commands, "export", "FILE.h5", "print results as comma-separated values or JSON", &
          & "Print the series of one case, or the summary of all cases, as comma-separated values or JSON.")
       call add_option(commands, "--series", "", "", "series over the cam angle (the default)")
@@ -178,6 +189,8 @@ contains
          & "Compute key numbers of a small deck and compare them with values that are built in. Takes a few seconds, reads"//n// &
          & "and writes no file. Prints machine and build; where a number differs, the exit code is 7.")
       call add(commands, "help", "[COMMAND]", "this, or more about a command", "Print the list of commands, or the help of one.")
+      call add_option(commands, "--man", "", "", "the help of all commands as a manual page")
+      call add_option(commands, "--completion", "", "", "completion of commands and options for bash")
    end subroutine list_texts
 
    !> Append a command; every command takes `--help`.

@@ -7,7 +7,9 @@ module camroller_commands
    use camroller_case, only : case_t
    use camroller_cli, only : config_t, get_arguments, read_arguments
    use camroller_command_table, only : command_t, find_command, help_for, help_for_all, list_commands
+   use camroller_fmu_command, only : fmu_of_deck
    use camroller_hdf5_columns, only : hdf5_columns_t
+   use camroller_help_pages, only : bash_completion, manual_page
    use camroller_deck, only : deck_t, read_deck, make_case, make_sweep_case, add_places, drop_sweep, override_t
    use camroller_case_facts, only : describe_case
    use camroller_deck_document, only : write_defaults, write_page, write_resolved
@@ -85,7 +87,7 @@ contains
 
       if (team%rank > 0 .and. config%command /= "sweep") return
       if (config%is_help) then
-         call show_help(config%command, error)
+         call show_help(config, config%command, error)
          return
       end if
       select case (config%command)
@@ -96,7 +98,7 @@ contains
       case ("version")
          call show_version(error)
       case ("help")
-         call show_help(config%subject, error)
+         call show_help(config, config%subject, error)
       case ("run")
          call run_deck(config, error)
       case ("sweep")
@@ -113,6 +115,8 @@ contains
          call ehl_deck(config, error)
       case ("export")
          call export_table(config, error)
+      case ("fmu")
+         call fmu_of_deck(config, error)
       case ("selftest")
          call run_selftest(error)
       end select
@@ -137,8 +141,10 @@ contains
          & config%columns, config%form)
    end subroutine export_table
 
-   !> Help, or help for a command.
-   subroutine show_help(name, error)
+   !> Help, or help for a command, or all of it in a form that other programs read.
+   subroutine show_help(config, name, error)
+      !> What to do
+      type(config_t), intent(in) :: config
       !> Name of the command; blank for the program
       character(len=*), intent(in) :: name
       !> Usage error where there is no such command
@@ -150,7 +156,11 @@ contains
 
       call list_commands(commands)
       found = find_command(commands, name)
-      if (found > 0) then
+      if (config%is_manual) then
+         call manual_page(commands, text)
+      else if (config%is_completion) then
+         call bash_completion(commands, text)
+      else if (found > 0) then
          call help_for(commands(found), text)
       else if (name == "") then
          call help_for_all(commands, text)

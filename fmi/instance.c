@@ -219,6 +219,9 @@ int instance_step(instance *self, double time, double length) {
       return instance_refuse(self, "a step must start where the one before ended, or a state of that time be set");
    start.speed = value_of(self, SPEED, 0);
    end.speed = start.speed + value_of(self, SPEED_SLOPE, 0) * length;
+   if (!(start.speed > 0.0 && end.speed > 0.0))
+      return instance_refuse(self, "the speed must be above zero at both ends of a step: a cam does not turn backward, and an engine "
+                                   "that stands makes no steps");
    start.oil_temperature = value_of(self, TEMPERATURE, 0);
    end.oil_temperature = start.oil_temperature + value_of(self, TEMPERATURE_SLOPE, 0) * length;
    int has_pressure = value_of(self, HAS_PRESSURE, 0) != 0.0;

@@ -1,7 +1,9 @@
-"""Shared by all Python tests: the program under test."""
+"""Shared by all Python tests: the program under test, the installed library."""
 
 import os
 import pathlib
+import shutil
+import subprocess
 
 import pytest
 
@@ -14,6 +16,30 @@ def camroller() -> str:
     path = pathlib.Path(os.environ.get("CAMROLLER", ROOT / "build/release/bin/camroller"))
     assert path.is_file(), f"{path} is missing: `make build` or `make test`"
     return str(path)
+
+
+@pytest.fixture(scope="session")
+def cmake_prefix(tmp_path_factory) -> pathlib.Path:
+    """A prefix with the core installed by CMake, without HDF5; what is built stays in build/cmake from run to run."""
+    if shutil.which("cmake") is None:
+        pytest.skip("cmake is not installed")
+    place = tmp_path_factory.mktemp("prefix")
+    build = ROOT / "build" / "cmake"
+    for command in (["cmake", "-G", "Unix Makefiles", "-S", ROOT, "-B", build, "-DCAMROLLER_IO=OFF", "-DCAMROLLER_BUNDLE_DIR=lib/camroller",
+                     "-DCMAKE_INSTALL_LIBDIR=lib", f"-DCMAKE_INSTALL_PREFIX={place}"],
+                    ["cmake", "--build", build, "-j2"], ["cmake", "--install", build]):
+        done = subprocess.run([str(word) for word in command], capture_output=True, text=True, check=False)
+        assert done.returncode == 0, done.stdout + done.stderr
+    return place
+
+
+@pytest.fixture(scope="session")
+def installed_package(cmake_prefix, tmp_path_factory) -> pathlib.Path:
+    """A folder with the package of Python over the installed bundle, as the wheel has it."""
+    place = tmp_path_factory.mktemp("package")
+    shutil.copytree(ROOT / "python" / "camroller", place / "camroller", ignore=shutil.ignore_patterns("lib", "__pycache__"))
+    (place / "camroller" / "lib").symlink_to(cmake_prefix / "lib" / "camroller")
+    return place
 
 
 def pytest_collection_modifyitems(items):

@@ -1,4 +1,5 @@
-!> An engine that drives its valve trains: four cylinders, sixteen followers on two camshafts, one step for each degree of crank angle.
+!> An engine that drives its valve trains: four cylinders, sixteen followers on two camshafts, one step for each degree of crank
+!> angle.
 !>
 !> The host gives speed, oil temperature and the pressure in the cylinders; the library gives the torque that the camshafts take,
 !> with the followers shared out to the threads of OpenMP. Usage: engine_host DECK [CYCLES [THREADS]]

@@ -118,26 +118,6 @@ contains
       end if
    end subroutine add_variable
 
-   !> An attribute with a blank before it; blanks at the ends of its name and value are left out.
-   pure function attribute(name, value) result(text)
-      !> Its name and value
-      character(len=*), intent(in) :: name, value
-      !> The attribute
-      character(len=len_trim(name) + escaped_length(value) + 4) :: text
-
-      integer :: i, last
-
-      text = " "//trim(name)//'="'
-      last = len_trim(name) + 3
-      do i = 1, len_trim(value)
-         text(last + 1:) = trim(escaped(value(i:i)))
-         last = last + escaped_length(value(i:i))
-         ! a blank is a letter here
-         if (value(i:i) == " ") last = last + 1
-      end do
-      text(last + 1:) = '"'
-   end function attribute
-
    !> A letter as XML has it.
    pure function escaped(letter) result(word)
       !> The letter
@@ -173,5 +153,25 @@ contains
          length = length + max(1, len_trim(escaped(value(i:i))))
       end do
    end function escaped_length
+
+   !> An attribute with a blank before it; blanks at the ends of its name and value are left out.
+   pure function attribute(name, value) result(text)
+      !> Its name and value
+      character(len=*), intent(in) :: name, value
+      !> The attribute
+      character(len=len_trim(name) + escaped_length(value) + 4) :: text
+
+      integer :: i, last
+
+      text = " "//trim(name)//'="'
+      last = len_trim(name) + 3
+      do i = 1, len_trim(value)
+         text(last + 1:) = trim(escaped(value(i:i)))
+         last = last + escaped_length(value(i:i))
+         ! a blank is a letter here
+         if (value(i:i) == " ") last = last + 1
+      end do
+      text(last + 1:) = '"'
+   end function attribute
 
 end module camroller_fmu_description

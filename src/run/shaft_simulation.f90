@@ -51,7 +51,7 @@ module camroller_shaft_simulation
       real(wp) :: extreme_torque(2) = 0.0_wp
       !> Estimate of the error of the mean torque that drives, as in `outcome_t` [N m]
       real(wp) :: estimated_error = 0.0_wp
-      !> The same on each camshaft at the end, shape (torque, camshaft)
+      !> The same on each camshaft at the end, shape (torque, camshaft) [N m]
       real(wp), allocatable :: by_camshaft(:, :)
       !> What the follower of each cam gives
       type(outcome_t), allocatable :: followers(:)

@@ -17,9 +17,6 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 DECK = ROOT / "decks" / "thesis.nml"
 CAMSHAFT = ROOT / "decks" / "three_cam_head.nml"
 
-pytestmark = pytest.mark.skipif(shutil.which("cmake") is None, reason="cmake is not installed")
-
-
 def run(*command, **options):
     """Run a command that must succeed; its output."""
     done = subprocess.run([str(word) for word in command], capture_output=True, text=True, check=False, **options)
@@ -28,14 +25,9 @@ def run(*command, **options):
 
 
 @pytest.fixture(scope="module")
-def prefix(tmp_path_factory):
+def prefix(cmake_prefix):
     """A prefix with the core installed."""
-    place = tmp_path_factory.mktemp("prefix")
-    build = ROOT / "build" / "cmake"
-    run("cmake", "-S", ROOT, "-B", build, "-DCAMROLLER_IO=OFF", "-DCMAKE_INSTALL_LIBDIR=lib", f"-DCMAKE_INSTALL_PREFIX={place}")
-    run("cmake", "--build", build, "-j2")
-    run("cmake", "--install", build)
-    return place
+    return cmake_prefix
 
 
 @pytest.fixture(scope="module")

@@ -1,0 +1,281 @@
+"""FMUs of both versions of FMI: validated and run by FMPy, which has to give the bits of the library."""
+
+from __future__ import annotations
+
+import concurrent.futures
+import ctypes
+import math
+import pathlib
+import subprocess
+import sys
+import zipfile
+
+import fmpy
+import fmpy.fmi2
+import fmpy.fmi3
+import numpy as np
+import pytest
+from fmpy.validation import validate_fmu
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+DECK = ROOT / "decks" / "three_cam_head.nml"
+VERSIONS = ("2", "3")
+STEPS = 40
+
+
+@pytest.fixture(scope="module")
+def package(installed_package):
+    """The package of Python over the same library."""
+    sys.path.insert(0, str(installed_package))
+    import camroller
+    yield camroller
+    sys.path.remove(str(installed_package))
+
+
+@pytest.fixture(scope="module")
+def write(camroller, cmake_prefix, tmp_path_factory):
+    """Write an FMU of a deck."""
+    place = tmp_path_factory.mktemp("fmu")
+
+    def made(version, deck=DECK, name="head", words=()):
+        path = place / f"{name}{version}.fmu"
+        if not path.exists():
+            done = subprocess.run([camroller, "fmu", str(deck), "-o", str(path), "--fmi", version, "--library",
+                                   str(cmake_prefix / "lib" / "camroller"), *words], capture_output=True, text=True, check=False)
+            assert done.returncode == 0, done.stderr
+        return path
+
+    return made
+
+
+class Unit:
+    """An instance of an FMU, by names of variables."""
+
+    def __init__(self, path, folder, name="one"):
+        self.description = fmpy.read_model_description(str(path))
+        self.numbers = {variable.name: variable.valueReference for variable in self.description.modelVariables}
+        if not folder.exists():
+            fmpy.extract(str(path), unzipdir=str(folder))
+        kind = fmpy.fmi3.FMU3Slave if self.description.fmiVersion == "3.0" else fmpy.fmi2.FMU2Slave
+        self.unit = kind(guid=self.description.guid, unzipDirectory=str(folder), instanceName=name,
+                         modelIdentifier=self.description.coSimulation.modelIdentifier)
+        self.is_3 = self.description.fmiVersion == "3.0"
+        self.messages = []
+        self.time = 0.0
+        if self.is_3:
+            self.unit.instantiate(logMessage=fmpy.fmi3.fmi3LogMessageCallback(self.hear_3))
+        else:
+            functions = fmpy.fmi2.fmi2CallbackFunctions()
+            functions.logger = fmpy.fmi2.fmi2CallbackLoggerTYPE(self.hear_2)
+            functions.allocateMemory = fmpy.fmi2.fmi2CallbackAllocateMemoryTYPE(fmpy.fmi2.allocateMemory)
+            functions.freeMemory = fmpy.fmi2.fmi2CallbackFreeMemoryTYPE(fmpy.fmi2.freeMemory)
+            self.unit.instantiate(callbacks=functions)
+
+    def hear_2(self, environment, name, status, category, message):
+        self.messages.append(message.decode())
+
+    def hear_3(self, environment, status, category, message):
+        self.messages.append(message.decode())
+
+    def set(self, name, value):
+        numbers = [self.numbers[name]]
+        if isinstance(value, bool):
+            self.unit.setBoolean(numbers, [value])
+        elif self.is_3:
+            self.unit.setFloat64(numbers, [value])
+        else:
+            self.unit.setReal(numbers, [value])
+
+    def get(self, name):
+        return (self.unit.getFloat64 if self.is_3 else self.unit.getReal)([self.numbers[name]])[0]
+
+    def start(self, **values):
+        if not self.is_3:
+            self.unit.setupExperiment(startTime=0.0)
+        self.unit.enterInitializationMode()
+        for name, value in values.items():
+            self.set(name, value)
+        self.unit.exitInitializationMode()
+
+    def step(self, length):
+        self.unit.doStep(currentCommunicationPoint=self.time, communicationStepSize=length)
+        self.time += length
+
+    def drive(self, count=10, length=1e-3):
+        """Sum of what some steps give."""
+        total = 0.0
+        for _ in range(count):
+            self.step(length)
+            total += self.get("mean_torque_drive") + self.get("cam[2].contact_load")
+        return total
+
+    def state(self, call, *arguments):
+        """A call on states: FMPy has them in other letters for FMI 2."""
+        if not self.is_3:
+            call = call.replace("FMUState", "FMUstate").replace("deserialize", "deSerialize")
+        return getattr(self.unit, call)(*arguments)
+
+    def end(self):
+        self.unit.terminate()
+        self.unit.freeInstance()
+
+
+@pytest.mark.parametrize("version", VERSIONS)
+def test_fmpy_has_no_findings(write, version):
+    path = write(version)
+    assert validate_fmu(str(path)) == []
+    description = fmpy.read_model_description(str(path))
+    by_name = {variable.name: variable for variable in description.modelVariables}
+    assert by_name["speed"].causality == "input" and by_name["speed"].unit == "rad/s"
+    assert by_name["cam[3].gas_pressure"].unit == "Pa"
+    assert by_name["roller.mass_kg"].causality == "parameter" and float(by_name["roller.mass_kg"].start) == 0.0105
+    assert by_name["cam[1].film_thickness_min"].unit == "m"
+    assert "film thickness" in by_name["cam[1].film_thickness_min"].description
+    with zipfile.ZipFile(path) as archive:
+        assert archive.testzip() is None
+        names = archive.namelist()
+    assert names[0] == "modelDescription.xml"
+    assert any(name.endswith("libgfortran.so.5") for name in names) and "resources/gas_force.txt" in names
+
+
+@pytest.mark.parametrize("version", VERSIONS)
+def test_a_run_by_fmpy_has_the_bits_of_the_library(write, package, version):
+    path = write(version)
+    start = {variable.name: variable.start for variable in fmpy.read_model_description(str(path)).modelVariables}
+    speed, temperature = float(start["speed"]), float(start["oil_temperature"])
+    length = 2 * math.pi / speed / STEPS
+    times = np.arange(STEPS + 1) * length
+    ripple = speed * (1 + 0.05 * np.sin(4 * speed * times))
+    slopes = np.append(np.diff(ripple) / np.diff(times), 0.0)
+    signals = np.array(list(zip(times, ripple, slopes)), dtype=[("time", "f8"), ("speed", "f8"), ("speed_slope", "f8")])
+    names = ["cam_angle", "mean_torque_drive", "mean_torque_bearings", "estimated_error", "torque_drive", "cam[2].contact_load",
+             "cam[3].slip_ratio"]
+    result = fmpy.simulate_fmu(str(path), stop_time=times[-1], step_size=length, output_interval=length, output=names, input=signals)
+    shaft = package.Shaft(package.Case(DECK), 0.0)
+    rows = []
+    for i in range(STEPS):
+        h = result["time"][i + 1] - result["time"][i]
+        first = float(np.interp(result["time"][i], times, ripple))
+        end = first + slopes[i] * h
+        outcome = shaft.step(shaft.angle + 0.5 * (first + end) * h, package.Inputs(first, temperature), package.Inputs(end, temperature))
+        rows.append((shaft.angle, outcome.mean_torque_drive, outcome.mean_torque_bearings, outcome.estimated_error,
+                     shaft.value("torque_drive"), shaft.value("contact_load", 2), shaft.value("slip_ratio", 3)))
+    assert len(result) == STEPS + 1
+    for name, values in zip(names, zip(*rows)):
+        assert result[name][1:].tolist() == list(values), name
+    assert all(result[name][0] == 0.0 for name in names)
+
+
+@pytest.mark.parametrize("version", VERSIONS)
+def test_states_are_taken_put_back_and_serialised(write, tmp_path, version):
+    unit = Unit(write(version), tmp_path / "unit")
+    unit.start()
+    unit.drive()
+    kept = unit.state("getFMUState")
+    block = unit.state("serializeFMUState", kept)
+    time = unit.time
+    first = unit.drive()
+    unit.state("setFMUState", kept)
+    unit.time = time
+    assert unit.drive() == first
+    other = Unit(write(version), tmp_path / "unit", "other")
+    other.start()
+    again = other.state("deserializeFMUState", block)
+    other.state("setFMUState", again)
+    other.time = time
+    assert other.drive() == first
+    with pytest.raises(Exception):
+        other.state("deserializeFMUState", block[:-8])
+    assert "damaged" in other.messages[-1]
+    for one, kept_state in ((unit, kept), (other, again)):
+        one.state("freeFMUState", kept_state)
+        one.end()
+
+
+@pytest.mark.parametrize("version", VERSIONS)
+def test_parameters_are_keys_of_the_deck_and_pressures_inputs(write, package, tmp_path, version):
+    unit = Unit(write(version), tmp_path / "unit")
+    unit.start(**{"roller.mass_kg": 0.02, "start_angle": 0.5, "gas_pressure_is_input": True, "cam[2].gas_pressure": 2e5,
+                  "cam[2].gas_pressure_slope": 1e7})
+    shaft = package.Shaft(package.Case(DECK, set={"roller.mass_kg": 0.02}), 0.5)
+    speed, temperature = unit.get("speed"), unit.get("oil_temperature")
+    unit.step(1e-3)
+    outcome = shaft.step(0.5 + speed * 1e-3, package.Inputs(speed, temperature), gas_pressures=[[0, 2e5, 0], [0, 2e5 + 1e4, 0]])
+    assert unit.get("mean_torque_drive") == outcome.mean_torque_drive
+    with pytest.raises(Exception):
+        unit.set("roller.mass_kg", 0.01)
+    assert "before the end of the initialisation" in unit.messages[-1]
+    unit.end()
+
+
+@pytest.mark.parametrize("version", VERSIONS)
+def test_what_cannot_be_is_an_error_with_words(write, tmp_path, version):
+    unit = Unit(write(version), tmp_path / "unit")
+    unit.start()
+    unit.drive(2)
+    for name, value, word in (("speed", 0.0, "stands"), ("speed", -5.0, "backward"), ("speed_slope", -1e6, "above zero"), ("oil_temperature", -1.0, "temperature")):
+        before = unit.get(name)
+        unit.set(name, value)
+        with pytest.raises(Exception):
+            unit.step(1e-3)
+        assert word in unit.messages[-1], unit.messages
+        unit.set(name, before)
+    with pytest.raises(Exception):
+        unit.unit.doStep(currentCommunicationPoint=0.0, communicationStepSize=1e-3)
+    assert "where the one before ended" in unit.messages[-1]
+    unit.drive(1)
+    wrong = Unit(write(version), tmp_path / "unit", "wrong")
+    with pytest.raises(Exception):
+        wrong.start(**{"roller.radius_mm": -1.0})
+    assert "radius_mm" in wrong.messages[-1]
+    for one in (unit, wrong):
+        one.unit.freeInstance()
+
+
+@pytest.mark.parametrize("version", VERSIONS)
+def test_instances_in_threads_do_not_touch_each_other(write, tmp_path, version):
+    path = write(version)
+    units = [Unit(path, tmp_path / "unit", f"number {i}") for i in range(6)]
+
+    def work(i):
+        units[i].start(start_angle=0.1 * i)
+        return units[i].drive()
+
+    with concurrent.futures.ThreadPoolExecutor(6) as pool:
+        together = list(pool.map(work, range(6)))
+    for i, unit in enumerate(units):
+        unit.unit.reset()
+        unit.time = 0.0
+        assert work(i) == together[i]
+        unit.end()
+
+
+def test_both_versions_and_both_writings_are_alike(write, camroller, cmake_prefix, tmp_path):
+    again = tmp_path / "head3.fmu"
+    subprocess.run([camroller, "fmu", str(DECK), "-o", str(again), "--library", str(cmake_prefix / "lib" / "camroller"), "--quiet"],
+                   check=True)
+    assert again.read_bytes() == write("3").read_bytes()
+
+
+def test_one_cam_and_other_folders(write, camroller, tmp_path):
+    """A deck without camshaft bearings; an FMU without a library, which says what to do."""
+    path = write("3", ROOT / "decks" / "thesis.nml", "thesis")
+    assert validate_fmu(str(path)) == []
+    names = {variable.name for variable in fmpy.read_model_description(str(path)).modelVariables}
+    assert "cam[1].contact_load" in names and "cam[2].contact_load" not in names and "cam[1].gas_pressure" not in names
+    done = subprocess.run([camroller, "fmu", str(DECK), "-o", str(tmp_path / "x.fmu"), "--library", str(tmp_path)],
+                          capture_output=True, text=True, check=False)
+    assert done.returncode == 6 and "cmake --install" in done.stderr
+    done = subprocess.run([camroller, "fmu", str(ROOT / "decks" / "dynamics.nml"), "-o", str(tmp_path / "x.fmu")],
+                          capture_output=True, text=True, check=False)
+    assert done.returncode == 2 and "dynamics" in done.stderr and not (tmp_path / "x.fmu").exists()
+
+
+def test_the_library_of_an_fmu_shows_the_functions_of_fmi_alone(cmake_prefix):
+    library = cmake_prefix / "lib" / "camroller" / "camroller_fmi.so"
+    shown = subprocess.run(["nm", "-D", "--defined-only", str(library)], capture_output=True, text=True, check=True).stdout
+    names = {line.split()[-1] for line in shown.splitlines()}
+    assert all(name.startswith(("fmi2", "fmi3")) for name in names)
+    opened = ctypes.CDLL(str(library))
+    opened.fmi3GetVersion.restype = opened.fmi2GetVersion.restype = ctypes.c_char_p
+    assert opened.fmi3GetVersion() == b"3.0" and opened.fmi2GetVersion() == b"2.0"

@@ -1,0 +1,181 @@
+"""The package of Python: the wheel is built, installed in an empty environment, and gives the bits of the program."""
+
+from __future__ import annotations
+
+import json
+import os
+import pathlib
+import subprocess
+import sys
+import venv
+
+import h5py
+import numpy as np
+import pytest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+DECK = ROOT / "decks" / "thesis.nml"
+
+CHECK = """
+import camroller, json, sys
+deck = sys.argv[1]
+answers = {}
+rows = camroller.run(deck, threads=3)
+answers["has_xarray"] = not isinstance(rows, list)
+answers["varied"] = [varied for varied, _ in rows]
+answers["friction"] = [result.scalars["mean_torque_friction"].hex() for _, result in rows]
+answers["slip"] = [[value.hex() for value in result.series["sliding_speed"]] for _, result in rows]
+answers["unit"] = rows[0][1].units["mean_torque_friction"]
+case = camroller.Case(deck, set={"operating_point.speed_rpm": 600, "film.law": "moes"})
+answers["set"] = case.run().scalars["mean_torque_friction"].hex()
+answers["number"] = case.numbers["operating_point.speed_rpm"]
+errors = {}
+for name, text in {"deck": "&lift law = 3 /", "line": "\\n\\n&nothing a = 1 /"}.items():
+    try:
+        camroller.Case.from_text(text)
+    except camroller.DeckError as error:
+        errors[name] = [error.line, error.code, str(error)]
+try:
+    camroller.Case("no such deck")
+except camroller.FileError as error:
+    errors["file"] = str(error)
+try:
+    case.set("roller.radius_mm", -1)
+except camroller.DeckError as error:
+    errors["value"] = str(error)
+follower = camroller.Simulation(case, angle=1.0)
+for name, angle, speed in (("backward", 0.5, 60.0), ("standstill", 1.1, 0.0), ("negative", 1.1, -1.0)):
+    try:
+        follower.step(angle, camroller.Inputs(speed, 333.15))
+    except camroller.UsageError as error:
+        errors[name] = str(error)
+answers["errors"] = errors
+
+def drive(what, turns=1):
+    total = 0.0
+    for i in range(1, 41):
+        outcome = what.step(what.angle + 0.15, camroller.Inputs(60.0, 333.15), camroller.Inputs(61.0, 334.15))
+        total += outcome.mean_torque_drive + outcome.torque_friction + outcome.estimated_error
+    return total
+
+drive(follower)
+block, copy = follower.save(), follower.copy()
+sums = [drive(follower), drive(copy), drive(camroller.Simulation.restore(case, block))]
+answers["same"] = sums[0] == sums[1] == sums[2]
+answers["load"] = follower.value("contact_load")
+shaft = camroller.Shaft(camroller.Case(sys.argv[2]), angle=0.0, threads=2)
+drive(shaft)
+answers["phases"] = [cam.phase for cam in shaft.cams]
+answers["camshaft"] = shaft.values()
+answers["by_name"] = shaft.value("torque_drive")
+answers["names"] = [quantity.name for quantity in shaft.quantities(2)]
+pressures = [[1e5, 2e5, 3e5], [1e5, 2e5, 3e5]]
+answers["pressed"] = shaft.step(shaft.angle + 0.1, camroller.Inputs(60.0, 333.15), gas_pressures=pressures).torque_drive
+try:
+    shaft.step(shaft.angle + 0.1, camroller.Inputs(60.0, 333.15), gas_pressures=pressures[:1])
+except camroller.UsageError as error:
+    errors["pressures"] = str(error)
+print(json.dumps(answers))
+"""
+
+
+def run(*command, **options):
+    """Run a command that must succeed; its output."""
+    done = subprocess.run([str(word) for word in command], capture_output=True, text=True, check=False, **options)
+    assert done.returncode == 0, done.stdout + done.stderr
+    return done.stdout
+
+
+@pytest.fixture(scope="module")
+def installed(cmake_prefix, tmp_path_factory):
+    """An environment with the wheel and nothing else: its Python, and the folder of its packages."""
+    place = tmp_path_factory.mktemp("wheel")
+    run(sys.executable, "-m", "pip", "wheel", "--no-build-isolation", "--no-deps", "--no-index", "-w", place, ROOT / "python")
+    (wheel,) = place.glob("*.whl")
+    assert wheel.name.startswith("camroller-") and "-py3-none-linux_" in wheel.name
+    venv.create(place / "empty", with_pip=True)
+    python = place / "empty" / "bin" / "python"
+    run(python, "-m", "pip", "install", "--no-index", "--no-deps", wheel)
+    (packages,) = (place / "empty").glob("lib/python*/site-packages")
+    return python, packages
+
+
+@pytest.fixture(scope="module")
+def answers(installed):
+    clean = {name: value for name, value in os.environ.items() if not name.startswith(("PYTHON", "LD_"))}
+    return json.loads(run(installed[0], "-c", CHECK, DECK, ROOT / "decks" / "three_cam_head.nml", env=clean))
+
+
+def test_bits_are_those_of_the_program(answers, camroller, tmp_path):
+    run(camroller, "run", DECK, "-o", tmp_path / "deck.h5", "--quiet")
+    with h5py.File(tmp_path / "deck.h5") as file:
+        friction = np.asarray(file["summary/mean_torque_friction"])
+        slip = np.asarray(file["series/sliding_speed"])
+    assert not answers["has_xarray"] and answers["unit"] == "N m"
+    assert [float.fromhex(word) for word in answers["friction"]] == friction.ravel().tolist()
+    assert [[float.fromhex(word) for word in row] for row in answers["slip"]] == slip.reshape(friction.size, -1).tolist()
+    assert answers["varied"][5] == {"operating_point.speed_rpm": 600.0, "operating_point.oil_temperature_degC": 95.0}
+    run(camroller, "run", DECK, "-o", tmp_path / "one.h5", "--quiet", "--point", "speed_rpm=600", "--set", "film.law='moes'")
+    with h5py.File(tmp_path / "one.h5") as file:
+        assert float.fromhex(answers["set"]) == np.asarray(file["summary/mean_torque_friction"]).item()
+    assert answers["number"] == 600.0
+
+
+def test_errors_are_exceptions_with_the_line_of_the_deck(answers):
+    errors = answers["errors"]
+    assert errors["deck"][:2] == [1, 3] and "takes one text in quotes" in errors["deck"][2]
+    assert errors["line"][0] == 3
+    assert "no such deck" in errors["file"] and "radius_mm" in errors["value"]
+    assert "backward" in errors["backward"] and "halt" in errors["standstill"] and "positive" in errors["negative"]
+    assert "each of the 3 cams" in errors["pressures"]
+
+
+def test_what_is_driven_goes_on_from_copies_and_blocks_bit_by_bit(answers):
+    assert answers["same"] and answers["load"] > 0.0
+
+
+def test_a_shaft_has_its_cams_and_names(answers):
+    assert np.allclose(answers["phases"], np.radians([0, 120, 240]))
+    assert answers["by_name"] == answers["camshaft"]["torque_drive"]
+    assert {"contact_load", "film_thickness_min", "hertz_pressure", "slip_ratio"} <= set(answers["names"])
+    assert answers["pressed"] != answers["by_name"]
+
+
+def test_a_dataset_has_swept_keys_as_coordinates_beside_numpy(installed):
+    """In this environment, where numpy has its own OpenBLAS, used before and after."""
+    words = """
+import numpy as np
+np.linalg.inv(np.eye(300) + 1.0)
+import camroller, sys
+data = camroller.run(sys.argv[1], sweep={"operating_point.speed_rpm": [300, 900], "film.law": ["moes", "dowson_higginson"]}, threads=2)
+assert data.mean_torque_friction.dims == ("operating_point.speed_rpm", "film.law"), data
+assert data.sliding_speed.dims[-1] == "cam_angle" and data.cam_angle.attrs["units"] == "rad"
+one = camroller.Case(sys.argv[1], set={"operating_point.speed_rpm": 900, "film.law": "moes"}).run()
+assert one.scalars["mean_torque_friction"] == float(data.mean_torque_friction.sel({"operating_point.speed_rpm": 900, "film.law": "moes"}))
+assert np.array_equal(np.asarray(one.series["contact_load"]), data.contact_load[1, 0])
+case = camroller.Case(sys.argv[1])
+camroller.run(case, set={"operating_point.speed_rpm": 900})
+assert case.numbers["operating_point.speed_rpm"] != 900
+np.linalg.inv(np.eye(300) + 1.0)
+print("fine")
+"""
+    done = run(sys.executable, "-c", words, DECK, env={**os.environ, "PYTHONPATH": str(installed[1])})
+    assert done.strip() == "fine"
+
+
+def test_the_wheel_brings_what_it_needs(installed):
+    folder = installed[1] / "camroller" / "lib"
+    needed = run("ldd", next(folder.glob("libcamroller_bundle.so.*")))
+    for name in ("libgfortran.so.5", "libquadmath.so.0", "libopenblas.so.0"):
+        assert f"{name} => {folder}/{name}" in needed, needed
+
+
+def test_declarations_are_those_of_the_header(installed):
+    words = """
+import re, sys
+from camroller import _library
+header = set(re.findall(r"\\bcamroller_(\\w+)\\(", open(sys.argv[1]).read()))
+declared = set(_library.CALLS) | set(_library.PLAIN)
+assert header == declared, header ^ declared
+"""
+    run(installed[0], "-c", words, ROOT / "include" / "camroller.h")
