@@ -25,10 +25,17 @@ typedef struct {
    double start_time;
 } component;
 
+/* A message is a format, where % and # begin something: each stands twice for itself. */
 static void tell(void *who, const char *message) {
    component *self = who;
-   if (self->callbacks->logger != NULL)
-      self->callbacks->logger(self->callbacks->environment, self->name, fmi2Error, "logStatusError", "%s", message);
+   char text[2 * sizeof ((camroller_error *)0)->message], *next = text;
+   if (self->callbacks->logger == NULL) return;
+   for (; *message != 0 && next < text + sizeof text - 2; message++) {
+      *next++ = *message;
+      if (*message == '%' || *message == '#') *next++ = *message;
+   }
+   *next = 0;
+   self->callbacks->logger(self->callbacks->environment, self->name, fmi2Error, "logStatusError", text);
 }
 
 static fmi2Status status_of(int is_right) {

@@ -63,12 +63,12 @@ class Unit:
         self.messages = []
         self.time = 0.0
         if self.is_3:
-            self.unit.instantiate(logMessage=fmpy.fmi3.fmi3LogMessageCallback(self.hear_3))
+            self.unit.instantiate(logMessage=self.hear_3)
         else:
             functions = fmpy.fmi2.fmi2CallbackFunctions()
             functions.logger = fmpy.fmi2.fmi2CallbackLoggerTYPE(self.hear_2)
-            functions.allocateMemory = fmpy.fmi2.fmi2CallbackAllocateMemoryTYPE(fmpy.fmi2.allocateMemory)
-            functions.freeMemory = fmpy.fmi2.fmi2CallbackFreeMemoryTYPE(fmpy.fmi2.freeMemory)
+            functions.allocateMemory = fmpy.fmi2.fmi2CallbackAllocateMemoryTYPE(fmpy.calloc)
+            functions.freeMemory = fmpy.fmi2.fmi2CallbackFreeMemoryTYPE(fmpy.free)
             self.unit.instantiate(callbacks=functions)
 
     def hear_2(self, environment, name, status, category, message):
@@ -213,7 +213,8 @@ def test_what_cannot_be_is_an_error_with_words(write, tmp_path, version):
     unit = Unit(write(version), tmp_path / "unit")
     unit.start()
     unit.drive(2)
-    for name, value, word in (("speed", 0.0, "stands"), ("speed", -5.0, "backward"), ("speed_slope", -1e6, "above zero"), ("oil_temperature", -1.0, "temperature")):
+    for name, value, word in (("speed", 0.0, "stands"), ("speed", -5.0, "backward"), ("speed_slope", -1e6, "above zero"),
+                              ("oil_temperature", -1.0, "temperature")):
         before = unit.get(name)
         unit.set(name, value)
         with pytest.raises(Exception):
