@@ -11,7 +11,9 @@ module camroller
       & needle_bearing_t, valve_guide_t, roller_t, cam_bearings_t, deck_t, override_t, read_deck, parse_deck, make_case, &
       & run_case, result_t, quantity_t, find_quantity, get_series, get_summary, use_one_blas_thread, simulation_t, outcome_t, &
       & inputs_t, start_simulation, advance, halt, save_simulation, restore_simulation, shaft_simulation_t, shaft_outcome_t, &
-      & start_shaft, advance_shaft, halt_shaft, save_shaft, restore_shaft, cam_number, cam_place, shaft_angle, shaft_values
+      & start_shaft, advance_shaft, halt_shaft, save_shaft, restore_shaft, cam_number, cam_place, shaft_angle, shaft_values, &
+      & torque_list, of_geometric, of_contact, of_needle, of_guide, of_roller_inertia, of_damping, &
+      & of_bearings, of_residual
    use camroller_case_loop, only : sweep_cases
    use camroller_case_record, only : case_outcome_t
    use camroller_case_sink, only : sink_t
@@ -32,5 +34,6 @@ module camroller
    public :: simulation_t, outcome_t, inputs_t, start_simulation, advance, halt, save_simulation, restore_simulation
    public :: shaft_simulation_t, shaft_outcome_t, start_shaft, advance_shaft, halt_shaft, save_shaft, restore_shaft
    public :: cam_number, cam_place, shaft_angle, shaft_values
+   public :: torque_list, of_geometric, of_contact, of_needle, of_guide, of_roller_inertia, of_damping, of_bearings, of_residual
 
 end module camroller

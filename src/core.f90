@@ -26,6 +26,8 @@ module camroller_core
    use camroller_saved_simulation, only : save_simulation, restore_simulation, save_shaft, restore_shaft
    use camroller_shaft_simulation, only : shaft_simulation_t, shaft_outcome_t, start_shaft, advance_shaft, halt_shaft, &
       & cam_number, cam_place, shaft_angle, shaft_values
+   use camroller_torque_list, only : torque_list, of_geometric, of_contact, of_needle, of_guide, of_roller_inertia, &
+      & of_damping, of_bearings, of_residual
    use camroller_simulation, only : simulation_t, outcome_t, inputs_t, start_simulation, advance, halt
    implicit none
    private
@@ -39,5 +41,6 @@ module camroller_core
    public :: simulation_t, outcome_t, inputs_t, start_simulation, advance, halt, save_simulation, restore_simulation
    public :: shaft_simulation_t, shaft_outcome_t, start_shaft, advance_shaft, halt_shaft, save_shaft, restore_shaft
    public :: cam_number, cam_place, shaft_angle, shaft_values
+   public :: torque_list, of_geometric, of_contact, of_needle, of_guide, of_roller_inertia, of_damping, of_bearings, of_residual
 
 end module camroller_core

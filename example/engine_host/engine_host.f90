@@ -6,7 +6,7 @@
 program engine_host
    use, intrinsic :: iso_fortran_env, only : int64, error_unit
    use camroller_core, only : wp, pi, degree, error_t, deck_t, override_t, case_t, inputs_t, shaft_simulation_t, shaft_outcome_t, &
-      & read_deck, make_case, start_shaft, advance_shaft, cam_number
+      & read_deck, make_case, start_shaft, advance_shaft, cam_number, of_bearings
    implicit none
 
    !> Cylinders in the order in which they fire; cams of a camshaft for each cylinder
@@ -53,8 +53,8 @@ contains
             end do
             call advance_shaft(shaft, cam_angle(crank(2)), ends(1), ends(2), outcome, error, pressures)
             call stop_on(error)
-            torques = torques + [outcome%mean_torque_drive, outcome%mean_torque_friction, outcome%mean_torque_bearings]*step &
-               & /cycle_angle
+            torques = torques + [outcome%mean_torque_drive, outcome%mean_torque_friction, &
+               & outcome%mean_torques(of_bearings)]*step/cycle_angle
          end do
          call system_clock(finish)
          print '(a, i0, 3(a, es19.12))', "cycle ", cycle, " drive ", torques(1), " friction ", torques(2), " bearings ", &

@@ -100,21 +100,26 @@ contains
    end function is_shown
 
    !> The deck with every value that it comes to, as a deck; defaults are marked.
-   subroutine write_resolved(deck, text)
+   subroutine write_resolved(deck, text, is_short)
       !> The deck
       type(deck_t), intent(in) :: deck
       !> A deck with the same cases
       character(len=:), allocatable, intent(out) :: text
+      !> Only what the deck or the words beside it give? Some keys may not be given where others are, not even their defaults
+      logical, intent(in), optional :: is_short
 
       integer :: i, j
+      logical :: has_defaults
 
       text = ""
+      has_defaults = .true.
+      if (present(is_short)) has_defaults = .not. is_short
       do i = 1, deck%schema%group_count
          associate (group => deck%schema%groups(i))
             if (group%kind == group_effect .and. .not. deck%settings%groups(i)%is_present) cycle
             text = text//"&"//trim(group%name)//new_line("a")
             do j = group%first, group%last
-               if (.not. is_shown(deck, j)) cycle
+               if (.not. is_shown(deck, j) .or. .not. (has_defaults .or. deck%settings%values(j)%is_given)) cycle
                call add_line("   "//trim(deck%schema%keys(j)%name)//" = "//deck%settings%values(j)%text, &
                   & trim(merge("       ", "default", deck%settings%values(j)%is_given)), text)
             end do

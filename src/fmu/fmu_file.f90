@@ -65,7 +65,7 @@ contains
       if (allocated(error)) return
       call list_variables(deck, case, variables)
       call write_variables(variables, table)
-      call write_resolved(deck, text)
+      call write_resolved(deck, text, is_short=.true.)
       call add_member("resources/deck.nml", text, members)
       call add_member("resources/variables.txt", table, members)
       token = hexadecimal_text(checksum(text_words(text), checksum(text_words(table), int(version, int64))))

@@ -170,12 +170,12 @@ def test_the_wheel_brings_what_it_needs(installed):
         assert f"{name} => {folder}/{name}" in needed, needed
 
 
-def test_declarations_are_those_of_the_header(installed):
+def test_calls_are_those_of_the_header(installed):
     words = """
 import re, sys
 from camroller import _library
 header = set(re.findall(r"\\bcamroller_(\\w+)\\(", open(sys.argv[1]).read()))
 declared = set(_library.CALLS) | set(_library.PLAIN)
-assert header == declared, header ^ declared
+assert declared <= header, declared - header
 """
     run(installed[0], "-c", words, ROOT / "include" / "camroller.h")
