@@ -52,6 +52,9 @@ module wide_decks
    !> Groups that are not drawn
    character(len=*), parameter :: left_out_groups(*) = [character(len=13) :: "sweep", "engine", "dynamics", "spring_surge", &
       & "lash_adjuster"]
+   !> Groups that a closed balance of energy must go with
+   character(len=*), parameter :: joint_groups(*) = [character(len=15) :: &
+      & "valve_tip", "stem_seal", "guide_side_load", "finger_pivot"]
    character(len=*), parameter :: nl = new_line("a")
 
 contains
@@ -79,6 +82,7 @@ contains
       do group = 1, schema%group_count
          call start_stream(random, seed, "&"//trim(schema%groups(group)%name))
          if (.not. has_group(random, draft, style, schema, group)) cycle
+         if (.not. may_have(deck%text, trim(schema%groups(group)%name))) cycle
          deck%text = deck%text//"&"//trim(schema%groups(group)%name)//nl
          call draw(random, number)
          draft%is_first = number < 0.5_wp
@@ -192,6 +196,19 @@ contains
       if (any(schema%groups(group)%name == left_out_groups)) has_group = .false.
    end function has_group
 
+   !> May a deck have a group, after what it has already? Sliding joints need a closed balance, that of the pivot a finger's mass.
+   pure function may_have(text, group)
+      !> The deck so far
+      character(len=*), intent(in) :: text
+      !> Name of the group
+      character(len=*), intent(in) :: group
+      logical :: may_have
+
+      may_have = .true.
+      if (any(group == joint_groups)) may_have = .not. has_source(text)
+      if (group == "finger_pivot") may_have = may_have .and. deck_word(text, "masses", "finger_kg") /= ""
+   end function may_have
+
    !> Draw one key, or leave it out.
    subroutine draw_key(random, draft, group, key, style, deck)
       !> The generator
@@ -291,6 +308,10 @@ contains
       case ("hardness_GPa")
          ! Where it is not there, laws that need it are not drawn
          is_given = is_given .or. draft%has_lobes
+      case ("decay_speed_m_s", "reference_load_N")
+         is_given = law == "stribeck"
+      case ("reference_viscosity_Pa_s")
+         is_given = law == "stribeck" .or. group == "stem_seal"
       case ("eyring_stress_MPa")
          is_given = is_given .or. deck_word(text, group, "shear_law") == "eyring"
       case ("needle_radius_mm")

@@ -84,6 +84,19 @@ module wide_numbers
       & usual_t("valve_guide.length_mm", 20.0_wp, 50.0_wp), &
       & usual_t("valve_guide.stem_diameter_mm", 4.0_wp, 8.0_wp), &
       & usual_t("valve_guide.radial_clearance_um", 10.0_wp, 50.0_wp, .true.), &
+      & usual_t("valve_tip.pad_radius_mm", 4.0_wp, 30.0_wp), &
+      & usual_t("stem_seal.lip_force_N", 0.0_wp, 20.0_wp), &
+      & usual_t("stem_seal.viscous_drag_N_s_m", 0.0_wp, 20.0_wp), &
+      & usual_t("guide_side_load.guide_length_mm", 20.0_wp, 50.0_wp), &
+      & usual_t("guide_side_load.tip_height_mm", 10.0_wp, 40.0_wp), &
+      & usual_t("guide_side_load.stem_axis_mm", 30.0_wp, 45.0_wp), &
+      & usual_t("finger_pivot.ball_radius_mm", 3.0_wp, 8.0_wp), &
+      & usual_t("joint.friction_coefficient", 0.0_wp, 0.2_wp), &
+      & usual_t("joint.decay_speed_m_s", 1.0e-3_wp, 1.0_wp, .true.), &
+      & usual_t("joint.viscous_part_s_m", 0.0_wp, 0.1_wp), &
+      & usual_t("joint.reference_viscosity_Pa_s", 1.0e-3_wp, 1.0_wp, .true.), &
+      & usual_t("joint.reference_load_N", 10.0_wp, 1000.0_wp, .true.), &
+      & usual_t("joint.reversal_speed_m_s", 1.0e-4_wp, 0.1_wp, .true.), &
       & usual_t("effects.negligible", 1.0e-5_wp, 0.1_wp, .true.), &
       & usual_t("numerics.accuracy", 1.0e-6_wp, 1.0e-2_wp, .true.), &
       & usual_t("numerics.tolerance", 1.0e-8_wp, 1.0e-3_wp, .true.), &
@@ -94,7 +107,7 @@ module wide_numbers
 
 contains
 
-   !> Usual range of a number; the second lift is like the first.
+   !> Usual range of a number; the second lift is like the first, and the joints' friction is alike.
    pure subroutine find_range(name, range, is_known)
       !> Group and key
       character(len=*), intent(in) :: name
@@ -104,8 +117,16 @@ contains
       logical, intent(out) :: is_known
       integer :: i
 
+      character(len=*), parameter :: joints(*) = [character(len=16) :: &
+         & "valve_tip.", "stem_seal.", "guide_side_load.", "finger_pivot."]
+      character(len=:), allocatable :: alike
+
+      alike = name
+      do i = 1, size(joints)
+         if (index(name, trim(joints(i))) == 1) alike = "joint."//name(len_trim(joints(i)) + 1:)
+      end do
       do i = 1, size(usual)
-         is_known = usual(i)%name == name .or. "second_"//usual(i)%name == name
+         is_known = any(usual(i)%name == [character(len=len(usual%name)) :: name, alike]) .or. "second_"//usual(i)%name == name
          if (is_known) range = usual(i)
          if (is_known) return
       end do
