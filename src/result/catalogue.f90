@@ -25,6 +25,13 @@ module camroller_catalogue
    !> Beginning of the names of series of one of several camshafts
    character(len=*), parameter :: camshaft_prefix = "camshaft_"
 
+   integer :: row
+   !> Effect without which a case has no torque of the list, by its place in `effect_names`; 0 where there is none to leave out
+   integer, parameter :: effect_of(*) = [(findloc(effect_names, torque_list(row)%source, 1), row=1, torque_count)]
+   !> Is a torque part of flexible trains, of the consistent bookkeeping?
+   logical, parameter :: is_dynamic(*) = torque_list%source == "dynamics"
+   logical, parameter :: is_consistent(*) = torque_list%source == "roller" .or. .not. is_torque
+
 contains
 
    !> The series of a case: those of the first lobe's follower, those of the camshaft, those of the second lobe's follower.
@@ -352,13 +359,13 @@ contains
       integer :: row
 
       do row = 1, torque_count
-         if (is_torque(row) .and. has_torque(case, row)) call add(list, trim(torque_series(row)), "N m", &
-            & trim(torque_list(row)%meaning), trim(torque_list(row)%source), torques(row))
+         if (is_torque(row) .and. has_torque(case, row)) call add(list, torque_series(row), "N m", torque_list(row)%meaning, &
+            & torque_list(row)%source, torques(row))
       end do
       call add(list, "torque_friction", "N m", "torque for all losses", "torque", sum(torques, mask=is_loss))
       call add(list, "torque_drive", "N m", "torque that drives the camshaft", "torque", sum(torques, mask=is_torque))
-      if (has_torque(case, of_residual)) call add(list, trim(torque_series(of_residual)), "W", &
-         & trim(torque_list(of_residual)%meaning), trim(torque_list(of_residual)%source), torques(of_residual))
+      if (has_torque(case, of_residual)) call add(list, torque_series(of_residual), "W", &
+         & torque_list(of_residual)%meaning, torque_list(of_residual)%source, torques(of_residual))
    end subroutine add_camshaft
 
    !> Does a case have a torque of the list? It follows from the part of the model that the torque comes from.
@@ -370,16 +377,14 @@ contains
       !> True where the result has a series of it
       logical :: has
 
-      select case (torque_list(row)%source)
-      case ("torque")
-         has = is_torque(row) .or. case%energy == energy_names(1)
-      case ("roller")
-         has = case%energy == energy_names(1)
-      case ("dynamics")
+      has = .true.
+      if (effect_of(row) > 0) then
+         has = has_effect(case, effect_of(row))
+      else if (is_dynamic(row)) then
          has = allocated(case%dynamics)
-      case default
-         has = has_effect(case, findloc(effect_names, torque_list(row)%source, 1))
-      end select
+      else if (is_consistent(row)) then
+         has = case%energy == energy_names(1)
+      end if
    end function has_torque
 
    !> Beginning of the names of series and scalars of a lobe; blank for the first one.
