@@ -87,7 +87,7 @@ contains
       end do
    end subroutine get_arguments
 
-   !> What the words ask for.
+   !> What the command line asks for.
    subroutine read_arguments(arguments, config, error)
       !> Words after the name of the program
       type(line_t), intent(in) :: arguments(:)

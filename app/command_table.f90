@@ -35,7 +35,7 @@ module camroller_command_table
    !> Column where meanings of options and commands begin
    integer, parameter :: meaning_column = 29
    !> Meanings of options that several commands have
-   character(len=*), parameter :: meaning_set = "other value than the deck's; may be repeated", &
+   character(len=*), parameter :: meaning_set = "replaces a value of the deck; may be repeated", &
       & meaning_quiet = "print errors only", meaning_repeats = "runs whose median time counts; 5 where not given", &
       & meaning_threads = "threads, 1 to 1024; as many as there are cores where not given", &
       & meaning_log = "seconds between lines in a log; 60 where not given", &
@@ -72,7 +72,7 @@ contains
 
       call add(commands, "sweep", "DECK", "compute many cases in threads, restartable", &
          & "Compute every case of a deck with a &sweep, in threads, and write one HDF5 file. While it runs, results are in"//n// &
-         & "FILE.part-*; after any kind of end, --resume computes the missing cases. The file does not depend on threads,"//n// &
+         & "FILE.part-*; however it ended, --resume computes the missing cases. The file does not depend on threads,"//n// &
          & "shards and interruptions. Without --resume an earlier FILE is replaced when all cases are done; a remark says"//n// &
          & "so where it is of another study.")
       call add_option(commands, "--output", "-o", "FILE", meaning_default)
@@ -102,9 +102,9 @@ contains
       call add_option(commands, "--quiet", "-q", "", meaning_quiet)
 
       call add(commands, "check", "DECK", "read and check a deck, print the resulting values", &
-         & "Read a deck, check every case of it, and print what it comes to: oil, cam, ramps, loads, margins and film of the"//n// &
-         & "deck's own case, then every value. Of many cases a few are run, to estimate the time, the memory and the disk"//n// &
-         & "space of all of them. DECK may be -, the standard input.")
+         & "Read a deck, check every case of it, and print what follows from it: oil, cam, ramps, loads, margins and film"//n// &
+         & "of the deck's own case, then every value. Of many cases a few are run, to estimate the time, the memory and the"//n// &
+         & "disk space of all of them. DECK may be -, the standard input.")
       call add_option(commands, "--set", "-s", "group.key=value", meaning_set)
       call add_option(commands, "--point", "", "key=value", "the deck without its &sweep, with this value, as in "// &
          & "'camroller run'")
@@ -132,7 +132,7 @@ contains
       call add_option(commands, "--set", "-s", "group.key=value", meaning_set)
       call add_option(commands, "--quiet", "-q", "", meaning_quiet)
 
-      call add(commands, "audit", "DECK", "measure what each effect is worth and costs", &
+      call add(commands, "audit", "DECK", "measure the influence and the cost of each effect", &
          & "Run every case with all its effects, without each of them, with each alone and with those that it needs."//n// &
          & "Compare mean torque, smallest film, slip and time, and the changes with the estimates made before a run."//n// &
          & "Prints a table and writes one HDF5 file: the deck's name with _audit.h5 in the present folder, or FILE.")
@@ -176,10 +176,10 @@ contains
       call add(commands, "export", "FILE.h5", "print results as comma-separated values or JSON", &
          & "Print the series of one case, or the summary of all cases, as comma-separated values or JSON.")
       call add_option(commands, "--series", "", "", "series over the cam angle (the default)")
-      call add_option(commands, "--case", "", "N", "case, from 0 as in the file; 0 where not given")
+      call add_option(commands, "--case", "", "N", "number of the case, from 0 as in the file; 0 where not given")
       call add_option(commands, "--summary", "", "", "one row for each case")
-      call add_option(commands, "--columns", "", "NAMES", "these columns, parted by commas, beside the cam angle or the keys "// &
-         & "that vary")
+      call add_option(commands, "--columns", "", "NAMES", "these columns, separated by commas, beside the cam angle or the "// &
+         & "keys that vary")
       call add_option(commands, "--format", "", "FORM", "'csv', with a line of names and one of units (the default), 'plain', "// &
          & "with one"//n//"line of names with units, or 'json'")
       call add_option(commands, "--output", "-o", "FILE", "file to write; printed where not given, or where FILE is -")

@@ -32,7 +32,7 @@ module camroller_measure_command
    character(len=*), parameter :: endings(*) = [character(len=14) :: "_study.h5", "_film_study.h5", "_audit.h5"]
    character(len=*), parameter :: names(*) = [character(len=5) :: "study", "study", "audit"]
    character(len=*), parameter :: titles(*) = [character(len=48) :: "errors, work and time of every method", &
-      & "errors, work and time of numerical films", "what each effect is worth and costs"]
+      & "errors, work and time of numerical films", "influence and cost of each effect"]
 
 contains
 
@@ -76,7 +76,7 @@ contains
       end do
    end subroutine show_laws
 
-   !> What each effect is worth and costs.
+   !> Influence and cost of each effect.
    subroutine audit_deck(config, error)
       !> What to do
       type(config_t), intent(in) :: config

@@ -43,7 +43,7 @@ module camroller_case_loop
    !> Runs that are left for each thread when the length of runs begins to fall
    integer, parameter :: last_runs = 4
 
-   !> What comes of a case
+   !> Result of a case
    type :: computed_t
       type(result_t) :: result
       !> Why effects take part or not, where that was decided
@@ -338,7 +338,7 @@ contains
       logical, intent(in) :: with_series, with_profiles
       !> Models of the cases before
       type(kept_models_t), intent(inout) :: kept
-      !> What comes of it
+      !> What it results in
       type(computed_t), intent(out) :: computed
 
       type(case_t) :: case

@@ -27,7 +27,7 @@ module camroller_comparison_sink
       character(len=:), allocatable :: name
       !> Cases in which it does
       integer :: cases = 0
-      !> Largest difference over the larger of both values [-]; huge where one of them is no number
+      !> Largest difference relative to the larger of both values [-]; huge where one of them is no number
       real(wp) :: largest = 0.0_wp
       !> Case of the largest difference, from 0
       integer :: case_number = 0
@@ -356,7 +356,7 @@ contains
       number = ieee_value(1.0_wp, ieee_quiet_nan)
    end function not_a_number
 
-   !> Difference of two numbers over the larger one.
+   !> Difference of two numbers relative to the larger one.
    pure function relative_difference(some, other) result(difference)
       !> Two numbers [any unit]
       real(wp), intent(in) :: some, other

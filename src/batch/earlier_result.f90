@@ -27,7 +27,7 @@ module camroller_earlier_result
       integer :: state = nothing_there
       !> Cases that were computed
       integer :: computed = 0
-      !> What tells it from a result of this study
+      !> Difference from a result of this study
       character(len=:), allocatable :: reason
       !> The error that its study ended with, where cases failed
       type(error_t), allocatable :: failure
@@ -51,7 +51,7 @@ contains
       inquire (file=path, exist=is_there)
       if (.not. is_there) return
       earlier%state = other_there
-      earlier%reason = "it is no result file of camroller"
+      earlier%reason = "it is not a result file of camroller"
       call open_file(file, path, error)
       if (.not. allocated(error)) call compare_study(file, facts, earlier, error)
       if (.not. allocated(error) .and. earlier%reason == "") call read_outcome(file, facts%cases, earlier, error)
@@ -65,7 +65,7 @@ contains
       type(hdf5_object_t), intent(in) :: file
       !> The study
       type(study_facts_t), intent(in) :: facts
-      !> Gets what tells it from a result of this study; empty where nothing does
+      !> Gets the difference from a result of this study; empty where there is none
       type(earlier_t), intent(inout) :: earlier
       !> File error where it is no result file
       type(error_t), allocatable, intent(out) :: error

@@ -275,7 +275,7 @@ contains
          & transfer(table%y, [0_int64])], 0_int64))//new_line("a")
    end subroutine add_table
 
-   !> What tells the build of a file from this one, a line for each fact.
+   !> Differences between the build of a file and this one, a line for each fact.
    subroutine find_other_build(file, facts, error)
       !> The file, open
       type(hdf5_object_t), intent(in) :: file

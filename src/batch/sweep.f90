@@ -80,7 +80,7 @@ contains
       type(sweep_report_t), intent(out) :: report
       !> What went wrong: of any kind; the first failure where cases failed, and the file is there all the same
       type(error_t), allocatable, intent(out) :: error
-      !> Who hears of it
+      !> What is told about progress
       class(monitor_t), intent(inout) :: monitor
 
       type(study_t) :: study
@@ -219,7 +219,7 @@ contains
       type(sweep_options_t), intent(in) :: options
       !> What is computed
       type(study_t), intent(inout) :: study
-      !> Who hears of it
+      !> What is told about progress
       class(monitor_t), intent(inout) :: monitor
       !> Gets whether the result file is there with all cases
       type(sweep_report_t), intent(inout) :: report
@@ -245,7 +245,7 @@ contains
       call find_parts(study%path, part_beginning(study%path), paths)
       call look_at_earlier(earlier, study%path, study%facts)
       if (options%is_resumed .and. earlier%state == other_there) then
-         call raise(error, kind_file, "'"//study%path//"' is there, and it is no result of this sweep: "//earlier%reason// &
+         call raise(error, kind_file, "'"//study%path//"' exists and is not a result of this sweep: "//earlier%reason// &
             & new_line("a")//"--resume does not replace it; move it away, name another file by -o, or leave --resume out")
          return
       else if (options%is_resumed .and. earlier%state == complete_there .and. size(paths) == 0) then
@@ -254,7 +254,7 @@ contains
          return
       end if
       if (earlier%state == other_there) then
-         call monitor%say("remark: '"//study%path//"' is there, and it is no result of this sweep: "//earlier%reason// &
+         call monitor%say("remark: '"//study%path//"' exists and is not a result of this sweep: "//earlier%reason// &
             & new_line("a")//"it is replaced when all cases are done", .false.)
       else if (earlier%state == partial_there .and. size(paths) == 0 .and. options%is_resumed) then
          call monitor%say("remark: '"//study%path//"' has "//integer_text(earlier%computed)//" of "// &
@@ -332,7 +332,7 @@ contains
       type(study_t), intent(in) :: study
       !> What ended the loop
       integer, intent(in) :: ended
-      !> Who hears of it
+      !> What is told about progress
       class(monitor_t), intent(inout) :: monitor
       !> What came of it
       type(sweep_report_t), intent(inout) :: report

@@ -158,7 +158,7 @@ contains
       type(sweep_options_t), intent(in) :: options
       !> By a command of its own, or at the end of a sweep, which has said what it found?
       logical, intent(in) :: is_merge
-      !> Who hears of it
+      !> What is told about progress
       class(monitor_t), intent(inout) :: monitor
       !> What came of it
       type(sweep_report_t), intent(inout) :: report
@@ -188,7 +188,7 @@ contains
       type(sweep_options_t), intent(in) :: options
       !> By a command of its own, or at the end of a sweep, which has said what it found?
       logical, intent(in) :: is_merge
-      !> Who hears of it
+      !> What is told about progress
       class(monitor_t), intent(inout) :: monitor
       !> What came of it
       type(sweep_report_t), intent(inout) :: report
@@ -222,11 +222,11 @@ contains
             & agreeing(run_total(missing), " is missing, ", " are missing, the first is ")// &
             & case_in_words(deck%sweep, missing%first(1))//"; "//advice)
       else if (run_total(missing) > 0 .and. earlier%state == complete_there) then
-         call raise(error, kind_file, "'"//study%path//"' is there with all cases, and a partial file would replace it; move "// &
+         call raise(error, kind_file, "'"//study%path//"' exists with all cases, and a partial file would replace it; move "// &
             & "it away first")
       else
          if (is_merge .and. earlier%state == other_there) call monitor%say("remark: '"//study%path// &
-            & "' is replaced, which is no result of this sweep: "//earlier%reason, .false.)
+            & "' is replaced; it was not a result of this sweep: "//earlier%reason, .false.)
          call write_result(study, deck, index, paths, report, error)
       end if
    end subroutine join_parts

@@ -25,7 +25,7 @@ module camroller_deck_document
    !> Length of a line of comment
    integer, parameter :: comment_width = 118
 
-   !> Values that a deck comes to, as text: one place in each list for one key
+   !> Values that follow from a deck, as text: one place in each list for one key
    type :: echo_t
       !> As `group.key`
       character(len=2*key_length), allocatable :: keys(:)

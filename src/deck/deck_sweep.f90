@@ -294,7 +294,7 @@ contains
       words = text
    end function case_in_words
 
-   !> Put a case in words.
+   !> Describe a case.
    pure subroutine describe_case(sweep, case_number, words)
       !> The sweep
       type(sweep_t), intent(in) :: sweep

@@ -81,8 +81,8 @@ contains
       call add_name(schema, "leak_end", leak_end_names, standard%leak_end, &
          & "where the leak ends: in the feed, or outside at ambient pressure")
       call add_number(schema, "plunger_mass_kg", positive, "mass of the plunger", default=standard%plunger_mass)
-      call add_number(schema, "plunger_spring_N", positive, "force of the plunger's spring in its middle place; it makes the "// &
-         & "base circle load, in the place of spring.base_circle_load_N", is_optional=.true.)
+      call add_number(schema, "plunger_spring_N", positive, "force of the plunger's spring in its middle position; it makes "// &
+         & "the base circle load, in the place of spring.base_circle_load_N", is_optional=.true.)
       call add_number(schema, "plunger_stiffness_N_m", not_negative, "stiffness of the plunger's spring", &
          & default=standard%spring_stiffness)
       call add_number(schema, "check_area_mm2", positive, "area of the check valve", default=standard%check_area)

@@ -32,7 +32,7 @@ module camroller_effect_grid
    type :: grid_t
       !> Cam angles from full lift, increasing [rad]
       real(wp) :: angles(points)
-      !> Parts of the cycle that they stand for [-]
+      !> Fractions of the cycle that they represent [-]
       real(wp) :: weights(points)
       !> Distances from the kink before and to the one after [rad]
       real(wp) :: before(points), after(points)
@@ -76,11 +76,11 @@ contains
       end do
    end subroutine make_grid
 
-   !> Angles of one piece, in the middle of the stretches that they stand for.
+   !> Angles of one piece, in the middle of the intervals that they represent.
    pure subroutine fill_piece(start, finish, growth, piece, first, last, grid)
       !> Its ends [rad]
       real(wp), intent(in) :: start, finish
-      !> Length of a stretch over that of the one before [-]
+      !> Length of an interval relative to that of the one before [-]
       real(wp), intent(in) :: growth
       !> Its number
       integer, intent(in) :: piece

@@ -35,7 +35,7 @@ contains
       type(model_t), intent(in) :: model
       !> Survey of its cycle
       type(survey_t), intent(in) :: survey
-      !> Part of the mean torque for losses that camshaft bearings take [-]
+      !> Fraction of the mean torque for losses due to camshaft bearings [-]
       real(wp), intent(in) :: share
       !> A few words
       character(len=*), intent(out) :: reason

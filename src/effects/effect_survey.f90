@@ -24,11 +24,11 @@ module camroller_effect_survey
 
    public :: survey_t, response_t, make_survey, respond
 
-   !> Accuracy of a balance over the speed of pure rolling on the base circle [-]
+   !> Accuracy of a balance relative to the speed of pure rolling on the base circle [-]
    real(wp), parameter :: balance_accuracy = 1.0e-4_wp
-   !> Smallest load over the largest one, below which contact may be lost between the angles [-]
+   !> Smallest load relative to the largest one, below which contact may be lost between the angles [-]
    real(wp), parameter :: smallest_load = 1.0e-2_wp
-   !> Part of a disturbance that its correction may be [-]
+   !> Largest correction relative to the disturbance [-]
    real(wp), parameter :: largest_correction = 0.5_wp
    !> Exponent of the speed in film laws, about [-]
    real(wp), parameter :: film_exponent = 0.7_wp
@@ -36,7 +36,7 @@ module camroller_effect_survey
    real(wp), parameter :: load_exponent = 1.0_wp
    !> Films up to this part above the smallest one may become the smallest [-]
    real(wp), parameter :: near_smallest = 1.5_wp
-   !> Error of the sliding speed over the speed itself, means of sizes, above which nothing is said [-]
+   !> Error of the sliding speed relative to the speed, as means of magnitudes, above which no estimate is made [-]
    real(wp), parameter :: largest_error = 0.5_wp
 
    !> Survey of the cycle of one lobe
@@ -65,11 +65,11 @@ module camroller_effect_survey
    type :: response_t
       !> Can it be said?
       logical :: is_known
-      !> Mean size of the change of the torque for losses [N m]
+      !> Mean magnitude of the change of the torque for losses [N m]
       real(wp) :: torque
       !> Change of the smallest film, over it [-]
       real(wp) :: film
-      !> Mean size of the change of the sliding speed [m/s]
+      !> Mean magnitude of the change of the sliding speed [m/s]
       real(wp) :: sliding
       !> Evaluations of the contact
       integer :: evaluations
@@ -284,7 +284,7 @@ contains
       rates = -surface_rate(model, states%spin_acceleration - others%spin_acceleration)
    end function rate_change
 
-   !> Changes of the quantities that matter, sizes added up.
+   !> Changes of the quantities that matter, magnitudes added up.
    pure subroutine sum_up(survey, model, second, change, correction, response)
       !> The cycle as it is
       type(survey_t), intent(in) :: survey

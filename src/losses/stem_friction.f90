@@ -83,7 +83,7 @@ module camroller_stem_friction
 
    !> Motion and load of the valve's end of the finger
    type :: stem_motion_t
-      !> Valve lift [m], speed of the valve, opening positive [m/s]
+      !> Valve lift [m], speed of the valve, positive while it opens [m/s]
       type(dual_t) :: lift, valve_speed
       !> Angular speed of the finger, opening positive [rad/s]
       type(dual_t) :: finger_speed

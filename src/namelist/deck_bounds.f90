@@ -1,6 +1,6 @@
 !> Bounds of the numbers of a deck: for each unit the sizes that some machine could have, with room to spare.
 !>
-!> In: the unit of a key. Out: the smallest and the largest size of a number in it. A number outside of them is a slip of
+!> In: the unit of a key. Out: the smallest and the largest magnitude of a number in it. A number outside of them is a slip of
 !> the pen, and products of several such numbers leave the range of numbers: a modulus of 1e-310 GPa has no reciprocal.
 module camroller_deck_bounds
    use camroller_kinds, only : wp, two_pi, degree
@@ -64,7 +64,7 @@ contains
       bounds = known_bounds(min(i, size(known_bounds)))
    end function bounds_of
 
-   !> Smallest size of a number that is not 0.
+   !> Smallest magnitude of a number that is not 0.
    pure function smallest_size(unit) result(smallest)
       !> Its unit
       type(unit_t), intent(in) :: unit
@@ -77,7 +77,7 @@ contains
       smallest = bounds%smallest*unit%denominator/unit%numerator
    end function smallest_size
 
-   !> Largest size of a number.
+   !> Largest magnitude of a number.
    pure function largest_size(unit) result(largest)
       !> Its unit
       type(unit_t), intent(in) :: unit
@@ -90,7 +90,7 @@ contains
       largest = bounds%largest*unit%denominator/unit%numerator
    end function largest_size
 
-   !> Is a number 0 or of a size within the bounds of its unit? They are met but for round-off of the unit's factor.
+   !> Is a number 0, or its magnitude within the bounds of its unit? They are met but for round-off of the unit's factor.
    elemental function is_bounded(number, unit) result(verdict)
       !> The number [the unit]
       real(wp), intent(in) :: number

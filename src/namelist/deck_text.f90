@@ -428,7 +428,7 @@ contains
       reader%length = reader%length + len(piece)
    end subroutine lengthen
 
-   !> Part the words of a value by one blank.
+   !> Separate the words of a value by one blank.
    pure subroutine end_word(reader)
       !> State of the reading
       type(reader_t), intent(inout) :: reader

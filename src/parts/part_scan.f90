@@ -168,7 +168,7 @@ contains
       if (file%bytes == 0) return
       call read_words(file, 0_int64, word, is_there)
       if (is_there .and. word(1) == mark + kind_head) return
-      call raise(error, kind_file, "'"//file%path//"' is no part of a sweep; give it another name")
+      call raise(error, kind_file, "'"//file%path//"' is not a part file of a sweep; give it another name")
    end subroutine check_beginning
 
    !> Take note of damage.

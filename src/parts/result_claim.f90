@@ -68,7 +68,7 @@ contains
          end if
          call read_words(claim%file, 0_int64, words, is_lock)
          if (.not. (is_lock .and. words(1) == lock_mark)) then
-            call raise(error, kind_file, "'"//claim%file%path//"' is there and is no lock of camroller; give it another name")
+            call raise(error, kind_file, "'"//claim%file%path//"' exists and is not a lock of camroller; give it another name")
             exit
          end if
          is_mine = claim%file%bytes == word_size

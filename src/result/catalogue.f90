@@ -196,7 +196,7 @@ contains
       type(state_t), intent(in) :: state
 
       call add(list, "valve_lift", "m", "valve lift", "lift", state%position%lift)
-      call add(list, "valve_velocity", "m s-1", "speed of the valve, opening positive", "lift", &
+      call add(list, "valve_velocity", "m s-1", "speed of the valve, positive while it opens", "lift", &
          & model%speed*state%position%lift_slope)
       call add(list, "contact_load", "N", "normal load between cam and roller", "dynamics", state%contact%load)
       call add(list, "equivalent_radius", "m", "equivalent radius of the contact", "kinematics", &
@@ -255,22 +255,22 @@ contains
       if (allocated(case%valve_tip)) then
          call add(list, "tip_force", "N", "force of the finger on the valve's tip, along the valve's axis", "valve_tip", &
             & joints%tip_force)
-         call add(list, "tip_sliding_speed", "m s-1", "speed of the pad over the valve's tip, away from the pivot positive", &
+         call add(list, "tip_sliding_speed", "m s-1", "speed of the pad over the valve's tip, positive away from the pivot", &
             & "valve_tip", joints%tip_speed)
-         call add(list, "friction_tip", "N", "friction on the valve's tip, away from the pivot positive", "valve_tip", &
+         call add(list, "friction_tip", "N", "friction on the valve's tip, positive away from the pivot", "valve_tip", &
             & joints%tip_friction)
       end if
-      if (allocated(case%stem_seal)) call add(list, "friction_seal", "N", "friction of the stem seal, against opening positive", &
+      if (allocated(case%stem_seal)) call add(list, "friction_seal", "N", "friction of the stem seal, positive against opening", &
          & "stem_seal", joints%seal_friction)
       if (allocated(case%guide_side_load)) then
-         call add(list, "guide_upper_force", "N", "force of the guide's upper end on the stem, its size", "guide_side_load", &
-            & joints%upper_force)
-         call add(list, "guide_lower_force", "N", "force of the guide's lower end on the stem, its size", "guide_side_load", &
-            & joints%lower_force)
-         call add(list, "friction_guide_side", "N", "friction of the stem at both ends of its guide, against opening positive", &
+         call add(list, "guide_upper_force", "N", "magnitude of the force of the guide's upper end on the stem", &
+            & "guide_side_load", joints%upper_force)
+         call add(list, "guide_lower_force", "N", "magnitude of the force of the guide's lower end on the stem", &
+            & "guide_side_load", joints%lower_force)
+         call add(list, "friction_guide_side", "N", "friction of the stem at both ends of its guide, positive against opening", &
             & "guide_side_load", joints%side_friction)
       end if
-      if (allocated(case%finger_pivot)) call add(list, "pivot_force", "N", "force of the pivot on the finger, its size", &
+      if (allocated(case%finger_pivot)) call add(list, "pivot_force", "N", "magnitude of the force of the pivot on the finger", &
          & "finger_pivot", joints%pivot_force)
    end subroutine add_joints
 
@@ -287,10 +287,10 @@ contains
 
       call add(list, "lift_error", "m", "valve lift less that of a rigid train", "dynamics", train%lift_error)
       call add(list, "contact_gap", "m", "gap between cam and roller", "dynamics", train%gap)
-      call add(list, "contact_turn", "rad", "angle by which the place of contact is ahead of the cam", "dynamics", &
+      call add(list, "contact_turn", "rad", "angle by which the point of contact is ahead of the cam", "dynamics", &
          & train%contact_turn)
-      call add(list, "load_ratio", "1", "contact load over that of a rigid train without friction; zero where that has none", &
-         & "dynamics", train%load_ratio)
+      call add(list, "load_ratio", "1", "contact load relative to that of a rigid train without friction; zero where that has "// &
+         & "none", "dynamics", train%load_ratio)
       call add(list, "pad_force", "N", "force between finger and valve", "dynamics", train%pad_force)
       call add(list, "seat_force", "N", "force of the seat on the valve", "dynamics", train%seat_force)
       call add(list, "joint_force", "N", "force in the joint of finger and pivot; negative: the socket would open", "dynamics", &
@@ -298,7 +298,7 @@ contains
       call add(list, "spring_force", "N", "force of the spring on the valve", "dynamics", train%spring_force)
       call add(list, "stored_energy", "J", "energy stored in springs, contacts, oil and motion", "dynamics", train%stored_energy)
       if (allocated(case%lash_adjuster)) then
-         call add(list, "plunger_travel", "m", "place of the adjuster's plunger, towards the cam positive", "lash_adjuster", &
+         call add(list, "plunger_travel", "m", "position of the adjuster's plunger, positive towards the cam", "lash_adjuster", &
             & train%plunger_travel)
          call add(list, "chamber_pressure", "Pa", "pressure in the adjuster's chamber above that outside", "lash_adjuster", &
             & train%chamber_pressure)

@@ -21,7 +21,7 @@ module camroller_cycle_remarks
 
    public :: judge_lobe, judge_films, has_film_limit
 
-   !> Estimate of the error of the sliding speed, over the largest, beyond which a result is worth a warning [-]
+   !> Estimate of the error of the sliding speed, relative to the largest, beyond which a result is worth a warning [-]
    real(wp), parameter :: worth_a_warning = 0.1_wp
    !> Rev/min in a rad/s [-]
    real(wp), parameter :: per_minute = 30.0_wp/pi

@@ -42,17 +42,17 @@ module camroller_flexible_report
       real(wp), allocatable :: mean(:)
       !> Of the torques [N m], last the energy residual [W]
       real(wp) :: torques(torque_count) = 0.0_wp
-      !> Series of the follower at the points met
+      !> Series of the follower at the points evaluated
       type(samples_t) :: rows
       !> Series of the camshaft there, without its bearings
       type(samples_t) :: torque_rows
-      !> Part of the cycle without contact [-]
+      !> Fraction of the cycle without contact [-]
       real(wp) :: lost_share = 0.0_wp
       !> Where the film law is outside its range
       type(film_range_t) :: film_range
       !> Cam angle from full lift where the film law's range is first left [rad]
       real(wp) :: first_outside = 0.0_wp
-      !> Largest size of the sliding speed met [m/s]
+      !> Largest magnitude of the sliding speed evaluated [m/s]
       real(wp) :: largest_sliding = 0.0_wp
    end type flexible_means_t
 
@@ -115,7 +115,7 @@ contains
       !> Convergence error
       type(error_t), allocatable, intent(out) :: error
 
-      ! Places and weights of the rule on [-1, 1] [-]; length of a step and angle [rad], part of all turns [-]
+      ! Places and weights of the rule on [-1, 1] [-]; length of a step and angle [rad], fraction of all turns [-]
       real(wp) :: places(points), weights(points), length, angle, weight
       ! State of the train [state], series [unit of the series]
       real(wp) :: train(size(path%state, 1)), values(size(means%mean))
@@ -156,7 +156,7 @@ contains
       type(state_t), intent(in) :: state
       !> Cam angle from full lift [rad]
       real(wp), intent(in) :: angle
-      !> Part of all turns that it stands for [-]
+      !> Fraction of all turns that it represents [-]
       real(wp), intent(in) :: weight
       !> The means
       type(flexible_means_t), intent(inout) :: means
@@ -202,14 +202,14 @@ contains
                & solution%highest(i))
          end associate
       end do
-      call add("period_cycles", "1", "cycles after which the train repeats itself; 0 where it does not", &
+      call add("period_cycles", "1", "cycles after which the motion repeats; 0 where it is not periodic", &
          & real(solution%cycle%period, wp))
-      call add("cycle_multiplier", "1", "largest part of a disturbance that a cycle was seen to leave", solution%cycle%multiplier)
-      call add("summary_cycles", "1", "cycles that these measures are over", real(size(solution%turns), wp))
+      call add("cycle_multiplier", "1", "largest fraction of a disturbance that remained after a cycle", solution%cycle%multiplier)
+      call add("summary_cycles", "1", "cycles over which these values are taken", real(size(solution%turns), wp))
       if (allocated(model%flexible%adjuster)) then
-         call add("plunger_spring_force", "N", "force of the plunger's spring in its middle place", &
+         call add("plunger_spring_force", "N", "force of the plunger's spring in its middle position", &
             & model%flexible%adjuster%spring_force)
-         call add("leak_conductance", "m3 s-1 Pa-1", "leak along the plunger over the pressure", &
+         call add("leak_conductance", "m3 s-1 Pa-1", "leak along the plunger per unit of pressure", &
             & model%flexible%adjuster%conductance)
       end if
 
@@ -233,7 +233,7 @@ contains
       type(model_t), intent(in) :: model
       !> Solution of its train
       type(flexible_solution_t), intent(in) :: solution
-      !> Part of the cycle without contact [-]
+      !> Fraction of the cycle without contact [-]
       real(wp), intent(in) :: lost_share
       !> Remarks so far
       type(remark_t), allocatable, intent(inout) :: remarks(:)
@@ -244,7 +244,7 @@ contains
 
       call judge_period(model, solution, remarks)
       if (lost_share > 0.0_wp) then
-         text = "cam and roller part "//number_text(solution%mean(losses_of_contact), 3)//" times a cycle, for "// &
+         text = "cam and roller lose contact "//number_text(solution%mean(losses_of_contact), 3)//" times per cycle, for "// &
             & number_text(100.0_wp*lost_share, 3)//" % of it, at "//number_text(model%speed*per_minute, 6)//" rev/min"
          if (model%stops_without_contact .and. model%flexible%lash <= 0.0_wp) then
             call raise(error, kind_domain, text//" (contact_policy = 'stop')")
@@ -256,7 +256,7 @@ contains
          call add_remark(remarks, open_pivot, "the joint of finger and pivot is in tension for "// &
             & number_text(100.0_wp*solution%mean(tension_share), 3)//" % of the cycle, by up to "// &
             & number_text(-solution%lowest(smallest_pivot_force), 3)//" N at "//number_text(model%speed*per_minute, 6)// &
-            & " rev/min; it is taken to hold, a real one opens", -solution%lowest(smallest_pivot_force))
+            & " rev/min; the model keeps it closed, a real one opens", -solution%lowest(smallest_pivot_force))
       end if
       if (solution%highest(coil_ratio) > 1.0_wp) then
          call add_remark(remarks, clashing_coils, "coils of the spring may clash: its modes move them by up to "// &
@@ -276,16 +276,16 @@ contains
 
       if (solution%cycle%period == 1) return
       if (solution%cycle%period > 1) then
-         call add_remark(remarks, long_period, "the train repeats itself after "//integer_text(solution%cycle%period)// &
-            & " cycles at "//number_text(model%speed*per_minute, 6)//" rev/min; the summary is over all of them, the series "// &
-            & "are of the last", real(solution%cycle%period, wp))
+         call add_remark(remarks, long_period, "the motion of the train repeats after "//integer_text(solution%cycle%period)// &
+            & " cycles at "//number_text(model%speed*per_minute, 6)//" rev/min; the summary covers all of them, the series "// &
+            & "show the last", real(solution%cycle%period, wp))
       else
-         call add_remark(remarks, no_period, "the train does not repeat itself at "//number_text(model%speed*per_minute, 6)// &
-            & " rev/min: after "//integer_text(solution%cycle%cycles)//" cycles the summary is over "// &
-            & integer_text(size(solution%turns))//" more, and the series are of the last of them, as an example; it meets its "// &
-            & "seat at "//number_text(solution%lowest(seating_speed), 3)//" to "// &
+         call add_remark(remarks, no_period, "the motion of the train is not periodic at "// &
+            & number_text(model%speed*per_minute, 6)//" rev/min: the summary covers "//integer_text(size(solution%turns))// &
+            & " cycles after the first "//integer_text(solution%cycle%cycles)//", and the series show the last of them as an "// &
+            & "example; the valve meets its seat at "//number_text(solution%lowest(seating_speed), 3)//" to "// &
             & number_text(solution%highest(seating_speed), 3)//" m/s and bounces "//number_text(solution%mean(bounces), 3)// &
-            & " times a cycle", solution%cycle%closure)
+            & " times per cycle", solution%cycle%closure)
       end if
    end subroutine judge_period
 

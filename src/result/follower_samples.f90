@@ -1,6 +1,6 @@
 !> What is sampled of a cycle: series and torques of a follower.
 !>
-!> In: case, model, cycle, then angles. Out: values to be integrated, and what was met on the way. The torque against
+!> In: case, model, cycle, then angles. Out: values to be integrated, and the extremes found on the way. The torque against
 !> spring, seat and inertia and the one that spins the roller up are left out of what is integrated: their integrals are differences
 !> of stored energy, which `stored_work` takes.
 module camroller_follower_samples
@@ -30,7 +30,7 @@ module camroller_follower_samples
       logical :: is_touching = .false.
    end type entrainment_t
 
-   !> Smallest and largest values of a follower at the points met
+   !> Smallest and largest values of a follower at the points evaluated
    type :: extremes_t
       !> Normal load [N], torque that drives this follower [N m]
       real(wp) :: contact_load(2) = [huge(1.0_wp), -huge(1.0_wp)], torque_drive(2) = [huge(1.0_wp), -huge(1.0_wp)]
@@ -54,11 +54,11 @@ module camroller_follower_samples
       integer :: series = 0, first_torque = 1
       !> State at the point that was sampled last
       type(state_t) :: state
-      !> Series of the follower at the points met
+      !> Series of the follower at the points evaluated
       type(samples_t) :: rows
-      !> Largest size of the sliding speed met [m/s]
+      !> Largest magnitude of the sliding speed evaluated [m/s]
       real(wp) :: largest_sliding = 0.0_wp
-      !> Extremes at the points met, without a case
+      !> Extremes at the points evaluated, without a case
       type(extremes_t) :: extremes
    contains
       procedure :: sample
@@ -89,7 +89,7 @@ contains
       call start_rows(samples%rows, samples%first_torque - 1)
    end subroutine start_samples
 
-   !> Series and torques at a cam angle, with zero for torques among the series and for what comes of stored energy.
+   !> Series and torques at a cam angle, with zero for torques among the series and for what follows from stored energy.
    subroutine sample(self, x, values, error)
       !> The samples
       class(follower_samples_t), intent(inout) :: self

@@ -1,7 +1,7 @@
 !> Mean torque of the camshaft bearings.
 !>
 !> In: the camshafts with the cycles of their lobe shapes. Out: the mean over a turn to the tolerance of the cycles, an estimate of
-!> its error, and the series of the camshafts at the angles met.
+!> its error, and the series of the camshafts at the angles evaluated.
 module camroller_mean_bearings
    use camroller_kinds, only : wp, two_pi, degree
    use camroller_error, only : error_t
@@ -24,7 +24,7 @@ module camroller_mean_bearings
    !> Bearings of a camshaft on its turn
    type, extends(sampled_t) :: bearing_samples_t
       type(solved_t), pointer :: solved => null()
-      !> Series of the camshaft at the angles met
+      !> Series of the camshaft at the angles evaluated
       type(samples_t) :: rows
    contains
       procedure :: sample => sample_bearings
@@ -38,9 +38,9 @@ contains
       type(solved_t), intent(inout), target :: solved
       !> Mean torque of each camshaft [N m]
       real(wp), intent(out) :: mean(:)
-      !> Estimate of the error over the mean, the largest [-]
+      !> Largest estimate of the error relative to the mean [-]
       real(wp), intent(out) :: mean_error
-      !> Series of the camshaft at the angles met
+      !> Series of the camshaft at the angles evaluated
       type(samples_t), intent(out) :: rows
       !> Convergence or domain error
       type(error_t), allocatable, intent(out) :: error

@@ -39,31 +39,32 @@ module camroller_means
    type :: statistics_t
       !> Mean of each series of the follower, as if it were alone [unit of the series]
       real(wp), allocatable :: mean(:)
-      !> Series of the follower at the points met; of the camshaft at those of a flexible train
+      !> Series of the follower at the points evaluated; of the camshaft at those of a flexible train
       type(samples_t) :: rows, torque_rows
       !> Mean torques of the follower [N m], last the energy residual [W]
       real(wp) :: torques(torque_count) = 0.0_wp
-      !> Part of the cycle without contact [-]
+      !> Fraction of the cycle without contact [-]
       real(wp) :: lost_share = 0.0_wp
       !> Where the film law is outside its range
       type(film_range_t) :: film_range
       !> Cam angle from full lift where it is first left [rad]
       real(wp) :: first_outside = 0.0_wp
-      !> Largest size of the sliding speed met [m/s]
+      !> Largest magnitude of the sliding speed evaluated [m/s]
       real(wp) :: largest_sliding = 0.0_wp
-      !> Estimate of the error of the sliding speed over its largest value [-]
+      !> Estimate of the error of the sliding speed relative to its largest value [-]
       real(wp) :: error = 0.0_wp
       !> Cam angle from full lift at the end of the interval where that error is largest [rad]
       real(wp) :: error_angle = 0.0_wp
-      !> Estimate of the largest error of a mean over the mean size of its quantity [-]
+      !> Estimate of the largest error of a mean relative to the mean magnitude of its quantity [-]
       real(wp) :: mean_error = 0.0_wp
       !> The mean that has it
       character(len=name_length) :: worst_mean = ""
-      !> Errors that come of the sliding speed
+      !> Errors caused by the error of the sliding speed
       type(slip_errors_t) :: slip_errors
       !> Errors of the smallest and the largest value of each series [unit of the series]
       real(wp), allocatable :: extreme_errors(:, :)
-      !> Estimate of the largest error of a smallest or largest value over the range of its series [-], and the series that has it
+      !> Estimate of the largest error of a smallest or largest value relative to the range of its series [-], and the series that
+      !> has it
       real(wp) :: extreme_error = 0.0_wp
       character(len=name_length) :: worst_extreme = ""
       !> Largest central film over the equivalent radius [-], and its cam angle from full lift [rad]
@@ -130,7 +131,7 @@ contains
       call take_means(panels, samples, work, span, statistics)
       call find_slip_errors(slips, samples, estimate, statistics%slip_errors)
       call judge_means(panels, statistics%slip_errors%integrals, span, series(:series_count), films, statistics)
-      ! What start and end differ by comes again in every cycle that the periodic one is away
+      ! The difference between start and end is repeated in each cycle until the periodic one is reached
       statistics%error = cycle%closure/max(1.0_wp - estimate%contraction, epsilon(1.0_wp)) &
          & + estimated_error(estimate)/max(statistics%largest_sliding, cycle%scale, tiny(1.0_wp))
    end subroutine integrate_lobe
@@ -286,7 +287,7 @@ contains
       type(panels_t), intent(inout) :: panels
       !> The samples
       type(follower_samples_t), intent(inout) :: samples
-      !> Error allowed, over the mean size of each quantity [-]
+      !> Error allowed, relative to the mean magnitude of each quantity [-]
       real(wp), intent(in) :: tolerance
       !> Number of series that stand before the torques
       integer, intent(in) :: series
@@ -308,7 +309,7 @@ contains
       end do
    end subroutine refine_means
 
-   !> Error of a mean that is aimed at, over the mean size of its quantity.
+   !> Error of a mean that is aimed at, relative to the mean magnitude of its quantity.
    elemental function mean_tolerance(tolerance) result(error)
       !> Tolerance of the integration of the cycle [-]
       real(wp), intent(in) :: tolerance
@@ -361,7 +362,7 @@ contains
       statistics%mean = [means(:samples%first_torque - 1), series(samples%first_torque:)]
    end subroutine take_means
 
-   !> Mean torques that come of stored energy.
+   !> Mean torques that follow from stored energy.
    function stored_torques(samples, work, span) result(torques)
       !> The samples
       type(follower_samples_t), intent(in) :: samples
@@ -377,11 +378,11 @@ contains
       if (samples%model%is_consistent) torques(of_roller_inertia) = spin_work(samples)/span
    end function stored_torques
 
-   !> Largest error of a mean, over the mean size of its quantity.
+   !> Largest error of a mean, relative to the mean magnitude of its quantity.
    subroutine judge_means(panels, slip_errors, span, series, films, statistics)
       !> The panels
       type(panels_t), intent(in) :: panels
-      !> Errors of the integrals that come of the sliding speed [unit of each times rad]
+      !> Errors of the integrals caused by the error of the sliding speed [unit of each times rad]
       real(wp), intent(in) :: slip_errors(:)
       !> Length of the cycle [rad]
       real(wp), intent(in) :: span
@@ -398,12 +399,12 @@ contains
 
       errors = sum(panels%errors(:, :panels%count), 2) + slip_errors
       associate (torques => errors(size(series) + 1:))
-         ! The drive has the errors of all losses, and what the spin of the roller differs by between start and end
+         ! The drive torque has the errors of all losses, and the difference in spin between start and end
          torques(of_geometric) = torques(of_geometric) + sum(torques, mask=is_loss) &
             & + abs(statistics%torques(of_roller_inertia))*span
       end associate
       relative = errors/mean_sizes(panels, size(series), films)
-      ! What is not there has no error
+      ! A quantity that is zero throughout has no error
       where (errors <= 0.0_wp) relative = 0.0_wp
       worst = maxloc(relative, 1)
       statistics%mean_error = relative(worst)

@@ -31,7 +31,7 @@ module camroller_remarks
       integer :: kind = 0
       !> The lobe shape that it names; 0 where it names none
       integer :: lobe = 0
-      !> How bad it is, the worse the larger; zero where its kind has no number [unit of the kind]
+      !> Severity: the larger the worse; zero where its kind has no number [unit of the kind]
       real(wp) :: size = 0.0_wp
       !> In words, on one line
       character(len=:), allocatable :: text
@@ -63,7 +63,7 @@ contains
       integer, intent(in) :: kind
       !> In words, on one line
       character(len=*), intent(in) :: text
-      !> How bad it is, where its kind has a number [unit of the kind]
+      !> Severity, where its kind has a number [unit of the kind]
       real(wp), intent(in), optional :: size
 
       type(remark_t) :: remark

@@ -31,7 +31,7 @@ module camroller_report
 
 contains
 
-   !> Means of all lobe shapes, and what is met on the way.
+   !> Means of all lobe shapes, with the rows and shares found on the way.
    subroutine take_statistics(case, models, cycles, statistics, error)
       !> The case
       type(case_t), intent(in) :: case
@@ -98,7 +98,7 @@ contains
       type(model_t), intent(in), target :: models(:)
       !> Cycle of each lobe shape
       type(cycle_t), intent(in), target :: cycles(:)
-      !> Means of each lobe shape; out: with all that was met
+      !> Means of each lobe shape; out: with the rows of the extremes
       type(statistics_t), intent(inout) :: statistics(:)
       !> Does the result hold series at the output angles, or the summary alone, which is the same?
       logical, intent(in) :: with_series
@@ -353,8 +353,8 @@ contains
       end associate
    end subroutine search_lobe
 
-   !> Largest error of a smallest or largest value, over the range of its series; the smallest film counts by itself, and so does that
-   !> of every film where the largest has no limit.
+   !> Largest error of a smallest or largest value, relative to the range of its series; the smallest film counts by itself, and so
+   !> does that of every film where the largest has no limit.
    pure subroutine judge_extremes(series, lowest, highest, statistics)
       !> The series of the follower
       type(quantity_t), intent(in) :: series(:)
@@ -372,7 +372,7 @@ contains
       associate (errors => statistics%extreme_errors)
          do i = 1, size(series)
             relative(i) = 0.0_wp
-            ! What is not there has no error
+            ! A quantity that is zero throughout has no error
             if (.not. maxval(errors(:, i)) > 0.0_wp) cycle
             if (index(series(i)%name, "film_") > 0 .and. .not. has_film_limit(statistics)) then
                if (lowest(i) > least) relative(i) = errors(1, i)/lowest(i)

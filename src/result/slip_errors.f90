@@ -1,4 +1,4 @@
-!> Errors of means and extremes that come of the error of the sliding speed.
+!> Errors of means and extremes caused by the error of the sliding speed.
 !>
 !> In: points of a cycle with their states and the error of the sliding speed there, as `error_estimate` finds it.
 !> Out: for everything that is sampled, the error of its integral over the cycle; the error of a smallest or largest value.
@@ -6,7 +6,7 @@
 !> At each point the state is evaluated again with the sliding speed less its error, so that whatever follows the slip, however
 !> steeply, has its share: a film, a force that saturates, asperities that begin to touch. Within an interval of the solution the
 !> differences add up with their signs, since a method's defect has a mean next to nothing there: where the roller's inertia counts
-!> for little the force is off by the defect itself. Between intervals nothing is known of signs, and sizes add up.
+!> for little the force is off by the defect itself. Between intervals nothing is known of signs, and magnitudes add up.
 module camroller_slip_errors
    use camroller_kinds, only : wp, two_pi
    use camroller_catalogue, only : follower_count, follower_values
@@ -22,19 +22,19 @@ module camroller_slip_errors
 
    public :: slip_points_t, slip_errors_t, start_points, keep_point, set_errors, find_slip_errors, error_of_extreme
 
-   !> Part of what cancels within an interval that is not trusted to cancel: the estimate at a point is of first order [-]
+   !> Fraction of what cancels within an interval that is counted all the same: the estimate at a point is of first order [-]
    real(wp), parameter :: distrust = 0.02_wp
 
    !> Points of a cycle, as many to an interval as its rule has
    type :: slip_points_t
       !> Number of points so far, number in each interval
       integer :: count = 0, stride = 0
-      !> Cam angle [rad], length that a point stands for [rad]
+      !> Cam angle [rad], length that a point represents [rad]
       real(wp), allocatable :: angle(:), weight(:)
       type(state_t), allocatable :: states(:)
       !> What was sampled, shape (quantity, point) [unit of each]
       real(wp), allocatable :: values(:, :)
-      !> Error of the trajectory [m/s]; part of an error at its start that is left [-]
+      !> Error of the trajectory [m/s]; fraction of an error at its start that is left [-]
       real(wp), allocatable :: errors(:), shares(:)
    end type slip_points_t
 
@@ -68,7 +68,7 @@ contains
       type(slip_points_t), intent(inout) :: points
       !> The samples
       type(follower_samples_t), intent(in) :: samples
-      !> Cam angle from full lift, length that the point stands for [rad]
+      !> Cam angle from full lift, length that the point represents [rad]
       real(wp), intent(in) :: angle, weight
       !> What was sampled there [unit of each]
       real(wp), intent(in) :: values(:)
@@ -104,8 +104,8 @@ contains
       !> The errors
       type(slip_errors_t), intent(out) :: errors
 
-      ! Differences that the error makes [unit of each]; their integral over an interval and that of their sizes [unit of each times
-      ! rad]
+      ! Differences that the error makes [unit of each]; their integral over an interval and that of their magnitudes [unit of each
+      ! times rad]
       real(wp), dimension(size(points%values, 1)) :: differences, signed, sizes
       ! Error at the start of the periodic cycle [m/s]
       real(wp) :: first
@@ -249,7 +249,7 @@ contains
          call sampled_values(samples, right, values)
          differences = points%values(:, place) - values
       else
-         ! So far off that there is no state: nothing is known there
+         ! So far off that there is no state: the error is unknown there
          differences = points%values(:, place)
       end if
    end subroutine evaluate_difference

@@ -35,12 +35,12 @@ module camroller_stored_work
 
    !> Halvings of the angle between two points that have a loss or a return of contact between them and no stop: to a millionth
    integer, parameter :: halvings = 20
-   !> Part of a turn that a trajectory may leave out and still be closed [-]
+   !> Fraction of a turn that a trajectory may leave out and still be closed [-]
    real(wp), parameter :: left_out = 1.0e-6_wp
 
 contains
 
-   !> Go on to a point, the one that was sampled last.
+   !> Take in the point that was sampled last.
    subroutine follow_contact(work, samples, angle, panel_start, error)
       !> The work
       type(stored_work_t), intent(inout) :: work

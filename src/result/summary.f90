@@ -270,7 +270,7 @@ contains
 
    end subroutine add_margins
 
-   !> Parts of the cycle in which a lobe's follower is not where the model is at home, and the error of its film table.
+   !> Fractions of the cycle without contact and outside the film law's range, and the error of the film table.
    subroutine add_shares(lobe, model, statistics, list)
       !> The lobe shape, from 1
       integer, intent(in) :: lobe

@@ -54,7 +54,7 @@ contains
    subroutine run_next_case(kept, train, case, result, error, with_series)
       !> Models of the cases before
       type(kept_models_t), intent(inout) :: kept
-      !> What tells the case's geometry, masses and spring from those of the cases before
+      !> What distinguishes the case's geometry, masses and spring from those of the cases before
       character(len=*), intent(in) :: train
       !> The case
       type(case_t), intent(in) :: case

@@ -44,7 +44,7 @@ contains
       integer(int64) :: block(words)
 
       if (.not. is_started(simulation)) then
-         call raise(error, kind_usage, "save_simulation: the follower has no start; call start_simulation first")
+         call raise(error, kind_usage, "save_simulation: the follower has not been started; call start_simulation first")
          return
       end if
       block(1:2) = [beginning, format_number]
@@ -100,7 +100,7 @@ contains
       integer :: cam, last
 
       if (cam_number(shaft) == 0) then
-         call raise(error, kind_usage, "save_shaft: the shaft has no start; call start_shaft first")
+         call raise(error, kind_usage, "save_shaft: the shaft has not been started; call start_shaft first")
          return
       end if
       last = shaft_words + point_words*cam_number(shaft)

@@ -130,7 +130,7 @@ contains
       integer :: cam, intervals
 
       if (.not. allocated(shaft%followers)) then
-         call raise(error, kind_usage, "advance_shaft: the shaft has no start; call start_shaft first")
+         call raise(error, kind_usage, "advance_shaft: the shaft has not been started; call start_shaft first")
          return
       end if
       call check_shaft_step(shaft, cam_angle, pressures, error)

@@ -40,10 +40,10 @@ module camroller_simulation
       module procedure :: advance_steady, advance_inputs
    end interface advance
 
-   !> Accuracy of the quasi-static balance over the speed of pure rolling [-]: far below any slip of interest
+   !> Accuracy of the quasi-static balance relative to the speed of pure rolling [-]: far below any slip of interest
    real(wp), parameter :: balance_tolerance = 1.0e-12_wp
-   !> Shortest step over the distance of neighbouring angles [-]: what is stored in spring and masses changes so much over it that
-   !> the difference is known to the default accuracy
+   !> Shortest step relative to the distance of neighbouring angles [-]: what is stored in spring and masses changes so much over it
+   !> that the difference is known to the default accuracy
    real(wp), parameter :: least_spacings = 1.0e6_wp
    !> Turns at most in a step, where a periodic cycle is long reached, and from zero, where angles are still known to 1e-9
    integer, parameter :: most_turns_of_step = 100, most_turns = 1000000
@@ -214,7 +214,7 @@ contains
       if (is_started(simulation)) then
          call check_step(simulation%follower%point%angle, cam_angle, error)
       else
-         call raise(error, kind_usage, "advance: the follower has no start; call start_simulation first")
+         call raise(error, kind_usage, "advance: the follower has not been started; call start_simulation first")
       end if
       if (.not. allocated(error)) call check_inputs(simulation, start, finish, error)
       if (allocated(error)) return

@@ -34,7 +34,7 @@ contains
       !> The table
       type(study_table_t), intent(out) :: table
 
-      call new_table(table, [quantity_t("effect", "", "effect that is left out or alone", "audit"), &
+      call new_table(table, [quantity_t("effect", "", "effect that is left out, or the only one", "audit"), &
          & quantity_t("run", "", "all effects, without one, none, one alone, or those that are needed", "audit"), &
          & quantity_t("reason", "", "indicator that decides about the effect", "audit"), &
          & quantity_t("message", "", "error message, or empty", "audit")], [ &

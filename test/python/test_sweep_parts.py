@@ -252,7 +252,7 @@ def test_flipped_bits_anywhere(camroller, deck, whole, parts):
             flip(part, draw.randrange(len(originals[part])), draw.randrange(8))
         result = run(camroller, "sweep", deck, "--resume", "--quiet", folder=parts)
         while result.returncode == FILE:
-            name = re.search(r"'(deck.h5.part-[^']*)' (?:is damaged at its beginning|is no part)", result.stderr)
+            name = re.search(r"'(deck.h5.part-[^']*)' (?:is damaged at its beginning|is not a part file)", result.stderr)
             assert name, result.stderr
             (parts / name[1]).unlink()
             refused += 1

@@ -101,7 +101,7 @@ def test_a_partial_file_replaces_no_complete_one(camroller, deck, reference, tmp
     done(camroller, "sweep", deck, "--shard", "2/3", "--quiet", folder=tmp_path)
     result = run(camroller, "merge", deck, "--partial", folder=tmp_path)
     assert result.returncode == FILE
-    assert "'deck.h5' is there with all cases, and a partial file would replace it" in result.stderr
+    assert "'deck.h5' exists with all cases, and a partial file would replace it" in result.stderr
     assert same(reference, tmp_path / "deck.h5")
 
 
@@ -139,7 +139,7 @@ def test_a_finished_file_of_another_study_stays(camroller, deck, reference, tmp_
     before = (tmp_path / "deck.h5").read_bytes()
     result = run(camroller, "sweep", deck, *options, "--resume", folder=tmp_path)
     assert result.returncode == FILE
-    assert "'deck.h5' is there, and it is no result of this sweep" in result.stderr and words in result.stderr
+    assert "'deck.h5' exists and is not a result of this sweep" in result.stderr and words in result.stderr
     assert [path.name for path in tmp_path.iterdir()] == ["deck.h5"]
     assert (tmp_path / "deck.h5").read_bytes() == before
 
@@ -154,7 +154,7 @@ def test_a_file_that_is_no_result_stays(camroller, deck, tmp_path, content):
     before = path.read_bytes()
     result = run(camroller, "sweep", deck, "--resume", folder=tmp_path)
     assert result.returncode == FILE
-    assert "'deck.h5' is there, and it is no result of this sweep" in result.stderr
+    assert "'deck.h5' exists and is not a result of this sweep" in result.stderr
     assert path.read_bytes() == before
 
 
@@ -164,7 +164,7 @@ def test_an_earlier_result_is_not_replaced_in_silence(camroller, deck, reference
     again = done(camroller, "sweep", deck, folder=tmp_path)
     assert "replaced" not in again.stderr
     other = done(camroller, "sweep", deck, "--set", "roller.mass_kg=0.012", folder=tmp_path)
-    assert "remark: 'deck.h5' is there, and it is no result of this sweep" in other.stderr
+    assert "remark: 'deck.h5' exists and is not a result of this sweep" in other.stderr
     assert "it is replaced when all cases are done" in other.stderr
 
 
@@ -199,7 +199,7 @@ def test_a_table_that_changed_is_refused(camroller, tables, deck, group):
     table.write_text(changed(before))
     result = run(camroller, *study, "--resume", folder=tables)
     assert result.returncode == FILE, result.stderr
-    assert f"table of &{group} with checksum" in result.stderr or "no result of this sweep" in result.stderr
+    assert f"table of &{group} with checksum" in result.stderr or "not a result of this sweep" in result.stderr
     table.write_text(before)
     done(camroller, *study, "--resume", folder=tables)
     table.write_text(changed(before))
