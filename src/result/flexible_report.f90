@@ -6,17 +6,15 @@
 module camroller_flexible_report
    use camroller_case, only : case_t
    use camroller_catalogue, only : series_values
-   use camroller_contact_forces, only : film_groups
    use camroller_error, only : error_t, kind_convergence, kind_domain, raise
    use camroller_extremes, only : add_sample, samples_t, start_samples
-   use camroller_film, only : is_in_range
-   use camroller_film_range, only : film_range_t, note_film
    use camroller_flexible_follower, only : evaluate_follower
    use camroller_flexible_measures, only : bounces, coil_ratio, largest_load_angle, losses_of_contact, measures, seating_speed, &
       & smallest_pivot_force, tension_share
    use camroller_flexible_solution, only : flexible_solution_t
    use camroller_flexible_train, only : resolution_t
    use camroller_cam_angle, only : file_angle
+   use camroller_follower_samples, only : add_shares, shares_t
    use camroller_kinds, only : pi, two_pi, wp
    use camroller_model, only : model_t
    use camroller_number_text, only : integer_text, number_text
@@ -37,7 +35,7 @@ module camroller_flexible_report
    integer, parameter :: most_searched = 8
 
    !> Means over all turns
-   type :: flexible_means_t
+   type, extends(shares_t) :: flexible_means_t
       !> Of each series of follower and camshaft, as if the follower were alone [unit of the series]
       real(wp), allocatable :: mean(:)
       !> Of the torques [N m], last the energy residual [W]
@@ -46,12 +44,6 @@ module camroller_flexible_report
       type(samples_t) :: rows
       !> Series of the camshaft there, without its bearings
       type(samples_t) :: torque_rows
-      !> Fraction of the cycle without contact [-]
-      real(wp) :: lost_share = 0.0_wp
-      !> Where the film law is outside its range
-      type(film_range_t) :: film_range
-      !> Cam angle from full lift where the film law's range is first left [rad]
-      real(wp) :: first_outside = 0.0_wp
       !> Largest magnitude of the sliding speed evaluated [m/s]
       real(wp) :: largest_sliding = 0.0_wp
    end type flexible_means_t
@@ -143,36 +135,10 @@ contains
                call add_sample(means%rows, angle, values(:size(means%rows%values, 1)), .false.)
                call add_sample(means%torque_rows, angle, values(size(means%rows%values, 1) + 1:), .false.)
             end if
-            call add_shares(model, state, angle, weight, means)
+            call add_shares(means, model, state, angle, state%position%lift > 0.0_wp, weight)
          end do
       end do
    end subroutine add_turn
-
-   !> Take a point into the shares of the cycle without contact and outside the film law's range.
-   pure subroutine add_shares(model, state, angle, weight, means)
-      !> The model of the lobe
-      type(model_t), intent(in) :: model
-      !> State of the follower
-      type(state_t), intent(in) :: state
-      !> Cam angle from full lift [rad]
-      real(wp), intent(in) :: angle
-      !> Fraction of all turns that it represents [-]
-      real(wp), intent(in) :: weight
-      !> The means
-      type(flexible_means_t), intent(inout) :: means
-
-      logical :: is_inside
-
-      is_inside = .true.
-      if (state%contact%is_touching) then
-         is_inside = is_in_range(model%film_law, film_groups(model, state%position, state%contact), model%film_table)
-      else
-         means%lost_share = means%lost_share + weight
-      end if
-      if (.not. is_inside .and. means%film_range%share <= 0.0_wp) means%first_outside = angle
-      call note_film(means%film_range, film_groups(model, state%position, state%contact), is_inside, &
-         & state%position%lift > 0.0_wp, state%torque_friction, weight)
-   end subroutine add_shares
 
    !> Scalars of a train.
    subroutine add_train_scalars(list, model, solution, prefix, scope)

@@ -13,13 +13,26 @@ module camroller_follower_samples
    use camroller_cycle, only : cycle_t, state_at
    use camroller_catalogue, only : series_values
    use camroller_torque_list, only : torque_count, of_geometric, of_roller_inertia
+   use camroller_contact_forces, only : film_groups
+   use camroller_film, only : is_in_range
+   use camroller_film_range, only : film_range_t, note_film
    use camroller_hertz, only : peak_pressure
    use camroller_extremes, only : samples_t, add_sample, start_rows => start_samples
    use camroller_panels, only : sampled_t
    implicit none
    private
 
-   public :: follower_samples_t, start_samples, sampled_values, entrainment_t, entrainment_of, extremes_t
+   public :: shares_t, add_shares, follower_samples_t, start_samples, sampled_values, entrainment_t, entrainment_of, extremes_t
+
+   !> Fractions of a cycle without contact and outside the film law's range
+   type :: shares_t
+      !> Fraction of the cycle without contact [-]
+      real(wp) :: lost_share = 0.0_wp
+      !> Where the film law is outside its range
+      type(film_range_t) :: film_range
+      !> Cam angle from full lift where it is first left [rad]
+      real(wp) :: first_outside = 0.0_wp
+   end type shares_t
 
    !> One point of a cycle, for the search of standstills
    type :: entrainment_t
@@ -65,6 +78,35 @@ module camroller_follower_samples
    end type follower_samples_t
 
 contains
+
+   !> Add a state to the fractions of a cycle.
+   pure subroutine add_shares(shares, model, state, angle, in_event, weight)
+      !> The fractions
+      class(shares_t), intent(inout) :: shares
+      !> Model of the lobe
+      type(model_t), intent(in) :: model
+      !> State of the follower
+      type(state_t), intent(in) :: state
+      !> Its cam angle from full lift [rad]
+      real(wp), intent(in) :: angle
+      !> Is the valve off its seat?
+      logical, intent(in) :: in_event
+      !> Fraction of the cycle that the state represents [-]
+      real(wp), intent(in) :: weight
+
+      logical :: is_inside
+
+      associate (groups => film_groups(model, state%position, state%contact))
+         is_inside = .true.
+         if (state%contact%is_touching) then
+            is_inside = is_in_range(model%film_law, groups, model%film_table)
+         else
+            shares%lost_share = shares%lost_share + weight
+         end if
+         if (.not. is_inside .and. shares%film_range%share <= 0.0_wp) shares%first_outside = angle
+         call note_film(shares%film_range, groups, is_inside, in_event, state%torque_friction, weight)
+      end associate
+   end subroutine add_shares
 
    !> Begin with a cycle; with the case, its series are sampled too.
    subroutine start_samples(samples, model, cycle, case, series, first_torque)

@@ -12,16 +12,14 @@ module camroller_means
    use camroller_case, only : case_t
    use camroller_model, only : model_t
    use camroller_state, only : state_t
-   use camroller_contact_forces, only : film_groups
-   use camroller_film, only : is_in_range
-   use camroller_film_range, only : film_range_t, note_film
    use camroller_cycle, only : cycle_t
    use camroller_catalogue, only : list_series, series_values
    use camroller_torque_list, only : torque_count, is_loss, is_torque, of_geometric, of_roller_inertia, of_residual, torque_series
    use camroller_defects, only : defect_at, find_defect
    use camroller_error_estimate, only : estimate_t, add_defect, end_interval, estimated_error
    use camroller_extremes, only : samples_t
-   use camroller_follower_samples, only : follower_samples_t, start_samples, entrainment_t, entrainment_of, extremes_t
+   use camroller_follower_samples, only : follower_samples_t, start_samples, entrainment_t, entrainment_of, extremes_t, &
+      & shares_t, add_shares
    use camroller_slip_errors, only : slip_points_t, slip_errors_t, start_points, keep_point, set_errors, find_slip_errors
    use camroller_names, only : name_length
    use camroller_panels, only : panels_t, panel_points, panel_places, panel_weights, gauss_points, gauss_weights, &
@@ -36,19 +34,13 @@ module camroller_means
    public :: statistics_t, integrate_lobe, integrate_torques, mean_tolerance
 
    !> Means over the cycle of one lobe shape
-   type :: statistics_t
+   type, extends(shares_t) :: statistics_t
       !> Mean of each series of the follower, as if it were alone [unit of the series]
       real(wp), allocatable :: mean(:)
       !> Series of the follower at the points evaluated; of the camshaft at those of a flexible train
       type(samples_t) :: rows, torque_rows
       !> Mean torques of the follower [N m], last the energy residual [W]
       real(wp) :: torques(torque_count) = 0.0_wp
-      !> Fraction of the cycle without contact [-]
-      real(wp) :: lost_share = 0.0_wp
-      !> Where the film law is outside its range
-      type(film_range_t) :: film_range
-      !> Cam angle from full lift where it is first left [rad]
-      real(wp) :: first_outside = 0.0_wp
       !> Largest magnitude of the sliding speed evaluated [m/s]
       real(wp) :: largest_sliding = 0.0_wp
       !> Estimate of the error of the sliding speed relative to its largest value [-]
@@ -188,7 +180,9 @@ contains
                speeds(count) = entrainment_of(samples, angle)
                call follow_contact(work, samples, angle, left, error)
                if (allocated(error)) return
-               call add_shares(samples, angle, weights(point)*(right - left)/(times(size(times)) - times(1)), statistics)
+               call add_shares(statistics, samples%model, samples%state, angle, &
+                  & samples%state%position%lift > samples%model%train%seat_lift, &
+                  & weights(point)*(right - left)/(times(size(times)) - times(1)))
                has_rate = samples%cycle%is_linear .or. any(gauss_points == point)
                call add_point(samples, angle, interval, places(point), has_rate, estimate)
                if (.not. has_rate) cycle
@@ -231,28 +225,6 @@ contains
       call find_defect(samples%model, samples%cycle, angle, interval, samples%state, estimate%error, defect, decay_rate)
       call add_defect(estimate, place, defect, decay_rate)
    end subroutine add_point
-
-   !> Add the point that was sampled last to the shares of the cycle without contact and outside the film law's range.
-   subroutine add_shares(samples, angle, weight, statistics)
-      !> The samples
-      type(follower_samples_t), intent(in) :: samples
-      !> Cam angle from full lift [rad]
-      real(wp), intent(in) :: angle
-      !> Weight of the point over the cycle [-]
-      real(wp), intent(in) :: weight
-      !> The shares
-      type(statistics_t), intent(inout) :: statistics
-
-      logical :: is_inside
-
-      associate (state => samples%state, model => samples%model)
-         if (.not. state%contact%is_touching) statistics%lost_share = statistics%lost_share + weight
-         is_inside = has_film_in_range(model, state)
-         if (.not. is_inside .and. statistics%film_range%share <= 0.0_wp) statistics%first_outside = angle
-         call note_film(statistics%film_range, film_groups(model, state%position, state%contact), is_inside, &
-            & state%position%lift > model%train%seat_lift, state%torque_friction, weight)
-      end associate
-   end subroutine add_shares
 
    !> Carry the estimate of the error over an interval, with the defects at its ends where the rates of the equation are kept there.
    pure subroutine close_interval(cycle, interval, estimate)
@@ -490,20 +462,5 @@ contains
          end do
       end associate
    end subroutine walk_along
-
-   !> Is the film law inside its published range? True where there is no contact.
-   pure function has_film_in_range(model, state) result(inside)
-      !> Model of the lobe
-      type(model_t), intent(in) :: model
-      !> State of the follower
-      type(state_t), intent(in) :: state
-      !> True inside
-      logical :: inside
-
-      inside = .true.
-      if (state%contact%is_touching) then
-         inside = is_in_range(model%film_law, film_groups(model, state%position, state%contact), model%film_table)
-      end if
-   end function has_film_in_range
 
 end module camroller_means

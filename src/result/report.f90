@@ -80,9 +80,7 @@ contains
       statistics%rows = means%rows
       statistics%torque_rows = means%torque_rows
       statistics%torques = means%torques
-      statistics%lost_share = means%lost_share
-      statistics%film_range = means%film_range
-      statistics%first_outside = means%first_outside
+      statistics%shares_t = means%shares_t
       statistics%largest_sliding = means%largest_sliding
       statistics%error = cycle%flexible%error
       statistics%error_angle = cycle%flexible%error_angle
