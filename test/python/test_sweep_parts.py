@@ -84,7 +84,7 @@ def test_a_file_in_the_place_of_our_own_is_an_error(camroller, deck, tmp_path, n
     (tmp_path / name).write_text("what somebody else has written here\n")
     result = run(camroller, "sweep", deck, "--resume", folder=tmp_path)
     assert result.returncode == FILE
-    assert f"'{name}' is" in result.stderr and "give it another name" in result.stderr
+    assert f"'{name}' " in result.stderr and "give it another name" in result.stderr
     assert (tmp_path / name).read_text() == "what somebody else has written here\n"
 
 
