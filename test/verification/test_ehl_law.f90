@@ -38,7 +38,7 @@ contains
       testsuite = [ &
          new_unittest("a table gives the films of solutions between its points", test_table), &
          new_unittest("films anywhere in a table differ from solutions by no more than it states", test_stated), &
-         new_unittest("nor in the tables of cold, hot, fast, slow and heavy decks", test_stated_of_decks), &
+         new_unittest("films in the tables of cold, hot, fast, slow and heavy decks differ no more", test_stated_of_decks), &
          new_unittest("slopes of the table are those of its difference quotients, inside and beyond", test_slopes), &
          new_unittest("a contact too heavy for solutions is refused with the place", test_too_heavy), &
          new_unittest("a case with a numerical film closes its energy balance", test_case), &

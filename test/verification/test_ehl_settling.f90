@@ -23,9 +23,9 @@ contains
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
       testsuite = [ &
-         new_unittest("a film left alone from afar becomes that of Newton's method", test_same), &
-         new_unittest("spikes that Newton's method circles about are found on every grid", test_spikes), &
-         new_unittest("the logarithm of the viscosity and its slope go on where the viscosity is held", test_logarithm), &
+         new_unittest("a film that settles from a distant start becomes that of Newton's method", test_same), &
+         new_unittest("pressure spikes between which Newton's method oscillates are found on every grid", test_spikes), &
+         new_unittest("the logarithm of the viscosity and its slope continue where the viscosity is held", test_logarithm), &
          new_unittest("the mean fluidity has its slopes, however much the viscosity differs", test_fluidity) &
          ]
    end subroutine collect_ehl_settling

@@ -36,7 +36,7 @@ contains
          new_unittest("a defect at the ends of an interval counts", test_ends), &
          new_unittest("a cycle without decay has no finite error", test_no_decay), &
          new_unittest("where disturbances grow the error grows with them", test_growth), &
-         new_unittest("the estimate holds up against the reference for every kind of method", test_methods), &
+         new_unittest("the estimate bounds the error against the reference for every kind of method", test_methods), &
          new_unittest("method and tolerance follow from the accuracy unless they are given", test_resolved), &
          new_unittest("an accuracy is kept, and one that cannot be is remarked on", test_kept), &
          new_unittest("a tolerance given by hand that does not hold the error is remarked on", test_far_beyond) &

@@ -40,7 +40,7 @@ contains
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
       testsuite = [ &
-         new_unittest("whatever key varies, kept and fresh models give the same bits", every_key) &
+         new_unittest("whichever key varies, kept and new models give the same bits", every_key) &
          ]
    end subroutine collect_kept_models
 

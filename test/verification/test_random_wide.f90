@@ -53,7 +53,7 @@ contains
          test_coverage), &
          new_unittest("a new choice of a key is drawn, and a new number must be given a range", test_new_keys), &
          new_unittest("random cases are the same in other units, by the units that their results name", test_units), &
-         new_unittest("random cases with every option end with a result that is right, or with words", test_wide) &
+         new_unittest("random cases with every option end with a result that is right, or with an error message", test_wide) &
          ]
    end subroutine collect_random_wide
 

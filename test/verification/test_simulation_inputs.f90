@@ -27,7 +27,7 @@ contains
          new_unittest("a turn from a speed back to it gives what is lost, whatever the ripple", test_energy), &
          new_unittest("a pressure from the host does what the same table of the case does", test_pressure), &
          new_unittest("an engine that stops and starts again has its roller at rest between", test_halt), &
-         new_unittest("inputs that cannot be are refused, and nothing has moved", test_refusals) &
+         new_unittest("impossible inputs are refused and change nothing", test_refusals) &
          ]
    end subroutine collect_simulation_inputs
 

@@ -49,9 +49,9 @@ contains
          new_unittest("a second cycle repeats the first", test_periodic), &
          new_unittest("asperities that do not touch change nothing", test_no_asperities), &
          new_unittest("a cold roller slides all the time, as with a tiny mobilising speed", test_cold), &
-         new_unittest("the mobilising speed has no say", test_no_speed), &
+         new_unittest("results do not depend on the mobilising speed", test_no_speed), &
          new_unittest("a follower driven angle by angle sticks and slides as in its cycle", test_driven), &
-         new_unittest("a curve that is cut stays the same curve", test_cut), &
+         new_unittest("a trajectory that is cut off keeps its curve", test_cut), &
          new_unittest("fixed steps and the quasi-static limit are refused", test_refused) &
          ]
    end subroutine collect_stick_slip

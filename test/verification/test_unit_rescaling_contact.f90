@@ -35,7 +35,7 @@ contains
          new_unittest("load share, every film law", test_load_share), &
          new_unittest("shear of the film and its limit", test_shear), &
          new_unittest("rolling resistance, every law", test_rolling), &
-         new_unittest("named constants of Roelands and Walther are noticed", test_named_constants) &
+         new_unittest("a changed constant of Roelands or Walther is noticed", test_named_constants) &
          ]
    end subroutine collect_unit_rescaling_contact
 
