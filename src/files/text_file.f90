@@ -2,6 +2,7 @@
 !>
 !> In: a path. Out: the text, or an error that says why there is none.
 module camroller_text_file
+   use, intrinsic :: iso_c_binding, only : c_associated, c_char, c_int, c_loc, c_long, c_null_char, c_ptr, c_size_t
    use, intrinsic :: iso_fortran_env, only : int64
    use camroller_error, only : error_t, raise, kind_file
    implicit none
@@ -14,6 +15,43 @@ module camroller_text_file
       & [char(255)//char(254), char(254)//char(255)]
    !> Larger files are no decks and no tables [bytes]
    integer(int64), parameter :: largest_size = 64_int64*1024_int64*1024_int64
+   !> What `fseek` takes for the start and the end of a file
+   integer(c_int), parameter :: from_start = 0_c_int, from_end = 2_c_int
+
+   interface
+      function c_fopen(path, mode) bind(C, name="fopen") result(stream)
+         import :: c_char, c_ptr
+         character(kind=c_char), intent(in) :: path(*), mode(*)
+         type(c_ptr) :: stream
+      end function c_fopen
+
+      function c_fclose(stream) bind(C, name="fclose") result(status)
+         import :: c_int, c_ptr
+         type(c_ptr), value :: stream
+         integer(c_int) :: status
+      end function c_fclose
+
+      function c_fseek(stream, offset, whence) bind(C, name="fseek") result(status)
+         import :: c_int, c_long, c_ptr
+         type(c_ptr), value :: stream
+         integer(c_long), value :: offset
+         integer(c_int), value :: whence
+         integer(c_int) :: status
+      end function c_fseek
+
+      function c_ftell(stream) bind(C, name="ftell") result(position)
+         import :: c_long, c_ptr
+         type(c_ptr), value :: stream
+         integer(c_long) :: position
+      end function c_ftell
+
+      function c_fread(buffer, size, count, stream) bind(C, name="fread") result(found)
+         import :: c_ptr, c_size_t
+         type(c_ptr), value :: buffer, stream
+         integer(c_size_t), value :: size, count
+         integer(c_size_t) :: found
+      end function c_fread
+   end interface
 
 contains
 
@@ -71,44 +109,63 @@ contains
       end if
    end subroutine read_text_file
 
-   !> Read a file of any content into a string.
+   !> Read a file of any content into a string, by the C library: a program of Fortran has a file open once only, and threads may read
+   !> the same one.
    subroutine read_bytes(path, most, text, error)
       !> Path of the file
       character(len=*), intent(in) :: path
       !> Larger files are refused [bytes]
       integer(int64), intent(in) :: most
       !> All that is in it
-      character(len=:), allocatable, intent(out) :: text
+      character(len=:), allocatable, target, intent(out) :: text
       !> File error where it cannot be read
       type(error_t), allocatable, intent(out) :: error
 
-      character(len=256) :: message
-      integer :: unit, status
-      integer(int64) :: bytes
-      logical :: is_there
+      type(c_ptr) :: stream
+      integer(int64) :: bytes, found
+      logical :: is_there, is_fine
 
       inquire (file=path, exist=is_there)
       if (.not. is_there) then
          call raise(error, kind_file, "there is no file '"//path//"'")
          return
       end if
-      open (newunit=unit, file=path, access="stream", form="unformatted", action="read", status="old", iostat=status, &
-         & iomsg=message)
-      if (status /= 0) then
-         call raise(error, kind_file, "cannot read '"//path//"': "//trim(message))
+      stream = c_fopen(path//c_null_char, "rb"//c_null_char)
+      if (.not. c_associated(stream)) then
+         call say_why(path, "it cannot be opened", error)
          return
       end if
-      inquire (unit=unit, size=bytes)
-      if (bytes > most .or. bytes < 0) then
-         close (unit)
-         call raise(error, kind_file, "'"//path//"' is too large for what it is read for")
-         return
+      bytes = -1
+      found = 0
+      if (c_fseek(stream, 0_c_long, from_end) == 0) bytes = c_ftell(stream)
+      is_fine = bytes >= 0 .and. bytes <= most
+      if (is_fine) then
+         allocate (character(len=bytes) :: text)
+         is_fine = c_fseek(stream, 0_c_long, from_start) == 0
+         if (bytes > 0) found = c_fread(c_loc(text), 1_c_size_t, int(bytes, c_size_t), stream)
+         is_fine = is_fine .and. found == bytes
       end if
-      allocate (character(len=bytes) :: text)
-      if (bytes > 0) read (unit, iostat=status, iomsg=message) text
-      close (unit)
-      if (status /= 0) call raise(error, kind_file, "cannot read '"//path//"': "//trim(message))
+      if (c_fclose(stream) /= 0) is_fine = .false.
+      if (.not. is_fine) call say_why(path, "it is too large for what it is read for, or has changed meanwhile", error)
    end subroutine read_bytes
+
+   !> Say why a file cannot be read: in the words of the system where it can say so.
+   subroutine say_why(path, otherwise, error)
+      !> Path of the file
+      character(len=*), intent(in) :: path
+      !> What to say where the system sees nothing wrong
+      character(len=*), intent(in) :: otherwise
+      !> File error
+      type(error_t), allocatable, intent(out) :: error
+
+      character(len=256) :: message
+      integer :: unit, status
+
+      message = otherwise
+      open (newunit=unit, file=path, access="stream", form="unformatted", action="read", status="old", iostat=status, iomsg=message)
+      if (status == 0) close (unit)
+      call raise(error, kind_file, "cannot read '"//path//"': "//trim(message))
+   end subroutine say_why
 
    !> Are there no control characters but tabulators and those between lines and pages?
    pure function is_text(text) result(verdict)
