@@ -28,8 +28,8 @@ def cmake_prefix(tmp_path_factory) -> pathlib.Path:
     build = ROOT / "build" / "cmake"
     # the one that builds the wheel: another version would compile everything again
     cmake = shutil.which("cmake", path=f"{pathlib.Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}")
-    for command in ([cmake, "-G", "Unix Makefiles", "-S", ROOT, "-B", build, "-DCAMROLLER_IO=OFF", "-DCAMROLLER_BUNDLE_DIR=lib/camroller",
-                     "-DCMAKE_INSTALL_LIBDIR=lib", f"-DCMAKE_INSTALL_PREFIX={place}"],
+    for command in ([cmake, "-G", "Unix Makefiles", "-S", ROOT, "-B", build, "-DCAMROLLER_IO=OFF", "-DCMAKE_INSTALL_LIBDIR=lib",
+                     "-DCAMROLLER_BUNDLE_DIR=lib/camroller", f"-DCMAKE_INSTALL_PREFIX={place}"],
                     [cmake, "--build", build, "-j2"], [cmake, "--install", build]):
         done = subprocess.run([str(word) for word in command], capture_output=True, text=True, check=False)
         assert done.returncode == 0, done.stdout + done.stderr

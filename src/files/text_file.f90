@@ -109,8 +109,8 @@ contains
       end if
    end subroutine read_text_file
 
-   !> Read a file of any content into a string, by the C library: a program of Fortran has a file open once only, and threads may read
-   !> the same one.
+   !> Read a file of any content into a string, by the C library: a program of Fortran has a file open once only, and threads may
+   !> read the same one.
    subroutine read_bytes(path, most, text, error)
       !> Path of the file
       character(len=*), intent(in) :: path

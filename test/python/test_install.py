@@ -30,15 +30,25 @@ def prefix(cmake_prefix):
     return cmake_prefix
 
 
-@pytest.fixture(scope="module")
-def host(prefix, tmp_path_factory):
-    """The C program, built by what pkg-config says of the prefix."""
-    program = tmp_path_factory.mktemp("host") / "interface"
+def built(prefix, source, program):
+    """A C program, built by what pkg-config says of the prefix."""
     flags = run("pkg-config", "--cflags", "--libs", "camroller",
                 env={**os.environ, "PKG_CONFIG_PATH": str(prefix / "lib" / "pkgconfig")}).split()
-    run("gcc", "-std=c11", "-Wall", "-Wextra", "-Werror", "-g", ROOT / "tools" / "try_c_interface.c", *flags, "-lm",
+    run("gcc", "-std=c11", "-Wall", "-Wextra", "-Werror", "-g", ROOT / "tools" / source, *flags, "-lm", "-lpthread",
         f"-Wl,-rpath,{prefix}/lib", "-o", program)
     return program
+
+
+@pytest.fixture(scope="module")
+def host(prefix, tmp_path_factory):
+    """The program that tries every call."""
+    return built(prefix, "try_c_interface.c", tmp_path_factory.mktemp("host") / "interface")
+
+
+@pytest.fixture(scope="module")
+def threads(prefix, tmp_path_factory):
+    """The program that does the same work in many threads and in one."""
+    return built(prefix, "try_threads.c", tmp_path_factory.mktemp("threads") / "threads")
 
 
 def test_every_call_of_the_c_interface(host):
@@ -51,11 +61,24 @@ def test_no_memory_is_lost_or_misused(host):
     run("valgrind", "-q", "--leak-check=full", "--error-exitcode=3", host, DECK, CAMSHAFT, cwd=ROOT)
 
 
-def test_a_follower_goes_on_in_another_process_bit_by_bit(host, tmp_path):
+@pytest.mark.parametrize("deck", ["thesis", "numerical_film"])
+def test_a_follower_goes_on_in_another_process_bit_by_bit(host, tmp_path, deck):
+    """With films solved beforehand, too: the second process solves them for the same speed and oil."""
     block = tmp_path / "block"
-    first = run(host, DECK, "--restore", block, cwd=ROOT)
+    first = run(host, ROOT / "decks" / f"{deck}.nml", "--restore", block, cwd=ROOT)
     assert block.stat().st_size > 0
-    assert run(host, DECK, "--restore", block, cwd=ROOT) == first
+    assert run(host, ROOT / "decks" / f"{deck}.nml", "--restore", block, cwd=ROOT) == first
+
+
+def test_decks_and_followers_in_64_threads_have_the_bits_of_one(threads):
+    """THREAD_RUNS=100 does it as often for each thread, which takes a minute."""
+    assert "0 of 64" in run(threads, DECK, 64, os.environ.get("THREAD_RUNS", "5"))
+
+
+def test_helgrind_sees_no_race(threads):
+    if shutil.which("valgrind") is None:
+        pytest.skip("valgrind is not installed")
+    run("valgrind", "--tool=helgrind", "-q", "--error-exitcode=7", threads, DECK, 3, 1)
 
 
 def test_header_is_c_plus_plus_too(prefix, tmp_path):
