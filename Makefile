@@ -3,7 +3,7 @@
 SHELL := /bin/bash
 .DEFAULT_GOAL := help
 .PHONY: help setup commit build debug mpi install run comparison test quick bless random random-ehl random-wide needed rough-rows fuzz sanitize study study-film audit check check-layers \
-  check-style check-format check-lint check-warnings second-compiler format docs recipes bench bench-ehl range-ehl bench-batch bench-effects clean distclean
+  check-style check-format check-lint check-warnings second-compiler format docs recipes bench bench-ehl range-ehl bench-batch bench-effects bench-hosts clean distclean
 
 FPM := .venv/bin/fpm
 PYTHON := .venv/bin/python
@@ -157,6 +157,11 @@ bench-batch: build mpi ## cases per second, scaling, cost as a study grows: benc
 
 bench-effects: build ## instruction counts of effects, present and absent: bench/tables/effects.txt (three minutes)
 	@bench/effects.sh
+
+bench-hosts: setup ## cost of a step of a host, instructions, allocations, time: bench/tables/hosts.txt (two minutes, valgrind)
+	@mkdir -p build/bench && $(MAKE) --no-print-directory install PREFIX=$(CURDIR)/build/bench/prefix IO=OFF > build/bench-hosts.log
+	@$(PYTHON) bench/hosts.py build/bench/prefix build/bench/hosts > build/bench/hosts.part && mv build/bench/hosts.part bench/tables/hosts.txt
+	@cat bench/tables/hosts.txt
 
 clean: ## remove built files; keep tools and results
 	rm -rf build/gfortran* build/debug build/release build/sanitize build/docs build/docs-source build/second build/package build/recipes build/commit build/tests build/bench bench/build mpi/build build/mpi build/*.log build/compile_commands.json
