@@ -25,7 +25,7 @@ def refused(result, code):
     return result.stderr
 
 
-COMMANDS = ["run", "sweep", "merge", "rerun", "check", "study", "audit", "ehl", "defaults", "export", "version", "selftest", "help"]
+COMMANDS = ["run", "sweep", "merge", "rerun", "check", "study", "audit", "ehl", "defaults", "fmu", "export", "version", "selftest", "help"]
 
 
 @pytest.mark.parametrize("command", COMMANDS)
