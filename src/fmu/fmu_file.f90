@@ -169,7 +169,7 @@ contains
       type(error_t), allocatable, intent(out) :: error
 
       character(len=:), allocatable :: content, name
-      integer :: i
+      integer :: i, position
 
       do i = 1, size(groups)
          if (.not. has_group(deck%settings, trim(groups(i)))) cycle
@@ -178,7 +178,8 @@ contains
          call read_bytes(join_path(deck%folder, name), most_bytes, content, error)
          if (allocated(error)) return
          call add_member("resources/"//trim(groups(i))//".txt", content, members)
-         deck%settings%values(find_value(deck%settings, trim(groups(i)), "table"))%text = "'"//trim(groups(i))//".txt'"
+         position = find_value(deck%settings, trim(groups(i)), "table")
+         deck%settings%values(position)%text = "'"//trim(groups(i))//".txt'"
       end do
    end subroutine add_tables
 
