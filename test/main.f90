@@ -14,6 +14,7 @@ program main
    use test_blas_threads, only : collect_blas_threads
    use test_roots, only : collect_roots
    use test_dual, only : collect_dual
+   use test_needle_drag, only : collect_needle_drag
    use test_joints, only : collect_joints
    use test_spline, only : collect_spline
    use test_lift, only : collect_lift
@@ -169,6 +170,7 @@ contains
          new_testsuite("blas_threads", collect_blas_threads), &
          new_testsuite("roots", collect_roots), &
          new_testsuite("dual", collect_dual), &
+         new_testsuite("needle_drag", collect_needle_drag), &
          new_testsuite("joints", collect_joints), &
          new_testsuite("spline", collect_spline), &
          new_testsuite("lift", collect_lift), &

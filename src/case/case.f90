@@ -16,6 +16,7 @@ module camroller_case
    use camroller_asperity, only : asperity_t
    use camroller_traction, only : traction_t
    use camroller_needle, only : needle_bearing_t
+   use camroller_needle_drag, only : needle_drag_t
    use camroller_guide, only : valve_guide_t
    use camroller_stem_friction, only : valve_tip_t, stem_seal_t, guide_side_load_t
    use camroller_pivot_friction, only : finger_pivot_t
@@ -116,6 +117,7 @@ module camroller_case
       type(traction_t) :: traction
       type(asperity_t), allocatable :: asperity
       type(needle_bearing_t), allocatable :: needle_bearing
+      type(needle_drag_t), allocatable :: needle_drag
       !> Numerical film in place of the film law
       type(ehl_t), allocatable :: ehl
       type(valve_guide_t), allocatable :: valve_guide

@@ -13,16 +13,17 @@ module camroller_effect_list
 
    public :: effect_names, effect_count, decision_t, choice_t, leave_out, leave_all_but, has_effect
    public :: effect_asperity, effect_needle, effect_guide, effect_bearings, effect_gas, effect_rolling, effect_film, &
-      & effect_pressure, effect_shear, effect_spin, effect_ehl, effect_tip, effect_seal, effect_side, effect_pivot
+      & effect_pressure, effect_shear, effect_spin, effect_ehl, effect_tip, effect_seal, effect_side, effect_pivot, &
+      & effect_drag
 
    !> Effects: groups of the deck, and laws that have a simpler one beside them
    character(len=*), parameter :: effect_names(*) = [character(len=name_length) :: "asperity", "needle_bearing", "valve_guide", &
       & "cam_bearings", "gas_force", "rolling_resistance", "film_law", "pressure_law", "shear_law", "roller_equation", &
-      & "ehl", "valve_tip", "stem_seal", "guide_side_load", "finger_pivot"]
+      & "ehl", "valve_tip", "stem_seal", "guide_side_load", "finger_pivot", "needle_drag"]
    !> Positions in it
    integer, parameter :: effect_asperity = 1, effect_needle = 2, effect_guide = 3, effect_bearings = 4, effect_gas = 5, &
       & effect_rolling = 6, effect_film = 7, effect_pressure = 8, effect_shear = 9, effect_spin = 10, effect_ehl = 11, &
-      & effect_tip = 12, effect_seal = 13, effect_side = 14, effect_pivot = 15
+      & effect_tip = 12, effect_seal = 13, effect_side = 14, effect_pivot = 15, effect_drag = 16
    !> Their number
    integer, parameter :: effect_count = size(effect_names)
    !> Words of a reason
@@ -96,6 +97,8 @@ contains
          if (allocated(variant%guide_side_load)) deallocate (variant%guide_side_load)
       case (effect_pivot)
          if (allocated(variant%finger_pivot)) deallocate (variant%finger_pivot)
+      case (effect_drag)
+         if (allocated(variant%needle_drag)) deallocate (variant%needle_drag)
       end select
    end subroutine leave_out
 
@@ -155,6 +158,8 @@ contains
          has = allocated(case%guide_side_load)
       case (effect_pivot)
          has = allocated(case%finger_pivot)
+      case (effect_drag)
+         has = allocated(case%needle_drag)
       end select
    end function has_effect
 

@@ -16,7 +16,7 @@ module camroller_model
    use camroller_flexible_parts, only : flexible_t, set_oil
    use camroller_flexible_setup, only : base_load, set_flexible
    use camroller_materials, only : combined_modulus, combined_roughness
-   use camroller_lubricant, only : lubricant_t, oil_t, get_oil
+   use camroller_lubricant, only : lubricant_t, oil_t, get_oil, density_at
    use camroller_film, only : film_law_names, range_policy_names, law_masjedi_khonsari_rough, law_table
    use camroller_film_table, only : film_table_t
    use camroller_ehl_problem, only : largest_pressure, speed_range, load_range
@@ -25,7 +25,8 @@ module camroller_model
       & mobilisation_names, asperity_constants_t, new_asperity_constants
    use camroller_number_text, only : number_text
    use camroller_traction, only : traction_t, shear_law_names, cap_names, rolling_law_names
-   use camroller_needle, only : friction_radius, roller_bearing_names
+   use camroller_needle, only : bearing_part_t, new_bearing_part
+   use camroller_needle_drag, only : drag_part_t, new_drag_part, set_drag_oil
    use camroller_guide, only : guide_drag_coefficient
    use camroller_joints, only : joints_t, set_joint_oil
    use camroller_joint_setup, only : set_joints
@@ -34,19 +35,7 @@ module camroller_model
    implicit none
    private
 
-   public :: model_t, bearing_part_t, boundary_part_t, new_model, revise_model, set_operating_point, evaluate_geometry
-
-   !> Needle bearing or pin, ready for evaluation
-   type :: bearing_part_t
-      !> Friction coefficient, mu_p [-]
-      real(wp) :: friction_coefficient
-      !> Friction radius, r_p [m]
-      real(wp) :: radius
-      !> Spin over which the torque reverses [rad/s]
-      real(wp) :: reversal_spin
-      !> The same over the cam's speed [-]
-      real(wp) :: reversal_ratio
-   end type bearing_part_t
+   public :: model_t, boundary_part_t, new_model, revise_model, set_operating_point, evaluate_geometry
 
    !> Asperities and their friction, ready for evaluation
    type :: boundary_part_t
@@ -94,6 +83,8 @@ module camroller_model
       type(oil_t) :: oil
       type(boundary_part_t), allocatable :: boundary
       type(bearing_part_t), allocatable :: bearing
+      !> Drag of the oil in that bearing
+      type(drag_part_t), allocatable :: drag
       !> Numerical film: how, and films over speed and load for the oil at its temperature
       type(ehl_t), allocatable :: ehl
       type(film_table_t), allocatable :: film_table
@@ -182,6 +173,7 @@ contains
          & model%lubricant%pressure_law == case%lubricant%pressure_law
       if (allocated(model%boundary)) deallocate (model%boundary)
       if (allocated(model%bearing)) deallocate (model%bearing)
+      if (allocated(model%drag)) deallocate (model%drag)
       if (allocated(model%guide_drag)) deallocate (model%guide_drag)
       if (allocated(model%gas)) deallocate (model%gas)
       if (allocated(model%joints)) deallocate (model%joints)
@@ -228,6 +220,8 @@ contains
       if (allocated(model%joints)) call set_joint_oil(model%joints, model%oil%viscosity)
       if (allocated(model%flexible)) call set_oil(model%flexible, model%oil%viscosity)
       if (allocated(model%bearing)) model%bearing%reversal_spin = model%bearing%reversal_ratio*speed
+      if (allocated(model%drag)) call set_drag_oil(model%drag, model%oil%viscosity/density_at(model%lubricant, oil_temperature), &
+         & speed)
       if (allocated(model%ehl)) call set_film_table(model, error)
    end subroutine set_operating_point
 
@@ -470,12 +464,14 @@ contains
          call new_asperity_constants(model%boundary%constants, case%asperity, model%modulus, model%hardness)
       end if
       if (allocated(case%needle_bearing)) then
-         call find_name("roller bearing", case%needle_bearing%kind, roller_bearing_names, choice, error)
-         if (allocated(error)) return
          allocate (model%bearing)
-         model%bearing%friction_coefficient = case%needle_bearing%friction_coefficient
-         model%bearing%radius = friction_radius(case%needle_bearing, model%roller_radius - case%roller%wall_thickness)
-         model%bearing%reversal_ratio = case%needle_bearing%reversal_ratio
+         call new_bearing_part(model%bearing, case%needle_bearing, model%roller_radius - case%roller%wall_thickness, error)
+         if (allocated(error)) return
+      end if
+      if (allocated(case%needle_drag)) then
+         allocate (model%drag)
+         call new_drag_part(model%drag, case%needle_drag, allocated(case%dynamics), error)
+         if (allocated(error)) return
       end if
       if (allocated(case%valve_guide)) then
          allocate (model%guide_drag)

@@ -86,7 +86,9 @@ module camroller_usual_values
       usual_t("guide_side_load.stem_axis_mm", 15.0_wp, 120.0_wp), &
       usual_t("guide_side_load.friction_coefficient", 0.0_wp, 0.3_wp), &
       usual_t("finger_pivot.ball_radius_mm", 2.0_wp, 15.0_wp), &
-      usual_t("finger_pivot.friction_coefficient", 0.0_wp, 0.3_wp)]
+      usual_t("finger_pivot.friction_coefficient", 0.0_wp, 0.3_wp), &
+      usual_t("needle_drag.pitch_diameter_mm", 4.0_wp, 50.0_wp), &
+      usual_t("needle_drag.viscous_factor", 1.0_wp, 30.0_wp)]
 
 contains
 

@@ -1,12 +1,14 @@
-!> Decks: the sliding joints of the train, at the valve's tip, in seal and guide, and at the pivot.
+!> Decks: the sliding joints of the train, at the valve's tip, in seal and guide, and at the pivot; oil in the roller's bearing.
 !>
 !> In: schema, settings. Out: their groups and keys, the components of a case, and the rules that tie their keys together.
 module camroller_deck_joints
    use camroller_case, only : case_t
    use camroller_deck_complaint, only : complain, complain_about_group
-   use camroller_deck_schema, only : schema_t, add_group, add_name, add_number, group_effect, not_negative, positive
+   use camroller_deck_schema, only : schema_t, add_group, add_name, add_number, group_effect, not_negative, positive, &
+      & proper_fraction
    use camroller_kinds, only : wp
    use camroller_mistakes, only : mistakes_t
+   use camroller_needle_drag, only : needle_drag_t
    use camroller_pivot_friction, only : finger_pivot_t
    use camroller_settings, only : settings_t, get_word, has_group, is_known, is_wrong, take
    use camroller_sliding_friction, only : sliding_t, sliding_law_names
@@ -17,8 +19,11 @@ module camroller_deck_joints
    public :: add_joint_keys, fill_joints, check_joints
 
    !> Groups of joints; the first three have a coefficient of friction
-   character(len=*), parameter :: groups(*) = [character(len=15) :: "valve_tip", "guide_side_load", "finger_pivot", "stem_seal"]
+   character(len=*), parameter :: groups(*) = [character(len=15) :: "valve_tip", "guide_side_load", "finger_pivot", "stem_seal", &
+      & "needle_drag"]
    integer, parameter :: with_coefficient = 3
+   !> Number of joints, which need a closed balance
+   integer, parameter :: with_balance = 4
    !> Keys of law `stribeck` that have to be given
    character(len=*), parameter :: stribeck_keys(*) = [character(len=24) :: "decay_speed_m_s", "reference_viscosity_Pa_s", &
       & "reference_load_N"]
@@ -31,6 +36,7 @@ contains
       type(schema_t), intent(inout) :: schema
 
       type(stem_seal_t) :: seal
+      type(needle_drag_t) :: drag
 
       call add_group(schema, "valve_tip", group_effect, "friction of the finger's pad on the valve's tip")
       call add_number(schema, "pad_radius_mm", positive, "radius of the pad, which is an arc about the end of the pad arm", &
@@ -54,6 +60,12 @@ contains
       call add_group(schema, "finger_pivot", group_effect, "friction of the finger on the ball of its pivot")
       call add_number(schema, "ball_radius_mm", positive, "radius of the ball", example="5")
       call add_sliding_keys(schema)
+      call add_group(schema, "needle_drag", group_effect, "drag of the oil in the roller's needle bearing, by Palmgren's formula")
+      call add_number(schema, "pitch_diameter_mm", positive, "diameter of the circle through the middles of the needles", &
+         & example="10.22")
+      call add_number(schema, "viscous_factor", not_negative, "factor of bearing type and lubrication, f_0", default=drag%factor)
+      call add_number(schema, "reversal_ratio", proper_fraction, &
+         & "fraction of the cam's speed within which the torque changes its sign smoothly", default=drag%reversal_ratio)
    end subroutine add_joint_keys
 
    !> Keys of a coefficient of friction.
@@ -109,6 +121,12 @@ contains
          call take(settings, "finger_pivot", "ball_radius_mm", case%finger_pivot%ball_radius)
          call fill_sliding(settings, "finger_pivot", case%finger_pivot%sliding)
       end if
+      if (has_group(settings, "needle_drag")) then
+         allocate (case%needle_drag)
+         call take(settings, "needle_drag", "pitch_diameter_mm", case%needle_drag%pitch_diameter)
+         call take(settings, "needle_drag", "viscous_factor", case%needle_drag%factor)
+         call take(settings, "needle_drag", "reversal_ratio", case%needle_drag%reversal_ratio)
+      end if
    end subroutine fill_joints
 
    !> Fill a coefficient of friction.
@@ -142,8 +160,8 @@ contains
 
       do i = 1, size(groups)
          if (.not. has_group(settings, trim(groups(i)))) cycle
-         if (get_word(settings, "case", "energy") == "source") call complain_about_group(mistakes, settings, trim(groups(i)), &
-            & "&"//trim(groups(i))//" needs case energy = 'consistent'")
+         if (i <= with_balance .and. get_word(settings, "case", "energy") == "source") call complain_about_group( &
+            & mistakes, settings, trim(groups(i)), "&"//trim(groups(i))//" needs case energy = 'consistent'")
          if (has_group(settings, "dynamics")) call complain_about_group(mistakes, settings, trim(groups(i)), &
             & "&"//trim(groups(i))//" is not part of a flexible train, &dynamics; leave out one of both")
          if (i <= with_coefficient) call curve_is_given(settings, trim(groups(i)), mistakes)

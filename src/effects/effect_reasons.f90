@@ -8,7 +8,7 @@ module camroller_effect_reasons
    use camroller_contact_forces, only : film_groups
    use camroller_effect_list, only : effect_names, effect_asperity, effect_needle, effect_guide, effect_bearings, effect_gas, &
       & effect_rolling, effect_film, effect_pressure, effect_shear, effect_spin, effect_ehl, effect_tip, effect_seal, effect_side, &
-      & effect_pivot
+      & effect_pivot, effect_drag
    use camroller_effect_grid, only : points, mean_over
    use camroller_effect_survey, only : survey_t
    use camroller_film, only : groups_t
@@ -52,7 +52,7 @@ contains
          case (effect_asperity)
             reason = "film ratio from "//trim(text(minval(contact%film_ratio)))//" to "//trim(text(maxval(contact%film_ratio))) &
                & //", asperities carry up to "//trim(percent(maxval(contact%asperity_load/contact%load)))//" of the load"
-         case (effect_needle, effect_guide, effect_tip, effect_seal, effect_side, effect_pivot)
+         case (effect_needle, effect_guide, effect_tip, effect_seal, effect_side, effect_pivot, effect_drag)
             losses = states%torques(findloc(torque_list%source, effect_names(effect), 1))
             lost = mean_over(survey%grid, losses)
             reason = "takes "//trim(percent(lost/all_lost))//" of the follower's friction torque"

@@ -17,6 +17,7 @@ module camroller_ehl_step
    use camroller_stick, only : has_stick
    use camroller_roller, only : spin_acceleration
    use camroller_needle, only : bearing_torque
+   use camroller_needle_drag, only : drag_torque
    use camroller_traction, only : law_eyring, rolling_none, limit_shear, mobilised_share, sliding_direction
    use camroller_ehl_grid, only : ehl_grid_t
    use camroller_ehl_problem, only : ehl_contact_t, ehl_problem_t, new_ehl_problem, in_range
@@ -367,11 +368,11 @@ contains
       real(wp) :: spin
 
       torque = 0.0_wp
-      if (.not. allocated(model%bearing)) return
       spin = (rolling_speed_at(model, position) - sliding_speed)/model%roller_radius &
          & - model%linkage%sense*position%finger_slope*model%speed
-      torque = bearing_torque(model%bearing%friction_coefficient, max(load, 0.0_wp), model%bearing%radius, spin, &
-         & model%bearing%reversal_spin)
+      if (allocated(model%bearing)) torque = bearing_torque(model%bearing%friction_coefficient, max(load, 0.0_wp), &
+         & model%bearing%radius, spin, model%bearing%reversal_spin)
+      if (allocated(model%drag)) torque = torque + drag_torque(model%drag, spin)
    end function bearing_moment
 
    !> Load at which the finger is in balance with the friction given.
@@ -389,15 +390,19 @@ contains
       !> Load; zero where the moments would lift the roller off [N]
       real(wp) :: load
 
-      ! Moment that the contact balances [N m]; arm [m]; net tangential force on the roller [N]
-      real(wp) :: moment, arm, tangential
+      ! Moment that the contact balances, drag of the oil in the roller's bearing [N m]; arm [m]
+      real(wp) :: moment, drag, arm
+      ! Net tangential force on the roller [N]
+      real(wp) :: tangential
 
       arm = merge(position%normal_arm, position%parallel_arm, model%has_exact_arm)
       moment = finger_moment(model, position, moments)
       if (model%is_consistent) then
          tangential = traction + rolling*(2.0_wp*position%equivalent_radius/model%roller_radius - 1.0_wp)
          moment = moment - model%linkage%sense*tangential*position%tangent_arm
-         arm = arm + model%linkage%sense*bearing_moment(model, position, 1.0_wp, sliding_speed)
+         drag = bearing_moment(model, position, 0.0_wp, sliding_speed)
+         moment = moment - model%linkage%sense*drag
+         arm = arm + model%linkage%sense*(bearing_moment(model, position, 1.0_wp, sliding_speed) - drag)
       end if
       load = moment/arm
       if (has_pivot_friction(model)) call add_pivot_friction(model, position, moments, tangential, moment, arm, load)

@@ -244,7 +244,7 @@ contains
       real(wp), intent(in) :: shift
 
       contact%load = contact%load*(1.0_wp + shift)
-      contact%bearing_torque = contact%bearing_torque*(1.0_wp + shift)
+      contact%bearing_torque = (contact%bearing_torque - contact%bearing_drag)*(1.0_wp + shift) + contact%bearing_drag
       contact%traction = contact%traction + slopes%traction*shift
       contact%rolling_resistance = contact%rolling_resistance + slopes%rolling_resistance*shift
       contact%tangential_force = contact%tangential_force + slopes%tangential_force*shift

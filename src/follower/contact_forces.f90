@@ -12,6 +12,7 @@ module camroller_contact_forces
    use camroller_traction, only : film_pressure, newtonian_shear, eyring_shear, blunt_shear, limit_shear, mobilised_share, &
       & sliding_direction, rolling_resistance, resistance_speed_slope, law_newtonian, rolling_biboulet_houpert
    use camroller_needle, only : bearing_torque, bearing_torque_slope
+   use camroller_needle_drag, only : drag_torque, drag_torque_slope
    implicit none
    private
 
@@ -52,6 +53,8 @@ module camroller_contact_forces
       real(wp) :: tangential_force
       !> Torque of the roller's bearing, T_B [N m]
       real(wp) :: bearing_torque
+      !> Its part that the oil makes, whatever the load [N m]
+      real(wp) :: bearing_drag
    end type contact_t
 
    !> What does not change with the load while the balance is sought
@@ -133,6 +136,8 @@ contains
       contact%entrainment_speed = contact%cam_surface_speed - 0.5_wp*sliding_speed
       contact%roller_spin = (contact%rolling_speed - sliding_speed)/model%roller_radius
       contact%relative_spin = contact%roller_spin - model%linkage%sense*position%finger_slope*model%speed
+      contact%bearing_drag = 0.0_wp
+      if (allocated(model%drag)) contact%bearing_drag = drag_torque(model%drag, contact%relative_spin)
    end subroutine set_speeds
 
    !> What the speeds alone decide.
@@ -244,7 +249,7 @@ contains
       contact%rolling_resistance = sign(contact%rolling_resistance, contact%entrainment_speed)
       parts%rolling_part = 2.0_wp*position%equivalent_radius/model%roller_radius - 1.0_wp
       contact%tangential_force = contact%traction + contact%rolling_resistance*parts%rolling_part
-      contact%bearing_torque = setting%bearing_arm*load
+      contact%bearing_torque = setting%bearing_arm*load + contact%bearing_drag
    end subroutine evaluate_contact
 
    !> Shear of the film, boundary friction and their sum.
@@ -344,7 +349,9 @@ contains
       slopes%rolling_resistance = contact%rolling_resistance*rolling
       slopes%tangential_force = slopes%traction + slopes%rolling_resistance*parts%rolling_part &
          & + contact%rolling_resistance*(parts%rolling_part + 1.0_wp)*motion%radius
-      slopes%bearing_torque = contact%bearing_torque*motion%load
+      slopes%bearing_torque = (contact%bearing_torque - contact%bearing_drag)*motion%load
+      if (allocated(model%drag)) slopes%bearing_torque = slopes%bearing_torque &
+         & + motion%relative_spin*drag_torque_slope(model%drag, contact%relative_spin)
       if (allocated(model%bearing) .and. abs(motion%relative_spin) > 0.0_wp) then
          slopes%bearing_torque = slopes%bearing_torque + motion%relative_spin*bearing_torque_slope( &
             & model%bearing%friction_coefficient, contact%load, model%bearing%radius, contact%relative_spin, &
@@ -352,7 +359,7 @@ contains
       end if
    end function follow_contact
 
-   !> No contact: no force; the film is reported as zero, since there is none to speak of.
+   !> No contact: no force but the drag of the roller's bearing; the film is reported as zero, since there is none to speak of.
    pure subroutine release_contact(contact)
       !> State of the contact; the speeds are kept
       type(contact_t), intent(inout) :: contact
@@ -373,7 +380,7 @@ contains
       contact%traction = 0.0_wp
       contact%traction_slope = 0.0_wp
       contact%tangential_force = 0.0_wp
-      contact%bearing_torque = 0.0_wp
+      contact%bearing_torque = contact%bearing_drag
    end subroutine release_contact
 
 end module camroller_contact_forces

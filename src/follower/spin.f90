@@ -13,6 +13,7 @@ module camroller_spin
    use camroller_dynamics, only : moments_t
    use camroller_contact_forces, only : contact_t
    use camroller_needle, only : bearing_torque_slope
+   use camroller_needle_drag, only : drag_torque_slope
    use camroller_state, only : evaluate_loading, evaluate_spin
    use camroller_spin_slopes, only : spin_slopes_t, evaluate_spin_slopes
    implicit none
@@ -183,6 +184,8 @@ contains
          decay_rate = decay_rate + bearing_torque_slope(model%bearing%friction_coefficient, contact%load, model%bearing%radius, &
             & contact%relative_spin, model%bearing%reversal_spin)/(model%roller_inertia*model%speed)
       end if
+      if (allocated(model%drag)) decay_rate = decay_rate + drag_torque_slope(model%drag, contact%relative_spin) &
+         & /(model%roller_inertia*model%speed)
    end function decay_rate_of
 
    !> Rate with its derivatives over sliding speed and cam angle, all from one solution of the contact.

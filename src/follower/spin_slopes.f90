@@ -14,6 +14,7 @@ module camroller_spin_slopes
    use camroller_joint_forces, only : finger_moment, finger_moment_slope, has_pivot_friction, set_pivot_forces
    use camroller_pivot_friction, only : pivot_forces_t, pivot_moment, hold_forces
    use camroller_contact_forces, only : contact_t, setting_t, parts_t, motion_t, slopes_t, follow_contact
+   use camroller_needle_drag, only : drag_torque_slope
    use camroller_roller, only : spin_acceleration
    implicit none
    private
@@ -67,7 +68,10 @@ contains
          call prepare_and_solve(model, position, moments, sliding_speed, contact, setting, parts, status, accuracy, mobilised)
          if (status /= 0) return
          slopes%acceleration = acceleration_of(model, contact%traction, contact%rolling_resistance, contact%bearing_torque)
-         if (.not. contact%is_touching) return
+         if (.not. contact%is_touching) then
+            if (allocated(model%drag)) call follow_drag(model, position, contact, speed_slope, angle_slope)
+            return
+         end if
 
          by_load = follow_contact(model, setting, contact, parts, motion_t(load=1.0_wp))
          by_speed = follow_contact(model, setting, contact, parts, speed_motion(model, contact))
@@ -98,6 +102,28 @@ contains
          angle_slope = slope_along(model, by_angle, by_load, load_by_angle)
       end associate
    end subroutine evaluate_spin_slopes
+
+   !> Derivatives of the acceleration of a roller without contact, which the drag of its bearing alone makes.
+   pure subroutine follow_drag(model, position, contact, speed_slope, angle_slope)
+      !> The model, with drag
+      type(model_t), intent(in) :: model
+      !> Geometry at this angle
+      type(position_t), intent(in) :: position
+      !> State of the contact
+      type(contact_t), intent(in) :: contact
+      !> Derivatives over the sliding speed [rad/s/m] and, at constant sliding speed, over the cam angle [1/s^2]
+      real(wp), intent(out) :: speed_slope, angle_slope
+
+      type(motion_t) :: by_speed, by_angle
+      ! Slope of the torque over the spin [N m s/rad]
+      real(wp) :: slope
+
+      slope = drag_torque_slope(model%drag, contact%relative_spin)
+      by_speed = speed_motion(model, contact)
+      by_angle = angle_motion(model, position, contact)
+      speed_slope = acceleration_of(model, 0.0_wp, 0.0_wp, slope*by_speed%relative_spin)
+      angle_slope = acceleration_of(model, 0.0_wp, 0.0_wp, slope*by_angle%relative_spin)
+   end subroutine follow_drag
 
    !> What a change of the sliding speed moves at constant load.
    pure function speed_motion(model, contact) result(motion)

@@ -14,7 +14,7 @@ module camroller_state
    use camroller_spring_modes, only : most_modes
    use camroller_torque, only : cam_torque, contact_power, normal_direction
    use camroller_torque_list, only : torque_count, is_loss, of_geometric, of_contact, of_needle, of_guide, of_roller_inertia, &
-      & of_residual, of_tip, of_seal, of_guide_side, of_pivot
+      & of_residual, of_tip, of_seal, of_guide_side, of_pivot, of_needle_drag
    implicit none
    private
 
@@ -172,7 +172,9 @@ contains
          else
             torques(of_contact) = state%contact_friction*state%position%cam_arm
          end if
-         if (allocated(model%bearing)) torques(of_needle) = contact%bearing_torque*merge(contact%relative_spin, &
+         if (allocated(model%bearing)) torques(of_needle) = (contact%bearing_torque - contact%bearing_drag) &
+            & *merge(contact%relative_spin, contact%roller_spin, model%is_consistent)/model%speed
+         if (allocated(model%drag)) torques(of_needle_drag) = contact%bearing_drag*merge(contact%relative_spin, &
             & contact%roller_spin, model%is_consistent)/model%speed
          if (allocated(model%guide_drag) .and. contact%is_touching) then
             torques(of_guide) = model%guide_drag*model%speed*state%position%lift_slope**2

@@ -3,11 +3,13 @@
 !> In: load and relative spin. Out: friction torque. Source: Kubiak and Siczek (2016); Islam (2019) eq. (46).
 module camroller_needle
    use camroller_kinds, only : wp
-   use camroller_names, only : name_length
+   use camroller_error, only : error_t
+   use camroller_names, only : name_length, find_name
    implicit none
    private
 
-   public :: needle_bearing_t, roller_bearing_names, friction_radius, bearing_torque, bearing_torque_slope
+   public :: needle_bearing_t, bearing_part_t, roller_bearing_names, new_bearing_part, friction_radius, bearing_torque, &
+      & bearing_torque_slope
 
    !> What the roller turns on
    character(len=*), parameter :: roller_bearing_names(*) = [character(len=name_length) :: "needles", "plain_pin"]
@@ -24,7 +26,39 @@ module camroller_needle
       real(wp) :: reversal_ratio = 0.01_wp
    end type needle_bearing_t
 
+   !> The same ready for evaluation
+   type :: bearing_part_t
+      !> Friction coefficient, mu_p [-]
+      real(wp) :: friction_coefficient
+      !> Radius, r_p [m]
+      real(wp) :: radius
+      !> Spin over which the torque reverses [rad/s]
+      real(wp) :: reversal_spin
+      !> The same over the cam's speed [-]
+      real(wp) :: reversal_ratio
+   end type bearing_part_t
+
 contains
+
+   !> Make a bearing ready.
+   subroutine new_bearing_part(part, bearing, inner_radius, error)
+      !> Ready for evaluation
+      type(bearing_part_t), intent(out) :: part
+      !> As a deck has it
+      type(needle_bearing_t), intent(in) :: bearing
+      !> Inner radius of the roller [m]
+      real(wp), intent(in) :: inner_radius
+      !> Deck error for an unknown kind
+      type(error_t), allocatable, intent(out) :: error
+
+      integer :: choice
+
+      call find_name("roller bearing", bearing%kind, roller_bearing_names, choice, error)
+      if (allocated(error)) return
+      part%friction_coefficient = bearing%friction_coefficient
+      part%radius = friction_radius(bearing, inner_radius)
+      part%reversal_ratio = bearing%reversal_ratio
+   end subroutine new_bearing_part
 
    !> Radius at which the bearing's friction acts: pitch circle of the needles, or bore of the roller on a plain pin.
    pure function friction_radius(bearing, inner_radius) result(radius)

@@ -13,7 +13,8 @@ module test_joints
    use camroller_contact_forces, only : contact_t
    use camroller_joint_forces, only : joint_values_t, evaluate_joints
    use camroller_state, only : state_t, evaluate_state
-   use camroller_torque_list, only : of_tip, of_seal, of_guide_side, of_pivot, of_geometric, of_residual, torque_count, is_loss
+   use camroller_torque_list, only : of_tip, of_seal, of_guide_side, of_pivot, of_needle_drag, of_geometric, &
+      & of_residual, torque_count, is_loss
    use camroller_means, only : integrate_torques
    use camroller_cycle, only : cycle_t, state_at
    use camroller_events, only : find_stops
@@ -44,7 +45,8 @@ contains
          new_unittest("a turn of the reference train slides the pad by 9.732 mm", test_sliding_distance), &
          new_unittest("a seal of 8 N takes 0.152 J a turn where friction jumps", test_seal_work), &
          new_unittest("friction of the guide in closed form, with and without friction at the tip", test_guide_side), &
-         new_unittest("energy closes at 720 angles with all joints, either law, either sense, with gas force", test_energy), &
+         new_unittest("energy closes at 720 angles with all joints, needles' drag and gas force, either law and sense", &
+         & test_energy), &
          new_unittest("energy closes at any sliding speed", test_any_slip), &
          new_unittest("friction that jumps has a stop on both sides, none inside a dwell", test_stops), &
          new_unittest("friction that jumps is the limit of friction that reverses over a small speed", test_limit), &
@@ -271,6 +273,8 @@ contains
             case = skewed_case(rotation_names(sense))
             call add_gas_force(case)
             call add_joints(case, laws(law))
+            allocate (case%needle_drag)
+            case%needle_drag%pitch_diameter = 10.22e-3_wp
             call make_model(case, model, error)
             if (allocated(error)) return
             call make_cycle(case, model, cycle, error)
@@ -285,7 +289,7 @@ contains
                if (allocated(error)) return
                largest = max(largest, abs(state%torques(of_residual)))
                lost = lost + state%torque_friction*model%speed/720
-               least = min(least, minval(state%torques([of_tip, of_seal, of_guide_side, of_pivot])))
+               least = min(least, minval(state%torques([of_tip, of_seal, of_guide_side, of_pivot, of_needle_drag])))
             end do
             call check_scaled(error, largest, 0.0_wp, lost, tolerance, "largest energy residual, "//trim(laws(law)))
             if (allocated(error)) return

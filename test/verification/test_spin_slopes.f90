@@ -36,7 +36,7 @@ contains
          new_unittest("closed balance: every viscosity and shear law", test_shear_laws), &
          new_unittest("the source's bookkeeping", test_source), &
          new_unittest("with gas force; with asperities that yield; without any, nor bearing and guide", test_effects), &
-         new_unittest("with friction at valve tip, seal, guide and pivot, by either law", test_with_joints), &
+         new_unittest("with friction at valve tip, seal, guide and pivot, and drag of needles", test_with_joints), &
          new_unittest("with a given part of the boundary friction, as sliding and sticking have it", test_given_share), &
          new_unittest("without contact only the kinematics is left", test_no_contact) &
          ]
@@ -139,6 +139,8 @@ contains
          case = skewed_case(rotation_names(law))
          call add_joints(case, merge("constant", "stribeck", law == 1))
          call add_gas_force(case)
+         allocate (case%needle_drag)
+         case%needle_drag%pitch_diameter = 10.22e-3_wp
          call set_point(case, point_speeds(1 + law), point_viscosities(law))
          call make_model(case, model, error)
          if (allocated(error)) return

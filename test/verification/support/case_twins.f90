@@ -15,7 +15,8 @@ module case_twins
 contains
 
    !> Take laws that hold no constants with dimensions, in place of those that do: Roelands' and Cameron's reference pressure, the
-   !> temperatures of Vogel's and Walther's oils, the range of numerical films, the usual place of the finger's centre of mass.
+   !> temperatures of Vogel's and Walther's oils, needles' drag, the range of numerical films, the usual place of the finger's centre of
+   !> mass.
    subroutine leave_constants_out(case)
       !> The case
       type(case_t), intent(inout) :: case
@@ -32,6 +33,7 @@ contains
       if (.not. case%lubricant%pressure_viscosity > 0.0_wp) case%lubricant%pressure_viscosity = 2.0e-8_wp
       case%lubricant%roelands_index = 0.0_wp
       if (allocated(case%ehl)) deallocate (case%ehl)
+      if (allocated(case%needle_drag)) deallocate (case%needle_drag)
       ! The usual place of the finger's centre of mass is in millimetres; this one is within every radius of gyration
       if (.not. case%masses%finger_centre > 0.0_wp) case%masses%finger_centre = 1.0e-3_wp
    end subroutine leave_constants_out

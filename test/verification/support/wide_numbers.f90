@@ -97,6 +97,9 @@ module wide_numbers
       & usual_t("joint.reference_viscosity_Pa_s", 1.0e-3_wp, 1.0_wp, .true.), &
       & usual_t("joint.reference_load_N", 10.0_wp, 1000.0_wp, .true.), &
       & usual_t("joint.reversal_speed_m_s", 1.0e-4_wp, 0.1_wp, .true.), &
+      & usual_t("needle_drag.pitch_diameter_mm", 6.0_wp, 14.0_wp), &
+      & usual_t("needle_drag.viscous_factor", 1.0_wp, 20.0_wp), &
+      & usual_t("needle_drag.reversal_ratio", 1.0e-3_wp, 0.5_wp, .true.), &
       & usual_t("effects.negligible", 1.0e-5_wp, 0.1_wp, .true.), &
       & usual_t("numerics.accuracy", 1.0e-6_wp, 1.0e-2_wp, .true.), &
       & usual_t("numerics.tolerance", 1.0e-8_wp, 1.0e-3_wp, .true.), &

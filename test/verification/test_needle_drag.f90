@@ -1,0 +1,145 @@
+!> Drag of the oil in the roller's bearing.
+module test_needle_drag
+   use testdrive, only : unittest_type, new_unittest, error_type, check
+   use camroller_kinds, only : wp, pi, degree
+   use camroller_error, only : error_t, kind_deck
+   use camroller_case, only : case_t
+   use camroller_model, only : model_t, new_model
+   use camroller_needle_drag, only : needle_drag_t, drag_part_t, new_drag_part, set_drag_oil, drag_torque, drag_torque_slope
+   use camroller_state, only : state_t, evaluate_state
+   use camroller_torque_list, only : of_needle, of_needle_drag
+   use closeness, only : check_close, check_scaled, expect_error, roundings
+   use reference_cases, only : thesis_case, make_model, set_point, point_speeds, point_viscosities
+   implicit none
+   private
+
+   public :: collect_needle_drag
+
+   !> rev/min in a rad/s [-]
+   real(wp), parameter :: turns_a_minute = 30.0_wp/pi
+
+contains
+
+   subroutine collect_needle_drag(testsuite)
+      type(unittest_type), allocatable, intent(out) :: testsuite(:)
+
+      testsuite = [ &
+         new_unittest("Palmgren's formula on both branches, which meet at 2023.9", test_branches), &
+         new_unittest("its slope over the spin", test_slope), &
+         new_unittest("2.9 N mm on the base circle at 300 rev/min and 25 degC without slip", test_magnitude), &
+         new_unittest("the load's part of the torque is what it is without drag", test_parts), &
+         new_unittest("a flexible train is refused", test_refusal) &
+         ]
+   end subroutine collect_needle_drag
+
+   !> Drag of the reference train's needles in an oil.
+   subroutine make_part(part, viscosity)
+      type(drag_part_t), intent(out) :: part
+      !> Kinematic viscosity [mm^2/s]
+      real(wp), intent(in) :: viscosity
+      type(error_t), allocatable :: failure
+
+      call new_drag_part(part, needle_drag_t(10.22e-3_wp, 12.0_wp, 1.0e-3_wp), .false., failure)
+      call set_drag_oil(part, 1.0e-6_wp*viscosity, 10.0_wp)
+   end subroutine make_part
+
+   subroutine test_branches(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(drag_part_t) :: part
+      ! Viscosity [mm^2/s], speeds [rev/min], torques [N mm], expected [N mm]
+      real(wp), parameter :: viscosity = 20.0_wp, speeds(3) = [10.0_wp, 80.0_wp, 3000.0_wp]
+      real(wp) :: torque, expected
+      integer :: i
+
+      call make_part(part, viscosity)
+      do i = 1, size(speeds)
+         expected = 12.0_wp*160.0e-7_wp*10.22_wp**3
+         if (viscosity*speeds(i) > 2023.9_wp) expected = 12.0e-7_wp*(viscosity*speeds(i))**(2.0_wp/3.0_wp)*10.22_wp**3
+         torque = 1.0e3_wp*drag_torque(part, -speeds(i)/turns_a_minute)
+         call check_close(error, torque, -expected, roundings, "torque")
+         if (allocated(error)) return
+      end do
+      call check_close(error, part%limit*turns_a_minute*viscosity, 2023.9_wp, 3.0e-5_wp, "where the branches meet")
+      if (allocated(error)) return
+      ! (2000)^(2/3) is 158.74, 0.8 % below 160
+      call check_close(error, 160.0_wp/2000.0_wp**(2.0_wp/3.0_wp) - 1.0_wp, 0.008_wp, 0.02_wp, "step of the printed limit")
+   end subroutine test_branches
+
+   subroutine test_slope(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(drag_part_t) :: part
+      ! Spins on both branches and in the reversal [rad/s]; step of the differences, relative [-]
+      real(wp), parameter :: spins(5) = [-500.0_wp, -0.012_wp, 0.004_wp, 5.0_wp, 80.0_wp], h = 6.0e-6_wp
+      real(wp) :: step, slope
+      integer :: i
+
+      call make_part(part, 20.0_wp)
+      do i = 1, size(spins)
+         step = h*abs(spins(i))
+         slope = (drag_torque(part, spins(i) + step) - drag_torque(part, spins(i) - step))/(2.0_wp*step)
+         ! rounding of the torque over the step beside the truncation
+         call check_scaled(error, drag_torque_slope(part, spins(i)), slope, &
+            & abs(slope) + part%least*epsilon(1.0_wp)/step/1.0e-8_wp, 1.0e-8_wp, "slope")
+         if (allocated(error)) return
+      end do
+   end subroutine test_slope
+
+   subroutine test_magnitude(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: case
+      type(model_t) :: model
+      type(state_t) :: state
+      integer :: status
+
+      case = thesis_case()
+      call set_point(case, point_speeds(1), point_viscosities(1))
+      allocate (case%needle_drag)
+      case%needle_drag%pitch_diameter = 10.22e-3_wp
+      call make_model(case, model, error)
+      if (allocated(error)) return
+      call evaluate_state(model, 150.0_wp*degree, 0.0_wp, state, status)
+      call check_scaled(error, 1.0e3_wp*state%contact%bearing_drag, 2.9_wp, 1.0_wp, 0.1_wp, "drag in N mm")
+      if (allocated(error)) return
+      call check_scaled(error, 1.0e3_wp*(state%contact%bearing_torque - state%contact%bearing_drag), 0.49_wp, 1.0_wp, 0.005_wp, &
+         & "load's part in N mm")
+   end subroutine test_magnitude
+
+   subroutine test_parts(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: case
+      type(model_t) :: model
+      type(state_t) :: state
+      integer :: i, status
+
+      case = thesis_case()
+      allocate (case%needle_drag)
+      case%needle_drag%pitch_diameter = 10.22e-3_wp
+      call make_model(case, model, error)
+      if (allocated(error)) return
+      do i = -60, 60, 5
+         call evaluate_state(model, i*degree, 0.01_wp, state, status)
+         associate (contact => state%contact)
+            call check_close(error, state%torques(of_needle)*model%speed, model%bearing%friction_coefficient*contact%load &
+               & *model%bearing%radius*contact%relative_spin, roundings*10.0_wp, "load's part")
+            if (allocated(error)) return
+            call check_close(error, state%torques(of_needle_drag)*model%speed, drag_torque(model%drag, contact%relative_spin) &
+               & *contact%relative_spin, roundings, "drag")
+            if (allocated(error)) return
+         end associate
+      end do
+   end subroutine test_parts
+
+   subroutine test_refusal(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: case
+      type(model_t) :: model
+      type(error_t), allocatable :: failure
+
+      case = thesis_case()
+      allocate (case%dynamics, case%needle_drag)
+      case%needle_drag%pitch_diameter = 10.22e-3_wp
+      call new_model(model, case, case%lift, failure)
+      call expect_error(error, failure, kind_deck, "flexible trains")
+   end subroutine test_refusal
+
+end module test_needle_drag
