@@ -15,8 +15,8 @@ module case_twins
 contains
 
    !> Take laws that hold no constants with dimensions, in place of those that do: Roelands' and Cameron's reference pressure, the
-   !> temperatures of Vogel's and Walther's oils, needles' drag, the range of numerical films, the usual place of the finger's centre of
-   !> mass.
+   !> temperatures of Vogel's and Walther's oils, needles' drag, the range of numerical films, the usual place of the
+   !> finger's centre of mass.
    subroutine leave_constants_out(case)
       !> The case
       type(case_t), intent(inout) :: case
