@@ -2,7 +2,7 @@
 
 SHELL := /bin/bash
 .DEFAULT_GOAL := help
-.PHONY: help setup commit build debug mpi install run comparison test quick bless random random-ehl random-wide needed rough-rows fuzz sanitize study study-film audit check check-layers \
+.PHONY: help setup commit build debug mpi install run comparison test quick bless random random-ehl random-wide needed rough-rows fuzz sanitize study study-film audit trends check check-layers \
   check-style check-format check-lint check-warnings second-compiler format docs recipes bench bench-ehl range-ehl bench-batch bench-effects bench-hosts clean distclean
 
 FPM := .venv/bin/fpm
@@ -72,6 +72,12 @@ audit: build ## influence and cost of each effect of decks/thesis.nml: tables an
 	cp results/thesis_audit.txt doc/effects_tables.txt
 	$(PYTHON) post/plot_audit.py results/thesis_audit.h5 --output doc/figures --name thesis_effects
 	$(PYTHON) post/plot_audit.py results/thesis_audit.h5 --table
+
+trends: build ## which measured trends come out over the ranges of unknown coefficients: doc/trends.md and its figure, one minute
+	@mkdir -p results
+	$(PYTHON) post/trends.py --cases results/trends
+	build/release/bin/camroller sweep results/trends/trends.nml -o results/trends/trends.h5 --quiet
+	$(PYTHON) post/trends.py results/trends/trends.h5 --page doc/trends.md --figure doc/figures/trends.png
 
 install: ## libraries, header, modules and program by CMake, into PREFIX=/usr/local; IO=OFF leaves out what needs HDF5
 	@cmake -S . -B build/cmake -DCMAKE_INSTALL_PREFIX="$(or $(PREFIX),/usr/local)" -DCAMROLLER_IO=$(or $(IO),ON) > build/cmake.log
