@@ -7,6 +7,7 @@ module camroller_cli
    use camroller_deck, only : override_t, add_override
    use camroller_export, only : export_formats
    use camroller_mistakes, only : line_t
+   use camroller_kinds, only : wp
    use camroller_near_names, only : nearest_name
    use camroller_names, only : write_names, index_of_name
    use camroller_number_text, only : integer_text
@@ -67,6 +68,10 @@ module camroller_cli
       character(len=:), allocatable :: form
       !> Drawing to write; blank for none
       character(len=:), allocatable :: drawing
+      !> Highest speed tried, step of the speeds [rev/min]
+      real(wp) :: highest_speed = 6000.0_wp, speed_step = 100.0_wp
+      !> Speed of seating that is too fast [m/s]
+      real(wp) :: seating_speed = 0.5_wp
    end type config_t
 
 contains
@@ -301,11 +306,42 @@ contains
          config%is_manual = .true.
       case ("--completion")
          config%is_completion = .true.
+      case ("--to")
+         call read_positive(option, value, see(config), config%highest_speed, error)
+      case ("--step")
+         call read_positive(option, value, see(config), config%speed_step, error)
+      case ("--seating")
+         call read_positive(option, value, see(config), config%seating_speed, error)
       case ("--draw")
          config%drawing = value
          if (value == "") call raise(error, kind_usage, "option '--draw' needs the name of a file"//see(config))
       end select
    end subroutine set_option_of_looking
+
+   !> A speed above zero.
+   subroutine read_positive(option, value, advice, number, error)
+      !> The option, its word, where to read more
+      character(len=*), intent(in) :: option, value, advice
+      !> Gets the number [any]
+      real(wp), intent(inout) :: number
+      !> Usage error
+      type(error_t), allocatable, intent(out) :: error
+
+      ! Largest speed that is taken [any]
+      real(wp), parameter :: largest = 1.0e5_wp
+      ! The number read [any]
+      real(wp) :: found
+      integer :: status
+
+      status = 1
+      found = 0.0_wp
+      if (verify(value, "0123456789.eE+-") == 0 .and. len(value) > 0) read (value, *, iostat=status) found
+      if (status == 0 .and. found > 0.0_wp .and. found <= largest) then
+         number = found
+         return
+      end if
+      call raise(error, kind_usage, "option '"//option//"' takes a speed above 0 and up to 100000, not '"//value//"'"//advice)
+   end subroutine read_positive
 
    !> A whole number within bounds.
    subroutine read_whole_number(option, value, meaning, advice, smallest, largest, number, error)

@@ -141,6 +141,18 @@ contains
       call add_option(commands, "--set", "-s", "group.key=value", meaning_set)
       call add_option(commands, "--quiet", "-q", "", meaning_quiet)
 
+      call add(commands, "limit", "DECK", "speeds up to which the train follows its cam", &
+         & "Find the lowest speeds at which the joint of the pivot unloads, the lash adjuster pumps up, cam and roller"//n// &
+         & "part in the event, and the valve meets its seat too fast: for the deck without its &sweep, whatever its speed."//n// &
+         & "Those of the rigid train follow from its forces. A train with &dynamics is run at one speed after another, and"//n// &
+         & "between two of them where a limit was passed, with a tolerance of 1e-4 where the deck gives none. Prints a table.")
+      call add_option(commands, "--to", "", "SPEED", "highest speed tried [rev/min]; 6000 where not given")
+      call add_option(commands, "--step", "", "SPEED", "step of the speeds tried [rev/min]; 100 where not given")
+      call add_option(commands, "--seating", "", "SPEED", "speed of the valve at its seat that is too fast [m/s]; 0.5 where "// &
+         & "not given")
+      call add_option(commands, "--set", "-s", "group.key=value", meaning_set)
+      call add_option(commands, "--quiet", "-q", "", "print the table only")
+
       call add(commands, "ehl", "DECK", "solve the contact over the cycle, with squeeze", &
          & "Solve the contact over the cycle with a transient film (squeeze), together with the roller's slip."//n// &
          & "Prints film and slip of every case and lobe shape, their differences between two grids and from steady"//n// &

@@ -22,7 +22,7 @@ module camroller_commands
    use camroller_effect_words, only : choice_in_words
    use camroller_ehl_command, only : ehl_deck
    use camroller_export, only : export_csv, export_series, export_summary
-   use camroller_measure_command, only : audit_deck, study_deck
+   use camroller_measure_command, only : audit_deck, limit_deck, study_deck
    use camroller_mistakes, only : line_t
    use camroller_model, only : model_t
    use camroller_new_file, only : check_place
@@ -111,6 +111,8 @@ contains
          call study_deck(config, error)
       case ("audit")
          call audit_deck(config, error)
+      case ("limit")
+         call limit_deck(config, error)
       case ("ehl")
          call ehl_deck(config, error)
       case ("export")

@@ -1,4 +1,5 @@
-!> The commands `study` and `audit`: every case of a deck measured, into one table on the screen and in a file.
+!> The commands `study` and `audit`: every case of a deck measured, into one table on the screen and in a file; and `limit`: speeds
+!> up to which a train follows its cam.
 !>
 !> In: the command line. Out: the table. A case that cannot be measured is recorded and does not end the others; the
 !> program still ends with its kind of error.
@@ -9,9 +10,12 @@ module camroller_measure_command
    use camroller_case, only : case_t
    use camroller_cli, only : config_t
    use camroller_hdf5_columns, only : hdf5_columns_t
-   use camroller_deck, only : deck_t, read_deck, make_sweep_case
+   use camroller_deck, only : deck_t, drop_sweep, make_case, make_sweep_case, override_t, read_deck
    use camroller_deck_sweep, only : sweep_size, case_in_words
+   use camroller_kinds, only : pi, wp
    use camroller_laws_page, only : add_laws_table
+   use camroller_limit_speeds, only : limits_t, start_limits, try_speed
+   use camroller_limits_page, only : write_limits_page
    use camroller_number_text, only : counted
    use camroller_output, only : output_t, output_options_t, open_output, abandon_output
    use camroller_console, only : console_t, seconds_since, start_console
@@ -25,7 +29,7 @@ module camroller_measure_command
    implicit none
    private
 
-   public :: study_deck, audit_deck
+   public :: study_deck, audit_deck, limit_deck
 
    !> What can be measured, and what its table holds
    integer, parameter :: of_accuracy = 1, of_film = 2, of_effects = 3
@@ -85,6 +89,40 @@ contains
 
       call measure_deck(config, of_effects, error)
    end subroutine audit_deck
+
+   !> Speeds up to which the train of a deck follows its cam.
+   subroutine limit_deck(config, error)
+      !> What to do
+      type(config_t), intent(in) :: config
+      !> What went wrong
+      type(error_t), allocatable, intent(out) :: error
+
+      ! Rad/s in a rev/min [-]
+      real(wp), parameter :: minute = pi/30.0_wp
+      type(hdf5_columns_t) :: columns
+      type(deck_t) :: deck
+      type(case_t) :: case
+      type(override_t) :: none(0)
+      type(console_t) :: progress
+      type(limits_t) :: search
+      character(len=:), allocatable :: text
+
+      call read_deck(deck, config%subject, config%overrides, error, columns)
+      if (allocated(error)) return
+      call drop_sweep(deck)
+      call make_case(deck, none, case, error)
+      if (.not. allocated(error)) call start_limits(search, case, config%seating_speed, minute*config%highest_speed, &
+         & minute*min(config%speed_step, config%highest_speed), error)
+      if (allocated(error)) return
+      call start_console(progress, config%is_quiet)
+      do while (search%is_open)
+         call try_speed(search)
+         call progress%show(search%done, search%total)
+      end do
+      call progress%end_cases()
+      call write_limits_page(search, text)
+      call print_lines(text, error)
+   end subroutine limit_deck
 
    !> Measure every case of a deck.
    subroutine measure_deck(config, what, error)

@@ -21,7 +21,8 @@ module camroller_flexible_measures
    public :: measure_t, measures, measure_count, measure_turn, pivot_force, largest_load, largest_load_angle, smallest_event_load, &
       & least_lift_error, most_lift_error, seating_speed, bounce_height, bounces, float_share, losses_of_contact, drive_torque, &
       & loss_torque, damping_torque, smallest_pivot_force, tension_share, surge_force, coil_ratio, lowest_plunger, &
-      & highest_plunger, largest_pressure, leak_volume, check_share, residual_work, gallery_torque
+      & highest_plunger, largest_pressure, leak_volume, check_share, residual_work, gallery_torque, &
+      & event_check_share
 
    !> A measure: its name, unit and meaning
    type :: measure_t
@@ -35,7 +36,7 @@ module camroller_flexible_measures
       & most_lift_error = 5, seating_speed = 6, bounce_height = 7, bounces = 8, float_share = 9, losses_of_contact = 10, &
       & drive_torque = 11, loss_torque = 12, damping_torque = 13, smallest_pivot_force = 14, tension_share = 15, &
       & surge_force = 16, coil_ratio = 17, residual_work = 18, lowest_plunger = 19, highest_plunger = 20, &
-      & largest_pressure = 21, leak_volume = 22, check_share = 23, gallery_torque = 24
+      & largest_pressure = 21, leak_volume = 22, check_share = 23, gallery_torque = 24, event_check_share = 25
 
    !> The measures; those of the adjuster last
    type(measure_t), parameter :: measures(*) = [ &
@@ -62,7 +63,9 @@ module camroller_flexible_measures
       & measure_t("chamber_pressure_max", "Pa", "largest pressure in the adjuster's chamber"), &
       & measure_t("leak_volume", "m3", "oil that leaks along the plunger in a turn"), &
       & measure_t("check_valve_share", "1", "part of the cycle with the check valve open"), &
-      & measure_t("gallery_torque", "N m", "mean power from the oil gallery over the cam's speed")]
+      & measure_t("gallery_torque", "N m", "mean power from the oil gallery over the cam's speed"), &
+      & measure_t("pump_up_share", "1", "part of the cycle with the check valve open with the valve in the upper three "// &
+      & "quarters of its lift")]
    !> How many there are without an adjuster, and with one
    integer, parameter :: measure_count(2) = [residual_work, size(measures)]
    !> Part of the largest lift above which a load counts as one of the event [-]
@@ -199,7 +202,10 @@ contains
       values(highest_plunger) = max(values(highest_plunger), now%pivot)
       values(largest_pressure) = max(values(largest_pressure), now%pressure)
       values(leak_volume) = values(leak_volume) + weight*now%flows%leak/model%speed
-      if (now%flows%opening > 0.0_wp) values(check_share) = values(check_share) + weight
+      if (now%flows%opening > 0.0_wp) then
+         values(check_share) = values(check_share) + weight
+         if (position%lift >= event_part*top) values(event_check_share) = values(event_check_share) + weight
+      end if
       values(gallery_torque) = values(gallery_torque) + weight*powers%gallery/model%speed
    end subroutine add_point
 

@@ -11,7 +11,7 @@ module camroller_case_facts
    use camroller_lift_noise, only : find_lift_noise, lift_noise_t
    use camroller_model, only : model_t, evaluate_geometry
    use camroller_number_text, only : number_text, fixed_text
-   use camroller_result, only : result_t, get_summary
+   use camroller_result, only : find_quantity, get_summary, result_t
    use camroller_run, only : build_models, run_case
    implicit none
    private
@@ -219,6 +219,16 @@ contains
       call add_value(" N, on the base circle ", "margin_base_circle", 1.0_wp)
       call add_value(" N; contact is lost above ", "contact_loss_speed", 60.0_wp/two_pi)
       text = text//" rev/min of the camshaft"//n
+      if (find_quantity(result%summary, prefix//"train_frequency") == 0) return
+      call add_value(name//" pivot's joint unloads above ", "margin_pivot_speed", 60.0_wp/two_pi)
+      call add_value(" rev/min, a lash adjuster pumps up above ", "pump_up_speed", 60.0_wp/two_pi)
+      call add_value("; natural frequency of the train ", "train_frequency", 1.0_wp)
+      call add_value(" 1/s, load of a train that vibrates over a rigid one's ", "load_factor", 1.0_wp)
+      if (find_quantity(result%summary, prefix//"surge_estimate_1") > 0) then
+         call add_value(", surge of the spring in its first mode ", "surge_estimate_1", 1.0_wp)
+         text = text//" N"
+      end if
+      text = text//n
 
    contains
 

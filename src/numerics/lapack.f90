@@ -6,7 +6,7 @@ module camroller_lapack
    implicit none
    private
 
-   public :: dgemv, dgbsv, dpbsv, dgesv, dgetrf, dgetrs
+   public :: dgemv, dgbsv, dpbsv, dgesv, dgetrf, dgetrs, dsygv
 
    interface
 
@@ -54,6 +54,22 @@ module camroller_lapack
          !> 0, or the order of the minor that is not positive definite
          integer, intent(out) :: info
       end subroutine dpbsv
+
+      !> Eigenvalues and vectors of `a x = lambda b x`, both symmetric and `b` positive definite; `a` becomes the vectors, of norm 1
+      !> in `b`, and `b` its factor.
+      pure subroutine dsygv(itype, jobz, uplo, n, a, lda, b, ldb, w, work, lwork, info)
+         import :: wp
+         !> 1: the problem above; order, leading dimensions, size of the work space
+         integer, intent(in) :: itype, n, lda, ldb, lwork
+         !> `V`: vectors too; `U`: the upper triangles are given
+         character(len=1), intent(in) :: jobz, uplo
+         !> The matrices [any]
+         real(wp), intent(inout) :: a(lda, *), b(ldb, *)
+         !> Eigenvalues in rising order, work space [any]
+         real(wp), intent(out) :: w(*), work(*)
+         !> 0, or where the method or the factorisation of `b` fails
+         integer, intent(out) :: info
+      end subroutine dsygv
 
       !> Solve a general system; `a` is overwritten by its factors.
       pure subroutine dgesv(n, nrhs, a, lda, ipiv, b, ldb, info)

@@ -23,11 +23,12 @@ module camroller_flexible_report
    use camroller_result, only : quantity_list_t, append_quantity
    use camroller_state, only : state_t
    use camroller_torque_list, only : torque_count
+   use camroller_train_outlook, only : find_outlook, outlook_t
    use camroller_trajectory, only : interpolate_state, trajectory_t
    implicit none
    private
 
-   public :: flexible_means_t, integrate_turns, add_train_scalars, judge_train
+   public :: flexible_means_t, integrate_turns, add_outlook, add_train_scalars, judge_train
 
    !> Points of the rule for a step
    integer, parameter :: points = 3
@@ -192,6 +193,31 @@ contains
       end subroutine add
 
    end subroutine add_train_scalars
+
+   !> Scalars of what a train's vibration is estimated to amount to, whether it is rigid or flexible.
+   subroutine add_outlook(list, model, prefix, scope)
+      !> List to extend
+      type(quantity_list_t), intent(inout) :: list
+      !> Model of the lobe
+      type(model_t), intent(in) :: model
+      !> Beginning of the names, and what they belong to
+      character(len=*), intent(in) :: prefix, scope
+
+      type(outlook_t) :: outlook
+      integer :: n
+
+      call find_outlook(model, outlook)
+      if (.not. outlook%is_known) return
+      call append_quantity(list, prefix//"train_frequency", "s-1", "estimate: lowest natural frequency of the train with the "// &
+         & "valve at full lift, with stiffness of usual size where there is no &dynamics", "dynamics", &
+         & outlook%frequencies(1)/two_pi, scope)
+      call append_quantity(list, prefix//"load_factor", "1", "estimate: largest contact load of a train that vibrates at that "// &
+         & "frequency over the largest of a rigid one", "dynamics", outlook%load_factor, scope)
+      do n = 1, size(outlook%surge)
+         call append_quantity(list, prefix//"surge_estimate_"//integer_text(n), "N", "estimate: largest force of spring mode "// &
+            & integer_text(n)//" with the lift of a rigid train", "dynamics", outlook%surge(n), scope)
+      end do
+   end subroutine add_outlook
 
    !> Remarks on a train.
    subroutine judge_train(model, solution, lost_share, remarks, error)

@@ -7,7 +7,7 @@ module camroller_summary
    use camroller_case, only : case_t, energy_names
    use camroller_model, only : model_t
    use camroller_cycle, only : cycle_t
-   use camroller_flexible_report, only : add_train_scalars
+   use camroller_flexible_report, only : add_outlook, add_train_scalars
    use camroller_catalogue, only : camshaft_columns, camshaft_values, lobe_columns, lobe_prefix
    use camroller_torque_list, only : torque_list, torque_count, is_loss, of_bearings, of_residual, torque_series
    use camroller_engine_summary, only : add_engine_scalars
@@ -58,6 +58,7 @@ contains
       do lobe = 1, size(solved%models)
          call add_slip(lobe, result, means, statistics(lobe), list)
          call add_margins(lobe, margins(lobe), extremes%event_load(lobe), list)
+         call add_outlook(list, solved%models(lobe), trim(lobe_prefix(lobe)), lobe_scope(lobe))
          call add_shares(lobe, solved%models(lobe), statistics(lobe), list)
          if (allocated(solved%cycles(lobe)%flexible)) call add_train_scalars(list, solved%models(lobe), &
             & solved%cycles(lobe)%flexible, trim(lobe_prefix(lobe)), lobe_scope(lobe))

@@ -25,7 +25,8 @@ def refused(result, code):
     return result.stderr
 
 
-COMMANDS = ["run", "sweep", "merge", "rerun", "check", "study", "audit", "ehl", "defaults", "fmu", "export", "version", "selftest", "help"]
+COMMANDS = ["run", "sweep", "merge", "rerun", "check", "study", "audit", "limit", "ehl", "defaults", "fmu", "export", "version", "selftest",
+            "help"]
 
 
 @pytest.mark.parametrize("command", COMMANDS)

@@ -1,0 +1,111 @@
+!> The table of limit speeds for the screen.
+!>
+!> In: a search that has ended. Out: text.
+module camroller_limits_page
+   use camroller_kinds, only : wp, pi
+   use camroller_limit_speeds, only : adjuster_limit, limit_names, limits_t, seating_limit
+   use camroller_number_text, only : integer_text, number_text, right_text
+   implicit none
+   private
+
+   public :: write_limits_page
+
+   character(len=*), parameter :: n = new_line("a")
+   !> Rev/min in a rad/s [-]
+   real(wp), parameter :: per_minute = 30.0_wp/pi
+   !> Widths of the columns
+   integer, parameter :: first_width = 46, speed_width = 18
+
+contains
+
+   !> The page.
+   subroutine write_limits_page(search, text)
+      !> The search
+      type(limits_t), intent(in) :: search
+      !> Lines with a heading
+      character(len=:), allocatable, intent(out) :: text
+
+      character(len=first_width) :: name
+      character(len=:), allocatable :: line, words
+      integer :: limit
+
+      text = "Lowest speed of the camshaft at which ...     "//right_text("rigid train", speed_width)
+      if (search%is_flexible) text = text//right_text("flexible train", speed_width)
+      do limit = 1, size(search%rigid)
+         name = limit_names(limit)
+         if (limit == seating_limit) name = trim(name)//" "//number_text(search%seating, 3)//" m/s"
+         call rigid_text(search, limit, words)
+         line = name//right_text(words, speed_width)
+         if (search%is_flexible) then
+            call flexible_text(search, limit, words)
+            line = line//right_text(words, speed_width)
+            call period_text(search, limit, words)
+            line = line//words
+         end if
+         text = text//n//trim(line)
+      end do
+      if (search%is_flexible) then
+         text = text//n//"speeds in rev/min; the flexible train was tried at "//integer_text(search%done)// &
+            & " speeds, in steps of "//number_text(search%step*per_minute, 5)//" and then to 1"
+      else
+         text = text//n//"speeds in rev/min; the rigid train by its forces without friction, which follow the "// &
+            & "square of the speed"
+      end if
+      if (search%failure /= "") text = text//n//"higher speeds were not tried: "//search%failure
+   end subroutine write_limits_page
+
+   !> A limit of the rigid train.
+   subroutine rigid_text(search, limit, words)
+      !> The search
+      type(limits_t), intent(in) :: search
+      !> Which limit
+      integer, intent(in) :: limit
+      !> The words
+      character(len=:), allocatable, intent(out) :: words
+
+      if (limit == seating_limit) then
+         words = "-"
+      else if (search%rigid(limit) < 0.0_wp) then
+         words = "finger_kg?"
+      else if (search%rigid(limit) > huge(1.0_wp)) then
+         words = "never"
+      else
+         words = number_text(search%rigid(limit)*per_minute, 5)
+      end if
+      if (limit == adjuster_limit .and. search%is_flexible .and. .not. search%has_adjuster) words = "-"
+   end subroutine rigid_text
+
+   !> A limit of the flexible train.
+   subroutine flexible_text(search, limit, words)
+      !> The search
+      type(limits_t), intent(in) :: search
+      !> Which limit
+      integer, intent(in) :: limit
+      !> The words
+      character(len=:), allocatable, intent(out) :: words
+
+      if (limit == adjuster_limit .and. .not. search%has_adjuster) then
+         words = "-"
+      else if (search%above(limit) <= search%highest) then
+         words = number_text(search%above(limit)*per_minute, 5)
+      else
+         words = "above "//number_text(search%below(limit)*per_minute, 5)
+      end if
+   end subroutine flexible_text
+
+   !> How the train repeats itself at a limit, where it does not do so in each cycle.
+   subroutine period_text(search, limit, words)
+      !> The search
+      type(limits_t), intent(in) :: search
+      !> Which limit
+      integer, intent(in) :: limit
+      !> The words
+      character(len=:), allocatable, intent(out) :: words
+
+      words = ""
+      if (.not. search%above(limit) <= search%highest .or. search%period(limit) == 1) return
+      words = "   without a period"
+      if (search%period(limit) > 1) words = "   with a period of "//integer_text(search%period(limit))//" cycles"
+   end subroutine period_text
+
+end module camroller_limits_page

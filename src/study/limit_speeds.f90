@@ -1,0 +1,210 @@
+!> Speeds up to which a train does what its cam asks for: the first at which the pivot's joint unloads, the adjuster pumps up, cam
+!> and roller part in the event, the valve meets its seat too fast.
+!>
+!> In: a case, the range of speeds. Out: those of the rigid train by the formulas of its margins; those of a flexible train by a
+!> scan upwards in even steps and halving where one is passed, on periodic states, or on 40 cycles where there is none. What a train
+!> does within less than a step of the scan may be missed.
+module camroller_limit_speeds
+   use camroller_kinds, only : wp, pi
+   use camroller_accuracy, only : resolve_numerics
+   use camroller_case, only : case_t
+   use camroller_error, only : error_t, add_context
+   use camroller_events, only : cycle_stops, find_stops
+   use camroller_flexible_measures, only : event_check_share, seating_speed, smallest_event_load, smallest_pivot_force
+   use camroller_flexible_solution, only : flexible_solution_t, solve_flexible
+   use camroller_margins, only : find_margins, margins_t
+   use camroller_model, only : model_t
+   use camroller_number_text, only : number_text
+   use camroller_run, only : build_models
+   implicit none
+   private
+
+   public :: limits_t, limit_names, start_limits, try_speed, joint_limit, adjuster_limit, contact_limit, seating_limit
+
+   !> Places of the limits
+   integer, parameter :: joint_limit = 1, adjuster_limit = 2, contact_limit = 3, seating_limit = 4, limit_count = 4
+   !> What happens at them
+   character(len=*), parameter :: limit_names(*) = [character(len=40) :: "the joint of the pivot unloads", &
+      & "the lash adjuster pumps up", "cam and roller part in the event", "the valve meets its seat faster than"]
+   !> Tolerance of the integration where the case gives none [-]
+   real(wp), parameter :: usual_tolerance = 1.0e-4_wp
+   !> Width at which halving ends [rad/s]: 1 rev/min
+   real(wp), parameter :: width = pi/30.0_wp
+
+   !> A search
+   type :: limits_t
+      type(case_t) :: case
+      !> Speed of seating that counts as too fast [m/s]; highest speed and step of the scan [rad/s]
+      real(wp) :: seating = 0.0_wp, highest = 0.0_wp, step = 0.0_wp
+      !> Limits of the rigid train: infinite where it has none, negative where it is not known [rad/s]
+      real(wp) :: rigid(limit_count) = -1.0_wp
+      !> Is the train flexible, with an adjuster?
+      logical :: is_flexible = .false., has_adjuster = .false.
+      !> Highest speed that was tried and lies below a limit, lowest that lies above it, as far as there is one [rad/s]
+      real(wp) :: below(limit_count) = 0.0_wp, above(limit_count) = huge(1.0_wp)
+      !> Cycles of the period at the latter; 0 where there is none
+      integer :: period(limit_count) = 0
+      !> Speeds that have been tried, and as many as there will be at most
+      integer :: done = 0, total = 0
+      !> Is there a speed left to try?
+      logical :: is_open = .false.
+      !> Why the scan ended early
+      character(len=:), allocatable :: failure
+   end type limits_t
+
+contains
+
+   !> Begin: limits of the rigid train, and what there is to search.
+   subroutine start_limits(search, case, seating, highest, step, error)
+      !> The search
+      type(limits_t), intent(out) :: search
+      !> The case; its speed does not matter
+      type(case_t), intent(in) :: case
+      !> Speed of seating that counts as too fast [m/s]; highest speed and step of the scan [rad/s]
+      real(wp), intent(in) :: seating, highest, step
+      !> Deck or domain error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(model_t), allocatable :: models(:)
+      type(margins_t) :: margins
+      ! Stops of a cycle [rad]
+      real(wp), allocatable :: stops(:)
+      integer :: lobe
+
+      search%case = case
+      search%seating = seating
+      search%highest = highest
+      search%step = step
+      search%failure = ""
+      if (.not. case%numerics%tolerance > 0.0_wp) search%case%numerics%tolerance = usual_tolerance
+      call build_models(case, models, error)
+      if (allocated(error)) return
+      search%is_flexible = allocated(case%dynamics)
+      search%has_adjuster = allocated(case%lash_adjuster)
+      do lobe = 1, size(models)
+         call find_stops(models(lobe), stops)
+         call find_margins(models(lobe), cycle_stops(stops, -pi), margins)
+         call lower(contact_limit, margins%event%speed)
+         if (.not. allocated(margins%pivot)) cycle
+         call lower(joint_limit, margins%pivot%speed)
+         call lower(adjuster_limit, margins%pump_up_speed)
+      end do
+      search%is_open = search%is_flexible
+      search%total = ceiling(highest/step) + limit_count*max(0, ceiling(log(step/width)/log(2.0_wp)))
+
+   contains
+
+      !> Take a lobe's limit.
+      subroutine lower(limit, speed)
+         !> Which
+         integer, intent(in) :: limit
+         !> The speed [rad/s]
+         real(wp), intent(in) :: speed
+
+         if (search%rigid(limit) < 0.0_wp .or. speed < search%rigid(limit)) search%rigid(limit) = speed
+      end subroutine lower
+
+   end subroutine start_limits
+
+   !> Try the next speed of a search that is open. A case that cannot be computed ends the scan at the speeds before.
+   subroutine try_speed(search)
+      !> The search
+      type(limits_t), intent(inout) :: search
+
+      type(error_t), allocatable :: error
+      ! Speed to try [rad/s]
+      real(wp) :: speed
+      logical :: is_passed(limit_count)
+      integer :: period, limit
+
+      speed = next_speed(search)
+      call judge_speed(search, speed, is_passed, period, error)
+      search%done = search%done + 1
+      if (allocated(error)) then
+         search%failure = "at "//number_text(speed*30.0_wp/pi, 6)//" rev/min: "//error%message
+         search%is_open = .false.
+         return
+      end if
+      do limit = 1, limit_count
+         if (speed <= search%below(limit) .or. speed >= search%above(limit)) cycle
+         if (is_passed(limit)) then
+            search%above(limit) = speed
+            search%period(limit) = period
+         else
+            search%below(limit) = speed
+         end if
+      end do
+      search%is_open = next_speed(search) > 0.0_wp
+   end subroutine try_speed
+
+   !> The speed to try next: the middle of a limit's bracket, or where all that have one are narrow the next of the scan.
+   pure function next_speed(search) result(speed)
+      !> The search
+      type(limits_t), intent(in) :: search
+      !> The speed; zero where the search is at its end [rad/s]
+      real(wp) :: speed
+
+      integer :: limit
+
+      do limit = 1, limit_count
+         speed = 0.5_wp*(search%below(limit) + search%above(limit))
+         if (search%above(limit) <= search%highest .and. search%above(limit) - search%below(limit) > width) return
+      end do
+      ! The scan goes on from the highest speed that is below a limit
+      speed = maxval(search%below, mask=.not. search%above <= search%highest .and. applies(search))
+      if (speed < search%highest .and. speed >= 0.0_wp) then
+         speed = min(search%step*(nint(speed/search%step) + 1), search%highest)
+      else
+         speed = 0.0_wp
+      end if
+   end function next_speed
+
+   !> Which limits a flexible train can have.
+   pure function applies(search) result(can)
+      !> The search
+      type(limits_t), intent(in) :: search
+      !> One for each limit
+      logical :: can(limit_count)
+
+      can = .true.
+      can(adjuster_limit) = search%has_adjuster
+   end function applies
+
+   !> What the train does at a speed.
+   subroutine judge_speed(search, speed, is_passed, period, error)
+      !> The search
+      type(limits_t), intent(in) :: search
+      !> The speed [rad/s]
+      real(wp), intent(in) :: speed
+      !> Is it above each limit?
+      logical, intent(out) :: is_passed(limit_count)
+      !> Cycles of the period; 0 where there is none
+      integer, intent(out) :: period
+      !> Domain or convergence error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(case_t) :: case
+      type(model_t), allocatable, target :: models(:)
+      type(flexible_solution_t) :: solution
+      integer :: lobe
+
+      is_passed = .false.
+      period = 1
+      case = search%case
+      case%operating_point%speed = speed
+      call build_models(case, models, error)
+      if (allocated(error)) return
+      do lobe = 1, size(models)
+         call solve_flexible(solution, models(lobe), resolve_numerics(case%numerics), error)
+         if (lobe > 1) call add_context(error, "second lift")
+         if (allocated(error)) return
+         is_passed(joint_limit) = is_passed(joint_limit) .or. solution%lowest(smallest_pivot_force) < 0.0_wp
+         is_passed(contact_limit) = is_passed(contact_limit) .or. .not. solution%lowest(smallest_event_load) > 0.0_wp
+         is_passed(seating_limit) = is_passed(seating_limit) .or. solution%highest(seating_speed) > search%seating
+         if (search%has_adjuster) is_passed(adjuster_limit) = is_passed(adjuster_limit) .or. &
+            & solution%highest(event_check_share) > 0.0_wp
+         if (solution%cycle%period /= 1 .and. period > 0) period = solution%cycle%period
+      end do
+   end subroutine judge_speed
+
+end module camroller_limit_speeds

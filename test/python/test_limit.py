@@ -1,0 +1,38 @@
+"""Limit speeds of a train: `camroller limit`."""
+
+import pathlib
+import re
+import subprocess
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+
+
+def limits(camroller, deck, *options):
+    """Rows of the table: the last words of each limit."""
+    done = subprocess.run([camroller, "limit", ROOT / "decks" / deck, *options], capture_output=True, text=True, timeout=300)
+    assert done.returncode == 0, done.stderr
+    lines = done.stdout.splitlines()
+    assert lines[0].startswith("Lowest speed of the camshaft at which")
+    return [re.split(r"\s{2,}", line.strip())[1:] for line in lines[1:5]], lines[5:]
+
+
+def test_a_rigid_train_by_its_forces(camroller):
+    rows, notes = limits(camroller, "thesis.nml")
+    # Numbers of an independent evaluation of the margins
+    assert all(abs(float(row[0]) - speed) < 1 for row, speed in zip(rows, [2471, 2357, 2937]))
+    assert rows[3] == ["-"]
+    assert "without friction" in notes[0]
+
+
+def test_a_flexible_train_by_runs(camroller):
+    rows, notes = limits(camroller, "dynamics.nml", "--to", "1200", "--step", "400", "--set", "numerics.tolerance=1e-3")
+    # The vibration of the train unloads the joint at half the speed of the rigid train's forces: 1119 to a finer tolerance
+    assert rows[0][0] == "2470.9" and abs(float(rows[0][1]) - 1119) < 15
+    assert [row[1] for row in rows[1:]] == ["-", "above 1200", "above 1200"]
+    assert re.match(r"speeds in rev/min; the flexible train was tried at \d+ speeds, in steps of 400 and then to 1$", notes[0])
+
+
+def test_words_that_are_no_speeds(camroller):
+    for option, word in (("--to", "fast"), ("--step", "0"), ("--seating", "-1"), ("--to", "1e9"), ("--to", "")):
+        done = subprocess.run([camroller, "limit", ROOT / "decks/thesis.nml", f"{option}={word}"], capture_output=True, text=True)
+        assert done.returncode == 2 and f"option '{option}' takes a speed above 0 and up to 100000, not '{word}'" in done.stderr

@@ -1,0 +1,181 @@
+!> Estimates of a train's vibration.
+module test_train_outlook
+   use testdrive, only : unittest_type, new_unittest, error_type, check
+   use camroller_kinds, only : wp, pi, two_pi
+   use camroller_case, only : case_t
+   use camroller_kinematics, only : position_t
+   use camroller_model, only : evaluate_geometry, model_t
+   use camroller_train_outlook, only : find_outlook, largest_response, outlook_t
+   use reference_cases, only : thesis_case, make_model, set_point
+   use flexible_cases, only : add_dynamics
+   use closeness, only : check_close, check_scaled
+   implicit none
+   private
+
+   public :: collect_train_outlook
+
+contains
+
+   subroutine collect_train_outlook(testsuite)
+      type(unittest_type), allocatable, intent(out) :: testsuite(:)
+
+      testsuite = [ &
+         new_unittest("an oscillator under a force of one frequency has its closed response", test_harmonic), &
+         new_unittest("natural frequencies of the reference train, with a fixed pivot and an adjuster", test_frequencies), &
+         new_unittest("load factors of the reference train", test_load_factors), &
+         new_unittest("surge is the sum of the closed responses to the harmonics of the lift", test_surge), &
+         new_unittest("a train of unknown mass has no estimate", test_unknown) &
+         ]
+   end subroutine collect_train_outlook
+
+   subroutine test_harmonic(error)
+      type(error_type), allocatable, intent(out) :: error
+      integer, parameter :: n = 20000
+      ! Force [m/s^2], frequency of the oscillator and of the force [rad/s], damping ratio [-], period [s], response [m]
+      real(wp) :: force(n), frequency, pulse, damping_ratio, period, response
+      integer :: i
+
+      frequency = 300.0_wp
+      damping_ratio = 0.02_wp
+      pulse = 290.0_wp
+      period = two_pi/pulse
+      force = [(cos(two_pi*real(i - 1, wp)/n), i=1, n)]
+      response = largest_response(force, frequency, damping_ratio, period/n)
+      ! A line between two points errs by (2 pi/n)^2/8 = 1.2e-8, and the largest value at the points by as much
+      call check_close(error, response, 1.0_wp/sqrt((frequency**2 - pulse**2)**2 + (2.0_wp*damping_ratio*frequency*pulse)**2), &
+         & 5.0e-8_wp, "response")
+   end subroutine test_harmonic
+
+   !> Estimates of the reference train.
+   subroutine estimate(speed, modes, has_adjuster, outlook, error)
+      !> Speed [rev/min]
+      real(wp), intent(in) :: speed
+      integer, intent(in) :: modes
+      logical, intent(in) :: has_adjuster
+      type(outlook_t), intent(out) :: outlook
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: the_case
+      type(model_t) :: model
+
+      the_case = thesis_case()
+      call set_point(the_case, speed*pi/30.0_wp, 0.01_wp)
+      if (modes >= 0) call add_dynamics(the_case, modes, has_adjuster)
+      call make_model(the_case, model, error)
+      if (.not. allocated(error)) call find_outlook(model, outlook)
+   end subroutine estimate
+
+   !> Rows of an independent program: 2012 Hz and 7.7 kHz; with an adjuster 1560 Hz, 4.3 and 8.9 kHz.
+   subroutine test_frequencies(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(outlook_t) :: fixed, rigid, adjuster
+
+      call estimate(900.0_wp, 5, .false., fixed, error)
+      if (.not. allocated(error)) call estimate(900.0_wp, -1, .false., rigid, error)
+      if (.not. allocated(error)) call estimate(900.0_wp, 5, .true., adjuster, error)
+      if (allocated(error)) return
+      call check_scaled(error, fixed%frequencies(1)/two_pi, 2012.0_wp, 1.0_wp, 5.0_wp, "fixed pivot")
+      if (allocated(error)) return
+      call check_scaled(error, fixed%frequencies(2)/two_pi, 7700.0_wp, 1.0_wp, 50.0_wp, "fixed pivot, second")
+      if (allocated(error)) return
+      call check_scaled(error, adjuster%frequencies(1)/two_pi, 1560.0_wp, 1.0_wp, 5.0_wp, "adjuster")
+      if (allocated(error)) return
+      call check_scaled(error, adjuster%frequencies(2)/two_pi, 4300.0_wp, 1.0_wp, 50.0_wp, "adjuster, second")
+      if (allocated(error)) return
+      call check_scaled(error, adjuster%frequencies(3)/two_pi, 8900.0_wp, 1.0_wp, 55.0_wp, "adjuster, third")
+      if (allocated(error)) return
+      ! A rigid train takes the usual stiffness, which is the reference train's
+      call check_close(error, rigid%frequencies(1), fixed%frequencies(1), 1.0e-12_wp, "rigid train")
+   end subroutine test_frequencies
+
+   !> Rows of an independent program with the same estimate; where points half a vibration apart lie changes it by up to 0.01.
+   subroutine test_load_factors(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(outlook_t) :: outlook
+      ! Speeds [rev/min], load factors with a fixed pivot and with an adjuster [-]
+      real(wp), parameter :: speeds(4) = [300.0_wp, 900.0_wp, 1500.0_wp, 2500.0_wp]
+      real(wp), parameter :: factors(4, 2) = reshape([1.000_wp, 1.002_wp, 1.025_wp, 1.091_wp, 1.000_wp, 1.017_wp, 1.088_wp, &
+         & 1.163_wp], [4, 2])
+      integer :: i, kind
+
+      do kind = 1, 2
+         do i = 1, size(speeds)
+            call estimate(speeds(i), 5, kind == 2, outlook, error)
+            if (allocated(error)) return
+            call check_scaled(error, outlook%load_factor, factors(i, kind), 1.0_wp, 1.0e-2_wp, "load factor "// &
+               & achar(48 + i)//achar(48 + kind))
+            if (allocated(error)) return
+         end do
+      end do
+   end subroutine test_load_factors
+
+   !> Harmonics 8 to 12 of the lift drive the spring's first mode of 416.667 Hz in resonance; the sum of the closed responses to all
+   !> harmonics against the response in time.
+   subroutine test_surge(error)
+      type(error_type), allocatable, intent(out) :: error
+      integer, parameter :: points = 720, harmonics = 60
+      ! Harmonics of the lift of the reference train [um], from an independent program
+      real(wp), parameter :: amplitudes(8:12) = [33.1030_wp, 11.2094_wp, 4.9464_wp, 6.6546_wp, 1.5177_wp]
+      type(outlook_t) :: outlook
+      type(case_t) :: the_case
+      type(model_t) :: model
+      type(position_t) :: position
+      ! Lift [m], displacement of the mode [m]; frequency of the mode [rad/s]
+      real(wp) :: lift(points), mode(points), pulse
+      ! Harmonic of the lift and of the mode [m]
+      complex(wp) :: driving, response
+      integer :: harmonic, h, i, status
+
+      do harmonic = 8, 12
+         the_case = thesis_case()
+         call set_point(the_case, two_pi*416.666667_wp/harmonic, 0.01_wp)
+         call add_dynamics(the_case, 5, .false.)
+         call make_model(the_case, model, error)
+         if (allocated(error)) return
+         call find_outlook(model, outlook)
+         do i = 1, points
+            call evaluate_geometry(model, angle(i), position, status)
+            lift(i) = position%lift
+         end do
+         pulse = model%flexible%modes%frequency(1)
+         mode = 0.0_wp
+         do h = 1, harmonics
+            driving = 2.0_wp*sum([(lift(i)*exp(cmplx(0.0_wp, -h*angle(i), wp)), i=1, points)])/points
+            if (h == harmonic) call check_close(error, 1.0e6_wp*abs(driving), amplitudes(h), 1.0e-4_wp, "harmonic of the lift")
+            if (allocated(error)) return
+            associate (drive => h*model%speed)
+               response = 2.0_wp/pi*drive**2*driving/cmplx(pulse**2 - drive**2, 2.0_wp*0.01_wp*pulse*drive, wp)
+            end associate
+            mode = mode + [(real(response*exp(cmplx(0.0_wp, h*angle(i), wp)), wp), i=1, points)]
+         end do
+         ! Lines between the points of the second derivative err by (pi h/720)^2/3 at the harmonics that count: 1e-3
+         call check_close(error, outlook%surge(1), 25.0e3_wp*pi*maxval(abs(mode)), 3.0e-3_wp, "surge")
+         if (allocated(error)) return
+      end do
+
+   contains
+
+      !> Cam angle of a point [rad].
+      pure real(wp) function angle(number)
+         integer, intent(in) :: number
+
+         angle = two_pi*real(number - 1, wp)/points - pi
+      end function angle
+
+   end subroutine test_surge
+
+   subroutine test_unknown(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: the_case
+      type(model_t) :: model
+      type(outlook_t) :: outlook
+
+      the_case = thesis_case()
+      the_case%masses%finger = 0.0_wp
+      the_case%masses%finger_inertia = 2.0e-5_wp
+      call make_model(the_case, model, error)
+      if (allocated(error)) return
+      call find_outlook(model, outlook)
+      call check(error, .not. outlook%is_known)
+   end subroutine test_unknown
+
+end module test_train_outlook
