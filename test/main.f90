@@ -75,6 +75,7 @@ program main
    use test_magnitudes, only : collect_magnitudes
    use test_film_literature, only : collect_film_literature
    use test_train_outlook, only : collect_train_outlook
+   use test_hard_dynamics, only : collect_hard_dynamics
    use test_limit_speeds, only : collect_limit_speeds
    use test_study, only : collect_study
    use test_error_estimate, only : collect_error_estimate
@@ -222,6 +223,7 @@ contains
          new_testsuite("film_literature", collect_film_literature), &
          new_testsuite("study", collect_study), &
          new_testsuite("limit_speeds", collect_limit_speeds), &
+         new_testsuite("hard_dynamics", collect_hard_dynamics), &
          new_testsuite("train_outlook", collect_train_outlook), &
          new_testsuite("error_estimate", collect_error_estimate), &
          new_testsuite("means", collect_means), &

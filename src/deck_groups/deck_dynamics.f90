@@ -44,6 +44,8 @@ contains
          & is_optional=.true.)
       call add_number(schema, "seat_restitution_speed_m_s", positive, "speed of that impact", &
          & default=standard%seat_restitution_speed)
+      call add_number(schema, "lash_mm", not_negative, "clearance at the pad of the closed valve, of a train without a lash "// &
+         & "adjuster that nothing presses together on the base circle", default=standard%lash)
       call add_surge_keys(schema)
       call add_adjuster_keys(schema)
    end subroutine add_dynamics_keys
@@ -127,6 +129,7 @@ contains
          call take(settings, "dynamics", "seat_damping_s_m", dynamics%seat_damping)
          call take(settings, "dynamics", "seat_restitution", dynamics%seat_restitution)
          call take(settings, "dynamics", "seat_restitution_speed_m_s", dynamics%seat_restitution_speed)
+         call take(settings, "dynamics", "lash_mm", dynamics%lash)
       end associate
       if (has_group(settings, "spring_surge")) then
          allocate (case%spring_surge)
@@ -181,6 +184,8 @@ contains
       type(mistakes_t), intent(inout) :: mistakes
 
       character(len=*), parameter :: parts(*) = [character(len=13) :: "spring_surge", "lash_adjuster"]
+      ! Lash [m]
+      real(wp) :: lash
       integer :: i
 
       do i = 1, size(parts)
@@ -201,6 +206,12 @@ contains
          call complain(mistakes, settings, "numerics", "method", "'method' must be 'automatic', 'rodas5p', 'radau5' or "// &
             & "'dormand_prince' with &dynamics")
       end select
+      if (has_group(settings, "lash_adjuster")) then
+         lash = 0.0_wp
+         call take(settings, "dynamics", "lash_mm", lash)
+         if (lash > 0.0_wp) call complain(mistakes, settings, "dynamics", "lash_mm", "'lash_mm' must be 0 with &lash_adjuster, "// &
+            & "which leaves no lash")
+      end if
       call finger_is_known(settings, mistakes)
       call spring_leaves_a_valve(settings, mistakes)
    end subroutine check_dynamics

@@ -10,6 +10,8 @@ import pytest
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 FOLDER = ROOT / "decks/hard"
 DECKS = sorted(FOLDER.glob("*.nml"))
+# Flexible trains have a suite of their own
+DYNAMIC = sorted((FOLDER / "dynamics").glob("*.nml"))
 # Cams that cannot be made: `check` has to say so
 IMPOSSIBLE = {"short_undercut.nml": "cam undercut", "very_noisy_table.nml": "cam undercut"}
 DOMAIN = 4
@@ -19,7 +21,7 @@ def test_there_are_hard_decks():
     assert len(DECKS) >= 24
 
 
-@pytest.mark.parametrize("path", DECKS, ids=lambda path: path.name)
+@pytest.mark.parametrize("path", DECKS + DYNAMIC, ids=lambda path: path.name)
 def test_each_deck_says_why_it_is_hard(path):
     assert path.read_text().startswith("! Hard because ")
     assert f90nml.read(path)["case"]["title"]
@@ -45,3 +47,5 @@ def test_each_deck_is_in_the_lists_of_the_tests():
     for name in ("test_hard_cases", "test_hard_ehl"):
         text = (FOLDER.parents[1] / f"test/verification/{name}.f90").read_text(encoding="utf-8")
         assert [path.stem for path in DECKS if f'"{path.stem}"' not in text] == []
+    text = (FOLDER.parents[1] / "test/verification/test_hard_dynamics.f90").read_text(encoding="utf-8")
+    assert DYNAMIC and [path.stem for path in DYNAMIC if f'"{path.stem}"' not in text] == []

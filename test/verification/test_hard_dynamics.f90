@@ -1,0 +1,121 @@
+!> Every deck in `decks/hard/dynamics`: flexible trains that are hard to integrate.
+module test_hard_dynamics
+   use testdrive, only : new_unittest, unittest_type, error_type, check, test_failed
+   use camroller_kinds, only : wp, two_pi
+   use camroller_error, only : error_t
+   use camroller_case, only : case_t
+   use camroller_model, only : model_t
+   use camroller_run, only : build_models
+   use camroller_deck, only : deck_t, override_t, read_deck, make_case
+   use camroller_flexible_cycle, only : flexible_cycle_t, turn_t, start_turns, find_periodic, rest_of_train
+   use camroller_flexible_measures, only : measure_count, measure_turn, largest_load, loss_torque, residual_work
+   use closeness, only : check_close, check_scaled
+   implicit none
+   private
+
+   public :: collect_hard_dynamics
+
+   !> Length of the name of a deck
+   integer, parameter :: name_length = 24
+   !> Decks with a period of one cycle, and decks that fly and have none, or take many cycles to it
+   character(len=name_length), parameter :: periodic(*) = [character(len=name_length) :: "pumped_up_adjuster", &
+      & "noisy_lift_table", "soft_seat", "cold_start_stiff_leak"]
+   character(len=name_length), parameter :: flying(*) = [character(len=name_length) :: "spring_in_resonance", &
+      & "mechanical_lash", "overspeed", "overspeed_adjuster"]
+   !> Tolerance of a step [-]
+   real(wp), parameter :: tolerance = 4.0e-4_wp
+   !> Steps tried in a turn: 300 to 3500 are taken; more than 50 000 where the sliding speed chatters on a solid film
+   integer, parameter :: most_steps = 10000
+
+contains
+
+   subroutine collect_hard_dynamics(testsuite)
+      type(unittest_type), allocatable, intent(out) :: testsuite(:)
+
+      testsuite = [ &
+         new_unittest("hard trains with a period: two methods find the same, with closed energy and few steps", test_periodic), &
+         new_unittest("trains that fly: two methods agree on the first turn, energy is closed, steps are few", test_flying) &
+         ]
+   end subroutine collect_hard_dynamics
+
+   !> Measures of the last of some turns from rest.
+   subroutine measure(deck_name, method, most_turns, values, period, error)
+      character(len=*), intent(in) :: deck_name, method
+      integer, intent(in) :: most_turns
+      !> Measures [unit of the measure]
+      real(wp), allocatable, intent(out) :: values(:)
+      integer, intent(out) :: period
+      type(error_type), allocatable, intent(out) :: error
+      type(deck_t) :: deck
+      type(override_t) :: none(0)
+      type(case_t) :: case
+      type(model_t), allocatable, target :: models(:)
+      type(turn_t) :: turn
+      type(flexible_cycle_t) :: cycle
+      type(error_t), allocatable :: failure
+      !> State [state]
+      real(wp), allocatable :: state(:)
+
+      period = 0
+      call read_deck(deck, "decks/hard/dynamics/"//trim(deck_name)//".nml", none, failure)
+      if (.not. allocated(failure)) call make_case(deck, none, case, failure)
+      if (.not. allocated(failure)) call build_models(case, models, failure)
+      if (.not. allocated(failure)) call start_turns(turn, models(1), method, tolerance, failure)
+      if (.not. allocated(failure)) call rest_of_train(models(1), state, failure)
+      if (.not. allocated(failure)) call find_periodic(cycle, turn, state, 10.0_wp*tolerance, most_turns, failure)
+      if (.not. allocated(failure)) then
+         allocate (values(measure_count(merge(2, 1, allocated(case%lash_adjuster)))))
+         call measure_turn(models(1), cycle%trajectory, cycle%resolution, values, failure)
+      end if
+      if (allocated(failure)) call test_failed(error, trim(deck_name)//" by "//method//": "//failure%message)
+      if (allocated(error)) return
+      period = cycle%period
+      call check(error, cycle%counters%accepted + cycle%counters%rejected < most_steps*cycle%cycles, trim(deck_name)//" by "// &
+         & method//": steps")
+      if (allocated(error)) return
+      ! Round-off of powers some thousand times the losses
+      call check_scaled(error, values(residual_work), 0.0_wp, two_pi*values(loss_torque), 1.0e-8_wp, trim(deck_name)//" by "// &
+         & method//": energy of the turn")
+   end subroutine measure
+
+   subroutine test_periodic(error)
+      type(error_type), allocatable, intent(out) :: error
+      !> Measures by both methods [unit of the measure]
+      real(wp), allocatable :: one(:), other(:)
+      integer :: i, period
+
+      do i = 1, size(periodic)
+         call measure(periodic(i), "rodas5p", 40, one, period, error)
+         if (allocated(error)) return
+         call check(error, period, 1, trim(periodic(i))//" has no period of one cycle")
+         if (allocated(error)) return
+         call measure(periodic(i), "radau5", 40, other, period, error)
+         if (allocated(error)) return
+         ! Errors at this tolerance
+         call check_close(error, other(largest_load), one(largest_load), 5.0e-3_wp, trim(periodic(i))//": largest load")
+         if (allocated(error)) return
+         call check_close(error, other(loss_torque), one(loss_torque), 5.0e-3_wp, trim(periodic(i))//": losses")
+         if (allocated(error)) return
+      end do
+   end subroutine test_periodic
+
+   subroutine test_flying(error)
+      type(error_type), allocatable, intent(out) :: error
+      !> Measures by both methods [unit of the measure]
+      real(wp), allocatable :: one(:), other(:)
+      integer :: i, period
+
+      do i = 1, size(flying)
+         call measure(flying(i), "rodas5p", 1, one, period, error)
+         if (allocated(error)) return
+         call measure(flying(i), "radau5", 1, other, period, error)
+         if (allocated(error)) return
+         ! A turn with impacts multiplies errors of the tolerance by some ten
+         call check_close(error, other(largest_load), one(largest_load), 2.0e-2_wp, trim(flying(i))//": largest load")
+         if (allocated(error)) return
+         call check_close(error, other(loss_torque), one(loss_torque), 2.0e-2_wp, trim(flying(i))//": losses")
+         if (allocated(error)) return
+      end do
+   end subroutine test_flying
+
+end module test_hard_dynamics
