@@ -102,10 +102,10 @@ contains
          call move_alloc(items, list%items)
       end if
       associate (item => list%items(list%count))
-         item%name = name
+         item%name = trim(name)
          item%unit = unit
-         item%description = description
-         item%source = source
+         item%description = trim(description)
+         item%source = trim(source)
          if (present(scope)) item%scope = scope
       end associate
    end subroutine append_quantity
