@@ -10,11 +10,11 @@ module camroller_commands
    use camroller_fmu_command, only : fmu_of_deck
    use camroller_hdf5_columns, only : hdf5_columns_t
    use camroller_help_pages, only : bash_completion, manual_page
+   use camroller_console, only : tell_deck_remarks
    use camroller_deck, only : deck_t, read_deck, make_case, make_sweep_case, add_places, drop_sweep, override_t
    use camroller_case_facts, only : describe_case
    use camroller_deck_document, only : write_defaults, write_page, write_resolved
    use camroller_deck_files, only : list_deck_files
-   use camroller_deck_notes, only : tell_deck_remarks
    use camroller_deck_schema, only : group_effect
    use camroller_deck_sweep, only : axis_size, case_in_words, sweep_size
    use camroller_effect_choice, only : wants_choice, choose_effects
@@ -25,8 +25,7 @@ module camroller_commands
    use camroller_measure_command, only : audit_deck, limit_deck, study_deck
    use camroller_mistakes, only : line_t
    use camroller_model, only : model_t
-   use camroller_new_file, only : check_place
-   use camroller_new_text, only : save_text
+   use camroller_new_file, only : check_place, save_text
    use camroller_number_text, only : counted, integer_text
    use camroller_rerun_command, only : rerun_file
    use camroller_run, only : build_models

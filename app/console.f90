@@ -6,6 +6,9 @@
 module camroller_console
    use, intrinsic :: iso_c_binding, only : c_int
    use, intrinsic :: iso_fortran_env, only : int64
+   use camroller_deck, only : deck_t
+   use camroller_deck_remarks, only : list_deck_remarks
+   use camroller_mistakes, only : line_t
    use camroller_kinds, only : wp
    use camroller_number_text, only : counted, number_text, fixed_text, integer_text
    use camroller_monitor, only : monitor_t
@@ -14,7 +17,7 @@ module camroller_console
    implicit none
    private
 
-   public :: console_t, start_console, seconds_since, time_in_words
+   public :: console_t, start_console, seconds_since, time_in_words, tell_deck_remarks
 
    !> Width of the line
    integer, parameter :: width = 72
@@ -175,5 +178,19 @@ contains
       call system_clock(now, rate)
       words = fixed_text(real(now - console%start, wp)/real(rate, wp), 2)//" s"
    end function seconds_since
+
+   !> Show remarks on the numbers of a deck.
+   subroutine tell_deck_remarks(deck)
+      !> The deck
+      type(deck_t), intent(in) :: deck
+
+      type(line_t), allocatable :: remarks(:)
+      integer :: i
+
+      call list_deck_remarks(deck, remarks)
+      do i = 1, size(remarks)
+         call tell("remark: "//remarks(i)%text//new_line("a"))
+      end do
+   end subroutine tell_deck_remarks
 
 end module camroller_console

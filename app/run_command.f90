@@ -10,10 +10,9 @@ module camroller_run_command
    use camroller_case, only : case_t
    use camroller_cli, only : config_t
    use camroller_hdf5_columns, only : hdf5_columns_t
-   use camroller_console, only : console_t, seconds_since, start_console
+   use camroller_console, only : console_t, seconds_since, start_console, tell_deck_remarks
    use camroller_deck, only : deck_t, drop_sweep, read_deck, make_sweep_case
    use camroller_deck_files, only : list_deck_files
-   use camroller_deck_notes, only : tell_deck_remarks
    use camroller_deck_sweep, only : case_in_words, sweep_size
    use camroller_mistakes, only : line_t
    use camroller_new_file, only : check_place

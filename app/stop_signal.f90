@@ -1,19 +1,20 @@
-!> Signals that ask the program to stop or say that a library broke down: they end it, and files that are not finished are removed
-!> before; or they are taken note of, so that it can be asked for them where stopping does no harm.
+!> The end of the program, and signals that ask for it or say that a library broke down.
+!>
+!> A signal ends the program, and unfinished files are removed before; or it is noted, so that the program can ask for it where
+!> stopping does no harm.
 !>
 !> In: nothing. Out: whether somebody wants the program to end. A handler can be given nothing to write to, hence
 !> the one saved variable of the program. Holding the signals back and asking what is pending would need none, but other
 !> libraries start threads of their own, to which the system then hands them.
 module camroller_stop_signal
    use, intrinsic :: iso_c_binding, only : c_funloc, c_funptr, c_int, c_intptr_t
-   use camroller_end_process, only : end_process
    use camroller_error, only : kind_file
    use camroller_library_watch, only : is_in_call, tell_call, watch_library
    use camroller_unfinished, only : remove_remembered
    implicit none
    private
 
-   public :: end_on_signals, heed_stop_signals, is_stop_wanted, release_stop_signals
+   public :: end_process, end_on_signals, heed_stop_signals, is_stop_wanted, release_stop_signals
 
    !> Interrupt from the terminal, first user signal, end
    integer(c_int), parameter :: stop_signals(*) = [2_c_int, 10_c_int, 15_c_int]
@@ -25,6 +26,10 @@ module camroller_stop_signal
    integer(c_intptr_t), parameter :: by_itself = 0_c_intptr_t, ignored_signal = 1_c_intptr_t
 
    interface
+      subroutine c_exit(code) bind(C, name="_exit")
+         import :: c_int
+         integer(c_int), value :: code
+      end subroutine c_exit
       function c_signal(number, handler) bind(C, name="signal") result(former)
          import :: c_funptr, c_int, c_intptr_t
          integer(c_int), value :: number
@@ -47,6 +52,17 @@ module camroller_stop_signal
    end interface
 
 contains
+
+   !> End the program, at once.
+   !>
+   !> Libraries are not asked to end: OpenBLAS waits for its threads, and where there is little memory a thread of it never comes to
+   !> its first line. So everything that is to be kept has to be written and closed before.
+   subroutine end_process(code)
+      !> Exit code
+      integer, intent(in) :: code
+
+      call c_exit(int(code, c_int))
+   end subroutine end_process
 
    !> Let signals end the program, files that are not finished removed; what was to be ignored still is.
    subroutine end_on_signals()

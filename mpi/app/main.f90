@@ -1,7 +1,7 @@
 !> The program for many nodes: the same commands, a sweep shared by all processes.
 program main
    use camroller_commands, only : run_command_line
-   use camroller_end_process, only : end_process
+   use camroller_stop_signal, only : end_process
    use camroller_team_mpi, only : end_team, start_team, team_mpi_t
    implicit none
 

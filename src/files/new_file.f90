@@ -10,14 +10,14 @@ module camroller_new_file
    use camroller_file_facts, only : facts_of_path, file_facts_t, is_same_file, kind_in_words
    use camroller_mistakes, only : line_t
    use camroller_number_text, only : integer_text
-   use camroller_raw_file, only : open_raw, raw_file_t, settle_raw
+   use camroller_raw_file, only : append_text, close_raw, create_raw, open_raw, raw_file_t, settle_raw
    use camroller_system_file, only : is_folder, process_number, remove_file, rename_file, resolve_path
    use camroller_text_file, only : folder_of
    use camroller_unfinished, only : forget_unfinished, remember_unfinished
    implicit none
    private
 
-   public :: new_file_t, check_place, begin_new_file, end_new_file, drop_new_file
+   public :: new_file_t, check_place, begin_new_file, end_new_file, drop_new_file, save_text
 
    !> Names that are tried for an unfinished file
    integer, parameter :: most_attempts = 100
@@ -134,5 +134,28 @@ contains
       call forget_unfinished(file%temporary)
       deallocate (file%temporary)
    end subroutine drop_new_file
+
+   !> Write a text to a file, which appears under its name when it is complete.
+   subroutine save_text(path, text, error)
+      !> Path of the file
+      character(len=*), intent(in) :: path
+      !> The text
+      character(len=*), intent(in) :: text
+      !> File error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(new_file_t) :: place
+      type(raw_file_t) :: file
+
+      call begin_new_file(place, path, error)
+      if (.not. allocated(error)) call create_raw(file, place%temporary, path, error)
+      if (.not. allocated(error)) call append_text(file, text, error)
+      call close_raw(file)
+      if (allocated(error)) then
+         call drop_new_file(place)
+      else
+         call end_new_file(place, file%bytes, error)
+      end if
+   end subroutine save_text
 
 end module camroller_new_file

@@ -11,7 +11,7 @@ module camroller_fmu_file
    use camroller_fmu_description, only : describe_fmu
    use camroller_fmu_variables, only : variable_t, list_variables, write_variables
    use camroller_mistakes, only : line_t
-   use camroller_new_text, only : save_text
+   use camroller_new_file, only : save_text
    use camroller_number_text, only : hexadecimal_text
    use camroller_raw_file, only : find_files
    use camroller_record, only : checksum, text_words
