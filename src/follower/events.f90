@@ -182,6 +182,8 @@ contains
          do kind = 1, size(before)
             if (is_same_sign(before(kind), after(kind))) cycle
             angle = switch_angle(model, kind, scan(i - 1), scan(i), before(kind), after(kind), turning_values)
+            ! A jump at a point of the scan ends one interval and begins the next, and two may fall together: one pair for all
+            if (any(abs(angles + side - angle) < 0.5_wp*side)) cycle
             angles = [angles, angle - side, angle + side]
          end do
          before = after

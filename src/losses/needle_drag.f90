@@ -29,11 +29,11 @@ module camroller_needle_drag
       real(wp) :: least = 0.0_wp
       !> Spin at which the branches meet [rad/s]
       real(wp) :: limit = 0.0_wp
-      !> Spin over which the torque reverses [rad/s], and that over the cam's speed [-]
+      !> Spin over which the torque reverses [rad/s]; the same over the cam's speed [-]
       real(wp) :: reversal_spin = 0.0_wp, reversal_ratio = 0.0_wp
    end type drag_part_t
 
-   !> Value of (nu n)^(2/3) on the lower branch, nu in mm^2/s and n in rev/min
+   !> Value of (nu n)^(2/3) on the lower branch, nu in mm^2/s and n in rev/min [-]
    real(wp), parameter :: floor = 160.0_wp
    !> Palmgren's constant for N mm and mm [1e-7 N mm^-2], in SI [N m/m^3]
    real(wp), parameter :: per_volume = 1.0e-7_wp*1.0e-3_wp*1.0e9_wp

@@ -286,7 +286,8 @@ contains
       rises = values([1, 3]) - values(2)
       if (minval(rises) < 0.0_wp .or. maxval(rises) <= 0.0_wp) return
       x = ways(samples, row)
-      if (x(3) - x(1) > 2.0_wp*widest) return
+      ! Rows on both sides of a jump have one angle, and nothing is hidden between them
+      if (x(3) - x(1) > 2.0_wp*widest .or. x(1) >= 0.0_wp .or. x(3) <= 0.0_wp) return
       bound = values(2) - max(-rises(1)*x(3)/x(1), -rises(2)*x(1)/x(3))
    end function lowest_hidden
 
