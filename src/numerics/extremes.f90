@@ -50,7 +50,8 @@ module camroller_extremes
       integer, allocatable, private :: rows(:)
       integer, private :: done = 0
       type(extremum_t), private :: now
-      !> What a gain is small against, the extent of the series as a rule; lowest value that there may be where the search is done [unit of the series]
+      !> What a gain is small against, the extent of the series as a rule; lowest value that there may be where the search is done
+      !> [unit of the series]
       real(wp), private :: extent = 0.0_wp, bound = 0.0_wp
       !> What may be left at a kink, over the extent [-]
       real(wp), private :: coarse = 0.0_wp
@@ -177,7 +178,8 @@ contains
       end do
    end subroutine sort_rows
 
-   !> Begin the search for the smallest or largest value of a series. Each series is searched by itself, so that what else is sampled
+   !> Begin the search for the smallest or largest value of a series. Each series is searched by itself, so that what else is
+   !> sampled
    !> changes no bit of it.
    pure subroutine start_search(samples, series, sense, tolerance, search, by_itself)
       !> The rows
@@ -229,7 +231,8 @@ contains
       call enter_row(samples, search)
    end subroutine narrow_search
 
-   !> Rows near which there may be an extreme: the extreme one, then those that may hide a value beyond it, the most promising first.
+   !> Rows near which there may be an extreme: the extreme one, then those that may hide a value beyond it, the most promising
+   !> first.
    pure subroutine list_rows(samples, values, search)
       !> The rows
       type(samples_t), intent(in) :: samples
@@ -238,8 +241,8 @@ contains
       !> The search
       type(search_t), intent(inout) :: search
 
-      ! Rows that may, and the lowest value that each may hide [unit of the series]
       integer :: rows(samples%count)
+      ! The lowest value that each of these rows may hide [unit of the series]
       real(wp) :: bounds(samples%count), bound
       integer :: found, place, extreme, best
 

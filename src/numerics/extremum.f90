@@ -8,7 +8,8 @@
 !>        call narrow_extremum(search, f(search%trial))
 !>     end do
 !>
-!> then `search%point(2)` is the position and `search%value(2)` the value of the minimum, and `search%left` what may be left to gain:
+!> then `search%point(2)` is the position and `search%value(2)` the value of the minimum, and `search%left` what may be left to
+!> gain:
 !> what the last parabola missed or promised, or, at a kink, what its bracket may hide. For a maximum, pass the values with opposite
 !> sign.
 module camroller_extremum
@@ -18,7 +19,8 @@ module camroller_extremum
 
    public :: extremum_t, start_extremum, narrow_extremum
 
-   !> Values asked for at most, unless the caller has another number: a smooth function takes two to four, a kink one for each halving
+   !> Values asked for at most, unless the caller has another number: a smooth function takes two to four, a kink one for each
+   !> halving
    !> of its error
    integer, parameter :: most_steps = 12
    !> Smallest distance of a trial from a point over the part of the bracket on that side [-]

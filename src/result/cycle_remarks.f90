@@ -1,4 +1,5 @@
-!> Remarks on the cycle of a lobe: lost contact, range of the film law, accuracy, standstills, the pivot's joint, films without limit.
+!> Remarks on the cycle of a lobe: lost contact, range of the film law, accuracy, standstills, the pivot's joint, films without
+!> limit.
 !>
 !> In: a cycle, its means and margins. Out: remarks, one per line, or an error where the case forbids what happens.
 module camroller_cycle_remarks

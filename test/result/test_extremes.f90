@@ -114,7 +114,8 @@ contains
       call check(error, search%value, 0.0_wp, thr=0.0_wp)
    end subroutine test_kink
 
-   !> Parabolas of heights 1 and 1.001; a row is on top of the lower one, and both rows of the higher one are off its top by half a step.
+   !> Parabolas of heights 1 and 1.001; a row is on top of the lower one, and both rows of the higher one are off its top by half a
+   !> step.
    subroutine test_summits(error)
       type(error_type), allocatable, intent(out) :: error
       type(samples_t) :: samples

@@ -91,7 +91,8 @@ contains
       call check(error, estimated_error(estimate), margin*3.0e-6_wp, thr=100.0_wp*epsilon(1.0_wp), rel=.true.)
    end subroutine test_stiff
 
-   !> Under fast decay the error at a place is the defect there over the decay rate; sampled at the Gauss nodes alone it would be none.
+   !> Under fast decay the error at a place is the defect there over the decay rate; sampled at the Gauss nodes alone it would be
+   !> none.
    subroutine test_between(error)
       type(error_type), allocatable, intent(out) :: error
       type(estimate_t) :: estimate
