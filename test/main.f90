@@ -52,6 +52,7 @@ program main
    use test_events, only : collect_events
    use test_margins, only : collect_margins
    use test_result, only : collect_result
+   use test_result_remarks, only : collect_result_remarks
    use test_extremes, only : collect_extremes
    use test_remarks, only : collect_remarks
    use test_train, only : collect_train
@@ -208,6 +209,7 @@ contains
          new_testsuite("events", collect_events), &
          new_testsuite("margins", collect_margins), &
          new_testsuite("result", collect_result), &
+         new_testsuite("result_remarks", collect_result_remarks), &
          new_testsuite("extremes", collect_extremes), &
          new_testsuite("remarks", collect_remarks), &
          new_testsuite("train", collect_train), &

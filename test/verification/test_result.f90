@@ -1,4 +1,4 @@
-!> Results as a whole: every lobe's series, extremes against a fine scan, loss of contact in words, finite numbers alone.
+!> Results as a whole: every lobe's series, extremes against a fine scan, finite numbers alone.
 module test_result
    use, intrinsic :: ieee_arithmetic, only : ieee_is_finite, ieee_positive_inf, ieee_quiet_nan, ieee_value
    use, intrinsic :: ieee_exceptions, only : ieee_all, ieee_get_halting_mode, ieee_set_flag, ieee_set_halting_mode
@@ -14,19 +14,16 @@ module test_result
    use camroller_kinematics, only : position_t
    use camroller_lift, only : lift_t
    use camroller_model, only : model_t
-   use camroller_remarks, only : film_without_limit, lost_contact, remark_lines
    use camroller_result, only : result_t, check_numbers, find_quantity, get_summary
    use camroller_run, only : run_case
    use camroller_state, only : evaluate_loading, state_t
    use closeness, only : check_close, expect_error, expect_success
+   use lobe_cases, only : fast, low_lift, run, thesis_lift, two_lobes
    use reference_cases, only : thesis_case, make_model, set_point, point_speeds, point_viscosities
    implicit none
    private
 
    public :: collect_result
-
-   !> Speed at which contact is lost around the nose [rad/s]: 3600 rev/min
-   real(wp), parameter :: fast = 120.0_wp*pi
 
 contains
 
@@ -41,58 +38,11 @@ contains
          new_unittest("smallest and largest values are those of a fine scan", test_extremes), &
          new_unittest("extremes do not depend on the output step", test_coarse_output), &
          new_unittest("intervals without contact are those of a fine scan", test_intervals), &
-         new_unittest("loss of contact is a remark with part, speed and angles", test_remark), &
-         new_unittest("the lobe that loses contact is named", test_lobe_remark), &
-         new_unittest("where the load falls to next to nothing films have no mean, and a remark names them", test_film_remark), &
-         new_unittest("contact_policy 'stop' refuses loss of contact alone", test_policy), &
          new_unittest("what is not a finite number is refused by name, angle and value", test_gate), &
          new_unittest("a case whose formulas overflow has no result", test_overflow), &
          new_unittest("lift that dips below zero meets no seat where there is none", test_dip) &
          ]
    end subroutine collect_result
-
-   !> Two cams of two lobe shapes.
-   function two_lobes(first, second, lobes) result(case)
-      type(lift_t), intent(in) :: first, second
-      integer, intent(in) :: lobes(2)
-      type(case_t) :: case
-
-      case = thesis_case()
-      case%lift = first
-      allocate (case%second_lift, source=second)
-      allocate (case%cam_bearings)
-      associate (bearings => case%cam_bearings)
-         bearings%diameter = 23.0e-3_wp
-         bearings%width = 20.0e-3_wp
-         bearings%radial_clearance = 47.5e-6_wp
-         bearings%bearing_positions = [0.0_wp, 100.0e-3_wp]
-         bearings%cam_positions = [30.0e-3_wp, 70.0e-3_wp]
-         bearings%cam_phases = [0.0_wp, 0.4_wp*pi]
-         bearings%cam_lobes = lobes
-         bearings%follower_angles = [0.0_wp, 0.0_wp]
-      end associate
-      case%numerics%output_step = 5.0_wp*degree
-   end function two_lobes
-
-   !> A lift with less height and a shorter event than that of the thesis.
-   function low_lift() result(lift)
-      type(lift_t) :: lift
-      type(case_t) :: case
-
-      case = thesis_case()
-      lift = case%lift
-      lift%max_lift = 7.0e-3_wp
-      lift%opening_half_angle = 64.0_wp*degree
-      lift%closing_half_angle = 64.0_wp*degree
-   end function low_lift
-
-   function thesis_lift() result(lift)
-      type(lift_t) :: lift
-      type(case_t) :: case
-
-      case = thesis_case()
-      lift = case%lift
-   end function thesis_lift
 
    !> Have two results the same series and scalars under two names, bit by bit?
    subroutine compare_named(error, one, prefix, other, other_prefix)
@@ -137,16 +87,6 @@ contains
       if (allocated(error)) return
       call check(error, transfer(values(1), 0_int64) == transfer(values(2), 0_int64), name//" and "//other_name//" differ")
    end subroutine compare_scalar
-
-   subroutine run(case, result, error)
-      type(case_t), intent(in) :: case
-      type(result_t), intent(out) :: result
-      type(error_type), allocatable, intent(out) :: error
-      type(error_t), allocatable :: failure
-
-      call run_case(case, result, failure)
-      call expect_success(error, failure)
-   end subroutine run
 
    subroutine test_same_lobes(error)
       type(error_type), allocatable, intent(out) :: error
@@ -323,120 +263,6 @@ contains
       end do
       call check(error, lost > steps/100, "contact is hardly lost")
    end subroutine test_intervals
-
-   subroutine test_remark(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(case_t) :: case
-      type(result_t) :: result
-      type(error_t), allocatable :: failure
-      ! Part of the cycle [-]
-      real(wp) :: share
-
-      case = thesis_case()
-      case%film%law = "moes"
-      call set_point(case, fast, point_viscosities(3))
-      call run(case, result, error)
-      if (allocated(error)) return
-      call check(error, index(remark_lines(result%remarks), "contact is lost for ") == 1, remark_lines(result%remarks))
-      if (allocated(error)) return
-      call check(error, &
-         & index(remark_lines(result%remarks), " % of the cycle at 3600 rev/min, at cam angles 165.4 to 194.7 deg") > 0, &
-         remark_lines(result%remarks))
-      if (allocated(error)) return
-      call check(error, index(remark_lines(result%remarks), "above 2937 rev/min") > 0, remark_lines(result%remarks))
-      if (allocated(error)) return
-      ! both angles are rounded to a tenth
-      call get_summary(result, "lost_contact_share", share, failure)
-      call check(error, share, (194.7_wp - 165.4_wp)/360.0_wp, thr=0.1_wp/360.0_wp)
-      if (allocated(error)) return
-      call set_point(case, 0.7_wp*fast, point_viscosities(3))
-      call run(case, result, error)
-      if (allocated(error)) return
-      call check(error, index(remark_lines(result%remarks), "contact is lost"), 0)
-   end subroutine test_remark
-
-   !> Just above and just below the speed at which contact is first lost, and far below it; on the second lobe alone.
-   subroutine test_film_remark(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(case_t) :: case
-      type(result_t) :: result
-      type(lift_t) :: sharp
-      type(error_t), allocatable :: failure
-      ! Cam speeds over that of the first loss [-]; that speed [rad/s]
-      real(wp), parameter :: factors(3) = [1.0_wp + 1.0e-4_wp, 1.0_wp - 1.0e-9_wp, 0.7_wp]
-      real(wp) :: speed
-      integer :: i, k
-
-      case = thesis_case()
-      case%film%law = "moes"
-      deallocate (case%valve_guide)
-      call set_point(case, fast, point_viscosities(3))
-      call run(case, result, error)
-      if (allocated(error)) return
-      call get_summary(result, "margin_event_speed", speed, failure)
-      if (allocated(failure)) call test_failed(error, failure%message)
-      if (allocated(error)) return
-      do i = 1, size(factors)
-         call set_point(case, factors(i)*speed, point_viscosities(3))
-         call run(case, result, error)
-         if (allocated(error)) return
-         call check(error, any(result%remarks%kind == film_without_limit) .eqv. i < 3, remark_lines(result%remarks))
-         if (allocated(error)) return
-         call check(error, any(result%remarks%kind == lost_contact) .eqv. i == 1, remark_lines(result%remarks))
-         if (allocated(error)) return
-      end do
-      sharp = thesis_lift()
-      sharp%opening_half_angle = 50.0_wp*degree
-      sharp%closing_half_angle = 50.0_wp*degree
-      case = two_lobes(low_lift(), sharp, [1, 2])
-      case%film%law = "moes"
-      call set_point(case, 0.7_wp*fast, point_viscosities(3))
-      call run(case, result, error)
-      if (allocated(error)) return
-      do k = 1, size(result%remarks)
-         if (result%remarks(k)%kind == film_without_limit) exit
-      end do
-      if (k > size(result%remarks)) call test_failed(error, "no remark: "//remark_lines(result%remarks))
-      if (allocated(error)) return
-      call check(error, result%remarks(k)%lobe == 2 .and. index(result%remarks(k)%text, "lobe 2: mean and largest value of ") > 0, &
-         & result%remarks(k)%text)
-   end subroutine test_film_remark
-
-   subroutine test_lobe_remark(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(case_t) :: case
-      type(result_t) :: result
-      type(lift_t) :: sharp
-
-      sharp = thesis_lift()
-      sharp%opening_half_angle = 50.0_wp*degree
-      sharp%closing_half_angle = 50.0_wp*degree
-      case = two_lobes(low_lift(), sharp, [1, 2])
-      case%film%law = "moes"
-      call set_point(case, 0.7_wp*fast, point_viscosities(3))
-      call run(case, result, error)
-      if (allocated(error)) return
-      call check(error, index(remark_lines(result%remarks), "lobe 2: contact is lost for ") > 0, remark_lines(result%remarks))
-      if (allocated(error)) return
-      call check(error, index(remark_lines(result%remarks), "lobe 1: contact is lost for "), 0, remark_lines(result%remarks))
-   end subroutine test_lobe_remark
-
-   subroutine test_policy(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(case_t) :: case
-      type(result_t) :: result
-      type(error_t), allocatable :: failure
-
-      case = thesis_case()
-      case%contact_policy = "stop"
-      call run(case, result, error)
-      if (allocated(error)) return
-      call set_point(case, fast, point_viscosities(3))
-      call run_case(case, result, failure)
-      call expect_error(error, failure, kind_domain, "contact is lost for ")
-      if (allocated(error)) return
-      call expect_error(error, failure, kind_domain, "contact_policy = 'stop'")
-   end subroutine test_policy
 
    subroutine test_gate(error)
       type(error_type), allocatable, intent(out) :: error
