@@ -13,7 +13,7 @@ from bars import MOST_BARS, both_bars, shown_in_bars, slip_bars, torque_bars
 from layout import line_style, thin_out
 from parts import (MOST_PANELS, angle_axis, closed, draw_curve, event_window, file_legend, head, legend_handles,
                    legend_height, mark_values, ranges_of, say_no_result, seen_range, set_values_axis)
-from quantities import CURVES, OVERVIEW, PARTS, SOURCES, TORQUES, Missing, has_series, need_series, values_of
+from quantities import CURVES, OVERVIEW, PARTS, SOURCES, TORQUES, TRAIN, Missing, has_series, need_series, values_of
 from units import unit_words
 
 MOST_COLUMNS = 4  # of the overview
@@ -126,21 +126,22 @@ def _torque_curve(axes, layout, entry, part, window, unit):
     return seen_range(angle, values, window)
 
 
-def overview_figure(layout, _whole_cycle):
-    """Everything on one page: a row for each quantity and a column for each value of the second swept key."""
-    names = [name for name in OVERVIEW if has_series(layout, CURVES[name].series)]
-    bars = [part for part in (slip_bars, torque_bars) if _has_summary(layout, part)]
-    if not names:
+def overview_figure(layout, wanted, parts, needed=()):
+    """Several quantities on one page: a row for each and a column for each value of the second swept key, with bars below."""
+    need_series(layout, *needed)
+    curves = [curve for curve in wanted.values() if has_series(layout, curve.series)]
+    bars = [part for part in parts if _has_summary(layout, part)]
+    if not curves:
         raise Missing("none of its series in the file" + ("s" if len(layout.files) > 1 else ""))
     layout.refuse_too_many()
     panels = thin_out(layout.panels, MOST_COLUMNS)
     columns = len(panels) if len(panels) > 1 else 2
-    rows = len(names) if len(panels) > 1 else -(-len(names) // columns)
+    rows = len(curves) if len(panels) > 1 else -(-len(curves) // columns)
     legend, width = legend_handles(layout), 2.0 + 3.2 * columns
     heights = [1.5 + 1.5 * rows + legend_height(legend, width), lying_height(layout) or 2.6 + 0.8 * len(layout.files)]
     figure = Figure(figsize=(width, sum(heights[:1 + bool(bars)])), layout="constrained")
     upper, lower = figure.subfigures(2, 1, height_ratios=heights) if bars else (figure, None)
-    _overview_curves(upper, layout, names, panels, (rows, columns))
+    _overview_curves(upper, layout, curves, panels, (rows, columns))
     head(upper, layout, "", legend, shown(layout, panels))
     if layout.is_list and len(bars) > 1 and len(layout.files) == 1:
         both_bars(lower, layout)
@@ -158,19 +159,19 @@ def lying_height(layout):
     return 1.2 + max(0.22 * len(layout.files), 0.2) * lines + 0.4 * len(layout.files)
 
 
-def _overview_curves(figure, layout, names, panels, shape):
+def _overview_curves(figure, layout, curves, panels, shape):
     grid = figure.subplots(*shape, squeeze=False)
-    window = event_window(layout, [CURVES[name].series for name in names])
+    window = event_window(layout, [curve.series for curve in curves])
     places = list(grid.flat)
-    for axes in places[len(names) * len(panels):]:
+    for axes in places[len(curves) * len(panels):]:
         axes.remove()
-    for number, name in enumerate(names):
-        curve, row = CURVES[name], places[number * len(panels):(number + 1) * len(panels)]
+    for number, curve in enumerate(curves):
+        row = places[number * len(panels):(number + 1) * len(panels)]
         limits = [draw_curve(axes, layout, curve, panel, window) for axes, panel in zip(row, panels)]
         for axes, panel, pair in zip(row, panels, ranges_of(curve, limits)):
             set_values_axis(axes, curve, pair)
             mark_values(axes, curve)
-            angle_axis(axes, window, labelled=places.index(axes) + shape[1] >= len(names) * len(panels))
+            angle_axis(axes, window, labelled=places.index(axes) + shape[1] >= len(curves) * len(panels))
             if number == 0 and len(panels) > 1:
                 axes.set_title(layout.panel_name(panel), fontsize="medium")
         row[0].set_ylabel(f"{curve.title}\n[{unit_words(curve.unit)}]")
@@ -199,7 +200,8 @@ def _curve_drawer(curve):
 
 
 FIGURES = {
-    "overview": overview_figure,
+    "overview": lambda layout, _: overview_figure(layout, OVERVIEW, (slip_bars, torque_bars)),
+    "train": lambda layout, _: overview_figure(layout, TRAIN, (), ("load_ratio",)),
     **{name: _curve_drawer(curve) for name, curve in CURVES.items() if name != "total_torque"},
     "drive_torque": torque_figure,
     "friction_sources": lambda layout, whole: torque_figure(layout, whole, PARTS, "friction torque by source", "N mm"),

@@ -43,7 +43,19 @@ CURVES = {
     "friction_torque": Curve("friction torque", "torque_friction", "N m"),
     "total_torque": Curve("drive torque", "torque_drive", "N m"),
 }
-OVERVIEW = ["load", "entrainment", "film", "friction", "boundary_share", "rolling", "slip", "total_torque"]
+OVERVIEW = {name: CURVES[name] for name in ("load", "entrainment", "film", "friction", "boundary_share", "rolling", "slip",
+                                             "total_torque")}
+# A flexible train on one page, beside its load
+TRAIN = {
+    "load": CURVES["load"],
+    "load_ratio": Curve("load over rigid load", "load_ratio", "1", lines=(1.0,)),
+    "lift_error": Curve("lift less rigid lift", "lift_error", "um"),
+    "gap": Curve("gap at the cam", "contact_gap", "um"),
+    "joint_force": Curve("pivot's joint", "joint_force", "N", lines=(0.0,)),
+    "surge": Curve("spring's first mode", "spring_mode_1", "um"),
+    "plunger": Curve("plunger's travel", "plunger_travel", "um"),
+    "chamber_pressure": Curve("adjuster's pressure", "chamber_pressure", "MPa"),
+}
 # Summary name, words, colour, hatch
 SOURCES = [("mean_torque_contact", "cam/roller contact", "#08306b", ""),
            ("mean_torque_bearings", "cam bearings", "#d55e00", "///"),

@@ -15,7 +15,7 @@ from figures import FIGURES, draw
 from layout import Layout, chosen_cases, thin_out
 from parts import closed, event_window, set_values_axis
 from plot import main
-from quantities import CURVES, SOURCES, values_of
+from quantities import CURVES, SOURCES, Missing, values_of
 from read import ResultError, read_result
 from table import COLUMNS
 
@@ -48,14 +48,24 @@ def made_up_series(angle, speed, oil):
               "contact_load": load, "hertz_pressure": 2.1e7 * np.sqrt(load), "slip_ratio": slip,
               "entrainment_speed": entrainment, "film_thickness_min": film, "friction_rolling": rolling,
               "asperity_friction_share": share, "friction_contact": friction, "torque_geometric": geometric,
-              "torque_friction": total, "torque_drive": geometric + total}
+              "torque_friction": total, "torque_drive": geometric + total,
+              "load_ratio": 1 + 1e-3 * np.sin(x * speed / 10), "lift_error": -5e-8 * load}
     return series | {f"torque_{name}": value for name, value in losses.items()}
 
 
 SERIES_UNITS = {"valve_lift": "m", "valve_velocity": "m/s", "film_ratio": "1", "asperity_load": "N",
                 "contact_load": "N", "hertz_pressure": "Pa", "slip_ratio": "1",
                 "entrainment_speed": "m/s", "film_thickness_min": "m", "friction_rolling": "N",
-                "asperity_friction_share": "1", "friction_contact": "N"}
+                "asperity_friction_share": "1", "friction_contact": "N", "load_ratio": "1", "lift_error": "m"}
+
+
+def test_a_flexible_train_is_a_page_of_what_its_file_has(tmp_path):
+    figure = draw("train", Layout([read_result(write_result(tmp_path / "one.h5", swept=(), speeds=(600.0,), oils=(60.0,)))]))
+    labels = [axes.get_ylabel().split("\n")[0] for axes in figure.axes]
+    assert labels == ["contact load", "load over rigid load", "lift less rigid lift"]
+    path = write_result(tmp_path / "rigid.h5", without=("load_ratio",))
+    with pytest.raises(Missing, match="load_ratio"):
+        draw("train", Layout([read_result(path)]))
 
 
 def write_result(path, speeds=(300.0, 600.0, 900.0), oils=(25.0, 60.0, 95.0), step=5.0, title="made up", factor=1.0,
