@@ -157,6 +157,10 @@ contains
             words = "missing"
          else if (table%has_words(column)) then
             words = table%words(row, column)%text
+         else if (column > keys .and. index(columns(max(1, column - keys))%scalar, "min_film") == 1 .and. &
+            & .not. table%numbers(row, column) > 0.0_wp) then
+            ! Cam and roller part, and there is no film to speak of
+            words = "-"
          else if (column > keys) then
             words = number_text(table%numbers(row, column)*columns(column - keys)%factor, digits)
          else

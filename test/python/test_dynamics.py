@@ -80,6 +80,10 @@ def test_the_plungers_spring_makes_the_base_circle_load(tmp_path, camroller):
 def test_tension_and_overspeed_are_told(tmp_path, camroller):
     summary, warnings = run(camroller, DECK, tmp_path / "run.h5", "sweep.values_1=2500")
     assert summary["joint_force_min"] < 0 and "the joint of finger and pivot is in tension" in warnings
+    shown = subprocess.run([camroller, "run", DECK, "--no-sweep", "-o", tmp_path / "shown.h5", "--set", "dynamics.lash_mm=0.1",
+                            "--set", "numerics.tolerance=1e-3"], capture_output=True, text=True)
+    # No film where cam and roller part, which is not a film of no thickness
+    assert "film ratio" in shown.stdout and shown.stdout.splitlines()[2].split()[-2:] == ["-", "-"]
     summary, warnings = run(camroller, DECK, tmp_path / "fast.h5", "sweep.values_1=4500", "numerics.tolerance=1e-3")
     assert summary["losses_of_contact"] > 0 and "cam and roller lose contact" in warnings
     if summary["period_cycles"] == 0:

@@ -6,6 +6,8 @@ module test_flexible_cycle
    use camroller_case, only : case_t
    use camroller_model, only : model_t
    use camroller_flexible_cycle, only : flexible_cycle_t, turn_t, start_turns, find_periodic, rest_of_train
+   use camroller_flexible_train, only : evaluate_train, flexible_state_t
+   use camroller_trajectory, only : interpolate_state
    use camroller_flexible_measures, only : measure_count, measure_turn, largest_load, largest_load_angle, least_lift_error, &
       & seating_speed, surge_force, smallest_pivot_force, drive_torque, loss_torque, gallery_torque, lowest_plunger, &
       & largest_pressure, leak_volume, residual_work
@@ -84,6 +86,33 @@ contains
       call add_dynamics(the_case, 5, has_adjuster)
    end function reference
 
+   !> Smallest contact load within 60 degrees of full lift, against that of the row.
+   subroutine check_smallest(has_adjuster, speed, cycle, smallest, error)
+      logical, intent(in) :: has_adjuster
+      !> Speed [rev/min]
+      real(wp), intent(in) :: speed
+      type(flexible_cycle_t), intent(in) :: cycle
+      !> The load of the row [N]
+      real(wp), intent(in) :: smallest
+      type(error_type), allocatable, intent(out) :: error
+      type(model_t) :: model
+      type(flexible_state_t) :: now
+      !> State [state], smallest load so far [N]
+      real(wp) :: state(size(cycle%trajectory%state, 1)), found
+      integer :: i, hint, status
+
+      call make_model(reference(speed, has_adjuster), model, error)
+      if (allocated(error)) return
+      found = huge(1.0_wp)
+      hint = 1
+      do i = -600, 600
+         call interpolate_state(cycle%trajectory, 0.1_wp*i*degree, hint, state)
+         call evaluate_train(model, 0.1_wp*i*degree, state, cycle%resolution, now, status)
+         if (status == 0) found = min(found, now%contact%load)
+      end do
+      call check_scaled(error, found, smallest, 1.0_wp, 0.5_wp, "smallest load")
+   end subroutine check_smallest
+
    !> Compare with a row: largest load [N] and its angle [deg], lift error [um], seating speed [m/s], surge [N], joint [N],
    !> torque [N mm].
    subroutine compare(values, row, seating, error)
@@ -116,6 +145,7 @@ contains
       call measure(reference(300.0_wp, .false.), "rodas5p", tolerance, values, cycle, error)
       if (allocated(error)) return
       call compare(values, [761.060_wp, 171.2_wp, -39.667_wp, 0.015682_wp, 0.4669_wp, 25.23_wp, 9.71170_wp], slow_seating, error)
+      if (.not. allocated(error)) call check_smallest(.false., 300.0_wp, cycle, 349.75_wp, error)
    end subroutine test_fixed_slow
 
    subroutine test_fixed_fast(error)
@@ -126,6 +156,7 @@ contains
       call measure(reference(900.0_wp, .false.), "rodas5p", tolerance, values, cycle, error)
       if (allocated(error)) return
       call compare(values, [710.755_wp, 170.5_wp, -37.616_wp, 0.048494_wp, 3.7622_wp, 8.73_wp, 15.79595_wp], 1.0e-3_wp, error)
+      if (.not. allocated(error)) call check_smallest(.false., 900.0_wp, cycle, 344.35_wp, error)
       if (allocated(error)) return
       call check(error, cycle%cycles <= 8, "more than eight cycles to the periodic state")
    end subroutine test_fixed_fast
@@ -138,6 +169,7 @@ contains
       call measure(reference(300.0_wp, .true.), "rodas5p", tolerance, values, cycle, error)
       if (allocated(error)) return
       call compare(values, [762.635_wp, 172.1_wp, -62.084_wp, 0.025434_wp, 0.5920_wp, 24.11_wp, 9.98736_wp], slow_seating, error)
+      if (.not. allocated(error)) call check_smallest(.true., 300.0_wp, cycle, 343.24_wp, error)
       if (allocated(error)) return
       call check_close(error, 1.0e6_wp*values(lowest_plunger), -29.017_wp, allowed, "plunger")
       if (allocated(error)) return
