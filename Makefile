@@ -2,7 +2,7 @@
 
 SHELL := /bin/bash
 .DEFAULT_GOAL := help
-.PHONY: help setup commit build debug mpi install run comparison test quick bless random random-ehl random-wide needed rough-rows fuzz sanitize study study-film audit trends check check-layers \
+.PHONY: help setup commit build debug mpi install run dynamics comparison test quick bless random random-ehl random-wide needed rough-rows fuzz sanitize study study-film audit trends check check-layers \
   check-style check-format check-lint check-warnings second-compiler format docs recipes bench bench-ehl range-ehl bench-batch bench-effects bench-hosts clean distclean
 
 FPM := .venv/bin/fpm
@@ -78,6 +78,12 @@ trends: build ## which measured trends come out over the ranges of unknown coeff
 	$(PYTHON) post/trends.py --cases results/trends
 	build/release/bin/camroller sweep results/trends/trends.nml -o results/trends/trends.h5 --quiet
 	$(PYTHON) post/trends.py results/trends/trends.h5 --page doc/trends.md --figure doc/figures/trends.png
+
+dynamics: build ## a flexible train at four speeds: figure of doc/dynamics.md, some seconds
+	@mkdir -p results
+	build/release/bin/camroller run decks/dynamics.nml --set sweep.values_1=300,900,2500,3000 --set numerics.tolerance=1e-4 \
+	  -o results/dynamics.h5 --quiet
+	$(PYTHON) post/plot.py results/dynamics.h5 --figure train --dpi 90 --output doc/figures
 
 install: ## libraries, header, modules and program by CMake, into PREFIX=/usr/local; IO=OFF leaves out what needs HDF5
 	@cmake -S . -B build/cmake -DCMAKE_INSTALL_PREFIX="$(or $(PREFIX),/usr/local)" -DCAMROLLER_IO=$(or $(IO),ON) > build/cmake.log
