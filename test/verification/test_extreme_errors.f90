@@ -1,0 +1,202 @@
+!> Errors of smallest and largest values: the estimate bounds them, jumps count with both of their sides, and a sliding speed that is
+!> moved to fit the slope of its curve stays within the error of the curve.
+module test_extreme_errors
+   use testdrive, only : unittest_type, new_unittest, error_type, check, test_failed
+   use camroller_kinds, only : wp, degree
+   use camroller_case, only : case_t
+   use camroller_cycle, only : cycle_t, integrate_cycle, state_at
+   use camroller_catalogue, only : follower_count, follower_values
+   use camroller_accuracy, only : resolve_numerics
+   use camroller_deck, only : deck_t, override_t, read_deck, make_case
+   use camroller_error, only : error_t
+   use camroller_model, only : model_t
+   use camroller_result, only : result_t, get_summary
+   use camroller_run, only : build_models, run_case
+   use camroller_settled_slip, only : settle
+   use camroller_spin, only : rolling_speed_slope
+   use camroller_state, only : state_t, evaluate_state
+   use reference_cases, only : thesis_case, source_case, skewed_case, make_model, set_point, point_speeds, point_viscosities
+   use result_checks, only : scalar_of
+   implicit none
+   private
+
+   public :: collect_extreme_errors
+
+contains
+
+   subroutine collect_extreme_errors(testsuite)
+      type(unittest_type), allocatable, intent(out) :: testsuite(:)
+
+      testsuite = [ &
+         new_unittest("the estimate bounds the errors of extremes for every kind of method", test_estimate), &
+         new_unittest("extremes take in both sides of a jump", test_jump), &
+         new_unittest("where traction saturates a sliding speed moves to fit the slope, within the error allowed", test_settle) &
+         ]
+   end subroutine collect_extreme_errors
+
+   !> Against a solution at a tolerance of 1e-10. With methods and tolerances for which errors of the curve are far above what the
+   !> search for an extreme leaves.
+   subroutine test_estimate(error)
+      type(error_type), allocatable, intent(out) :: error
+      character(len=16), parameter :: methods(*) = [character(len=16) :: "rodas5p", "radau5", "hermite"]
+      type(case_t) :: cases(3)
+      type(result_t) :: reference, result
+      type(error_t), allocatable :: failure
+      ! Largest error over range, estimate, sum of the logarithms of one over the other [-]
+      real(wp) :: found, estimate, logarithms
+      character(len=120) :: words
+      integer :: i, method, power, counted
+
+      cases(1) = thesis_case()
+      call set_point(cases(1), point_speeds(3), point_viscosities(3))
+      cases(2) = source_case()
+      cases(3) = skewed_case("away_from_pivot")
+      logarithms = 0.0_wp
+      counted = 0
+      do i = 1, size(cases)
+         cases(i)%numerics%output_step = 2.0_wp*degree
+         cases(i)%numerics%method = "rodas5p"
+         cases(i)%numerics%tolerance = 1.0e-10_wp
+         call run_case(cases(i), reference, failure)
+         do method = 1, size(methods)
+            do power = 2, 4
+               cases(i)%numerics%method = methods(method)
+               cases(i)%numerics%tolerance = 10.0_wp**(-power)
+               if (.not. allocated(failure)) call run_case(cases(i), result, failure)
+               if (.not. allocated(failure)) call get_summary(result, "estimated_error_of_extremes", estimate, failure)
+               if (allocated(failure)) call test_failed(error, failure%message)
+               if (allocated(error)) return
+               found = largest_error(result, reference)
+               write (words, "(a, i2, 1x, a, 3es10.2)") "case", i, methods(method), cases(i)%numerics%tolerance, found, estimate
+               ! The reference leaves a millionth at the end of its searches
+               call check(error, found <= estimate + 1.0e-6_wp, words)
+               if (allocated(error)) return
+               if (found <= 1.0e-6_wp) cycle
+               counted = counted + 1
+               logarithms = logarithms + log(estimate/found)
+            end do
+         end do
+      end do
+      call check(error, counted >= 9, "too few errors that can be seen")
+      if (allocated(error)) return
+      ! A margin of two, and the worst of some thirty series
+      call check(error, logarithms/counted <= log(10.0_wp), "far above the errors")
+   end subroutine test_estimate
+
+   !> Largest difference of a smallest or largest value over the range of its series.
+   function largest_error(result, reference) result(largest)
+      type(result_t), intent(in) :: result, reference
+      ! [-]
+      real(wp) :: largest
+      ! Of the reference [unit of the series]
+      real(wp) :: values(2)
+      integer :: i
+
+      largest = 0.0_wp
+      do i = 1, size(reference%series)
+         associate (name => reference%series(i)%name)
+            if (index(name, "torque_") == 1 .or. name == "energy_residual") cycle
+            values = [scalar_of(reference, "min_"//name), scalar_of(reference, "max_"//name)]
+            if (.not. values(2) > values(1)) cycle
+            largest = max(largest, max(abs(scalar_of(result, "min_"//name) - values(1)), abs(scalar_of(result, "max_"//name) &
+               & - values(2)))/(values(2) - values(1)))
+         end associate
+      end do
+   end function largest_error
+
+   !> A roller that sticks and slides: where a phase of sticking begins or ends at a stop, friction jumps.
+   subroutine test_jump(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: case
+      type(model_t), allocatable :: models(:)
+      type(cycle_t) :: cycle
+      type(state_t) :: state
+      type(result_t) :: result
+      type(deck_t) :: deck
+      type(override_t) :: none(0)
+      type(error_t), allocatable :: failure
+      ! Series on both sides of a stop, shape (series, side), and the range of one [unit of the series]
+      real(wp), allocatable :: values(:, :)
+      real(wp) :: range
+      integer :: side, stop, i, hint, jumps
+
+      call read_deck(deck, "decks/hard/stick_slip_true.nml", none, failure)
+      if (.not. allocated(failure)) call make_case(deck, none, case, failure)
+      if (.not. allocated(failure)) call run_case(case, result, failure)
+      if (.not. allocated(failure)) call build_models(case, models, failure)
+      if (.not. allocated(failure)) call integrate_cycle(cycle, models(1), resolve_numerics(case%numerics), failure)
+      if (allocated(failure)) call test_failed(error, failure%message)
+      if (allocated(error)) return
+      allocate (values(follower_count(case), 2))
+      hint = 1
+      jumps = 0
+      do stop = 1, size(cycle%stops)
+         do side = 1, 2
+            call state_at(cycle, models(1), cycle%stops(stop) + (2*side - 3)*1.0e-8_wp, hint, state, failure)
+            if (allocated(failure)) call test_failed(error, failure%message)
+            if (allocated(error)) return
+            call follower_values(case, models(1), state, values(:, side))
+         end do
+         do i = 1, size(values, 1)
+            associate (highest => scalar_of(result, "max_"//result%series(i)%name), &
+               & lowest => scalar_of(result, "min_"//result%series(i)%name))
+               range = highest - lowest
+               ! No series changes by more than a hundred of its ranges in a radian
+               call check(error, all(values(i, :) >= lowest - 1.0e-6_wp*range .and. values(i, :) <= highest + 1.0e-6_wp*range), &
+                  & result%series(i)%name)
+               if (allocated(error)) return
+               if (abs(values(i, 1) - values(i, 2)) > 1.0e-4_wp*range .and. maxval(values(i, :)) >= highest - 1.0e-6_wp*range) &
+                  & jumps = jumps + 1
+            end associate
+         end do
+      end do
+      call check(error, jumps > 0, "no series is largest at a jump")
+   end subroutine test_jump
+
+   !> The slope of the curve says that the roller is held, its sliding speed that all friction is mobilised: friction turns within
+   !> 1e-12 m/s.
+   subroutine test_settle(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: case
+      type(model_t), target :: model
+      type(state_t) :: state, moved
+      ! Sliding speed, error allowed [m/s]; rates there [m/s/rad]
+      real(wp) :: speed, reach, rates(2)
+      integer :: status
+      logical :: is_moved
+
+      case = thesis_case()
+      case%asperity%mobilising_speed = 1.0e-12_wp
+      case%surface%cam_roughness = 2.0e-6_wp
+      case%asperity%boundary_coefficient = 0.3_wp
+      call set_point(case, point_speeds(1), point_viscosities(3))
+      call make_model(case, model, error)
+      if (allocated(error)) return
+      reach = 1.0e-9_wp
+      speed = 1.0e-11_wp
+      call evaluate_state(model, 0.2_wp, speed, state, status)
+      call check(error, status, 0)
+      if (allocated(error)) return
+      rates(1) = abs(slope_of(state))
+      call settle(model, 0.2_wp, 0.0_wp, reach, state, speed, is_moved)
+      call check(error, is_moved, "it is not moved")
+      if (allocated(error)) return
+      call check(error, abs(speed - 1.0e-11_wp) <= reach, "it is moved too far")
+      if (allocated(error)) return
+      call evaluate_state(model, 0.2_wp, speed, moved, status)
+      rates(2) = abs(slope_of(moved))
+      call check(error, rates(2) < 0.1_wp*rates(1), "the slope does not fit")
+
+   contains
+
+      !> Rate of the sliding speed [m/s/rad].
+      function slope_of(of_state) result(rate)
+         type(state_t), intent(in) :: of_state
+         real(wp) :: rate
+
+         rate = rolling_speed_slope(model, of_state%position) - model%roller_radius*of_state%spin_acceleration/model%speed
+      end function slope_of
+
+   end subroutine test_settle
+
+end module test_extreme_errors
