@@ -1,5 +1,5 @@
-!> Errors of smallest and largest values: the estimate bounds them, jumps count with both of their sides, and a sliding speed that is
-!> moved to fit the slope of its curve stays within the error of the curve.
+!> Errors of smallest and largest values: the estimate bounds them, jumps count with both of their sides, and a sliding speed that
+!> is moved to fit the slope of its curve stays within the error of the curve. Films that have no largest value.
 module test_extreme_errors
    use testdrive, only : unittest_type, new_unittest, error_type, check, test_failed
    use camroller_kinds, only : wp, degree
@@ -10,6 +10,7 @@ module test_extreme_errors
    use camroller_deck, only : deck_t, override_t, read_deck, make_case
    use camroller_error, only : error_t
    use camroller_model, only : model_t
+   use camroller_remarks, only : film_without_limit, lost_contact, remark_lines
    use camroller_result, only : result_t, get_summary
    use camroller_run, only : build_models, run_case
    use camroller_settled_slip, only : settle
@@ -30,7 +31,8 @@ contains
       testsuite = [ &
          new_unittest("the estimate bounds the errors of extremes for every kind of method", test_estimate), &
          new_unittest("extremes take in both sides of a jump", test_jump), &
-         new_unittest("where traction saturates a sliding speed moves to fit the slope, within the error allowed", test_settle) &
+         new_unittest("where traction saturates a sliding speed moves to fit the slope, within the error allowed", test_settle), &
+         new_unittest("where the load falls to next to nothing films have no mean, and a remark names them", test_film_remark) &
          ]
    end subroutine collect_extreme_errors
 
@@ -198,5 +200,35 @@ contains
       end function slope_of
 
    end subroutine test_settle
+
+   !> Just above and just below the speed at which contact is first lost, and far below it.
+   subroutine test_film_remark(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: case
+      type(result_t) :: result
+      type(error_t), allocatable :: failure
+      ! Cam speeds over that of the first loss [-]; that speed [rad/s]
+      real(wp), parameter :: factors(3) = [1.0_wp + 1.0e-4_wp, 1.0_wp - 1.0e-9_wp, 0.7_wp]
+      real(wp) :: speed
+      integer :: i
+
+      case = thesis_case()
+      case%film%law = "moes"
+      deallocate (case%valve_guide)
+      call run_case(case, result, failure)
+      if (.not. allocated(failure)) call get_summary(result, "margin_event_speed", speed, failure)
+      if (allocated(failure)) call test_failed(error, failure%message)
+      if (allocated(error)) return
+      do i = 1, size(factors)
+         call set_point(case, factors(i)*speed, point_viscosities(3))
+         call run_case(case, result, failure)
+         if (allocated(failure)) call test_failed(error, failure%message)
+         if (allocated(error)) return
+         call check(error, any(result%remarks%kind == film_without_limit) .eqv. i < 3, remark_lines(result%remarks))
+         if (allocated(error)) return
+         call check(error, any(result%remarks%kind == lost_contact) .eqv. i == 1, remark_lines(result%remarks))
+         if (allocated(error)) return
+      end do
+   end subroutine test_film_remark
 
 end module test_extreme_errors

@@ -1,11 +1,11 @@
-!> Remarks of results: loss of contact, films without limit, the lobe concerned, and the policy that refuses such cases.
+!> Remarks of results: loss of contact, the lobe concerned, and the policy that refuses such cases.
 module test_result_remarks
    use testdrive, only : unittest_type, new_unittest, error_type, check, test_failed
    use camroller_kinds, only : wp, degree
    use camroller_error, only : error_t, kind_domain
    use camroller_case, only : case_t
    use camroller_lift, only : lift_t
-   use camroller_remarks, only : film_without_limit, lost_contact, remark_lines
+   use camroller_remarks, only : film_without_limit, remark_lines
    use camroller_result, only : result_t, get_summary
    use camroller_run, only : run_case
    use closeness, only : expect_error
@@ -24,7 +24,6 @@ contains
       testsuite = [ &
          new_unittest("loss of contact is a remark with part, speed and angles", test_remark), &
          new_unittest("the lobe that loses contact is named", test_lobe_remark), &
-         new_unittest("where the load falls to next to nothing films have no mean, and a remark names them", test_film_remark), &
          new_unittest("contact_policy 'stop' refuses loss of contact alone", test_policy) &
          ]
    end subroutine collect_result_remarks
@@ -60,53 +59,6 @@ contains
       call check(error, index(remark_lines(result%remarks), "contact is lost"), 0)
    end subroutine test_remark
 
-   !> Just above and just below the speed at which contact is first lost, and far below it; on the second lobe alone.
-   subroutine test_film_remark(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(case_t) :: case
-      type(result_t) :: result
-      type(lift_t) :: sharp
-      type(error_t), allocatable :: failure
-      ! Cam speeds over that of the first loss [-]; that speed [rad/s]
-      real(wp), parameter :: factors(3) = [1.0_wp + 1.0e-4_wp, 1.0_wp - 1.0e-9_wp, 0.7_wp]
-      real(wp) :: speed
-      integer :: i, k
-
-      case = thesis_case()
-      case%film%law = "moes"
-      deallocate (case%valve_guide)
-      call set_point(case, fast, point_viscosities(3))
-      call run(case, result, error)
-      if (allocated(error)) return
-      call get_summary(result, "margin_event_speed", speed, failure)
-      if (allocated(failure)) call test_failed(error, failure%message)
-      if (allocated(error)) return
-      do i = 1, size(factors)
-         call set_point(case, factors(i)*speed, point_viscosities(3))
-         call run(case, result, error)
-         if (allocated(error)) return
-         call check(error, any(result%remarks%kind == film_without_limit) .eqv. i < 3, remark_lines(result%remarks))
-         if (allocated(error)) return
-         call check(error, any(result%remarks%kind == lost_contact) .eqv. i == 1, remark_lines(result%remarks))
-         if (allocated(error)) return
-      end do
-      sharp = thesis_lift()
-      sharp%opening_half_angle = 50.0_wp*degree
-      sharp%closing_half_angle = 50.0_wp*degree
-      case = two_lobes(low_lift(), sharp, [1, 2])
-      case%film%law = "moes"
-      call set_point(case, 0.7_wp*fast, point_viscosities(3))
-      call run(case, result, error)
-      if (allocated(error)) return
-      do k = 1, size(result%remarks)
-         if (result%remarks(k)%kind == film_without_limit) exit
-      end do
-      if (k > size(result%remarks)) call test_failed(error, "no remark: "//remark_lines(result%remarks))
-      if (allocated(error)) return
-      call check(error, result%remarks(k)%lobe == 2 .and. index(result%remarks(k)%text, "lobe 2: mean and largest value of ") > 0, &
-         & result%remarks(k)%text)
-   end subroutine test_film_remark
-
    subroutine test_lobe_remark(error)
       type(error_type), allocatable, intent(out) :: error
       type(case_t) :: case
@@ -124,6 +76,9 @@ contains
       call check(error, index(remark_lines(result%remarks), "lobe 2: contact is lost for ") > 0, remark_lines(result%remarks))
       if (allocated(error)) return
       call check(error, index(remark_lines(result%remarks), "lobe 1: contact is lost for "), 0, remark_lines(result%remarks))
+      if (allocated(error)) return
+      call check(error, any(result%remarks%kind == film_without_limit .and. result%remarks%lobe == 2) .and. &
+         & index(remark_lines(result%remarks), "lobe 2: mean and largest value of film_") > 0, remark_lines(result%remarks))
    end subroutine test_lobe_remark
 
    subroutine test_policy(error)
