@@ -82,7 +82,6 @@ program main
    use test_error_estimate, only : collect_error_estimate
    use test_means, only : collect_means
    use test_extreme_errors, only : collect_extreme_errors
-   use test_extreme_errors, only : collect_extreme_errors
    use test_roller_problem, only : collect_roller_problem
    use test_spin_slopes, only : collect_spin_slopes
    use test_simulation, only : collect_simulation
@@ -231,7 +230,6 @@ contains
          new_testsuite("train_outlook", collect_train_outlook), &
          new_testsuite("error_estimate", collect_error_estimate), &
          new_testsuite("means", collect_means), &
-         new_testsuite("extreme_errors", collect_extreme_errors), &
          new_testsuite("extreme_errors", collect_extreme_errors), &
          new_testsuite("panels", collect_panels), &
          new_testsuite("extremum", collect_extremum), &
