@@ -25,13 +25,6 @@ module camroller_catalogue
    !> Beginning of the names of series of one of several camshafts
    character(len=*), parameter :: camshaft_prefix = "camshaft_"
 
-   integer :: row
-   !> Effect without which a case has no torque of the list, by its place in `effect_names`; 0 where there is none to leave out
-   integer, parameter :: effect_of(*) = [(findloc(effect_names, torque_list(row)%source, 1), row=1, torque_count)]
-   !> Is a torque part of flexible trains, of the consistent bookkeeping?
-   logical, parameter :: is_dynamic(*) = torque_list%source == "dynamics"
-   logical, parameter :: is_consistent(*) = torque_list%source == "roller" .or. .not. is_torque
-
 contains
 
    !> The series of a case: those of the first lobe's follower, those of the camshaft, those of the second lobe's follower.
@@ -376,6 +369,13 @@ contains
       integer, intent(in) :: row
       !> True where the result has a series of it
       logical :: has
+
+      integer :: i
+      ! Effect without which a case has no such torque, by its place in `effect_names`; 0 where there is none to leave out. Constants,
+      ! since this is asked at each sample.
+      integer, parameter :: effect_of(*) = [(findloc(effect_names, torque_list(i)%source, 1), i=1, torque_count)]
+      logical, parameter :: is_dynamic(*) = torque_list%source == "dynamics", &
+         & is_consistent(*) = torque_list%source == "roller" .or. .not. is_torque
 
       has = .true.
       if (effect_of(row) > 0) then
