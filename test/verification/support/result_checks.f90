@@ -7,6 +7,7 @@ module result_checks
    use camroller_case, only : case_t, energy_names
    use camroller_remarks, only : film_without_limit, loose_tolerance, missed_extremes, missed_means
    use camroller_result, only : result_t, find_quantity
+   use camroller_torque_list, only : is_loss, torque_count, torque_series
    implicit none
    private
 
@@ -110,7 +111,6 @@ contains
       !> Its result
       type(result_t), intent(in) :: result
       character(len=:), allocatable :: trouble
-      character(len=*), parameter :: parts(*) = [character(len=8) :: "contact", "needle", "guide", "bearings"]
       ! Torques [N m]
       real(wp), allocatable :: friction(:), drive(:)
       real(wp) :: means(2), scale
@@ -119,9 +119,10 @@ contains
       trouble = ""
       friction = 0.0_wp*result%angle
       means = 0.0_wp
-      do i = 1, size(parts)
-         friction = friction + series_of(result, "torque_"//parts(i))
-         means(1) = means(1) + scalar_of(result, "mean_torque_"//parts(i))
+      do i = 1, torque_count
+         if (.not. is_loss(i)) cycle
+         friction = friction + series_of(result, trim(torque_series(i)))
+         means(1) = means(1) + scalar_of(result, "mean_"//trim(torque_series(i)))
       end do
       drive = friction + series_of(result, "torque_geometric") + series_of(result, "torque_roller_inertia")
       means(2) = means(1) + scalar_of(result, "mean_torque_geometric") + scalar_of(result, "mean_torque_roller_inertia")
