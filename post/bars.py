@@ -98,8 +98,12 @@ def _torque(axes, layout, file, labelled):
 
 
 def _source_handles(layout):
-    return [Patch(facecolor=tone, hatch=hatch, linewidth=0.0, label=label) for name, label, tone, hatch in SOURCES
-            if any(name in result.summary for result in layout.results)]
+    return [Patch(facecolor=tone, hatch=hatch, linewidth=0.0, label=label) for _, label, tone, hatch in _sources(layout)]
+
+
+def _sources(layout):
+    """Rows of SOURCES that some result has."""
+    return [source for source in SOURCES if any(source[0] in result.summary for result in layout.results)]
 
 
 def legend_below(figure, handles):
@@ -115,8 +119,8 @@ def _places(layout, colours, panels):
 
 
 def _parts(layout, entry):
-    """Mean torques of one case in the order of SOURCES; zero for what is not there, no number for a case without a result."""
-    values = [mean_of(layout, entry, name, "N mm") for name, *_ in SOURCES]
+    """Mean torques of one case by source; zero for what its file does not have, no number for a case without a result."""
+    values = [mean_of(layout, entry, name, "N mm") for name, *_ in _sources(layout)]
     return [0.0 if value is None else value for value in values]
 
 
@@ -130,7 +134,7 @@ def _bar(axes, layout, position, value, width, start=0.0, **style):
 
 def _stack(axes, layout, position, parts):
     start = 0.0
-    for value, (_, _, tone, hatch) in zip(parts, SOURCES):
+    for value, (_, _, tone, hatch) in zip(parts, _sources(layout)):
         if np.isfinite(value):
             _bar(axes, layout, position, value, 0.84, start, color=tone, hatch=hatch)
             start += value

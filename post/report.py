@@ -81,7 +81,7 @@ def table_of(result):
     failed = {case for case, _ in result.failed_cases()}
     cases = [case for case in cases if case not in failed]
     columns = [[key.split(".")[-1], *(plain(result.value_of(key, case)) for case in cases)] for key in result.sweep]
-    columns += [column_of(result, name, cases, words, unit) for name, words, unit in COLUMNS if name in result.summary]
+    columns += [column_of(result, name, [[case] for case in cases], '', words, unit) for name, words, unit in COLUMNS if name in result.summary]
     text = rows_to_html([column[0] for column in columns], list(zip(*(column[1:] for column in columns))))
     return text + (f"<p>and {result.cases - MOST_ROWS} more cases</p>" if result.cases > MOST_ROWS else "")
 

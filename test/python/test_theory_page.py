@@ -15,7 +15,7 @@ def section(number):
 
 
 ROWS = re.findall(r"^\| \((\d+)\) \| (.+) \| (.+) \| (.+) \|$", section(21), re.MULTILINE)
-KEYS = next((ROOT / "src").rglob("deck_keys.f90")).read_text(encoding="utf-8")
+KEYS = "".join(path.read_text(encoding="utf-8") for path in sorted((ROOT / "src").glob("deck*/*.f90")))
 
 
 def squeeze(text):
