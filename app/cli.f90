@@ -102,6 +102,7 @@ contains
       type(error_t), allocatable, intent(out) :: error
 
       type(command_t), allocatable :: commands(:)
+      character(len=len(commands%name)), allocatable :: names(:)
       integer :: i, words
 
       config%subject = ""
@@ -112,7 +113,8 @@ contains
       config%library = ""
       allocate (config%overrides(0))
       call list_commands(commands)
-      call read_command(arguments, commands%name, config, error)
+      names = [(commands(i)%name, i=1, size(commands))]
+      call read_command(arguments, names, config, error)
       if (allocated(error)) return
       associate (command => commands(find_command(commands, config%command)))
          words = 0

@@ -258,7 +258,9 @@ contains
       !> Position, or 0
       integer :: position
 
-      position = findloc(commands%name, name, 1)
+      do position = size(commands), 1, -1
+         if (commands(position)%name == name) return
+      end do
    end function find_command
 
    !> Position of an option of a command by its long or short name, 0 where it has none.

@@ -73,16 +73,24 @@ optional_packages() {
 }
 
 # ---- tools in Python ---------------------------------------------------------------------------------------------
+# The commands of a virtual environment name its folder: in a checkout that was moved or copied it is made anew.
 python_tools() {
-    local stamp=.venv/requirements.done
-    if [ -x .venv/bin/python ] && cmp -s requirements.txt "$stamp"; then return 0; fi
+    local folder stamp=.venv/requirements.done
+    mkdir -p .venv
+    folder=$(cd -P .venv && pwd)
+    if [ -x .venv/bin/python ] && python_stamp "$folder" | cmp -s - "$stamp"; then return 0; fi
     python3 -c 'import sys; sys.exit(sys.version_info < (3, 11))' ||
         fail "Python 3.11 or later is needed; python3 is $(python3 --version 2>&1)"
     say "installing the tools of requirements.txt in .venv"
-    [ -x .venv/bin/python ] || python3 -m venv --clear .venv
+    if ! [ -x .venv/bin/python ] || ! grep -qsxF "# $folder" "$stamp"; then python3 -m venv --clear "$folder"; fi
     .venv/bin/python -m pip install --quiet --disable-pip-version-check --use-pep517 -r requirements.txt < /dev/null ||
         fail "pip cannot install requirements.txt"
-    cp requirements.txt "$stamp"
+    python_stamp "$folder" > "$stamp"
+}
+
+python_stamp() { # folder
+    echo "# $1"
+    cat requirements.txt
 }
 
 # ---- test-drive --------------------------------------------------------------------------------------------------

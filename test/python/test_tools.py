@@ -93,7 +93,19 @@ def with_python_tools(top):
     (top / "requirements.txt").touch()
     (top / ".venv/bin").mkdir(parents=True)
     (top / ".venv/bin/python").symlink_to(sys.executable)
-    (top / ".venv/requirements.done").touch()
+    (top / ".venv/requirements.done").write_text(f"# {top / '.venv'}\n", encoding="utf-8")
+
+
+def test_set_up_makes_the_tools_anew_in_a_checkout_that_was_moved(tmp_path):
+    """Commands of a virtual environment name the folder where it was made."""
+    before = tmp_path / "before"
+    before.mkdir()
+    with_python_tools(before)
+    (before / ".venv/bin/fpm").write_text(f"#!{before}/.venv/bin/python\n", encoding="utf-8")
+    after = before.rename(tmp_path / "after")
+    result = run_set_up(after, has_gfortran=True)
+    assert "setup: installing the tools of requirements.txt in .venv\n" in result.stdout
+    assert not (after / ".venv/bin/fpm").exists()
 
 
 @pytest.fixture(name="release")
