@@ -371,8 +371,8 @@ contains
       logical :: has
 
       integer :: i
-      ! Effect without which a case has no such torque, by its place in `effect_names`; 0 where there is none to leave out. Constants,
-      ! since this is asked at each sample.
+      ! Effect without which a case has no such torque, by its place in `effect_names`; 0 where there is none to leave out.
+      ! Constants, since this is asked at each sample.
       integer, parameter :: effect_of(*) = [(findloc(effect_names, torque_list(i)%source, 1), i=1, torque_count)]
       logical, parameter :: is_dynamic(*) = torque_list%source == "dynamics", &
          & is_consistent(*) = torque_list%source == "roller" .or. .not. is_torque

@@ -147,8 +147,9 @@ contains
                call check(error, all(values(i, :) >= lowest - 1.0e-6_wp*range .and. values(i, :) <= highest + 1.0e-6_wp*range), &
                   & result%series(i)%name)
                if (allocated(error)) return
-               if (abs(values(i, 1) - values(i, 2)) > 1.0e-4_wp*range .and. maxval(values(i, :)) >= highest - 1.0e-6_wp*range) &
-                  & jumps = jumps + 1
+               if (abs(values(i, 1) - values(i, 2)) > 1.0e-4_wp*range .and. maxval(values(i, :)) >= highest - 1.0e-6_wp*range) then
+                  jumps = jumps + 1
+               end if
             end associate
          end do
       end do

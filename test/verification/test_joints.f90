@@ -443,32 +443,40 @@ contains
       type(error_t), allocatable :: failure
       integer :: i
       character(len=*), parameter :: words(5) = [character(len=32) :: "jams in its guide", "energy = 'consistent'", &
-         "flexible trains", "masses.finger_kg", "positive decay speed"]
+         & "flexible trains", "masses.finger_kg", "positive decay speed"]
 
       do i = 1, size(words)
-         case = thesis_case()
-         call add_joints(case, "constant")
-         select case (i)
-         case (1)
-            ! both coefficients at 0.8, the tip three guides above the guide: 0.8^2 (2 3 + 1)
-            case%valve_tip%sliding%friction_coefficient = 0.8_wp
-            case%guide_side_load%sliding%friction_coefficient = 0.8_wp
-            case%guide_side_load%tip_height = 3.0_wp*case%guide_side_load%guide_length
-         case (2)
-            case%energy = "source"
-         case (3)
-            allocate (case%dynamics)
-         case (4)
-            case%masses%finger_inertia = 1.0e-5_wp
-            case%masses%finger = 0.0_wp
-         case (5)
-            case%valve_tip%sliding%law = "stribeck"
-            case%valve_tip%sliding%decay_speed = 0.0_wp
-         end select
+         call impossible_joints(i, case)
          call new_model(model, case, case%lift, failure)
          call expect_error(error, failure, kind_deck, trim(words(i)))
          if (allocated(error)) return
       end do
    end subroutine test_refusals
+
+   !> One of the five mistakes of `test_refusals`.
+   subroutine impossible_joints(number, joined)
+      integer, intent(in) :: number
+      type(case_t), intent(out) :: joined
+
+      joined = thesis_case()
+      call add_joints(joined, "constant")
+      select case (number)
+      case (1)
+         ! both coefficients at 0.8, the tip three guides above the guide: 0.8^2 (2 3 + 1)
+         joined%valve_tip%sliding%friction_coefficient = 0.8_wp
+         joined%guide_side_load%sliding%friction_coefficient = 0.8_wp
+         joined%guide_side_load%tip_height = 3.0_wp*joined%guide_side_load%guide_length
+      case (2)
+         joined%energy = "source"
+      case (3)
+         allocate (joined%dynamics)
+      case (4)
+         joined%masses%finger_inertia = 1.0e-5_wp
+         joined%masses%finger = 0.0_wp
+      case (5)
+         joined%valve_tip%sliding%law = "stribeck"
+         joined%valve_tip%sliding%decay_speed = 0.0_wp
+      end select
+   end subroutine impossible_joints
 
 end module test_joints
