@@ -1,12 +1,13 @@
 !> The engine that the camshafts belong to: what turns cam angles into crank angles, and torques into mean pressures.
 !>
-!> In: what a case says. Out: phases of cams, crank angles.
+!> In: what a case says. Out: phases of cams, crank angles, the speed in words.
 module camroller_engine
    use camroller_kinds, only : wp, two_pi
+   use camroller_number_text, only : number_text
    implicit none
    private
 
-   public :: engine_t, cam_turns, cam_phases_of, crank_angle_at_nose, speed_names
+   public :: engine_t, cam_turns, cam_phases_of, crank_angle_at_nose, speed_names, write_speed
 
    !> Whose speed a deck gives
    character(len=*), parameter :: speed_names(*) = [character(len=10) :: "crankshaft", "camshaft"]
@@ -40,6 +41,24 @@ contains
 
       turns = 0.5_wp*engine%strokes
    end function cam_turns
+
+   !> A speed in the words of messages: `3000 rev/min`, or `6000 rev/min of the crankshaft` where the engine is known.
+   pure subroutine write_speed(speed, turns, digits, text)
+      !> Speed of the camshaft [rad/s]
+      real(wp), intent(in) :: speed
+      !> Turns of the crankshaft in one of the camshaft, 0 without an engine [-]
+      real(wp), intent(in) :: turns
+      !> Significant digits
+      integer, intent(in) :: digits
+      !> The words
+      character(len=:), allocatable, intent(out) :: text
+
+      if (turns > 0.0_wp) then
+         text = number_text(turns*speed*60.0_wp/two_pi, digits)//" rev/min of the crankshaft"
+      else
+         text = number_text(speed*60.0_wp/two_pi, digits)//" rev/min"
+      end if
+   end subroutine write_speed
 
    !> Crank angle from the firing dead centre of cylinder 1 to full lift of a cam, within one working cycle.
    pure function full_lift_angle(engine, cylinder, lobe) result(angle)

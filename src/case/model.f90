@@ -4,6 +4,7 @@
 !> between cycles or between the steps of a host program. An effect of the case is an allocated component here as well.
 module camroller_model
    use camroller_kinds, only : wp, pi, degree
+   use camroller_engine, only : cam_turns
    use camroller_error, only : error_t, raise, add_context, kind_deck, kind_domain
    use camroller_names, only : name_length, find_name
    use camroller_accuracy, only : check_numerics, is_within, above_zero
@@ -116,6 +117,8 @@ module camroller_model
       real(wp) :: speed
       !> Its change with the cam angle, over a step of a host program [rad/s over rad]
       real(wp) :: speed_slope = 0.0_wp
+      !> Turns of the crankshaft in one of the camshaft, 0 without an engine, for messages [-]
+      real(wp) :: crank_turns = 0.0_wp
       type(ramp_t) :: ramp
       !> Cam angles from full lift, within one turn, where the lift's third derivative jumps [rad]
       real(wp), allocatable :: lift_stops(:)
@@ -442,6 +445,8 @@ contains
 
       integer :: choice
 
+      model%crank_turns = 0.0_wp
+      if (allocated(case%engine)) model%crank_turns = cam_turns(case%engine)
       if (allocated(case%asperity)) then
          call find_name("boundary friction", case%asperity%boundary, boundary_names, choice, error)
          if (allocated(error)) return

@@ -3,6 +3,7 @@
 !> In: a case. Out: lines of text.
 module camroller_case_facts
    use camroller_kinds, only : wp, degree, two_pi
+   use camroller_engine, only : write_speed
    use camroller_error, only : error_t
    use camroller_case, only : case_t
    use camroller_journal, only : journal_law_names
@@ -119,7 +120,7 @@ contains
          return
       end if
       do lobe = 1, size(models)
-         call describe_results(result, trim(merge("lobe_2_", "       ", lobe == 2)), &
+         call describe_results(result, models(lobe)%crank_turns, trim(merge("lobe_2_", "       ", lobe == 2)), &
             & trim(merge("second lobe:", "lobe:       ", lobe == 2)), text)
       end do
    end subroutine describe_case
@@ -134,13 +135,19 @@ contains
       character(len=:), allocatable, intent(inout) :: text
 
       character(len=*), parameter :: n = new_line("a")
+      character(len=:), allocatable :: speed
 
       text = text//"oil at "//number_text(case%operating_point%oil_temperature - 273.15_wp, 4)//" degC: "// &
          & number_text(1.0e3_wp*model%oil%viscosity, digits)//" mPa s, pressure-viscosity coefficient "// &
          & number_text(1.0e9_wp*model%oil%pressure_viscosity, digits)//" 1/GPa"
       if (model%oil%is_estimated) text = text//" (estimated by So and Klaus 1980, since the deck gives none)"
       text = text//n//"composite roughness: "//number_text(1.0e6_wp*model%roughness, digits)//" um; cam speed "// &
-         & number_text(case%operating_point%speed*60.0_wp/two_pi, 4)//" rev/min"//n
+         & number_text(case%operating_point%speed*60.0_wp/two_pi, 4)//" rev/min"
+      if (allocated(case%engine)) then
+         call write_speed(case%operating_point%speed, model%crank_turns, 4, speed)
+         text = text//" ("//speed//")"
+      end if
+      text = text//n
       if (.not. allocated(case%cam_bearings)) return
       text = text//"camshaft bearings: width over diameter "// &
          & number_text(case%cam_bearings%width/case%cam_bearings%diameter, digits)//", law '"//trim(case%cam_bearings%law)//"'"
@@ -199,9 +206,11 @@ contains
    end subroutine describe_cam
 
    !> What one run says of a lobe.
-   subroutine describe_results(result, prefix, name, text)
+   subroutine describe_results(result, turns, prefix, name, text)
       !> Result of the case
       type(result_t), intent(in) :: result
+      !> Turns of the crankshaft in one of the camshaft, 0 without an engine [-]
+      real(wp), intent(in) :: turns
       !> Beginning of the names of its scalars
       character(len=*), intent(in) :: prefix
       !> What the lobe is called
@@ -210,19 +219,24 @@ contains
       character(len=:), allocatable, intent(inout) :: text
 
       character(len=*), parameter :: n = new_line("a")
+      ! Of the speeds that are shown [rev/min over rad/s]
+      real(wp) :: per_minute
+      character(len=:), allocatable :: unit
 
+      per_minute = 60.0_wp/two_pi*merge(turns, 1.0_wp, turns > 0.0_wp)
+      unit = " rev/min of the "//trim(merge("crankshaft", "camshaft  ", turns > 0.0_wp))
       call add_value(name//" contact load up to ", "max_contact_load", 1.0_wp)
       call add_value(" N, pressure up to ", "max_hertz_pressure", 1.0e-9_wp)
       call add_value(" GPa, film ratio ", "min_film_ratio", 1.0_wp)
       call add_value(" to ", "max_film_ratio", 1.0_wp)
       call add_value(n//name//" smallest load of the event ", "margin_event", 1.0_wp)
       call add_value(" N, on the base circle ", "margin_base_circle", 1.0_wp)
-      call add_value(" N; contact is lost above ", "contact_loss_speed", 60.0_wp/two_pi)
-      text = text//" rev/min of the camshaft"//n
+      call add_value(" N; contact is lost above ", "contact_loss_speed", per_minute)
+      text = text//unit//n
       if (find_quantity(result%summary, prefix//"train_frequency") == 0) return
-      call add_value(name//" pivot's joint unloads above ", "margin_pivot_speed", 60.0_wp/two_pi)
-      call add_value(" rev/min, a lash adjuster pumps up above ", "pump_up_speed", 60.0_wp/two_pi)
-      call add_value("; natural frequency of the train ", "train_frequency", 1.0_wp)
+      call add_value(name//" pivot's joint unloads above ", "margin_pivot_speed", per_minute)
+      call add_value(unit//", a lash adjuster pumps up above ", "pump_up_speed", per_minute)
+      call add_value(unit//"; natural frequency of the train ", "train_frequency", 1.0_wp)
       call add_value(" 1/s, load of a train that vibrates over a rigid one's ", "load_factor", 1.0_wp)
       if (find_quantity(result%summary, prefix//"surge_estimate_1") > 0) then
          call add_value(", surge of the spring in its first mode ", "surge_estimate_1", 1.0_wp)

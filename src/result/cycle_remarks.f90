@@ -4,7 +4,8 @@
 !> In: a cycle, its means and margins. Out: remarks, one per line, or an error where the case forbids what happens.
 module camroller_cycle_remarks
    use camroller_cam_angle, only : cam_angle_text, file_angle
-   use camroller_kinds, only : wp, pi
+   use camroller_kinds, only : wp
+   use camroller_engine, only : write_speed
    use camroller_error, only : error_t, raise, add_context, kind_domain
    use camroller_cycle, only : cycle_t
    use camroller_events, only : contact_losses
@@ -24,8 +25,6 @@ module camroller_cycle_remarks
 
    !> Estimate of the error of the sliding speed, relative to the largest, beyond which a result is worth a warning [-]
    real(wp), parameter :: worth_a_warning = 0.1_wp
-   !> Rev/min in a rad/s [-]
-   real(wp), parameter :: per_minute = 30.0_wp/pi
    !> Film over the equivalent radius beyond which formulas for films say nothing: they hold for gaps that are small against the
    !> radius, with errors of the order of this ratio [-]
    real(wp), parameter :: thickest_film = 0.01_wp
@@ -122,12 +121,12 @@ contains
       ! First and last angle of each interval without contact [rad]; speed at which it is first lost [rad/s]
       real(wp), allocatable :: intervals(:, :)
       real(wp) :: speed
-      character(len=:), allocatable :: text
+      character(len=:), allocatable :: text, turns
       integer :: i
 
       if (statistics%lost_share <= 0.0_wp) return
-      text = "contact is lost for "//number_text(100.0_wp*statistics%lost_share, 3)//" % of the cycle at "// &
-         & number_text(model%speed*per_minute, 6)//" rev/min"
+      call write_speed(model%speed, model%crank_turns, 6, turns)
+      text = "contact is lost for "//number_text(100.0_wp*statistics%lost_share, 3)//" % of the cycle at "//turns
       intervals = contact_losses(model, cycle%stops)
       do i = 1, min(size(intervals, 2), most_intervals)
          if (i == 1) text = text//", at cam angles"
@@ -137,7 +136,10 @@ contains
       if (size(intervals, 2) > 0) text = text//" deg"
       if (size(intervals, 2) > most_intervals) text = text//" and others"
       speed = min(margins%event%speed, margins%base_circle%speed)
-      if (speed < model%speed) text = text//"; it is lost above "//number_text(speed*per_minute, 4)//" rev/min"
+      if (speed < model%speed) then
+         call write_speed(speed, model%crank_turns, 4, turns)
+         text = text//"; it is lost above "//turns
+      end if
       text = text//"; rigid kinematics does not hold there, and computed loads and friction are not realistic"
       if (model%stops_without_contact) then
          call raise(error, kind_domain, text//" (contact_policy = 'stop')")
@@ -182,21 +184,22 @@ contains
       !> Remarks so far
       type(remark_t), allocatable, intent(inout) :: remarks(:)
 
-      character(len=:), allocatable :: place
+      character(len=:), allocatable :: place, turns
       ! Force that the adjuster's joint lacks [N]
       real(wp) :: lack
 
       if (.not. allocated(margins%pivot)) return
-      place = " N at "//cam_angle_text(margins%pivot%angle, 1)//" at "// &
-         & number_text(model%speed*per_minute, 6)//" rev/min; this begins at "
+      call write_speed(model%speed, model%crank_turns, 6, turns)
+      place = " N at "//cam_angle_text(margins%pivot%angle, 1)//" at "//turns//"; this begins at "
       if (margins%pivot%force < 0.0_wp) then
+         call write_speed(margins%pivot%speed, model%crank_turns, 4, turns)
          call add_remark(remarks, open_pivot, "the joint of finger and lash adjuster opens: it lacks "// &
-            & number_text(-margins%pivot%force, 3)//place//number_text(margins%pivot%speed*per_minute, 4)//" rev/min", &
-            & -margins%pivot%force)
+            & number_text(-margins%pivot%force, 3)//place//turns, -margins%pivot%force)
       else if (margins%pivot%force < margins%adjuster_force) then
+         call write_speed(margins%pump_up_speed, model%crank_turns, 4, turns)
          lack = margins%adjuster_force - margins%pivot%force
          call add_remark(remarks, pumped_adjuster, "a hydraulic lash adjuster pumps up: the force in its joint is below its "// &
-            & "own by "//number_text(lack, 3)//place//number_text(margins%pump_up_speed*per_minute, 4)//" rev/min", lack)
+            & "own by "//number_text(lack, 3)//place//turns, lack)
       end if
    end subroutine check_pivot
 

@@ -6,6 +6,7 @@
 module camroller_flexible_report
    use camroller_case, only : case_t
    use camroller_catalogue, only : series_values
+   use camroller_engine, only : write_speed
    use camroller_error, only : error_t, kind_convergence, kind_domain, raise
    use camroller_extremes, only : add_sample, samples_t, start_samples
    use camroller_flexible_follower, only : evaluate_follower
@@ -15,7 +16,7 @@ module camroller_flexible_report
    use camroller_flexible_train, only : resolution_t
    use camroller_cam_angle, only : file_angle
    use camroller_follower_samples, only : add_shares, shares_t
-   use camroller_kinds, only : pi, two_pi, wp
+   use camroller_kinds, only : two_pi, wp
    use camroller_model, only : model_t
    use camroller_number_text, only : integer_text, number_text
    use camroller_quadrature, only : gauss_legendre
@@ -48,9 +49,6 @@ module camroller_flexible_report
       !> Largest magnitude of the sliding speed evaluated [m/s]
       real(wp) :: largest_sliding = 0.0_wp
    end type flexible_means_t
-
-   !> Rev/min in a rad/s [-]
-   real(wp), parameter :: per_minute = 30.0_wp/pi
 
 contains
 
@@ -232,12 +230,13 @@ contains
       !> Domain error where the case forbids what happens
       type(error_t), allocatable, intent(out) :: error
 
-      character(len=:), allocatable :: text
+      character(len=:), allocatable :: text, speed
 
-      call judge_period(model, solution, remarks)
+      call write_speed(model%speed, model%crank_turns, 6, speed)
+      call judge_period(solution, speed, remarks)
       if (lost_share > 0.0_wp) then
          text = "cam and roller lose contact "//number_text(solution%mean(losses_of_contact), 3)//" times per cycle, for "// &
-            & number_text(100.0_wp*lost_share, 3)//" % of it, at "//number_text(model%speed*per_minute, 6)//" rev/min"
+            & number_text(100.0_wp*lost_share, 3)//" % of it, at "//speed
          if (model%stops_without_contact .and. model%flexible%lash <= 0.0_wp) then
             call raise(error, kind_domain, text//" (contact_policy = 'stop')")
             return
@@ -247,8 +246,8 @@ contains
       if (solution%lowest(smallest_pivot_force) < 0.0_wp) then
          call add_remark(remarks, open_pivot, "the joint of finger and pivot is in tension for "// &
             & number_text(100.0_wp*solution%mean(tension_share), 3)//" % of the cycle, by up to "// &
-            & number_text(-solution%lowest(smallest_pivot_force), 3)//" N at "//number_text(model%speed*per_minute, 6)// &
-            & " rev/min; the model keeps it closed, a real one opens", -solution%lowest(smallest_pivot_force))
+            & number_text(-solution%lowest(smallest_pivot_force), 3)//" N at "//speed// &
+            & "; the model keeps it closed, a real one opens", -solution%lowest(smallest_pivot_force))
       end if
       if (solution%highest(coil_ratio) > 1.0_wp) then
          call add_remark(remarks, clashing_coils, "coils of the spring may clash: its modes move them by up to "// &
@@ -258,22 +257,22 @@ contains
    end subroutine judge_train
 
    !> Remark on a cycle that does not repeat itself, or only after several turns.
-   subroutine judge_period(model, solution, remarks)
-      !> Model of the lobe
-      type(model_t), intent(in) :: model
-      !> Solution of its train
+   subroutine judge_period(solution, speed, remarks)
+      !> Solution of the train of a lobe
       type(flexible_solution_t), intent(in) :: solution
+      !> Its speed in words
+      character(len=*), intent(in) :: speed
       !> Remarks so far
       type(remark_t), allocatable, intent(inout) :: remarks(:)
 
       if (solution%cycle%period == 1) return
       if (solution%cycle%period > 1) then
          call add_remark(remarks, long_period, "the motion of the train repeats after "//integer_text(solution%cycle%period)// &
-            & " cycles at "//number_text(model%speed*per_minute, 6)//" rev/min; the summary covers all of them, the series "// &
+            & " cycles at "//speed//"; the summary covers all of them, the series "// &
             & "show the last", real(solution%cycle%period, wp))
       else
          call add_remark(remarks, no_period, "the motion of the train is not periodic at "// &
-            & number_text(model%speed*per_minute, 6)//" rev/min: the summary covers "//integer_text(size(solution%turns))// &
+            & speed//": the summary covers "//integer_text(size(solution%turns))// &
             & " cycles after the first "//integer_text(solution%cycle%cycles)//", and the series show the last of them as an "// &
             & "example; the valve meets its seat at "//number_text(solution%lowest(seating_speed), 3)//" to "// &
             & number_text(solution%highest(seating_speed), 3)//" m/s and bounces "//number_text(solution%mean(bounces), 3)// &

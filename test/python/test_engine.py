@@ -1,6 +1,7 @@
 """The engine: cams by cylinder, phases from the firing order, results of followers, camshafts and engine that agree."""
 
 import pathlib
+import re
 import subprocess
 
 import h5py
@@ -114,3 +115,18 @@ def test_contradictions_are_mistakes(camroller, tmp_path, old, new, words):
     deck.write_text(text.replace(old, new), encoding="utf-8")
     result = subprocess.run([camroller, "check", str(deck)], capture_output=True, text=True, check=False)
     assert result.returncode == 3 and words in result.stderr, result.stderr
+
+
+def test_remarks_and_facts_speak_of_the_crankshaft(camroller, tmp_path):
+    """Contact is lost above half the number of turns of the crankshaft: the words say whose turns they are."""
+    path = tmp_path / "fast.h5"
+    words = run(camroller, "run", DECK, "-o", path, "--set", "sweep.values_1=9000", "--set", "sweep.values_2=90").stderr
+    lost = re.search(r"at 9000 rev/min of the crankshaft, .* lost above (\d+) rev/min of the crankshaft", words)
+    with h5py.File(path) as file:
+        speeds = [file["summary"][name][0] for name in ("contact_loss_speed", "lobe_2_contact_loss_speed")]
+    # four digits are shown
+    assert float(lost[1]) == pytest.approx(2 * min(speeds) * 30 / np.pi, rel=1e-3) or \
+        float(lost[1]) == pytest.approx(2 * max(speeds) * 30 / np.pi, rel=1e-3)
+    facts = run(camroller, "check", DECK, "--no-sweep").stdout
+    assert "cam speed 1000 rev/min (2000 rev/min of the crankshaft)" in facts
+    assert "rev/min of the camshaft" not in facts
