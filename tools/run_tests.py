@@ -74,7 +74,7 @@ def examples(part: Part, flags: str) -> tuple[int, int]:
     for path in sorted((ROOT / "example/library").glob("*.f90")):
         code, _ = part.run([FPM, "run", "--example", path.stem, "--flag", flags])
         passed, failed = (passed, failed + 1) if code else (passed + 1, failed)
-    return passed, failed
+    return (passed, failed) if passed + failed else (0, 1)
 
 
 def build(part: Part, flags: str) -> tuple[int, int]:
