@@ -7,7 +7,8 @@
 
 Scalars of the summary and series over the cam angle together, in SI, with units and meanings as attributes. Of a grid each swept key is
 a dimension, in the order of its values; of any other set of cases the keys are coordinates along `case`. A key has its last part as its
-name, or the whole key where two have the same last part.
+name, or the whole key where two have the same last part. Columns of a table of cases that hold measured values are variables whose names
+begin with `measured_`.
 """
 
 import numpy as np
@@ -23,7 +24,8 @@ def open_dataset(path, with_series=True):
     names = {key: name if last.count(name) == 1 else key for key, name in zip(result.sweep, last)}
     cases = xarray.Dataset(
         {name: (("case", "cam_angle") if name in result.series else "case", quantity.values, _attributes(quantity))
-         for name, quantity in (*result.summary.items(), *result.series.items())
+         for name, quantity in (*result.summary.items(), *result.series.items(),
+                                *((f"measured_{name}", quantity) for name, quantity in result.measured.items()))
          if np.ndim(quantity.values) > 0 and len(quantity.values) == result.cases},
         {names[key]: ("case", quantity.values, _attributes(quantity)) for key, quantity in result.sweep.items()},
         {"title": result.title, "deck": result.deck_text, **result.run})

@@ -54,6 +54,7 @@ class Result:
     run: dict = field(default_factory=dict)
     messages: list = field(default_factory=list)
     cases: int = 0
+    measured: dict = field(default_factory=dict)
 
     @property
     def title(self):
@@ -180,13 +181,14 @@ def _read(path, file, with_series):
     deck = _datasets(file, "deck/values")
     sweep = _datasets(file, "sweep")
     cases = _count_cases(path, file, series)
-    for key, quantity in sweep.items():
+    measured = _datasets(file, "measured")
+    for key, quantity in (*sweep.items(), *measured.items()):
         if np.shape(quantity.values) != (cases,):
-            raise ResultError(f"{path}: swept key {key} does not have one value for each case")
+            raise ResultError(f"{path}: column {key} does not have one value for each case")
     run = {name: text_of(value) for name, value in file["run"].attrs.items()} if "run" in file else {}
     messages = [text_of(message) for message in file["run/messages"][()]] if "run/messages" in file else []
     return Result(path, angle, series, _datasets(file, "summary"),
-                  _in_deck_order(sweep, deck_text, deck), deck, deck_text, run, messages, cases)
+                  _in_deck_order(sweep, deck_text, deck), deck, deck_text, run, messages, cases, measured)
 
 
 def _read_series(path, file):

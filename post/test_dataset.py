@@ -1,5 +1,6 @@
 """Result files as datasets with the swept keys as coordinates."""
 
+import h5py
 import numpy as np
 import pytest
 
@@ -29,6 +30,16 @@ def test_of_other_cases_the_keys_are_coordinates_along_them(tmp_path):
     assert cases.mean_slip_ratio.dims == ("case",)
     assert cases.speed_rpm.values.tolist() == [speed for speed, _ in ZIP]
     assert np.isfinite(cases.mean_slip_ratio.sel(case=1))
+
+
+def test_measured_columns_are_variables_of_their_cases(tmp_path):
+    path = write_result(tmp_path / "zip.h5", points=ZIP)
+    with h5py.File(path, "a") as file:
+        file["measured/torque"] = [0.1 * case for case in range(len(ZIP))]
+        file["measured/torque"].attrs["units"] = "N m"
+    torque = open_dataset(path).measured_torque
+    assert torque.dims == ("case",) and torque.attrs["units"] == "N m"
+    assert torque.sel(case=1).item() == 0.1
 
 
 def test_what_is_no_result_is_told(tmp_path):

@@ -8,19 +8,20 @@ module camroller_run_facts
    use camroller_error, only : error_t
    use camroller_deck, only : deck_t
    use camroller_deck_document, only : echo_t, get_echo
-   use camroller_deck_sweep, only : sweep_numbers, sweep_size, sweep_words
+   use camroller_deck_sweep, only : measured_numbers, measured_prefix, sweep_numbers, sweep_size, sweep_t, sweep_words
    use camroller_hdf5_object, only : hdf5_object_t
    use camroller_hdf5_read, only : read_text_attribute
    use camroller_mistakes, only : mistakes_t
    use camroller_number_text, only : hexadecimal => hexadecimal_text, integer_text
-   use camroller_output, only : output_t, write_deck, write_deck_table, write_overrides, write_run, write_sweep
+   use camroller_output, only : output_t, write_deck, write_deck_table, write_measured, write_overrides, &
+      & write_run, write_sweep
    use camroller_part_scan, only : study_facts_t
    use camroller_record, only : checksum, text_words
    use camroller_settings, only : get_word
    use camroller_system_file, only : utc_date
    use camroller_table_file, only : read_table, table_t
    use camroller_text_file, only : join_path
-   use camroller_text_list, only : text_at
+   use camroller_text_list, only : text_at, text_list_t
    use camroller_version, only : version_text, build_commit, compiler_facts
    implicit none
    private
@@ -69,6 +70,8 @@ contains
          end associate
       end do
       if (allocated(error)) return
+      if (size(deck%sweep%measured) > 0) call write_columns(writer, deck%sweep, error)
+      if (allocated(error)) return
       if (present(facts)) then
          call write_build(writer, facts, error)
       else
@@ -76,6 +79,31 @@ contains
          call write_build(writer, present_facts, error)
       end if
    end subroutine write_facts
+
+   !> Measured values that a table of cases carried along.
+   subroutine write_columns(writer, sweep, error)
+      !> The result file
+      type(output_t), intent(inout) :: writer
+      !> The sweep
+      type(sweep_t), intent(in) :: sweep
+      !> File error
+      type(error_t), allocatable, intent(out) :: error
+
+      ! Values of all columns and of one [units of the columns]
+      real(wp), allocatable :: values(:, :), numbers(:)
+      character(len=:), allocatable :: names(:)
+      integer :: i, length
+
+      length = maxval([(len(sweep%measured(i)%key), i=1, size(sweep%measured))])
+      allocate (character(len=length) :: names(size(sweep%measured)))
+      allocate (values(sweep_size(sweep), size(names)))
+      do i = 1, size(names)
+         names(i) = sweep%measured(i)%key
+         call measured_numbers(sweep, i, numbers)
+         values(:, i) = numbers
+      end do
+      call write_measured(writer, names, sweep%measured%unit, values, error)
+   end subroutine write_columns
 
    !> What stands beside the deck: overrides and tables.
    subroutine write_beside(writer, deck, error)
@@ -171,16 +199,30 @@ contains
          call add_tables(deck, trim(table_groups(i)), facts%deck)
       end do
       do i = 1, size(deck%sweep%axes)
-         if (deck%sweep%axes(i)%values%count == 0) cycle
-         facts%deck = facts%deck//"values of "//deck%sweep%axes(i)%key//" "// &
-            & integer_text(deck%sweep%axes(i)%values%count)//" with checksum "// &
-            & hexadecimal(checksum(text_words(deck%sweep%axes(i)%values%fields), 0_int64))//new_line("a")
+         call add_values(deck%sweep%axes(i)%key, deck%sweep%axes(i)%values, facts%deck)
+      end do
+      do i = 1, size(deck%sweep%measured)
+         call add_values(measured_prefix//deck%sweep%measured(i)%key, deck%sweep%measured(i)%values, facts%deck)
       end do
       call compiler_facts(compiler, options)
       call shorten_options(options)
       facts%build = "version "//version_text//new_line("a")//"commit "//build_commit//new_line("a")//compiler// &
          & new_line("a")//options
    end subroutine study_facts
+
+   !> Number of values of a column and a checksum of them, where it has any.
+   subroutine add_values(name, values, facts)
+      !> Name of the column
+      character(len=*), intent(in) :: name
+      !> Its values
+      type(text_list_t), intent(in) :: values
+      !> The facts so far
+      character(len=:), allocatable, intent(inout) :: facts
+
+      if (values%count == 0) return
+      facts = facts//"values of "//name//" "//integer_text(values%count)//" with checksum "// &
+         & hexadecimal(checksum(text_words(values%fields), 0_int64))//new_line("a")
+   end subroutine add_values
 
    !> Compiler options that may change a number: each once, without folders.
    subroutine shorten_options(options)

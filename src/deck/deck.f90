@@ -210,6 +210,7 @@ contains
          end do
       end associate
       deck%sweep%axes = deck%sweep%axes(:0)
+      deck%sweep%measured = deck%sweep%measured(:0)
       deck%sweep%kind = "grid"
       deck%settings%groups(group_position(deck%settings, "sweep"))%is_present = .false.
    end subroutine drop_sweep

@@ -5,6 +5,7 @@
 !> of the unit cube is spread over the ranges. A deck without &sweep is a sweep of one case. Every case is found by its number
 !> alone, and nothing is held for cases but the lists that the deck gives.
 module camroller_deck_sweep
+   use, intrinsic :: ieee_arithmetic, only : ieee_quiet_nan, ieee_value
    use, intrinsic :: iso_fortran_env, only : int64
    use camroller_kinds, only : wp
    use camroller_names, only : name_length
@@ -18,6 +19,7 @@ module camroller_deck_sweep
 
    public :: sweep_t, sweep_axis_t, sweep_kind_names, scale_names, is_sample, most_cases
    public :: sweep_size, axis_size, sweep_position, sweep_overrides, get_sweep_value, get_values_beside, sweep_numbers, sweep_words
+   public :: measured_numbers, measured_prefix, nothing_measured
    public :: case_in_words
 
    !> Ways to make cases of values
@@ -28,6 +30,9 @@ module camroller_deck_sweep
    integer, parameter :: most_cases = 2000000000
    !> Digits of a value from a range: fewer than a number holds, so that text and number are the same
    integer, parameter :: value_digits = 15
+
+   !> Beginning of the names of columns of measured values, and what stands where nothing was measured
+   character(len=*), parameter :: measured_prefix = "measured.", nothing_measured = "-"
 
    !> One key that varies: a list of values, or a range
    type :: sweep_axis_t
@@ -53,6 +58,8 @@ module camroller_deck_sweep
       character(len=name_length) :: kind = "grid"
       !> Keys that vary
       type(sweep_axis_t), allocatable :: axes(:)
+      !> Measured values of each case, which a table carries along; the key is the name of the column
+      type(sweep_axis_t), allocatable :: measured(:)
       !> Number of points of a sample
       integer :: points = 0
       !> Seed of a sample
@@ -332,6 +339,27 @@ contains
          read (text, *) numbers(i)
       end do
    end subroutine sweep_numbers
+
+   !> Measured values of one kind, for every case.
+   subroutine measured_numbers(sweep, column, numbers)
+      !> The sweep
+      type(sweep_t), intent(in) :: sweep
+      !> Number of the column
+      integer, intent(in) :: column
+      !> Its value in each case, no number where nothing was measured [unit of the column]
+      real(wp), allocatable, intent(out) :: numbers(:)
+
+      character(len=:), allocatable :: text
+      integer :: i
+
+      associate (cells => sweep%measured(column)%values)
+         allocate (numbers(cells%count), source=ieee_value(1.0_wp, ieee_quiet_nan))
+         do i = 1, size(numbers)
+            text = text_at(cells, i)
+            if (text /= nothing_measured) read (text, *) numbers(i)
+         end do
+      end associate
+   end subroutine measured_numbers
 
    !> Names of one key that varies, for every case, without quotes.
    subroutine sweep_words(sweep, axis, words)

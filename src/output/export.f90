@@ -157,7 +157,7 @@ contains
       end do
    end subroutine read_series
 
-   !> Scalars of all cases, behind the number of the case and the swept keys.
+   !> Scalars of all cases, behind the number of the case, the swept keys and what was measured.
    subroutine read_summary(file, cases, table, error)
       !> A result file
       type(hdf5_object_t), intent(in) :: file
@@ -168,21 +168,42 @@ contains
       !> File error
       type(error_t), allocatable, intent(out) :: error
 
-      character(len=member_length), allocatable :: swept(:), scalars(:)
+      character(len=member_length), allocatable :: paths(:)
       integer :: i
 
-      call list_members(file, "/sweep", swept, error)
-      if (.not. allocated(error)) call list_members(file, "/summary", scalars, error)
+      paths = [character(len=member_length) :: "/case"]
+      call add_paths(file, "/sweep", paths, error)
+      if (.not. allocated(error) .and. has_member(file, "/measured")) call add_paths(file, "/measured", paths, error)
+      if (.not. allocated(error)) call add_paths(file, "/summary", paths, error)
       if (allocated(error)) return
-      call make_columns(table, cases, 1 + size(swept) + size(scalars))
-      call read_column(file, "/case", table, 1, error)
-      do i = 1, size(swept)
-         if (.not. allocated(error)) call read_column(file, "/sweep/"//trim(swept(i)), table, 1 + i, error)
-      end do
-      do i = 1, size(scalars)
-         if (.not. allocated(error)) call read_column(file, "/summary/"//trim(scalars(i)), table, 1 + size(swept) + i, error)
+      call make_columns(table, cases, size(paths))
+      do i = 1, size(paths)
+         if (.not. allocated(error)) call read_column(file, trim(paths(i)), table, i, error)
       end do
    end subroutine read_summary
+
+   !> Add the members of a group to paths.
+   subroutine add_paths(file, group, paths, error)
+      !> A result file
+      type(hdf5_object_t), intent(in) :: file
+      !> Name of the group from the root
+      character(len=*), intent(in) :: group
+      !> Paths so far
+      character(len=member_length), allocatable, intent(inout) :: paths(:)
+      !> File error
+      type(error_t), allocatable, intent(out) :: error
+
+      character(len=member_length), allocatable :: names(:)
+      integer :: i, count
+
+      call list_members(file, group, names, error)
+      if (allocated(error)) return
+      count = size(paths)
+      paths = [paths, names]
+      do i = 1, size(names)
+         paths(count + i) = group//"/"//names(i)
+      end do
+   end subroutine add_paths
 
    !> An error where a case does not exist or has failed.
    subroutine check_case(file, cases, case, error)

@@ -26,13 +26,13 @@ module camroller_output
       & not_computed, not_written, output_t, result_format, start_file
    use camroller_output_cases, only : check_position, create_layout => add_layout, gather_row, write_remark, write_rows, &
       & write_series_row, write_status
-   use camroller_output_facts, only : write_deck, write_deck_table, write_overrides, write_run, write_sweep
+   use camroller_output_facts, only : write_deck, write_deck_table, write_measured, write_overrides, write_run, write_sweep
    implicit none
    private
 
    public :: output_t, output_options_t, result_format, format_version, not_computed
    public :: open_output, add_layout, write_outcome, close_output, abandon_output
-   public :: write_deck, write_deck_table, write_overrides, write_sweep, write_run
+   public :: write_deck, write_deck_table, write_overrides, write_sweep, write_measured, write_run
 
 contains
 

@@ -1,6 +1,6 @@
 !> Facts of its run in a result file: the deck, the swept keys, who computed it and how.
 !>
-!> In: texts and numbers, nothing that knows decks. Out: groups `/deck`, `/sweep` and attributes of `/run`.
+!> In: texts and numbers, nothing that knows decks. Out: groups `/deck`, `/sweep`, `/measured` and attributes of `/run`.
 module camroller_output_facts
    use camroller_kinds, only : wp
    use camroller_error, only : error_t
@@ -13,7 +13,7 @@ module camroller_output_facts
    implicit none
    private
 
-   public :: write_deck, write_overrides, write_deck_table, write_sweep, write_run
+   public :: write_deck, write_overrides, write_deck_table, write_sweep, write_measured, write_run
 
    !> Values of a swept key: numbers or names
    interface write_sweep
@@ -159,8 +159,38 @@ contains
          call create_numbers(writer%sweep, key, shape(numbers), [integer ::], 0, dataset, error)
       end if
       if (.not. allocated(error)) call write_numbers(dataset, 0, copy, error)
-      call finish_swept(writer, dataset, key, unit, error)
+      call finish_column(writer, dataset, key, unit, error)
    end subroutine write_swept_numbers
+
+   !> Store measured values, which came with the cases.
+   subroutine write_measured(writer, names, units, values, error)
+      !> The writer
+      type(output_t), intent(inout) :: writer
+      !> What was measured
+      character(len=*), intent(in) :: names(:)
+      !> Its units
+      character(len=*), intent(in) :: units(:)
+      !> Value of each case, a column for each name; no number where nothing was measured [units as given]
+      real(wp), intent(in) :: values(:, :)
+      !> File error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(hdf5_object_t) :: group, dataset
+      integer :: i
+
+      call check_open(writer, error)
+      if (allocated(error)) return
+      call reserve_file(writer%file, (1 + size(names))*object_size + number_size*size(values), error)
+      if (.not. allocated(error)) call create_group(writer%file, "measured", group, error)
+      do i = 1, size(names)
+         if (.not. allocated(error)) then
+            call create_numbers(group, trim(names(i)), [size(values, 1)], [integer ::], 0, dataset, error)
+         end if
+         if (.not. allocated(error)) call write_numbers(dataset, 0, values(:, i), error)
+         call finish_column(writer, dataset, trim(names(i)), trim(units(i)), error)
+      end do
+      call close_object(group)
+   end subroutine write_measured
 
    !> Store the values of a swept key that is a name.
    subroutine write_swept_names(writer, key, unit, names, error)
@@ -185,16 +215,16 @@ contains
       do i = 1, size(names)
          if (.not. allocated(error)) call write_text(dataset, [i - 1], names(i), error)
       end do
-      call finish_swept(writer, dataset, key, unit, error)
+      call finish_column(writer, dataset, key, unit, error)
    end subroutine write_swept_names
 
-   !> What both kinds of swept keys have in common.
-   subroutine finish_swept(writer, dataset, key, unit, error)
+   !> What all columns have in common.
+   subroutine finish_column(writer, dataset, key, unit, error)
       !> The writer
       type(output_t), intent(inout) :: writer
-      !> The values of the key
+      !> The column
       type(hdf5_object_t), intent(inout) :: dataset
-      !> The key, as `group.key`
+      !> Its name, of a swept key as `group.key`
       character(len=*), intent(in) :: key
       !> Its unit, blank where there is none
       character(len=*), intent(in) :: unit
@@ -206,7 +236,7 @@ contains
       if (.not. allocated(error)) call attach_scale(dataset, writer%case_axis, 1, 1, error)
       call close_object(dataset)
       if (allocated(error)) call abandon_output(writer)
-   end subroutine finish_swept
+   end subroutine finish_column
 
    !> Write a value of the deck: a number where it reads as one, else a text without its quotes.
    subroutine write_value(group, key, value, dataset, error)

@@ -1,5 +1,6 @@
 """Sweeps: kinds of samples, the same file from threads and shards, stops and continuations, what is refused."""
 
+import json
 import os
 import re
 import signal
@@ -313,6 +314,44 @@ def test_samples_are_those_of_the_seed(camroller, tmp_path):
                 assert sorted((16 * place).astype(int)) == list(range(16))
                 assert law.count(b"moes") == 8
     assert len(set(found.values())) == 6
+
+
+MEASURED = """operating_point.speed_rpm  "measured.torque [N m]"  measured.run
+600   0.41  1
+900   -     2
+1200  0.35  3
+"""
+
+
+def test_measured_values_go_with_their_cases_into_result_and_export(camroller, tmp_path):
+    (tmp_path / "cases.txt").write_text(MEASURED)
+    done(camroller, "sweep", write_deck(tmp_path / "deck.nml", "kind = 'table' table = 'cases.txt'"), folder=tmp_path)
+    done(camroller, "export", "deck.h5", "--summary", "--format", "json", "-o", "deck.json", folder=tmp_path)
+    with h5py.File(tmp_path / "deck.h5") as file:
+        torque = file["measured/torque"]
+        assert torque.attrs["units"] in ("N m", b"N m") and file["measured/run"].attrs["units"] in ("1", b"1")
+        assert numpy.array_equal(torque[()], [0.41, numpy.nan, 0.35], equal_nan=True)
+        assert list(file["sweep/operating_point.speed_rpm"]) == [600, 900, 1200] and list(file["sweep"]) == ["operating_point.speed_rpm"]
+    rows = json.loads((tmp_path / "deck.json").read_text())
+    assert "0.41" in json.dumps(rows)
+    # another table of measured values is another study: nothing of the first stays in its result
+    (tmp_path / "cases.txt").write_text(MEASURED.replace("0.41", "0.42"))
+    again = run(camroller, "sweep", "deck.nml", "--resume", folder=tmp_path)
+    assert again.returncode != 0 and "is not a result of this sweep" in again.stderr
+
+
+@pytest.mark.parametrize("old, new, words", [
+    ("0.41", "x", "cases.txt:2: value 1 of measured.torque [N m] is no number; '-' stands where nothing was measured"),
+    ("0.41", "nan", "cases.txt:2: value 1 of measured.torque [N m] is no number"),
+    ("measured.run", "measured.torque", "'measured.torque' is there twice"),
+    ("measured.run", "measured.", "the name behind 'measured.' consists of letters, digits and underscores"),
+    ("operating_point.speed_rpm", "measured.speed_rpm", "the table names no key"),
+])
+def test_mistakes_in_columns_of_measured_values_are_told(camroller, tmp_path, old, new, words):
+    (tmp_path / "cases.txt").write_text(MEASURED.replace(old, new))
+    result = run(camroller, "sweep", write_deck(tmp_path / "deck.nml", "kind = 'table' table = 'cases.txt'"), folder=tmp_path)
+    assert result.returncode == DECK and words in result.stderr
+    assert not (tmp_path / "deck.h5").exists()
 
 
 def test_a_result_is_a_table_of_its_cases(camroller, deck, reference, tmp_path):
