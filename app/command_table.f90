@@ -110,6 +110,8 @@ contains
          & "'camroller run'")
       call add_option(commands, "--no-sweep", "", "", "the deck without its &sweep")
       call add_option(commands, "--draw", "", "FILE.svg", "draw the mechanism to scale")
+      call add_option(commands, "--draw-lift", "", "FILE.svg", "draw lift, velocity, acceleration and jerk, of a table also "// &
+         & "before smoothing")
    end subroutine list_runs
 
    !> Commands that measure, and the numerical film over the cycle.

@@ -30,6 +30,7 @@ module camroller_commands
    use camroller_rerun_command, only : rerun_file
    use camroller_run, only : build_models
    use camroller_selftest, only : run_selftest
+   use camroller_lift_drawing, only : draw_lift
    use camroller_sketch, only : draw_mechanism
    use camroller_run_command, only : merge_deck, run_deck, sweep_deck
    use camroller_stop_signal, only : end_on_signals
@@ -265,11 +266,17 @@ contains
       if (allocated(error)) return
       if (size(deck%sweep%axes) > 0) text = "the deck without its &sweep:"//new_line("a")//text
       call print_lines("! "//replaced(text(:len(text) - 1)), error)
-      if (allocated(error) .or. config%drawing == "") return
-      call draw_mechanism(case, text, error)
-      if (.not. allocated(error)) call list_deck_files(deck, inputs)
-      if (.not. allocated(error)) call check_place(config%drawing, inputs, error)
-      if (.not. allocated(error)) call save_text(config%drawing, text, error)
+      call list_deck_files(deck, inputs)
+      if (.not. allocated(error) .and. config%drawing /= "") then
+         call draw_mechanism(case, text, error)
+         if (.not. allocated(error)) call check_place(config%drawing, inputs, error)
+         if (.not. allocated(error)) call save_text(config%drawing, text, error)
+      end if
+      if (.not. allocated(error) .and. config%lift_drawing /= "") then
+         call draw_lift(case, text, error)
+         if (.not. allocated(error)) call check_place(config%lift_drawing, inputs, error)
+         if (.not. allocated(error)) call save_text(config%lift_drawing, text, error)
+      end if
    end subroutine show_case
 
    !> Lines as comments of a deck.

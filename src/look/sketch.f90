@@ -13,7 +13,7 @@ module camroller_sketch
    implicit none
    private
 
-   public :: draw_mechanism
+   public :: draw_mechanism, escaped
 
    !> Units of the drawing in a metre, its margin, height of letters, and of its legend for each line [unit]
    real(wp), parameter :: scale = 1.0e4_wp, margin = 60.0_wp, letters = 15.0_wp, line_height = 20.0_wp

@@ -44,6 +44,31 @@ def test_drawing_is_to_scale(camroller, tmp_path):
         assert name in words
 
 
+def curves_of(path):
+    """Colour and points of each curve of a drawing of a lift, upwards positive, four panels from lift to jerk."""
+    space = "{http://www.w3.org/2000/svg}"
+    parts = [part for part in xml.etree.ElementTree.parse(path).getroot().iter(space + "path") if part.get("fill") == "none"]
+    found = [(part.get("stroke"), np.array(part.get("d")[1:].split(), dtype=float).reshape(-1, 2) * [1, -1]) for part in parts]
+    each = len(found) // 4
+    return [dict(found[each * panel:each * (panel + 1)]) for panel in range(4)]
+
+
+def test_drawing_of_a_noisy_lift_has_its_rows_and_the_smoothed_curve(camroller, tmp_path):
+    path = tmp_path / "lift.svg"
+    run(camroller, "check", "decks/hard/noisy_table.nml", "--draw-lift", path)
+    grey, blue, orange = "#aaaaaa", "#1f4e8c", "#e07b00"
+    lift, _, acceleration, jerk = curves_of(path)
+    assert set(lift) == set(jerk) == {grey, blue, orange}
+    # the height of the curve of the case is half to nine tenths of the panel's 150
+    assert np.ptp(lift[blue][:, 1]) == pytest.approx(100, abs=1)
+    assert np.abs(np.interp(lift[grey][:, 0], *lift[orange].T) - lift[grey][:, 1]).max() < 0.3
+    # noise makes the curve through all rows jerk to and fro, the smoothed one hardly
+    assert np.abs(np.diff(jerk[blue][:, 1])).sum() > 20 * np.abs(np.diff(jerk[orange][:, 1])).sum()
+    assert np.abs(np.diff(acceleration[grey][:, 1])).sum() > 2 * np.abs(np.diff(acceleration[orange][:, 1])).sum()
+    run(camroller, "check", "decks/thesis.nml", "--draw-lift", path)
+    assert [set(panel) for panel in curves_of(path)] == 4 * [{blue}]
+
+
 def test_check_says_what_a_person_wants_to_know(camroller):
     text = run(camroller, "check", "decks/four_cylinder.nml").stdout
     for words in (r"oil at 90 degC: 11\.\d mPa s, .* \(estimated by So and Klaus", r"composite roughness: 0\.17 um",
