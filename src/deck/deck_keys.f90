@@ -159,7 +159,8 @@ contains
       call add_text(schema, "table", "law 'table': file with two columns, cam angle in degrees and lift; "// &
          & "its path starts at the deck's folder", is_optional=.true.)
       call add_name(schema, "table_kind", table_kind_names, table_kind_names(1), "what the table holds: lift of the valve, or "// &
-         & "how far the roller's centre moves away from the cam's")
+         & "how far the roller's centre moves away from the cam's, or the cam's radius over its polar angle, which increases "// &
+         & "in the order in which points pass the roller")
       call add_name(schema, "table_unit", length_unit_names, length_unit_names(1), "unit of the lift in the table")
       call add_number(schema, "table_nose_angle_deg", from_to(-360.0_wp, 360.0_wp), &
          & "cam angle in the table at which the cam's nose is at the roller", default=pi)

@@ -4,13 +4,14 @@
 module camroller_deck_tables
    use camroller_kinds, only : wp, pi, two_pi, degree
    use camroller_error, only : error_t
-   use camroller_units, only : unit_t, find_unit, to_si
+   use camroller_units, only : unit_t, find_unit, from_si, to_si
    use camroller_number_text, only : number_text, integer_text
    use camroller_mistakes, only : mistakes_t, add_mistake
    use camroller_settings, only : settings_t, take, get_word, has_group
    use camroller_deck_complaint, only : complain
    use camroller_kinematics, only : mechanism_t
-   use camroller_lift_forms, only : closes_triangle, kind_roller, table_kind_names, valve_lift_of
+   use camroller_lift_forms, only : closes_triangle, follow_contour, kind_contour, kind_roller, table_kind_names, &
+      & valve_lift_of
    use camroller_text_file, only : join_path
    use camroller_table_file, only : table_t, read_table, check_spacing
    implicit none
@@ -24,6 +25,8 @@ module camroller_deck_tables
    real(wp), parameter :: nose_distance = 30.0_wp
    !> What counts as zero lift, relative to the largest lift [-]
    real(wp), parameter :: zero_lift = 1.0e-9_wp
+   !> What counts as the base circle in a contour, relative to the largest height over it: radii are measured [-]
+   real(wp), parameter :: zero_height = 1.0e-4_wp
 
    !> Difference of two pressures that are taken for the same, relative to the largest pressure [-]
    real(wp), parameter :: same_pressure = 1.0e-6_wp
@@ -108,14 +111,17 @@ contains
       !> Mistakes so far
       type(mistakes_t), intent(inout) :: mistakes
 
-      !> Largest lift [unit of the file]
+      !> Largest lift [unit of the file], and lift, of a contour the height over the base circle [unit of the file]
       real(wp) :: largest
+      real(wp), allocatable :: lift(:)
       !> Cam angle of the nose in the table [rad] and [deg]
       real(wp) :: nose, nose_degrees
+      !> What counts as zero lift, relative to the largest [-]
+      real(wp) :: nothing
       type(mechanism_t) :: mechanism
       type(unit_t) :: unit
       logical :: is_there
-      integer :: n, top
+      integer :: kind, n, top
 
       if (.not. allocated(table%x)) return
       n = size(table%x)
@@ -123,18 +129,29 @@ contains
       nose = pi
       call take(settings, group, "table_nose_angle_deg", nose)
       nose_degrees = nose/degree
-      top = maxloc(table%y, dim=1)
-      largest = table%y(top)
+      kind = findloc(table_kind_names, get_word(settings, group, "table_kind"), 1)
+      call take_mechanism(settings, mechanism)
+      call find_unit(get_word(settings, group, "table_unit"), unit, is_there)
+      lift = table%y
+      nothing = zero_lift
+      if (kind == kind_contour) then
+         lift = lift - from_si(unit, mechanism%base_radius)
+         nothing = zero_height
+      end if
+      top = maxloc(lift, dim=1)
+      largest = lift(top)
       if (largest <= 0.0_wp) then
-         call row_mistake(table, top, "the table has no lift above zero", mistakes)
+         call row_mistake(table, top, trim(merge("no radius is above the base circle's", "the table has no lift above zero    ", &
+            & kind == kind_contour)), mistakes)
          return
       end if
-      if (abs(table%y(1)) > zero_lift*largest) call row_mistake(table, 1, "the lift must start at zero", mistakes)
-      if (abs(table%y(n)) > zero_lift*largest) call row_mistake(table, n, "the lift must end at zero", mistakes)
-      if (any(table%y < -zero_lift*largest)) call row_mistake(table, minloc(table%y, dim=1), "negative lift", mistakes)
-      if (get_word(settings, group, "table_kind") == table_kind_names(kind_roller)) then
-         call take_mechanism(settings, mechanism)
-         call find_unit(get_word(settings, group, "table_unit"), unit, is_there)
+      if (abs(lift(1)) > nothing*largest) call row_mistake(table, 1, trim(merge("the contour must start on the base circle", &
+         & "the lift must start at zero              ", kind == kind_contour)), mistakes)
+      if (abs(lift(n)) > nothing*largest) call row_mistake(table, n, trim(merge("the contour must end on the base circle", &
+         & "the lift must end at zero              ", kind == kind_contour)), mistakes)
+      if (any(lift < -nothing*largest)) call row_mistake(table, minloc(lift, dim=1), trim(merge( &
+         & "a radius below the base circle's", "negative lift                   ", kind == kind_contour)), mistakes)
+      if (kind == kind_roller) then
          if (.not. closes_triangle(mechanism, to_si(unit, largest))) call row_mistake(table, top, "the roller cannot be so far "// &
             & "from the cam: its arm is shorter; is this a lift of the roller ('table_kind'), and is 'table_unit' right?", mistakes)
       end if
@@ -146,8 +163,85 @@ contains
          call row_mistake(table, n, "the table must lie within 180 degrees of the nose at "//number_text(nose_degrees, &
             & 6), &
             & mistakes)
+      else if (kind == kind_contour .and. mistakes%count == 0) then
+         call check_contour(settings, group, table, mechanism, mistakes)
       end if
    end subroutine check_lift
+
+   !> Can the roller follow a contour?
+   subroutine check_contour(settings, group, table, mechanism, mistakes)
+      !> The settings
+      type(settings_t), intent(in) :: settings
+      !> Group that names the table
+      character(len=*), intent(in) :: group
+      !> The table
+      type(table_t), intent(in) :: table
+      !> Dimensions
+      type(mechanism_t), intent(in) :: mechanism
+      !> Mistakes so far
+      type(mistakes_t), intent(inout) :: mistakes
+
+      ! [rad], [m]
+      real(wp), allocatable :: angle(:), lift(:), polar(:), height(:)
+      type(error_t), allocatable :: error
+      integer :: i, first, last
+
+      call cut_contour(settings, group, table, mechanism, polar, height, first, last)
+      call follow_contour(mechanism, polar, height, angle, lift, error)
+      if (allocated(error)) then
+         call complain(mistakes, settings, group, "table", error%message)
+         return
+      end if
+      do i = 1, size(angle)
+         if (i > 1) then
+            if (angle(i) <= angle(i - 1)) then
+               call row_mistake(table, first + i - 1, "the roller does not touch the contour here: a hollow narrower than the "// &
+                  & "roller, noise, or a mistake in the row; are 'table_unit' and the roller's radius right?", mistakes)
+               return
+            end if
+         end if
+         if (.not. closes_triangle(mechanism, lift(i))) then
+            call row_mistake(table, first + i - 1, "the roller cannot be so far from the cam: its arm is shorter; is this a "// &
+               & "contour of the cam ('table_kind'), and is 'table_unit' right?", mistakes)
+            return
+         end if
+      end do
+   end subroutine check_contour
+
+   !> Rows of a contour from the last on the base circle before the nose to the first behind it.
+   subroutine cut_contour(settings, group, table, mechanism, polar, height, first, last)
+      !> The settings
+      type(settings_t), intent(in) :: settings
+      !> Group that names the table
+      character(len=*), intent(in) :: group
+      !> The table
+      type(table_t), intent(in) :: table
+      !> Dimensions
+      type(mechanism_t), intent(in) :: mechanism
+      !> Polar angle from the nose [rad]
+      real(wp), allocatable, intent(out) :: polar(:)
+      !> Height over the base circle, zero at both ends [m]
+      real(wp), allocatable, intent(out) :: height(:)
+      !> First and last row
+      integer, intent(out) :: first, last
+
+      type(unit_t) :: unit
+      logical :: is_known
+      real(wp) :: nose ! [rad]
+      integer :: top
+
+      nose = pi
+      call take(settings, group, "table_nose_angle_deg", nose)
+      call find_unit(get_word(settings, group, "table_unit"), unit, is_known)
+      height = to_si(unit, table%y) - mechanism%base_radius
+      top = maxloc(height, dim=1)
+      first = max(1, findloc(height(:top) <= zero_lift*height(top), .true., dim=1, back=.true.))
+      last = min(size(height), top - 1 + findloc(height(top:) <= zero_lift*height(top), .true., dim=1))
+      if (last < top) last = size(height)
+      polar = table%x(first:last)*degree - nose
+      height = height(first:last)
+      height([1, size(height)]) = 0.0_wp
+   end subroutine cut_contour
 
    !> Is a table one turn of the cylinder pressure?
    subroutine check_pressure(table, mistakes)
@@ -204,10 +298,22 @@ contains
       type(unit_t) :: unit
       logical :: is_known
       type(mechanism_t) :: mechanism
-      !> Cam angle of the nose in the table [rad]
+      type(error_t), allocatable :: error
+      !> Cam angle of the nose in the table [rad]; polar angle from it [rad], height over the base circle [m]
       real(wp) :: nose
-      integer :: first, last
+      real(wp), allocatable :: polar(:), height(:)
+      integer :: first, last, kind
 
+      kind = findloc(table_kind_names, get_word(settings, group, "table_kind"), 1)
+      call take_mechanism(settings, mechanism)
+      if (kind == kind_contour) then
+         ! the contour was checked: there is no error
+         call cut_contour(settings, group, table, mechanism, polar, height, first, last)
+         call follow_contour(mechanism, polar, height, angle, lift, error)
+         lift = valve_lift_of(mechanism, lift)
+         lift([1, size(lift)]) = 0.0_wp
+         return
+      end if
       nose = pi
       call take(settings, group, "table_nose_angle_deg", nose)
       call find_unit(get_word(settings, group, "table_unit"), unit, is_known)
@@ -215,9 +321,7 @@ contains
       last = min(size(table%y), findloc(table%y > 0.0_wp, .true., dim=1, back=.true.) + 1)
       angle = table%x(first:last)*degree - nose
       lift = to_si(unit, table%y(first:last))
-      if (get_word(settings, group, "table_kind") /= table_kind_names(kind_roller)) return
-      call take_mechanism(settings, mechanism)
-      lift = valve_lift_of(mechanism, lift)
+      if (kind == kind_roller) lift = valve_lift_of(mechanism, lift)
    end subroutine get_lift_table
 
    !> Dimensions that turn a lift of the roller into one of the valve.
@@ -233,6 +337,7 @@ contains
       call take(settings, "mechanism", "roller_arm_angle_deg", mechanism%roller_arm_angle)
       call take(settings, "mechanism", "valve_axis_angle_deg", mechanism%valve_axis_angle)
       call take(settings, "mechanism", "base_radius_mm", mechanism%base_radius)
+      call take(settings, "mechanism", "rotation", mechanism%rotation)
       call take(settings, "roller", "radius_mm", mechanism%roller_radius)
    end subroutine take_mechanism
 

@@ -1,19 +1,22 @@
-!> Lift as people have it: the roller's instead of the valve's.
+!> Lift as people have it: the roller's instead of the valve's, or the contour of the cam.
 !>
-!> In: how far the roller's centre is from the cam's, beyond the base circle. Out: the lift of the valve.
-!> Source: the triangle of pivot, cam and roller, Islam (2019) eqs. (6), (8) and (9).
+!> In: how far the roller's centre is from the cam's, beyond the base circle; or radii of the cam over the polar angle. Out: the
+!> lift of the valve over the cam angle. Sources: the triangle of pivot, cam and roller, Islam (2019) eqs. (6), (8) and (9); the
+!> roller's centre is on the contour's parallel curve, Norton (2009), Cam Design and Manufacturing Handbook, chapter 13.
 module camroller_lift_forms
+   use camroller_error, only : error_t
    use camroller_kinds, only : wp
-   use camroller_kinematics, only : mechanism_t
+   use camroller_kinematics, only : mechanism_t, rotation_names
+   use camroller_lift, only : evaluate_lift, lift_law_t, lift_t, new_lift_law
    implicit none
    private
 
-   public :: table_kind_names, kind_roller, valve_lift_of, closes_triangle
+   public :: table_kind_names, kind_roller, kind_contour, valve_lift_of, closes_triangle, follow_contour
 
-   !> What a lift table holds: lift of the valve, or of the roller's centre away from the cam's
-   character(len=*), parameter :: table_kind_names(*) = [character(len=12) :: "valve_lift", "roller_lift"]
-   !> Position in `table_kind_names`
-   integer, parameter :: kind_roller = 2
+   !> What a lift table holds: lift of the valve, or of the roller's centre away from the cam's, or radii of the cam
+   character(len=*), parameter :: table_kind_names(*) = [character(len=11) :: "valve_lift", "roller_lift", "cam_contour"]
+   !> Positions in `table_kind_names`
+   integer, parameter :: kind_roller = 2, kind_contour = 3
 
 contains
 
@@ -63,5 +66,69 @@ contains
          lift = m%pivot_to_pad*(cos(closed) - cos(open))
       end associate
    end function valve_lift_of
+
+   !> Cam angle and lift of the roller's centre while it touches each point of a cam's contour.
+   subroutine follow_contour(mechanism, polar, height, cam_angle, roller_lift, error)
+      !> Dimensions and sense of rotation
+      type(mechanism_t), intent(in) :: mechanism
+      !> Polar angle on the cam from its nose, increasing in the order in which points pass the roller [rad]
+      real(wp), intent(in) :: polar(:)
+      !> Radius of the cam less that of the base circle, zero at both ends [m]
+      real(wp), intent(in) :: height(:)
+      !> Cam angle from that where the roller touches the nose [rad]
+      real(wp), allocatable, intent(out) :: cam_angle(:)
+      !> Distance of the roller's centre from the cam's, less that on the base circle [m]
+      real(wp), allocatable, intent(out) :: roller_lift(:)
+      !> Deck error of the contour
+      type(error_t), allocatable, intent(out) :: error
+
+      type(lift_law_t) :: law
+      ! Height and its derivatives [m, m/rad, ...]
+      real(wp) :: values(0:3)
+      real(wp) :: nose ! [rad]
+      integer :: i
+
+      call new_lift_law(law, lift_t(law="table", table_angle=polar, table_lift=height), error)
+      if (allocated(error)) return
+      allocate (cam_angle(size(polar)), roller_lift(size(polar)))
+      do i = 1, size(polar)
+         call evaluate_lift(law, polar(i), values)
+         call touch(mechanism, polar(i), values(:1), cam_angle(i), roller_lift(i))
+      end do
+      call evaluate_lift(law, 0.0_wp, values)
+      call touch(mechanism, 0.0_wp, values(:1), nose, values(3))
+      cam_angle = cam_angle - nose
+   end subroutine follow_contour
+
+   !> The roller at one point of the contour: its centre is a roller's radius away along the normal.
+   pure subroutine touch(mechanism, polar, height, cam_angle, roller_lift)
+      !> Dimensions and sense of rotation
+      type(mechanism_t), intent(in) :: mechanism
+      !> Polar angle [rad]
+      real(wp), intent(in) :: polar
+      !> Height over the base circle and its slope [m, m/rad]
+      real(wp), intent(in) :: height(0:1)
+      !> Cam angle, from a constant [rad]
+      real(wp), intent(out) :: cam_angle
+      !> Lift of the roller's centre [m]
+      real(wp), intent(out) :: roller_lift
+
+      ! Radius of the contour [m]; outward normal, along the radius and along growing angle [-]; centre of the roller [m]; angle at
+      ! the cam's centre between pivot and roller [rad]
+      real(wp) :: radius, normal(2), centre(2), opening
+      ! Distance of the roller's centre from the cam's [m]; sense of rotation [-]
+      real(wp) :: distance, sense
+
+      radius = mechanism%base_radius + height(0)
+      normal = [radius, -height(1)]/hypot(radius, height(1))
+      centre = [radius, 0.0_wp] + mechanism%roller_radius*normal
+      distance = norm2(centre)
+      associate (a => mechanism%pivot_to_roller, d => mechanism%pivot_to_cam)
+         opening = acos(max(-1.0_wp, min(1.0_wp, (d**2 + distance**2 - a**2)/(2.0_wp*d*distance))))
+      end associate
+      sense = merge(1.0_wp, -1.0_wp, mechanism%rotation == rotation_names(1))
+      cam_angle = polar + atan2(centre(2), centre(1)) + sense*opening
+      roller_lift = distance - mechanism%base_radius - mechanism%roller_radius
+   end subroutine touch
 
 end module camroller_lift_forms

@@ -1,4 +1,4 @@
-"""A lift of the roller in the place of the valve's: both tables of one cam come to the same results."""
+"""A lift of the roller, or the contour of the cam, in the place of the valve's lift: tables of one cam come to the same results."""
 
 import pathlib
 import subprocess
@@ -6,6 +6,7 @@ import subprocess
 import h5py
 import numpy as np
 import pytest
+from scipy.interpolate import make_interp_spline
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 # decks/tabulated_lift.nml [mm, rad]
@@ -54,3 +55,55 @@ def test_a_lift_that_no_roller_can_have_is_a_mistake(camroller, tmp_path):
     result = subprocess.run([camroller, "check", "decks/tabulated_lift.nml", "--set", f"lift.table={table}", "--set",
                              "lift.table_kind=roller_lift"], capture_output=True, text=True, cwd=ROOT, check=False)
     assert result.returncode == 3 and "the roller cannot be so far from the cam" in result.stderr
+
+
+def contour(sense):
+    """Radii [mm] over the polar angle [deg] of the cam whose valve lift is the table's, as the envelope of the roller.
+
+    The finger goes round the cam; the roller's centre draws a curve, of which the contour is the parallel one roller radius inside.
+    Complex numbers, first axis from the pivot to the cam's centre, second the way the finger opens.
+    """
+    degrees, lift = np.loadtxt(ROOT / "decks/tables/polynomial_lift.txt").T
+    spline = make_interp_spline(np.radians(degrees), np.where(np.abs(lift) < 1e-9, 0, lift), k=5)
+    angle = np.radians(np.linspace(degrees[0], degrees[-1], 40001))
+    closed = np.arccos((ARM**2 + CAM**2 - (BASE + ROLLER) ** 2) / (2 * ARM * CAM))
+    arm = np.arccos(np.cos(closed - ARM_ANGLE + AXIS) - spline(angle) / PAD) - AXIS + ARM_ANGLE
+    centre = (ARM * np.exp(1j * arm) - CAM) * np.exp(1j * sense * angle)
+    along = np.gradient(centre, angle)
+    outward = -1j * sense * along / np.abs(along)
+    surface = centre - ROLLER * outward
+    assert (np.abs(surface[1:-1]) > BASE - 1e-5).all()
+    polar = np.unwrap(sense * np.angle(surface))
+    # the nose, where full lift is, at 180 degrees; the ends are on the base circle
+    nose = polar[np.argmin(np.abs(angle - np.pi))]
+    rows = np.radians(np.arange(-85, 85.01, 0.5))
+    radius = np.interp(rows, polar - nose, np.abs(surface))
+    return np.degrees(rows) + 180, np.maximum(radius, BASE)
+
+
+@pytest.mark.parametrize("rotation, sense", [("away_from_pivot", 1), ("towards_pivot", -1)])
+def test_the_contour_of_the_cam_gives_the_lift_that_it_was_made_of(camroller, tmp_path, rotation, sense):
+    polar, radius = contour(sense)
+    path = tmp_path / "contour.txt"
+    np.savetxt(path, np.column_stack([polar, radius]), fmt="%.9f")
+    valve = write_table(tmp_path / "valve.txt", lambda lift: lift)
+    first = summary(camroller, tmp_path, f"lift.table={valve}", f"mechanism.rotation={rotation}")
+    second = summary(camroller, tmp_path, f"lift.table={path}", "lift.table_kind=cam_contour", f"mechanism.rotation={rotation}")
+    # radii every half degree, interpolated: loads follow the second derivative
+    for name, share in (("max_valve_lift", 1e-5), ("max_contact_load", 1e-3), ("mean_torque_friction", 1e-3), ("max_hertz_pressure", 1e-3),
+                        ("contact_loss_speed", 3e-3)):
+        assert second[name] == pytest.approx(first[name], rel=share), name
+
+
+@pytest.mark.parametrize("change, words", [
+    (lambda radius: radius - 17, "no radius is above the base circle's"),
+    (lambda radius: radius + 0.5, "the contour must start on the base circle"),
+    (lambda radius: 18 + (radius - 18) * (1 + 0.3 * (np.arange(radius.size) % 40 == 20)), "the roller does not touch the contour here"),
+])
+def test_a_contour_that_no_roller_can_follow_is_a_mistake(camroller, tmp_path, change, words):
+    polar, radius = contour(1)
+    path = tmp_path / "contour.txt"
+    np.savetxt(path, np.column_stack([polar, change(radius)]), fmt="%.9f")
+    result = subprocess.run([camroller, "check", "decks/tabulated_lift.nml", "--set", f"lift.table={path}", "--set",
+                             "lift.table_kind=cam_contour"], capture_output=True, text=True, cwd=ROOT, check=False)
+    assert result.returncode == 3 and words in result.stderr
