@@ -4,7 +4,7 @@
 !> In: the command line. Out: the table. A case that cannot be measured is recorded and does not end the others; the
 !> program still ends with its kind of error.
 module camroller_measure_command
-   use camroller_error, only : error_t, add_context
+   use camroller_error, only : error_t, add_context, kind_usage, raise
    use camroller_audit, only : new_audit_table, audit_case
    use camroller_audit_page, only : write_audit_page
    use camroller_case, only : case_t
@@ -50,7 +50,9 @@ contains
       type(hdf5_columns_t) :: columns
       type(deck_t) :: deck
 
-      if (config%is_laws) then
+      if (config%is_laws .and. config%output /= "") then
+         call raise(error, kind_usage, "'study --laws' prints a table and writes no file: leave '--output' out")
+      else if (config%is_laws) then
          call read_deck(deck, config%subject, config%overrides, error, columns)
          if (.not. allocated(error)) call show_laws(deck, error)
       else

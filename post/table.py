@@ -6,8 +6,8 @@ Usage: post/table.py FILE [--columns NAME,NAME,...] [--cases WHICH]... [--over K
 Columns are swept keys first, then scalars of the summary: by default mean friction torque of each source, mean slip ratio, peak
 Hertz pressure and smallest film. Units stand in the headings and suit the values, rotational speeds are in rev/min; three
 significant figures, whole numbers in full. With `--over` the cases that differ in these keys only, as speeds of one design, make one
-row, with the largest, smallest or mean value of each column. Cases that are no grid, and chosen ones, have their number in the first column. Exit
-code 2 where the file or a name cannot be used.
+row, with the largest, smallest or mean value of each column, or its range. Cases that are no grid, and chosen ones, have their number
+in the first column. Exit code 2 where the file or a name cannot be used.
 """
 
 from __future__ import annotations
@@ -42,6 +42,7 @@ COLUMNS = [
 ]
 MOST_ROWS = 50
 TAKEN = {'largest': np.max, 'smallest': np.min, 'mean': np.mean}
+RANGE = 'range'
 
 
 def plain(value) -> str:
@@ -74,6 +75,8 @@ def column_of(result, name, groups, take, heading=None, unit=None) -> list[str]:
     quantity = result.scalar(name)
     if quantity.values.dtype.kind not in 'fiu':
         return [heading or name, *(', '.join(dict.fromkeys(str(value) for value in quantity.values[group])) for group in groups)]
+    if take == RANGE:
+        return range_of(heading or name, quantity, groups, unit)
     # A case without a result, which has no number, leaves its group without one
     values = np.array([TAKEN[take](quantity.values[group]) if take else quantity.values[group[0]] for group in groups])
     scale = factor(quantity.units, unit) if unit else None
@@ -83,9 +86,20 @@ def column_of(result, name, groups, take, heading=None, unit=None) -> list[str]:
     return [with_unit(heading or name, unit), *cells]
 
 
+def range_of(heading, quantity, groups, unit) -> list[str]:
+    """Heading and cells of a scalar as `smallest to largest`."""
+    ends = np.array([[np.min(quantity.values[group]), np.max(quantity.values[group])] for group in groups])
+    scale = factor(quantity.units, unit) if unit else None
+    if scale is None:
+        unit, scale = fitting_unit(heading, quantity.units, ends)
+    return [with_unit(heading, unit), *(' to '.join(number(value * scale) for value in pair) for pair in ends)]
+
+
 def table_of(result, columns=None, selections=(), rows=None, over=(), take='') -> str:
     """The table as Markdown, of the first so many rows, and lines on what is not in it."""
-    chosen = [c for c in COLUMNS if c[0] in result.summary] if columns is None else [(c, None, None) for c in columns]
+    usual = {name: (name, heading, unit) for name, heading, unit in COLUMNS}
+    chosen = [c for c in COLUMNS if c[0] in result.summary] if columns is None else \
+        [usual.get(name, (name, None, None)) if take == RANGE else (name, None, None) for name in columns]
     if not chosen:
         raise ResultError(f'{result.path}: none of the usual scalars in the summary; choose with --columns')
     cases = chosen_cases(result, selections)
@@ -127,7 +141,7 @@ def main(arguments=None) -> int:
                         help='only these cases: numbers from 0 as in 0,2-4, values as in speed_rpm=300,600 or a range as in '
                              'speed_rpm=300:600; given more than once, a case must fit all')
     parser.add_argument('--over', help='swept keys, separated by commas: cases that differ in them only make one row')
-    parser.add_argument('--take', choices=TAKEN, default='largest', help='value of a row of several cases (default: largest)')
+    parser.add_argument('--take', choices=[*TAKEN, RANGE], default='largest', help='value of a row of several cases (default: largest)')
     limit = parser.add_mutually_exclusive_group()
     limit.add_argument('--rows', type=whole_number(1, 10**9), default=MOST_ROWS, help=f'most rows (default: {MOST_ROWS})')
     limit.add_argument('--all', action='store_true', help='all rows')

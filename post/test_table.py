@@ -121,6 +121,16 @@ def test_rows_over_speeds_have_the_worst_of_them(tmp_path):
         assert [float(row[2]) for row in body] == pytest.approx(function(slip, axis=0), rel=6e-3)
 
 
+def test_rows_over_speeds_have_the_range_of_them(tmp_path):
+    path = write_result(tmp_path / "grid.h5", without=())
+    result = read_result(path)
+    slip = 100.0 * result.summary["mean_slip_ratio"].values.reshape(3, 3)
+    head, *body = rows(table_of(result, ["mean_slip_ratio"], over=["speed_rpm"], take="range"))
+    assert head == ["oil_temperature_degC", "cases", "range mean slip [%]"]
+    ends = [[float(end) for end in row[2].split(" to ")] for row in body]
+    assert ends == [pytest.approx([low, high], rel=6e-3) for low, high in zip(slip.min(0), slip.max(0))]
+
+
 def test_a_row_with_a_case_without_result_has_no_number(tmp_path, capsys):
     path = write_result(tmp_path / "grid.h5")
     with h5py.File(path, "a") as file:

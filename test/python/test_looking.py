@@ -143,6 +143,11 @@ def test_exports_with_columns_and_forms(camroller, tmp_path):
     assert "did you mean 'contact_load'?" in result.stderr
 
 
+def test_study_of_laws_refuses_a_file_that_it_would_not_write(camroller, tmp_path):
+    words = run(camroller, "study", "decks/thesis.nml", "--laws", "-o", tmp_path / "x.h5", code=2).stderr
+    assert "writes no file: leave '--output' out" in words and not (tmp_path / "x.h5").exists()
+
+
 def test_study_of_laws_shows_the_range_that_runs_give(camroller, tmp_path):
     text = run(camroller, "study", "decks/thesis.nml", "--laws", "--set", "sweep.values_1=600", "--set", "sweep.values_2=60").stdout
     slips = {}
