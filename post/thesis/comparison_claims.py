@@ -302,6 +302,18 @@ def geometric_hardly_changes(points):
     return bool(np.ptp(high) / high.max() < 0.05), f"peaks {listed(high[:, 0])} N m, the same at each temperature"
 
 
+# 11: drive torque
+
+def drive_falls_with_speed(points):
+    peak = points.series("torque_drive").max(axis=-1)
+    return falls(peak), by_temperature(peak, "N m")
+
+
+def drive_rises_on_heating(points):
+    peak = points.series("torque_drive").max(axis=-1)
+    return rises(peak.T), "; ".join(f"{speed:.0f} rev/min: {listed(row)} N m" for speed, row in zip(SPEEDS, peak))
+
+
 STATEMENTS = (
     Statement("Peak pressure", "section on viscosity", "The Hertz pressure goes up to 0.64 GPa. (The "
               "decks' spring constant was chosen by it, since the printed one gives 0.18 GPa: agreement says nothing here.)", (
@@ -376,6 +388,11 @@ STATEMENTS = (
                                              "temperature not at all.", (
         Claim("geometric_parts", "both peaks equal within 1 %", geometric_parts_equal),
         Claim("geometric_change", "peaks at all points within 5 %", geometric_hardly_changes))),
+    Statement("Drive torque", "Fig. 21 and the text below it", "It falls with speed and rises with temperature. (Fig. 20, the change "
+                                                               "of the contact's friction by sliding and asperities, is a picture "
+                                                               "without a number in words.)", (
+        Claim("drive_speed", "its peak falls with speed at each temperature", drive_falls_with_speed),
+        Claim("drive_heating", "its peak rises with temperature at each speed", drive_rises_on_heating))),
 )
 
 

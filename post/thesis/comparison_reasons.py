@@ -220,6 +220,31 @@ def torque_speed(runs, points):
            "300 to 600 rev/min at 95 °C (statement 5)."
 
 
+def peak_friction(points):
+    """Friction torque where the drive torque has its peak [N m], speeds by temperatures."""
+    drive, geometric = points.series("torque_drive"), points.series("torque_geometric")
+    place = drive.argmax(axis=-1)[..., None]
+    return np.take_along_axis(drive - geometric, place, axis=-1)[..., 0]
+
+
+def drive_speed(runs, points):
+    friction = peak_friction(points)
+    return f"it falls at 60 and 95 °C, since inertia takes load off the contact. At 25 °C friction where the peak is grows with the speed, " \
+           f"{listed(friction[:, 0])} N m, for it is that of oil sheared in the bearings and the contact."
+
+
+def drive_heating_thesis(runs, points):
+    friction = peak_friction(points)
+    return f"friction at the peak falls with the temperature, at 600 rev/min {listed(friction[1])} N m: the bearings and the film have less " \
+           "to shear, and boundary friction counts only as far as slip mobilises it."
+
+
+def drive_heating_source(runs, points):
+    friction = peak_friction(points)
+    return f"it rises from 60 to 95 °C, where boundary friction is counted in full; from 25 to 60 °C the bearings shear less oil: friction " \
+           f"at the peak is {listed(friction[1])} N m at 600 rev/min and {listed(friction[2])} N m at 900 rev/min."
+
+
 REASONS = {
     ("share_cold", "thesis_source"): share_cold,
     ("share_flank", "thesis_source"): share_flank,
@@ -246,4 +271,7 @@ REASONS = {
     ("guide_share", "both"): guide_share,
     ("needle_share", "both"): needle_share,
     ("guide_needle", "both"): guide_needle,
+    ("drive_speed", "both"): drive_speed,
+    ("drive_heating", "thesis"): drive_heating_thesis,
+    ("drive_heating", "thesis_source"): drive_heating_source,
 }

@@ -78,7 +78,7 @@ def test_every_statement_has_its_verdict(fresh):
         assert re.search(r"^Verdict: `thesis.nml` (agrees|partly|differs), "
                          r"`thesis_source.nml` (agrees|partly|differs)\.$", section, re.M), statement.title
         assert ("**no**" in section) == ("Why:" in section), statement.title
-    assert len(STATEMENTS) == 10
+    assert len(STATEMENTS) == 11
 
 
 def test_reasons_and_runs_name_what_exists():
