@@ -96,6 +96,7 @@ program main
    use test_hard_cases, only : collect_hard_cases
    use test_ode_switching, only : collect_ode_switching
    use test_flexible_cycle, only : collect_flexible_cycle
+   use test_flexible_invariance, only : collect_flexible_invariance
    use test_flexible_parts, only : collect_flexible_parts
    use test_flexible_train, only : collect_flexible_train
    use test_random_cases, only : collect_random_cases
@@ -148,6 +149,7 @@ contains
          new_testsuite("ode_switching", collect_ode_switching), &
          new_testsuite("flexible_cycle", collect_flexible_cycle), &
          new_testsuite("flexible_parts", collect_flexible_parts), &
+         new_testsuite("flexible_invariance", collect_flexible_invariance), &
          new_testsuite("flexible_train", collect_flexible_train), &
          new_testsuite("random_cases", collect_random_cases), &
          new_testsuite("random_ehl", collect_random_ehl), &
