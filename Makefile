@@ -79,11 +79,14 @@ trends: build ## which measured trends come out over the ranges of unknown coeff
 	build/release/bin/camroller sweep results/trends/trends.nml -o results/trends/trends.h5 --quiet
 	$(PYTHON) post/trends.py results/trends/trends.h5 --page doc/trends.md --figure doc/figures/trends.png
 
-dynamics: build ## a flexible train at four speeds: figure of doc/dynamics.md, some seconds
+dynamics: build ## a flexible train at four speeds and over all speeds: figures of doc/dynamics.md, half a minute
 	@mkdir -p results
 	build/release/bin/camroller run decks/dynamics.nml --set sweep.values_1=300,900,2500,3000 --set numerics.tolerance=1e-4 \
 	  -o results/dynamics.h5 --quiet
 	$(PYTHON) post/plot.py results/dynamics.h5 --figure train --dpi 90 --output doc/figures
+	build/release/bin/camroller sweep decks/dynamics.nml --set sweep.values_1=$$(seq -s, 500 50 3300) --set sweep.series=all \
+	  --set numerics.tolerance=1e-4 -o results/speeds.h5 --quiet
+	$(PYTHON) post/campbell.py results/speeds.h5 --dpi 80 --output doc/figures/dynamics_campbell.png
 
 install: ## libraries, header, modules and program by CMake, into PREFIX=/usr/local; IO=OFF leaves out what needs HDF5
 	@cmake -S . -B build/cmake -DCMAKE_INSTALL_PREFIX="$(or $(PREFIX),/usr/local)" -DCAMROLLER_IO=$(or $(IO),ON) > build/cmake.log

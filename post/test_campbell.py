@@ -1,0 +1,70 @@
+"""Spectra of a spring over speed, against made-up modes."""
+
+import h5py
+import numpy as np
+import pytest
+
+import campbell
+from read import ResultError, read_result
+
+SPEEDS = [600.0, 1200.0, 1800.0]
+STIFFNESS, MASS = 25000.0, 0.036
+
+
+def write_sweep(path, amplitudes, harmonic=10, points=720):
+    """A file as of a sweep over the speed, whose modes move with one harmonic of the cam."""
+    angle = np.arange(points) * 360.0 / points
+    with h5py.File(path, "w") as file:
+        file.attrs["complete"] = 1
+        file["series/cam_angle"] = angle
+        for mode, amplitude in enumerate(amplitudes, 1):
+            wave = np.cos(np.radians(harmonic * angle))
+            file[f"series/spring_mode_{mode}"] = np.outer(amplitude * np.arange(1, 4), wave)
+        for name in ("surge_force", "surge_estimate_1", "seating_speed", "seating_speed_lowest", "seating_speed_highest", "bounces"):
+            file[f"summary/{name}"] = [1.0, 2.0, 3.0]
+        file["summary/status"] = [0, 0, 0]
+        file["sweep/operating_point.speed_rpm"] = SPEEDS
+        file["deck/values/spring.stiffness_N_m"] = STIFFNESS
+        file["deck/values/spring_surge.mass_kg"] = MASS
+        file["deck/values/case.title"] = "Made up"
+        file["deck/text"] = "&sweep /"
+    return path
+
+
+def test_force_of_a_harmonic_is_found_at_its_order(tmp_path):
+    result = read_result(write_sweep(tmp_path / "a.h5", [1e-5]))
+    amplitude = campbell.spectrum(campbell.mode_force(result))
+    # k pi q_1 with q_1 of 1e-5, 2e-5 and 3e-5 m, at the tenth harmonic and nowhere else
+    assert amplitude[:, 9] == pytest.approx(STIFFNESS * np.pi * 1e-5 * np.arange(1, 4), rel=1e-12)
+    assert np.delete(amplitude, 9, axis=1).max() < 1e-12
+
+
+def test_even_modes_pull_the_other_way(tmp_path):
+    result = read_result(write_sweep(tmp_path / "a.h5", [2e-5, 1e-5]))
+    assert np.abs(campbell.mode_force(result)).max() < 1e-12
+
+
+def test_frequencies_are_those_of_a_clamped_spring(tmp_path):
+    result = read_result(write_sweep(tmp_path / "a.h5", [1e-5, 0.0, 0.0]))
+    assert campbell.mode_frequencies(result) == pytest.approx([416.666667, 833.333333, 1250.0], rel=1e-8)
+
+
+def test_map_is_brightest_where_the_harmonic_is(tmp_path):
+    result = read_result(write_sweep(tmp_path / "a.h5", [1e-5]))
+    figure = campbell.draw(result)
+    mesh = figure.axes[0].collections[0]
+    image = mesh.get_array().reshape(400, 3)
+    heights = np.linspace(0.0, 1.15 * 416.666667, 400)
+    for case, speed in enumerate(SPEEDS):
+        assert heights[image[:, case].argmax()] == pytest.approx(10 * speed / 60.0, abs=1.5)
+
+
+def test_figure_is_written_and_other_sweeps_are_refused(tmp_path, capsys):
+    path = write_sweep(tmp_path / "a.h5", [1e-5])
+    assert campbell.main([str(path)]) == 0 and (tmp_path / "a_campbell.png").stat().st_size > 10_000
+    with h5py.File(path, "a") as file:
+        file.move("sweep/operating_point.speed_rpm", "sweep/roller.radius_mm")
+    assert campbell.main([str(path)]) == 2
+    assert "not a sweep over operating_point.speed_rpm alone" in capsys.readouterr().err
+    with pytest.raises(ResultError):
+        campbell.draw(read_result(path))
