@@ -2,7 +2,7 @@
 
 SHELL := /bin/bash
 .DEFAULT_GOAL := help
-.PHONY: help setup commit build debug mpi install run dynamics comparison test quick bless random random-ehl random-wide needed rough-rows fuzz sanitize study study-film audit trends check check-layers \
+.PHONY: help setup commit build debug mpi install run dynamics comparison test quick bless random random-ehl random-wide needed rough-rows fuzz sanitize study study-film study-dynamics audit trends check check-layers \
   check-style check-format check-lint check-warnings second-compiler format docs recipes bench bench-ehl range-ehl bench-batch bench-effects bench-hosts clean distclean
 
 FPM := .venv/bin/fpm
@@ -65,6 +65,12 @@ study-film: build ## what the accuracy of a numerical film costs, at 300 rev/min
 	  -o results/film_study.h5 > results/film_study.txt
 	cp results/film_study.txt doc/film_tables.txt
 	$(PYTHON) post/plot_study.py results/film_study.h5 --output doc/figures --name film
+
+study-dynamics: build ## what the accuracy of a flexible train costs: table and figure of doc/dynamics.md, one minute
+	@mkdir -p results
+	build/release/bin/camroller study decks/dynamics.nml --set sweep.values_1=900,2500 -o results/dynamics_study.h5 > results/dynamics_study.txt
+	cp results/dynamics_study.txt doc/dynamics_tables.txt
+	$(PYTHON) post/plot_study.py results/dynamics_study.h5 --output doc/figures --name dynamics
 
 audit: build ## influence and cost of each effect of decks/thesis.nml: tables and figure of doc/effects.md, half a minute
 	@mkdir -p results

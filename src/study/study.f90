@@ -17,7 +17,7 @@ module camroller_study
    implicit none
    private
 
-   public :: way_t, new_study_table, study_case, study_film, make_reference, check_agreement, list_ways, apply_way
+   public :: way_t, plan_t, plan_for, new_study_table, study_case, study_film, make_reference, check_agreement, list_ways, apply_way
    public :: dial_reference
 
    !> A way to compute a case
@@ -34,10 +34,21 @@ module camroller_study
    character(len=*), parameter :: dial_accuracy = "accuracy", dial_tolerance = "tolerance", dial_step = "step [deg]", &
       & dial_film = "film accuracy", dial_nodes = "nodes", dial_none = "", dial_reference = "reference"
 
-   !> Methods of the reference and their tolerances [-]; periodicity of both [-]
-   character(len=*), parameter :: reference_methods(2) = [character(len=name_length) :: "rodas5p", "dormand_prince"]
-   real(wp), parameter :: reference_tolerances(2) = [1.0e-11_wp, 1.0e-13_wp], reference_periodicity = 1.0e-10_wp ! [-]
-   !> Part of the smallest error shown by which the two may differ [-]
+   !> How a case is studied: what counts as right, and what is tried
+   type :: plan_t
+      !> Two unlike methods of the reference
+      character(len=name_length) :: methods(2) = [character(len=name_length) :: "rodas5p", "dormand_prince"]
+      !> Their tolerances; periodicity of both [-]
+      real(wp) :: tolerances(2) = [1.0e-11_wp, 1.0e-13_wp], periodicity = 1.0e-10_wp
+      !> Error below which two results count as equal: the smallest that is shown [-]
+      real(wp) :: smallest_error = smallest_error
+      !> Tightest accuracy and tolerance that are tried [-]
+      real(wp) :: tightest_accuracy = 1.0e-7_wp, tightest_tolerance = 1.0e-8_wp
+      !> Is the train flexible? It takes no method that controls no error, and none for one unknown
+      logical :: is_flexible = .false.
+   end type plan_t
+
+   !> Part of the smallest error shown by which the two references may differ [-]
    real(wp), parameter :: agreement = 0.1_wp
    !> Accuracies asked for, tolerances, fixed steps [deg]; those of a quick study
    real(wp), parameter :: accuracies(*) = [1.0e-2_wp, 1.0e-3_wp, 1.0e-4_wp, 1.0e-5_wp, 1.0e-6_wp, 1.0e-7_wp], &
@@ -90,23 +101,44 @@ contains
       type(error_t), allocatable, intent(out) :: error
 
       type(trial_t) :: reference, trial
+      type(plan_t) :: plan
       type(way_t), allocatable :: ways(:)
       ! What the two references differ by [-]
       real(wp) :: disagreement
       integer :: i
 
-      call make_reference(case, reference, disagreement, error)
+      plan = plan_for(case)
+      call make_reference(plan, case, reference, disagreement, error)
       call add_reference(table, position, "two methods", reference, disagreement, error)
       if (allocated(error)) return
-      call list_ways(ways, is_quick)
+      call list_ways(plan, ways, is_quick)
       do i = 1, size(ways)
          call run_trial(apply_way(ways(i), case), repeats, trial)
-         call add_trial(table, position, ways(i), reference, trial)
+         call add_trial(table, position, ways(i), reference, trial, plan%smallest_error)
       end do
    end subroutine study_case
 
+   !> How a case is studied. The state of a flexible train has components of very different sizes and dozens of stops a cycle: its
+   !> references agree to a tenth of 1e-6 at tolerances that cost a second each.
+   pure function plan_for(case) result(plan)
+      !> The case
+      type(case_t), intent(in) :: case
+      !> How it is studied
+      type(plan_t) :: plan
+
+      plan%is_flexible = allocated(case%dynamics)
+      if (.not. plan%is_flexible) return
+      plan%methods(2) = "radau5"
+      plan%tolerances = 1.0e-8_wp
+      plan%smallest_error = 1.0e-6_wp
+      plan%tightest_accuracy = 1.0e-5_wp
+      plan%tightest_tolerance = 1.0e-6_wp
+   end function plan_for
+
    !> The result by two unlike methods at tight tolerances; an error where they disagree.
-   subroutine make_reference(case, reference, disagreement, error)
+   subroutine make_reference(plan, case, reference, disagreement, error)
+      !> How it is made
+      type(plan_t), intent(in) :: plan
       !> The case
       type(case_t), intent(in) :: case
       !> What counts as right
@@ -122,30 +154,32 @@ contains
 
       disagreement = no_number()
       variant = case
-      variant%numerics%periodicity = min(case%numerics%periodicity, reference_periodicity)
+      variant%numerics%periodicity = min(case%numerics%periodicity, plan%periodicity)
       do i = 1, size(trials)
-         variant%numerics%method = reference_methods(i)
-         variant%numerics%tolerance = reference_tolerances(i)
+         variant%numerics%method = plan%methods(i)
+         variant%numerics%tolerance = plan%tolerances(i)
          call run_trial(variant, 1, trials(i))
-         call raise_failure(trials(i), trim(reference_methods(i)), error)
+         call raise_failure(trials(i), trim(plan%methods(i)), error)
          if (allocated(error)) return
       end do
       reference = trials(1)
       disagreement = maxval(errors_against(trials(1), trials(2)))
-      call check_agreement(disagreement, error)
+      call check_agreement(plan, disagreement, error)
    end subroutine make_reference
 
    !> Refuse references that differ by too much of the smallest error that is shown.
-   subroutine check_agreement(disagreement, error)
+   subroutine check_agreement(plan, disagreement, error)
+      !> How they were made
+      type(plan_t), intent(in) :: plan
       !> What two methods differ by [-]
       real(wp), intent(in) :: disagreement
       !> Convergence error
       type(error_t), allocatable, intent(out) :: error
 
-      if (disagreement <= agreement*smallest_error) return
-      call raise(error, kind_convergence, "no reference: the results of "//trim(reference_methods(1))//" and "// &
-         & trim(reference_methods(2))//" differ by "//trim(number_text(disagreement, 2))//"; "// &
-         & trim(number_text(agreement*smallest_error, 2))//" is allowed")
+      if (disagreement <= agreement*plan%smallest_error) return
+      call raise(error, kind_convergence, "no reference: the results of "//trim(plan%methods(1))//" and "// &
+         & trim(plan%methods(2))//" differ by "//trim(number_text(disagreement, 2))//"; "// &
+         & trim(number_text(agreement*plan%smallest_error, 2))//" is allowed")
    end subroutine check_agreement
 
    !> The failure of a reference as an error.
@@ -163,14 +197,16 @@ contains
    end subroutine raise_failure
 
    !> All ways to integrate a case.
-   subroutine list_ways(ways, is_quick)
+   subroutine list_ways(plan, ways, is_quick)
+      !> How the case is studied
+      type(plan_t), intent(in) :: plan
       !> The ways
       type(way_t), allocatable, intent(out) :: ways(:)
       !> A few only?
       logical, intent(in) :: is_quick
 
       ! Settings of the ways [unit of the dial]
-      real(wp), allocatable :: fine(:), fixed(:)
+      real(wp), allocatable :: fine(:), fixed(:), wanted(:)
       integer :: method, i
 
       fine = tolerances
@@ -179,15 +215,18 @@ contains
          fine = few_tolerances
          fixed = few_steps
       end if
-      ways = [(way_t(automatic_method, dial_accuracy, accuracies(i)), i=1, size(accuracies))]
+      fine = pack(fine, fine > 0.9_wp*plan%tightest_tolerance)
+      wanted = pack(accuracies, accuracies > 0.9_wp*plan%tightest_accuracy)
+      ways = [(way_t(automatic_method, dial_accuracy, wanted(i)), i=1, size(wanted))]
       do method = 1, size(method_facts)
+         if (plan%is_flexible .and. (method_facts(method)%companion_order == 0 .or. method_facts(method)%max_components == 1)) cycle
          if (method_facts(method)%companion_order > 0) then
             ways = [ways, (way_t(method_facts(method)%name, dial_tolerance, fine(i)), i=1, size(fine))]
          else
             ways = [ways, (way_t(method_facts(method)%name, dial_step, fixed(i)), i=1, size(fixed))]
          end if
       end do
-      ways = [ways, way_t(quasi_static, dial_tolerance, few_tolerances(1))]
+      if (.not. plan%is_flexible) ways = [ways, way_t(quasi_static, dial_tolerance, few_tolerances(1))]
    end subroutine list_ways
 
    !> A case that is to be computed in some way.
@@ -305,7 +344,7 @@ contains
    end subroutine add_reference
 
    !> Add a trial with its errors.
-   subroutine add_trial(table, position, way, reference, trial)
+   subroutine add_trial(table, position, way, reference, trial, least)
       !> Table to extend
       type(study_table_t), intent(inout) :: table
       !> Number of the case, from 1
@@ -316,6 +355,8 @@ contains
       type(trial_t), intent(in) :: reference
       !> Outcome of the trial
       type(trial_t), intent(in) :: trial
+      !> Smallest error that is shown; absent: that of a rigid train [-]
+      real(wp), intent(in), optional :: least
 
       ! Errors of sliding speed, mean torque for losses and smallest film [-]
       real(wp) :: errors(3)
@@ -329,6 +370,7 @@ contains
       call set_word(table, "message", trial%message)
       if (trial%status /= 0) return
       errors = max(errors_against(reference, trial), smallest_error)
+      if (present(least)) errors = max(errors, least)
       call set_number(table, "error_sliding_speed", errors(1))
       call set_number(table, "error_mean_friction", errors(2))
       call set_number(table, "error_smallest_film", errors(3))

@@ -7,7 +7,8 @@ module test_study
    use camroller_case, only : case_t
    use camroller_ode_methods, only : method_names
    use camroller_result, only : quantity_t
-   use camroller_study, only : way_t, apply_way, check_agreement, dial_reference, list_ways, new_study_table, study_case
+   use camroller_study, only : plan_t, plan_for, way_t, apply_way, check_agreement, dial_reference, list_ways, new_study_table, &
+      & study_case
    use camroller_study_table, only : study_table_t, new_table, new_row, set_number, set_word, column_of, words_of
    use camroller_study_trial, only : trial_t, errors_against, median, relative_error, run_trial, smallest_error
    use reference_cases, only : thesis_case
@@ -26,6 +27,7 @@ contains
          new_unittest("the median of runs does not follow one slow run", test_median), &
          new_unittest("references that disagree are refused", test_refusal), &
          new_unittest("accuracies that a deck asks for and every method are among the ways", test_ways), &
+         new_unittest("a flexible train has references and ways of its own", test_flexible_plan), &
          new_unittest("a way changes what it is for and leaves the rest", test_apply), &
          new_unittest("a table grows and gives its columns back", test_table), &
          new_unittest("a trial that fails is recorded", test_failure), &
@@ -71,10 +73,10 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(error_t), allocatable :: failure
 
-      call check_agreement(0.09_wp*smallest_error, failure)
+      call check_agreement(plan_t(), 0.09_wp*smallest_error, failure)
       call check(error, .not. allocated(failure))
       if (allocated(error)) return
-      call check_agreement(0.11_wp*smallest_error, failure)
+      call check_agreement(plan_t(), 0.11_wp*smallest_error, failure)
       call check(error, allocated(failure))
       if (allocated(error)) return
       call check(error, failure%kind, kind_convergence)
@@ -83,12 +85,50 @@ contains
          & failure%message)
    end subroutine test_refusal
 
+   subroutine test_flexible_plan(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: the_case
+      type(plan_t) :: plan
+      type(way_t), allocatable :: ways(:)
+      type(error_t), allocatable :: failure
+
+      the_case = thesis_case()
+      call check(error, .not. plan_is_flexible(plan_for(the_case)))
+      if (allocated(error)) return
+      allocate (the_case%dynamics)
+      plan = plan_for(the_case)
+      call check(error, plan_is_flexible(plan) .and. plan%methods(2) == "radau5")
+      if (allocated(error)) return
+      call list_ways(plan, ways, .false.)
+      ! four accuracies down to 1e-5, and three methods with six tolerances down to 1e-6 each
+      call check(error, size(ways), 4 + 3*6)
+      if (allocated(error)) return
+      call check(error, all(ways%dial == "accuracy" .or. ways%dial == "tolerance") .and. .not. any(ways%name == "hermite"))
+      if (allocated(error)) return
+      call check(error, minval(ways%setting) > 0.9e-6_wp)
+      if (allocated(error)) return
+      call check_agreement(plan, 0.9e-7_wp, failure)
+      call check(error, .not. allocated(failure))
+      if (allocated(error)) return
+      call check_agreement(plan, 1.1e-7_wp, failure)
+      call check(error, index(failure%message, "rodas5p and radau5 differ by 1.1e-7; 1e-7 is allowed") > 0, failure%message)
+
+   contains
+
+      logical function plan_is_flexible(plan)
+         type(plan_t), intent(in) :: plan
+
+         plan_is_flexible = plan%is_flexible
+      end function plan_is_flexible
+
+   end subroutine test_flexible_plan
+
    subroutine test_ways(error)
       type(error_type), allocatable, intent(out) :: error
       type(way_t), allocatable :: ways(:)
       integer :: i
 
-      call list_ways(ways, .false.)
+      call list_ways(plan_t(), ways, .false.)
       do i = 1, size(method_names)
          call check(error, count(ways%name == method_names(i)) >= 8, trim(method_names(i)))
          if (allocated(error)) return
