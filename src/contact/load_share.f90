@@ -148,7 +148,7 @@ contains
          return
       end if
       shape%central = exp(logs(2))*(1.0_wp + shape%central_load_slope*film_load_slope/film_load*change)
-      asperity_load = min(load - film_load - film_load_slope*change, load)
+      asperity_load = max(0.0_wp, min(asperity%load_factor*area*value - film_load_slope*change, load))
       call complete_share(line, asperity, start*(1.0_wp + change), asperity_load, load - asperity_load, -film_load_slope, shape, &
          & share)
    end subroutine improve_share
@@ -303,8 +303,8 @@ contains
             change = (logs(1) - log_ratio - log_roughness)/(1.0_wp - shape%minimum_load_slope*film_load_slope/film_load)
             if (abs(change) <= max(tolerance, last_allowed*min(1.0_wp, film_load/(ample_film_part*load)))) then
                film_ratio = film_ratio*(1.0_wp + change)
-               call split_load(load, film_load_slope*change, log_ratio + change + log_roughness - logs(1), shape, film_load, &
-                  & asperity_load)
+               asperity_load = capacity*value - film_load_slope*change
+               call split_load(load, log_ratio + change + log_roughness - logs(1), shape, film_load, asperity_load)
                shape%central = central_at(logs, log_ratio + change + log_roughness, shape)
                return
             end if
@@ -351,18 +351,19 @@ contains
    !> Load of film and asperities after the last step of the film ratio.
    !>
    !> Where asperities carry nearly all, the load of the film as what they leave is mostly rounding, and rolling resistance with it;
-   !> the film itself is not, and tells by its law what it carries.
-   pure subroutine split_load(load, shift, log_shift, shape, film_load, asperity_load)
-      !> Whole load over E' R L, change of the film's load that goes with the step [-]
-      real(wp), intent(in) :: load, shift
+   !> the film itself is not, and tells by its law what it carries. Where asperities carry next to nothing, what the film leaves to
+   !> them is rounding: theirs follows from their own law.
+   pure subroutine split_load(load, log_shift, shape, film_load, asperity_load)
+      !> Whole load over E' R L [-]
+      real(wp), intent(in) :: load
       !> Logarithm of the film after the step over that of the law at the film load before [-]
       real(wp), intent(in) :: log_shift
       !> Film at the film load before
       type(film_shape_t), intent(in) :: shape
       !> Load of the film, before and after the step [-]
       real(wp), intent(inout) :: film_load
-      !> Load of the asperities after the step [-]
-      real(wp), intent(out) :: asperity_load
+      !> Load of the asperities after the step: in by their law, out as the film leaves it where that tells it better [-]
+      real(wp), intent(inout) :: asperity_load
 
       ! Logarithm of the growth of the film's load that is believed [-]
       real(wp), parameter :: most = 30.0_wp
@@ -372,7 +373,7 @@ contains
          asperity_load = load - film_load
       else
          ! A film that carries next to nothing must not come out as carrying less
-         asperity_load = max(0.0_wp, min(load - film_load - shift, load))
+         asperity_load = max(0.0_wp, min(asperity_load, load))
          film_load = load - asperity_load
       end if
    end subroutine split_load

@@ -26,6 +26,8 @@ contains
          new_unittest("film and asperities carry the load together, for every law, speed and load", test_residual), &
          new_unittest("without asperities the film carries everything", test_smooth), &
          new_unittest("a thick film leaves the asperities nothing", test_thick), &
+         new_unittest("asperities that hardly touch carry what their law says, be it less than the rounding of the load", &
+         test_hardly_touching), &
          new_unittest("at standstill a heavy load closes the film, and asperities carry what they can", test_standstill), &
          new_unittest("at standstill under a light load the dry gap is left", test_dry_gap), &
          new_unittest("slow motion tends to standstill", test_slow), &
@@ -174,6 +176,34 @@ contains
       call check(error, share%film_min, smooth%film_min, thr=roundings, rel=.true.)
    end subroutine test_thick
 
+   subroutine test_hardly_touching(error)
+      type(error_type), allocatable, intent(out) :: error
+      real(wp), parameter :: load = 1.0e-4_wp
+      type(film_line_t) :: line
+      type(asperity_constants_t) :: constants
+      type(share_t) :: share, near
+      ! Area; speed group, what the law says at the film, smallest part of the load so far [-]
+      real(wp) :: area, speed, expected, smallest, change
+      integer :: i
+
+      smallest = 1.0_wp
+      do i = 0, 400
+         speed = 1.0e-13_wp*10.0_wp**(0.01_wp*i)
+         call make_contact(law_dowson_higginson, speed, load, line, constants, area)
+         call share_load(line, load, share, constants, area)
+         expected = carried(constants, area, share%film_min)
+         if (.not. (expected > 0.0_wp .and. expected < 1.0e-9_wp*load)) cycle
+         smallest = min(smallest, expected/load)
+         ! The law's load falls with a power of some tens of the film, whose last step is 1e-9 of it
+         call check(error, share%asperity_load, expected, thr=1.0e-6_wp, rel=.true.)
+         if (allocated(error)) return
+         call improve_share(line, load, near, constants, area, share%film_min/roughness, change)
+         call check(error, near%asperity_load, expected, thr=1.0e-6_wp, rel=.true.)
+         if (allocated(error)) return
+      end do
+      call check(error, smallest < 0.5_wp*epsilon(1.0_wp), "no contact is light enough to tell rounding from the law")
+   end subroutine test_hardly_touching
+
    subroutine test_standstill(error)
       type(error_type), allocatable, intent(out) :: error
       type(film_line_t) :: line
@@ -255,7 +285,7 @@ contains
 
       before%film_min = huge(1.0_wp)
       before%asperity_load = 0.0_wp
-      do i = 0, 60
+      do i = 0, 400
          load = 1.0e-7_wp*10.0_wp**(0.06_wp*i)
          call make_contact(law_dowson_higginson, 5.0e-12_wp, load, line, constants, area)
          call share_load(line, load, share, constants, area)
