@@ -19,7 +19,7 @@ module camroller_state
    private
 
    public :: state_t, flexible_values_t, evaluate_state, evaluate_spin, evaluate_loading, add_torques, &
-      & add_sums, cam_force
+      & add_sums, cam_force, flight_torque
 
    !> What a flexible train has beside a rigid one
    type :: flexible_values_t
@@ -150,12 +150,28 @@ contains
       call add_friction(model, state)
       state%torques = 0.0_wp
       call add_losses(model, state)
-      if (state%contact%is_touching) state%torques(of_geometric) = state%moments%total*state%position%finger_slope
+      state%torques(of_geometric) = merge(state%moments%total*state%position%finger_slope, flight_torque(model, state), &
+         & state%contact%is_touching)
       if (model%is_consistent) state%torques(of_roller_inertia) = model%roller_inertia*state%contact%roller_spin &
          & *state%spin_acceleration/model%speed
       call add_sums(state)
       if (model%is_consistent) call add_residual(model, state)
    end subroutine add_torques
+
+   !> Torque that the drag of the roller's bearing hands on to a finger without contact, over the cam angle: with it nothing drives
+   !> the cam while nothing touches it. Zero with contact, where it is in the balance of the load.
+   pure function flight_torque(model, state) result(torque)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> State with its contact solved
+      type(state_t), intent(in) :: state
+      !> The torque [N m]
+      real(wp) :: torque
+
+      torque = 0.0_wp
+      if (state%contact%is_touching .or. .not. model%is_consistent) return
+      torque = model%linkage%sense*state%contact%bearing_drag*state%position%finger_slope
+   end function flight_torque
 
    !> Losses of a follower as torques: one line for each loss of `torque_list`. The bookkeeping of the source puts the friction of
    !> the contact on the arm of the tangent, and lets the bearing slide by the whole spin of the roller.
@@ -234,6 +250,7 @@ contains
          & state%contact%tangential_force, state%position%cam_arm, state%contact%rolling_resistance, &
          & state%position%equivalent_radius)
       stored = model%roller_inertia*state%contact%roller_spin*state%spin_acceleration
+      stored = stored + flight_torque(model, state)*model%speed
       if (state%contact%is_touching) then
          stored = stored + stored_power(model%train, state%position, model%speed, state%gas_force)
          if (abs(model%speed_slope) > 0.0_wp) then

@@ -9,7 +9,7 @@ module camroller_follower_samples
    use camroller_case, only : case_t
    use camroller_model, only : model_t
    use camroller_ramp, only : follow_ramp
-   use camroller_state, only : state_t
+   use camroller_state, only : state_t, flight_torque
    use camroller_cycle, only : cycle_t, state_at
    use camroller_catalogue, only : series_values
    use camroller_torque_list, only : torque_count, of_geometric, of_roller_inertia
@@ -171,8 +171,8 @@ contains
          call series_values(samples%case, samples%model, state, torques, values(:samples%series))
          values(samples%first_torque:samples%series) = 0.0_wp
       end if
-      torques(of_geometric) = 0.0_wp
-      if (state%contact%is_touching) torques(of_geometric) = state%moments%gas*state%position%finger_slope
+      torques(of_geometric) = merge(state%moments%gas*state%position%finger_slope, flight_torque(samples%model, state), &
+         & state%contact%is_touching)
       torques(of_roller_inertia) = 0.0_wp
       values(samples%series + 1:) = torques
    end subroutine sampled_values

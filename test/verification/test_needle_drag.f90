@@ -7,7 +7,8 @@ module test_needle_drag
    use camroller_model, only : model_t, new_model
    use camroller_needle_drag, only : needle_drag_t, drag_part_t, new_drag_part, set_drag_oil, drag_torque, drag_torque_slope
    use camroller_state, only : state_t, evaluate_state
-   use camroller_torque_list, only : of_needle, of_needle_drag
+   use camroller_kinematics, only : rotation_names
+   use camroller_torque_list, only : of_needle, of_needle_drag, of_residual
    use closeness, only : check_close, check_scaled, expect_error, roundings
    use reference_cases, only : thesis_case, make_model, set_point, point_speeds, point_viscosities
    implicit none
@@ -28,6 +29,7 @@ contains
          new_unittest("its slope over the spin", test_slope), &
          new_unittest("2.9 N mm on the base circle at 300 rev/min and 25 degC without slip", test_magnitude), &
          new_unittest("the load's part of the torque is what it is without drag", test_parts), &
+         new_unittest("without contact energy closes and nothing drives the cam, in both senses of rotation", test_flight), &
          new_unittest("a flexible train is refused", test_refusal) &
          ]
    end subroutine collect_needle_drag
@@ -128,6 +130,39 @@ contains
          end associate
       end do
    end subroutine test_parts
+
+   subroutine test_flight(error)
+      type(error_type), allocatable, intent(out) :: error
+      ! Twice the speed at which the thesis's train loses contact [rad/s]
+      real(wp), parameter :: speed = 600.0_wp
+      type(case_t) :: case
+      type(model_t) :: model
+      type(state_t) :: state
+      integer :: i, k, status, flying
+
+      case = thesis_case()
+      call set_point(case, speed, point_viscosities(1))
+      allocate (case%needle_drag)
+      case%needle_drag%pitch_diameter = 10.22e-3_wp
+      do k = 1, size(rotation_names)
+         case%mechanism%rotation = rotation_names(k)
+         call make_model(case, model, error)
+         if (allocated(error)) return
+         flying = 0
+         do i = -60, 60, 5
+            call evaluate_state(model, i*degree, 0.01_wp, state, status)
+            if (state%contact%is_touching) cycle
+            flying = flying + 1
+            call check_scaled(error, state%torque_drive, 0.0_wp, state%torque_friction, roundings*10.0_wp, "drive torque")
+            if (allocated(error)) return
+            call check_scaled(error, state%torques(of_residual), 0.0_wp, state%torque_friction*model%speed, roundings*10.0_wp, &
+               & "energy residual")
+            if (allocated(error)) return
+         end do
+         call check(error, flying > 5, "contact is not lost")
+         if (allocated(error)) return
+      end do
+   end subroutine test_flight
 
    subroutine test_refusal(error)
       type(error_type), allocatable, intent(out) :: error
