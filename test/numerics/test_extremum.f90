@@ -17,6 +17,7 @@ contains
          new_unittest("one value finds the lowest point of a parabola", test_parabola), &
          new_unittest("a smooth function is at its lowest within the tolerance after a few values", test_smooth), &
          new_unittest("a kink is approached", test_kink), &
+         new_unittest("of 1500 kinks none is missed by more than the tolerance or what is said to be left", test_kinks), &
          new_unittest("without a lowest point in the middle nothing is wanted", test_none), &
          new_unittest("where two of the points are one nothing is wanted, and nothing is divided by their distance", test_same) &
          ]
@@ -88,9 +89,57 @@ contains
       do while (search%is_wanted)
          call narrow_extremum(search, kink(search%trial))
       end do
-      ! A parabola that happens to tell the last value may end it at the order of the tolerance
-      call check(error, search%value(2) <= 2.0e-6_wp .and. search%value(2) <= 2.0_wp*search%left)
+      call check(error, search%value(2) <= 1.0e-6_wp)
    end subroutine test_kink
+
+   !> Two legs of any slopes, straight or bent, that meet anywhere in any bracket.
+   subroutine test_kinks(error)
+      type(error_type), allocatable, intent(out) :: error
+      integer, parameter :: brackets = 3000, most = 40
+      ! Multiples of their roots fill the unit cube evenly; source: Weyl, Math. Ann. 77 (1916) 313 [-]
+      real(wp), parameter :: primes(7) = [2.0_wp, 3.0_wp, 5.0_wp, 7.0_wp, 11.0_wp, 13.0_wp, 17.0_wp]
+      ! Tolerance over the largest value; sum of the allowed and of what rounding leaves [-]
+      real(wp), parameter :: tolerance = 1.0e-6_wp
+      type(extremum_t) :: search
+      ! Numbers between 0 and 1, points, values there, place of the kink, slope of its right leg over that of the left one, bend
+      real(wp) :: numbers(size(primes)), points(3), values(3), place, slope, bend
+      integer :: i, k, steps, kinks
+
+      steps = 0
+      kinks = 0
+      do i = 1, brackets
+         numbers = modulo(i*sqrt(primes), 1.0_wp)
+         points = [minval(numbers(:3)), sum(numbers(:3)) - minval(numbers(:3)) - maxval(numbers(:3)), maxval(numbers(:3))]
+         place = points(1) + numbers(4)*(points(3) - points(1))
+         slope = 30.0_wp**(2.0_wp*numbers(5) - 1.0_wp)
+         bend = merge(3.0_wp*numbers(7), -0.1_wp*min(slope, 1.0_wp), numbers(6) > 0.3_wp)
+         if (numbers(6) > 0.6_wp) bend = 0.0_wp
+         values = [(legs(points(k)), k=1, 3)]
+         if (values(2) > min(values(1), values(3))) cycle
+         call start_extremum(search, points, values, tolerance*maxval(values), most)
+         do while (search%is_wanted)
+            call narrow_extremum(search, legs(search%trial))
+         end do
+         kinks = kinks + 1
+         steps = steps + search%steps
+         ! Two coincidences at once are left to one of ten thousand
+         call check(error, search%value(2) <= max(2.0_wp*tolerance*maxval(values), 2.0_wp*search%left), "the kink is missed")
+         if (allocated(error)) return
+      end do
+      ! 14 for each; halving takes 27
+      call check(error, steps < 17*kinks, "too many values")
+
+   contains
+
+      !> The function.
+      pure function legs(x) result(f)
+         real(wp), intent(in) :: x
+         real(wp) :: f
+
+         f = max(place - x, 0.0_wp) + slope*max(x - place, 0.0_wp) + bend*(x - place)**2
+      end function legs
+
+   end subroutine test_kinks
 
    subroutine test_none(error)
       type(error_type), allocatable, intent(out) :: error
