@@ -20,7 +20,7 @@ module camroller_cycle
    use camroller_settled_slip, only : settle
    use camroller_quasi_static, only : quasi_static_cycle
    use camroller_contraction, only : largest_contraction
-   use camroller_stick, only : has_stick, share_at_rest
+   use camroller_stick, only : has_stick, share_at_rest, touching_capacity
    use camroller_stick_slip, only : phase_t, integrate_phases, direction_at
    use camroller_ode, only : method_t, options_t, counters_t, integrate
    use camroller_ode_method, only : allow_more
@@ -436,7 +436,7 @@ contains
       ! Mobilised part of the boundary friction [-]
       real(wp) :: share
       integer :: status
-      logical :: is_moved
+      logical :: is_moved, rests
 
       inside = cycle%start + modulo(angle - cycle%start, two_pi)
       if (allocated(cycle%flexible)) then
@@ -451,7 +451,10 @@ contains
       if (allocated(cycle%phases)) then
          share = real(direction_at(cycle%phases, inside), wp)
          status = 0
-         if (abs(share) <= 0.0_wp) then
+         rests = abs(share) <= 0.0_wp
+         ! A slide in the wrong direction is an error of the curve, however small: friction holds the roller there
+         if (share*value(1) < 0.0_wp) rests = touching_capacity(model, inside, value(1)) > 0.0_wp
+         if (rests) then
             value = 0.0_wp
             call share_at_rest(model, inside, share, status)
          end if
