@@ -17,13 +17,15 @@ module test_random_wide
    use camroller_run, only : build_models, run_case
    use camroller_deck, only : deck_t, override_t, parse_deck, make_case
    use camroller_deck_keys, only : new_schema
-   use camroller_deck_schema, only : schema_t, key_t, type_integer, type_logical, type_name, type_number
+   use camroller_deck_schema, only : schema_t, key_t, add_group, add_number, group_effect, positive, type_integer, type_logical, &
+      & type_name, type_number
    use case_twins, only : compare_twins, leave_constants_out, rescale_case
    use case_endings, only : tally_t, count_ending, count_error, count_remarks, endings_table, ending_count
    use result_checks, only : check_result, compare_results, promised_error, scalar_of
    use run_settings, only : has_checks, number_from
    use unit_systems, only : unit_systems_tried
-   use wide_decks, only : wide_deck_t, style_t, draw_wide_deck, save_wide_deck, is_left_out
+   use wide_decks, only : wide_deck_t, draw_wide_deck, save_wide_deck, is_left_out, left_out_groups
+   use wide_draft, only : style_t
    use wide_numbers, only : usual_t, find_range
    use wide_words, only : deck_word
    implicit none
@@ -51,7 +53,8 @@ contains
       testsuite = [ &
          new_unittest("random decks have every choice of every key, every key given and left out, both ends of every range", &
          test_coverage), &
-         new_unittest("a new choice of a key is drawn, and a new number must be given a range", test_new_keys), &
+         new_unittest("a new choice or group of a deck is drawn, and a new number must be given a range", test_new_keys), &
+         new_unittest("groups that are not drawn are there, few, and have a reason", test_exceptions), &
          new_unittest("random cases are the same in other units, by the units that their results name", test_units), &
          new_unittest("random cases with every option end with a result that is right, or with an error message", test_wide) &
          ]
@@ -82,11 +85,32 @@ contains
             if (key%name == "limiting_coefficient") key%name = "coefficient_of_tomorrow"
          end associate
       end do
+      call add_group(schema, "group_of_tomorrow", group_effect, "")
+      call add_number(schema, "number_of_tomorrow", positive, "", is_optional=.true.)
+      schema%groups = schema%groups(:schema%group_count)
+      schema%keys = schema%keys(:schema%key_count)
       call draw_missing(schema, 30, missing)
       if (index(missing, "shear_law 'of_tomorrow'") > 0) call test_failed(error, "a new choice is not drawn")
       if (index(missing, "traction.coefficient_of_tomorrow has no usual range") == 0) call test_failed(error, &
          & "a new number is not missed: "//missing)
+      if (index(missing, "group_of_tomorrow.number_of_tomorrow has no usual range") == 0) call test_failed(error, &
+         & "a new group is not missed: "//missing)
    end subroutine test_new_keys
+
+   subroutine test_exceptions(error)
+      type(error_type), allocatable, intent(out) :: error
+      ! As many as there are good reasons for
+      integer, parameter :: most = 1
+      type(schema_t) :: schema
+      integer :: i
+
+      call new_schema(schema)
+      if (size(left_out_groups, 2) > most) call test_failed(error, "more groups than one are not drawn")
+      do i = 1, size(left_out_groups, 2)
+         if (all(schema%groups%name /= left_out_groups(1, i))) call test_failed(error, "no group "//left_out_groups(1, i))
+         if (left_out_groups(2, i) == "") call test_failed(error, "no reason for "//left_out_groups(1, i))
+      end do
+   end subroutine test_exceptions
 
    !> Draw decks and list what none of them has.
    subroutine draw_missing(schema, decks, missing)
@@ -94,7 +118,7 @@ contains
       integer, intent(in) :: decks
       character(len=:), allocatable, intent(out) :: missing
       ! Every deck has much of what is rare
-      type(style_t), parameter :: style = style_t(ends_share=0.3_wp, ehl_share=0.3_wp, method_share=0.5_wp)
+      type(style_t), parameter :: style = style_t(ends_share=0.3_wp, ehl_share=0.3_wp, method_share=0.5_wp, dynamics_share=0.3_wp)
       type(wide_deck_t) :: deck
       character(len=:), allocatable :: word
       logical :: is_seen(size(schema%keys), most_marks)
@@ -114,8 +138,8 @@ contains
          end do
       end do
       do group = 1, schema%group_count
+         if (is_left_out(schema%groups(group)%name)) cycle
          do key = schema%groups(group)%first, schema%groups(group)%last
-            if (is_left_out(schema%groups(group)%name, schema%keys(key)%name)) cycle
             call list_missing(schema%keys(key), trim(schema%groups(group)%name), is_seen(key, :), missing)
          end do
       end do
@@ -157,9 +181,7 @@ contains
 
       name = " "//group//"."//trim(key%name)
       if (.not. is_seen(mark_given)) missing = missing//name//";"
-      ! Without an adjuster the base circle load has to be given
-      if (.not. (is_seen(mark_absent) .or. key%is_required .or. key%type == type_name .or. &
-         & index(name, "spring.base_circle_load_N") > 0)) missing = missing//name//" left out;"
+      if (.not. (is_seen(mark_absent) .or. key%is_required .or. key%type == type_name)) missing = missing//name//" left out;"
       select case (key%type)
       case (type_name)
          do i = 1, size(key%choices)

@@ -11,14 +11,16 @@ module wide_decks
    use camroller_deck_tables, only : deck_tables_t
    use camroller_table_file, only : table_t
    use random_decks, only : random_t, draw, start_random
-   use wide_lists, only : draft_t, list_of_integers, list_of_numbers
+   use wide_draft, only : draft_t, style_t, decided_number, draft_cams, draft_engine, draft_oil_and_train, has_source, is_allowed, &
+      & keep_rules, may_have
+   use wide_lists, only : list_of_integers, list_of_numbers
    use wide_numbers, only : end_of_range, find_range, usual_t
    use wide_tables, only : draw_lift_table, draw_pressure_table
    use wide_words, only : deck_word, number_words
    implicit none
    private
 
-   public :: wide_deck_t, style_t, draw_wide_deck, save_wide_deck, is_left_out
+   public :: wide_deck_t, style_t, draw_wide_deck, save_wide_deck, left_out_groups, is_left_out
 
    !> A deck with the tables that it names
    type :: wide_deck_t
@@ -30,16 +32,6 @@ module wide_decks
       character(len=:), allocatable :: unknown
    end type wide_deck_t
 
-   !> How much of what is hard or slow there is in decks
-   type :: style_t
-      !> Part of the numbers at an end of their range [-]
-      real(wp) :: ends_share = 0.0_wp
-      !> Part of the decks with a numerical film, which takes a hundred times as long as a formula [-]
-      real(wp) :: ehl_share = 0.001_wp
-      !> Part of the decks with a method of their own; some take a hundred times as long as the one that the program chooses [-]
-      real(wp) :: method_share = 0.1_wp
-   end type style_t
-
    !> Part of the decks that have a group which may be left out, and that give a key which may be left out [-]
    real(wp), parameter :: group_share = 0.75_wp, key_share = 0.5_wp
    !> Groups that are rarer than that, and their part of the decks [-]
@@ -49,12 +41,9 @@ module wide_decks
    real(wp), parameter :: source_share = 0.3_wp, stop_share = 0.05_wp, needed_share = 0.2_wp
    !> Width of a bearing that the law of finite width takes for every diameter drawn [mm]
    real(wp), parameter :: widest_finite = 17.0_wp
-   !> Groups that are not drawn
-   character(len=*), parameter :: left_out_groups(*) = [character(len=13) :: "sweep", "engine", "dynamics", "spring_surge", &
-      & "lash_adjuster"]
-   !> Groups that a closed balance of energy must go with
-   character(len=*), parameter :: joint_groups(*) = [character(len=15) :: &
-      & "valve_tip", "stem_seal", "guide_side_load", "finger_pivot"]
+   !> Groups that are not drawn, and why
+   character(len=*), parameter :: left_out_groups(2, 1) = reshape([character(len=80) :: &
+      & "sweep", "many cases of one deck, each of which is a deck that may be drawn; suites sweep, deck_sweep"], [2, 1])
    character(len=*), parameter :: nl = new_line("a")
 
 contains
@@ -79,15 +68,18 @@ contains
       deck%unknown = ""
       call start_stream(random, seed, "cams")
       call draft_cams(random, draft)
+      call start_stream(random, seed, "engine")
+      call draft_engine(random, draft)
+      call start_stream(random, seed, "oil and train")
+      call draft_oil_and_train(random, style, draft)
       do group = 1, schema%group_count
          call start_stream(random, seed, "&"//trim(schema%groups(group)%name))
          if (.not. has_group(random, draft, style, schema, group)) cycle
-         if (.not. may_have(deck%text, trim(schema%groups(group)%name))) cycle
+         if (.not. may_have(draft, deck%text, trim(schema%groups(group)%name))) cycle
          deck%text = deck%text//"&"//trim(schema%groups(group)%name)//nl
          call draw(random, number)
          draft%is_first = number < 0.5_wp
          do key = schema%groups(group)%first, schema%groups(group)%last
-            if (is_left_out(schema%groups(group)%name, schema%keys(key)%name)) cycle
             call start_stream(random, seed, trim(schema%groups(group)%name)//"."//trim(schema%keys(key)%name))
             call draw_key(random, draft, trim(schema%groups(group)%name), schema%keys(key), style, deck)
          end do
@@ -126,45 +118,14 @@ contains
       end do
    end subroutine start_stream
 
-   !> Keys that say what is done with a result, not what it is, and what is not drawn yet: engines, flexible trains, grades of oil.
-   pure function is_left_out(group, key)
-      !> Names of group and key
-      character(len=*), intent(in) :: group, key
+   !> Is a group not drawn?
+   pure function is_left_out(group)
+      !> Its name
+      character(len=*), intent(in) :: group
       logical :: is_left_out
 
-      select case (trim(group)//"."//trim(key))
-      case ("case.title", "ehl.profiles", "output.series", "output.compression", "cam_bearings.cam_cylinders", "lift.table_kind", &
-         & "second_lift.table_kind", "lubricant.viscosity_index", "lubricant.sae_grade")
-         is_left_out = .true.
-      case default
-         is_left_out = any(group == left_out_groups)
-      end select
+      is_left_out = any(group == left_out_groups(1, :))
    end function is_left_out
-
-   !> Bearings and cams, which several groups need to know.
-   subroutine draft_cams(random, draft)
-      !> The generator
-      type(random_t), intent(inout) :: random
-      !> What is decided
-      type(draft_t), intent(out) :: draft
-      ! [-]
-      real(wp) :: number
-      integer :: i
-
-      call draw(random, number)
-      draft%has_cams = number < 0.5_wp
-      call draw(random, number)
-      draft%cams = 1 + int(4.0_wp*number**2)
-      draft%bearings = 2 + int(3.0_wp*number)
-      allocate (draft%lobes(draft%cams))
-      do i = 1, draft%cams
-         call draw(random, number)
-         draft%lobes(i) = merge(2, 1, number < 0.3_wp)
-      end do
-      call draw(random, number)
-      draft%has_lobes = draft%has_cams .and. number < 0.7_wp
-      draft%has_second = draft%has_lobes .and. any(draft%lobes == 2)
-   end subroutine draft_cams
 
    !> Is a group in the deck?
    function has_group(random, draft, style, schema, group)
@@ -193,21 +154,12 @@ contains
       if (schema%groups(group)%kind == group_required) has_group = .true.
       if (schema%groups(group)%name == "cam_bearings") has_group = draft%has_cams
       if (schema%groups(group)%name == "second_lift") has_group = draft%has_second
-      if (any(schema%groups(group)%name == left_out_groups)) has_group = .false.
+      if (schema%groups(group)%name == "engine") has_group = draft%has_engine
+      if (schema%groups(group)%name == "dynamics") has_group = draft%has_dynamics
+      if (schema%groups(group)%name == "spring_surge") has_group = draft%has_surge
+      if (schema%groups(group)%name == "lash_adjuster") has_group = draft%has_adjuster
+      if (is_left_out(schema%groups(group)%name)) has_group = .false.
    end function has_group
-
-   !> May a deck have a group, after what it has already? Sliding joints need a closed balance, that of the pivot a finger's mass.
-   pure function may_have(text, group)
-      !> The deck so far
-      character(len=*), intent(in) :: text
-      !> Name of the group
-      character(len=*), intent(in) :: group
-      logical :: may_have
-
-      may_have = .true.
-      if (any(group == joint_groups)) may_have = .not. has_source(text)
-      if (group == "finger_pivot") may_have = may_have .and. deck_word(text, "masses", "finger_kg") /= ""
-   end function may_have
 
    !> Draw one key, or leave it out.
    subroutine draw_key(random, draft, group, key, style, deck)
@@ -224,8 +176,7 @@ contains
       !> The deck so far
       type(wide_deck_t), intent(inout) :: deck
       character(len=:), allocatable :: words
-      type(usual_t) :: usual
-      logical :: is_given, is_known
+      logical :: is_given
       ! [-]
       real(wp) :: number
 
@@ -236,18 +187,10 @@ contains
       words = ""
       select case (key%type)
       case (type_name)
-         call draw_choice(random, style, deck%text, group, key, words)
+         call draw_choice(random, style, draft, deck%text, group, key, words)
       case (type_number, type_integer)
-         call find_range(group//"."//trim(key%name), usual, is_known)
-         if (.not. is_known) deck%unknown = deck%unknown//" "//group//"."//trim(key%name)
-         if (key%name == "width_mm" .and. deck_word(deck%text, group, "law") == "finite") usual%highest = widest_finite
-         call draw(random, number)
-         if (number < style%ends_share) then
-            call end_of_range(random, key%range, usual, words)
-         else
-            call draw_number(random, usual, words)
-         end if
-         if (key%type == type_integer) call make_whole(words)
+         words = decided_number(draft, group//"."//trim(key%name))
+         if (words == "") call draw_free_number(random, style, group, key, deck, words)
       case (type_logical)
          call draw(random, number)
          words = trim(merge(".true. ", ".false.", number < 0.5_wp .or. (key%name == "in_roller_balance" .and. &
@@ -263,88 +206,52 @@ contains
       deck%text = deck%text//"   "//trim(key%name)//" = "//words//nl
    end subroutine draw_key
 
-   !> Is the bookkeeping that of the source, which may be open?
-   pure function has_source(text)
-      !> The deck so far
-      character(len=*), intent(in) :: text
-      logical :: has_source
-
-      has_source = deck_word(text, "case", "energy") == "source"
-   end function has_source
-
-   !> Which keys go together.
-   pure subroutine keep_rules(draft, text, group, key, is_given)
-      !> What is decided
-      type(draft_t), intent(in) :: draft
-      !> The deck so far
-      character(len=*), intent(in) :: text
-      !> Names of group and key
-      character(len=*), intent(in) :: group, key
-      !> In: is the key wanted; out: is it given
-      logical, intent(inout) :: is_given
-      character(len=:), allocatable :: law
-
-      law = deck_word(text, group, "law")
-      select case (key)
-      case ("max_lift_mm", "opening_half_angle_deg")
-         is_given = law /= "table"
-      case ("closing_half_angle_deg")
-         is_given = is_given .and. all(law /= [character(len=8) :: "table", "power", "polydyne"])
-      case ("exponents")
-         is_given = law == "power" .or. law == "polydyne"
-      case ("table")
-         is_given = law == "table" .or. group == "gas_force"
-      case ("table_unit", "smoothing_um")
-         is_given = is_given .and. law == "table"
-      case ("table_nose_angle_deg")
-         is_given = is_given .and. (law == "table" .or. group == "gas_force")
-      case ("finger_kg")
-         is_given = is_given .or. draft%is_first
-      case ("finger_inertia_kg_m2")
-         is_given = (is_given .and. .not. draft%is_first) .or. index(text, "finger_kg") == 0
-      case ("finger_centre_mm")
-         ! Beyond the radius of gyration it is refused; without an inertia that is the pad's radius
-         is_given = is_given .and. index(text, "finger_inertia_kg_m2") == 0
-      case ("hardness_GPa")
-         ! Where it is not there, laws that need it are not drawn
-         is_given = is_given .or. draft%has_lobes
-      case ("decay_speed_m_s", "reference_load_N")
-         is_given = law == "stribeck"
-      case ("reference_viscosity_Pa_s")
-         is_given = law == "stribeck" .or. group == "stem_seal"
-      case ("eyring_stress_MPa")
-         is_given = is_given .or. deck_word(text, group, "shear_law") == "eyring"
-      case ("needle_radius_mm")
-         is_given = is_given .or. deck_word(text, group, "kind") == "needles"
-      case ("grinding_wheel_radius_mm")
-         is_given = is_given .and. draft%is_first
-      case ("viscosity_Pa_s")
-         is_given = deck_word(text, group, "temperature_law") == "direct"
-      case ("temperature_points_degC", "viscosity_points_Pa_s")
-         is_given = index(" vogel walther ", " "//deck_word(text, group, "temperature_law")//" ") > 0
-      case ("viscosity_at_40_degC_mm2_s", "viscosity_at_100_degC_mm2_s")
-         is_given = deck_word(text, group, "temperature_law") == "data_sheet"
-      case ("base_circle_load_N")
-         is_given = .true.
-      case ("pressure_viscosity_coefficient_per_GPa")
-         is_given = draft%is_first .or. (is_given .and. deck_word(text, group, "pressure_law") /= "roelands")
-      case ("roelands_index")
-         is_given = .not. draft%is_first .or. (is_given .and. deck_word(text, group, "pressure_law") /= "roelands")
-      case ("cam_lobes")
-         is_given = draft%has_lobes
-      case ("accuracy")
-         if (group == "numerics") is_given = is_given .and. draft%is_first
-      case ("tolerance")
-         is_given = is_given .and. .not. draft%is_first
-      end select
-   end subroutine keep_rules
-
-   !> Draw one of several names.
-   subroutine draw_choice(random, style, text, group, key, words)
+   !> Draw a number from its usual range, or at an end of what is allowed.
+   subroutine draw_free_number(random, style, group, key, deck, words)
       !> The generator
       type(random_t), intent(inout) :: random
       !> How hard and slow the deck may be
       type(style_t), intent(in) :: style
+      !> Name of the group
+      character(len=*), intent(in) :: group
+      !> The key
+      type(key_t), intent(in) :: key
+      !> The deck so far
+      type(wide_deck_t), intent(inout) :: deck
+      !> The number
+      character(len=:), allocatable, intent(out) :: words
+      type(usual_t) :: usual
+      logical :: is_known
+      ! [-]; mass of the valve, which holds a third of the spring's [kg]
+      real(wp) :: number, valve
+      character(len=:), allocatable :: mass
+
+      call find_range(group//"."//trim(key%name), usual, is_known)
+      if (.not. is_known) deck%unknown = deck%unknown//" "//group//"."//trim(key%name)
+      if (key%name == "width_mm" .and. deck_word(deck%text, group, "law") == "finite") usual%highest = widest_finite
+      if (group == "spring_surge" .and. key%name == "mass_kg") then
+         mass = deck_word(deck%text, "masses", "valve_kg")
+         read (mass, *) valve
+         usual%lowest = 0.3_wp*valve
+         usual%highest = 2.5_wp*valve
+      end if
+      call draw(random, number)
+      if (number < style%ends_share) then
+         call end_of_range(random, key%range, usual, words)
+      else
+         call draw_number(random, usual, words)
+      end if
+      if (key%type == type_integer) call make_whole(words)
+   end subroutine draw_free_number
+
+   !> Draw one of several names.
+   subroutine draw_choice(random, style, draft, text, group, key, words)
+      !> The generator
+      type(random_t), intent(inout) :: random
+      !> How hard and slow the deck may be
+      type(style_t), intent(in) :: style
+      !> What is decided
+      type(draft_t), intent(in) :: draft
       !> The deck so far
       character(len=*), intent(in) :: text
       !> Name of the group
@@ -374,31 +281,8 @@ contains
       associate (first => merge(1, 2, share >= 1.0_wp))
          words = "'"//trim(key%choices(min(size(key%choices), first + int(number*(size(key%choices) - first + 1)))))//"'"
       end associate
-      if (.not. is_allowed(text, key, words)) words = key%default
+      if (.not. is_allowed(draft, text, key, words)) words = key%default
    end subroutine draw_choice
-
-   !> Does a choice go with those made before?
-   pure function is_allowed(text, key, words)
-      !> The deck so far
-      character(len=*), intent(in) :: text
-      !> The key
-      type(key_t), intent(in) :: key
-      !> The name, in quotes
-      character(len=*), intent(in) :: words
-      logical :: is_allowed
-
-      is_allowed = .true.
-      select case (trim(key%name))
-      case ("law")
-         is_allowed = index(text, "hardness_GPa") > 0 .or. all(words /= [character(len=26) :: "'masjedi_khonsari_rough'", &
-            & "'zhao_maietta_chang'"])
-      case ("load_arm", "spin", "boundary", "seating")
-         is_allowed = has_source(text) .or. words == key%default
-      case ("method")
-         if (words == "'euler'" .or. words == "'quasi_static'") is_allowed = deck_word(text, "asperity", "mobilisation") &
-            & /= "stick_slip"
-      end select
-   end function is_allowed
 
    !> Draw a number from its usual range.
    subroutine draw_number(random, usual, words)

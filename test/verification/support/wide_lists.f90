@@ -2,23 +2,12 @@
 module wide_lists
    use camroller_kinds, only : wp
    use random_decks, only : random_t, draw
+   use wide_draft, only : draft_t
    use wide_words, only : deck_word, number_words
    implicit none
    private
 
-   public :: draft_t, list_of_numbers, list_of_integers
-
-   !> What is decided before a deck is written
-   type :: draft_t
-      !> Has the camshaft bearings, lobe shapes for its cams, a second one among them?
-      logical :: has_cams = .false., has_lobes = .false., has_second = .false.
-      !> Bearings and cams
-      integer :: bearings = 2, cams = 1
-      !> Lobe shape of each cam
-      integer, allocatable :: lobes(:)
-      !> Is the first of two keys given that take each other's place?
-      logical :: is_first = .true.
-   end type draft_t
+   public :: list_of_numbers, list_of_integers
 
    !> Length of a shaft with two bearings [mm]
    real(wp), parameter :: spacing_of_bearings = 50.0_wp
@@ -56,6 +45,13 @@ contains
          values = running_sum(draft%bearings, -spacing_of_bearings, spacing_of_bearings)
       case ("cam_bearings.cam_positions_mm")
          values = places_between()
+      case ("engine.full_lift_deg")
+         allocate (values(merge(2, 1, draft%has_second)))
+         do i = 1, size(values)
+            call draw(random, number)
+            values(i) = 720.0_wp*(2.0_wp*number - 1.0_wp)
+            if (with_ends) values(i) = sign(720.0_wp, values(i))
+         end do
       case ("cam_bearings.cam_phases_deg", "cam_bearings.follower_angles_deg")
          allocate (values(draft%cams))
          do i = 1, draft%cams
@@ -162,10 +158,39 @@ contains
          end if
       case ("cam_bearings.cam_lobes")
          write (buffer, "(*(i0, :, ', '))") draft%lobes
+      case ("cam_bearings.cam_cylinders")
+         write (buffer, "(*(i0, :, ', '))") cylinders_of_cams()
+      case ("engine.firing_order")
+         write (buffer, "(*(i0, :, ', '))") firing_order()
       case default
          buffer = ""
       end select
       words = trim(buffer)
+
+   contains
+
+      !> A cylinder for each cam.
+      function cylinders_of_cams() result(cylinders)
+         integer :: cylinders(draft%cams), k
+
+         do k = 1, draft%cams
+            call draw(random, number)
+            cylinders(k) = 1 + int(number*draft%cylinders)
+         end do
+      end function cylinders_of_cams
+
+      !> All cylinders in any order.
+      function firing_order() result(order)
+         integer :: order(draft%cylinders), k, other
+
+         order = [(k, k=1, draft%cylinders)]
+         do k = draft%cylinders, 2, -1
+            call draw(random, number)
+            other = 1 + int(number*k)
+            order([k, other]) = order([other, k])
+         end do
+      end function firing_order
+
    end subroutine list_of_integers
 
 end module wide_lists

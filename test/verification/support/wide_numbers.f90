@@ -81,6 +81,10 @@ module wide_numbers
       & usual_t("cam_bearings.diameter_mm", 18.0_wp, 35.0_wp), &
       & usual_t("cam_bearings.width_mm", 8.0_wp, 30.0_wp), &
       & usual_t("cam_bearings.radial_clearance_um", 10.0_wp, 100.0_wp, .true.), &
+      & usual_t("engine.cylinders", 2.0_wp, 6.0_wp), &
+      & usual_t("engine.strokes", 2.0_wp, 4.0_wp), &
+      & usual_t("engine.camshafts", 1.0_wp, 2.0_wp), &
+      & usual_t("engine.displacement_cm3", 50.0_wp, 2.0e4_wp, .true.), &
       & usual_t("valve_guide.length_mm", 20.0_wp, 50.0_wp), &
       & usual_t("valve_guide.stem_diameter_mm", 4.0_wp, 8.0_wp), &
       & usual_t("valve_guide.radial_clearance_um", 10.0_wp, 50.0_wp, .true.), &
@@ -100,6 +104,39 @@ module wide_numbers
       & usual_t("needle_drag.pitch_diameter_mm", 6.0_wp, 14.0_wp), &
       & usual_t("needle_drag.viscous_factor", 1.0_wp, 20.0_wp), &
       & usual_t("needle_drag.reversal_ratio", 1.0e-3_wp, 0.5_wp, .true.), &
+      & usual_t("dynamics.finger_stiffness_N_m", 3.0e6_wp, 1.0e8_wp, .true.), &
+      & usual_t("dynamics.contact_damping_s_m", 0.0_wp, 2.0_wp), &
+      & usual_t("dynamics.pad_stiffness_N_m", 3.0e6_wp, 1.0e8_wp, .true.), &
+      & usual_t("dynamics.pad_damping_s_m", 0.0_wp, 2.0_wp), &
+      & usual_t("dynamics.seat_stiffness_N_m", 3.0e6_wp, 1.0e8_wp, .true.), &
+      & usual_t("dynamics.seat_damping_s_m", 0.0_wp, 3.0_wp), &
+      & usual_t("dynamics.seat_restitution", 0.05_wp, 0.95_wp), &
+      & usual_t("dynamics.seat_restitution_speed_m_s", 0.05_wp, 1.0_wp, .true.), &
+      & usual_t("dynamics.lash_mm", 0.0_wp, 0.3_wp), &
+      & usual_t("spring_surge.mass_kg", 5.0e-3_wp, 0.3_wp, .true.), &
+      & usual_t("spring_surge.modes", 2.0_wp, 4.0_wp), &
+      & usual_t("spring_surge.damping_ratio", 3.0e-3_wp, 0.1_wp, .true.), &
+      & usual_t("lash_adjuster.diameter_mm", 7.0_wp, 14.0_wp), &
+      & usual_t("lash_adjuster.volume_cm3", 0.1_wp, 1.0_wp, .true.), &
+      & usual_t("lash_adjuster.gap_um", 3.0_wp, 12.0_wp), &
+      & usual_t("lash_adjuster.eccentricity", 0.1_wp, 0.9_wp), &
+      & usual_t("lash_adjuster.leak_length_mm", 3.0_wp, 12.0_wp), &
+      & usual_t("lash_adjuster.plunger_mass_kg", 3.0e-3_wp, 0.03_wp, .true.), &
+      & usual_t("lash_adjuster.plunger_spring_N", 3.0_wp, 60.0_wp, .true.), &
+      & usual_t("lash_adjuster.plunger_stiffness_N_m", 100.0_wp, 3000.0_wp, .true.), &
+      & usual_t("lash_adjuster.check_area_mm2", 0.5_wp, 10.0_wp, .true.), &
+      & usual_t("lash_adjuster.discharge_coefficient", 0.4_wp, 0.9_wp), &
+      & usual_t("lash_adjuster.crack_pressure_kPa", 0.0_wp, 30.0_wp), &
+      & usual_t("lash_adjuster.full_pressure_kPa", 5.0_wp, 100.0_wp, .true.), &
+      & usual_t("lash_adjuster.transition_pressure_kPa", 0.1_wp, 10.0_wp, .true.), &
+      & usual_t("lash_adjuster.supply_pressure_MPa", 0.02_wp, 0.6_wp, .true.), &
+      & usual_t("lash_adjuster.air_content", 1.0e-3_wp, 0.1_wp, .true.), &
+      & usual_t("lash_adjuster.oil_modulus_GPa", 0.8_wp, 2.0_wp), &
+      & usual_t("lash_adjuster.density_kg_m3", 750.0_wp, 900.0_wp), &
+      & usual_t("lash_adjuster.lowest_mm", -3.0_wp, -0.5_wp), &
+      & usual_t("lash_adjuster.highest_mm", 0.5_wp, 3.0_wp), &
+      & usual_t("lash_adjuster.stop_stiffness_N_m", 1.0e7_wp, 1.0e9_wp, .true.), &
+      & usual_t("lash_adjuster.stop_damping_s_m", 0.0_wp, 3.0_wp), &
       & usual_t("effects.negligible", 1.0e-5_wp, 0.1_wp, .true.), &
       & usual_t("numerics.accuracy", 1.0e-6_wp, 1.0e-2_wp, .true.), &
       & usual_t("numerics.tolerance", 1.0e-8_wp, 1.0e-3_wp, .true.), &

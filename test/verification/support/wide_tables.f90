@@ -27,6 +27,8 @@ contains
       ! Rows of rest before and after the event, at most; laws without exponents
       integer, parameter :: most_rest = 3
       character(len=*), parameter :: laws(*) = lift_law_names(3:5)
+      ! Lift of the roller over that of the valve, about [-]
+      real(wp), parameter :: roller_share = 0.6_wp
       type(lift_t) :: shape
       type(lift_law_t) :: law
       type(error_t), allocatable :: error
@@ -38,6 +40,7 @@ contains
       call draw(random, number)
       shape%law = laws(1 + int(number*size(laws)))
       shape%max_lift = between(2.0e-3_wp, 10.0e-3_wp)
+      if (deck_word(text, group, "table_kind") == "roller_lift") shape%max_lift = roller_share*shape%max_lift
       shape%opening_half_angle = between(45.0_wp, 110.0_wp)*degree
       shape%closing_half_angle = between(45.0_wp, 110.0_wp)*degree
       call new_lift_law(law, shape, error)
