@@ -16,7 +16,7 @@ module camroller_lubricant
 
    public :: lubricant_t, oil_t, temperature_law_names, pressure_law_names
    public :: get_oil, relative_viscosity, log_relative_viscosity, mean_relative_viscosity
-   public :: law_barus, law_cameron, law_roelands
+   public :: law_barus, law_cameron, law_roelands, pressure_limit
    public :: kinematic_points, density_at
 
    !> Viscosity over temperature
@@ -100,7 +100,20 @@ module camroller_lubricant
       & gamma(17.0_wp)/(gamma(powers + 1.0_wp)*gamma(17.0_wp - powers))/16.0_wp**powers &
       & *0.5_wp*sqrt(pi)*gamma(0.5_wp*powers + 1.0_wp)/gamma(0.5_wp*powers + 1.5_wp)
 
+   !> Pressure to which these laws hold, roughly, as theory section 6 has them; none for Roelands' [Pa]
+   real(wp), parameter :: pressure_limits(*) = [1.0e8_wp, 1.0e9_wp, huge(1.0_wp)]
+
 contains
+
+   !> Pressure to which a lubricant's law of viscosity over pressure holds.
+   pure function pressure_limit(lubricant) result(limit)
+      !> The lubricant
+      type(lubricant_t), intent(in) :: lubricant
+      !> The pressure; infinite where none is known [Pa]
+      real(wp) :: limit
+
+      limit = pressure_limits(max(1, findloc(pressure_law_names, lubricant%pressure_law, 1)))
+   end function pressure_limit
 
    !> Oil at a temperature: viscosity by the chosen law, and the constants of the pressure law.
    subroutine get_oil(lubricant, temperature, oil, error)

@@ -15,13 +15,14 @@ module camroller_cycle_remarks
    use camroller_means, only : statistics_t
    use camroller_model, only : model_t
    use camroller_number_text, only : number_text, fixed_text, integer_text
-   use camroller_remarks, only : remark_t, add_remark, film_without_limit, lost_contact, open_pivot, outside_range, &
-      & pumped_adjuster, standing_entrainment, unresolved_slip
+   use camroller_lubricant, only : pressure_limit
+   use camroller_remarks, only : remark_t, add_remark, beyond_pressure_law, film_without_limit, lost_contact, open_pivot, &
+      & outside_range, pumped_adjuster, standing_entrainment, unresolved_slip
    use camroller_result, only : lobe_scope
    implicit none
    private
 
-   public :: judge_lobe, judge_films, has_film_limit
+   public :: judge_lobe, judge_films, judge_pressure, has_film_limit
 
    !> Estimate of the error of the sliding speed, relative to the largest, beyond which a result is worth a warning [-]
    real(wp), parameter :: worth_a_warning = 0.1_wp
@@ -92,6 +93,32 @@ contains
       remarks(last)%lobe = lobe
       remarks(last)%text = trim(lobe_scope(lobe))//": "//remarks(last)%text
    end subroutine judge_films
+
+   !> Say that the contact's pressure is above that to which the law of viscosity over pressure holds.
+   subroutine judge_pressure(model, largest, lobe, remarks)
+      !> Model of the lobe
+      type(model_t), intent(in) :: model
+      !> Its largest Hertz pressure [Pa]
+      real(wp), intent(in) :: largest
+      !> Lobe shape to be named; 0 where there is one alone
+      integer, intent(in) :: lobe
+      !> Remarks so far
+      type(remark_t), allocatable, intent(inout) :: remarks(:)
+
+      real(wp) :: limit ! [Pa]
+      integer :: last
+
+      limit = pressure_limit(model%lubricant)
+      if (largest <= limit) return
+      call add_remark(remarks, beyond_pressure_law, "the pressure goes up to "//number_text(1.0e-9_wp*largest, 3)// &
+         & " GPa; the law '"//trim(model%lubricant%pressure_law)//"' of viscosity over pressure holds to about "// &
+         & number_text(1.0e-9_wp*limit, 2)//" GPa, and traction and slip follow it (pressure_law = 'roelands' has no such limit)", &
+         & largest/limit)
+      if (lobe == 0) return
+      last = size(remarks)
+      remarks(last)%lobe = lobe
+      remarks(last)%text = trim(lobe_scope(lobe))//": "//remarks(last)%text
+   end subroutine judge_pressure
 
    !> Have mean and largest film of a lobe a limit?
    elemental function has_film_limit(statistics) result(verdict)

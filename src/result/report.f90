@@ -8,9 +8,9 @@ module camroller_report
    use camroller_model, only : model_t
    use camroller_state, only : state_t
    use camroller_cycle, only : cycle_t, state_at
-   use camroller_cycle_remarks, only : has_film_limit, judge_films, judge_lobe
+   use camroller_cycle_remarks, only : has_film_limit, judge_films, judge_lobe, judge_pressure
    use camroller_catalogue, only : list_series, follower_values, camshaft_values, follower_count, camshaft_count, lobe_columns, &
-      & camshaft_columns
+      & lobe_prefix, camshaft_columns
    use camroller_extremes, only : samples_t, search_t, add_sample, narrow_search, start_search
    use camroller_margins, only : margins_t, find_margins
    use camroller_result, only : result_t, quantity_t, find_quantity, check_numbers
@@ -152,6 +152,10 @@ contains
          call judge_films(statistics(lobe), merge(lobe, 0, size(solved%models) > 1), result%remarks)
       end do
       call make_summary(solved, statistics, bearing_torque, margins, extremes, result)
+      do lobe = 1, size(solved%models)
+         call judge_pressure(solved%models(lobe), result%summary_values(find_quantity(result%summary, "max_"// &
+            & trim(lobe_prefix(lobe))//"hertz_pressure")), merge(lobe, 0, size(solved%models) > 1), result%remarks)
+      end do
       if (.not. with_series) result%series_values = result%series_values(:0, :)
       call check_numbers(result, error)
    end subroutine make_result

@@ -99,3 +99,17 @@ def test_check_tells_the_noise_of_a_table(camroller):
     found = re.search(r"lift table: noise of about ([\d.e-]+) um, smoothing_um = 0; second derivative", text)
     # rounded to 1e-6 mm
     assert float(found[1]) < 0.01
+
+
+@pytest.mark.parametrize("law, deck, words", [
+    ("barus", "decks/thesis.nml", "the pressure goes up to 0.65 GPa; the law 'barus' of viscosity over pressure holds to about 0.1 GPa"),
+    ("cameron", "decks/thesis.nml", None),
+    ("cameron", "decks/hard/pressure_1500_MPa_roelands.nml", "up to 1.5 GPa; the law 'cameron' of viscosity over pressure holds to about 1 GPa"),
+    ("roelands", "decks/hard/pressure_1500_MPa_roelands.nml", None),
+])
+def test_a_pressure_above_that_of_the_law_of_viscosity_is_told(camroller, tmp_path, law, deck, words):
+    result = subprocess.run([camroller, "run", deck, "--set", f"lubricant.pressure_law={law}", "-o", tmp_path / "a.h5"], cwd=ROOT,
+                            capture_output=True, text=True, check=False)
+    assert result.returncode == 0, result.stderr
+    found = [line for line in result.stderr.splitlines() if "of viscosity over pressure holds" in line]
+    assert not found if words is None else len(found) == 1 and words in found[0]
