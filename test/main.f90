@@ -17,6 +17,7 @@ program main
    use test_needle_drag, only : collect_needle_drag
    use test_joints, only : collect_joints
    use test_spline, only : collect_spline
+   use test_lift_segments, only : collect_lift_segments
    use test_lift, only : collect_lift
    use test_quadrature, only : collect_quadrature
    use test_panels, only : collect_panels
@@ -181,6 +182,7 @@ contains
          new_testsuite("joints", collect_joints), &
          new_testsuite("spline", collect_spline), &
          new_testsuite("lift", collect_lift), &
+         new_testsuite("lift_segments", collect_lift_segments), &
          new_testsuite("quadrature", collect_quadrature), &
          new_testsuite("asperity", collect_asperity), &
          new_testsuite("zhao_maietta_chang", collect_zhao_maietta_chang), &

@@ -93,6 +93,8 @@ contains
       call take(settings, group, "opening_half_angle_deg", lift%opening_half_angle)
       call take(settings, group, "closing_half_angle_deg", lift%closing_half_angle)
       call take(settings, group, "exponents", lift%exponents)
+      call take(settings, group, "segment_angles_deg", lift%segment_angles)
+      call take(settings, group, "segment_accelerations", lift%segment_accelerations)
       call take(settings, group, "smoothing_um", lift%smoothing)
       if (lift%law /= "table") return
       call get_lift_table(settings, group, table, lift%table_angle, lift%table_lift)

@@ -145,17 +145,22 @@ contains
       !> Lift with all its defaults
       type(lift_t), intent(in) :: lift
 
-      call add_name(schema, "law", lift_law_names, lift%law, "family of curves, or a table")
+      call add_name(schema, "law", lift_law_names, lift%law, "family of curves, the acceleration in segments, or a table")
       call add_number(schema, "max_lift_mm", positive, "largest lift; every law but 'table'", example="9.5", &
          & is_optional=.true.)
       call add_number(schema, "opening_half_angle_deg", up_to(180.0_wp), &
-         & "cam angle from the start of lift to full lift; every law but 'table'", example="70", is_optional=.true.)
+         & "cam angle from the start of lift to full lift; every law but 'segments' and 'table'", example="70", is_optional=.true.)
       call add_number(schema, "closing_half_angle_deg", up_to(180.0_wp), &
          & "cam angle from full lift to the end of lift; as opening_half_angle_deg where not given", is_optional=.true.)
       call add_integers(schema, "exponents", from_to(1.0_wp, real(largest_exponent, wp)), &
          & "'power': n of (1 - x^2)^n, 3 or more; 'polydyne': four exponents of x, increasing; with more than 200 the lift "// &
          & "would bend within less than a 200th of the half angle, to which no cam is ground", example="4", &
          & is_optional=.true.)
+      call add_numbers(schema, "segment_angles_deg", from_to(0.0_wp, 360.0_wp), &
+         & "'segments': cam angles from the start of lift, five or more, 0 first", is_optional=.true.)
+      call add_numbers(schema, "segment_accelerations", anything, &
+         & "'segments': shape of the acceleration at these angles, straight between them, positive, negative, positive; its "// &
+         & "size follows from the maximum lift, that of the positive parts from the valve's rest at the end", is_optional=.true.)
       call add_text(schema, "table", "law 'table': file with two columns, cam angle in degrees and lift; "// &
          & "its path starts at the deck's folder", is_optional=.true.)
       call add_name(schema, "table_kind", table_kind_names, table_kind_names(1), "what the table holds: lift of the valve, or "// &

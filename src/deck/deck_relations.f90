@@ -156,6 +156,11 @@ contains
          return
       end select
       call demand(settings, group, "max_lift_mm", "lift law '"//law//"'", mistakes)
+      if (law == "segments") then
+         call demand(settings, group, "segment_angles_deg", "lift law 'segments'", mistakes)
+         call demand(settings, group, "segment_accelerations", "lift law 'segments'", mistakes)
+         return
+      end if
       call demand(settings, group, "opening_half_angle_deg", "lift law '"//law//"'", mistakes)
       select case (law)
       case ("power")

@@ -3,11 +3,11 @@
 !> In: a case. Out: the text of a drawing. Derivatives of a table are differences of its rows, so that its noise is seen as it is;
 !> beside them stand the curve of the case and, where the noise is known, the curve that smoothing by as much would give.
 module camroller_lift_drawing
-   use camroller_kinds, only : wp, degree
+   use camroller_kinds, only : wp, degree, pi
    use camroller_cam_angle, only : file_angle
    use camroller_case, only : case_t
    use camroller_error, only : error_t
-   use camroller_lift, only : evaluate_lift, lift_law_t, lift_t, new_lift_law
+   use camroller_lift, only : evaluate_lift, lift_law_t, lift_t, new_lift_law, stop_angles
    use camroller_lift_noise, only : find_lift_noise, lift_noise_t
    use camroller_number_text, only : fixed_text, number_text
    use camroller_sketch, only : escaped
@@ -100,12 +100,17 @@ contains
 
       type(lift_noise_t) :: noise
       type(lift_t) :: smoother
+      type(lift_law_t) :: law
+      real(wp), allocatable :: stops(:) ! [rad]
       real(wp) :: first, last ! [rad]
       integer :: count
 
       count = 1
-      first = -lift%opening_half_angle
-      last = lift%closing_half_angle
+      call new_lift_law(law, lift, error)
+      if (allocated(error)) return
+      stops = [stop_angles(law), pi]
+      first = stops(1)
+      last = stops(max(1, size(stops) - 1))
       if (allocated(lift%table_angle)) then
          first = lift%table_angle(1)
          last = lift%table_angle(size(lift%table_angle))

@@ -9,6 +9,7 @@ module camroller_lift
    use camroller_error, only : error_t, raise, kind_deck
    use camroller_names, only : name_length, find_name
    use camroller_spline, only : spline_t, evaluate_spline
+   use camroller_lift_segments, only : evaluate_segments, new_segments, segments_t
    use camroller_lift_table, only : new_table_event
    implicit none
    private
@@ -18,9 +19,10 @@ module camroller_lift
 
    !> Lift laws that can be chosen by name
    character(len=*), parameter :: lift_law_names(*) = [character(len=name_length) :: &
-      "power", "polydyne", "polynomial_345", "polynomial_4567", "cycloidal", "table"]
+      "power", "polydyne", "polynomial_345", "polynomial_4567", "cycloidal", "segments", "table"]
    !> Places in `lift_law_names`
-   integer, parameter :: law_power = 1, law_polydyne = 2, law_345 = 3, law_4567 = 4, law_cycloidal = 5, law_table = 6
+   integer, parameter :: law_power = 1, law_polydyne = 2, law_345 = 3, law_4567 = 4, law_cycloidal = 5, law_segments = 6, &
+      & law_table = 7
 
    !> Smallest exponent of `power` with a continuous curvature at the ends of the event
    integer, parameter :: min_power = 3
@@ -43,6 +45,8 @@ module camroller_lift
       real(wp) :: closing_half_angle = 0.0_wp
       !> `power`: one exponent n of (1 - x^2)^n; `polydyne`: four exponents of x above 2
       integer, allocatable :: exponents(:)
+      !> `segments`: cam angles from the start of lift [rad], and the shape of the acceleration at them [any]
+      real(wp), allocatable :: segment_angles(:), segment_accelerations(:)
       !> Table: cam angle from full lift [rad], increasing
       real(wp), allocatable :: table_angle(:)
       !> Table: lift of the valve [m]
@@ -66,8 +70,9 @@ module camroller_lift
       integer :: exponents(0:n_polydyne + 1) = 0
       !> Coefficients of these powers [-]
       real(wp) :: coefficients(0:n_polydyne + 1) = 0.0_wp
-      !> The table
+      !> The table, or the segments
       type(spline_t) :: table
+      type(segments_t) :: segments
       !> Angles where a derivative up to the third jumps, in [-pi, pi), increasing [rad]
       real(wp), allocatable :: stops(:)
    end type lift_law_t
@@ -90,6 +95,10 @@ contains
       if (allocated(error)) return
       if (law%law == law_table) then
          call take_table(law, lift, error)
+         return
+      end if
+      if (law%law == law_segments) then
+         call take_segments(law, lift, error)
          return
       end if
       call check_event(lift, error)
@@ -137,6 +146,9 @@ contains
       if (local >= law%last .and. law%last < law%first + two_pi) return
       if (law%law == law_table) then
          call evaluate_spline(law%table, min(max(local, law%first), law%last), values, status)
+         return
+      else if (law%law == law_segments) then
+         call evaluate_segments(law%segments, local, values)
          return
       end if
       y_1 = 1.0_wp/law%half_angle(2)
@@ -323,7 +335,7 @@ contains
       if (abs(lift%opening_half_angle - lift%closing_half_angle) > angle_tolerance) then
          call raise(error, kind_deck, "opening and closing half angle of lift law '"//trim(lift%law)// &
             "' must be equal, or the acceleration would jump at full lift; laws with free half angles are "// &
-            "'polynomial_345', 'polynomial_4567', 'cycloidal' and 'table'")
+            "'polynomial_345', 'polynomial_4567', 'cycloidal', 'segments' and 'table'")
       end if
    end subroutine check_symmetry
 
@@ -393,6 +405,30 @@ contains
          end do
       end do
    end subroutine take_exponents
+
+   !> Take segments of the acceleration.
+   subroutine take_segments(law, lift, error)
+      !> The law
+      type(lift_law_t), intent(inout) :: law
+      !> What the case says
+      type(lift_t), intent(in) :: lift
+      !> What is wrong
+      type(error_t), allocatable, intent(out) :: error
+
+      if (.not. lift%max_lift > 0.0_wp) then
+         call raise(error, kind_deck, "lift law 'segments' needs a maximum lift above zero")
+      else if (.not. (allocated(lift%segment_angles) .and. allocated(lift%segment_accelerations))) then
+         call raise(error, kind_deck, "lift law 'segments' needs angles and accelerations")
+      else
+         call new_segments(law%segments, lift%segment_angles, lift%segment_accelerations, lift%max_lift, error)
+      end if
+      if (allocated(error)) return
+      law%max_lift = lift%max_lift
+      law%stops = law%segments%angle
+      law%first = law%stops(1)
+      law%last = law%stops(size(law%stops))
+      call wrap_stops(law%stops)
+   end subroutine take_segments
 
    !> Take a table.
    subroutine take_table(law, lift, error)

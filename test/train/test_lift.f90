@@ -11,7 +11,7 @@ module test_lift
 
    !> Lift and half angles of the analytic laws [m], [rad]
    real(wp), parameter :: height = 9.5e-3_wp, opening = 70.0_wp*degree, closing = 65.0_wp*degree
-   !> Analytic laws: all but the last name
+   !> Laws with half angles: all but the last two
    integer, parameter :: n_analytic = 5
 
 contains

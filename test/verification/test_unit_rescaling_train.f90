@@ -61,6 +61,10 @@ contains
       lift%closing_half_angle = 70.0_wp*degree
       if (law == "power") lift%exponents = [4]
       if (law == "polydyne") lift%exponents = [6, 8, 10, 12]
+      if (law == "segments") then
+         lift%segment_angles = [0.0_wp, 0.1_wp, 0.4_wp, 0.7_wp, 1.2_wp, 1.7_wp, 2.1_wp]
+         lift%segment_accelerations = [0.0_wp, 1.0_wp, 1.2_wp, -0.7_wp, -0.5_wp, 0.8_wp, 0.0_wp]
+      end if
       if (law == "table") then
          lift%table_angle = [(0.05_wp*real(k, wp), k=-20, 20)]
          lift%table_lift = scaled(units, 9.5e-3_wp*(1.0_wp - lift%table_angle**2)**4, length)

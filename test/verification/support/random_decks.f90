@@ -174,12 +174,12 @@ contains
          choice = min(largest, 1 + int(number*largest))
       end function choice
 
-      !> A lift by one of the analytic laws.
+      !> A lift by one of the laws with a half angle: all but segments and tables, the last two.
       subroutine draw_lift()
          integer :: law
          character(len=8) :: buffer
 
-         law = choice(size(lift_law_names) - 1)
+         law = choice(size(lift_law_names) - 2)
          text = text//"   law = '"//trim(lift_law_names(law))//"'"//nl
          call even("max_lift_mm", 3.0_wp, 10.0_wp)
          call even("opening_half_angle_deg", 50.0_wp, 100.0_wp)

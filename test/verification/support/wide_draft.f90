@@ -175,6 +175,29 @@ contains
       has_source = deck_word(text, "case", "energy") == "source"
    end function has_source
 
+   !> Which keys go with a law of the lift.
+   pure subroutine keep_lift_rules(law, key, is_given)
+      !> Name of the law
+      character(len=*), intent(in) :: law
+      !> Name of the key
+      character(len=*), intent(in) :: key
+      !> In: is the key wanted; out: is it given
+      logical, intent(inout) :: is_given
+
+      select case (key)
+      case ("max_lift_mm")
+         is_given = law /= "table"
+      case ("opening_half_angle_deg")
+         is_given = law /= "table" .and. law /= "segments"
+      case ("closing_half_angle_deg")
+         is_given = is_given .and. all(law /= [character(len=8) :: "table", "power", "polydyne", "segments"])
+      case ("segment_angles_deg", "segment_accelerations")
+         is_given = law == "segments"
+      case ("exponents")
+         is_given = law == "power" .or. law == "polydyne"
+      end select
+   end subroutine keep_lift_rules
+
    !> Which keys go together.
    pure subroutine keep_rules(draft, text, group, key, is_given)
       !> What is decided
@@ -189,13 +212,8 @@ contains
 
       if (group == "lubricant") call keep_oil_rules(draft, text, key, is_given)
       law = deck_word(text, group, "law")
+      if (group == "lift" .or. group == "second_lift") call keep_lift_rules(law, key, is_given)
       select case (key)
-      case ("max_lift_mm", "opening_half_angle_deg")
-         is_given = law /= "table"
-      case ("closing_half_angle_deg")
-         is_given = is_given .and. all(law /= [character(len=8) :: "table", "power", "polydyne"])
-      case ("exponents")
-         is_given = law == "power" .or. law == "polydyne"
       case ("table")
          is_given = law == "table" .or. group == "gas_force"
       case ("table_unit", "table_kind", "smoothing_um")

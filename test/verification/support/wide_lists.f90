@@ -45,6 +45,16 @@ contains
          values = running_sum(draft%bearings, -spacing_of_bearings, spacing_of_bearings)
       case ("cam_bearings.cam_positions_mm")
          values = places_between()
+      case ("lift.segment_angles_deg", "second_lift.segment_angles_deg")
+         ! Ten pieces of about fifteen degrees
+         values = [0.0_wp, running_sum(10, 0.0_wp, 15.0_wp)]
+      case ("lift.segment_accelerations", "second_lift.segment_accelerations")
+         ! A ramp, a flank, the nose, a flank, a ramp
+         values = [0.0_wp, 0.1_wp, 0.0_wp, 1.0_wp, 1.0_wp, -1.0_wp, -1.0_wp, 1.0_wp, 0.5_wp, 0.05_wp, 0.0_wp]
+         do i = 2, 10
+            call draw(random, number)
+            values(i) = values(i)*(0.5_wp + number)
+         end do
       case ("engine.full_lift_deg")
          allocate (values(merge(2, 1, draft%has_second)))
          do i = 1, size(values)
