@@ -11,7 +11,7 @@ module camroller_deck_matching
    use camroller_deck_schema, only : schema_t, key_length, find_group, group_names, key_names, group_required, &
       & group_effect, type_name, type_text
    use camroller_deck_values, only : read_value
-   use camroller_settings, only : settings_t, find_value, has_group, is_known
+   use camroller_settings, only : settings_t, find_value, has_group, is_known, take
    use camroller_deck_complaint, only : complain_about_group
    implicit none
    private
@@ -337,13 +337,23 @@ contains
       !> The settings
       type(settings_t), intent(inout) :: settings
 
+      integer :: camshafts
+
       call copy_value(settings, "lift", "opening_half_angle_deg", "closing_half_angle_deg")
       call copy_value(settings, "second_lift", "opening_half_angle_deg", "closing_half_angle_deg")
+      ! A tolerance that is given takes the place of the accuracy, which then has no value
+      if (is_known(settings, "numerics", "tolerance") .and. &
+         & .not. settings%values(find_value(settings, "numerics", "accuracy"))%is_given) then
+         settings%values(find_value(settings, "numerics", "accuracy"))%is_known = .false.
+      end if
       if (.not. has_group(settings, "cam_bearings")) return
       if (.not. is_known(settings, "cam_bearings", "cam_positions_mm")) return
       if (.not. has_group(settings, "engine")) call fill_list(settings, "cam_phases_deg", "0")
       call fill_list(settings, "follower_angles_deg", "0")
-      call fill_list(settings, "cam_lobes", "1")
+      ! Each of two camshafts has a lobe shape of its own
+      camshafts = 1
+      if (has_group(settings, "engine")) call take(settings, "engine", "camshafts", camshafts)
+      if (camshafts == 1) call fill_list(settings, "cam_lobes", "1")
    end subroutine fill_dependent_defaults
 
    !> Where a key has no value, take that of another key.

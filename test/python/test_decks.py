@@ -2,6 +2,7 @@
 
 import pathlib
 import re
+import subprocess
 
 import f90nml
 import numpy
@@ -57,3 +58,20 @@ def test_pressure_table_follows_its_formula():
     angle, pressure = numpy.loadtxt(ROOT / "decks/tables/cylinder_pressure.txt").T
     distance = numpy.minimum(abs(angle - 60), 360 - abs(angle - 60))
     assert numpy.abs(pressure - 0.15 - 50 / (1 + (distance / 12) ** 2)).max() <= 0.51e-4
+
+
+@pytest.mark.parametrize("deck", sorted(path.relative_to(ROOT).as_posix() for path in (ROOT / "decks").rglob("*.nml")
+                                         if "shared" not in path.parts))
+def test_what_check_prints_is_a_deck_with_the_same_values(camroller, deck, tmp_path):
+    """Every key with its value, defaults too: keys that exclude each other are not both there."""
+    def check(path):
+        result = subprocess.run([camroller, "check", path], capture_output=True, text=True, check=False, cwd=ROOT)
+        return result, [line.split(" !")[0].rstrip() for line in result.stdout.splitlines() if not line.startswith("!")]
+    first, values = check(ROOT / deck)
+    if first.returncode:  # one that is impossible on purpose
+        pytest.skip(first.stderr)
+    again = tmp_path / "again.nml"
+    again.write_text(re.sub(r"'([./]*tables/[^']*)'", lambda match: f"'{(ROOT / deck).parent / match[1]}'", first.stdout))
+    second, same = check(again)
+    assert second.returncode == 0, second.stderr
+    assert [line for line in same if "tables/" not in line] == [line for line in values if "tables/" not in line]
