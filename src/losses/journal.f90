@@ -11,7 +11,6 @@ module camroller_journal
    use camroller_kinds, only : wp, pi
    use camroller_error, only : error_t, raise, kind_deck, kind_domain
    use camroller_names, only : name_length, find_name
-   use camroller_roots, only : bracket_t, start_bracket, narrow_bracket, root_wanted, root_found
    implicit none
    private
 
@@ -183,9 +182,9 @@ contains
       !> `journal_solved` or `journal_without_film`
       integer, intent(out) :: status
 
-      !> Load over unit load, bound of t, its value at the root, sqrt(1 + t^2) [-]
-      real(wp) :: number, bound, t, secant
-      type(bracket_t) :: bracket
+      !> Load over unit load, t, sqrt(1 + t^2) [-]
+      real(wp) :: number, t, secant
+      logical :: is_found
 
       friction = 0.0_wp
       eccentricity = 0.0_wp
@@ -193,13 +192,8 @@ contains
       if (.not. journal%unit_load > 0.0_wp) return
       number = abs(load)/journal%unit_load
       if (number > huge(number)) return
-      bound = largest_tangent(journal, number)
-      call start_bracket(bracket, 0.0_wp, bound, -number, load_number(journal, bound) - number, 0.0_wp)
-      do while (bracket%status == root_wanted)
-         call narrow_bracket(bracket, load_number(journal, bracket%trial) - number)
-      end do
-      if (bracket%status /= root_found) return
-      t = bracket%trial
+      call find_tangent(journal, number, t, is_found)
+      if (.not. is_found) return
       secant = sqrt(1.0_wp + t**2)
       eccentricity = t/secant
       friction = journal%petroff_friction*secant
@@ -213,35 +207,74 @@ contains
       status = journal_solved
    end subroutine journal_friction
 
-   !> Load number `W (c/r)^2/(eta omega r L)` of a bearing; rises with t from 0.
+   !> e/sqrt(1 - e^2) at a load number, by Newton's method on logarithms: there the load number rises with a slope between 1 and 4
+   !> which changes little, so that a few steps from a bound above the root suffice.
+   pure subroutine find_tangent(journal, number, t, is_found)
+      !> The bearing
+      type(journal_t), intent(in) :: journal
+      !> Load number, not negative [-]
+      real(wp), intent(in) :: number
+      !> e/sqrt(1 - e^2) [-]
+      real(wp), intent(out) :: t
+      !> Is it the root?
+      logical, intent(out) :: is_found
+
+      !> Change of ln t whose square is round-off [-]
+      real(wp), parameter :: last_change = 1.0e-9_wp
+      !> Steps at most
+      integer, parameter :: most_steps = 50
+      !> Load number and its slope, change of the logarithm of t [-]
+      real(wp) :: value, slope, change
+      integer :: step
+
+      t = 0.0_wp
+      is_found = number <= tiny(1.0_wp)
+      if (is_found) return
+      t = largest_tangent(journal, number)
+      do step = 1, most_steps
+         call load_number(journal, t, value, slope)
+         change = log(number/value)/slope
+         t = t*exp(change)
+         is_found = abs(change) <= last_change
+         if (is_found) return
+      end do
+   end subroutine find_tangent
+
+   !> Load number `W (c/r)^2/(eta omega r L)` of a bearing, and its slope over t in logarithms; rises with t from 0.
    !>
    !> Long:   `12 pi e/((2 + e^2) sqrt(1 - e^2))`, from `S = (2 + e^2) sqrt(1 - e^2)/(12 pi^2 e)`, S = 1/(pi number).
    !> Short:  `(L/r)^2 e sqrt(16 e^2 + pi^2 (1 - e^2))/(4 (1 - e^2)^2)`.
    !> Finite: `(L/D)^2 e sqrt(16 e^2 + pi^2 (1 - e^2))/(1 - e^2)^2 a_1 (1 - e)/(-a_2 - e)`; at the loads of the numerical
    !>         solutions of Raimondi and Boyd (1958, L/D 1 and 1/4) e is within 0.01, the friction within 2 %.
-   pure function load_number(journal, t) result(number)
+   pure subroutine load_number(journal, t, number, slope)
       !> The bearing
       type(journal_t), intent(in) :: journal
-      !> e/sqrt(1 - e^2) [-]
+      !> e/sqrt(1 - e^2), positive [-]
       real(wp), intent(in) :: t
       !> Load number [-]
-      real(wp) :: number
+      real(wp), intent(out) :: number
+      !> Its slope, `d ln number/d ln t` [-]
+      real(wp), intent(out) :: slope
 
-      !> e, the short bearing's root over sqrt(1 - e^2) [-]
-      real(wp) :: e, root
+      !> t^2, `16 t^2 + pi^2`, e, the pole [-]
+      real(wp) :: square, under_root, e, pole
 
-      root = t*sqrt(16.0_wp*t**2 + pi**2)
+      square = t**2
+      under_root = 16.0_wp*square + pi**2
       select case (journal%law)
       case (law_long)
-         number = 12.0_wp*pi*t*(1.0_wp + t**2)/(2.0_wp + 3.0_wp*t**2)
+         number = 12.0_wp*pi*t*(1.0_wp + square)/(2.0_wp + 3.0_wp*square)
+         slope = 1.0_wp - 2.0_wp*square/((2.0_wp + 3.0_wp*square)*(1.0_wp + square))
       case (law_short)
-         number = journal%width_ratio**2*(1.0_wp + t**2)*root
+         number = journal%width_ratio**2*(1.0_wp + square)*t*sqrt(under_root)
+         slope = 1.0_wp + 2.0_wp*square/(1.0_wp + square) + 16.0_wp*square/under_root
       case default
-         e = t/sqrt(1.0_wp + t**2)
-         number = journal%width_ratio**2*root*finite_factor(journal%width_ratio) &
-            & /((1.0_wp + e)*(finite_pole(journal%width_ratio) - e))
+         e = t/sqrt(1.0_wp + square)
+         pole = finite_pole(journal%width_ratio)
+         number = journal%width_ratio**2*t*sqrt(under_root)*finite_factor(journal%width_ratio)/((1.0_wp + e)*(pole - e))
+         slope = 1.0_wp + 16.0_wp*square/under_root + e/(1.0_wp + square)*(1.0_wp/(pole - e) - 1.0_wp/(1.0_wp + e))
       end select
-   end function load_number
+   end subroutine load_number
 
    !> A bound of t at a load number, close where the number is small or large.
    pure function largest_tangent(journal, number) result(t)
