@@ -77,13 +77,12 @@ contains
       end if
       do i = 1, size(in_event)
          if (.not. in_event(i)) then
-            call scan_piece(model, contact_load, margins%adjuster_force, ends(i:i + 1), margins%base_circle)
-            cycle
+            call scan_piece(model, margins%adjuster_force, ends(i:i + 1), margins%base_circle)
+         else if (allocated(model%pivot)) then
+            call scan_piece(model, margins%adjuster_force, ends(i:i + 1), margins%event, margins%pivot, pump_up)
+         else
+            call scan_piece(model, margins%adjuster_force, ends(i:i + 1), margins%event)
          end if
-         call scan_piece(model, contact_load, margins%adjuster_force, ends(i:i + 1), margins%event)
-         if (.not. allocated(model%pivot)) cycle
-         call scan_piece(model, pivot_load, margins%adjuster_force, ends(i:i + 1), margins%pivot)
-         call scan_piece(model, above_adjuster, margins%adjuster_force, ends(i:i + 1), pump_up)
       end do
       ! with 'maximum' the adjuster holds the base circle load whatever the train does
       if (model%takes_maximum_load .or. all(in_event)) margins%base_circle = margin_t(model%base_circle_load)
@@ -119,36 +118,60 @@ contains
       if (.not. any(in_event)) in_event = .true.
    end function is_event
 
-   !> Lower a margin to what one of the forces has between two angles.
-   subroutine scan_piece(model, kind, adjuster, ends, margin)
+   !> Lower margins to what the forces have between two angles.
+   subroutine scan_piece(model, adjuster, ends, contact, pivot, pump_up)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> Force of the adjuster [N]
+      real(wp), intent(in) :: adjuster
+      !> The angles [rad]
+      real(wp), intent(in) :: ends(2)
+      !> Margin of the contact load
+      type(margin_t), intent(inout) :: contact
+      !> Margins of the pivot's joint, and of the force there above the adjuster's
+      type(margin_t), intent(inout), optional :: pivot, pump_up
+
+      ! Angles of the scan [rad]
+      real(wp), allocatable :: angles(:)
+      type(split_t), allocatable :: splits(:, :)
+      integer :: i, steps
+
+      steps = max(least_steps, ceiling((ends(2) - ends(1))/longest_step))
+      if (is_at_rest(model%lift_law, 0.5_wp*(ends(1) + ends(2)))) steps = 1
+      angles = [(ends(1) + (ends(2) - ends(1))*i/steps, i=0, steps - 1), ends(2)]
+      allocate (splits(merge(split_count, contact_load, present(pivot)), steps + 1))
+      do i = 1, steps + 1
+         call take_forces(model, adjuster, angles(i), splits(:, i))
+      end do
+      call lower_margin(model, contact_load, adjuster, angles, splits(contact_load, :), contact)
+      if (.not. present(pivot)) return
+      call lower_margin(model, pivot_load, adjuster, angles, splits(pivot_load, :), pivot)
+      call lower_margin(model, above_adjuster, adjuster, angles, splits(above_adjuster, :), pump_up)
+   end subroutine scan_piece
+
+   !> Lower a margin to what one of the forces has in a scan and between its points.
+   subroutine lower_margin(model, kind, adjuster, angles, splits, margin)
       !> The model
       type(model_t), intent(in) :: model
       !> Which of the forces
       integer, intent(in) :: kind
       !> Force of the adjuster [N]
       real(wp), intent(in) :: adjuster
-      !> The angles [rad]
-      real(wp), intent(in) :: ends(2)
+      !> Angles of the scan [rad]
+      real(wp), intent(in) :: angles(:)
+      !> The force there
+      type(split_t), intent(in) :: splits(:)
       !> The margin
       type(margin_t), intent(inout) :: margin
 
-      ! Angles of the scan [rad]; forces [N] and relative inertia [-] there
-      real(wp), allocatable :: angles(:), forces(:), ratios(:)
+      ! Forces [N] and relative inertia [-] at the angles
+      real(wp) :: forces(size(angles)), ratios(size(angles))
       ! Lowest force [N] or relative inertia [-], and its cam angle [rad]
       real(wp) :: lowest, place
-      type(split_t) :: split
-      integer :: i, steps
 
-      steps = max(least_steps, ceiling((ends(2) - ends(1))/longest_step))
-      if (is_at_rest(model%lift_law, 0.5_wp*(ends(1) + ends(2)))) steps = 1
-      angles = [(ends(1) + (ends(2) - ends(1))*i/steps, i=0, steps - 1), ends(2)]
-      allocate (forces(steps + 1), ratios(steps + 1))
-      do i = 1, steps + 1
-         split = force_at(model, kind, adjuster, angles(i))
-         forces(i) = split%static + split%inertia
-         if (split%static <= 0.0_wp) margin%speed = 0.0_wp
-         ratios(i) = relative_inertia(split)
-      end do
+      forces = splits%static + splits%inertia
+      if (any(splits%static <= 0.0_wp)) margin%speed = 0.0_wp
+      ratios = relative_inertia(splits)
       call find_lowest(model, kind, adjuster, .false., angles, forces, lowest, place)
       if (lowest < margin%force) then
          margin%force = lowest
@@ -157,7 +180,7 @@ contains
       if (margin%speed <= 0.0_wp) return
       call find_lowest(model, kind, adjuster, .true., angles, ratios, lowest, place)
       if (lowest < -epsilon(1.0_wp)) margin%speed = min(margin%speed, model%speed/sqrt(-lowest))
-   end subroutine scan_piece
+   end subroutine lower_margin
 
    !> Lowest value of a scan and between its points.
    subroutine find_lowest(model, kind, adjuster, is_ratio, angles, values, lowest, place)
@@ -177,7 +200,7 @@ contains
       real(wp), intent(out) :: lowest, place
 
       type(extremum_t) :: search
-      type(split_t) :: split
+      type(split_t) :: splits(kind)
       integer :: i
 
       i = minloc(values, 1)
@@ -186,25 +209,23 @@ contains
       if (i == 1 .or. i == size(values)) return
       call start_extremum(search, angles(i - 1:i + 1), values(i - 1:i + 1), worth*maxval(abs(values)))
       do while (search%is_wanted)
-         split = force_at(model, kind, adjuster, search%trial)
-         call narrow_extremum(search, merge(relative_inertia(split), split%static + split%inertia, is_ratio))
+         call take_forces(model, adjuster, search%trial, splits)
+         call narrow_extremum(search, merge(relative_inertia(splits(kind)), splits(kind)%static + splits(kind)%inertia, is_ratio))
       end do
       lowest = search%value(2)
       place = search%point(2)
    end subroutine find_lowest
 
-   !> One of the forces at a cam angle.
-   function force_at(model, kind, adjuster, angle) result(split)
+   !> The first of the forces at a cam angle, as many as are wanted.
+   subroutine take_forces(model, adjuster, angle, splits)
       !> The model
       type(model_t), intent(in) :: model
-      !> Which of the forces
-      integer, intent(in) :: kind
       !> Force of the adjuster [N]
       real(wp), intent(in) :: adjuster
       !> Cam angle from full lift [rad]
       real(wp), intent(in) :: angle
-      !> The force
-      type(split_t) :: split
+      !> The forces, in their order
+      type(split_t), intent(out) :: splits(:)
 
       type(position_t) :: position
       type(moments_t) :: moments
@@ -213,24 +234,24 @@ contains
       integer :: status
 
       call evaluate_loading(model, angle, position, force, moments, status)
-      split%inertia = moments%valve + moments%finger
-      split%static = moments%total - split%inertia
-      if (kind == contact_load) then
-         associate (arm => merge(position%normal_arm, position%parallel_arm, model%has_exact_arm))
-            split = split_t(split%static/arm, split%inertia/arm)
-         end associate
-         return
-      end if
+      associate (arm => merge(position%normal_arm, position%parallel_arm, model%has_exact_arm), &
+         & inertia => moments%valve + moments%finger)
+         splits(contact_load) = split_t((moments%total - inertia)/arm, inertia/arm)
+      end associate
+      if (size(splits) == contact_load) return
       call normal_direction(position%normal_arm, position%tangent_arm, model%linkage%a, position%arm_angle, &
          & model%linkage%sense, normal, tangent)
       associate (arm => position%normal_arm, tip_arm => position%valve_arm)
-         split%inertia = pivot_force(model%pivot, split%inertia/arm, normal, moments%valve/tip_arm, position%arm_angle, &
-            & position%finger_slope, position%finger_curvature, model%speed)
-         split%static = pivot_force(model%pivot, split%static/arm, normal, (moments%spring - moments%seat + moments%gas)/tip_arm, &
-            & position%arm_angle, 0.0_wp, 0.0_wp, 0.0_wp)
+         associate (inertia => moments%valve + moments%finger)
+            splits(pivot_load)%inertia = pivot_force(model%pivot, inertia/arm, normal, moments%valve/tip_arm, position%arm_angle, &
+               & position%finger_slope, position%finger_curvature, model%speed)
+            splits(pivot_load)%static = pivot_force(model%pivot, (moments%total - inertia)/arm, normal, &
+               & (moments%spring - moments%seat + moments%gas)/tip_arm, position%arm_angle, 0.0_wp, 0.0_wp, 0.0_wp)
+         end associate
       end associate
-      if (kind == above_adjuster) split%static = split%static - adjuster
-   end function force_at
+      if (size(splits) == pivot_load) return
+      splits(above_adjuster) = split_t(splits(pivot_load)%static - adjuster, splits(pivot_load)%inertia)
+   end subroutine take_forces
 
    !> Force of the lash adjuster that presses the roller on the base circle with the base circle load.
    function adjuster_force(model) result(force)
@@ -252,7 +273,7 @@ contains
    end function adjuster_force
 
    !> Inertia relative to the static force: -1 where they cancel at the model's speed; zero where nothing is static.
-   pure function relative_inertia(split) result(ratio)
+   elemental function relative_inertia(split) result(ratio)
       !> The force
       type(split_t), intent(in) :: split
       !> The ratio [-]
