@@ -101,8 +101,10 @@ contains
 
       ! eta/(h_c tau_E) at a point, and over the viscosity ratio there [s/m]
       real(wp) :: rate, unit_rate
-      ! Viscosity ratio at a point, its logarithmic slope, slope of asinh [-]
-      real(wp) :: ratio, log_slope, bend
+      ! Viscosity ratio at a point, its logarithmic slope; size of the argument of asinh, its asinh and hypot(1, it) [-]
+      real(wp) :: ratio, log_slope, x, stress, root
+      ! Slope of asinh over the sliding speed [s/m]
+      real(wp) :: bend
       integer :: i
 
       force = 0.0_wp
@@ -112,15 +114,44 @@ contains
       do i = 1, size(rule_heights)
          call relative_viscosity(oil, peak*rule_heights(i), ratio, log_slope)
          rate = unit_rate*ratio
-         bend = rate/hypot(1.0_wp, rate*sliding_speed)
-         force = force + rule_weights(i)*asinh(rate*sliding_speed)
+         x = abs(rate*sliding_speed)
+         call stress_and_root(x, stress, root)
+         bend = rate/root
+         force = force + rule_weights(i)*stress
          slope = slope + rule_weights(i)*bend
          peak_slope = peak_slope + rule_weights(i)*bend*sliding_speed*log_slope
       end do
-      force = force*area*eyring_stress
+      force = sign(force*area*eyring_stress, sliding_speed)
       slope = slope*area*eyring_stress
       peak_slope = peak_slope*area*eyring_stress
    end subroutine eyring_shear
+
+   !> asinh(x) and sqrt(1 + x^2), both to round-off, at the cost of one root and one logarithm.
+   elemental subroutine stress_and_root(x, stress, root)
+      !> Argument, not negative [-]
+      real(wp), intent(in) :: x
+      !> asinh(x) [-]
+      real(wp), intent(out) :: stress
+      !> sqrt(1 + x^2) [-]
+      real(wp), intent(out) :: root
+
+      ! Argument from which on x + sqrt(1 + x^2) is 2 x to round-off [-]
+      real(wp), parameter :: large = 1.0e9_wp
+      ! exp(asinh(x)) - 1, and 1 more as it is rounded [-]
+      real(wp) :: excess, rounded
+
+      if (x > large) then
+         root = x
+         stress = log(x) + log(2.0_wp)
+         return
+      end if
+      root = sqrt(1.0_wp + x**2)
+      excess = x + x**2/(1.0_wp + root)
+      rounded = 1.0_wp + excess
+      ! ln(1 + e) as ln(r) e/(r - 1), in which the rounding of r = 1 + e cancels (Kahan)
+      stress = excess
+      if (rounded > 1.0_wp) stress = log(rounded)*excess/(rounded - 1.0_wp)
+   end subroutine stress_and_root
 
    !> Shear in series with a slip that is not resolved: the sliding speed that a force needs grows by at most about `resolution`.
    !>
