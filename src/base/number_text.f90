@@ -285,11 +285,20 @@ contains
       !> Its digits
       character(len=integer_length(value)) :: text
 
-      character(len=number_length) :: buffer
+      ! What is left of the number, not positive so that the smallest one has its place, too
+      integer(int64) :: rest
+      integer :: place
 
-      ! style: write because this is the place where numbers become text
-      write (buffer, "(i0)") value
-      text = buffer
+      if (value < 0) then
+         rest = value
+         text(1:1) = "-"
+      else
+         rest = -value
+      end if
+      do place = len(text), merge(2, 1, value < 0), -1
+         text(place:place) = achar(iachar("0") - int(modulo(rest, -10_int64)))
+         rest = rest/10
+      end do
    end function long_integer_text
 
    !> The 64 bits of an integer as 16 hexadecimal digits.
