@@ -3,7 +3,7 @@
 SHELL := /bin/bash
 .DEFAULT_GOAL := help
 .PHONY: help setup commit build debug mpi install run dynamics comparison test quick bless random random-ehl random-wide needed rough-rows fuzz sanitize study study-film study-dynamics audit trends check check-layers \
-  check-style check-format check-lint check-warnings second-compiler format docs recipes bench bench-ehl range-ehl bench-batch bench-effects bench-hosts clean distclean
+  check-style check-format check-lint check-warnings second-compiler format docs recipes bench bench-ehl range-ehl bench-batch bench-cases bench-effects bench-hosts clean distclean
 
 FPM := .venv/bin/fpm
 PYTHON := .venv/bin/python
@@ -175,6 +175,9 @@ range-ehl: commit ## steady contacts over the whole range: NODES=1025, every STR
 
 bench-batch: build mpi ## cases per second, scaling, cost as a study grows: bench/tables/throughput.txt (ten minutes, idle machine)
 	@$(PYTHON) bench/throughput.py
+
+bench-cases: build ## where the instructions of a case go: bench/tables/case_cost.txt (twenty minutes, valgrind)
+	@$(PYTHON) bench/case_cost.py build/release/bin/camroller bench/tables/case_cost.txt build/bench/cases
 
 bench-effects: build ## instruction counts of effects, present and absent: bench/tables/effects.txt (three minutes)
 	@bench/effects.sh
