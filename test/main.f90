@@ -81,6 +81,7 @@ program main
    use test_limit_speeds, only : collect_limit_speeds
    use test_study, only : collect_study
    use test_error_estimate, only : collect_error_estimate
+   use test_lobe_curve, only : collect_lobe_curve
    use test_means, only : collect_means
    use test_extreme_errors, only : collect_extreme_errors
    use test_roller_problem, only : collect_roller_problem
@@ -233,6 +234,7 @@ contains
          new_testsuite("hard_dynamics", collect_hard_dynamics), &
          new_testsuite("train_outlook", collect_train_outlook), &
          new_testsuite("error_estimate", collect_error_estimate), &
+         new_testsuite("lobe_curve", collect_lobe_curve), &
          new_testsuite("means", collect_means), &
          new_testsuite("extreme_errors", collect_extreme_errors), &
          new_testsuite("panels", collect_panels), &

@@ -11,6 +11,7 @@ module camroller_cycle
    use camroller_case, only : numerics_t, quasi_static
    use camroller_model, only : model_t, evaluate_geometry
    use camroller_kinematics, only : position_t
+   use camroller_contact_forces, only : contact_t
    use camroller_dynamics, only : moments_t
    use camroller_state, only : state_t, evaluate_state, evaluate_loading
    use camroller_events, only : find_stops, cycle_stops
@@ -413,7 +414,7 @@ contains
    end subroutine integrate_spin
 
    !> State of the follower at any cam angle.
-   subroutine state_at(cycle, model, angle, hint, state, error)
+   subroutine state_at(cycle, model, angle, hint, state, error, start)
       !> The cycle
       type(cycle_t), intent(in) :: cycle
       !> The model it was integrated with
@@ -426,13 +427,13 @@ contains
       type(state_t), intent(out) :: state
       !> Convergence error where the contact has no balance
       type(error_t), allocatable, intent(out) :: error
+      !> A contact nearby to start from, where it touches
+      type(contact_t), intent(in), optional :: start
 
       type(position_t) :: position
       type(moments_t) :: moments
-      ! Angle within the cycle [rad], sliding speed or surface speed [m/s], gas force [N]
-      real(wp) :: inside, value(1), force
-      ! Slope of the curve [m/s/rad]
-      real(wp) :: slope(1)
+      ! Angle within the cycle [rad], sliding speed or surface speed [m/s], gas force [N], slope of the curve [m/s/rad]
+      real(wp) :: inside, value(1), force, slope(1)
       ! Mobilised part of the boundary friction [-]
       real(wp) :: share
       integer :: status
@@ -458,19 +459,17 @@ contains
             value = 0.0_wp
             call share_at_rest(model, inside, share, status)
          end if
-         if (status == 0) call evaluate_state(model, inside, value(1), state, status, share)
+         if (status == 0) call evaluate_state(model, inside, value(1), state, status, share, start=start)
       else
-         call evaluate_state(model, inside, value(1), state, status)
+         call evaluate_state(model, inside, value(1), state, status, start=start)
          if (status == 0 .and. cycle%step_error > 0.0_wp) then
             call curve_slope(cycle%trajectory, inside, hint, slope)
             call settle(model, inside, slope(1), cycle%step_error, state, value(1), is_moved)
             if (is_moved) call evaluate_state(model, inside, value(1), state, status)
          end if
       end if
-      if (status /= 0) then
-         call raise(error, kind_convergence, "no load satisfies the equilibrium of the contact at "// &
-            & cam_angle_text(angle, 3))
-      end if
+      if (status /= 0) call raise(error, kind_convergence, "no load satisfies the equilibrium of the contact at "// &
+         & cam_angle_text(angle, 3))
    end subroutine state_at
 
    !> State of a follower with a flexible train.

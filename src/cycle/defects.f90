@@ -7,6 +7,7 @@ module camroller_defects
    use camroller_state, only : state_t, evaluate_spin
    use camroller_contact_forces, only : contact_t
    use camroller_cycle, only : cycle_t
+   use camroller_error_estimate, only : contact_accuracy_for
    use camroller_spin, only : decay_rate_of, full_decay_rate, slip_rate, surface_rate
    use camroller_trajectory, only : curve_slope
    implicit none
@@ -41,7 +42,7 @@ contains
       defect = defect_at(model, cycle, angle, interval, state)
       decay_rate = decay_rate_of(model, state%contact)
       if (.not. allocated(cycle%phases)) decay_rate = decay_rate_at(model, angle, state)
-      if (.not. (cycle%is_linear .or. allocated(cycle%phases))) call weaken_decay(model, state, defect, decay_rate)
+      if (.not. (cycle%is_linear .or. allocated(cycle%phases))) call weaken_decay(model, cycle, state, defect, decay_rate)
       if (decay_rate < 0.0_wp) call limit_growth(model, state, max(few*cycle%step_error, abs(error_so_far)), decay_rate)
    end subroutine find_defect
 
@@ -103,9 +104,11 @@ contains
    !>
    !> Traction saturates: what decays fast at the sliding speed of the curve may hardly decay at the right one, and a roller that
    !> the curve takes as held by friction may have broken away.
-   pure subroutine weaken_decay(model, state, defect, decay_rate)
+   pure subroutine weaken_decay(model, cycle, state, defect, decay_rate)
       !> Model of the lobe
       type(model_t), intent(in) :: model
+      !> Its cycle
+      type(cycle_t), intent(in) :: cycle
       !> State on the curve
       type(state_t), intent(in) :: state
       !> Defect there [m/s/rad]
@@ -132,7 +135,7 @@ contains
          if (.not. abs(distance) > 4.0_wp*spacing(state%contact%sliding_speed)) return
          if (abs(distance) > abs(state%contact%rolling_speed)) return
          call evaluate_spin(model, state%position, state%moments, state%contact%sliding_speed + distance, contact, &
-            & acceleration, status)
+            & acceleration, status, contact_accuracy_for(cycle%tolerance), start=state%contact)
          if (status /= 0) return
          secant = model%roller_radius*(acceleration - state%spin_acceleration)/(model%speed*distance)
          if (secant >= good_part*decay_rate) return

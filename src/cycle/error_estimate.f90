@@ -13,7 +13,7 @@ module camroller_error_estimate
    implicit none
    private
 
-   public :: estimate_t, add_defect, end_interval, estimated_error, error_at_start, margin
+   public :: estimate_t, add_defect, end_interval, estimated_error, error_at_start, margin, contact_accuracy_for
 
    !> Most points of an interval with a decay rate
    integer, parameter :: most_rates = size(gauss_points)
@@ -166,6 +166,20 @@ contains
 
       error = (estimate%error - closure)/max(1.0_wp - estimate%contraction, epsilon(1.0_wp))
    end function error_at_start
+
+   !> Relative error to which contacts are solved where only differences from a state of a cycle are wanted: films and pressures
+   !> then have about its root, far less than the tolerance.
+   elemental function contact_accuracy_for(tolerance) result(accuracy)
+      !> Tolerance of the cycle [-]
+      real(wp), intent(in) :: tolerance
+      !> The error [-]
+      real(wp) :: accuracy
+
+      ! Root of it over the tolerance; largest [-]
+      real(wp), parameter :: small_part = 1.0e-3_wp, largest = 1.0e-15_wp
+
+      accuracy = min((small_part*tolerance)**2, largest)
+   end function contact_accuracy_for
 
    !> Decay rate between two or three points, constant beyond them.
    pure function rate_at(nodes, rates, place) result(rate)

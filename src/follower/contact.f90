@@ -43,7 +43,7 @@ module camroller_contact
 contains
 
    !> Solve the contact.
-   pure subroutine solve_contact(model, position, moments, sliding_speed, contact, status, accuracy, mobilised)
+   pure subroutine solve_contact(model, position, moments, sliding_speed, contact, status, accuracy, mobilised, start)
       !> The model
       type(model_t), intent(in) :: model
       !> Geometry at this angle
@@ -60,15 +60,18 @@ contains
       real(wp), intent(in), optional :: accuracy
       !> Mobilised part of the boundary friction; absent: as the sliding speed has it [-]
       real(wp), intent(in), optional :: mobilised
+      !> A contact nearby to start from, where it touches
+      type(contact_t), intent(in), optional :: start
 
       type(setting_t) :: setting
       type(parts_t) :: parts
 
-      call prepare_and_solve(model, position, moments, sliding_speed, contact, setting, parts, status, accuracy, mobilised)
+      call prepare_and_solve(model, position, moments, sliding_speed, contact, setting, parts, status, accuracy, mobilised, start)
    end subroutine solve_contact
 
    !> Solve the contact and keep what its slopes are made of.
-   pure subroutine prepare_and_solve(model, position, moments, sliding_speed, contact, setting, parts, status, accuracy, mobilised)
+   pure subroutine prepare_and_solve(model, position, moments, sliding_speed, contact, setting, parts, status, accuracy, &
+      & mobilised, start)
       !> The model
       type(model_t), intent(in) :: model
       !> Geometry at this angle
@@ -89,6 +92,8 @@ contains
       real(wp), intent(in), optional :: accuracy
       !> Mobilised part of the boundary friction; absent: as the sliding speed has it [-]
       real(wp), intent(in), optional :: mobilised
+      !> A contact nearby to start from, where it touches
+      type(contact_t), intent(in), optional :: start
 
       ! Moment that the contact load balances [N m]; load without friction [N]
       real(wp) :: moment, load
@@ -110,11 +115,39 @@ contains
       call prepare_contact(model, position, contact, enough, setting, mobilised)
       contact%film_ratio = 0.0_wp
       if (model%is_consistent) then
+         if (present(start)) then
+            if (start%is_touching) call start_nearby(model, position, moment, start, contact)
+         end if
          call balance_finger(model, position, moments, setting, moment, enough, contact, parts, status)
       else
          call evaluate_contact(model, position, setting, load, contact, parts, change)
       end if
    end subroutine prepare_and_solve
+
+   !> Load with the friction of a contact nearby, and its film ratio.
+   pure subroutine start_nearby(model, position, moment, nearby, contact)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> Geometry at this angle
+      type(position_t), intent(in) :: position
+      !> Moment to be balanced [N m]
+      real(wp), intent(in) :: moment
+      !> The other contact
+      type(contact_t), intent(in) :: nearby
+      !> State of the contact, with the load without friction; out: with another where that is not far off
+      type(contact_t), intent(inout) :: contact
+
+      ! Part of the load without friction below which the other contact is too far away [-]
+      real(wp), parameter :: least_part = 0.5_wp
+      ! Load [N]
+      real(wp) :: load
+
+      load = (moment - model%linkage%sense*(nearby%tangential_force*position%tangent_arm + nearby%bearing_torque)) &
+         & /position%normal_arm
+      if (.not. (load >= least_part*contact%load .and. load <= contact%load/least_part)) return
+      contact%load = load
+      contact%film_ratio = nearby%film_ratio
+   end subroutine start_nearby
 
    !> Load at which `W h_W + sense (T' h_t + T_B) = moment + M_pivot`, by Newton's method inside a bracket.
    !>
@@ -133,7 +166,7 @@ contains
       real(wp), intent(in) :: moment
       !> Relative error of load and forces that is good enough [-]
       real(wp), intent(in) :: enough
-      !> State of the contact
+      !> State of the contact; in: with the load to start from and the film ratio there, or zero
       type(contact_t), intent(inout) :: contact
       !> What slopes are made of
       type(parts_t), intent(out) :: parts
@@ -153,7 +186,7 @@ contains
 
       status = 0
       in_use = setting
-      load = moment/position%normal_arm
+      load = contact%load
       low = 0.0_wp
       high = huge(1.0_wp)
       if (has_pivot_friction(model)) call set_hinge(model, position, moments, hinge)

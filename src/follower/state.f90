@@ -92,7 +92,7 @@ contains
 
    !> Contact and angular acceleration of the roller: what the integration of its spin needs.
    pure subroutine evaluate_spin(model, position, moments, sliding_speed, contact, acceleration, status, accuracy, &
-      & mobilised)
+      & mobilised, start)
       !> The model
       type(model_t), intent(in) :: model
       !> Geometry at this angle
@@ -111,14 +111,16 @@ contains
       real(wp), intent(in), optional :: accuracy
       !> Mobilised part of the boundary friction; absent: as the sliding speed has it [-]
       real(wp), intent(in), optional :: mobilised
+      !> A contact nearby to start from, where it touches
+      type(contact_t), intent(in), optional :: start
 
-      call solve_contact(model, position, moments, sliding_speed, contact, status, accuracy, mobilised)
+      call solve_contact(model, position, moments, sliding_speed, contact, status, accuracy, mobilised, start)
       acceleration = spin_acceleration(contact%traction, merge(contact%rolling_resistance, 0.0_wp, &
          & model%has_rolling_in_balance), model%roller_radius, contact%bearing_torque, model%roller_inertia)
    end subroutine evaluate_spin
 
    !> Everything at one angle.
-   pure subroutine evaluate_state(model, angle, sliding_speed, state, status, mobilised)
+   pure subroutine evaluate_state(model, angle, sliding_speed, state, status, mobilised, start)
       !> The model
       type(model_t), intent(in) :: model
       !> Cam angle from full lift [rad]
@@ -131,11 +133,13 @@ contains
       integer, intent(out) :: status
       !> Mobilised part of the boundary friction; absent: as the sliding speed has it [-]
       real(wp), intent(in), optional :: mobilised
+      !> A contact nearby to start from, where it touches
+      type(contact_t), intent(in), optional :: start
 
       call evaluate_loading(model, angle, state%position, state%gas_force, state%moments, status)
       if (status /= 0) return
       call evaluate_spin(model, state%position, state%moments, sliding_speed, state%contact, state%spin_acceleration, status, &
-         & mobilised=mobilised)
+         & mobilised=mobilised, start=start)
       if (status /= 0) return
       call add_torques(model, state)
    end subroutine evaluate_state

@@ -9,7 +9,7 @@ module camroller_camshaft
    implicit none
    private
 
-   public :: bearing_loads, share_loads
+   public :: bearing_loads, share_loads, share_force
 
 contains
 
@@ -38,17 +38,33 @@ contains
       !> Force of the shaft on each bearing, shape (2, bearing) [N]
       real(wp), intent(out) :: loads(:, :)
 
-      !> Part of the force that the right-hand bearing carries [-]
-      real(wp) :: part
-      integer :: cam, left
+      integer :: cam
 
       loads = 0.0_wp
       do cam = 1, size(cam_positions)
-         left = count(bearing_positions(2:size(bearing_positions) - 1) <= cam_positions(cam)) + 1
-         part = (cam_positions(cam) - bearing_positions(left))/(bearing_positions(left + 1) - bearing_positions(left))
-         loads(:, left) = loads(:, left) + (1.0_wp - part)*forces(:, cam)
-         loads(:, left + 1) = loads(:, left + 1) + part*forces(:, cam)
+         call share_force(bearing_positions, cam_positions(cam), forces(:, cam), loads)
       end do
    end subroutine share_loads
+
+   !> Add the force of one cam to the loads of its two neighbouring bearings.
+   pure subroutine share_force(bearing_positions, cam_position, force, loads)
+      !> Places of the bearings along the shaft, increasing, at least two [m]
+      real(wp), intent(in) :: bearing_positions(:)
+      !> Place of the cam, between the first and the last bearing [m]
+      real(wp), intent(in) :: cam_position
+      !> Its force [N]
+      real(wp), intent(in) :: force(2)
+      !> Force of the shaft on each bearing, shape (2, bearing) [N]
+      real(wp), intent(inout) :: loads(:, :)
+
+      !> Part of the force that the right-hand bearing carries [-]
+      real(wp) :: part
+      integer :: left
+
+      left = count(bearing_positions(2:size(bearing_positions) - 1) <= cam_position) + 1
+      part = (cam_position - bearing_positions(left))/(bearing_positions(left + 1) - bearing_positions(left))
+      loads(:, left) = loads(:, left) + (1.0_wp - part)*force
+      loads(:, left + 1) = loads(:, left + 1) + part*force
+   end subroutine share_force
 
 end module camroller_camshaft

@@ -33,6 +33,8 @@ module camroller_extremes
       !> round the turn, shape (side, row)
       integer, allocatable, private :: order(:), beside(:, :)
       integer, private :: sorted = 0
+      !> Their values by angle, one row beyond the turn at both ends, shape (row, series) [unit of the series]
+      real(wp), allocatable, private :: by_angle(:, :)
    end type samples_t
 
    !> Search for the smallest or largest value of a series; for the largest all values have the opposite sign
@@ -125,8 +127,9 @@ contains
 
       integer :: place, before
 
-      if (allocated(samples%order)) deallocate (samples%order, samples%beside)
-      allocate (samples%order(samples%count), samples%beside(2, samples%count))
+      if (allocated(samples%order)) deallocate (samples%order, samples%beside, samples%by_angle)
+      allocate (samples%order(samples%count), samples%beside(2, samples%count), &
+         & samples%by_angle(0:samples%count + 1, size(samples%values, 1)))
       call sort_rows(samples%angle(:samples%count), samples%order)
       samples%sorted = samples%count
       associate (order => samples%order)
@@ -145,36 +148,62 @@ contains
             end if
             samples%beside(2, order(place)) = before
          end do
+         do place = 1, samples%count
+            samples%by_angle(place, :) = samples%values(:, order(place))
+         end do
+         samples%by_angle(0, :) = samples%by_angle(samples%count, :)
+         samples%by_angle(samples%count + 1, :) = samples%by_angle(1, :)
       end associate
    end subroutine find_neighbours
 
-   !> Rows by their angles: runs are merged until one is left.
+   !> Rows by their angles: runs that rise as they are, each with the next, are merged until one is left.
    pure subroutine sort_rows(angle, order)
       !> Angles [rad]
       real(wp), intent(in) :: angle(:)
       !> Rows, their angles rising
       integer, intent(out) :: order(size(angle))
 
-      integer :: merged(size(angle)), length, first, left, right, last, i
-      logical :: takes_left
+      ! Rows merged; first row of each run, and what follows the last
+      integer :: merged(size(angle)), starts(size(angle) + 1)
+      integer :: runs, run, left, right, last, i
 
       order = [(i, i=1, size(angle))]
-      length = 1
-      do while (length < size(angle))
-         do first = 1, size(angle), 2*length
-            left = first
-            right = first + length
-            last = min(first + 2*length - 1, size(angle))
-            do i = first, last
-               takes_left = right > last
-               if (left < first + length .and. .not. takes_left) takes_left = angle(order(left)) <= angle(order(right))
-               merged(i) = order(merge(left, right, takes_left))
-               left = left + merge(1, 0, takes_left)
-               right = right + merge(0, 1, takes_left)
+      runs = 0
+      do i = 1, size(angle)
+         if (i > 1) then
+            if (angle(i) >= angle(i - 1)) cycle
+         end if
+         runs = runs + 1
+         starts(runs) = i
+      end do
+      starts(runs + 1) = size(angle) + 1
+      do while (runs > 1)
+         do run = 1, runs - 1, 2
+            left = starts(run)
+            right = starts(run + 1)
+            do i = starts(run), starts(run + 2) - 1
+               if (right == starts(run + 2)) then
+                  merged(i) = order(left)
+                  left = left + 1
+               else if (left == starts(run + 1)) then
+                  merged(i) = order(right)
+                  right = right + 1
+               else if (angle(order(left)) <= angle(order(right))) then
+                  merged(i) = order(left)
+                  left = left + 1
+               else
+                  merged(i) = order(right)
+                  right = right + 1
+               end if
             end do
          end do
-         order = merged
-         length = 2*length
+         last = merge(starts(runs) - 1, size(angle), modulo(runs, 2) == 1)
+         order(:last) = merged(:last)
+         do run = 1, (runs + 1)/2
+            starts(run) = starts(2*run - 1)
+         end do
+         runs = (runs + 1)/2
+         starts(runs + 1) = size(angle) + 1
       end do
    end subroutine sort_rows
 
@@ -202,8 +231,7 @@ contains
       search%series = series
       search%sense = sense
       search%coarse = max(worth, tolerance)
-      values(1:samples%count) = sense*samples%values(series, samples%order)
-      values([0, samples%count + 1]) = values([samples%count, 1])
+      values = sense*samples%by_angle(:, series)
       search%value = minval(values)
       search%extent = maxval(values) - search%value
       if (present(by_itself)) then
@@ -251,7 +279,7 @@ contains
       search%point = samples%angle(samples%order(extreme))
       found = 0
       do place = 1, samples%count
-         if (values(place) > min(values(place - 1), values(place + 1))) cycle
+         if (values(place) > values(place - 1) .or. values(place) > values(place + 1)) cycle
          if (place == extreme .or. samples%is_kink(samples%order(place))) cycle
          bound = lowest_hidden(samples, search, samples%order(place))
          if (bound >= search%value - worth*search%extent) cycle

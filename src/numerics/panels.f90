@@ -14,7 +14,7 @@ module camroller_panels
    implicit none
    private
 
-   public :: sampled_t, panels_t, start_panels, add_panel, add_trapezoid, sample_panel, refine_panels
+   public :: sampled_t, panels_t, start_panels, add_panel, add_trapezoid, sample_panel, refine_panels, highest_terms
 
    !> Places of a panel
    integer, parameter, public :: panel_points = 7
@@ -39,6 +39,11 @@ module camroller_panels
       & 0.484178662140076336045515456826413_wp]
    real(wp), parameter :: sixth(4) = [0.158570039434041310899733116957686_wp, -0.434950705586700173980282234680070_wp, &
       & 0.608177901175700337734926997906715_wp, -0.663594470046082949308755760368663_wp]
+   !> Weights of the polynomial through the values at the nodes by the barycentric formula, outermost first: one over the product of
+   !> the distances of each from the others, over that of the middle one [-]
+   real(wp), parameter, private :: half_weights(4) = [0.238956239980465031008625599860_wp, -0.655446549391069012178619756428_wp, &
+      & 0.916490309410603981169994156568_wp, -1.000000000000000000000000000000_wp]
+   real(wp), parameter, public :: interpolation_weights(panel_points) = [half_weights, half_weights(3:1:-1)]
    !> Panel that is no longer halved, over the largest angle or time [-]
    real(wp), parameter :: shortest = 1.0e-13_wp
 
@@ -233,6 +238,19 @@ contains
          panels%errors(i, panel) = 0.5_wp*length*sqrt(by_rules**2 + by_odd**2 + by_even**2)
       end do
    end subroutine set_panel
+
+   !> Sizes of the two highest terms of the polynomial through the values at the seven nodes: what a polynomial of degree four would
+   !> miss, which is more than that of degree six does.
+   pure function highest_terms(values) result(terms)
+      !> Values at the nodes, shape (quantity, node) [unit of each]
+      real(wp), intent(in) :: values(:, :)
+      !> Sum of both sizes of each quantity [unit of each]
+      real(wp) :: terms(size(values, 1))
+
+      terms = abs(fifth(1)*(values(:, 7) - values(:, 1)) + fifth(2)*(values(:, 6) - values(:, 2)) &
+         & + fifth(3)*(values(:, 5) - values(:, 3))) + abs(sixth(1)*(values(:, 1) + values(:, 7)) &
+         & + sixth(2)*(values(:, 2) + values(:, 6)) + sixth(3)*(values(:, 3) + values(:, 5)) + sixth(4)*values(:, 4))
+   end function highest_terms
 
    !> Twice the room.
    pure subroutine grow(panels)

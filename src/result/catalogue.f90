@@ -9,7 +9,7 @@ module camroller_catalogue
    use camroller_model, only : model_t
    use camroller_number_text, only : integer_text
    use camroller_effect_list, only : effect_names, has_effect
-   use camroller_result, only : quantity_t, quantity_list_t, add => append_quantity, lobe_scope, scope_camshaft, scope_engine, &
+   use camroller_result, only : quantity_t, quantity_list_t, append_quantity, lobe_scope, scope_camshaft, scope_engine, &
       & scope_length
    use camroller_state, only : state_t, flexible_values_t
    use camroller_torque_list, only : torque_list, torque_count, is_loss, is_torque, of_residual, torque_series
@@ -176,6 +176,23 @@ contains
       call add_camshafts(list, case, of_shafts)
       values = list%values(:list%count)
    end subroutine series_values
+
+   !> Append a series: its value alone, without a call, where no names are wanted.
+   pure subroutine add(list, name, unit, description, source, value)
+      !> List to extend
+      type(quantity_list_t), intent(inout) :: list
+      !> Name, unit, meaning, part of the model
+      character(len=*), intent(in) :: name, unit, description, source
+      !> Value [unit of the quantity]
+      real(wp), intent(in) :: value
+
+      if (allocated(list%items) .or. list%count == size(list%values)) then
+         call append_quantity(list, name, unit, description, source, value)
+      else
+         list%count = list%count + 1
+         list%values(list%count) = value
+      end if
+   end subroutine add
 
    !> Series of one follower: the one place where each has its name, unit, meaning, part of the model and value.
    pure subroutine add_follower(list, case, model, state)

@@ -11,9 +11,9 @@ module camroller_follower_samples
    use camroller_ramp, only : follow_ramp
    use camroller_state, only : state_t, flight_torque
    use camroller_cycle, only : cycle_t, state_at
-   use camroller_catalogue, only : series_values
+   use camroller_catalogue, only : follower_values
    use camroller_torque_list, only : torque_count, of_geometric, of_roller_inertia
-   use camroller_contact_forces, only : film_groups
+   use camroller_contact_forces, only : contact_t, film_groups
    use camroller_film, only : is_in_range
    use camroller_film_range, only : film_range_t, note_film
    use camroller_hertz, only : peak_pressure
@@ -121,6 +121,7 @@ contains
       !> Number of series of the case, and the first of them that is a torque
       integer, intent(in), optional :: series, first_torque
 
+      samples%state%contact%is_touching = .false.
       samples%model => model
       samples%cycle => cycle
       if (present(case)) then
@@ -142,8 +143,11 @@ contains
       !> Convergence error
       type(error_t), allocatable, intent(out) :: error
 
+      type(contact_t) :: before
+
       call follow_ramp(self%model, x)
-      call state_at(self%cycle, self%model, x, self%hint, self%state, error)
+      before = self%state%contact
+      call state_at(self%cycle, self%model, x, self%hint, self%state, error, before)
       if (allocated(error)) return
       self%largest_sliding = max(self%largest_sliding, abs(self%state%contact%sliding_speed))
       call sampled_values(self, self%state, values)
@@ -168,7 +172,7 @@ contains
 
       torques = state%torques
       if (associated(samples%case)) then
-         call series_values(samples%case, samples%model, state, torques, values(:samples%series))
+         call follower_values(samples%case, samples%model, state, values(:samples%first_torque - 1))
          values(samples%first_torque:samples%series) = 0.0_wp
       end if
       torques(of_geometric) = merge(state%moments%gas*state%position%finger_slope, flight_torque(samples%model, state), &

@@ -5,7 +5,6 @@
 module camroller_mean_bearings
    use camroller_kinds, only : wp, two_pi, degree
    use camroller_error, only : error_t
-   use camroller_state, only : state_t
    use camroller_catalogue, only : camshaft_count, camshaft_values
    use camroller_events, only : cycle_stops
    use camroller_extremes, only : samples_t, start_samples, add_sample
@@ -24,8 +23,9 @@ module camroller_mean_bearings
    !> Bearings of a camshaft on its turn
    type, extends(sampled_t) :: bearing_samples_t
       type(solved_t), pointer :: solved => null()
-      !> Series of the camshaft at the angles evaluated
+      !> Series of the camshaft at the angles evaluated, and their number
       type(samples_t) :: rows
+      integer :: series = 0
    contains
       procedure :: sample => sample_bearings
    end type bearing_samples_t
@@ -56,7 +56,8 @@ contains
       mean = 0.0_wp
       mean_error = 0.0_wp
       samples%solved => solved
-      call start_samples(samples%rows, camshaft_count(solved%case))
+      samples%series = camshaft_count(solved%case)
+      call start_samples(samples%rows, samples%series)
       allocate (stops(0))
       do cam = 1, size(solved%shaft%lobes)
          stops = [stops, solved%cycles(solved%shaft%lobes(cam))%stops + solved%shaft%phases(cam)]
@@ -93,13 +94,12 @@ contains
       !> Convergence or domain error
       type(error_t), allocatable, intent(out) :: error
 
-      type(state_t) :: state
       ! Torques on each camshaft [N m]
       real(wp) :: torques(torque_count, self%solved%shaft%count)
       ! Series of the camshafts [unit of the series]
-      real(wp) :: series(camshaft_count(self%solved%case))
+      real(wp) :: series(self%series)
 
-      call shaft_torques(self%solved, x, state, torques, error)
+      call shaft_torques(self%solved, x, torques, error)
       if (allocated(error)) return
       values = torques(of_bearings, :)
       call camshaft_values(self%solved%case, torques, series)

@@ -15,19 +15,17 @@ module camroller_means
    use camroller_cycle, only : cycle_t
    use camroller_catalogue, only : list_series, series_values
    use camroller_torque_list, only : torque_count, is_loss, is_torque, of_geometric, of_roller_inertia, of_residual, torque_series
-   use camroller_defects, only : defect_at, find_defect
-   use camroller_error_estimate, only : estimate_t, add_defect, end_interval, estimated_error
+   use camroller_cycle_walk, only : walk_t, walk_round, trapezoid
+   use camroller_error_estimate, only : estimated_error
    use camroller_extremes, only : samples_t
-   use camroller_follower_samples, only : follower_samples_t, start_samples, entrainment_t, entrainment_of, extremes_t, &
-      & shares_t, add_shares
-   use camroller_slip_errors, only : slip_points_t, slip_errors_t, start_points, keep_point, set_errors, find_slip_errors
+   use camroller_follower_samples, only : follower_samples_t, start_samples, extremes_t, shares_t
+   use camroller_slip_errors, only : slip_errors_t, find_slip_errors
+   use camroller_lobe_curve, only : lobe_curve_t
    use camroller_names, only : name_length
-   use camroller_panels, only : panels_t, panel_points, panel_places, panel_weights, gauss_points, gauss_weights, &
-      & start_panels, add_panel, add_trapezoid, refine_panels
+   use camroller_panels, only : panels_t, panel_points, panel_places, start_panels, add_panel, add_trapezoid, refine_panels
    use camroller_result, only : quantity_t, find_quantity
    use camroller_standstills, only : add_standstills
    use camroller_stored_work, only : stored_work_t, follow_contact, end_work, spin_work
-   use camroller_trajectory, only : curve_slope
    implicit none
    private
 
@@ -51,6 +49,8 @@ module camroller_means
       real(wp) :: mean_error = 0.0_wp
       !> The mean that has it
       character(len=name_length) :: worst_mean = ""
+      !> What the camshaft takes from the follower
+      type(lobe_curve_t) :: curve
       !> Errors caused by the error of the sliding speed
       type(slip_errors_t) :: slip_errors
       !> Errors of the smallest and the largest value of each series [unit of the series]
@@ -67,8 +67,6 @@ module camroller_means
       real(wp) :: first_standstill = 0.0_wp
    end type statistics_t
 
-   !> Places of the trapezoidal rule on [0, 1] [-]
-   real(wp), parameter :: trapezoid(2) = [0.0_wp, 1.0_wp]
    !> Halvings of panels, at most
    integer, parameter, public :: most_halvings = 1000
    !> Times that what is allowed is taken anew from means that have become better
@@ -94,11 +92,7 @@ contains
       type(error_t), allocatable, intent(out) :: error
 
       type(follower_samples_t) :: samples
-      type(panels_t) :: panels
-      type(estimate_t) :: estimate
-      type(slip_points_t) :: slips
-      type(stored_work_t) :: work
-      type(entrainment_t), allocatable :: speeds(:)
+      type(walk_t) :: walk
       type(quantity_t), allocatable :: series(:)
       ! Length of the cycle [rad]
       real(wp) :: span
@@ -107,151 +101,29 @@ contains
 
       call list_series(case, series)
       call start_samples(samples, model, cycle, case, series_count, find_quantity(series, "torque_geometric"))
-      call walk_round(samples, statistics, panels, estimate, slips, work, speeds, error)
+      call walk_round(samples, walk, error)
       if (allocated(error)) return
+      statistics%shares_t = walk%shares
+      statistics%error_angle = walk%error_angle
+      statistics%curve = walk%curve
       films = [1, 0]
       if (statistics%lost_share > 0.0_wp) films = [find_quantity(series, "film_thickness_min"), find_quantity(series, "film_ratio")]
       if (.not. cycle%is_linear) then
-         call refine_means(panels, samples, cycle%tolerance, series_count, films, error)
-         if (.not. allocated(error)) call add_standstills(samples, speeds, statistics%standstills, statistics%first_standstill, &
-            & error)
+         call refine_means(walk%panels, samples, cycle%tolerance, series_count, films, error)
+         if (.not. allocated(error)) call add_standstills(samples, walk%speeds(:walk%count), statistics%standstills, &
+            & statistics%first_standstill, error)
          if (allocated(error)) return
       end if
-      statistics%rows = samples%rows
       statistics%largest_sliding = samples%largest_sliding
       span = cycle%trajectory%time(cycle%trajectory%count) - cycle%trajectory%time(1)
-      call take_means(panels, samples, work, span, statistics)
-      call find_slip_errors(slips, samples, estimate, statistics%slip_errors)
-      call judge_means(panels, statistics%slip_errors%integrals, span, series(:series_count), films, statistics)
+      call take_means(walk%panels, samples, walk%work, span, statistics)
+      call find_slip_errors(walk%slips, samples, walk%estimate, statistics%slip_errors)
+      call judge_means(walk%panels, statistics%slip_errors%integrals, span, series(:series_count), films, statistics)
       ! The difference between start and end is repeated in each cycle until the periodic one is reached
-      statistics%error = cycle%closure/max(1.0_wp - estimate%contraction, epsilon(1.0_wp)) &
-         & + estimated_error(estimate)/max(statistics%largest_sliding, cycle%scale, tiny(1.0_wp))
+      statistics%error = cycle%closure/max(1.0_wp - walk%estimate%contraction, epsilon(1.0_wp)) &
+         & + estimated_error(walk%estimate)/max(statistics%largest_sliding, cycle%scale, tiny(1.0_wp))
+      statistics%rows = samples%rows
    end subroutine integrate_lobe
-
-   !> Sample every interval of a cycle: panels, estimate of the error, contact, range of the film law.
-   subroutine walk_round(samples, statistics, panels, estimate, slips, work, speeds, error)
-      !> The samples
-      type(follower_samples_t), intent(inout) :: samples
-      !> Shares of the cycle without contact and outside the film law's range, angle of the largest error
-      type(statistics_t), intent(inout) :: statistics
-      !> One panel for each interval
-      type(panels_t), intent(out) :: panels
-      !> Estimate of the error
-      type(estimate_t), intent(inout) :: estimate
-      !> The points of the estimate
-      type(slip_points_t), intent(out) :: slips
-      !> Work of what is stored
-      type(stored_work_t), intent(inout) :: work
-      !> The points, in order
-      type(entrainment_t), allocatable, intent(out) :: speeds(:)
-      !> Convergence error
-      type(error_t), allocatable, intent(out) :: error
-
-      ! Places in an interval [-], weights there and of the points of the estimate [-]
-      real(wp), allocatable :: places(:), weights(:), slip_weights(:)
-      ! Values at the places [unit of each]; ends of an interval, angle [rad]; largest error so far [m/s]
-      real(wp) :: values(samples%series + torque_count, panel_points), left, right, angle, largest
-      integer :: interval, point, count, kept
-      logical :: has_rate
-
-      places = panel_places
-      weights = panel_weights
-      slip_weights = gauss_weights
-      if (samples%cycle%is_linear) then
-         places = trapezoid
-         weights = [0.5_wp, 0.5_wp]
-         slip_weights = weights
-      end if
-      associate (times => samples%cycle%trajectory%time(:samples%cycle%trajectory%count))
-         call start_panels(panels, size(values, 1), 2*size(times))
-         call start_points(slips, size(values, 1), size(times) - 1, size(slip_weights))
-         allocate (speeds(size(places)*size(times)))
-         count = 0
-         do interval = 1, size(times) - 1
-            left = times(interval)
-            right = times(interval + 1)
-            if (.not. right > left) cycle
-            kept = 0
-            do point = 1, size(places)
-               angle = left + places(point)*(right - left)
-               call samples%sample(angle, values(:, point), error)
-               if (allocated(error)) return
-               count = count + 1
-               speeds(count) = entrainment_of(samples, angle)
-               call follow_contact(work, samples, angle, left, error)
-               if (allocated(error)) return
-               call add_shares(statistics, samples%model, samples%state, angle, &
-                  & samples%state%position%lift > samples%model%train%seat_lift, &
-                  & weights(point)*(right - left)/(times(size(times)) - times(1)))
-               has_rate = samples%cycle%is_linear .or. any(gauss_points == point)
-               call add_point(samples, angle, interval, places(point), has_rate, estimate)
-               if (.not. has_rate) cycle
-               kept = kept + 1
-               call keep_point(slips, samples, angle, slip_weights(kept)*(right - left), values(:, point))
-            end do
-            largest = estimate%largest
-            call close_interval(samples%cycle, interval, estimate)
-            call set_errors(slips, estimate)
-            if (estimate%largest > largest) statistics%error_angle = right
-            if (samples%cycle%is_linear) call add_trapezoid(panels, left, right, values(:, :2))
-            if (.not. samples%cycle%is_linear) call add_panel(panels, left, right, values)
-         end do
-      end associate
-      speeds = speeds(:count)
-   end subroutine walk_round
-
-   !> Add the point that was sampled last to the estimate of the error.
-   subroutine add_point(samples, angle, interval, place, has_rate, estimate)
-      !> The samples
-      type(follower_samples_t), intent(in) :: samples
-      !> Cam angle from full lift [rad]
-      real(wp), intent(in) :: angle
-      !> Interval of the trajectory that holds it
-      integer, intent(in) :: interval
-      !> Place of the point in the interval [-]
-      real(wp), intent(in) :: place
-      !> Is the decay rate found there?
-      logical, intent(in) :: has_rate
-      !> Estimate of the error so far
-      type(estimate_t), intent(inout) :: estimate
-
-      ! Defect [m/s/rad], decay rate [1/rad]
-      real(wp) :: defect, decay_rate
-
-      if (.not. has_rate) then
-         call add_defect(estimate, place, defect_at(samples%model, samples%cycle, angle, interval, samples%state))
-         return
-      end if
-      call find_defect(samples%model, samples%cycle, angle, interval, samples%state, estimate%error, defect, decay_rate)
-      call add_defect(estimate, place, defect, decay_rate)
-   end subroutine add_point
-
-   !> Carry the estimate of the error over an interval, with the defects at its ends where the rates of the equation are kept there.
-   pure subroutine close_interval(cycle, interval, estimate)
-      !> Cycle of the lobe
-      type(cycle_t), intent(in) :: cycle
-      !> Interval of its trajectory
-      integer, intent(in) :: interval
-      !> The estimate
-      type(estimate_t), intent(inout) :: estimate
-
-      ! Slope at an end [m/s/rad], defects at both [m/s/rad]
-      real(wp) :: slope(1), ends(2)
-      integer :: i
-
-      associate (trajectory => cycle%trajectory, &
-         & length => cycle%trajectory%time(interval + 1) - cycle%trajectory%time(interval))
-         if (cycle%is_linear .or. allocated(cycle%phases)) then
-            call end_interval(estimate, length)
-            return
-         end if
-         do i = 0, 1
-            call curve_slope(trajectory, trajectory%time(interval + i), interval, slope)
-            ends(i + 1) = slope(1) - trajectory%rate(1, interval + i)
-         end do
-         call end_interval(estimate, length, ends)
-      end associate
-   end subroutine close_interval
 
    !> Halve panels until the means are within the tolerance.
    subroutine refine_means(panels, samples, tolerance, series, films, error)

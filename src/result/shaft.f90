@@ -1,21 +1,25 @@
 !> The camshaft: all followers together, and the bearings that carry them.
 !>
 !> In: case, models and cycles of the lobe shapes. Out: torques of the followers and bearings of each camshaft at a cam angle.
-!> Each cam sees the cycle of its lobe shape at its own phase; without camshaft bearings in the case there is one cam.
+!> Each cam sees the cycle of its lobe shape at its own phase, by the shape's curve where that is good enough; without camshaft
+!> bearings in the case there is one cam.
 module camroller_shaft
    use camroller_kinds, only : wp
    use camroller_error, only : error_t, raise, kind_domain
    use camroller_case, only : camshaft_number, case_t
    use camroller_model, only : model_t
-   use camroller_state, only : state_t, cam_force
+   use camroller_state, only : state_t
    use camroller_cycle, only : cycle_t, state_at
-   use camroller_torque_list, only : of_bearings
-   use camroller_journal, only : cam_bearings_t, journal_t, new_journal, journal_torque
-   use camroller_camshaft, only : share_loads
+   use camroller_lobe_curve, only : lobe_curve_t, close_curve, curve_at, curve_values, cam_values, halve_pieces, &
+      & keep_state, piece_angle
+   use camroller_panels, only : panel_points
+   use camroller_torque_list, only : torque_count, of_bearings
+   use camroller_journal, only : cam_bearings_t, journal_t, new_journal, journal_torque, journal_solved
+   use camroller_camshaft, only : share_force
    implicit none
    private
 
-   public :: shaft_t, solved_t, new_shaft, set_journal, shaft_torques, in_common_frame, bearing_torques
+   public :: shaft_t, solved_t, new_shaft, set_journal, refine_curve, shaft_torques, in_common_frame, bearing_torques
 
    !> Cams of a shaft
    type :: shaft_t
@@ -40,6 +44,8 @@ module camroller_shaft
       type(case_t), pointer :: case => null()
       type(model_t), pointer :: models(:) => null()
       type(cycle_t), pointer :: cycles(:) => null()
+      !> What the camshaft takes from each follower, as a curve
+      type(lobe_curve_t), pointer :: curves(:) => null()
       type(shaft_t) :: shaft
    end type solved_t
 
@@ -95,34 +101,80 @@ contains
       if (allocated(shaft%journal)) call new_journal(shaft%journal, shaft%bearings, viscosity, speed, error)
    end subroutine set_journal
 
-   !> Torques at a cam angle, and the state of the first cam's follower.
-   subroutine shaft_torques(solved, angle, first_state, torques, error)
+   !> Halve the pieces of a follower's curve that are not good enough, where so many cams have its shape that it pays.
+   subroutine refine_curve(shaft, lobe, model, cycle, curve, error)
+      !> The shaft
+      type(shaft_t), intent(in) :: shaft
+      !> The lobe shape
+      integer, intent(in) :: lobe
+      !> Its model
+      type(model_t), intent(in) :: model
+      !> Its cycle
+      type(cycle_t), intent(in) :: cycle
+      !> Its curve
+      type(lobe_curve_t), intent(inout) :: curve
+      !> Convergence error
+      type(error_t), allocatable, intent(out) :: error
+
+      ! Times that a piece is halved: what is left of a kink is a small part of the turn
+      integer, parameter :: most_halvings = 6
+      type(state_t) :: state
+      integer, allocatable :: halves(:)
+      integer :: pass, i, point, hint
+
+      if (count(shaft%lobes == lobe) < 2) return
+      hint = 1
+      do pass = 1, most_halvings
+         call halve_pieces(curve, halves)
+         if (size(halves) == 0) return
+         do i = 1, size(halves)
+            do point = 1, panel_points
+               call state_at(cycle, model, piece_angle(curve, halves(i), point), hint, state, error)
+               if (allocated(error)) return
+               call keep_state(curve, model, state, point, halves(i))
+            end do
+         end do
+         call close_curve(curve, cycle%tolerance)
+      end do
+   end subroutine refine_curve
+
+   !> Torques at a cam angle.
+   subroutine shaft_torques(solved, angle, torques, error, first_state)
       !> The solved case; its search hints move
       type(solved_t), intent(inout) :: solved
       !> Cam angle of the first cam from full lift [rad]
       real(wp), intent(in) :: angle
-      !> State of the first follower
-      type(state_t), intent(out) :: first_state
       !> Torques of all followers and bearings of each camshaft, the rows of `torque_list` [N m], last the energy residual [W]
       real(wp), intent(out) :: torques(:, :)
       !> Convergence or domain error
       type(error_t), allocatable, intent(out) :: error
+      !> State of the first cam's follower there, where it is solved
+      type(state_t), intent(in), optional :: first_state
 
       type(state_t) :: state
-      ! Force on each cam in the frame of the first follower [N]
-      real(wp) :: forces(2, size(solved%shaft%lobes))
+      ! Torques and force of a cam [N m, N]; force on each cam in the frame of the first follower [N]
+      real(wp) :: values(curve_values), forces(2, size(solved%shaft%lobes))
       integer :: cam
+      logical :: is_known
 
       torques = 0.0_wp
       associate (shaft => solved%shaft)
          do cam = 1, size(shaft%lobes)
-            associate (model => solved%models(shaft%lobes(cam)), cycle => solved%cycles(shaft%lobes(cam)))
-               call state_at(cycle, model, angle - shaft%phases(cam), shaft%hints(cam), state, error)
-               if (allocated(error)) return
-               if (cam == 1) first_state = state
-               torques(:, shaft%shafts(cam)) = torques(:, shaft%shafts(cam)) + state%torques
-               if (allocated(shaft%journal)) forces(:, cam) = in_common_frame(shaft, cam, cam_force(model, state))
+            associate (model => solved%models(shaft%lobes(cam)), place => angle - shaft%phases(cam))
+               is_known = cam == 1 .and. present(first_state)
+               if (is_known) then
+                  values = cam_values(model, first_state)
+               else
+                  call curve_at(solved%curves(shaft%lobes(cam)), place, values, is_known)
+               end if
+               if (.not. is_known) then
+                  call state_at(solved%cycles(shaft%lobes(cam)), model, place, shaft%hints(cam), state, error)
+                  if (allocated(error)) return
+                  values = cam_values(model, state)
+               end if
             end associate
+            torques(:, shaft%shafts(cam)) = torques(:, shaft%shafts(cam)) + values(:torque_count)
+            forces(:, cam) = in_common_frame(shaft, cam, values(torque_count + 1:))
          end do
          call bearing_torques(shaft, forces, torques(of_bearings, :), error)
       end associate
@@ -155,43 +207,39 @@ contains
       !> Domain error where a bearing law has no solution
       type(error_t), allocatable, intent(out) :: error
 
-      integer :: cam, k
+      ! Load vector of each bearing [N]; torque of one [N m]
+      real(wp) :: loads(2, bearing_number(shaft)), torque
+      integer :: cam, k, bearing, status
 
       torques = 0.0_wp
       if (.not. allocated(shaft%journal)) return
-      do k = 1, shaft%count
-         call add_bearings(shaft, pack([(cam, cam=1, size(shaft%lobes))], shaft%shafts == k), forces, torques(k), error)
-         if (allocated(error)) return
-      end do
+      associate (places => shaft%bearings%bearing_positions)
+         do k = 1, shaft%count
+            loads = 0.0_wp
+            do cam = 1, size(shaft%lobes)
+               if (shaft%shafts(cam) == k) call share_force(places, shaft%bearings%cam_positions(cam), forces(:, cam), loads)
+            end do
+            do bearing = 1, size(places)
+               call journal_torque(shaft%journal, norm2(loads(:, bearing)), torque, status)
+               if (status /= journal_solved) then
+                  call raise(error, kind_domain, "camshaft bearings: the bearing law has no solution for this load")
+                  return
+               end if
+               torques(k) = torques(k) + torque
+            end do
+         end do
+      end associate
    end subroutine bearing_torques
 
-   !> Torque of all bearings of a camshaft under the forces of its cams.
-   subroutine add_bearings(shaft, cams, forces, bearing_torque, error)
+   !> Number of bearings of a camshaft; none where the case has no such bearings.
+   pure function bearing_number(shaft) result(number)
       !> The shaft
       type(shaft_t), intent(in) :: shaft
-      !> Cams of this camshaft
-      integer, intent(in) :: cams(:)
-      !> Force on each cam [N]
-      real(wp), intent(in) :: forces(:, :)
-      !> Torque of all bearings [N m]
-      real(wp), intent(out) :: bearing_torque
-      !> Domain error where a bearing law has no solution
-      type(error_t), allocatable, intent(out) :: error
+      !> The number
+      integer :: number
 
-      ! Load vector of each bearing [N]; torque of one bearing [N m]
-      real(wp) :: loads(2, size(shaft%bearings%bearing_positions)), torque
-      integer :: bearing, status
-
-      bearing_torque = 0.0_wp
-      call share_loads(shaft%bearings%bearing_positions, shaft%bearings%cam_positions(cams), forces(:, cams), loads)
-      do bearing = 1, size(loads, 2)
-         call journal_torque(shaft%journal, norm2(loads(:, bearing)), torque, status)
-         if (status /= 0) then
-            call raise(error, kind_domain, "camshaft bearings: the bearing law has no solution for this load")
-            return
-         end if
-         bearing_torque = bearing_torque + torque
-      end do
-   end subroutine add_bearings
+      number = 0
+      if (allocated(shaft%journal)) number = size(shaft%bearings%bearing_positions)
+   end function bearing_number
 
 end module camroller_shaft

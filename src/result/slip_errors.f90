@@ -9,9 +9,9 @@
 !> for little the force is off by the defect itself. Between intervals nothing is known of signs, and magnitudes add up.
 module camroller_slip_errors
    use camroller_kinds, only : wp, two_pi
-   use camroller_catalogue, only : follower_count, follower_values
+   use camroller_catalogue, only : follower_values
    use camroller_cycle, only : cycle_t
-   use camroller_error_estimate, only : estimate_t, error_at_start, margin
+   use camroller_error_estimate, only : contact_accuracy_for, estimate_t, error_at_start, margin
    use camroller_follower_samples, only : follower_samples_t, sampled_values
    use camroller_model, only : model_t
    use camroller_shaft, only : solved_t
@@ -135,7 +135,7 @@ contains
 
    !> Error of a smallest or largest value: by how much the error of the sliding speed changes it where it is, or by how much a
    !> point would exceed it without that error.
-   pure subroutine error_of_extreme(errors, solved, lobe, state, angle, series, sense, value, error)
+   pure subroutine error_of_extreme(errors, solved, lobe, state, values, angle, series, sense, value, error)
       !> The errors
       type(slip_errors_t), intent(in) :: errors
       !> The solved case
@@ -144,6 +144,8 @@ contains
       integer, intent(in) :: lobe
       !> State of the follower where the extreme is
       type(state_t), intent(in) :: state
+      !> Series of the follower there [unit of the series]
+      real(wp), intent(in) :: values(:)
       !> Cam angle from full lift, of any turn [rad]
       real(wp), intent(in) :: angle
       !> The series
@@ -157,15 +159,13 @@ contains
 
       ! Part of a value that is rounding of another evaluation [-]
       real(wp), parameter :: rounding = 1.0e-9_wp
-      ! Series there [unit of the series]; angle within the cycle [rad]; error of the trajectory [m/s]; change of the value
-      ! without it [unit of the series]
-      real(wp) :: values(follower_count(solved%case)), inside, slip_error, change
+      ! Angle within the cycle [rad]; error of the trajectory [m/s]; change of the value without it [unit of the series]
+      real(wp) :: inside, slip_error, change
 
       error = 0.0_wp
       if (sense > 0) error = max(0.0_wp, value - errors%lowest(series))
       if (sense < 0) error = max(0.0_wp, errors%highest(series) - value)
       inside = solved%cycles(lobe)%start + modulo(angle - solved%cycles(lobe)%start, two_pi)
-      call follower_values(solved%case, solved%models(lobe), state, values)
       ! The state of a standstill is not that of the curve: it is exact
       if (abs(values(series) - value) <= rounding*abs(value)) then
          slip_error = error_at(errors, inside)
@@ -286,9 +286,10 @@ contains
          if (direction == 0) return
          sliding_speed = direction*max(direction*sliding_speed, 0.0_wp)
          call evaluate_spin(model, state%position, state%moments, sliding_speed, right%contact, right%spin_acceleration, status, &
-            & mobilised=real(direction, wp))
+            & contact_accuracy_for(cycle%tolerance), real(direction, wp), state%contact)
       else
-         call evaluate_spin(model, state%position, state%moments, sliding_speed, right%contact, right%spin_acceleration, status)
+         call evaluate_spin(model, state%position, state%moments, sliding_speed, right%contact, right%spin_acceleration, status, &
+            & contact_accuracy_for(cycle%tolerance), start=state%contact)
       end if
       if (status == 0) call add_torques(model, right)
    end subroutine state_without

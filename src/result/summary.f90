@@ -1,32 +1,31 @@
-!> The summary of a case: means, extremes, losses, slip, margins, work done by the integration.
+!> The summary of a case: means, extremes, losses, slip, margins, what the camshafts mean for their engine, work done by the
+!> integration.
 !>
 !> In: statistics of the cycles. Out: the named scalars of `result_t`.
 module camroller_summary
    use camroller_cam_angle, only : file_angle
-   use camroller_kinds, only : wp, two_pi
+   use camroller_kinds, only : wp, two_pi, degree
    use camroller_case, only : case_t, energy_names
    use camroller_model, only : model_t
    use camroller_cycle, only : cycle_t
    use camroller_flexible_report, only : add_outlook, add_train_scalars
    use camroller_catalogue, only : camshaft_columns, camshaft_values, lobe_columns, lobe_prefix
    use camroller_torque_list, only : torque_list, torque_count, is_loss, of_bearings, of_residual, torque_series
-   use camroller_engine_summary, only : add_engine_scalars
+   use camroller_engine, only : cam_turns, crank_angle_at_nose
    use camroller_margins, only : margin_t, margins_t
    use camroller_means, only : statistics_t
-   use camroller_result, only : result_t, quantity_list_t, add => append_quantity, find_quantity, lobe_scope, scope_camshaft
+   use camroller_number_text, only : integer_text
+   use camroller_result, only : result_t, quantity_list_t, add => append_quantity, find_quantity, lobe_scope, scope_camshaft, &
+      & scope_engine
+   use camroller_series_extremes, only : extremes_t
    use camroller_shaft, only : solved_t
    implicit none
    private
 
-   public :: make_summary, extremes_t
+   public :: make_summary
 
-   !> Smallest and largest values
-   type :: extremes_t
-      !> Of each series [unit of the series]
-      real(wp), allocatable :: lowest(:), highest(:)
-      !> Smallest contact load of each lobe shape with the valve off its seat [N]
-      real(wp), allocatable :: event_load(:)
-   end type extremes_t
+   !> Harmonics of the drive torque that are listed
+   integer, parameter :: most_harmonics = 12
 
 contains
 
@@ -187,6 +186,79 @@ contains
       end subroutine add_loss
 
    end subroutine add_losses
+
+   !> Scalars of the engine; none where the case has no engine or no camshaft bearings, without which it has one cam only.
+   subroutine add_engine_scalars(list, case, result, means)
+      !> List to extend
+      type(quantity_list_t), intent(inout) :: list
+      !> The case
+      type(case_t), intent(in) :: case
+      !> Series
+      type(result_t), intent(in) :: result
+      !> Means of the series [unit of the series]
+      real(wp), intent(in) :: means(:)
+
+      ! Amplitude of a harmonic [N m]
+      real(wp) :: amplitude
+      integer :: i, series
+
+      if (.not. allocated(case%engine) .or. .not. allocated(case%cam_bearings)) return
+      do i = 1, torque_count
+         if (is_loss(i)) call add_pressure(trim(torque_list(i)%name))
+      end do
+      call add_pressure("friction")
+      series = find_quantity(result%series, "torque_drive")
+      do i = 1, most_harmonics
+         if (2*i >= size(result%angle)) exit
+         call get_amplitude(result%series_values(:, series), i, amplitude)
+         call add_scalar("torque_drive_harmonic_"//integer_text(i), "N m", "amplitude of harmonic "//integer_text(i)// &
+            & " of the turn of the camshaft in the drive torque", "torque", amplitude)
+      end do
+      call add_scalar("crank_turns", "1", "turns of the crankshaft in one of the camshaft", "engine", cam_turns(case%engine))
+      call add_scalar("crank_angle_at_nose", "degree", "crank angle after the firing dead centre of cylinder 1 at cam angle "// &
+         & "180, where the first cam is at full lift", "engine", &
+         & crank_angle_at_nose(case%engine, case%cam_bearings%cam_lobes)/degree)
+
+   contains
+
+      !> Friction mean effective pressure of a loss, where the case has it.
+      subroutine add_pressure(loss)
+         !> Name of the loss
+         character(len=*), intent(in) :: loss
+
+         series = find_quantity(result%series, "torque_"//loss)
+         if (series > 0) call add_scalar("fmep_"//loss, "Pa", "friction mean effective pressure of the valve trains, "//loss, &
+            & result%series(series)%source, two_pi*means(series)/case%engine%displacement)
+      end subroutine add_pressure
+
+      !> Add a scalar.
+      subroutine add_scalar(name, unit, description, source, value)
+         !> Name, unit, meaning, part of the model
+         character(len=*), intent(in) :: name, unit, description, source
+         !> Its value [unit of the scalar]
+         real(wp), intent(in) :: value
+
+         call add(list, name, unit, description, source, value, scope_engine)
+      end subroutine add_scalar
+
+   end subroutine add_engine_scalars
+
+   !> Amplitude of a harmonic of what is sampled at equal distances over one turn.
+   pure subroutine get_amplitude(samples, harmonic, amplitude)
+      !> The samples [any]
+      real(wp), intent(in) :: samples(:)
+      !> The harmonic, from 1, fewer than half the samples
+      integer, intent(in) :: harmonic
+      !> Its amplitude [any]
+      real(wp), intent(out) :: amplitude
+
+      ! Angles of the harmonic [rad]
+      real(wp) :: angles(size(samples))
+      integer :: i
+
+      angles = [(two_pi*modulo(real(harmonic, wp)*(i - 1), real(size(samples), wp))/size(samples), i=1, size(samples))]
+      amplitude = 2.0_wp/size(samples)*hypot(sum(samples*cos(angles)), sum(samples*sin(angles)))
+   end subroutine get_amplitude
 
    !> Slip of a lobe's follower over the whole revolution.
    subroutine add_slip(lobe, result, means, statistics, list)

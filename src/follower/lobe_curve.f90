@@ -1,0 +1,207 @@
+!> What a follower gives its camshaft, as a curve over the cam angle: torques and the force on the cam.
+!>
+!> In: the states at the points from which the means of a lobe shape are made. Out: the same quantities at any angle, by the
+!> polynomial through the seven points of a panel, for every cam of the shape at its own phase. Where the two highest terms of a
+!> polynomial are
+!> not within the tolerance of the cycle the curve is not known, and the state has to be solved.
+module camroller_lobe_curve
+   use camroller_kinds, only : wp, two_pi
+   use camroller_model, only : model_t
+   use camroller_panels, only : highest_terms, interpolation_weights, panel_places, panel_points
+   use camroller_state, only : cam_force, state_t
+   use camroller_torque_list, only : torque_count, of_residual
+   implicit none
+   private
+
+   public :: lobe_curve_t, curve_values, start_curve, keep_state, add_piece, close_curve, halve_pieces, piece_angle, curve_at, &
+      & cam_values
+
+   !> Numbers of a state that a camshaft takes: torques, force on the cam
+   integer, parameter :: curve_values = torque_count + 2
+
+   !> The curve, in pieces without gaps
+   type :: lobe_curve_t
+      private
+      integer :: count = 0
+      !> Ends of the pieces, one more than there are [rad]
+      real(wp), allocatable :: ends(:)
+      !> Torques [N m], last the energy residual [W], and force [N] at the points of each piece, shape (quantity, point, piece)
+      real(wp), allocatable :: values(:, :, :)
+      !> Is the polynomial of the piece good enough?
+      logical, allocatable :: is_smooth(:)
+   end type lobe_curve_t
+
+   !> Part of the sum of magnitudes of all torques below which one is rounding [-]
+   real(wp), parameter :: rounding = 1.0e-12_wp
+   !> Highest terms over what the polynomial misses where it is smooth, at least [-]
+   real(wp), parameter :: terms_over_error = 5.0_wp
+
+contains
+
+   !> No pieces yet.
+   pure subroutine start_curve(curve, start, pieces)
+      !> The curve
+      type(lobe_curve_t), intent(out) :: curve
+      !> Cam angle from full lift where it starts [rad]
+      real(wp), intent(in) :: start
+      !> Number of pieces at most
+      integer, intent(in) :: pieces
+
+      allocate (curve%ends(pieces + 1), curve%values(curve_values, panel_points, pieces), curve%is_smooth(pieces))
+      curve%ends(1) = start
+   end subroutine start_curve
+
+   !> Keep the state at a point of a piece: of the one that is added next, unless another is named.
+   pure subroutine keep_state(curve, model, state, point, piece)
+      !> The curve
+      type(lobe_curve_t), intent(inout) :: curve
+      !> Model of the lobe
+      type(model_t), intent(in) :: model
+      !> The state
+      type(state_t), intent(in) :: state
+      !> Which of the points
+      integer, intent(in) :: point
+      !> The piece
+      integer, intent(in), optional :: piece
+
+      if (present(piece)) then
+         curve%values(:, point, piece) = cam_values(model, state)
+      else
+         curve%values(:, point, curve%count + 1) = cam_values(model, state)
+      end if
+   end subroutine keep_state
+
+   !> Add the piece up to an angle whose states are kept.
+   pure subroutine add_piece(curve, right)
+      !> The curve
+      type(lobe_curve_t), intent(inout) :: curve
+      !> Cam angle from full lift where the piece ends [rad]
+      real(wp), intent(in) :: right
+
+      curve%count = curve%count + 1
+      curve%ends(curve%count + 1) = right
+   end subroutine add_piece
+
+   !> Decide of each piece whether its polynomial is good enough: for each quantity, against its largest magnitude in the cycle. The
+   !> energy residual is rounding, and not judged.
+   pure subroutine close_curve(curve, tolerance)
+      !> The curve
+      type(lobe_curve_t), intent(inout) :: curve
+      !> Error allowed, relative to the largest magnitude [-]
+      real(wp), intent(in) :: tolerance
+
+      ! Error allowed of each quantity [unit of each]
+      real(wp) :: allowed(curve_values)
+      integer :: i, piece
+
+      associate (values => curve%values(:, :, :curve%count))
+         allowed = 0.0_wp
+         do piece = 1, curve%count
+            do i = 1, panel_points
+               allowed = max(allowed, abs(values(:, i, piece)))
+            end do
+         end do
+         allowed(:torque_count) = terms_over_error*tolerance*allowed(:torque_count) + rounding*sum(allowed(:torque_count))
+         allowed(torque_count + 1:) = terms_over_error*tolerance*allowed(torque_count + 1:)
+         allowed(of_residual) = huge(1.0_wp)
+         do piece = 1, curve%count
+            curve%is_smooth(piece) = all(highest_terms(values(:, :, piece)) <= allowed)
+         end do
+      end associate
+   end subroutine close_curve
+
+   !> Halve the pieces whose polynomials are not good enough.
+   pure subroutine halve_pieces(curve, halves)
+      !> The curve
+      type(lobe_curve_t), intent(inout) :: curve
+      !> Pieces of which no states are kept yet
+      integer, allocatable, intent(out) :: halves(:)
+
+      type(lobe_curve_t) :: halved
+      integer :: piece
+
+      allocate (halves(0))
+      if (curve%count == 0) return
+      call start_curve(halved, curve%ends(1), curve%count + count(.not. curve%is_smooth(:curve%count)))
+      do piece = 1, curve%count
+         if (curve%is_smooth(piece)) then
+            halved%values(:, :, halved%count + 1) = curve%values(:, :, piece)
+         else
+            halves = [halves, halved%count + 1, halved%count + 2]
+            call add_piece(halved, 0.5_wp*(curve%ends(piece) + curve%ends(piece + 1)))
+         end if
+         call add_piece(halved, curve%ends(piece + 1))
+      end do
+      curve = halved
+   end subroutine halve_pieces
+
+   !> Cam angle of a point of a piece.
+   pure function piece_angle(curve, piece, point) result(angle)
+      !> The curve
+      type(lobe_curve_t), intent(in) :: curve
+      !> The piece and the point
+      integer, intent(in) :: piece, point
+      !> Cam angle from full lift [rad]
+      real(wp) :: angle
+
+      angle = curve%ends(piece) + panel_places(point)*(curve%ends(piece + 1) - curve%ends(piece))
+   end function piece_angle
+
+   !> Torques and force at a cam angle.
+   pure subroutine curve_at(curve, angle, values, is_known)
+      !> The curve
+      type(lobe_curve_t), intent(in) :: curve
+      !> Cam angle from full lift, of any turn [rad]
+      real(wp), intent(in) :: angle
+      !> Torques [N m], last the energy residual [W], and force on the cam [N]
+      real(wp), intent(out) :: values(curve_values)
+      !> Are they known?
+      logical, intent(out) :: is_known
+
+      ! Angle within the curve [rad], distances from the points [-], shares of the points [-]
+      real(wp) :: inside, distances(panel_points), shares(panel_points)
+      integer :: piece, last, middle, point
+
+      values = 0.0_wp
+      is_known = .false.
+      if (curve%count == 0) return
+      inside = curve%ends(1) + modulo(angle - curve%ends(1), two_pi)
+      piece = 1
+      last = curve%count + 1
+      do while (last - piece > 1)
+         middle = (piece + last)/2
+         if (curve%ends(middle) <= inside) then
+            piece = middle
+         else
+            last = middle
+         end if
+      end do
+      is_known = curve%is_smooth(piece) .and. inside <= curve%ends(piece + 1)
+      if (.not. is_known) return
+      distances = (inside - curve%ends(piece))/(curve%ends(piece + 1) - curve%ends(piece)) - panel_places
+      point = minloc(abs(distances), 1)
+      if (abs(distances(point)) <= epsilon(1.0_wp)) then
+         values = curve%values(:, point, piece)
+         return
+      end if
+      shares = interpolation_weights/distances
+      shares = shares/sum(shares)
+      do point = 1, panel_points
+         values = values + shares(point)*curve%values(:, point, piece)
+      end do
+   end subroutine curve_at
+
+   !> What a camshaft takes from a state.
+   pure function cam_values(model, state) result(values)
+      !> Model of the lobe
+      type(model_t), intent(in) :: model
+      !> The state
+      type(state_t), intent(in) :: state
+      !> Torques [N m], last the energy residual [W], and force on the cam [N]
+      real(wp) :: values(curve_values)
+
+      values(:torque_count) = state%torques
+      values(torque_count + 1:) = cam_force(model, state)
+   end function cam_values
+
+end module camroller_lobe_curve

@@ -1,0 +1,338 @@
+!> Smallest and largest values of the series of a case, at the stops and between the angles met as well, with their errors.
+!>
+!> In: the solved case, rows of its series, margins. Out: `extremes_t`.
+module camroller_series_extremes
+   use camroller_kinds, only : wp
+   use camroller_error, only : error_t
+   use camroller_catalogue, only : follower_values, camshaft_values, lobe_columns, camshaft_columns
+   use camroller_cycle, only : state_at
+   use camroller_cycle_remarks, only : has_film_limit
+   use camroller_extremes, only : samples_t, search_t, add_sample, narrow_search, start_search
+   use camroller_margins, only : margins_t
+   use camroller_means, only : statistics_t
+   use camroller_model, only : model_t
+   use camroller_result, only : result_t, quantity_t, find_quantity
+   use camroller_shaft, only : solved_t, shaft_torques
+   use camroller_slip_errors, only : error_of_extreme
+   use camroller_state, only : state_t
+   use camroller_torque_list, only : torque_count, torque_series, of_residual
+   implicit none
+   private
+
+   public :: extremes_t, find_extremes
+
+   !> Smallest and largest values
+   type :: extremes_t
+      !> Of each series [unit of the series]
+      real(wp), allocatable :: lowest(:), highest(:)
+      !> Smallest contact load of each lobe shape with the valve off its seat [N]
+      real(wp), allocatable :: event_load(:)
+   end type extremes_t
+
+   !> Distance of the states on both sides of a stop, where series may jump [rad]
+   real(wp), parameter :: beside = 1.0e-9_wp
+   !> States that are kept while extremes are searched for
+   integer, parameter :: most_kept = 32
+
+   !> The last states that were solved in a search for extremes
+   type :: kept_states_t
+      !> Number of states so far
+      integer :: count = 0
+      !> Their cam angles from full lift [rad]
+      real(wp) :: angles(most_kept) = 0.0_wp
+      type(state_t) :: states(most_kept)
+      !> Series of the follower, shape (series, state) [unit of the series]
+      real(wp), allocatable :: values(:, :)
+      !> Interval of the cycle where the next search starts
+      integer :: hint = 1
+   end type kept_states_t
+
+contains
+
+   !> Smallest and largest value of every series, at the stops and between the angles met as well.
+   subroutine find_extremes(solved, margins, statistics, torque_rows, result, extremes, error)
+      !> The solved case; its search hints move
+      type(solved_t), intent(inout) :: solved
+      !> Margins of each lobe shape
+      type(margins_t), intent(in) :: margins(:)
+      !> Rows of each lobe shape; more are added
+      type(statistics_t), intent(inout) :: statistics(:)
+      !> Rows of the camshaft; more are added
+      type(samples_t), intent(inout) :: torque_rows
+      !> List of series
+      type(result_t), intent(in) :: result
+      !> The extremes
+      type(extremes_t), intent(out) :: extremes
+      !> Convergence or domain error
+      type(error_t), allocatable, intent(out) :: error
+
+      integer :: columns(2), lobe
+
+      allocate (extremes%lowest(size(result%series)), extremes%highest(size(result%series)), &
+         & extremes%event_load(size(solved%models)))
+      do lobe = 1, size(solved%models)
+         columns = lobe_columns(solved%case, lobe)
+         associate (samples => statistics(lobe)%rows)
+            call add_stops(solved, lobe, margins(lobe), samples, error)
+            call find_thickest_film(result%series, statistics(lobe))
+            if (.not. allocated(error)) call search_lobe(solved, lobe, result%series(columns(1):columns(2)), statistics(lobe), &
+               & extremes%lowest(columns(1):columns(2)), extremes%highest(columns(1):columns(2)), error)
+            if (.not. allocated(error)) call judge_extremes(result%series(columns(1):columns(2)), &
+               & extremes%lowest(columns(1):columns(2)), extremes%highest(columns(1):columns(2)), statistics(lobe))
+            if (allocated(error)) return
+            if (allocated(solved%cycles(lobe)%flexible)) then
+               statistics(lobe)%extreme_error = solved%cycles(lobe)%flexible%error
+               statistics(lobe)%worst_extreme = "contact_load"
+            end if
+            extremes%event_load(lobe) = smallest_event_load(solved%models(lobe), result, samples)
+         end associate
+      end do
+      columns = camshaft_columns(solved%case)
+      call search_camshaft(solved, torque_rows, find_quantity(result%series(columns(1):columns(2)), &
+         & trim(torque_series(of_residual))), extremes%lowest(columns(1):columns(2)), &
+         & extremes%highest(columns(1):columns(2)), error)
+   end subroutine find_extremes
+
+   !> Rows of a lobe's follower at the stops, and at the smallest load of the event without friction.
+   subroutine add_stops(solved, lobe, margins, samples, error)
+      !> The solved case
+      type(solved_t), intent(in) :: solved
+      !> The lobe shape, from 1
+      integer, intent(in) :: lobe
+      !> Its margins
+      type(margins_t), intent(in) :: margins
+      !> The rows
+      type(samples_t), intent(inout) :: samples
+      !> Convergence error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(state_t) :: state
+      ! Cam angles from full lift [rad]; a row [unit of the series]
+      real(wp) :: angles(3*size(solved%cycles(lobe)%stops) + 1), values(size(samples%values, 1))
+      integer :: hint, i
+
+      hint = 1
+      associate (stops => solved%cycles(lobe)%stops)
+         angles = [stops - beside, stops, stops + beside, margins%event%angle]
+      end associate
+      do i = 1, size(angles)
+         call state_at(solved%cycles(lobe), solved%models(lobe), angles(i), hint, state, error)
+         if (allocated(error)) return
+         call follower_values(solved%case, solved%models(lobe), state, values)
+         call add_sample(samples, angles(i), values, i < size(angles))
+      end do
+   end subroutine add_stops
+
+   !> Largest central film among the rows of a lobe, over the equivalent radius there.
+   pure subroutine find_thickest_film(series, statistics)
+      !> List of series, of which the first lobe's stand in the order of every lobe's
+      type(quantity_t), intent(in) :: series(:)
+      !> Statistics of the lobe, with the rows; out: with the film
+      type(statistics_t), intent(inout) :: statistics
+
+      integer :: row
+
+      associate (rows => statistics%rows)
+         associate (films => rows%values(find_quantity(series, "film_thickness_central"), :rows%count) &
+            & /rows%values(find_quantity(series, "equivalent_radius"), :rows%count))
+            row = maxloc(films, 1)
+            statistics%thickest_film = films(row)
+            statistics%thickest_angle = rows%angle(row)
+         end associate
+      end associate
+   end subroutine find_thickest_film
+
+   !> Smallest and largest values of a lobe's follower, from its rows and between them; the rows alone where the solution itself is
+   !> only linear between its points.
+   subroutine search_lobe(solved, lobe, list, statistics, lowest, highest, error)
+      !> The solved case
+      type(solved_t), intent(in) :: solved
+      !> The lobe shape, from 1
+      integer, intent(in) :: lobe
+      !> The series of the follower
+      type(quantity_t), intent(in) :: list(:)
+      !> Its statistics, with the rows; out: with the errors of the values
+      type(statistics_t), intent(inout) :: statistics
+      !> The values [unit of the series]
+      real(wp), intent(out) :: lowest(:), highest(:)
+      !> Convergence error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(search_t) :: search
+      type(kept_states_t) :: kept
+      integer :: series, sense, place
+
+      allocate (statistics%extreme_errors(2, size(lowest)))
+      statistics%extreme_errors = 0.0_wp
+      associate (cycle => solved%cycles(lobe))
+         do series = 1, size(lowest)
+            do sense = -1, 1, 2
+               call start_search(statistics%rows, series, sense, cycle%tolerance, search, &
+                  & sense > 0 .and. index(list(series)%name, "film_") > 0)
+               do while (search%is_wanted .and. .not. cycle%is_linear)
+                  call keep_state(kept, solved, lobe, search%trial, size(lowest), place, error)
+                  if (allocated(error)) return
+                  call narrow_search(statistics%rows, search, kept%values(series, place))
+               end do
+               if (sense > 0) lowest(series) = search%value
+               if (sense < 0) highest(series) = -search%value
+               ! Errors of a flexible train are those of its load and sliding speed
+               if (allocated(cycle%flexible)) cycle
+               call keep_state(kept, solved, lobe, search%point, size(lowest), place, error)
+               if (allocated(error)) return
+               associate (of_value => statistics%extreme_errors(merge(1, 2, sense > 0), series))
+                  call error_of_extreme(statistics%slip_errors, solved, lobe, kept%states(place), kept%values(:, place), &
+                     & search%point, series, sense, sense*search%value, of_value)
+                  of_value = of_value + search%left
+               end associate
+            end do
+         end do
+      end associate
+   end subroutine search_lobe
+
+   !> Find the state at a cam angle among the last ones, or solve it: many series have their extremes at the same angles.
+   subroutine keep_state(kept, solved, lobe, angle, series, place, error)
+      !> The states
+      type(kept_states_t), intent(inout) :: kept
+      !> The solved case
+      type(solved_t), intent(in) :: solved
+      !> The lobe shape, from 1
+      integer, intent(in) :: lobe
+      !> Cam angle from full lift [rad]
+      real(wp), intent(in) :: angle
+      !> Number of series of the follower
+      integer, intent(in) :: series
+      !> Place of the state among those kept
+      integer, intent(out) :: place
+      !> Convergence error
+      type(error_t), allocatable, intent(out) :: error
+
+      if (.not. allocated(kept%values)) allocate (kept%values(series, most_kept))
+      do place = 1, min(kept%count, most_kept)
+         if (.not. abs(kept%angles(place) - angle) > 0.0_wp) return
+      end do
+      kept%count = kept%count + 1
+      place = modulo(kept%count - 1, most_kept) + 1
+      kept%angles(place) = angle
+      call state_at(solved%cycles(lobe), solved%models(lobe), angle, kept%hint, kept%states(place), error)
+      if (allocated(error)) return
+      call follower_values(solved%case, solved%models(lobe), kept%states(place), kept%values(:, place))
+   end subroutine keep_state
+
+   !> Largest error of a smallest or largest value, relative to the range of its series; the smallest film counts by itself, and so
+   !> does that of every film where the largest has no limit.
+   pure subroutine judge_extremes(series, lowest, highest, statistics)
+      !> The series of the follower
+      type(quantity_t), intent(in) :: series(:)
+      !> Smallest and largest values [unit of the series]
+      real(wp), intent(in) :: lowest(:), highest(:)
+      !> Statistics of the lobe; out: with the largest error
+      type(statistics_t), intent(inout) :: statistics
+
+      ! Errors over the range [-]
+      real(wp) :: relative(size(series))
+      ! Range that counts as none, whose quotients do not overflow [unit of the series]
+      real(wp), parameter :: least = sqrt(tiny(1.0_wp))
+      integer :: i
+
+      associate (errors => statistics%extreme_errors)
+         do i = 1, size(series)
+            relative(i) = 0.0_wp
+            ! A quantity that is zero throughout has no error
+            if (.not. maxval(errors(:, i)) > 0.0_wp) cycle
+            if (index(series(i)%name, "film_") > 0 .and. .not. has_film_limit(statistics)) then
+               if (lowest(i) > least) relative(i) = errors(1, i)/lowest(i)
+               cycle
+            end if
+            relative(i) = maxval(errors(:, i))/max(highest(i) - lowest(i), least)
+            if (index(series(i)%name, "film_thickness_min") > 0) relative(i) = max(relative(i), errors(1, i)/max(lowest(i), least))
+         end do
+      end associate
+      i = maxloc(relative, 1)
+      statistics%extreme_error = relative(i)
+      statistics%worst_extreme = series(i)%name
+   end subroutine judge_extremes
+
+   !> Smallest and largest values of the camshaft's series.
+   subroutine search_camshaft(solved, samples, residual, lowest, highest, error)
+      !> The solved case; its search hints move
+      type(solved_t), intent(inout) :: solved
+      !> Rows of the camshaft; those of the stops are added
+      type(samples_t), intent(inout) :: samples
+      !> Which series is the energy residual, 0 for none: it is rounding, of which the rows show enough
+      integer, intent(in) :: residual
+      !> The values [unit of the series]
+      real(wp), intent(out) :: lowest(:), highest(:)
+      !> Convergence or domain error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(search_t) :: search
+      ! Stops of all cams [rad]; a row [unit of the series]
+      real(wp), allocatable :: stops(:)
+      real(wp) :: values(size(lowest))
+      integer :: i, series, sense
+
+      stops = [(solved%cycles(solved%shaft%lobes(i))%stops + solved%shaft%phases(i), i=1, size(solved%shaft%lobes))]
+      stops = [stops - beside, stops, stops + beside]
+      do i = 1, size(stops)
+         call camshaft_row(solved, stops(i), values, error)
+         if (allocated(error)) return
+         call add_sample(samples, stops(i), values, .true.)
+      end do
+      do series = 1, size(values)
+         do sense = -1, 1, 2
+            call start_search(samples, series, sense, maxval(solved%cycles%tolerance), search)
+            do while (search%is_wanted .and. series /= residual .and. .not. any(solved%cycles%is_linear))
+               call camshaft_row(solved, search%trial, values, error)
+               if (allocated(error)) return
+               call narrow_search(samples, search, values(series))
+            end do
+            if (sense > 0) lowest(series) = search%value
+            if (sense < 0) highest(series) = -search%value
+         end do
+      end do
+   end subroutine search_camshaft
+
+   !> The camshaft's series at a cam angle.
+   subroutine camshaft_row(solved, angle, values, error)
+      !> The solved case; its search hints move
+      type(solved_t), intent(inout) :: solved
+      !> Cam angle of the first cam from full lift [rad]
+      real(wp), intent(in) :: angle
+      !> The series [unit of the series]
+      real(wp), intent(out) :: values(:)
+      !> Convergence or domain error
+      type(error_t), allocatable, intent(out) :: error
+
+      ! Torques on each camshaft [N m]
+      real(wp) :: torques(torque_count, solved%shaft%count)
+
+      call shaft_torques(solved, angle, torques, error)
+      if (allocated(error)) return
+      call camshaft_values(solved%case, torques, values)
+   end subroutine camshaft_row
+
+   !> Smallest contact load with the valve off its seat; over the whole cycle where it never leaves it.
+   pure function smallest_event_load(model, result, samples) result(load)
+      !> Model of the lobe
+      type(model_t), intent(in) :: model
+      !> Series
+      type(result_t), intent(in) :: result
+      !> Rows of the lobe
+      type(samples_t), intent(in) :: samples
+      !> The load [N]
+      real(wp) :: load
+
+      ! Part of the lift at the seat that counts as all of it at a stop [-]
+      real(wp), parameter :: nearly = 1.0_wp - 1.0e-9_wp
+      logical :: in_event(samples%count)
+
+      associate (lift => samples%values(find_quantity(result%series, "valve_lift"), :samples%count), &
+         & loads => samples%values(find_quantity(result%series, "contact_load"), :samples%count))
+         in_event = lift > 0.0_wp .and. lift >= nearly*model%train%seat_lift
+         if (.not. any(in_event)) in_event = .true.
+         load = minval(loads, in_event)
+      end associate
+   end function smallest_event_load
+
+end module camroller_series_extremes
