@@ -232,8 +232,8 @@ contains
       if (group == "spring_surge" .and. key%name == "mass_kg") then
          mass = deck_word(deck%text, "masses", "valve_kg")
          read (mass, *) valve
-         usual%lowest = 0.3_wp*valve
-         usual%highest = 2.5_wp*valve
+         if (valve > 0.0_wp) usual%lowest = 0.3_wp*valve
+         if (valve > 0.0_wp) usual%highest = 2.5_wp*valve
       end if
       call draw(random, number)
       if (number < style%ends_share) then
