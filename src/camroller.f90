@@ -7,7 +7,7 @@
 module camroller
    use camroller_core, only : wp, pi, two_pi, degree, version_text, version_number, error_t, kind_usage, kind_deck, &
       & kind_domain, kind_convergence, kind_file, kind_internal, case_t, operating_point_t, numerics_t, lift_t, mechanism_t, &
-      & masses_t, spring_t, gas_force_t, materials_t, surface_t, lubricant_t, film_t, ehl_t, asperity_t, traction_t, &
+      & masses_t, spring_t, gas_force_t, materials_t, surface_t, lubricant_t, film_t, ehl_t, asperity_t, traction_t, heat_t, &
       & needle_bearing_t, valve_guide_t, roller_t, cam_bearings_t, deck_t, override_t, read_deck, parse_deck, make_case, &
       & run_case, result_t, quantity_t, find_quantity, get_series, get_summary, use_one_blas_thread, simulation_t, outcome_t, &
       & inputs_t, start_simulation, advance, halt, save_simulation, restore_simulation, shaft_simulation_t, shaft_outcome_t, &
@@ -27,7 +27,7 @@ module camroller
    public :: wp, pi, two_pi, degree, version_text, version_number
    public :: error_t, kind_usage, kind_deck, kind_domain, kind_convergence, kind_file, kind_internal
    public :: case_t, operating_point_t, numerics_t, lift_t, mechanism_t, masses_t, spring_t, gas_force_t, materials_t, surface_t, &
-      & lubricant_t, film_t, ehl_t, asperity_t, traction_t, needle_bearing_t, valve_guide_t, roller_t, cam_bearings_t
+      & lubricant_t, film_t, ehl_t, asperity_t, traction_t, heat_t, needle_bearing_t, valve_guide_t, roller_t, cam_bearings_t
    public :: needle_drag_t, sliding_t, valve_tip_t, stem_seal_t, guide_side_load_t, finger_pivot_t
    public :: deck_t, override_t, read_deck, parse_deck, make_case
    public :: run_case, result_t, quantity_t, find_quantity, get_series, get_summary, use_one_blas_thread

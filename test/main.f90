@@ -16,6 +16,8 @@ program main
    use test_dual, only : collect_dual
    use test_needle_drag, only : collect_needle_drag
    use test_joints, only : collect_joints
+   use test_heat, only : collect_heat
+   use test_heat_laws, only : collect_heat_laws
    use test_spline, only : collect_spline
    use test_lift_segments, only : collect_lift_segments
    use test_lift, only : collect_lift
@@ -181,6 +183,8 @@ contains
          new_testsuite("dual", collect_dual), &
          new_testsuite("needle_drag", collect_needle_drag), &
          new_testsuite("joints", collect_joints), &
+         new_testsuite("heat", collect_heat), &
+         new_testsuite("heat_laws", collect_heat_laws), &
          new_testsuite("spline", collect_spline), &
          new_testsuite("lift", collect_lift), &
          new_testsuite("lift_segments", collect_lift_segments), &

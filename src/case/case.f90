@@ -15,6 +15,7 @@ module camroller_case
    use camroller_film, only : film_t
    use camroller_asperity, only : asperity_t
    use camroller_traction, only : traction_t
+   use camroller_heat, only : heat_t
    use camroller_needle, only : needle_bearing_t
    use camroller_needle_drag, only : needle_drag_t
    use camroller_guide, only : valve_guide_t
@@ -115,6 +116,8 @@ module camroller_case
       type(roller_t) :: roller
       type(film_t) :: film
       type(traction_t) :: traction
+      !> Heat in inlet and contact
+      type(heat_t), allocatable :: heat
       type(asperity_t), allocatable :: asperity
       type(needle_bearing_t), allocatable :: needle_bearing
       type(needle_drag_t), allocatable :: needle_drag

@@ -6,6 +6,7 @@ module camroller_effect_list
    use camroller_names, only : name_length
    use camroller_case, only : case_t, quasi_static, automatic_method, quantity_names
    use camroller_film, only : film_law_names, law_dowson_higginson, law_masjedi_khonsari, law_masjedi_khonsari_rough, law_moes
+   use camroller_heat, only : inlet_law_names, contact_heat_names, inlet_none, contact_heat_none
    use camroller_lubricant, only : pressure_law_names, law_cameron
    use camroller_traction, only : rolling_law_names, rolling_none, shear_law_names, law_newtonian
    implicit none
@@ -14,16 +15,17 @@ module camroller_effect_list
    public :: effect_names, effect_count, decision_t, choice_t, leave_out, leave_all_but, has_effect
    public :: effect_asperity, effect_needle, effect_guide, effect_bearings, effect_gas, effect_rolling, effect_film, &
       & effect_pressure, effect_shear, effect_spin, effect_ehl, effect_tip, effect_seal, effect_side, effect_pivot, &
-      & effect_drag
+      & effect_drag, effect_inlet_heat, effect_contact_heat
 
    !> Effects: groups of the deck, and laws that have a simpler one beside them
    character(len=*), parameter :: effect_names(*) = [character(len=name_length) :: "asperity", "needle_bearing", "valve_guide", &
       & "cam_bearings", "gas_force", "rolling_resistance", "film_law", "pressure_law", "shear_law", "roller_equation", &
-      & "ehl", "valve_tip", "stem_seal", "guide_side_load", "finger_pivot", "needle_drag"]
+      & "ehl", "valve_tip", "stem_seal", "guide_side_load", "finger_pivot", "needle_drag", "inlet_heat", "contact_heat"]
    !> Positions in it
    integer, parameter :: effect_asperity = 1, effect_needle = 2, effect_guide = 3, effect_bearings = 4, effect_gas = 5, &
       & effect_rolling = 6, effect_film = 7, effect_pressure = 8, effect_shear = 9, effect_spin = 10, effect_ehl = 11, &
-      & effect_tip = 12, effect_seal = 13, effect_side = 14, effect_pivot = 15, effect_drag = 16
+      & effect_tip = 12, effect_seal = 13, effect_side = 14, effect_pivot = 15, effect_drag = 16, &
+      & effect_inlet_heat = 17, effect_contact_heat = 18
    !> Their number
    integer, parameter :: effect_count = size(effect_names)
    !> Words of a reason
@@ -99,6 +101,10 @@ contains
          if (allocated(variant%finger_pivot)) deallocate (variant%finger_pivot)
       case (effect_drag)
          if (allocated(variant%needle_drag)) deallocate (variant%needle_drag)
+      case (effect_inlet_heat)
+         if (allocated(variant%heat)) variant%heat%inlet_law = inlet_law_names(inlet_none)
+      case (effect_contact_heat)
+         if (allocated(variant%heat)) variant%heat%contact = contact_heat_names(contact_heat_none)
       end select
    end subroutine leave_out
 
@@ -160,6 +166,10 @@ contains
          has = allocated(case%finger_pivot)
       case (effect_drag)
          has = allocated(case%needle_drag)
+      case (effect_inlet_heat)
+         if (allocated(case%heat)) has = case%heat%inlet_law /= inlet_law_names(inlet_none)
+      case (effect_contact_heat)
+         if (allocated(case%heat)) has = case%heat%contact /= contact_heat_names(contact_heat_none)
       end select
    end function has_effect
 

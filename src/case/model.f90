@@ -5,7 +5,7 @@
 module camroller_model
    use camroller_kinds, only : wp, pi, degree
    use camroller_engine, only : cam_turns
-   use camroller_error, only : error_t, raise, add_context, kind_deck, kind_domain
+   use camroller_error, only : error_t, raise, kind_deck
    use camroller_names, only : name_length, find_name
    use camroller_accuracy, only : check_numerics, is_within, above_zero
    use camroller_case, only : case_t, contact_policy_names, energy_names
@@ -22,10 +22,10 @@ module camroller_model
    use camroller_film_table, only : film_table_t
    use camroller_ehl_problem, only : largest_pressure, speed_range, load_range
    use camroller_ehl_table, only : ehl_t, build_film_table
-   use camroller_asperity, only : asperity_law_names, law_zhao_maietta_chang, smallest_product, boundary_names, &
-      & mobilisation_names, asperity_constants_t, new_asperity_constants
+   use camroller_asperity, only : boundary_part_t, boundary_names, new_boundary_part
    use camroller_number_text, only : number_text
-   use camroller_traction, only : traction_t, shear_law_names, cap_names, rolling_law_names
+   use camroller_traction, only : shear_law_names, cap_names, rolling_law_names
+   use camroller_heat, only : heat_part_t, new_heat_part, set_heat_oil
    use camroller_needle, only : bearing_part_t, new_bearing_part
    use camroller_needle_drag, only : drag_part_t, new_drag_part, set_drag_oil
    use camroller_guide, only : guide_drag_coefficient
@@ -36,23 +36,7 @@ module camroller_model
    implicit none
    private
 
-   public :: model_t, boundary_part_t, new_model, revise_model, set_operating_point, evaluate_geometry
-
-   !> Asperities and their friction, ready for evaluation
-   type :: boundary_part_t
-      !> Constants of load and area
-      type(asperity_constants_t) :: constants
-      !> mu_B [-]
-      real(wp) :: coefficient
-      !> tau_0 [Pa]
-      real(wp) :: film_shear_strength
-      !> v_b [m/s]
-      real(wp) :: mobilising_speed
-      !> Is all of the boundary friction counted, whether mobilised or not?
-      logical :: is_full
-      !> Does friction take any value up to its limit where nothing slides, and its limit elsewhere?
-      logical :: is_set_valued
-   end type boundary_part_t
+   public :: model_t, new_model, revise_model, set_operating_point, evaluate_geometry
 
    !> A model of one lobe and its follower
    type :: model_t
@@ -83,6 +67,7 @@ module camroller_model
       type(lubricant_t) :: lubricant
       type(oil_t) :: oil
       type(boundary_part_t), allocatable :: boundary
+      type(heat_part_t), allocatable :: heat
       type(bearing_part_t), allocatable :: bearing
       !> Drag of the oil in that bearing
       type(drag_part_t), allocatable :: drag
@@ -175,6 +160,7 @@ contains
       has_same_films = allocated(model%film_table) .and. allocated(case%ehl) .and. &
          & model%lubricant%pressure_law == case%lubricant%pressure_law
       if (allocated(model%boundary)) deallocate (model%boundary)
+      if (allocated(model%heat)) deallocate (model%heat)
       if (allocated(model%bearing)) deallocate (model%bearing)
       if (allocated(model%drag)) deallocate (model%drag)
       if (allocated(model%guide_drag)) deallocate (model%guide_drag)
@@ -225,6 +211,8 @@ contains
       if (allocated(model%bearing)) model%bearing%reversal_spin = model%bearing%reversal_ratio*speed
       if (allocated(model%drag)) call set_drag_oil(model%drag, model%oil%viscosity/density_at(model%lubricant, oil_temperature), &
          & speed)
+      if (allocated(model%heat)) call set_heat_oil(model%heat, model%lubricant, oil_temperature, model%oil, error)
+      if (allocated(error)) return
       if (allocated(model%ehl)) call set_film_table(model, error)
    end subroutine set_operating_point
 
@@ -443,30 +431,17 @@ contains
       !> Deck error
       type(error_t), allocatable, intent(out) :: error
 
-      integer :: choice
-
       model%crank_turns = 0.0_wp
       if (allocated(case%engine)) model%crank_turns = cam_turns(case%engine)
       if (allocated(case%asperity)) then
-         call find_name("boundary friction", case%asperity%boundary, boundary_names, choice, error)
-         if (allocated(error)) return
          allocate (model%boundary)
-         model%boundary%is_full = choice == 2
-         call find_name("mobilisation of boundary friction", case%asperity%mobilisation, mobilisation_names, choice, error)
+         call new_boundary_part(model%boundary, case%asperity, model%modulus, model%hardness, error)
          if (allocated(error)) return
-         model%boundary%is_set_valued = choice == 2
-         model%boundary%coefficient = case%asperity%boundary_coefficient
-         model%boundary%film_shear_strength = case%asperity%film_shear_strength
-         model%boundary%mobilising_speed = case%asperity%mobilising_speed
-         call find_name("asperity law", case%asperity%law, asperity_law_names, choice, error)
+      end if
+      if (allocated(case%heat)) then
+         allocate (model%heat)
+         call new_heat_part(model%heat, case%heat, allocated(case%ehl), error)
          if (allocated(error)) return
-         if (choice == law_zhao_maietta_chang .and. .not. model%hardness > 0.0_wp) then
-            call raise(error, kind_deck, "materials: the asperity law 'zhao_maietta_chang' needs the hardness")
-         else if (choice == law_zhao_maietta_chang .and. .not. case%asperity%roughness_product >= smallest_product) then
-            call raise(error, kind_deck, "asperity: the law 'zhao_maietta_chang' needs a roughness product of 0.025 or more")
-         end if
-         if (allocated(error)) return
-         call new_asperity_constants(model%boundary%constants, case%asperity, model%modulus, model%hardness)
       end if
       if (allocated(case%needle_bearing)) then
          allocate (model%bearing)

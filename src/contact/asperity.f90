@@ -6,13 +6,15 @@
 !> (eta beta sigma) squared in the real area as well. Zhao, Maietta and Chang (2000), J. Tribol. 122, 86-93.
 module camroller_asperity
    use camroller_kinds, only : wp, pi
-   use camroller_names, only : name_length
+   use camroller_error, only : error_t, raise, kind_deck
+   use camroller_names, only : name_length, find_name
    use camroller_greenwood_tripp, only : integral_2, integral_5_2, largest_film_ratio
    use camroller_zhao_maietta_chang, only : summits_t, new_summits, summits_load, summits_area, first_yield, smallest_product
    implicit none
    private
 
    public :: asperity_t, asperity_constants_t, asperity_law_names, boundary_names, mobilisation_names, largest_film_ratio
+   public :: boundary_part_t, new_boundary_part
    public :: law_greenwood_tripp, law_zhao_maietta_chang, smallest_product
    public :: new_asperity_constants, asperity_load_function, asperity_area_function
    public :: asperity_load, asperity_area
@@ -60,7 +62,58 @@ module camroller_asperity
       type(summits_t) :: summits
    end type asperity_constants_t
 
+   !> Asperities and their friction, ready for evaluation
+   type :: boundary_part_t
+      !> Constants of load and area
+      type(asperity_constants_t) :: constants
+      !> mu_B [-]
+      real(wp) :: coefficient
+      !> tau_0 [Pa]
+      real(wp) :: film_shear_strength
+      !> v_b [m/s]
+      real(wp) :: mobilising_speed
+      !> Is all of the boundary friction counted, whether mobilised or not?
+      logical :: is_full
+      !> Does friction take any value up to its limit where nothing slides, and its limit elsewhere?
+      logical :: is_set_valued
+   end type boundary_part_t
+
 contains
+
+   !> Prepare asperities and their friction.
+   subroutine new_boundary_part(part, asperity, modulus, hardness, error)
+      !> Ready for evaluation
+      type(boundary_part_t), intent(out) :: part
+      !> Asperities
+      type(asperity_t), intent(in) :: asperity
+      !> Equivalent modulus, E' [Pa]
+      real(wp), intent(in) :: modulus
+      !> Hardness of the softer body; zero: not known [Pa]
+      real(wp), intent(in) :: hardness
+      !> Deck error for an unknown name, or where the law lacks something
+      type(error_t), allocatable, intent(out) :: error
+
+      integer :: choice
+
+      call find_name("boundary friction", asperity%boundary, boundary_names, choice, error)
+      if (allocated(error)) return
+      part%is_full = choice == 2
+      call find_name("mobilisation of boundary friction", asperity%mobilisation, mobilisation_names, choice, error)
+      if (allocated(error)) return
+      part%is_set_valued = choice == 2
+      part%coefficient = asperity%boundary_coefficient
+      part%film_shear_strength = asperity%film_shear_strength
+      part%mobilising_speed = asperity%mobilising_speed
+      call find_name("asperity law", asperity%law, asperity_law_names, choice, error)
+      if (allocated(error)) return
+      if (choice == law_zhao_maietta_chang .and. .not. hardness > 0.0_wp) then
+         call raise(error, kind_deck, "materials: the asperity law 'zhao_maietta_chang' needs the hardness")
+      else if (choice == law_zhao_maietta_chang .and. .not. asperity%roughness_product >= smallest_product) then
+         call raise(error, kind_deck, "asperity: the law 'zhao_maietta_chang' needs a roughness product of 0.025 or more")
+      end if
+      if (allocated(error)) return
+      call new_asperity_constants(part%constants, asperity, modulus, hardness)
+   end subroutine new_boundary_part
 
    !> Derive the constants of a pair of surfaces.
    pure subroutine new_asperity_constants(constants, asperity, modulus, hardness)

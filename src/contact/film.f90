@@ -77,6 +77,8 @@ module camroller_film
       type(groups_t) :: groups
       !> Power laws: logarithm of the minimum and the central film at unit load [-]
       real(wp) :: unit_logs(2)
+      !> ln of a factor on both films: heat in the inlet [-]
+      real(wp) :: log_factor = 0.0_wp
       !> Table: films over the load
       type(film_series_t) :: series
    end type film_line_t
@@ -176,6 +178,9 @@ contains
          groups%load = load
          call film_shape(line%law, groups, shape)
       end if
+      if (line%is_power .or. .not. abs(line%log_factor) > 0.0_wp) return
+      shape%minimum = shape%minimum*exp(line%log_factor)
+      shape%central = shape%central*exp(line%log_factor)
    end subroutine film_at_load
 
    !> Logarithms of both films at a load that the film carries, and the slopes; the films themselves are left to the caller.
@@ -191,7 +196,7 @@ contains
 
       if (line%is_power) then
          call power_slopes(line%law, shape)
-         logs = line%unit_logs + power_laws(4, :, line%law)*log(load)
+         logs = line%unit_logs + power_laws(4, :, line%law)*log(load) + line%log_factor
       else
          call film_at_load(line, load, shape)
          logs = log([shape%minimum, shape%central])
@@ -277,8 +282,8 @@ contains
 
       log_load = log(load)
       call power_slopes(line%law, shape)
-      shape%minimum = exp(line%unit_logs(1) + shape%minimum_load_slope*log_load)
-      shape%central = exp(line%unit_logs(2) + shape%central_load_slope*log_load)
+      shape%minimum = exp(line%unit_logs(1) + shape%minimum_load_slope*log_load + line%log_factor)
+      shape%central = exp(line%unit_logs(2) + shape%central_load_slope*log_load + line%log_factor)
    end subroutine power_at_load
 
    !> Slopes of a pair of power laws.

@@ -208,8 +208,8 @@ contains
    !> How the share follows changes of load over radius, speed and radius; the apparent area is that of a line contact.
    !>
    !> With q = d ln(W/R), u = d ln U and r = d ln R, load groups follow q, the area over E' R L follows q/2 and the roughness
-   !> over the radius -r; `h = h(W* - w_a(h))` is differentiated as it stands.
-   pure function share_change(line, load, share, q, u, r) result(change)
+   !> over the radius -r; `h = f h(W* - w_a(h))` is differentiated as it stands.
+   pure function share_change(line, load, share, q, u, r, f) result(change)
       !> Film over the load at the speed of the contact
       type(film_line_t), intent(in) :: line
       !> Whole load over E' R L [-]
@@ -218,6 +218,8 @@ contains
       type(share_t), intent(in) :: share
       !> Changes of load over radius, of the speed group and of the radius, their logarithms [-]
       real(wp), intent(in) :: q, u, r
+      !> Change of the factor on both films, its logarithm; absent: none [-]
+      real(wp), intent(in), optional :: f
       !> What follows
       type(share_change_t) :: change
 
@@ -229,6 +231,8 @@ contains
       associate (shape => share%shape)
          own = shape%minimum_speed_slope*u - shape%minimum_roughness_slope*r
          own_central = shape%central_speed_slope*u - shape%central_roughness_slope*r
+         if (present(f)) own = own + f
+         if (present(f)) own_central = own_central + f
          change%film_load = q
          if (.not. share%has_asperities .or. takes_whole_load(line%law)) then
             film_ratio = own + shape%minimum_load_slope*q + r

@@ -11,6 +11,7 @@ module camroller_deck_case
    use camroller_settings, only : settings_t, take, get_word, has_group
    use camroller_deck_engine, only : fill_engine
    use camroller_deck_dynamics, only : fill_dynamics
+   use camroller_deck_heat, only : fill_heat
    use camroller_deck_joints, only : fill_joints
    use camroller_deck_tables, only : deck_tables_t, get_lift_table, get_pressure_table
    implicit none
@@ -44,6 +45,7 @@ contains
       call fill_materials(settings, case)
       call fill_lubricant(settings, case)
       call fill_contact(settings, case)
+      call fill_heat(settings, case)
       call fill_asperity(settings, case)
       call fill_bearings(settings, case)
       call fill_engine(settings, case)

@@ -12,6 +12,7 @@ module camroller_deck_relations
    use camroller_mistakes, only : mistakes_t
    use camroller_settings, only : settings_t, take, find_value, is_known, is_wrong, get_word, has_group
    use camroller_deck_dynamics, only : check_dynamics
+   use camroller_deck_heat, only : check_heat
    use camroller_deck_joints, only : check_joints
    use camroller_deck_complaint, only : complain, complain_about_group
    use camroller_deck_engine, only : check_engine
@@ -44,6 +45,7 @@ contains
       call output_step_divides_the_turn(settings, mistakes)
       call stick_slip_has_a_method(settings, mistakes)
       call check_joints(settings, mistakes)
+      call check_heat(settings, mistakes)
       call check_dynamics(settings, mistakes)
    end subroutine check_relations
 

@@ -62,6 +62,15 @@ module camroller_usual_values
       usual_t("lubricant.roelands_index", 0.2_wp, 1.2_wp), &
       usual_t("traction.eyring_stress_MPa", 0.5_wp, 30.0_wp), &
       usual_t("traction.limiting_coefficient", 0.01_wp, 0.2_wp), &
+      usual_t("heat.oil_conductivity_W_m_K", 0.05_wp, 0.5_wp), &
+      usual_t("heat.viscosity_fall_per_K", 0.01_wp, 0.12_wp), &
+      usual_t("heat.limit_fall_per_K", 0.0_wp, 0.02_wp), &
+      usual_t("heat.cam_conductivity_W_m_K", 1.0_wp, 200.0_wp), &
+      usual_t("heat.cam_density_kg_m3", 2000.0_wp, 9000.0_wp), &
+      usual_t("heat.cam_heat_capacity_J_kg_K", 300.0_wp, 1000.0_wp), &
+      usual_t("heat.roller_conductivity_W_m_K", 1.0_wp, 200.0_wp), &
+      usual_t("heat.roller_density_kg_m3", 2000.0_wp, 9000.0_wp), &
+      usual_t("heat.roller_heat_capacity_J_kg_K", 300.0_wp, 1000.0_wp), &
       usual_t("asperity.roughness_product", 0.01_wp, 0.15_wp), &
       usual_t("asperity.roughness_over_tip_radius", 1.0e-5_wp, 0.1_wp), &
       usual_t("asperity.boundary_coefficient", 0.0_wp, 0.5_wp), &

@@ -8,7 +8,7 @@ module camroller_effect_reasons
    use camroller_contact_forces, only : film_groups
    use camroller_effect_list, only : effect_names, effect_asperity, effect_needle, effect_guide, effect_bearings, effect_gas, &
       & effect_rolling, effect_film, effect_pressure, effect_shear, effect_spin, effect_ehl, effect_tip, effect_seal, effect_side, &
-      & effect_pivot, effect_drag
+      & effect_pivot, effect_drag, effect_inlet_heat, effect_contact_heat
    use camroller_effect_grid, only : points, mean_over
    use camroller_effect_survey, only : survey_t
    use camroller_film, only : groups_t
@@ -72,6 +72,10 @@ contains
          case (effect_shear)
             lost = maxval(abs(contact%shear)/contact%apparent_area)/model%eyring_stress
             reason = "mean shear stress up to "//trim(percent(lost))//" of the Eyring stress"
+         case (effect_inlet_heat)
+            reason = "heat in the inlet thins the film by up to "//trim(percent(1.0_wp - minval(contact%inlet_factor)))
+         case (effect_contact_heat)
+            reason = "the film is up to "//trim(text(maxval(contact%film_rise)))//" K warmer than the oil"
          case (effect_spin)
             lost = maxval(abs(contact%traction)/(model%limiting_coefficient*contact%load + contact%boundary_capacity))
             reason = "traction up to "//trim(percent(lost))//" of what the contact can bear; slip follows its balance within "// &

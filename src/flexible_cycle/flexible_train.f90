@@ -14,7 +14,8 @@ module camroller_flexible_train
    use camroller_spring_modes, only : valve_pull
    use camroller_lash_adjuster, only : flows_t, ambient_pressure, evaluate_flows, adjuster_force, bulk_modulus, &
       & chamber_volume
-   use camroller_contact_forces, only : contact_t, setting_t, parts_t, prepare_contact, evaluate_contact, release_contact
+   use camroller_contact_forces, only : contact_t, setting_t, parts_t, start_heat, prepare_contact, evaluate_contact, &
+      & release_contact
    use camroller_flexible_geometry, only : touch_t, find_touch, dot, cross, imaginary
    implicit none
    private
@@ -201,6 +202,7 @@ contains
          cam%by_rate = 0.0_wp
          if (factor > 0.0_wp) cam%by_rate = cam%elastic*flexible%contact_damping
          call set_surface_speeds(model, state, touch, contact)
+         if (allocated(model%heat)) call start_heat(model, contact)
          if (.not. cam%force > least_load) then
             call release_contact(contact)
             return

@@ -5,115 +5,25 @@ module camroller_contact_forces
    use camroller_kinds, only : wp
    use camroller_model, only : model_t
    use camroller_kinematics, only : position_t
-   use camroller_hertz, only : half_width
-   use camroller_lubricant, only : mean_relative_viscosity
-   use camroller_film, only : groups_t, film_line_t, new_film_line
-   use camroller_load_share, only : share_t, share_change_t, share_load, improve_share, share_change
-   use camroller_traction, only : film_pressure, newtonian_shear, eyring_shear, blunt_shear, limit_shear, mobilised_share, &
-      & sliding_direction, rolling_resistance, resistance_speed_slope, law_newtonian, rolling_biboulet_houpert
+   use camroller_contact_state, only : contact_t, setting_t, parts_t, motion_t, slopes_t, release_contact
+   use camroller_contact_traction, only : set_traction, follow_traction
+   use camroller_heat, only : inlet_factor
+   use camroller_hertz, only : half_width, peak_pressure
+   use camroller_film, only : groups_t, new_film_line
+   use camroller_load_share, only : share_change_t, share_load, improve_share, share_change
+   use camroller_traction, only : mobilised_share, sliding_direction, rolling_resistance, resistance_speed_slope, &
+      & rolling_biboulet_houpert
    use camroller_needle, only : bearing_torque, bearing_torque_slope
    use camroller_needle_drag, only : drag_torque, drag_torque_slope
    implicit none
    private
 
-   public :: contact_t, setting_t, parts_t, motion_t, slopes_t, set_speeds, prepare_contact, evaluate_contact, follow_contact, &
-      & release_contact, film_groups
-
-   !> State of the contact
-   type :: contact_t
-      !> Do cam and roller touch?
-      logical :: is_touching
-      !> Speed of the contact point over the cam and over the roller, V_c and V_f [m/s]
-      real(wp) :: cam_surface_speed, roller_surface_speed
-      !> Speed of the roller's surface in pure rolling, V_roll, and sliding speed, V_s [m/s]
-      real(wp) :: rolling_speed, sliding_speed
-      !> Mean surface speed, V_e [m/s]
-      real(wp) :: entrainment_speed
-      !> Spin of the roller; spin relative to the finger [rad/s]
-      real(wp) :: roller_spin, relative_spin
-      !> Normal load, W [N]
-      real(wp) :: load
-      !> Half width [m] and apparent area [m^2] of the contact
-      real(wp) :: half_width, apparent_area
-      !> Minimum and central film [m]
-      real(wp) :: film_min, film_central
-      !> Minimum film over composite roughness [-]
-      real(wp) :: film_ratio
-      !> Load carried by asperities, W_a [N], and their real contact area, A_r [m^2]
-      real(wp) :: asperity_load, real_area
-      !> Shear of the film over the part that the asperities leave, (1 - A_r/A_a) F_h [N]
-      real(wp) :: shear
-      !> Boundary friction that the asperities can bear, F_b, and the part that the slip mobilises, with its sign [N]
-      real(wp) :: boundary_capacity, boundary_mobilised
-      !> Rolling resistance of each surface, F_r, with the sign of the entrainment [N]
-      real(wp) :: rolling_resistance
-      !> Traction, F_t [N]; its slope over the sliding speed at constant load and film [N s/m]
-      real(wp) :: traction, traction_slope
-      !> Net tangential force on the roller, T' = F_t + F_r (2 R/r_R - 1) [N]
-      real(wp) :: tangential_force
-      !> Torque of the roller's bearing, T_B [N m]
-      real(wp) :: bearing_torque
-      !> Its part that the oil makes, whatever the load [N m]
-      real(wp) :: bearing_drag
-   end type contact_t
-
-   !> What does not change with the load while the balance is sought
-   type :: setting_t
-      !> Film over the load at the entrainment speed
-      type(film_line_t) :: line
-      !> E' R L [N]
-      real(wp) :: scale
-      !> Mobilised part of the boundary friction [-]
-      real(wp) :: mobilised
-      !> Its derivative over the sliding speed [s/m]
-      real(wp) :: mobilised_slope
-      !> Torque of the roller's bearing over the load [m]
-      real(wp) :: bearing_arm
-      !> Relative change of the film ratio that may be the last where the load share is iterated again [-]
-      real(wp) :: coarse
-      !> Difference of sliding speeds that need not be resolved; zero: all are [m/s]
-      real(wp) :: resolution
-   end type setting_t
+   public :: contact_t, setting_t, parts_t, motion_t, slopes_t, set_speeds, start_heat, prepare_contact, evaluate_contact, &
+      & follow_contact, release_contact, film_groups
 
    !> Change of the film ratio that may be the last, over the root of the relative error that is good enough: its square is the
    !> error left, times a factor of a few [-]
    real(wp), parameter :: coarse_part = 0.3_wp
-
-   !> What the slopes of the forces are made of, kept from their evaluation
-   type :: parts_t
-      !> Film and load share
-      type(share_t) :: share
-      !> Load over E' R L [-]
-      real(wp) :: load_group
-      !> Shear of the film after its limit, over all of the contact [N]
-      real(wp) :: shear
-      !> Derivative of that over the shear before the limit and over the limit [-], and over the sliding speed beside these [N s/m]
-      real(wp) :: by_shear, by_limit, by_speed
-      !> Shear before its limit [N], derivative over ln(pressure) [N] and over the sliding speed [N s/m]
-      real(wp) :: free_shear, pressure_slope, speed_slope
-      !> Logarithmic slopes of the rolling resistance over load and speed group [-]
-      real(wp) :: rolling_load_slope, rolling_speed_slope
-      !> 2 R/r_R - 1 [-]
-      real(wp) :: rolling_part
-   end type parts_t
-
-   !> A direction in which a contact may move
-   type :: motion_t
-      !> Change of load, entrainment speed and equivalent radius, their logarithms [-]
-      real(wp) :: load = 0.0_wp, entrainment = 0.0_wp, radius = 0.0_wp
-      !> Change of sliding speed [m/s] and of the roller's spin relative to the finger [rad/s]
-      real(wp) :: sliding_speed = 0.0_wp, relative_spin = 0.0_wp
-   end type motion_t
-
-   !> Changes that follow
-   type :: slopes_t
-      !> ln of the film ratio [-]
-      real(wp) :: film_ratio
-      !> Traction, rolling resistance, tangential force [N]
-      real(wp) :: traction, rolling_resistance, tangential_force
-      !> Torque of the roller's bearing [N m]
-      real(wp) :: bearing_torque
-   end type slopes_t
 
 contains
 
@@ -136,9 +46,27 @@ contains
       contact%entrainment_speed = contact%cam_surface_speed - 0.5_wp*sliding_speed
       contact%roller_spin = (contact%rolling_speed - sliding_speed)/model%roller_radius
       contact%relative_spin = contact%roller_spin - model%linkage%sense*position%finger_slope*model%speed
+      if (allocated(model%heat)) call start_heat(model, contact)
       contact%bearing_drag = 0.0_wp
       if (allocated(model%drag)) contact%bearing_drag = drag_torque(model%drag, contact%relative_spin)
    end subroutine set_speeds
+
+   !> Heat of a contact without load: no temperature, and the factor that a film has there.
+   pure subroutine start_heat(model, contact)
+      !> The model, with heat
+      type(model_t), intent(in) :: model
+      !> State of the contact; the speeds are set
+      type(contact_t), intent(inout) :: contact
+
+      ! Logarithm of the factor, its slopes [any]
+      real(wp) :: log_factor, unused(3)
+
+      contact%film_rise = 0.0_wp
+      contact%flash_rise = 0.0_wp
+      call inlet_factor(model%heat%inlet_law, model%heat%loading, contact%entrainment_speed, contact%sliding_speed, 0.0_wp, &
+         & log_factor, unused(1), unused(2), unused(3))
+      contact%inlet_factor = exp(log_factor)
+   end subroutine start_heat
 
    !> What the speeds alone decide.
    pure subroutine prepare_contact(model, position, contact, enough, setting, mobilised, resolution)
@@ -207,8 +135,8 @@ contains
       type(model_t), intent(in) :: model
       !> Geometry at this angle
       type(position_t), intent(in) :: position
-      !> What does not change with the load
-      type(setting_t), intent(in) :: setting
+      !> What does not change with the load; the factor on the film follows it
+      type(setting_t), intent(inout) :: setting
       !> Normal load, W, positive [N]
       real(wp), intent(in) :: load
       !> State of the contact; the speeds are set, and the film ratio is that of a contact nearby or zero
@@ -227,6 +155,7 @@ contains
       contact%apparent_area = 2.0_wp*contact%half_width*model%contact_width
       parts%load_group = load/setting%scale
       change = 0.0_wp
+      if (allocated(model%heat)) call set_inlet_factor(model, position, contact, setting, parts)
       if (allocated(model%boundary)) then
          call improve_share(setting%line, parts%load_group, parts%share, model%boundary%constants, &
             & contact%apparent_area/setting%scale, contact%film_ratio, change, setting%coarse)
@@ -252,60 +181,24 @@ contains
       contact%bearing_torque = setting%bearing_arm*load + contact%bearing_drag
    end subroutine evaluate_contact
 
-   !> Shear of the film, boundary friction and their sum.
-   pure subroutine set_traction(model, setting, contact, parts)
-      !> The model
+   !> Factor on both films by heat in the inlet.
+   pure subroutine set_inlet_factor(model, position, contact, setting, parts)
+      !> The model, with heat
       type(model_t), intent(in) :: model
-      !> What does not change with the load
-      type(setting_t), intent(in) :: setting
-      !> State of the contact; film and load share are set
+      !> Geometry at this angle
+      type(position_t), intent(in) :: position
+      !> State of the contact; load and speeds are set
       type(contact_t), intent(inout) :: contact
-      !> What slopes are made of; the load share is set
+      !> Gets the factor
+      type(setting_t), intent(inout) :: setting
+      !> Gets its slopes
       type(parts_t), intent(inout) :: parts
 
-      ! Pressure in the middle of the film [Pa]
-      real(wp) :: peak
-      ! Mean viscosity ratio and its logarithmic slope over the pressure [-]
-      real(wp) :: viscosity, viscosity_slope
-      ! Derivatives of the shear with a slip that is not resolved over that without, and over the limit [-]
-      real(wp) :: by_free, by_limit
-
-      peak = film_pressure(contact%load - contact%asperity_load, contact%apparent_area, contact%real_area)
-      if (model%shear_law == law_newtonian) then
-         call mean_relative_viscosity(model%oil, peak, viscosity, viscosity_slope)
-         parts%speed_slope = newtonian_shear(1.0_wp, model%oil%viscosity*viscosity, contact%apparent_area, contact%film_central)
-         parts%free_shear = parts%speed_slope*contact%sliding_speed
-         parts%pressure_slope = parts%free_shear*viscosity_slope
-      else
-         call eyring_shear(contact%sliding_speed, model%oil, peak, contact%apparent_area, contact%film_central, &
-            & model%eyring_stress, parts%free_shear, parts%speed_slope, parts%pressure_slope)
-      end if
-      parts%shear = parts%free_shear
-      by_free = 1.0_wp
-      by_limit = 0.0_wp
-      parts%by_speed = 0.0_wp
-      if (setting%resolution > 0.0_wp) then
-         call blunt_shear(contact%sliding_speed, setting%resolution, model%limiting_coefficient*contact%load, parts%speed_slope, &
-            & parts%shear, by_free, by_limit, parts%by_speed)
-      end if
-      call limit_shear(model%cap, model%limiting_coefficient*contact%load, parts%shear, parts%by_shear, parts%by_limit)
-      parts%by_limit = parts%by_limit + parts%by_shear*by_limit
-      parts%by_speed = parts%by_shear*parts%by_speed
-      parts%by_shear = parts%by_shear*by_free
-
-      contact%shear = parts%shear*(1.0_wp - parts%share%real_area_ratio)
-      contact%traction = contact%shear
-      contact%traction_slope = (parts%by_shear*parts%speed_slope + parts%by_speed)*(1.0_wp - parts%share%real_area_ratio)
-      contact%boundary_capacity = 0.0_wp
-      contact%boundary_mobilised = 0.0_wp
-      if (.not. allocated(model%boundary)) return
-
-      contact%boundary_capacity = model%boundary%film_shear_strength*contact%real_area &
-         & + model%boundary%coefficient*contact%asperity_load
-      contact%boundary_mobilised = contact%boundary_capacity*setting%mobilised
-      contact%traction = contact%traction + contact%boundary_mobilised
-      contact%traction_slope = contact%traction_slope + contact%boundary_capacity*setting%mobilised_slope
-   end subroutine set_traction
+      call inlet_factor(model%heat%inlet_law, model%heat%loading, contact%entrainment_speed, contact%sliding_speed, &
+         & peak_pressure(contact%load, position%equivalent_radius, model%contact_width, model%modulus)/model%modulus, &
+         & setting%line%log_factor, parts%heat%inlet_by_speed, parts%heat%inlet_by_sliding, parts%heat%inlet_by_pressure)
+      contact%inlet_factor = exp(setting%line%log_factor)
+   end subroutine set_inlet_factor
 
    !> How the forces follow a motion of the contact.
    pure function follow_contact(model, setting, contact, parts, motion) result(slopes)
@@ -323,25 +216,20 @@ contains
       type(slopes_t) :: slopes
 
       type(share_change_t) :: change
-      ! Changes of apparent area, pressure in the film and rolling resistance, their logarithms [-]; of the shear [N]
-      real(wp) :: area, pressure, rolling, shear
+      ! Change of rolling resistance, its logarithm [-]
+      real(wp) :: rolling
 
-      change = share_change(setting%line, parts%load_group, parts%share, motion%load - motion%radius, &
-         & motion%entrainment - motion%radius, motion%radius)
-      slopes%film_ratio = change%film_min + motion%radius
-      area = 0.5_wp*(motion%load + motion%radius)
-      pressure = change%film_load + motion%radius - area + change%real_area_ratio/(1.0_wp - parts%share%real_area_ratio)
-      shear = parts%free_shear*area + parts%pressure_slope*pressure + parts%speed_slope*(motion%sliding_speed &
-         & - contact%sliding_speed*(change%film_central + motion%radius))
-      shear = parts%by_shear*shear + parts%by_limit*model%limiting_coefficient*contact%load*motion%load &
-         & + parts%by_speed*motion%sliding_speed
-      slopes%traction = shear*(1.0_wp - parts%share%real_area_ratio) - parts%shear*change%real_area_ratio
-      if (allocated(model%boundary)) then
-         slopes%traction = slopes%traction + setting%mobilised*(model%boundary%film_shear_strength &
-            & *(area*contact%real_area + contact%apparent_area*change%real_area_ratio) &
-            & + model%boundary%coefficient*(change%asperity_load*setting%scale + motion%radius*contact%asperity_load)) &
-            & + contact%boundary_capacity*setting%mobilised_slope*motion%sliding_speed
+      if (allocated(model%heat)) then
+         change = share_change(setting%line, parts%load_group, parts%share, motion%load - motion%radius, &
+            & motion%entrainment - motion%radius, motion%radius, parts%heat%inlet_by_speed*motion%entrainment &
+            & + parts%heat%inlet_by_sliding*motion%sliding_speed &
+            & + 0.5_wp*parts%heat%inlet_by_pressure*(motion%load - motion%radius))
+      else
+         change = share_change(setting%line, parts%load_group, parts%share, motion%load - motion%radius, &
+            & motion%entrainment - motion%radius, motion%radius)
       end if
+      slopes%film_ratio = change%film_min + motion%radius
+      slopes%traction = follow_traction(model, setting, contact, parts, motion, change)
 
       rolling = motion%load - motion%radius
       if (model%rolling_law == rolling_biboulet_houpert) rolling = change%film_load
@@ -358,29 +246,5 @@ contains
             & model%bearing%reversal_spin)
       end if
    end function follow_contact
-
-   !> No contact: no force but the drag of the roller's bearing; the film is reported as zero, since there is none to speak of.
-   pure subroutine release_contact(contact)
-      !> State of the contact; the speeds are kept
-      type(contact_t), intent(inout) :: contact
-
-      contact%is_touching = .false.
-      contact%load = 0.0_wp
-      contact%half_width = 0.0_wp
-      contact%apparent_area = 0.0_wp
-      contact%film_min = 0.0_wp
-      contact%film_central = 0.0_wp
-      contact%film_ratio = 0.0_wp
-      contact%asperity_load = 0.0_wp
-      contact%real_area = 0.0_wp
-      contact%shear = 0.0_wp
-      contact%boundary_capacity = 0.0_wp
-      contact%boundary_mobilised = 0.0_wp
-      contact%rolling_resistance = 0.0_wp
-      contact%traction = 0.0_wp
-      contact%traction_slope = 0.0_wp
-      contact%tangential_force = 0.0_wp
-      contact%bearing_torque = contact%bearing_drag
-   end subroutine release_contact
 
 end module camroller_contact_forces

@@ -8,7 +8,7 @@ module camroller_catalogue
    use camroller_case, only : camshaft_number, has_engine, case_t, energy_names
    use camroller_model, only : model_t
    use camroller_number_text, only : integer_text
-   use camroller_effect_list, only : effect_names, has_effect
+   use camroller_effect_list, only : effect_names, has_effect, effect_inlet_heat, effect_contact_heat
    use camroller_result, only : quantity_t, quantity_list_t, append_quantity, lobe_scope, scope_camshaft, scope_engine, &
       & scope_length
    use camroller_state, only : state_t, flexible_values_t
@@ -229,6 +229,14 @@ contains
       call add(list, "film_thickness_min", "m", "minimum film thickness", "film", state%contact%film_min)
       call add(list, "film_thickness_central", "m", "central film thickness", "film", state%contact%film_central)
       call add(list, "film_ratio", "1", "minimum film thickness relative to composite roughness", "film", state%contact%film_ratio)
+      if (has_effect(case, effect_inlet_heat)) call add(list, "inlet_heat_factor", "1", "factor on the film by heat in its inlet", &
+         & "heat", state%contact%inlet_factor)
+      if (has_effect(case, effect_contact_heat)) then
+         call add(list, "film_temperature_rise", "K", "mean temperature of the film above that of the oil", "heat", &
+            & state%contact%film_rise)
+         call add(list, "flash_temperature_rise", "K", "mean temperature of both surfaces above that of the oil", "heat", &
+            & state%contact%flash_rise)
+      end if
       if (allocated(case%asperity)) then
          call add(list, "asperity_load", "N", "load carried by asperities", "asperity", state%contact%asperity_load)
          call add(list, "real_contact_area", "m2", "contact area of the asperities", "asperity", state%contact%real_area)

@@ -16,8 +16,8 @@ module camroller_cycle_remarks
    use camroller_model, only : model_t
    use camroller_number_text, only : number_text, fixed_text, integer_text
    use camroller_lubricant, only : pressure_limit
-   use camroller_remarks, only : remark_t, add_remark, beyond_pressure_law, film_without_limit, lost_contact, open_pivot, &
-      & outside_range, pumped_adjuster, standing_entrainment, unresolved_slip
+   use camroller_remarks, only : remark_t, add_remark, beyond_pressure_law, film_without_limit, hot_inlet, lost_contact, &
+      & open_pivot, outside_range, pumped_adjuster, standing_entrainment, unresolved_slip
    use camroller_result, only : lobe_scope
    implicit none
    private
@@ -243,6 +243,9 @@ contains
 
       character(len=:), allocatable :: text
 
+      if (statistics%inlet_share > 0.0_wp) call add_remark(remarks, hot_inlet, "heat in the inlet is beyond what the factor of "// &
+         & "Gupta and others can tell for "//number_text(100.0_wp*statistics%inlet_share, 3)//" % of the cycle: the pressure's "// &
+         & "part alone would halve the film; a continuation stands for it", 100.0_wp*statistics%inlet_share)
       if (statistics%film_range%share <= 0.0_wp) return
       call range_in_words(statistics%film_range, model%film_law, text)
       text = "the film law is outside its published range for "//number_text(100.0_wp*statistics%film_range%share, 3)// &

@@ -16,6 +16,7 @@ module camroller_follower_samples
    use camroller_contact_forces, only : contact_t, film_groups
    use camroller_film, only : is_in_range
    use camroller_film_range, only : film_range_t, note_film
+   use camroller_heat, only : is_inlet_in_range
    use camroller_hertz, only : peak_pressure
    use camroller_extremes, only : samples_t, add_sample, start_rows => start_samples
    use camroller_panels, only : sampled_t
@@ -32,6 +33,8 @@ module camroller_follower_samples
       type(film_range_t) :: film_range
       !> Cam angle from full lift where it is first left [rad]
       real(wp) :: first_outside = 0.0_wp
+      !> Fraction of the cycle with heat in the inlet beyond what its factor was published for [-]
+      real(wp) :: inlet_share = 0.0_wp
    end type shares_t
 
    !> One point of a cycle, for the search of standstills
@@ -104,6 +107,11 @@ contains
             shares%lost_share = shares%lost_share + weight
          end if
          if (.not. is_inside .and. shares%film_range%share <= 0.0_wp) shares%first_outside = angle
+         if (allocated(model%heat) .and. state%contact%is_touching) then
+            if (.not. is_inlet_in_range(model%heat%inlet_law, model%heat%loading, state%contact%entrainment_speed, &
+               & peak_pressure(state%contact%load, state%position%equivalent_radius, model%contact_width, model%modulus) &
+               & /model%modulus)) shares%inlet_share = shares%inlet_share + weight
+         end if
          call note_film(shares%film_range, groups, is_inside, in_event, state%torque_friction, weight)
       end associate
    end subroutine add_shares

@@ -5,9 +5,10 @@ import numpy as np
 import pytest
 from mpmath import mp, mpf
 from scipy.integrate import quad
-from scipy.special import erfc
+from scipy.special import erfc, k0
 
 import contact_laws as laws
+import heat_reference
 import pivot
 from cycle_reference import Point, Train, integrate
 from kinematics_reference import DIGITS, Construction, exact
@@ -149,3 +150,13 @@ def test_speeds_at_which_the_train_parts():
     assert opened == pytest.approx(2470.90, abs=0.006)
     assert pumped == pytest.approx(2357.51, abs=0.006)
     assert adjuster == pytest.approx(26.3802, abs=6e-5)
+
+
+@pytest.mark.parametrize('u', (-1.3, -0.02, 0.4, 2.0))
+def test_moving_line_of_heat_is_the_sum_of_what_it_gave_off(u):
+    assert abs(heat_reference.line_by_time(u) / (math.exp(-u) * k0(abs(u))) - 1) < 1e-9
+
+
+def test_rise_under_a_fast_band_is_two_thirds_of_its_largest():
+    largest = 2 / math.sqrt(math.pi) * math.sqrt(2 / 1e7)          # half space under constant flux, 2 q sqrt(t/(pi k rho c))
+    assert abs(heat_reference.band_mean(1e7) / (2 / 3 * largest) - 1) < 1e-5

@@ -10,7 +10,7 @@ module test_spin_slopes
    use camroller_lubricant, only : pressure_law_names
    use camroller_spin, only : spin_problem_t
    use camroller_ode_problem, only : linear_t, counters_t, new_linear
-   use reference_cases, only : thesis_case, source_case, skewed_case, make_model, set_point, add_gas_force, add_joints, &
+   use reference_cases, only : thesis_case, source_case, skewed_case, make_model, set_point, add_gas_force, add_joints, add_heat, &
       point_speeds, point_viscosities
    implicit none
    private
@@ -37,6 +37,7 @@ contains
          new_unittest("the source's bookkeeping", test_source), &
          new_unittest("with gas force; with asperities that yield; without any, nor bearing and guide", test_effects), &
          new_unittest("with friction at valve tip, seal, guide and pivot, and drag of needles", test_with_joints), &
+         new_unittest("with heat in inlet and contact, every film, viscosity and shear law", test_with_heat), &
          new_unittest("with a given part of the boundary friction, as sliding and sticking have it", test_given_share), &
          new_unittest("without contact only the kinematics is left", test_no_contact) &
          ]
@@ -149,6 +150,29 @@ contains
          if (allocated(error)) return
       end do
    end subroutine test_with_joints
+
+   subroutine test_with_heat(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: case
+      type(model_t) :: model
+      integer :: law
+
+      do law = 1, size(film_law_names)
+         case = skewed_case(rotation_names(1 + mod(law, 2)))
+         case%film%law = film_law_names(law)
+         case%lubricant%pressure_law = pressure_law_names(1 + mod(law, 3))
+         case%traction%shear_law = merge("newtonian", "eyring   ", law < 4)
+         case%traction%eyring_stress = 5.0e6_wp
+         case%asperity%film_shear_strength = 2.0e6_wp
+         call add_heat(case)
+         if (law == 2) case%heat%inlet_law = "murch_wilson"
+         call set_point(case, point_speeds(1 + mod(law, 3)), point_viscosities(1 + mod(law + 1, 3)))
+         call make_model(case, model, error)
+         if (allocated(error)) return
+         call compare(error, model, "heat, "//trim(film_law_names(law)))
+         if (allocated(error)) return
+      end do
+   end subroutine test_with_heat
 
    subroutine test_source(error)
       type(error_type), allocatable, intent(out) :: error

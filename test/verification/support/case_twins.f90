@@ -6,7 +6,8 @@ module case_twins
    use camroller_result, only : result_t
    use camroller_sliding_friction, only : sliding_t
    use unit_systems, only : units_t, dimension_t, scaled, number, angular_speed, area, drag, force, inertia, length, mass, &
-      & per_pressure, per_speed, pressure, speed, stiffness, viscosity
+      & per_pressure, per_speed, pressure, speed, stiffness, viscosity, conductivity, density, heat_capacity, &
+      & per_temperature
    implicit none
    private
 
@@ -34,6 +35,9 @@ contains
       case%lubricant%roelands_index = 0.0_wp
       if (allocated(case%ehl)) deallocate (case%ehl)
       if (allocated(case%needle_drag)) deallocate (case%needle_drag)
+      if (allocated(case%heat)) then
+         if (.not. case%heat%viscosity_fall > 0.0_wp) case%heat%viscosity_fall = 0.04_wp
+      end if
       ! The usual place of the finger's centre of mass is in millimetres; this one is within every radius of gyration
       if (.not. case%masses%finger_centre > 0.0_wp) case%masses%finger_centre = 1.0e-3_wp
    end subroutine leave_constants_out
@@ -75,6 +79,14 @@ contains
       call change(case%lubricant%viscosity, viscosity)
       call change(case%lubricant%pressure_viscosity, per_pressure)
       call change(case%traction%eyring_stress, pressure)
+      if (allocated(case%heat)) then
+         call change(case%heat%oil_conductivity, conductivity)
+         call change(case%heat%viscosity_fall, per_temperature)
+         call change(case%heat%limit_fall, per_temperature)
+         call change(case%heat%conductivity, conductivity)
+         call change(case%heat%density, density)
+         call change(case%heat%heat_capacity, heat_capacity)
+      end if
       if (allocated(case%asperity)) call change(case%asperity%film_shear_strength, pressure)
       if (allocated(case%asperity)) call change(case%asperity%mobilising_speed, speed)
       if (allocated(case%needle_bearing)) call change(case%needle_bearing%needle_radius, length)

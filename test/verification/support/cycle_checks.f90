@@ -123,8 +123,10 @@ contains
             & state%spin_acceleration]))
          if (.not. is_possible) return
          is_possible = min(contact%load, contact%film_min, contact%asperity_load, contact%real_area, &
-            & contact%boundary_capacity, contact%traction_slope) >= 0.0_wp .and. contact%asperity_load <= contact%load &
+            & contact%boundary_capacity) >= 0.0_wp .and. contact%asperity_load <= contact%load &
             & .and. contact%real_area <= contact%apparent_area .and. contact%film_min <= contact%film_central
+         ! Traction falls with the slip where the film is warm alone
+         is_possible = is_possible .and. (contact%traction_slope >= 0.0_wp .or. contact%film_rise > 0.0_wp)
       end associate
    end function is_possible
 

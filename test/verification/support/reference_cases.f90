@@ -13,7 +13,8 @@ module reference_cases
    implicit none
    private
 
-   public :: thesis_case, source_case, skewed_case, named_case, make_model, make_cycle, set_point, add_gas_force, add_joints
+   public :: thesis_case, source_case, skewed_case, named_case, make_model, make_cycle, set_point, add_gas_force, add_joints, &
+      & add_heat
    public :: point_speeds, point_viscosities
 
    !> Speeds of the nine operating points [rad/s]
@@ -194,6 +195,17 @@ contains
       the_case%stem_seal%viscous_drag = 10.0_wp
       the_case%stem_seal%reference_viscosity = 0.01_wp
    end subroutine add_joints
+
+   !> Heat in inlet and contact, with an oil that thins as SAE 30 at 60 degC does.
+   subroutine add_heat(the_case)
+      !> The case
+      type(case_t), intent(inout) :: the_case
+
+      allocate (the_case%heat)
+      the_case%heat%viscosity_fall = 0.04_wp
+      the_case%heat%limit_fall = 2.0e-3_wp
+      the_case%heat%conductivity(2) = 20.0_wp
+   end subroutine add_heat
 
    !> Model of a case.
    subroutine make_model(the_case, model, error)

@@ -33,7 +33,8 @@ module unit_systems
 
    public :: number, angular_speed, length, area, speed, acceleration, mass, inertia, force, torque, power, &
       stiffness, pressure, &
-      & viscosity, per_pressure, per_length, temperature, drag, per_speed, angular_acceleration, energy, density, per_temperature
+      & viscosity, per_pressure, per_length, temperature, drag, per_speed, angular_acceleration, energy, density, per_temperature, &
+      & conductivity, heat_capacity
 
    !> Dimensions of the quantities in use
    type(dimension_t), parameter :: number = dimension_t(0, 0, 0), angular_speed = dimension_t(0, 0, -1), &
@@ -45,7 +46,8 @@ module unit_systems
       & power = dimension_t(2, 1, -3), stiffness = dimension_t(0, 1, -2), drag = dimension_t(0, 1, -1), &
       & per_speed = dimension_t(-1, 0, 1), &
       & pressure = dimension_t(-1, 1, -2), viscosity = dimension_t(-1, 1, -1), per_pressure = dimension_t(1, -1, 2), &
-      & temperature = dimension_t(0, 0, 0, 1), per_temperature = dimension_t(0, 0, 0, -1)
+      & temperature = dimension_t(0, 0, 0, 1), per_temperature = dimension_t(0, 0, 0, -1), &
+      & conductivity = dimension_t(1, 1, -3, -1), heat_capacity = dimension_t(2, 0, -2, -1)
 
 contains
 

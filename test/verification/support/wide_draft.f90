@@ -142,6 +142,7 @@ contains
 
       may_have = .true.
       if (any(group == joint_groups)) may_have = .not. (has_source(text) .or. draft%has_dynamics)
+      if (group == "heat") may_have = index(text, "&ehl") == 0
       if (group == "needle_drag") may_have = .not. draft%has_dynamics
       if (group == "finger_pivot") may_have = may_have .and. deck_word(text, "masses", "finger_kg") /= ""
    end function may_have
@@ -281,6 +282,8 @@ contains
       select case (key)
       case ("viscosity_Pa_s")
          is_given = law == "direct"
+      case ("viscosity_fall_per_K")
+         is_given = deck_word(text, "lubricant", "temperature_law") == "direct"
       case ("temperature_points_degC", "viscosity_points_Pa_s")
          is_given = index(" vogel walther ", " "//law//" ") > 0
       case ("viscosity_at_40_degC_mm2_s")

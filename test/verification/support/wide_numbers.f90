@@ -70,6 +70,15 @@ module wide_numbers
       & usual_t("ehl.accuracy", 0.03_wp, 0.2_wp, .true.), &
       & usual_t("traction.eyring_stress_MPa", 1.0_wp, 20.0_wp, .true.), &
       & usual_t("traction.limiting_coefficient", 0.02_wp, 0.12_wp), &
+      & usual_t("heat.oil_conductivity_W_m_K", 0.1_wp, 0.25_wp, .true.), &
+      & usual_t("heat.viscosity_fall_per_K", 0.02_wp, 0.1_wp, .true.), &
+      & usual_t("heat.limit_fall_per_K", 0.0_wp, 0.01_wp), &
+      & usual_t("heat.cam_conductivity_W_m_K", 2.0_wp, 100.0_wp, .true.), &
+      & usual_t("heat.cam_density_kg_m3", 3000.0_wp, 8000.0_wp), &
+      & usual_t("heat.cam_heat_capacity_J_kg_K", 400.0_wp, 800.0_wp), &
+      & usual_t("heat.roller_conductivity_W_m_K", 2.0_wp, 100.0_wp, .true.), &
+      & usual_t("heat.roller_density_kg_m3", 3000.0_wp, 8000.0_wp), &
+      & usual_t("heat.roller_heat_capacity_J_kg_K", 400.0_wp, 800.0_wp), &
       & usual_t("asperity.roughness_product", 0.025_wp, 0.1_wp), &
       & usual_t("asperity.roughness_over_tip_radius", 1.0e-4_wp, 0.05_wp, .true.), &
       & usual_t("asperity.boundary_coefficient", 0.0_wp, 0.3_wp), &

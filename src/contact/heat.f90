@@ -1,0 +1,236 @@
+!> Heat in the contact of cam and roller: what a deck gives, what follows from it, and the film that a warm inlet leaves.
+!>
+!> In: constants of oil and bodies, the lubricant. Out: factor on the film by shear heating of the inlet, constants for the
+!> temperature of the contact (`camroller_conjunction`). Sources: Murch and Wilson, J. Lubrication Technology 97 (1975) 212; Gupta,
+!> Cheng, Zhu, Forster and Schrand, Tribology Transactions 35 (1992) 269.
+module camroller_heat
+   use camroller_kinds, only : wp
+   use camroller_error, only : error_t, raise, add_context, kind_deck, kind_domain
+   use camroller_names, only : name_length, find_name
+   use camroller_lubricant, only : lubricant_t, oil_t, get_oil, temperature_law_names, law_direct, law_roelands
+   use camroller_conjunction, only : hot_oil_t, body_t, band_t, new_band
+   implicit none
+   private
+
+   public :: heat_t, heat_part_t, inlet_law_names, contact_heat_names, new_heat_part, set_heat_oil, inlet_factor, is_inlet_in_range
+   public :: inlet_none, inlet_murch_wilson, inlet_gupta, contact_heat_none
+
+   !> Factor on the film by heating of the inlet
+   character(len=*), parameter :: inlet_law_names(*) = [character(len=name_length) :: "none", "murch_wilson", "gupta"]
+   !> Temperature that the film's shear is taken at: that of the oil around, or the mean over the contact
+   character(len=*), parameter :: contact_heat_names(*) = [character(len=name_length) :: "none", "mean"]
+   !> Positions in the lists of names
+   integer, parameter :: inlet_none = 1, inlet_murch_wilson = 2, inlet_gupta = 3, contact_heat_none = 1
+
+   !> What a deck gives
+   type :: heat_t
+      !> One of `inlet_law_names`
+      character(len=name_length) :: inlet_law = "gupta"
+      !> One of `contact_heat_names`
+      character(len=name_length) :: contact = "mean"
+      !> Thermal conductivity of the oil [W/(m K)]
+      real(wp) :: oil_conductivity = 0.14_wp
+      !> Fall of ln(viscosity) per kelvin; zero: by the lubricant's temperature law, where it has one [1/K]
+      real(wp) :: viscosity_fall = 0.0_wp
+      !> Fall of ln(limiting traction coefficient) per kelvin [1/K]
+      real(wp) :: limit_fall = 0.0_wp
+      !> Thermal conductivity of cam and roller [W/(m K)], their density [kg/m^3] and heat capacity [J/(kg K)]: steel
+      real(wp) :: conductivity(2) = 46.0_wp, density(2) = 7850.0_wp, heat_capacity(2) = 460.0_wp
+   end type heat_t
+
+   !> Ready for evaluation
+   type :: heat_part_t
+      !> Position in `inlet_law_names`
+      integer :: inlet_law
+      !> Is the film sheared at the temperature of the contact?
+      logical :: has_contact
+      !> Thermal conductivity of the oil [W/(m K)]
+      real(wp) :: oil_conductivity
+      !> Fall of ln(viscosity) as given [1/K]; fall of ln(limiting traction coefficient) [1/K]
+      real(wp) :: given_fall, limit_fall
+      !> How the oil follows the temperature
+      type(hot_oil_t) :: hot
+      !> L over the square of the entrainment speed [s^2/m^2]
+      real(wp) :: loading
+      !> Cam and roller
+      type(body_t) :: bodies(2)
+      !> Mean rise over a band
+      type(band_t) :: band
+   end type heat_part_t
+
+   !> Step between the temperatures that Vogel's law goes through, from that of the oil around on [K]
+   real(wp), parameter :: temperature_step = 15.0_wp
+   !> Constants of Murch and Wilson: level and exponent of L [-]
+   real(wp), parameter :: murch_level = 3.94_wp, murch_exponent = 0.62_wp
+   !> Constants of Gupta and others: factor of the pressure and its exponent of L; factor of the load and its exponent of L; factor
+   !> and exponent of the slip [-]
+   real(wp), parameter :: pressure_factor = 13.2_wp, pressure_exponent = 0.42_wp, load_factor = 0.213_wp, &
+      & load_exponent = 0.64_wp, slip_factor = 2.23_wp, slip_exponent = 0.83_wp
+   !> Slip over mean speed below which its power is rounded off, since its slope has no bound at zero; the power changes by 5e-4 at
+   !> most [-]
+   real(wp), parameter :: least_slip = 1.0e-4_wp
+   !> Fall by the pressure beyond which the printed `1 - x` goes on as `1/(4 x)`, with the same value and slope, and stays positive
+   !> [-]
+   real(wp), parameter :: largest_pressure_fall = 0.5_wp
+   !> L below which the inlet is as cold as the oil around [-]
+   real(wp), parameter :: least_loading = 1.0e-30_wp
+
+contains
+
+   !> Prepare what does not depend on the oil.
+   subroutine new_heat_part(part, heat, has_numerical_film, error)
+      !> Ready but for the oil
+      type(heat_part_t), intent(out) :: part
+      !> What a deck gives
+      type(heat_t), intent(in) :: heat
+      !> Are films solved numerically, at one temperature?
+      logical, intent(in) :: has_numerical_film
+      !> Deck error for an unknown name or constants that are not positive
+      type(error_t), allocatable, intent(out) :: error
+
+      integer :: choice
+
+      call find_name("law of heat in the inlet", heat%inlet_law, inlet_law_names, part%inlet_law, error)
+      if (allocated(error)) return
+      call find_name("heat in the contact", heat%contact, contact_heat_names, choice, error)
+      if (allocated(error)) return
+      part%has_contact = choice /= contact_heat_none
+      if (.not. min(heat%oil_conductivity, minval(heat%conductivity), minval(heat%density), minval(heat%heat_capacity)) &
+         & > 0.0_wp) then
+         call raise(error, kind_deck, "heat: conductivities, densities and heat capacities must be positive")
+      else if (.not. min(heat%viscosity_fall, heat%limit_fall) >= 0.0_wp) then
+         call raise(error, kind_deck, "heat: viscosity and limit of the traction must not rise with temperature")
+      else if (has_numerical_film) then
+         call raise(error, kind_deck, "heat is not part of a numerical film, &ehl, which has one temperature")
+      end if
+      if (allocated(error)) return
+      part%oil_conductivity = heat%oil_conductivity
+      part%given_fall = heat%viscosity_fall
+      part%limit_fall = heat%limit_fall
+      part%bodies%conductivity = heat%conductivity
+      part%bodies%diffusivity = heat%conductivity/(heat%density*heat%heat_capacity)
+      if (part%has_contact) call new_band(part%band)
+   end subroutine new_heat_part
+
+   !> Make ready for an oil: Vogel's law through its viscosity at three temperatures, or an exponential where its fall is given.
+   !>
+   !> Vogel's own law comes out exactly; Walther's is met to 0.04 % of the viscosity up to 30 K and to 0.8 % up
+   !> to 60 K for an SAE 30 from 25 degC on. The pressure-viscosity coefficient falls as the
+   !> lubricant has it between the outer ones.
+   subroutine set_heat_oil(part, lubricant, temperature, oil, error)
+      !> Gets the oil
+      type(heat_part_t), intent(inout) :: part
+      !> What is given about the oil
+      type(lubricant_t), intent(in) :: lubricant
+      !> Temperature of the oil around [K]
+      real(wp), intent(in) :: temperature
+      !> Oil there
+      type(oil_t), intent(in) :: oil
+      !> Deck error where nothing says how the viscosity falls; domain error beyond the range of the temperature law
+      type(error_t), allocatable, intent(out) :: error
+
+      type(oil_t) :: warm(2)
+      ! Fall of ln(viscosity) per kelvin over one and two steps [1/K]
+      real(wp) :: falls(2)
+      integer :: i
+      logical :: is_direct
+
+      is_direct = lubricant%temperature_law == temperature_law_names(law_direct)
+      part%hot = hot_oil_t(part%given_fall, 0.0_wp, 0.0_wp)
+      if (is_direct .neqv. part%given_fall > 0.0_wp) then
+         call raise(error, kind_deck, "heat: 'viscosity_fall_per_K' goes with lubricant temperature_law = 'direct', which "// &
+            & "needs it; other laws have a fall of their own")
+         return
+      end if
+      if (.not. is_direct) then
+         do i = 1, 2
+            call get_oil(lubricant, temperature + i*temperature_step, warm(i), error)
+            if (allocated(error)) then
+               call add_context(error, "heat, up to 30 K above the oil temperature")
+               return
+            end if
+            falls(i) = log(oil%viscosity/warm(i)%viscosity)/(i*temperature_step)
+         end do
+         ! fall(T) = coefficient/(1 + bend T) at both temperatures
+         part%hot%bend = max((falls(1) - falls(2))/(temperature_step*(2.0_wp*falls(2) - falls(1))), 0.0_wp)
+         part%hot%coefficient = falls(1)*(1.0_wp + part%hot%bend*temperature_step)
+         if (oil%pressure_law /= law_roelands) part%hot%pressure_fall = &
+            & log(oil%pressure_viscosity/warm(2)%pressure_viscosity)/(2.0_wp*temperature_step)
+      end if
+      part%loading = part%hot%coefficient*oil%viscosity/part%oil_conductivity
+   end subroutine set_heat_oil
+
+   !> Factor on the film by shear heating of the inlet, with its slopes: by `L = beta eta0 u^2/k_oil`, with Gupta and others by
+   !> `S = V_s/u` and the pressure, too.
+   !>
+   !> Murch and Wilson: `3.94/(3.94 + L^0.62)`. Gupta and others: `[1 - 13.2 (p_H/E') L^0.42]/[1 + 0.213 (1 + 2.23 S^0.83) L^0.64]`.
+   elemental subroutine inlet_factor(law, loading, speed, sliding_speed, pressure, log_factor, by_speed, by_sliding, by_pressure)
+      !> Position in `inlet_law_names`
+      integer, intent(in) :: law
+      !> L over the square of the speed [s^2/m^2]
+      real(wp), intent(in) :: loading
+      !> Mean surface speed, u, and sliding speed, V_s [m/s]
+      real(wp), intent(in) :: speed, sliding_speed
+      !> Peak pressure of the dry contact over E', p_H/E' [-]
+      real(wp), intent(in) :: pressure
+      !> ln of the factor [-]
+      real(wp), intent(out) :: log_factor
+      !> Its derivatives over ln|u| [-], over V_s [s/m] and over ln(p_H) [-]
+      real(wp), intent(out) :: by_speed, by_sliding, by_pressure
+
+      ! L; slip over mean speed; its power, rounded off, and derivative of that over the slip [-]
+      real(wp) :: load, slip, power, power_slope
+      ! L^0.64, or L^0.62; denominator; fall by the pressure and logarithmic slope of the numerator over it [-]
+      real(wp) :: grown, below, fall, fall_slope
+
+      log_factor = 0.0_wp
+      by_speed = 0.0_wp
+      by_sliding = 0.0_wp
+      by_pressure = 0.0_wp
+      load = loading*speed**2
+      if (load < least_loading) return
+      select case (law)
+      case (inlet_murch_wilson)
+         grown = load**murch_exponent
+         log_factor = -log(1.0_wp + grown/murch_level)
+         by_speed = -2.0_wp*murch_exponent*grown/(murch_level + grown)
+      case (inlet_gupta)
+         slip = sliding_speed/abs(speed)
+         power = (slip**2 + least_slip**2)**(0.5_wp*slip_exponent)
+         power_slope = slip_exponent*slip*power/(slip**2 + least_slip**2)
+         power = power - least_slip**slip_exponent
+         grown = load_factor*load**load_exponent
+         below = 1.0_wp + (1.0_wp + slip_factor*power)*grown
+         fall = pressure_factor*pressure*load**pressure_exponent
+         if (fall <= largest_pressure_fall) then
+            log_factor = log(1.0_wp - fall)
+            fall_slope = -fall/(1.0_wp - fall)
+         else
+            log_factor = -log(4.0_wp*fall)
+            fall_slope = -1.0_wp
+         end if
+         log_factor = log_factor - log(below)
+         by_pressure = fall_slope
+         by_sliding = -slip_factor*power_slope*grown/(below*abs(speed))
+         by_speed = 2.0_wp*(pressure_exponent*fall_slope - load_exponent*(below - 1.0_wp)/below) - by_sliding*sliding_speed
+      end select
+   end subroutine inlet_factor
+
+   !> Does the factor of the inlet stand as printed, or does its continuation count?
+   elemental function is_inlet_in_range(law, loading, speed, pressure) result(inside)
+      !> Position in `inlet_law_names`
+      integer, intent(in) :: law
+      !> L over the square of the speed [s^2/m^2]
+      real(wp), intent(in) :: loading
+      !> Mean surface speed, u [m/s]
+      real(wp), intent(in) :: speed
+      !> Peak pressure of the dry contact over E', p_H/E' [-]
+      real(wp), intent(in) :: pressure
+      !> True as printed
+      logical :: inside
+
+      inside = .true.
+      if (law == inlet_gupta) inside = pressure_factor*pressure*(loading*speed**2)**pressure_exponent <= largest_pressure_fall
+   end function is_inlet_in_range
+
+end module camroller_heat

@@ -1,0 +1,286 @@
+!> Traction between cam and roller at a given load and film: shear of the film at its temperature, boundary friction, and how both
+!> follow a motion of the contact.
+!>
+!> In: model, contact with film and load share. Out: forces, temperatures, changes. The temperature of the film is where the heat of
+!> the shear at that temperature keeps it: its rise is the one root of `y = g |F(y + y_b)|`, with g the rise per force of the shear
+!> and y_b that by boundary friction. F falls with the temperature, so Newton's method on logarithms stays between 0 and the first
+!> value.
+module camroller_contact_traction
+   use camroller_kinds, only : wp
+   use camroller_conjunction, only : flash_resistance, film_resistance, hot_shear
+   use camroller_contact_state, only : contact_t, setting_t, parts_t, motion_t
+   use camroller_load_share, only : share_change_t
+   use camroller_lubricant, only : mean_relative_viscosity
+   use camroller_model, only : model_t
+   use camroller_traction, only : film_pressure, newtonian_shear, eyring_shear, blunt_shear, limit_shear, law_newtonian
+   implicit none
+   private
+
+   public :: set_traction, follow_traction
+
+   !> Change of ln(viscosity) by a step of the temperature that may be the last: the shear follows it linearly to its square [-]
+   real(wp), parameter :: last_step = 1.0e-7_wp
+   !> Evaluations of the shear at most: bisection would need about 60, Newton's method takes two to five
+   integer, parameter :: max_evaluations = 80
+
+contains
+
+   !> Shear of the film, boundary friction and their sum.
+   pure subroutine set_traction(model, setting, contact, parts)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> What does not change with the load
+      type(setting_t), intent(in) :: setting
+      !> State of the contact; film and load share are set
+      type(contact_t), intent(inout) :: contact
+      !> What slopes are made of; the load share is set
+      type(parts_t), intent(inout) :: parts
+
+      ! Pressure in the middle of the film [Pa]; slope of the boundary friction over the sliding speed [N s/m]
+      real(wp) :: peak, boundary_slope
+
+      contact%boundary_capacity = 0.0_wp
+      contact%boundary_mobilised = 0.0_wp
+      boundary_slope = 0.0_wp
+      if (allocated(model%boundary)) then
+         contact%boundary_capacity = model%boundary%film_shear_strength*contact%real_area &
+            & + model%boundary%coefficient*contact%asperity_load
+         contact%boundary_mobilised = contact%boundary_capacity*setting%mobilised
+         boundary_slope = contact%boundary_capacity*setting%mobilised_slope
+      end if
+      peak = film_pressure(contact%load - contact%asperity_load, contact%apparent_area, contact%real_area)
+      if (has_hot_film(model)) then
+         call warm_film(model, setting, peak, contact, parts)
+      else
+         call set_shear(model, setting, contact, peak, 0.0_wp, parts)
+      end if
+      contact%traction_slope = parts%by_shear*parts%speed_slope + parts%by_speed
+      if (has_hot_film(model)) contact%traction_slope = contact%traction_slope + parts%heat%by_rise &
+         & *rise_change(contact, parts, motion_t(sliding_speed=1.0_wp), contact%traction_slope, boundary_slope, 0.0_wp, 0.0_wp, &
+         & 0.0_wp)
+      contact%shear = parts%shear*(1.0_wp - parts%share%real_area_ratio)
+      contact%traction = contact%shear + contact%boundary_mobilised
+      contact%traction_slope = contact%traction_slope*(1.0_wp - parts%share%real_area_ratio) + boundary_slope
+   end subroutine set_traction
+
+   !> Is the film sheared at the temperature of the contact?
+   pure function has_hot_film(model) result(verdict)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> Is it?
+      logical :: verdict
+
+      verdict = .false.
+      if (allocated(model%heat)) verdict = model%heat%has_contact
+   end function has_hot_film
+
+   !> Shear of the film with its limit, over all of the contact, at a rise of its temperature.
+   pure subroutine set_shear(model, setting, contact, peak, rise, parts)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> What does not change with the load
+      type(setting_t), intent(in) :: setting
+      !> State of the contact; film and load share are set
+      type(contact_t), intent(in) :: contact
+      !> Pressure in the middle of the film [Pa], rise of its temperature [K]
+      real(wp), intent(in) :: peak, rise
+      !> What slopes are made of
+      type(parts_t), intent(inout) :: parts
+
+      ! Mean viscosity ratio and its logarithmic slope over the pressure [-]
+      real(wp) :: viscosity, viscosity_slope
+      ! Derivatives of the shear with a slip that is not resolved over that without, and over the limit [-]
+      real(wp) :: by_free, by_limit
+      ! Derivative of the shear before its limit over the rise [N/K]; the limit [N]
+      real(wp) :: rise_slope, limit
+
+      limit = model%limiting_coefficient*contact%load
+      parts%limit_share = 1.0_wp
+      rise_slope = 0.0_wp
+      if (has_hot_film(model)) then
+         parts%limit_share = exp(-model%heat%limit_fall*rise)
+         limit = limit*parts%limit_share
+         call hot_shear(model%shear_law, model%oil, model%heat%hot, rise, contact%sliding_speed, peak, contact%apparent_area, &
+            & contact%film_central, model%eyring_stress, parts%free_shear, parts%speed_slope, parts%pressure_slope, rise_slope)
+      else if (model%shear_law == law_newtonian) then
+         call mean_relative_viscosity(model%oil, peak, viscosity, viscosity_slope)
+         parts%speed_slope = newtonian_shear(1.0_wp, model%oil%viscosity*viscosity, contact%apparent_area, contact%film_central)
+         parts%free_shear = parts%speed_slope*contact%sliding_speed
+         parts%pressure_slope = parts%free_shear*viscosity_slope
+      else
+         call eyring_shear(contact%sliding_speed, model%oil, peak, contact%apparent_area, contact%film_central, &
+            & model%eyring_stress, parts%free_shear, parts%speed_slope, parts%pressure_slope)
+      end if
+      parts%shear = parts%free_shear
+      by_free = 1.0_wp
+      by_limit = 0.0_wp
+      parts%by_speed = 0.0_wp
+      if (setting%resolution > 0.0_wp) then
+         call blunt_shear(contact%sliding_speed, setting%resolution, limit, parts%speed_slope, parts%shear, by_free, &
+            & by_limit, parts%by_speed)
+      end if
+      call limit_shear(model%cap, limit, parts%shear, parts%by_shear, parts%by_limit)
+      parts%by_limit = parts%by_limit + parts%by_shear*by_limit
+      parts%by_speed = parts%by_shear*parts%by_speed
+      parts%by_shear = parts%by_shear*by_free
+      if (has_hot_film(model)) parts%heat%by_rise = parts%by_shear*rise_slope - parts%by_limit*limit*model%heat%limit_fall
+   end subroutine set_shear
+
+   !> Rise of the temperature that the heat of the shear at that temperature keeps, and the shear there.
+   pure subroutine warm_film(model, setting, peak, contact, parts)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> What does not change with the load
+      type(setting_t), intent(in) :: setting
+      !> Pressure in the middle of the film [Pa]
+      real(wp), intent(in) :: peak
+      !> State of the contact; in: temperatures of a contact nearby or zero; out: its own
+      type(contact_t), intent(inout) :: contact
+      !> What slopes are made of
+      type(parts_t), intent(inout) :: parts
+
+      ! Sliding speed over area [1/(m s)]; rise per force of the shear [K/N]; rise by boundary friction, by the shear, its bounds,
+      ! its next value [K]
+      real(wp) :: flux, gain, by_boundary, rise, low, high, next
+      ! Shear without its sign [N]; logarithm of what the rise is too large by, relative step [-]
+      real(wp) :: force, excess, step
+      integer :: i
+
+      call flash_resistance(model%heat%band, model%heat%bodies, contact%half_width, [contact%cam_surface_speed, &
+         & contact%roller_surface_speed], parts%heat%flash, parts%heat%flash_by_width, parts%heat%flash_by_speed)
+      parts%heat%film = film_resistance(contact%film_central, model%heat%oil_conductivity)
+      flux = abs(contact%sliding_speed)/contact%apparent_area
+      gain = flux*(parts%heat%flash*(1.0_wp - parts%share%real_area_ratio) + parts%heat%film)
+      by_boundary = flux*parts%heat%flash*abs(contact%boundary_mobilised)
+      low = 0.0_wp
+      high = huge(1.0_wp)
+      rise = contact%film_rise - by_boundary
+      if (.not. rise > 0.0_wp) then
+         call set_shear(model, setting, contact, peak, by_boundary, parts)
+         high = gain*abs(parts%shear)
+         rise = first_rise(model%heat%hot%coefficient, gain*abs(parts%free_shear), high)
+         ! The shear follows so small a rise along a straight line
+         if (high*model%heat%hot%coefficient <= last_step) then
+            parts%shear = parts%shear + parts%heat%by_rise*high/(1.0_wp + gain*abs(parts%heat%by_rise))
+            rise = 0.0_wp
+         end if
+      end if
+      do i = 1, max_evaluations
+         if (.not. rise > 0.0_wp) exit
+         call set_shear(model, setting, contact, peak, rise + by_boundary, parts)
+         force = abs(parts%shear)
+         excess = 1.0_wp
+         if (gain*force > 0.0_wp) excess = log(rise/(gain*force))
+         step = -excess
+         if (force > 0.0_wp) step = -excess/(1.0_wp + rise*abs(parts%heat%by_rise)/force)
+         next = rise*exp(step)
+         if (abs(step)*rise*model%heat%hot%coefficient <= last_step) then
+            parts%shear = parts%shear + parts%heat%by_rise*(next - rise)
+            exit
+         end if
+         if (excess > 0.0_wp) high = rise
+         if (excess < 0.0_wp) low = rise
+         if (next <= low .or. next >= high) next = low + 0.5_wp*(high - low)
+         if (next <= low .or. next >= high) exit
+         rise = next
+      end do
+      contact%film_rise = gain*abs(parts%shear) + by_boundary
+      contact%flash_rise = flux*parts%heat%flash*(abs(parts%shear)*(1.0_wp - parts%share%real_area_ratio) &
+         & + abs(contact%boundary_mobilised))
+   end subroutine warm_film
+
+   !> Rise to start from: that of a shear which falls exponentially, `x e^x = z` by `x = ln(1 + z) (1 - ln(1 + ln(1 + z))/(2 + ln(1
+   !> + z)))`, which is within 2 %, and not more than that of the limit.
+   !>
+   !> Source: Winitzki (2003), Computational Science and its Applications, Lecture Notes in Computer Science 2667, 780.
+   elemental function first_rise(fall, free, limited) result(rise)
+      !> Fall of ln(viscosity) [1/K]
+      real(wp), intent(in) :: fall
+      !> Rise that the shear without it would make, before its limit and with it [K]
+      real(wp), intent(in) :: free, limited
+      !> Rise [K]
+      real(wp) :: rise
+
+      ! ln(1 + z) [-]
+      real(wp) :: large
+
+      large = log(1.0_wp + fall*free)
+      rise = min(large*(1.0_wp - log(1.0_wp + large)/(2.0_wp + large))/fall, limited)
+   end function first_rise
+
+   !> How shear and boundary friction follow a motion of the contact.
+   pure function follow_traction(model, setting, contact, parts, motion, change) result(traction)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> What does not change with the load
+      type(setting_t), intent(in) :: setting
+      !> State of the contact
+      type(contact_t), intent(in) :: contact
+      !> What slopes are made of
+      type(parts_t), intent(in) :: parts
+      !> Direction of the motion
+      type(motion_t), intent(in) :: motion
+      !> How film and load share follow it
+      type(share_change_t), intent(in) :: change
+      !> Change of the traction [N]
+      real(wp) :: traction
+
+      ! Changes of apparent area, pressure in the film and central film, their logarithms [-]; of the shear, of boundary friction
+      ! with its limit, and with the part of it that slip mobilises [N]
+      real(wp) :: area, pressure, film, shear, boundary, mobilised
+
+      area = 0.5_wp*(motion%load + motion%radius)
+      film = change%film_central + motion%radius
+      pressure = change%film_load + motion%radius - area + change%real_area_ratio/(1.0_wp - parts%share%real_area_ratio)
+      shear = parts%free_shear*area + parts%pressure_slope*pressure + parts%speed_slope*(motion%sliding_speed &
+         & - contact%sliding_speed*film)
+      shear = parts%by_shear*shear + parts%by_limit*model%limiting_coefficient*contact%load*motion%load*parts%limit_share &
+         & + parts%by_speed*motion%sliding_speed
+      boundary = 0.0_wp
+      mobilised = 0.0_wp
+      if (allocated(model%boundary)) then
+         boundary = setting%mobilised*(model%boundary%film_shear_strength &
+            & *(area*contact%real_area + contact%apparent_area*change%real_area_ratio) &
+            & + model%boundary%coefficient*(change%asperity_load*setting%scale + motion%radius*contact%asperity_load))
+         mobilised = contact%boundary_capacity*setting%mobilised_slope*motion%sliding_speed
+      end if
+      if (has_hot_film(model)) shear = shear + parts%heat%by_rise &
+         & *rise_change(contact, parts, motion, shear, boundary + mobilised, area, film, change%real_area_ratio)
+      traction = shear*(1.0_wp - parts%share%real_area_ratio) - parts%shear*change%real_area_ratio + boundary + mobilised
+   end function follow_traction
+
+   !> How the rise of the film's temperature follows a motion, with the fall of the shear that it makes itself.
+   pure function rise_change(contact, parts, motion, shear, boundary, area, film, real_area_ratio) result(change)
+      !> State of the contact
+      type(contact_t), intent(in) :: contact
+      !> What slopes are made of
+      type(parts_t), intent(in) :: parts
+      !> Direction of the motion
+      type(motion_t), intent(in) :: motion
+      !> Changes of the shear at the temperature that is there, and of the boundary friction [N]
+      real(wp), intent(in) :: shear, boundary
+      !> Changes of apparent area and central film, their logarithms, and of the real area ratio [-]
+      real(wp), intent(in) :: area, film, real_area_ratio
+      !> Change of the rise [K]
+      real(wp) :: change
+
+      ! Sliding speed over area [1/(m s)]; change of ln(flash) [-]; changes of the speeds of the contact over cam and roller [m/s];
+      ! change of the rise times area over sliding speed [N m^2 K/W]
+      real(wp) :: flux, flash, speeds(2), growth
+
+      change = 0.0_wp
+      if (.not. abs(contact%sliding_speed) > 0.0_wp) return
+      associate (heat => parts%heat, ratio => parts%share%real_area_ratio)
+         flux = abs(contact%sliding_speed)/contact%apparent_area
+         speeds = contact%entrainment_speed*motion%entrainment + [0.5_wp, -0.5_wp]*motion%sliding_speed
+         flash = heat%flash_by_width*area + sum(heat%flash_by_speed*speeds)
+         growth = heat%flash*flash*(abs(parts%shear)*(1.0_wp - ratio) + abs(contact%boundary_mobilised)) &
+            & + abs(parts%shear)*(heat%film*film - heat%flash*real_area_ratio) &
+            & + (heat%flash*(1.0_wp - ratio) + heat%film)*sign(1.0_wp, parts%shear)*shear &
+            & + heat%flash*sign(1.0_wp, contact%boundary_mobilised)*boundary
+         change = contact%film_rise*(motion%sliding_speed/contact%sliding_speed - area) + flux*growth
+         change = change/(1.0_wp + flux*(heat%flash*(1.0_wp - ratio) + heat%film)*abs(heat%by_rise))
+      end associate
+   end function rise_change
+
+end module camroller_contact_traction

@@ -1,0 +1,246 @@
+!> Heat in inlet and contact of a follower.
+module test_heat
+   use testdrive, only : unittest_type, new_unittest, error_type, check, test_failed
+   use camroller_kinds, only : wp, two_pi, degree
+   use camroller_error, only : error_t, kind_deck
+   use camroller_case, only : case_t
+   use camroller_conjunction, only : flash_resistance, film_resistance
+   use camroller_cycle, only : cycle_t, state_at
+   use camroller_heat, only : heat_t, inlet_factor
+   use camroller_kinematics, only : rotation_names
+   use camroller_lubricant, only : pressure_law_names
+   use camroller_model, only : model_t, new_model
+   use camroller_remarks, only : hot_inlet, remark_lines
+   use camroller_result, only : result_t
+   use camroller_state, only : state_t, evaluate_state
+   use camroller_torque_list, only : of_residual
+   use camroller_traction, only : cap_names
+   use case_twins, only : leave_constants_out, rescale_case
+   use closeness, only : check_close, check_scaled, expect_error
+   use lobe_cases, only : run
+   use reference_cases, only : thesis_case, skewed_case, make_model, make_cycle, set_point, add_gas_force, add_heat, &
+      & point_speeds, point_viscosities
+   use unit_systems, only : unit_systems_tried, scaled, compare, speed, number, temperature, force
+   implicit none
+   private
+
+   public :: collect_heat
+
+contains
+
+   subroutine collect_heat(testsuite)
+      type(unittest_type), allocatable, intent(out) :: testsuite(:)
+
+      testsuite = [ &
+         new_unittest("the heat of friction keeps the temperature that friction is taken at, at any slip", test_root), &
+         new_unittest("energy closes at 720 angles with heat, either sense, with gas force", test_energy), &
+         new_unittest("bodies of infinite conductivity and an oil that does not thin leave every bit as it was", test_cold), &
+         new_unittest("the same numbers in any units", test_units), &
+         new_unittest("a remark says where the inlet is warmer than its factor can tell", test_remark), &
+         new_unittest("a case says how its oil thins, once", test_refusals) &
+         ]
+   end subroutine collect_heat
+
+   subroutine test_root(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: case
+      type(model_t) :: model
+      type(state_t) :: state
+      ! Sliding speeds over the cam's speed [m]
+      real(wp), parameter :: slides(6) = [0.0_wp, 1.0e-9_wp, -1.0e-5_wp, 1.0e-3_wp, -1.0e-2_wp, 3.0e-2_wp]
+      ! Rises per flux [m^2 K/W], heat of shear and of boundary friction [W/m^2]
+      real(wp) :: flash, layer, unused, pair(2), sheared, rubbed
+      integer :: i, k, law, status
+
+      do law = 1, 6
+         case = thesis_case()
+         call add_heat(case)
+         case%traction%shear_law = merge("newtonian", "eyring   ", law <= 3)
+         case%traction%eyring_stress = 5.0e6_wp
+         case%lubricant%pressure_law = pressure_law_names(1 + mod(law, 3))
+         call set_point(case, point_speeds(1 + mod(law, 3)), point_viscosities(1 + mod(law, 3)))
+         case%traction%cap = cap_names(1 + law/4)
+         call make_model(case, model, error)
+         if (allocated(error)) return
+         do i = -65, 65, 10
+            do k = 1, size(slides)
+               call evaluate_state(model, i*degree, slides(k)*model%speed, state, status)
+               call check(error, status, 0)
+               if (allocated(error)) return
+               associate (contact => state%contact)
+                  call flash_resistance(model%heat%band, model%heat%bodies, contact%half_width, &
+                     & [contact%cam_surface_speed, contact%roller_surface_speed], flash, unused, pair)
+                  layer = film_resistance(contact%film_central, model%heat%oil_conductivity)
+                  sheared = contact%shear*contact%sliding_speed/contact%apparent_area
+                  rubbed = contact%boundary_mobilised*contact%sliding_speed/contact%apparent_area
+                  call check_scaled(error, contact%flash_rise, flash*(sheared + rubbed), contact%flash_rise, 1.0e-11_wp, "surfaces")
+                  if (allocated(error)) return
+                  ! what is left after the last step is its square; the load's last step moves the shear alone
+                  call check_scaled(error, contact%film_rise, contact%flash_rise + layer*sheared &
+                     & /(1.0_wp - contact%real_area/contact%apparent_area), contact%film_rise, 1.0e-10_wp, "film")
+                  if (allocated(error)) return
+                  call check(error, contact%film_rise >= 0.0_wp .and. contact%film_rise < 1.0e3_wp)
+                  if (allocated(error)) return
+               end associate
+            end do
+         end do
+      end do
+   end subroutine test_root
+
+   subroutine test_energy(error)
+      type(error_type), allocatable, intent(out) :: error
+      ! Residual over the mean power lost [-]: round-off of a stored power that is up to 1e3 times larger
+      real(wp), parameter :: tolerance = 1.0e-10_wp
+      type(case_t) :: case
+      type(model_t) :: model
+      type(cycle_t) :: cycle
+      type(state_t) :: state
+      type(error_t), allocatable :: failure
+      ! Largest residual, mean power lost [W]; warmest film [K], thinnest part of a film [-]
+      real(wp) :: largest, lost, warmest, thinnest
+      integer :: i, sense, hint
+
+      do sense = 1, 2
+         case = skewed_case(rotation_names(sense))
+         call add_gas_force(case)
+         call add_heat(case)
+         call set_point(case, point_speeds(3), point_viscosities(1))
+         call make_model(case, model, error)
+         if (allocated(error)) return
+         call make_cycle(case, model, cycle, error)
+         if (allocated(error)) return
+         largest = 0.0_wp
+         lost = 0.0_wp
+         warmest = 0.0_wp
+         thinnest = 1.0_wp
+         hint = 1
+         do i = 0, 719
+            call state_at(cycle, model, i*two_pi/720, hint, state, failure)
+            if (allocated(failure)) call test_failed(error, failure%message)
+            if (allocated(error)) return
+            largest = max(largest, abs(state%torques(of_residual)))
+            lost = lost + state%torque_friction*model%speed/720
+            warmest = max(warmest, state%contact%film_rise)
+            thinnest = min(thinnest, state%contact%inlet_factor)
+         end do
+         call check_scaled(error, largest, 0.0_wp, lost, tolerance, "largest energy residual")
+         if (allocated(error)) return
+         call check(error, warmest > 0.1_wp .and. thinnest < 0.99_wp, "heat does nothing here")
+         if (allocated(error)) return
+      end do
+   end subroutine test_energy
+
+   subroutine test_cold(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: case
+      type(model_t) :: model, cold
+      type(state_t) :: state, other
+      integer :: i, status
+
+      case = thesis_case()
+      call make_model(case, model, error)
+      if (allocated(error)) return
+      call add_heat(case)
+      case%heat%inlet_law = "none"
+      case%heat%contact = "none"
+      call make_model(case, cold, error)
+      if (allocated(error)) return
+      do i = -60, 60, 5
+         call evaluate_state(model, i*degree, 0.01_wp, state, status)
+         call evaluate_state(cold, i*degree, 0.01_wp, other, status)
+         call check(error, .not. (abs(other%contact%load - state%contact%load) > 0.0_wp &
+            & .or. abs(other%contact%traction - state%contact%traction) > 0.0_wp &
+            & .or. abs(other%contact%film_min - state%contact%film_min) > 0.0_wp), "heat without laws changes bits")
+         if (allocated(error)) return
+      end do
+      ! an oil that hardly thins between bodies that carry all heat away: nothing changes but rounding
+      case%heat = heat_t("murch_wilson", "mean", 1.0e12_wp, 1.0e-14_wp, 0.0_wp, 1.0e12_wp)
+      call make_model(case, cold, error)
+      if (allocated(error)) return
+      call evaluate_state(model, 0.2_wp, 0.01_wp, state, status)
+      call evaluate_state(cold, 0.2_wp, 0.01_wp, other, status)
+      call check_close(error, other%contact%traction, state%contact%traction, 1.0e-11_wp, "traction of a film that stays cold")
+   end subroutine test_cold
+
+   subroutine test_units(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: case, other
+      type(model_t) :: model, twin
+      type(state_t) :: state, twin_state
+      integer :: i, k, status
+
+      case = thesis_case()
+      call add_heat(case)
+      call leave_constants_out(case)
+      case%traction%shear_law = "eyring"
+      case%traction%eyring_stress = 5.0e6_wp
+      call set_point(case, point_speeds(3), point_viscosities(1))
+      call make_model(case, model, error)
+      if (allocated(error)) return
+      do i = 1, size(unit_systems_tried)
+         other = case
+         call rescale_case(other, unit_systems_tried(i))
+         call make_model(other, twin, error)
+         if (allocated(error)) return
+         do k = -60, 60, 10
+            call evaluate_state(model, k*degree, 2.0e-3_wp*model%speed, state, status)
+            call evaluate_state(twin, k*degree, scaled(unit_systems_tried(i), 2.0e-3_wp*model%speed, speed), twin_state, status)
+            call compare(error, "factor", unit_systems_tried(i), number, [state%contact%inlet_factor], &
+               & [twin_state%contact%inlet_factor])
+            if (allocated(error)) return
+            call compare(error, "rise", unit_systems_tried(i), temperature, [state%contact%film_rise], &
+               & [twin_state%contact%film_rise])
+            if (allocated(error)) return
+            call compare(error, "traction", unit_systems_tried(i), force, [state%contact%traction], [twin_state%contact%traction])
+            if (allocated(error)) return
+         end do
+      end do
+   end subroutine test_units
+
+   subroutine test_remark(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: case
+      type(result_t) :: result
+      integer :: i
+
+      do i = 1, 2
+         case = thesis_case()
+         call add_heat(case)
+         call set_point(case, point_speeds(3), point_viscosities(1))
+         ! an oil that conducts so little has 1e5 times the L, with which the pressure's part grows
+         if (i == 2) case%heat%oil_conductivity = 1.0e-5_wp*case%heat%oil_conductivity
+         call run(case, result, error)
+         if (allocated(error)) return
+         call check(error, any(result%remarks%kind == hot_inlet) .eqv. i == 2, remark_lines(result%remarks))
+         if (allocated(error)) return
+      end do
+   end subroutine test_remark
+
+   subroutine test_refusals(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: case
+      type(model_t) :: model
+      type(error_t), allocatable :: failure
+
+      case = thesis_case()
+      allocate (case%heat)
+      call new_model(model, case, case%lift, failure)
+      call expect_error(error, failure, kind_deck, "viscosity_fall_per_K")
+      if (allocated(error)) return
+      case%heat%viscosity_fall = 0.05_wp
+      case%heat%inlet_law = "warm"
+      call new_model(model, case, case%lift, failure)
+      call expect_error(error, failure, kind_deck, "law of heat in the inlet")
+      if (allocated(error)) return
+      case%heat%inlet_law = "gupta"
+      case%heat%conductivity(2) = 0.0_wp
+      call new_model(model, case, case%lift, failure)
+      call expect_error(error, failure, kind_deck, "must be positive")
+      if (allocated(error)) return
+      case%heat%conductivity(2) = 46.0_wp
+      allocate (case%ehl)
+      call new_model(model, case, case%lift, failure)
+      call expect_error(error, failure, kind_deck, "not part of a numerical film")
+   end subroutine test_refusals
+
+end module test_heat
