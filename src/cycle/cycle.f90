@@ -432,10 +432,9 @@ contains
 
       type(position_t) :: position
       type(moments_t) :: moments
-      ! Angle within the cycle [rad], sliding speed or surface speed [m/s], gas force [N], slope of the curve [m/s/rad]
-      real(wp) :: inside, value(1), force, slope(1)
-      ! Mobilised part of the boundary friction [-]
-      real(wp) :: share
+      ! Angle within the cycle [rad], sliding speed or surface speed [m/s], gas force [N], slope of the curve [m/s/rad], mobilised
+      ! part of the boundary friction [-]
+      real(wp) :: inside, value(1), force, slope(1), share
       integer :: status
       logical :: is_moved, rests
 
@@ -495,8 +494,7 @@ contains
          call interpolate_state(path, min(max(angle, path%time(1)), path%time(path%count)), hint, train)
       end associate
       call evaluate_follower(model, angle, train, cycle%flexible%cycle%resolution, state, status)
-      if (status /= 0) call raise(error, kind_convergence, "the flexible train has no state at "// &
-         & cam_angle_text(angle, 3))
+      if (status /= 0) call raise(error, kind_convergence, "the flexible train has no state at "//cam_angle_text(angle, 3))
    end subroutine flexible_state_at
 
 end module camroller_cycle

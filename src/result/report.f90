@@ -15,7 +15,7 @@ module camroller_report
    use camroller_series_extremes, only : extremes_t, find_extremes
    use camroller_margins, only : margins_t, find_margins
    use camroller_result, only : result_t, check_numbers, find_quantity
-   use camroller_shaft, only : solved_t, new_shaft, refine_curve, shaft_torques
+   use camroller_shaft, only : solved_t, new_shaft, refine_curves, shaft_torques
    use camroller_mean_bearings, only : mean_bearing_torque
    use camroller_means, only : statistics_t, integrate_lobe
    use camroller_flexible_report, only : flexible_means_t, integrate_turns
@@ -119,10 +119,8 @@ contains
       solved%curves => statistics%curve
       call new_shaft(solved%shaft, case, models(1)%oil%viscosity, models(1)%speed, error)
       if (allocated(error)) return
-      do lobe = 1, size(models)
-         call refine_curve(solved%shaft, lobe, models(lobe), cycles(lobe), statistics(lobe)%curve, error)
-         if (allocated(error)) return
-      end do
+      call refine_curves(solved, error)
+      if (allocated(error)) return
       result%angle = output_angles(case%numerics%output_step)
       allocate (result%series_values(merge(size(result%angle), 0, with_series .or. allocated(case%engine)), &
          & size(result%series)))
@@ -137,8 +135,6 @@ contains
          if (allocated(error)) return
       end do
       allocate (bearing_torque(solved%shaft%count))
-      bearing_torque = 0.0_wp
-      bearing_error = 0.0_wp
       call mean_bearing_torque(solved, bearing_torque, bearing_error, torque_rows, error)
       if (allocated(error)) return
       if (allocated(cycles(1)%flexible) .and. .not. allocated(case%cam_bearings)) torque_rows = statistics(1)%torque_rows
@@ -150,13 +146,13 @@ contains
       call find_extremes(solved, margins, statistics, torque_rows, result, extremes, error)
       if (allocated(error)) return
       result%worst_extreme = statistics(maxloc(statistics%extreme_error, 1))%worst_extreme
-      do lobe = 1, size(solved%models)
-         call judge_films(statistics(lobe), merge(lobe, 0, size(solved%models) > 1), result%remarks)
-      end do
       call make_summary(solved, statistics, bearing_torque, margins, extremes, result)
-      do lobe = 1, size(solved%models)
-         call judge_pressure(solved%models(lobe), result%summary_values(find_quantity(result%summary, "max_"// &
-            & trim(lobe_prefix(lobe))//"hertz_pressure")), merge(lobe, 0, size(solved%models) > 1), result%remarks)
+      do lobe = 1, size(models)
+         associate (named => merge(lobe, 0, size(models) > 1))
+            call judge_films(statistics(lobe), named, result%remarks)
+            call judge_pressure(models(lobe), result%summary_values(find_quantity(result%summary, "max_"// &
+               & trim(lobe_prefix(lobe))//"hertz_pressure")), named, result%remarks)
+         end associate
       end do
       if (.not. with_series) result%series_values = result%series_values(:0, :)
       call check_numbers(result, error)

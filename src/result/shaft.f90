@@ -19,7 +19,7 @@ module camroller_shaft
    implicit none
    private
 
-   public :: shaft_t, solved_t, new_shaft, set_journal, refine_curve, shaft_torques, in_common_frame, bearing_torques
+   public :: shaft_t, solved_t, new_shaft, set_journal, refine_curves, shaft_torques, in_common_frame, bearing_torques
 
    !> Cams of a shaft
    type :: shaft_t
@@ -101,13 +101,25 @@ contains
       if (allocated(shaft%journal)) call new_journal(shaft%journal, shaft%bearings, viscosity, speed, error)
    end subroutine set_journal
 
-   !> Halve the pieces of a follower's curve that are not good enough, where so many cams have its shape that it pays.
-   subroutine refine_curve(shaft, lobe, model, cycle, curve, error)
-      !> The shaft
-      type(shaft_t), intent(in) :: shaft
-      !> The lobe shape
-      integer, intent(in) :: lobe
-      !> Its model
+   !> Make the curves better of shapes that several cams have, so that it pays.
+   subroutine refine_curves(solved, error)
+      !> The solved case
+      type(solved_t), intent(inout) :: solved
+      !> Convergence error
+      type(error_t), allocatable, intent(out) :: error
+
+      integer :: lobe
+
+      do lobe = 1, size(solved%models)
+         if (count(solved%shaft%lobes == lobe) < 2) cycle
+         call refine_curve(solved%models(lobe), solved%cycles(lobe), solved%curves(lobe), error)
+         if (allocated(error)) return
+      end do
+   end subroutine refine_curves
+
+   !> Halve the pieces of a follower's curve that are not good enough.
+   subroutine refine_curve(model, cycle, curve, error)
+      !> Model of the lobe shape
       type(model_t), intent(in) :: model
       !> Its cycle
       type(cycle_t), intent(in) :: cycle
@@ -122,7 +134,6 @@ contains
       integer, allocatable :: halves(:)
       integer :: pass, i, point, hint
 
-      if (count(shaft%lobes == lobe) < 2) return
       hint = 1
       do pass = 1, most_halvings
          call halve_pieces(curve, halves)
