@@ -180,7 +180,7 @@ contains
          if (one%series(i)%name == "energy_residual") cycle
          largest = maxval(abs(one%series_values(:, i)))
          found = maxval(abs(scaled(units, one%series_values(:, i), dimension_of_unit(one%series(i)%unit)) &
-            & - other%series_values(:, i)))/scaled(units, max(largest, tiny(1.0_wp)), dimension_of_unit(one%series(i)%unit))
+            & - other%series_values(:, i)))/max(scaled(units, largest, dimension_of_unit(one%series(i)%unit)), tiny(1.0_wp))
          write (buffer, "(es9.2)") found
          if (.not. found <= allowed) trouble = trouble//" "//one%series(i)%name//buffer
       end do
