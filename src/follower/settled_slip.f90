@@ -59,8 +59,6 @@ contains
       call solve_euler(problem, span, angle, sliding_speed - step*slope, step, settled, new_rate, counters, status)
       ! Where the traction does not saturate nearby, so short a step changes next to nothing
       if (status /= 0 .or. .not. abs(new_rate - slope) < settled_part*abs(rate - slope)) return
-      ! Under next to no load, rolling resistance is more than any traction
-      if (abs(settled - sliding_speed) > reach) return
       sliding_speed = settled
       is_moved = .true.
    end subroutine settle
