@@ -2,7 +2,7 @@
 
 SHELL := /bin/bash
 .DEFAULT_GOAL := help
-.PHONY: help setup commit build debug mpi install run dynamics comparison test quick bless random random-ehl random-wide needed rough-rows fuzz sanitize study study-film study-dynamics audit trends check check-layers \
+.PHONY: help setup commit build debug mpi install run dynamics comparison test quick bless random random-ehl random-flexible random-wide needed rough-rows fuzz sanitize study study-film study-dynamics audit trends check check-layers \
   check-style check-format check-lint check-warnings second-compiler format docs recipes bench bench-ehl range-ehl bench-batch bench-cases bench-effects bench-hosts clean distclean
 
 FPM := .venv/bin/fpm
@@ -112,6 +112,10 @@ random-ehl: commit ## random cases with a numerical film, as film law and over t
 random-wide: commit ## random cases with all options of a deck, optimised build: CASES=20000 SEED=1 FOLDER= for decks that fail
 	@WIDE_CASES=$(or $(CASES),20000) WIDE_SEED=$(or $(SEED),1) $(if $(FOLDER),WIDE_FOLDER="$(FOLDER)") $(FPM) test \
 	  --flag "$(RELEASE_FLAGS)" -- random_wide
+
+random-flexible: commit ## random flexible trains by two methods, optimised build: CASES=100 SEED=1 FOLDER= for decks that fail
+	@FLEXIBLE_CASES=$(or $(CASES),100) FLEXIBLE_SEED=$(or $(SEED),1) $(if $(FOLDER),WIDE_FOLDER="$(FOLDER)") $(FPM) test \
+	  --flag "$(RELEASE_FLAGS)" -- random_flexible
 
 needed: commit ## changes by leaving effects out, compared with their estimates, for random cases: CASES=300 SEED=1
 	@NEEDED_TABLE=1 NEEDED_CASES=$(or $(CASES),300) NEEDED_SEED=$(or $(SEED),1) $(FPM) test --flag "$(RELEASE_FLAGS)" -- needed

@@ -105,6 +105,7 @@ program main
    use test_flexible_train, only : collect_flexible_train
    use test_random_cases, only : collect_random_cases
    use test_random_ehl, only : collect_random_ehl
+   use test_random_flexible, only : collect_random_flexible
    use test_random_wide, only : collect_random_wide
    use test_effects, only : collect_effects
    use test_needed, only : collect_needed
@@ -157,6 +158,7 @@ contains
          new_testsuite("flexible_train", collect_flexible_train), &
          new_testsuite("random_cases", collect_random_cases), &
          new_testsuite("random_ehl", collect_random_ehl), &
+         new_testsuite("random_flexible", collect_random_flexible), &
          new_testsuite("random_wide", collect_random_wide), &
          new_testsuite("effects", collect_effects), &
          new_testsuite("ehl", collect_ehl), &

@@ -11,7 +11,7 @@ module result_checks
    implicit none
    private
 
-   public :: check_result, compare_results, promised_error, series_of, scalar_of, words_of_difference
+   public :: check_result, check_numbers, check_sums, compare_results, promised_error, series_of, scalar_of, words_of_difference
 
    !> Energy left over, over the sum of the sizes of all powers: see `cycle_checks`. A camshaft adds up to a handful of followers
    real(wp), parameter :: energy_tolerance = 1000.0_wp*epsilon(1.0_wp)

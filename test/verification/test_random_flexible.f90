@@ -1,0 +1,162 @@
+!> Decks of flexible trains drawn at random: two unlike methods agree within what both promise, or words say why not. How they end
+!> is counted and printed.
+!>
+!> The environment variables FLEXIBLE_CASES and FLEXIBLE_SEED choose how many and which; `make random-flexible` sets them. A case
+!> takes seconds, where one of a rigid train takes milliseconds: a usual run has few.
+module test_random_flexible
+   use, intrinsic :: iso_fortran_env, only : error_unit
+   use testdrive, only : new_unittest, unittest_type, error_type, test_failed
+   use camroller_kinds, only : wp
+   use camroller_case, only : case_t, numerics_t
+   use camroller_deck, only : deck_t, override_t, make_case, parse_deck
+   use camroller_deck_keys, only : new_schema
+   use camroller_deck_schema, only : schema_t
+   use camroller_error, only : error_t
+   use camroller_model, only : model_t
+   use camroller_remarks, only : long_period, lost_contact, no_period, open_pivot
+   use camroller_result, only : result_t
+   use camroller_run, only : build_models, run_case
+   use case_endings, only : tally_t, count_ending, count_error, count_remarks, endings_table
+   use result_checks, only : check_numbers, check_sums, scalar_of, words_of_difference
+   use run_settings, only : has_checks, number_from
+   use wide_decks, only : wide_deck_t, draw_wide_deck, save_wide_deck
+   use wide_draft, only : style_t
+   implicit none
+   private
+
+   public :: collect_random_flexible
+
+   !> Cases of a test run with and without run-time checks, and the seed of the first
+   integer, parameter :: usual_cases = 4, few_cases = 1, usual_seed = 1
+   !> Error of a step: as loose as is still of use, since a case takes hundreds of cycles [-]
+   real(wp), parameter :: tolerance = 1.0e-3_wp
+   !> Slowest camshaft: a train rings thousands of times in a slower turn, and each oscillation takes its steps [rad/s]
+   real(wp), parameter :: slowest = 30.0_wp
+   !> Distance between two periodic states over the error of each: both are closed to that as well [-]
+   real(wp), parameter :: closed = 2.0_wp
+
+contains
+
+   !> Collect the tests.
+   subroutine collect_random_flexible(testsuite)
+      !> The tests
+      type(unittest_type), allocatable, intent(out) :: testsuite(:)
+
+      testsuite = [ &
+         new_unittest("random flexible trains: two methods agree on load and losses, or words say why not", test_flexible) &
+         ]
+   end subroutine collect_random_flexible
+
+   subroutine test_flexible(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(schema_t) :: schema
+      type(wide_deck_t) :: deck
+      type(tally_t) :: tally
+      character(len=:), allocatable :: list, trouble
+      character(len=40) :: buffer
+      integer :: seed, i, cases
+
+      call new_schema(schema)
+      cases = number_from("FLEXIBLE_CASES", merge(few_cases, usual_cases, has_checks()))
+      list = ""
+      do i = 1, cases
+         seed = number_from("FLEXIBLE_SEED", usual_seed) + i - 1
+         call draw_wide_deck(seed, schema, style_t(ehl_share=0.0_wp, method_share=0.0_wp, dynamics_share=1.0_wp), deck)
+         call check_deck(deck, tally, trouble)
+         if (trouble == "") cycle
+         write (buffer, "(a, i0)") "FLEXIBLE_SEED=", seed
+         call save_wide_deck(deck, trim(buffer(15:)), trouble)
+         list = list//new_line("a")//trim(buffer)//":"//trouble
+      end do
+      write (error_unit, "(a)") endings_table(tally)
+      if (list /= "") call test_failed(error, list)
+   end subroutine test_flexible
+
+   !> One deck: read, built, run by both methods.
+   subroutine check_deck(deck, tally, trouble)
+      type(wide_deck_t), intent(in) :: deck
+      type(tally_t), intent(inout) :: tally
+      character(len=:), allocatable, intent(out) :: trouble
+      character(len=*), parameter :: methods(*) = [character(len=7) :: "rodas5p", "radau5"]
+      type(deck_t) :: parsed
+      type(override_t) :: none(0)
+      type(case_t) :: case
+      type(model_t), allocatable :: models(:)
+      type(result_t) :: results(2)
+      type(error_t), allocatable :: error
+      integer :: i
+
+      trouble = ""
+      call parse_deck(parsed, deck%text, "random deck", "", none, error, deck%tables)
+      if (.not. allocated(error)) call make_case(parsed, none, case, error)
+      if (allocated(error)) then
+         call count_ending(tally, "deck refused")
+         trouble = " a deck within all ranges is refused: "//error%message
+         return
+      end if
+      case%numerics = numerics_t(tolerance=tolerance)
+      case%operating_point%speed = max(slowest, case%operating_point%speed)
+      call build_models(case, models, error)
+      if (allocated(error)) then
+         call count_error(tally, error, "no model:", trouble)
+         return
+      end if
+      do i = 1, size(methods)
+         case%numerics%method = methods(i)
+         call run_case(case, results(i), error)
+         if (allocated(error)) then
+            call count_error(tally, error, trim(merge("no result:         ", "  no second result:", i == 1)), trouble)
+            return
+         end if
+         if (i == 1) call count_remarks(tally, results(i)%remarks)
+         trouble = trouble//check_numbers(results(i))//check_sums(case, results(i))//missing_words(results(i))
+      end do
+      if (trouble == "") call compare(results(1), results(2), tally, trouble)
+      if (trouble /= "") call count_ending(tally, "SILENT: a result that is not right")
+   end subroutine check_deck
+
+   !> What happens in a train and no remark tells.
+   function missing_words(result) result(trouble)
+      type(result_t), intent(in) :: result
+      character(len=:), allocatable :: trouble
+
+      trouble = ""
+      associate (kinds => result%remarks%kind)
+         if (scalar_of(result, "lost_contact_share") > 0.0_wp .and. all(kinds /= lost_contact)) trouble = &
+            & " contact is lost without a word;"
+         if (nint(scalar_of(result, "period_cycles")) == 0 .and. all(kinds /= no_period)) trouble = trouble// &
+            & " no period, and no word of it;"
+         if (nint(scalar_of(result, "period_cycles")) > 1 .and. all(kinds /= long_period)) trouble = trouble// &
+            & " a period of several cycles without a word;"
+         if (scalar_of(result, "joint_force_min_lowest") < 0.0_wp .and. all(kinds /= open_pivot)) trouble = trouble// &
+            & " the pivot's joint opens without a word;"
+      end associate
+   end function missing_words
+
+   !> Load and losses of two results; only of trains that repeat each cycle, since others have turns of their own.
+   subroutine compare(one, other, tally, trouble)
+      type(result_t), intent(in) :: one, other
+      type(tally_t), intent(inout) :: tally
+      character(len=:), allocatable, intent(inout) :: trouble
+      character(len=*), parameter :: names(*) = [character(len=20) :: "max_contact_load", "max_sliding_speed", &
+         & "mean_torque_friction"]
+      ! Differences over the largest value, what both promise [-]
+      real(wp) :: found, allowed
+      integer :: i
+
+      if (any(nint([scalar_of(one, "period_cycles"), scalar_of(other, "period_cycles"), scalar_of(one, "lobe_2_period_cycles"), &
+         & scalar_of(other, "lobe_2_period_cycles")]) > 1) .or. nint(scalar_of(one, "period_cycles")) /= 1 .or. &
+         & nint(scalar_of(other, "period_cycles")) /= 1) then
+         call count_ending(tally, "  not compared: no period of one cycle, as a remark says")
+         return
+      end if
+      do i = 1, size(names)
+         allowed = closed*max(tolerance, scalar_of(one, "estimated_error"), scalar_of(other, "estimated_error"), &
+            & scalar_of(one, "estimated_error_of_means"), scalar_of(other, "estimated_error_of_means"))
+         found = abs(scalar_of(one, trim(names(i))) - scalar_of(other, trim(names(i))))/max(abs(scalar_of(one, trim(names(i)))), &
+            & abs(scalar_of(other, trim(names(i)))), tiny(1.0_wp))
+         if (found > allowed) trouble = trouble//" "//trim(names(i))//words_of_difference(found, allowed)
+      end do
+   end subroutine compare
+
+end module test_random_flexible
