@@ -2,8 +2,7 @@
 !>
 !> In: the states at the points from which the means of a lobe shape are made. Out: the same quantities at any angle, by the
 !> polynomial through the seven points of a panel, for every cam of the shape at its own phase. Where the two highest terms of a
-!> polynomial are
-!> not within the tolerance of the cycle the curve is not known, and the state has to be solved.
+!> polynomial are beyond five tolerances of the cycle the curve is not known, and the state has to be solved.
 module camroller_lobe_curve
    use camroller_kinds, only : wp, two_pi
    use camroller_model, only : model_t
