@@ -5,6 +5,7 @@ module camroller_effect_list
    use camroller_kinds, only : wp
    use camroller_names, only : name_length
    use camroller_case, only : case_t, quasi_static, automatic_method, quantity_names
+   use camroller_asperity, only : asperity_law_names, law_masjedi_khonsari_asperities => law_masjedi_khonsari
    use camroller_film, only : film_law_names, law_dowson_higginson, law_masjedi_khonsari, law_masjedi_khonsari_rough, law_moes
    use camroller_heat, only : inlet_law_names, contact_heat_names, inlet_none, contact_heat_none
    use camroller_lubricant, only : pressure_law_names, law_cameron
@@ -82,7 +83,7 @@ contains
          variant%traction%rolling_law = rolling_law_names(rolling_none)
       case (effect_film)
          if (variant%film%law == film_law_names(law_moes)) variant%film%law = film_law_names(law_dowson_higginson)
-         if (variant%film%law == film_law_names(law_masjedi_khonsari_rough)) variant%film%law = film_law_names(law_masjedi_khonsari)
+         if (has_rough_film(variant)) variant%film%law = film_law_names(law_masjedi_khonsari)
       case (effect_pressure)
          variant%lubricant%pressure_law = pressure_law_names(law_cameron)
       case (effect_shear)
@@ -107,6 +108,16 @@ contains
          if (allocated(variant%heat)) variant%heat%contact = contact_heat_names(contact_heat_none)
       end select
    end subroutine leave_out
+
+   !> Has a case a rough film that a smooth one may stand for? Not where its asperities come with it.
+   pure function has_rough_film(case) result(has)
+      !> The case
+      type(case_t), intent(in) :: case
+      logical :: has
+
+      has = case%film%law == film_law_names(law_masjedi_khonsari_rough)
+      if (has .and. allocated(case%asperity)) has = case%asperity%law /= asperity_law_names(law_masjedi_khonsari_asperities)
+   end function has_rough_film
 
    !> Leave out every effect but one; the roller's equation stays.
    pure subroutine leave_all_but(case, effect)
@@ -146,7 +157,7 @@ contains
       case (effect_rolling)
          has = case%traction%rolling_law /= rolling_law_names(rolling_none)
       case (effect_film)
-         has = case%film%law == film_law_names(law_moes) .or. case%film%law == film_law_names(law_masjedi_khonsari_rough)
+         has = case%film%law == film_law_names(law_moes) .or. has_rough_film(case)
          has = has .and. .not. allocated(case%ehl)
       case (effect_pressure)
          has = case%lubricant%pressure_law /= pressure_law_names(law_cameron)

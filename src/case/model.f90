@@ -435,7 +435,8 @@ contains
       if (allocated(case%engine)) model%crank_turns = cam_turns(case%engine)
       if (allocated(case%asperity)) then
          allocate (model%boundary)
-         call new_boundary_part(model%boundary, case%asperity, model%modulus, model%hardness, error)
+         call new_boundary_part(model%boundary, case%asperity, model%modulus, model%hardness, &
+            & model%film_law == law_masjedi_khonsari_rough, error)
          if (allocated(error)) return
       end if
       if (allocated(case%heat)) then

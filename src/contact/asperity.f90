@@ -15,14 +15,16 @@ module camroller_asperity
 
    public :: asperity_t, asperity_constants_t, asperity_law_names, boundary_names, mobilisation_names, largest_film_ratio
    public :: boundary_part_t, new_boundary_part
-   public :: law_greenwood_tripp, law_zhao_maietta_chang, smallest_product
+   public :: law_greenwood_tripp, law_zhao_maietta_chang, law_masjedi_khonsari, smallest_product
    public :: new_asperity_constants, asperity_load_function, asperity_area_function
    public :: asperity_load, asperity_area
 
-   !> Laws of touching asperities: elastic summits of both surfaces, or summits of one surface that yield against a plane
-   character(len=*), parameter :: asperity_law_names(*) = [character(len=name_length) :: "greenwood_tripp", "zhao_maietta_chang"]
+   !> Laws of touching asperities: elastic summits of both surfaces, summits of one surface that yield against a plane, or
+   !> the regression that goes with the rough film of Masjedi and Khonsari
+   character(len=*), parameter :: asperity_law_names(*) = [character(len=name_length) :: "greenwood_tripp", "zhao_maietta_chang", &
+      & "masjedi_khonsari"]
    !> Their positions in the list
-   integer, parameter :: law_greenwood_tripp = 1, law_zhao_maietta_chang = 2
+   integer, parameter :: law_greenwood_tripp = 1, law_zhao_maietta_chang = 2, law_masjedi_khonsari = 3
    !> Boundary friction that is counted: all of it, or what the slip mobilises
    character(len=*), parameter :: boundary_names(*) = [character(len=name_length) :: "mobilised", "full"]
    !> How slip mobilises boundary friction: growing with the sliding speed, or at once, with any part of it at rest
@@ -81,7 +83,7 @@ module camroller_asperity
 contains
 
    !> Prepare asperities and their friction.
-   subroutine new_boundary_part(part, asperity, modulus, hardness, error)
+   subroutine new_boundary_part(part, asperity, modulus, hardness, has_rough_film, error)
       !> Ready for evaluation
       type(boundary_part_t), intent(out) :: part
       !> Asperities
@@ -90,6 +92,8 @@ contains
       real(wp), intent(in) :: modulus
       !> Hardness of the softer body; zero: not known [Pa]
       real(wp), intent(in) :: hardness
+      !> Is the film that of rough surfaces by Masjedi and Khonsari?
+      logical, intent(in) :: has_rough_film
       !> Deck error for an unknown name, or where the law lacks something
       type(error_t), allocatable, intent(out) :: error
 
@@ -110,6 +114,10 @@ contains
          call raise(error, kind_deck, "materials: the asperity law 'zhao_maietta_chang' needs the hardness")
       else if (choice == law_zhao_maietta_chang .and. .not. asperity%roughness_product >= smallest_product) then
          call raise(error, kind_deck, "asperity: the law 'zhao_maietta_chang' needs a roughness product of 0.025 or more")
+      else if (choice == law_masjedi_khonsari .and. .not. has_rough_film) then
+         call raise(error, kind_deck, "asperity: the law 'masjedi_khonsari' goes with film law 'masjedi_khonsari_rough'")
+      else if (choice == law_masjedi_khonsari .and. part%film_shear_strength > 0.0_wp) then
+         call raise(error, kind_deck, "asperity: the law 'masjedi_khonsari' has no real area that could be sheared")
       end if
       if (allocated(error)) return
       call new_asperity_constants(part%constants, asperity, modulus, hardness)
@@ -140,6 +148,10 @@ contains
             constants%area_factor = pi*product
             call new_summits(constants%summits, product, first_yield(relative, slenderness))
             constants%reach = constants%summits%reach
+         else if (asperity%law == asperity_law_names(law_masjedi_khonsari)) then
+            ! A part of the load at any film, and no area
+            constants%law = law_masjedi_khonsari
+            constants%reach = huge(1.0_wp)
          else
             constants%load_factor = load_factor(product, slenderness, modulus)
             constants%area_factor = area_factor(product)

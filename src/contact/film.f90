@@ -9,7 +9,8 @@
 !> | `dowson_higginson` | minimum: Dowson and Higginson (1966); central: Dowson and Toyoda (1978); Islam (2019) eqs. (29), (30) |
 !> | `pan_hamrock` | Pan and Hamrock, J. Tribol. 111 (1989) 246 |
 !> | `masjedi_khonsari` | Masjedi and Khonsari, J. Tribol. 134 (2012) 011503, smooth surfaces |
-!> | `masjedi_khonsari_rough` | the same, with its roughness factors; takes the whole load |
+!> | `masjedi_khonsari_rough` | the same, with its roughness factors; takes the whole load; their part of the load on asperities
+!> goes with it |
 !> | `moes` | Moes, Lubrication and Beyond (2000): joins rigid and elastic, isoviscous and piezoviscous asymptotes |
 module camroller_film
    use camroller_kinds, only : wp
@@ -19,7 +20,8 @@ module camroller_film
    private
 
    public :: film_t, groups_t, film_shape_t, film_line_t, film_law_names, range_policy_names
-   public :: film_shape, new_film_line, film_at_load, log_films_at_load, is_in_range, takes_whole_load, published_range
+   public :: film_shape, new_film_line, film_at_load, log_films_at_load, is_in_range, takes_whole_load, published_range, &
+      & asperity_part
    public :: law_dowson_higginson, law_pan_hamrock, law_masjedi_khonsari, law_masjedi_khonsari_rough, law_moes, law_table
 
    !> Film-thickness laws
@@ -96,13 +98,18 @@ module camroller_film
    real(wp), parameter :: rough_factors(6, 2) = reshape([ &
       0.026_wp, 1.120_wp, 0.185_wp, -0.312_wp, -0.809_wp, -0.977_wp, &
       0.2_wp, 1.222_wp, 0.223_wp, -0.229_wp, -0.748_wp, -0.842_wp], [6, 2])
+   !> Most that asperities carry of a load: the regression goes beyond all of it outside its range, and a film has to be left [-]
+   real(wp), parameter :: largest_part = 0.999_wp
+   !> Sharpness of the bend towards it [-]: half of the load changes by 0.05 %
+   integer, parameter :: bend = 8
+
    !> Part by which the minimum film lies below Moes' central film in the elastic regime: the 1.55/1.77 of the numerical
    !> solution at U 1e-11, W* 1e-4, G 4500 in Masjedi and Khonsari (2012); ours, since Moes gives no minimum [-]
    real(wp), parameter :: moes_elastic_dip = 0.124_wp
 
    !> Published ranges of U, G and W*, lower and upper, one column a law [-]. Dowson and Higginson solved 1e-13 < U < 1e-10,
-   !> 2500 < G < 5000, 1.5e-5 < W* < 3e-4; Pan and Hamrock 1e-12 < U < 1e-8 with W* up to 5e-4; Masjedi and Khonsari as in their
-   !> abstract; Moes' formula has the four asymptotes as its limits and so no outer range.
+   !> 2500 < G < 5000, 1.5e-5 < W* < 3e-4; Pan and Hamrock as they are commonly quoted, not compared with the paper; Masjedi and
+   !> Khonsari as in their abstract; Moes' formula has the four asymptotes as its limits and so no outer range.
    real(wp), parameter :: ranges(2, 3, 5) = reshape([ &
       1.0e-13_wp, 1.0e-10_wp, 2.5e3_wp, 5.0e3_wp, 1.5e-5_wp, 3.0e-4_wp, &
       1.0e-13_wp, 1.0e-8_wp, 2.0e3_wp, 1.0e4_wp, 2.0e-5_wp, 5.0e-4_wp, &
@@ -326,6 +333,58 @@ contains
       shape%minimum_roughness_slope = rise(1)*rough_factors(2, 1)
       shape%central_roughness_slope = rise(2)*rough_factors(2, 2)
    end subroutine roughen
+
+   !> Part of the load that asperities carry by the regression of Masjedi and Khonsari (2012), with its logarithmic slopes.
+   !>
+   !> `0.005 W*^-0.408 U^-0.088 G^0.103 ln(1 + 4470 s^6.015 v^1.168 W*^0.485 U^-3.741 G^-2.898)` per cent of the whole load, for
+   !> asperities of Zhao, Maietta and Chang with eta beta sigma = 0.05 and sigma/beta = 0.01; bent towards `largest_part`.
+   pure subroutine asperity_part(groups, part, load_slope, speed_slope, roughness_slope)
+      !> Groups with the whole load
+      type(groups_t), intent(in) :: groups
+      !> Part of the load [-]
+      real(wp), intent(out) :: part
+      !> d ln(part) over the logarithms of load, speed and roughness over radius [-]
+      real(wp), intent(out) :: load_slope, speed_slope, roughness_slope
+
+      ! Logarithm of what is added to one, above underflow; logarithm of the sum; its slope over the first [-]
+      real(wp) :: exponent, whole, slope
+      real(wp), parameter :: least_exponent = -600.0_wp
+
+      part = largest_part
+      load_slope = 0.0_wp
+      speed_slope = 0.0_wp
+      roughness_slope = 0.0_wp
+      if (.not. groups%speed > 0.0_wp) return
+      exponent = max(log(4470.0_wp) + 6.015_wp*log(groups%roughness) + 1.168_wp*log(groups%hardness) &
+         & + 0.485_wp*log(groups%load) - 3.741_wp*log(groups%speed) - 2.898_wp*log(groups%material), least_exponent)
+      if (exponent > 0.0_wp) then
+         whole = exponent + log(1.0_wp + exp(-exponent))
+         slope = 1.0_wp/(1.0_wp + exp(-exponent))/whole
+      else
+         ! ln(1 + x) loses the figures of a small x
+         slope = exp(exponent)
+         whole = log(1.0_wp + slope)
+         if (slope < 1.0e-5_wp) whole = slope*(1.0_wp - 0.5_wp*slope*(1.0_wp - 2.0_wp/3.0_wp*slope))
+         slope = slope/(1.0_wp + slope)/whole
+      end if
+      part = 5.0e-5_wp*groups%load**(-0.408_wp)*groups%speed**(-0.088_wp)*groups%material**0.103_wp*whole/largest_part
+      load_slope = 0.485_wp*slope - 0.408_wp
+      speed_slope = -3.741_wp*slope - 0.088_wp
+      roughness_slope = 6.015_wp*slope
+      ! part/(1 + part^8)^(1/8)
+      if (part > 1.0_wp) then
+         whole = 1.0_wp + part**(-bend)
+         slope = part**(-bend)/whole
+         part = largest_part*whole**(-1.0_wp/bend)
+      else
+         whole = 1.0_wp + part**bend
+         slope = 1.0_wp/whole
+         part = largest_part*part*whole**(-1.0_wp/bend)
+      end if
+      load_slope = load_slope*slope
+      speed_slope = speed_slope*slope
+      roughness_slope = roughness_slope*slope
+   end subroutine asperity_part
 
    !> Moes' formula for the central film; the minimum lies below it by `moes_elastic_dip` where elastic deformation rules.
    !>

@@ -6,8 +6,9 @@
 !> root tends to the dry gap, `w_a(h_dry) = W*`, or to zero where the asperities alone cannot carry the load.
 module camroller_load_share
    use camroller_kinds, only : wp
-   use camroller_film, only : film_line_t, film_shape_t, film_at_load, log_films_at_load, takes_whole_load
-   use camroller_asperity, only : asperity_constants_t, asperity_load_function, asperity_area_function
+   use camroller_film, only : film_line_t, film_shape_t, film_at_load, log_films_at_load, takes_whole_load, asperity_part, groups_t
+   use camroller_asperity, only : asperity_constants_t, asperity_load_function, asperity_area_function, &
+      & law_masjedi_khonsari
    implicit none
    private
 
@@ -39,6 +40,10 @@ module camroller_load_share
       logical :: has_asperities, has_own_central
       !> Change of asperity load over E' R L and of the real area ratio with the logarithm of the film ratio [-]
       real(wp) :: stiffness, area_stiffness
+      !> Is the asperity load that of a regression over the groups?
+      logical :: is_regressed
+      !> Its logarithmic slopes over load, speed and roughness [-]
+      real(wp) :: by_groups(3)
       !> Film with its slopes at the load of the film
       type(film_shape_t) :: shape
    end type share_t
@@ -81,7 +86,7 @@ contains
       real(wp) :: film_ratio, asperity_load, film_load, stiffness
       ! Change that may be the last, the last change [-]
       real(wp) :: last_allowed, last
-      logical :: touches
+      logical :: touches, is_part
 
       shape = film_shape_t(0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp)
       if (line%groups%speed > 0.0_wp) call film_at_load(line, load, shape)
@@ -94,7 +99,11 @@ contains
       else
          touches = .false.
       end if
-      if (touches) then
+      is_part = .false.
+      if (touches) is_part = takes_part(asperity)
+      if (is_part) then
+         call share_by_regression(line, load, shape, share)
+      else if (touches) then
          call share_with_asperities(line, load, asperity, area, last_allowed, film_ratio, asperity_load, film_load, stiffness, &
             & last, shape)
          call complete_share(line, asperity, film_ratio, asperity_load, film_load, stiffness, shape, share)
@@ -103,6 +112,40 @@ contains
       end if
       if (present(change)) change = last
    end subroutine share_load
+
+   !> Is the asperity load a part of the load by regression?
+   elemental function takes_part(asperity)
+      !> Asperities
+      type(asperity_constants_t), intent(in) :: asperity
+      logical :: takes_part
+
+      takes_part = asperity%law == law_masjedi_khonsari
+   end function takes_part
+
+   !> Load share of a regression; it has no real area.
+   pure subroutine share_by_regression(line, load, shape, share)
+      !> Film over the load at the speed of the contact
+      type(film_line_t), intent(in) :: line
+      !> Whole load over E' R L [-]
+      real(wp), intent(in) :: load
+      !> Film of the whole load
+      type(film_shape_t), intent(in) :: shape
+      !> Film and load share
+      type(share_t), intent(out) :: share
+
+      type(groups_t) :: groups
+      ! Part of the load [-]
+      real(wp) :: part
+
+      call film_alone(shape, load, share)
+      groups = line%groups
+      groups%load = load
+      call asperity_part(groups, part, share%by_groups(1), share%by_groups(2), share%by_groups(3))
+      share%has_asperities = .true.
+      share%is_regressed = .true.
+      share%asperity_load = part*load
+      share%film_load = (1.0_wp - part)*load
+   end subroutine share_by_regression
 
    !> One step of Newton's method from a film ratio nearby: as good as `share_load` to the square of the change it makes.
    !>
@@ -168,6 +211,8 @@ contains
       share%real_area_ratio = 0.0_wp
       share%film_load = load
       share%has_asperities = .false.
+      share%is_regressed = .false.
+      share%by_groups = 0.0_wp
       share%has_own_central = shape%central >= max(shape%minimum, smallest_film)
       share%stiffness = 0.0_wp
       share%area_stiffness = 0.0_wp
@@ -199,6 +244,8 @@ contains
       share%real_area_ratio = asperity%area_factor*area_value
       share%film_load = film_load
       share%has_asperities = .true.
+      share%is_regressed = .false.
+      share%by_groups = 0.0_wp
       share%has_own_central = shape%central >= max(share%film_min, smallest_film)
       share%stiffness = stiffness
       share%area_stiffness = asperity%area_factor*area_slope*film_ratio
@@ -247,6 +294,8 @@ contains
          end if
          change%film_min = film_ratio - r
          change%asperity_load = 0.5_wp*share%asperity_load*q + share%stiffness*film_ratio
+         if (share%is_regressed) change%asperity_load = share%asperity_load*((1.0_wp + share%by_groups(1))*q &
+            & + share%by_groups(2)*u - share%by_groups(3)*r)
          change%real_area_ratio = share%area_stiffness*film_ratio
          change%film_central = own_central + shape%central_load_slope*change%film_load
       end associate

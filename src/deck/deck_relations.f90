@@ -6,15 +6,15 @@
 module camroller_deck_relations
    use camroller_kinds, only : wp
    use camroller_accuracy, only : divides_turn
-   use camroller_asperity, only : asperity_law_names, law_zhao_maietta_chang, smallest_product
    use camroller_journal, only : law_covers_width, width_advice
    use camroller_number_text, only : integer_text
    use camroller_mistakes, only : mistakes_t
    use camroller_settings, only : settings_t, take, find_value, is_known, is_wrong, get_word, has_group
+   use camroller_deck_asperity, only : check_asperities
    use camroller_deck_dynamics, only : check_dynamics
    use camroller_deck_heat, only : check_heat
    use camroller_deck_joints, only : check_joints
-   use camroller_deck_complaint, only : complain, complain_about_group
+   use camroller_deck_complaint, only : complain, complain_about_group, demand
    use camroller_deck_engine, only : check_engine
    implicit none
    private
@@ -201,21 +201,6 @@ contains
       end if
    end subroutine demand_exponents
 
-   !> A key that a choice makes necessary.
-   subroutine demand(settings, group, key, choice, mistakes)
-      !> The settings
-      type(settings_t), intent(in) :: settings
-      !> Names of group and key
-      character(len=*), intent(in) :: group, key
-      !> What needs it
-      character(len=*), intent(in) :: choice
-      !> Mistakes so far
-      type(mistakes_t), intent(inout) :: mistakes
-
-      if (is_known(settings, group, key) .or. is_wrong(settings, group, key)) return
-      call complain_about_group(mistakes, settings, group, choice//" needs '"//key//"' in &"//group)
-   end subroutine demand
-
    !> A second lobe shape has a cam, and a cam of the second lobe shape has a lift.
    subroutine second_lift_is_used(settings, mistakes)
       !> The settings
@@ -355,7 +340,7 @@ contains
       needer = ""
       if (has_group(settings, "asperity")) then
          needer = "&asperity"
-         call asperities_have_what_they_need(settings, mistakes)
+         call check_asperities(settings, mistakes)
       end if
       if (get_word(settings, "film", "law") == "masjedi_khonsari_rough") then
          call demand(settings, "materials", "hardness_GPa", "film law 'masjedi_khonsari_rough'", mistakes)
@@ -369,26 +354,6 @@ contains
       call complain(mistakes, settings, "surface", "cam_roughness_um", needer// &
          & " needs a roughness of cam or roller above 0")
    end subroutine contact_has_what_its_laws_need
-
-   !> Asperities that yield have a hardness, and their summits a scatter.
-   subroutine asperities_have_what_they_need(settings, mistakes)
-      !> The settings
-      type(settings_t), intent(in) :: settings
-      !> Mistakes so far
-      type(mistakes_t), intent(inout) :: mistakes
-
-      !> Product of density, tip radius and roughness [-]
-      real(wp) :: product
-      character(len=*), parameter :: law = asperity_law_names(law_zhao_maietta_chang)
-
-      if (get_word(settings, "asperity", "law") /= law) return
-      call demand(settings, "materials", "hardness_GPa", "asperity law '"//trim(law)//"'", mistakes)
-      if (is_wrong(settings, "asperity", "roughness_product")) return
-      product = smallest_product
-      call take(settings, "asperity", "roughness_product", product)
-      if (product < smallest_product) call complain(mistakes, settings, "asperity", "roughness_product", &
-         & "asperity law '"//trim(law)//"' needs a 'roughness_product' of 0.025 or more")
-   end subroutine asperities_have_what_they_need
 
    !> Bearings are in order, each cam stands between two of them, and each list has an entry for every cam.
    subroutine cams_stand_between_bearings(settings, mistakes)

@@ -3,11 +3,11 @@
 !> In: names and a sentence. Out: a mistake with the place where the key's value, or its group, stands.
 module camroller_deck_complaint
    use camroller_mistakes, only : mistakes_t, add_mistake, override_place
-   use camroller_settings, only : settings_t, find_value, group_position
+   use camroller_settings, only : settings_t, find_value, group_position, is_known, is_wrong
    implicit none
    private
 
-   public :: complain, complain_about_group
+   public :: complain, complain_about_group, demand
 
 contains
 
@@ -48,5 +48,20 @@ contains
          call add_mistake(mistakes, message, section%line, section%column, merge(len(group) + 1, 0, section%line > 0))
       end associate
    end subroutine complain_about_group
+
+   !> A key that a choice makes necessary.
+   subroutine demand(settings, group, key, choice, mistakes)
+      !> The settings
+      type(settings_t), intent(in) :: settings
+      !> Names of group and key
+      character(len=*), intent(in) :: group, key
+      !> What needs it
+      character(len=*), intent(in) :: choice
+      !> Mistakes so far
+      type(mistakes_t), intent(inout) :: mistakes
+
+      if (is_known(settings, group, key) .or. is_wrong(settings, group, key)) return
+      call complain_about_group(mistakes, settings, group, choice//" needs '"//key//"' in &"//group)
+   end subroutine demand
 
 end module camroller_deck_complaint

@@ -5,7 +5,7 @@ module test_load_share
    use camroller_film, only : groups_t, film_shape_t, film_line_t, film_law_names, film_shape, new_film_line, film_at_load, &
       takes_whole_load, law_dowson_higginson, law_moes
    use camroller_asperity, only : asperity_t, asperity_constants_t, new_asperity_constants, asperity_load_function, &
-      asperity_area_function, asperity_law_names, law_greenwood_tripp
+      asperity_area_function, asperity_law_names, law_greenwood_tripp, law_zhao_maietta_chang
    use camroller_load_share, only : share_t, share_load, improve_share
    implicit none
    private
@@ -80,7 +80,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
       integer :: law, asperity_law
 
-      do asperity_law = 1, size(asperity_law_names)
+      do asperity_law = law_greenwood_tripp, law_zhao_maietta_chang
          do law = 1, size(film_law_names)
             call check_balance(law, asperity_law, error)
             if (allocated(error)) return

@@ -280,6 +280,9 @@ contains
          & "11:1: shear law 'eyring' needs 'eyring_stress_MPa'")
       call expect_mistake(error, "", "&film law = 'masjedi_khonsari_rough' /", &
          & "8:1: film law 'masjedi_khonsari_rough' needs")
+      call expect_mistake(error, "", "&asperity boundary_coefficient = 0.1 law = 'masjedi_khonsari' /", &
+         & "11:44: asperity law 'masjedi_khonsari' goes with film law 'masjedi_khonsari_rough'")
+      if (allocated(error)) return
       call expect_mistake(error, "", "&asperity boundary_coefficient = 0.1 law = 'zhao_maietta_chang' /", &
          & "8:1: asperity law 'zhao_maietta_chang' needs 'hardness_GPa'")
       call expect_mistake(error, "ratio = 0.29 /", "ratio = 0.29 hardness_GPa = 8 / "// &

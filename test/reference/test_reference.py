@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 from mpmath import mp, mpf
 from scipy.integrate import quad
+from scipy.optimize import brentq
 from scipy.special import erfc, k0
 
 import contact_laws as laws
@@ -160,3 +161,19 @@ def test_moving_line_of_heat_is_the_sum_of_what_it_gave_off(u):
 def test_rise_under_a_fast_band_is_two_thirds_of_its_largest():
     largest = 2 / math.sqrt(math.pi) * math.sqrt(2 / 1e7)          # half space under constant flux, 2 q sqrt(t/(pi k rho c))
     assert abs(heat_reference.band_mean(1e7) / (2 / 3 * largest) - 1) < 1e-5
+
+
+def test_rigid_limit_of_the_rolling_resistance_is_1_4705():
+    """Isoviscous film between rigid surfaces with Reynolds' exit: F/(E' R L) = 1.4705 sqrt(U2 W), with x = sqrt(2 R h0) tan(g)."""
+    def first(g):
+        return g / 2 + math.sin(2 * g) / 4
+
+    def second(g):
+        return 3 * g / 8 + math.sin(2 * g) / 4 + math.sin(4 * g) / 32
+
+    def pressure(g, exit_):
+        return first(g) - first(-math.pi / 2) - (second(g) - second(-math.pi / 2)) / math.cos(exit_)**2
+    end = brentq(lambda g: pressure(g, g), 0.1, 1.2)
+    load = quad(lambda g: pressure(g, end) / math.cos(g)**2, -math.pi / 2 + 1e-9, end)[0]
+    shear = abs(quad(lambda g: 1 - (math.cos(g) / math.cos(end))**2, -math.pi / 2, end)[0]) / 2
+    assert abs(6 * math.sqrt(2) * shear / math.sqrt(12 * load) - 1.4705) < 5e-5

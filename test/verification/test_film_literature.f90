@@ -2,7 +2,7 @@
 module test_film_literature
    use testdrive, only : unittest_type, new_unittest, error_type, test_failed
    use camroller_kinds, only : wp
-   use camroller_film, only : groups_t, film_shape_t, film_shape, film_law_names, law_masjedi_khonsari, &
+   use camroller_film, only : groups_t, film_shape_t, film_shape, film_law_names, law_masjedi_khonsari, asperity_part, &
       & law_masjedi_khonsari_rough, law_dowson_higginson, law_pan_hamrock, law_moes
    use labelled_table, only : read_labelled_table, label_length
    use closeness, only : check_scaled
@@ -17,7 +17,8 @@ contains
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
       testsuite = [ &
-         new_unittest("the regression of Masjedi and Khonsari gives their printed columns", test_masjedi_khonsari), &
+         new_unittest("the regressions of Masjedi and Khonsari give their printed columns, that of the asperities' load too", &
+         & test_masjedi_khonsari), &
          new_unittest("every law is near the numerical solution of a smooth contact", test_laws_agree) &
          ]
    end subroutine collect_film_literature
@@ -29,6 +30,8 @@ contains
       character(len=label_length), allocatable :: names(:)
       real(wp), allocatable :: rows(:, :)
       type(film_shape_t) :: shape
+      ! Part of the load on asperities, its slopes [-]
+      real(wp) :: part, slopes(3)
       integer :: i, law
 
       call read_labelled_table("masjedi_khonsari.csv", 12, names, rows, error)
@@ -41,6 +44,13 @@ contains
          call check_scaled(error, shape%central, rows(7, i), 1.0_wp, printed, trim(names(i))//": central film")
          if (allocated(error)) return
          call check_scaled(error, shape%minimum, rows(9, i), 1.0_wp, printed, trim(names(i))//": minimum film")
+         if (allocated(error)) return
+         if (.not. rows(4, i) > 0.0_wp) cycle
+         call asperity_part(groups_t(rows(2, i), rows(3, i), rows(1, i), rows(4, i), rows(5, i)), part, slopes(1), &
+            & slopes(2), slopes(3))
+         ! per cent with two digits; the bend takes 2e-4 of the largest, 44 %
+         call check_scaled(error, 100.0_wp*part, rows(11, i), 1.0_wp, 0.005_wp + 2.0e-4_wp*rows(11, i), &
+            & trim(names(i))//": load of the asperities")
       end do
    end subroutine test_masjedi_khonsari
 

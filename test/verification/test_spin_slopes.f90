@@ -196,6 +196,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(case_t) :: case
       type(model_t) :: model
+      integer :: i
 
       case = thesis_case()
       call add_gas_force(case)
@@ -209,6 +210,16 @@ contains
       if (allocated(error)) return
       call compare(error, model, "asperities that yield")
       if (allocated(error)) return
+      case%asperity%law = "masjedi_khonsari"
+      case%film%law = "masjedi_khonsari_rough"
+      do i = 1, 3
+         call set_point(case, point_speeds(i), point_viscosities(i))
+         call make_model(case, model, error)
+         if (allocated(error)) return
+         call compare(error, model, "asperities by regression")
+         if (allocated(error)) return
+      end do
+      case%film%law = "dowson_higginson"
       deallocate (case%asperity, case%needle_bearing, case%valve_guide)
       call make_model(case, model, error)
       if (allocated(error)) return

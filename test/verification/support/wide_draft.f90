@@ -235,6 +235,8 @@ contains
          is_given = law == "stribeck"
       case ("reference_viscosity_Pa_s")
          is_given = law == "stribeck" .or. group == "stem_seal"
+      case ("film_shear_strength_MPa")
+         is_given = is_given .and. law /= "masjedi_khonsari"
       case ("eyring_stress_MPa")
          is_given = is_given .or. deck_word(text, group, "shear_law") == "eyring"
       case ("needle_radius_mm")
@@ -320,6 +322,8 @@ contains
       case ("law")
          is_allowed = index(text, "hardness_GPa") > 0 .or. all(words /= [character(len=26) :: "'masjedi_khonsari_rough'", &
             & "'zhao_maietta_chang'"])
+         if (index(text, "&asperity") > 0 .and. words == "'masjedi_khonsari'") is_allowed = &
+            & index(text, "'masjedi_khonsari_rough'") > 0 .and. index(text, "film_shear_strength") == 0
       case ("load_arm", "spin", "boundary", "seating")
          is_allowed = has_source(text) .or. words == key%default
       case ("method")
