@@ -249,6 +249,8 @@ contains
          is_given = is_given .and. .not. draft%has_engine
       case ("camshafts")
          is_given = is_given .or. draft%camshafts == 2
+      case ("viscosity_fall_per_K")
+         is_given = deck_word(text, "lubricant", "temperature_law") == "direct"
       case ("base_circle_load_N")
          is_given = .not. draft%has_plunger
       case ("plunger_spring_N")
@@ -284,8 +286,6 @@ contains
       select case (key)
       case ("viscosity_Pa_s")
          is_given = law == "direct"
-      case ("viscosity_fall_per_K")
-         is_given = deck_word(text, "lubricant", "temperature_law") == "direct"
       case ("temperature_points_degC", "viscosity_points_Pa_s")
          is_given = index(" vogel walther ", " "//law//" ") > 0
       case ("viscosity_at_40_degC_mm2_s")
