@@ -198,12 +198,11 @@ contains
       is_alone = size(solved%shaft%lobes) == 1 .and. size(solved%models) == 1 .and. abs(solved%shaft%phases(1)) <= 0.0_wp
       do i = 1, size(result%series_values, 1)
          angle = (result%angle(i) - 180.0_wp)*degree
-         if (is_alone) then
-            call state_at(solved%cycles(1), solved%models(1), angle, hints(1), state, error)
-            if (.not. allocated(error)) call shaft_torques(solved, angle, torques, error, state)
-         else
-            call shaft_torques(solved, angle, torques, error)
-         end if
+         associate (first => solved%shaft%lobes(1))
+            call state_at(solved%cycles(first), solved%models(first), angle - solved%shaft%phases(1), solved%shaft%hints(1), &
+               & state, error)
+         end associate
+         if (.not. allocated(error)) call shaft_torques(solved, angle, torques, error, state)
          if (allocated(error)) return
          call camshaft_values(solved%case, torques, values(of_camshaft(1):of_camshaft(2)))
          do lobe = 1, merge(size(solved%models), 0, with_followers)

@@ -159,7 +159,7 @@ contains
       real(wp), intent(out) :: torques(:, :)
       !> Convergence or domain error
       type(error_t), allocatable, intent(out) :: error
-      !> State of the first cam's follower there, where it is solved
+      !> State of the first cam's follower there; with it all others are solved as well, and no curve is taken for them
       type(state_t), intent(in), optional :: first_state
 
       type(state_t) :: state
@@ -175,7 +175,7 @@ contains
                is_known = cam == 1 .and. present(first_state)
                if (is_known) then
                   values = cam_values(model, first_state)
-               else
+               else if (.not. present(first_state)) then
                   call curve_at(solved%curves(shaft%lobes(cam)), place, values, is_known)
                end if
                if (.not. is_known) then
