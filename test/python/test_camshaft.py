@@ -26,8 +26,6 @@ JOURNAL = {"diameter": 23e-3, "width": 20e-3, "radial_clearance": 47.5e-6}
 LIFTS = {1: (9.5e-3, 70.0), 2: (6.0e-3, 60.0)}  # largest lift [m], half angle [degrees]
 # Torques of the same cycle at angles that differ by the rounding of a turn, where the steepest changes in some hundredths of a degree
 ROUND_OFF = 1e-9
-# Error of a curve that is taken for the states: five tolerances of the cycle, as `lobe_curve` lets it be
-CURVE = 5e-5
 # The slope of the pitch curve is a central difference over 2e-5 rad
 DIFFERENCE = 1e-7
 
@@ -184,9 +182,7 @@ def test_torques_of_the_followers_are_those_of_each_alone_shifted_and_added(shaf
     found, _, followers, data = shaft
     for name in ("torque_geometric", "torque_contact", "torque_needle", "torque_guide", "torque_roller_inertia"):
         expected = sum(shifted(followers[lobe][name], phase) for phase, lobe in zip(data["phases"], data["lobes"]))
-        # several cams take torques from a curve through the states of their shape, which is right to some tolerances of the cycle
-        allowed = ROUND_OFF if len(data["phases"]) == 1 else CURVE
-        numpy.testing.assert_allclose(found[name], expected, rtol=0, atol=allowed * numpy.max(numpy.abs(expected)), err_msg=name)
+        numpy.testing.assert_allclose(found[name], expected, rtol=0, atol=ROUND_OFF * numpy.max(numpy.abs(expected)), err_msg=name)
         mean = sum(followers[lobe]["summary"][f"mean_{name}"] for lobe in data["lobes"])
         assert found["summary"][f"mean_{name}"] == pytest.approx(mean, rel=ROUND_OFF, abs=1e-15), name
     numpy.testing.assert_array_equal(found["contact_load"], followers[data["lobes"][0]]["contact_load"])
