@@ -342,7 +342,8 @@ contains
 
       call add_group(schema, "asperity", group_effect, "asperities that share the load, and boundary friction")
       call add_name(schema, "law", asperity_law_names, standard%law, &
-         & "elastic asperities of both surfaces, or asperities of one that yield; the latter needs materials.hardness_GPa")
+         & "elastic asperities of both surfaces, asperities of one that yield, which need materials.hardness_GPa, or the "// &
+         & "regression that goes with film law 'masjedi_khonsari_rough'")
       call add_number(schema, "roughness_product", positive, "asperity density times tip radius times roughness", &
          & default=standard%roughness_product)
       call add_number(schema, "roughness_over_tip_radius", positive, "ratio of roughness to tip radius", &
