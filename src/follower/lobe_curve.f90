@@ -109,7 +109,7 @@ contains
       end associate
    end subroutine close_curve
 
-   !> Halve the pieces whose polynomials are not good enough.
+   !> Halve the pieces whose polynomials are not good enough. `close_curve` has to judge the halves before the next value is taken.
    pure subroutine halve_pieces(curve, halves)
       !> The curve
       type(lobe_curve_t), intent(inout) :: curve
@@ -121,6 +121,7 @@ contains
 
       allocate (halves(0))
       if (curve%count == 0) return
+      if (all(curve%is_smooth(:curve%count))) return
       call start_curve(halved, curve%ends(1), curve%count + count(.not. curve%is_smooth(:curve%count)))
       do piece = 1, curve%count
          if (curve%is_smooth(piece)) then

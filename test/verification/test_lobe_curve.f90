@@ -7,9 +7,11 @@ module test_lobe_curve
    use camroller_catalogue, only : camshaft_count, follower_count
    use camroller_cycle, only : cycle_t, integrate_cycle, state_at
    use camroller_deck, only : deck_t, override_t, read_deck, make_sweep_case
-   use camroller_lobe_curve, only : cam_values, curve_at, curve_values
+   use camroller_lobe_curve, only : add_piece, cam_values, close_curve, curve_at, curve_values, halve_pieces, keep_state, &
+      & lobe_curve_t, start_curve
    use camroller_means, only : integrate_lobe, statistics_t
    use camroller_model, only : model_t
+   use camroller_panels, only : panel_points
    use camroller_run, only : build_models
    use camroller_state, only : state_t
    use camroller_torque_list, only : of_residual, torque_count
@@ -30,7 +32,8 @@ contains
 
       testsuite = [ &
          new_unittest("a curve is known nearly everywhere, and is that of the states", test_known), &
-         new_unittest("where states bend within a piece no curve is known", test_bends) &
+         new_unittest("where states bend within a piece no curve is known", test_bends), &
+         new_unittest("a curve with no piece to halve stays as it is", test_nothing_to_halve) &
          ]
    end subroutine collect_lobe_curve
 
@@ -62,6 +65,43 @@ contains
          if (allocated(error)) return
       end do
    end subroutine test_bends
+
+   !> A curve of equal states is smooth: it has nothing to halve, and is known afterwards.
+   subroutine test_nothing_to_halve(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(lobe_curve_t) :: curve
+      type(model_t) :: model
+      type(state_t) :: state
+      real(wp) :: values(curve_values)
+      integer, allocatable :: halves(:)
+      integer :: piece, point
+      logical :: is_known
+
+      model%linkage%a = 1.0_wp
+      model%linkage%sense = 1.0_wp
+      state%position%normal_arm = 1.0_wp
+      state%position%tangent_arm = 0.0_wp
+      state%position%arm_angle = 0.0_wp
+      state%contact%load = 1.0_wp
+      state%contact%tangential_force = 0.0_wp
+      state%torques = 1.0_wp
+      call start_curve(curve, 0.0_wp, 8)
+      do piece = 1, 8
+         do point = 1, panel_points
+            call keep_state(curve, model, state, point)
+         end do
+         call add_piece(curve, two_pi*piece/8)
+      end do
+      call close_curve(curve, 1.0e-5_wp)
+      call halve_pieces(curve, halves)
+      call check(error, size(halves), 0)
+      if (allocated(error)) return
+      do piece = 1, 8
+         call curve_at(curve, two_pi*(piece - 0.5_wp)/8, values, is_known)
+         call check(error, is_known, "a smooth piece is no longer known")
+         if (allocated(error)) return
+      end do
+   end subroutine test_nothing_to_halve
 
    !> Largest difference between curve and states where the curve is known, over the tolerance of the cycle times the largest
    !> magnitude of the quantity; part of the turn where it is known.

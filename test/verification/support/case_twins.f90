@@ -7,7 +7,7 @@ module case_twins
    use camroller_sliding_friction, only : sliding_t
    use unit_systems, only : units_t, dimension_t, scaled, number, angular_speed, area, drag, force, inertia, length, mass, &
       & per_pressure, per_speed, pressure, speed, stiffness, viscosity, conductivity, density, heat_capacity, &
-      & per_temperature
+      & temperature, per_temperature
    implicit none
    private
 
@@ -225,13 +225,15 @@ contains
             one = dimension_t(2, 1, -2)
          case ("W")
             one = dimension_t(2, 1, -3)
+         case ("K")
+            one = temperature
          case ("1", "rad", "deg", "degree")
             one = number
          case default
             one = dimension_t(100, 100, 100)
          end select
          dimension = dimension_t(dimension%length + power*one%length, dimension%mass + power*one%mass, &
-            & dimension%time + power*one%time)
+            & dimension%time + power*one%time, dimension%temperature + power*one%temperature)
       end do
    end function dimension_of_unit
 

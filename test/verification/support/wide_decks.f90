@@ -325,14 +325,19 @@ contains
       !> What is wrong with it: a comment
       character(len=*), intent(in) :: remark
       character(len=200) :: folder
-      integer :: unit, status
+      integer :: unit, status, i
 
       call get_environment_variable("WIDE_FOLDER", folder, status=status)
       if (status /= 0) return
       folder = trim(folder)//"/"//name
       call execute_command_line("mkdir -p "//trim(folder))
       open (newunit=unit, file=trim(folder)//"/deck.nml", action="write", status="replace")
-      write (unit, "(a)") "! "//remark, deck%text
+      write (unit, "(a)", advance="no") "! "
+      do i = 1, len(remark)
+         write (unit, "(a)", advance="no") remark(i:i)
+         if (remark(i:i) == new_line("a")) write (unit, "(a)", advance="no") "! "
+      end do
+      write (unit, "(a)") "", deck%text
       close (unit)
       call save_table(trim(folder), deck%tables%lift)
       call save_table(trim(folder), deck%tables%second_lift)

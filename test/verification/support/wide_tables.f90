@@ -27,7 +27,7 @@ contains
       ! Rows of rest before and after the event, at most; laws without exponents
       integer, parameter :: most_rest = 3
       character(len=*), parameter :: laws(*) = lift_law_names(3:5)
-      ! Lift of the roller over that of the valve, about [-]
+      ! Lift of the roller and height of the cam over the lift of the valve, about [-]
       real(wp), parameter :: roller_share = 0.6_wp
       type(lift_t) :: shape
       type(lift_law_t) :: law
@@ -35,12 +35,14 @@ contains
       ! [-]; lift [m]; step, angle [deg]; noise [m]
       real(wp) :: number, lift(0:3), step, angle, noise
       integer :: i, rows, rest
+      character(len=:), allocatable :: kind
 
       table%path = group//".txt"
       call draw(random, number)
       shape%law = laws(1 + int(number*size(laws)))
       shape%max_lift = between(2.0e-3_wp, 10.0e-3_wp)
-      if (deck_word(text, group, "table_kind") == "roller_lift") shape%max_lift = roller_share*shape%max_lift
+      kind = deck_word(text, group, "table_kind")
+      if (kind /= "" .and. kind /= "valve_lift") shape%max_lift = roller_share*shape%max_lift
       shape%opening_half_angle = between(45.0_wp, 110.0_wp)*degree
       shape%closing_half_angle = between(45.0_wp, 110.0_wp)*degree
       call new_lift_law(law, shape, error)
@@ -57,6 +59,7 @@ contains
          if (i > rest .and. i < rows - rest) call evaluate_lift(law, angle*degree, lift)
          if (i > rest .and. i < rows - rest) lift(0) = max(0.0_wp, lift(0) + between(-1.0_wp, 1.0_wp)*min(noise, 0.1_wp*lift(0)))
          table%x = [table%x, nose_of(text, group) + angle]
+         if (kind == "cam_contour") lift(0) = lift(0) + base_radius(text)
          table%y = [table%y, from_si(unit_of(text, group, "table_unit", "mm"), lift(0))]
       end do
       table%line = [(i, i=1, size(table%x))]
@@ -125,6 +128,19 @@ contains
       word = deck_word(text, group, "table_nose_angle_deg")
       if (word /= "") read (word, *) nose
    end function nose_of
+
+   !> Radius of the base circle.
+   function base_radius(text) result(radius)
+      !> The deck
+      character(len=*), intent(in) :: text
+      ! [m]
+      real(wp) :: radius
+      character(len=:), allocatable :: word
+
+      word = deck_word(text, "mechanism", "base_radius_mm")
+      read (word, *) radius
+      radius = radius*1.0e-3_wp
+   end function base_radius
 
    !> Unit of the second column of a table.
    function unit_of(text, group, key, usual) result(unit)
