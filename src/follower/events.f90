@@ -117,7 +117,8 @@ contains
       end do
    end function scan_angles
 
-   !> Angles between two others at which one of the switches changes its sign, found by a scan.
+   !> Angles between two others at which one of the switches changes its sign, found by a scan, and beside the lowest of three values
+   !> by a search.
    function switch_angles(model, start, finish) result(angles)
       !> The model
       type(model_t), intent(in) :: model
@@ -126,31 +127,74 @@ contains
       !> Angles, increasing but for the accuracy of a scan step [rad]
       real(wp), allocatable :: angles(:)
 
-      ! Switches at the ends of a scan interval [m, N m]
-      real(wp) :: before(2), after(2)
+      ! Switches at three angles of the scan in a row [m, N m]
+      real(wp) :: earlier(2), before(2), after(2)
       ! Angles of the scan [rad]
       real(wp), allocatable :: scan(:)
-      integer :: i, kind
+      ! First angle of the scan whose switches are kept
+      integer :: i, kind, first
       ! Does the valve rest at the ends of the interval, where nothing changes unless a force acts on the closed valve?
       logical :: rested, rests, rests_alike
 
       allocate (angles(0))
       scan = scan_angles(model, start, finish)
       before = switches(model, start)
+      first = 1
       rests_alike = .not. allocated(model%gas) .or. model%train%seat_lift > 0.0_wp
       rests = is_at_rest(model%lift_law, start)
       do i = 2, size(scan)
          rested = rests
          rests = is_at_rest(model%lift_law, scan(i))
-         if (rested .and. rests .and. rests_alike) cycle
+         if (rested .and. rests .and. rests_alike) then
+            first = i
+            cycle
+         end if
          after = switches(model, scan(i))
          do kind = 1, size(before)
-            if ((before(kind) > 0.0_wp) .eqv. (after(kind) > 0.0_wp)) cycle
-            angles = [angles, switch_angle(model, kind, scan(i - 1), scan(i), before(kind), after(kind), switches)]
+            if ((before(kind) > 0.0_wp) .neqv. (after(kind) > 0.0_wp)) then
+               angles = [angles, switch_angle(model, kind, scan(i - 1), scan(i), before(kind), after(kind), switches)]
+            else if (i - 2 >= first) then
+               angles = [angles, short_change(model, kind, scan(i - 2:i), [earlier(kind), before(kind), after(kind)])]
+            end if
          end do
+         earlier = before
          before = after
       end do
    end function switch_angles
+
+   !> Angles at which a switch changes its sign and changes it back between three angles of the scan: where the one in the middle is
+   !> so close to zero that the next values rise by more than itself, its extreme is looked for.
+   function short_change(model, kind, places, values) result(angles)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> Which of the switches
+      integer, intent(in) :: kind
+      !> Three angles of the scan [rad]
+      real(wp), intent(in) :: places(3)
+      !> Values of the switch there [unit of the switch]
+      real(wp), intent(in) :: values(3)
+      !> Two angles or none [rad]
+      real(wp), allocatable :: angles(:)
+
+      type(extremum_t) :: search
+      ! Distances from zero; switches at the extreme [unit of the switch]
+      real(wp) :: heights(3), found(2)
+
+      allocate (angles(0))
+      heights = abs(values)
+      if (any((values > 0.0_wp) .neqv. (values(2) > 0.0_wp))) return
+      if (heights(2) >= min(heights(1), heights(3)) .or. 2.0_wp*heights(2) >= maxval(heights)) return
+      call start_extremum(search, places, heights, tolerance=0.0_wp)
+      do while (search%is_wanted)
+         found = switches(model, search%trial)
+         if ((found(kind) > 0.0_wp) .neqv. (values(2) > 0.0_wp)) then
+            angles = [switch_angle(model, kind, places(1), search%trial, values(1), found(kind), switches), &
+               & switch_angle(model, kind, search%trial, places(3), found(kind), values(3), switches)]
+            return
+         end if
+         call narrow_extremum(search, abs(found(kind)))
+      end do
+   end function short_change
 
    !> Angles between two others at which friction of a sliding joint jumps: where the valve turns round, sets off or comes to rest,
    !> and where the pad's contact with the tip passes the pivot's height. There is a stop on each side, so that no step has the

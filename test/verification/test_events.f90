@@ -8,7 +8,7 @@ module test_events
    use camroller_kinematics, only : position_t, rotation_names
    use camroller_dynamics, only : load_arm_names, moments_t
    use camroller_state, only : state_t, evaluate_state, evaluate_loading
-   use camroller_events, only : find_stops, find_stops_between, cycle_stops, check_geometry
+   use camroller_events, only : find_stops, find_stops_between, cycle_stops, contact_losses, check_geometry
    use closeness, only : check_close, check_scaled, expect_error, expect_success
    use reference_cases, only : thesis_case, source_case, skewed_case, make_model, set_point, point_speeds, point_viscosities
    implicit none
@@ -24,6 +24,7 @@ contains
       testsuite = [ &
          new_unittest("edges of the event and the valve's leaving its seat are stops", test_stops), &
          new_unittest("loss and return of contact are stops", test_loss_stops), &
+         new_unittest("contact lost or found for less than a step of the scan has its stops", test_short_losses), &
          new_unittest("the change between the adjuster's load and the spring's is a stop", test_load_stops), &
          new_unittest("stops of a cycle begin anywhere and keep their order", test_cycle_stops), &
          new_unittest("stops between two angles over several turns", test_stops_between), &
@@ -93,6 +94,63 @@ contains
    end subroutine test_loss_stops
 
    !> The larger of both loads has a kink where they are equal: every change between them that a scan meets has its stop.
+   !> The square of the speed at which contact is lost, over the cam angle: the moment falls linearly with it. Beside the smallest of
+   !> these squares the contact is lost for an angle that grows with the root of the excess, beside a largest one it is found again.
+   subroutine test_short_losses(error)
+      type(error_type), allocatable, intent(out) :: error
+      ! Angles of a degree; excess of the squared speed: losses of about 0.6, 0.2, 0.06 and 0.02 degrees [-]
+      integer, parameter :: places = 200
+      real(wp), parameter :: excesses(*) = [1.0e-4_wp, 1.0e-5_wp, 1.0e-6_wp, 1.0e-7_wp]
+      type(case_t) :: case
+      type(model_t) :: model, slow, fast
+      real(wp), allocatable :: intervals(:, :), stops(:)
+      ! Squared speeds of loss [rad^2/s^2], angle of the smallest [rad]
+      real(wp) :: squares(-70*places:70*places), angle
+      integer :: i, place
+
+      case = thesis_case()
+      deallocate (case%valve_guide)
+      call set_point(case, 1.0_wp, point_viscosities(2))
+      call make_model(case, slow, error)
+      if (allocated(error)) return
+      call set_point(case, 100.0_wp, point_viscosities(2))
+      call make_model(case, fast, error)
+      if (allocated(error)) return
+      do i = lbound(squares, 1), ubound(squares, 1)
+         squares(i) = loss_square(slow, fast, i*degree/places)
+      end do
+      place = minloc(squares, 1) + lbound(squares, 1) - 1
+      angle = place*degree/places
+      do i = 1, size(excesses)
+         call set_point(case, sqrt(squares(place)*(1.0_wp + excesses(i))), point_viscosities(2))
+         call make_model(case, model, error)
+         if (allocated(error)) return
+         call find_stops(model, stops)
+         intervals = contact_losses(model, cycle_stops(stops, -pi))
+         call check(error, any(intervals(1, :) < angle .and. angle < intervals(2, :)), "a short loss of contact is not seen")
+         if (allocated(error)) return
+         call check(error, all(abs(intervals(2, :) - intervals(1, :)) < 1.5_wp*degree), "the loss is not short")
+         if (allocated(error)) return
+      end do
+   end subroutine test_short_losses
+
+   !> Squared speed at which the roller loses contact at a cam angle [rad^2/s^2]; a very large one where it does at none.
+   function loss_square(slow, fast, angle) result(square)
+      type(model_t), intent(in) :: slow, fast
+      real(wp), intent(in) :: angle
+      real(wp) :: square
+      type(position_t) :: position
+      type(moments_t) :: at_slow, at_fast
+      real(wp) :: force
+      integer :: status
+
+      call evaluate_loading(slow, angle, position, force, at_slow, status)
+      call evaluate_loading(fast, angle, position, force, at_fast, status)
+      square = huge(1.0_wp)
+      if (at_slow%total <= at_fast%total) return
+      square = slow%speed**2 + at_slow%total*(fast%speed**2 - slow%speed**2)/(at_slow%total - at_fast%total)
+   end function loss_square
+
    subroutine test_load_stops(error)
       type(error_type), allocatable, intent(out) :: error
       type(case_t) :: case
