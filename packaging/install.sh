@@ -13,7 +13,7 @@ fpm=$(realpath -s "$fpm")
 mkdir -p build/package
 rm -rf build/package/src build/package/app build/package/include
 cp -r src app include build/package
-sed -e '/^\[dev-dependencies\]/,/^$/d' -e '/^\[\[test\]\]/,/^$/d' fpm.toml > build/package/fpm.toml
+sed -e '/^\[dev-dependencies\]/,/^$/d' -e '/^\[\[test\]\]/,/^$/d' -e '/^\[\[example\]\]/,/^$/d' fpm.toml > build/package/fpm.toml
 cd build/package
 "$fpm" install --flag "-std=f2018 -O3 -g -ffp-contract=off" --prefix "$prefix"
 "$prefix/bin/camroller" --version

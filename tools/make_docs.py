@@ -167,8 +167,9 @@ def link_faults(folder: pathlib.Path) -> list[str]:
                     faults.append(f"{path.relative_to(folder.resolve())}: {link} needs the network")
                 continue
             target = (path.parent / urllib.parse.unquote(parts.path)).resolve() if parts.path else path
-            anchor = urllib.parse.unquote(parts.fragment)
-            if not target.is_file() or (anchor and target in read and anchor not in read[target].anchors):
+            # a browser looks for the name as it is written, then for the one that the escapes stand for
+            anchors = {parts.fragment, urllib.parse.unquote(parts.fragment)}
+            if not target.is_file() or (parts.fragment and target in read and not anchors & read[target].anchors):
                 faults.append(f"{path.relative_to(folder.resolve())}: {link} is not there")
     return faults
 

@@ -95,12 +95,8 @@ contains
       end if
       weights(:known) = node_weights(places(:known))
       associate (nodes => estimate%rate_places(:estimate%rated), rates => estimate%rates(:estimate%rated))
-         do i = 1, size(cuts)
-            where (abs(nodes - cuts(i)) <= epsilon(1.0_wp))
-               estimate%errors(:size(nodes)) = estimate%error
-               estimate%shares(:size(nodes)) = estimate%contraction
-            end where
-            if (i == size(cuts)) exit
+         call keep_error(estimate, cuts(1))
+         do i = 1, size(cuts) - 1
             part = cuts(i + 1) - cuts(i)
             do j = 0, 2
                defects(j + 1) = value_at(places(:known), weights(:known), values(:known), cuts(i) + 0.5_wp*j*part)
@@ -111,11 +107,25 @@ contains
             estimate%error = sign(min(abs(estimate%error), lost), estimate%error)
             estimate%contraction = min(estimate%contraction*left, lost)
             estimate%largest = max(estimate%largest, abs(estimate%error))
+            call keep_error(estimate, cuts(i + 1))
          end do
       end associate
       estimate%points = 0
       estimate%rated = 0
    end subroutine end_interval
+
+   !> Keep error and contraction for the point of the interval that stands at a place, if there is one.
+   pure subroutine keep_error(estimate, place)
+      !> The estimate
+      type(estimate_t), intent(inout) :: estimate
+      !> The place [-]
+      real(wp), intent(in) :: place
+
+      where (abs(estimate%rate_places(:estimate%rated) - place) <= epsilon(1.0_wp))
+         estimate%errors(:estimate%rated) = estimate%error
+         estimate%shares(:estimate%rated) = estimate%contraction
+      end where
+   end subroutine keep_error
 
    !> Integral of the parabola through three values over [0, 1], of which what is left decays up to its end.
    pure function decayed_integral(values, decay) result(integral)

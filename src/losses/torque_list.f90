@@ -59,7 +59,7 @@ module camroller_torque_list
    integer, parameter :: torque_count = size(torque_list)
    !> Name of the series of each row
    character(len=*), parameter :: torque_series(*) = [character(len=name_length) :: &
-      & "torque_"//torque_list(:torque_count - 1)%name, "energy_residual"]
+      & "torque_"//torque_list(:torque_count - 1)%name(:name_length - 7), "energy_residual"]
    !> Which rows are losses, and which are torques
    logical, parameter :: is_loss(torque_count) = torque_list%kind == kind_loss, &
       & is_torque(torque_count) = torque_list%kind /= kind_residual

@@ -168,11 +168,10 @@ contains
       integer :: runs, run, left, right, last, i
 
       order = [(i, i=1, size(angle))]
-      runs = 0
-      do i = 1, size(angle)
-         if (i > 1) then
-            if (angle(i) >= angle(i - 1)) cycle
-         end if
+      runs = min(1, size(angle))
+      starts(1) = 1
+      do i = 2, size(angle)
+         if (angle(i) >= angle(i - 1)) cycle
          runs = runs + 1
          starts(runs) = i
       end do

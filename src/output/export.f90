@@ -170,10 +170,12 @@ contains
 
       character(len=member_length), allocatable :: paths(:)
       integer :: i
+      logical :: has_measured
 
       paths = [character(len=member_length) :: "/case"]
+      has_measured = has_member(file, "/measured")
       call add_paths(file, "/sweep", paths, error)
-      if (.not. allocated(error) .and. has_member(file, "/measured")) call add_paths(file, "/measured", paths, error)
+      if (.not. allocated(error) .and. has_measured) call add_paths(file, "/measured", paths, error)
       if (.not. allocated(error)) call add_paths(file, "/summary", paths, error)
       if (allocated(error)) return
       call make_columns(table, cases, size(paths))

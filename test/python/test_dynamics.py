@@ -95,7 +95,8 @@ def test_check_tells_what_a_rigid_train_will_do(camroller):
     done = subprocess.run([camroller, "check", ROOT / "decks/thesis.nml"], capture_output=True, text=True)
     assert done.returncode == 0
     # 2471 and 2357 rev/min and 2012 Hz are those of an independent program
-    assert "pivot's joint unloads above 2470 rev/min, a lash adjuster pumps up above 2360" in done.stdout
+    assert "pivot's joint unloads above 2470 rev/min of the camshaft, " \
+           "a lash adjuster pumps up above 2360 rev/min of the camshaft" in done.stdout
     assert "natural frequency of the train 2010 1/s" in done.stdout
 
 

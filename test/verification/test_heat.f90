@@ -59,7 +59,7 @@ contains
          case%traction%eyring_stress = 5.0e6_wp
          case%lubricant%pressure_law = pressure_law_names(1 + mod(law, 3))
          call set_point(case, point_speeds(1 + mod(law, 3)), point_viscosities(1 + mod(law, 3)))
-         case%traction%cap = cap_names(1 + law/4)
+         case%traction%cap = cap_names(merge(1, 2, law < 4))
          call make_model(case, model, error)
          if (allocated(error)) return
          do i = -65, 65, 10

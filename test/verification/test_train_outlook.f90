@@ -140,7 +140,7 @@ contains
          mode = 0.0_wp
          do h = 1, harmonics
             driving = 2.0_wp*sum([(lift(i)*exp(cmplx(0.0_wp, -h*angle(i), wp)), i=1, points)])/points
-            if (h == harmonic) call check_close(error, 1.0e6_wp*abs(driving), amplitudes(h), 1.0e-4_wp, "harmonic of the lift")
+            if (h == harmonic) call check_close(error, 1.0e6_wp*abs(driving), amplitudes(harmonic), 1.0e-4_wp, "harmonic")
             if (allocated(error)) return
             associate (drive => h*model%speed)
                response = 2.0_wp/pi*drive**2*driving/cmplx(pulse**2 - drive**2, 2.0_wp*0.01_wp*pulse*drive, wp)

@@ -42,7 +42,7 @@ module wide_decks
    !> Width of a bearing that the law of finite width takes for every diameter drawn [mm]
    real(wp), parameter :: widest_finite = 17.0_wp
    !> Groups that are not drawn, and why
-   character(len=*), parameter :: left_out_groups(2, 1) = reshape([character(len=80) :: &
+   character(len=*), parameter :: left_out_groups(2, 1) = reshape([character(len=100) :: &
       & "sweep", "many cases of one deck, each of which is a deck that may be drawn; suites sweep, deck_sweep"], [2, 1])
    character(len=*), parameter :: nl = new_line("a")
 
