@@ -4,7 +4,7 @@
 !> stopping does no harm.
 !>
 !> In: nothing. Out: whether somebody wants the program to end. A handler can be given nothing to write to, hence
-!> the one saved variable of the program. Holding the signals back and asking what is pending would need none, but other
+!> the saved variables. Holding the signals back and asking what is pending would need none, but other
 !> libraries start threads of their own, to which the system then hands them.
 module camroller_stop_signal
    use, intrinsic :: iso_c_binding, only : c_funloc, c_funptr, c_int, c_intptr_t
@@ -44,6 +44,18 @@ module camroller_stop_signal
          integer(c_intptr_t) :: former
       end function c_signal_default
 
+      function c_pthread_self() bind(C, name="pthread_self") result(thread)
+         import :: c_intptr_t
+         integer(c_intptr_t) :: thread
+      end function c_pthread_self
+
+      function c_pthread_kill(thread, number) bind(C, name="pthread_kill") result(status)
+         import :: c_int, c_intptr_t
+         integer(c_intptr_t), value :: thread
+         integer(c_int), value :: number
+         integer(c_int) :: status
+      end function c_pthread_kill
+
       function c_raise(number) bind(C, name="raise") result(status)
          import :: c_int
          integer(c_int), value :: number
@@ -69,6 +81,7 @@ contains
       integer(c_intptr_t) :: former
       integer :: i
 
+      former = writing_thread(c_pthread_self())
       do i = 1, size(end_signals)
          former = c_signal(end_signals(i), c_funloc(end_by_signal))
          if (former == ignored_signal) former = c_signal_default(end_signals(i), ignored_signal)
@@ -78,6 +91,19 @@ contains
       end do
       call watch_library()
    end subroutine end_on_signals
+
+   !> The thread that writes files.
+   function writing_thread(thread) result(kept)
+      !> The thread, to be kept; left out to ask
+      integer(c_intptr_t), intent(in), optional :: thread
+      !> The one that is kept
+      integer(c_intptr_t) :: kept
+
+      integer(c_intptr_t), save :: writer = 0_c_intptr_t
+
+      if (present(thread)) writer = thread
+      kept = writer
+   end function writing_thread
 
    !> What was done about a signal of a library that breaks down.
    function handler_before(place, handler) result(kept)
@@ -112,7 +138,8 @@ contains
       ignored = c_raise(number)
    end subroutine end_by_break
 
-   !> End the program by a signal, as its handler.
+   !> End the program by a signal, as its handler. The system may have a thread of a library interrupted by it: it is passed on, since
+   !> the thread that writes could otherwise create a file between the removal and the end.
    subroutine end_by_signal(number) bind(C)
       !> Number of the signal
       integer(c_int), value :: number
@@ -120,6 +147,10 @@ contains
       integer(c_intptr_t) :: former
       integer(c_int) :: ignored
 
+      if (c_pthread_self() /= writing_thread()) then
+         ignored = c_pthread_kill(writing_thread(), number)
+         return
+      end if
       call remove_remembered()
       former = c_signal_default(number, by_itself)
       ignored = c_raise(number)
