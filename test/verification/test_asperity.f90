@@ -34,7 +34,7 @@ contains
          new_unittest("F 5/2 agrees with adaptive quadrature", test_quadrature), &
          new_unittest("derivatives agree with central differences", test_derivatives), &
          new_unittest("integrals fall and stay positive up to the largest film ratio", test_monotonic), &
-         new_unittest("asperities out of reach carry nothing", test_out_of_reach), &
+         new_unittest("beyond the largest film ratio asperities carry no load", test_out_of_reach), &
          new_unittest("asperity pressure of closed surfaces is 47 MPa", test_closed), &
          new_unittest("kernels and constants agree", test_constants) &
          ]

@@ -29,17 +29,17 @@ contains
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
       testsuite = [ &
-         new_unittest("load and friction balance the finger for every law, angle and slip", test_balance_of_finger), &
-         new_unittest("in the source's bookkeeping the load is the frictionless one on the parallel arm", test_source_load), &
-         new_unittest("seating by the maximum never falls below the base circle load", test_maximum), &
-         new_unittest("speeds, spin and entrainment belong together", test_speeds), &
-         new_unittest("boundary friction counts as mobilised or in full", test_boundary), &
-         new_unittest("guide and gas press as their forces at the valve say", test_valve_forces), &
-         new_unittest("without contact there is no force", test_no_contact), &
-         new_unittest("a state at standstill of the entrainment is finite", test_standstill), &
-         new_unittest("at the roller's balance its spin follows the kinematics", test_balance_of_roller), &
-         new_unittest("the decay rate is the slope of the spin equation", test_decay_rate), &
-         new_unittest("an angle a turn later gives the same state", test_turns) &
+         new_unittest("moments of load and friction on the finger balance for every law, angle and slip", test_balance_of_finger), &
+         new_unittest("with energy 'source' the load is that without friction on the parallel arm", test_source_load), &
+         new_unittest("with seating 'maximum' the load is never below the base circle load", test_maximum), &
+         new_unittest("surface speeds, spin and entrainment speed are consistent", test_speeds), &
+         new_unittest("boundary friction is mobilised or full, as the case asks", test_boundary), &
+         new_unittest("guide drag and gas force change the load by their moments about the pivot", test_valve_forces), &
+         new_unittest("where contact is lost all contact forces are zero", test_no_contact), &
+         new_unittest("at an entrainment speed of zero the state is finite", test_standstill), &
+         new_unittest("at the quasi-static balance the spin acceleration is that of the kinematics", test_balance_of_roller), &
+         new_unittest("the decay rate agrees with a difference quotient of the roller equation", test_decay_rate), &
+         new_unittest("cam angles one turn apart give the same state", test_turns) &
          ]
    end subroutine collect_contact
 

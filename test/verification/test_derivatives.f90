@@ -35,7 +35,7 @@ contains
          new_unittest("arms, radius and rolling travel: slopes", test_arms), &
          new_unittest("moments about the pivot: slope", test_moments), &
          new_unittest("torque of the roller's bearing: slope over spin", test_bearing), &
-         new_unittest("stored power is the rate of the stored energy", test_power), &
+         new_unittest("stored power agrees with the derivative of the stored energy", test_power), &
          new_unittest("film laws: slopes over load, speed and roughness", test_film), &
          new_unittest("Eyring shear: slope over sliding speed", test_eyring), &
          new_unittest("limited shear: slopes over shear and limit", test_limit), &

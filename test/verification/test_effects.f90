@@ -20,13 +20,14 @@ contains
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
       testsuite = [ &
-         new_unittest("camshaft bearings change no bit of anything else", test_bearings), &
-         new_unittest("the guide changes no bit of anything else in the source's bookkeeping", test_guide), &
-         new_unittest("the needle bearing changes no bit of the load in the source's bookkeeping", test_needle), &
+         new_unittest("camshaft bearings change no bit of any other result", test_bearings), &
+         new_unittest("with energy 'source' the valve guide changes no bit of any other result", test_guide), &
+         new_unittest("with energy 'source' the needle bearing changes no bit of the load", test_needle), &
          new_unittest("an absent effect has no series and no scalar", test_absent), &
-         new_unittest("a case after others gives the bits that it gives alone", test_kept), &
-         new_unittest("bearings of a single cam of the second lobe shape stay, since without them there is the first", test_lobe), &
-         new_unittest("bearings that are left out take the second lobe shape with them", test_without_bearings) &
+         new_unittest("a case run after other cases has the same bits as alone", test_kept), &
+         new_unittest("bearings of a single cam with the second lobe shape are kept, since without them the cam has the first", &
+            & test_lobe), &
+         new_unittest("leaving out the bearings leaves out the second lobe shape", test_without_bearings) &
          ]
    end subroutine collect_effects
 

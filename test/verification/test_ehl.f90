@@ -28,20 +28,21 @@ contains
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
       testsuite = [ &
-         new_unittest("a dry contact's pressure deforms the bodies to a flat, to second order", test_flat), &
-         new_unittest("a solution made up beforehand is found to second order", test_manufactured), &
-         new_unittest("two published contacts come out within 0.3 % at 257 nodes", test_line_contacts), &
-         new_unittest("a long inlet is reached without asking for it", test_long_inlet), &
-         new_unittest("smooth rows of Masjedi and Khonsari come out within 5 %", test_masjedi_khonsari), &
-         new_unittest("with hardly any oil the pressure is that of a dry contact", test_dry), &
-         new_unittest("a stiff contact with a thin oil has Martin's film", test_martin), &
-         new_unittest("an oil that cannot be compressed has the thicker film", test_incompressible), &
-         new_unittest("load and mass flow are kept to round-off", test_conservation), &
-         new_unittest("film, moment and place of the spike converge; the error stated is not too small", test_convergence), &
-         new_unittest("shear does not jump as the end of the film passes a node", test_end), &
-         new_unittest("every corner of the range is solved from nothing", test_range), &
-         new_unittest("beyond the range there is an error and no number", test_beyond), &
-         new_unittest("where two grids differ by too much there is an error", test_difference) &
+         new_unittest("the elliptic pressure of a dry contact deforms the bodies to a flat, to second order", test_flat), &
+         new_unittest("a manufactured solution is reproduced with second order", test_manufactured), &
+         new_unittest("films of two published contacts agree within 0.3 % on 257 nodes", test_line_contacts), &
+         new_unittest("the default domain is long enough for the film of a long inlet", test_long_inlet), &
+         new_unittest("films of Masjedi and Khonsari's smooth contacts agree within 5 %", test_masjedi_khonsari), &
+         new_unittest("for a film tending to zero the pressure tends to that of a dry contact", test_dry), &
+         new_unittest("the rigid, isoviscous limit is Martin's film", test_martin), &
+         new_unittest("the film of an incompressible oil is thicker by the compression at the peak", test_incompressible), &
+         new_unittest("load and mass flow balance to round-off", test_conservation), &
+         new_unittest("film, second moment and position of the spike converge; errors are within their estimates", &
+            & test_convergence), &
+         new_unittest("shear is continuous when the end of the film passes a node", test_end), &
+         new_unittest("every corner of the range is solved from the default initial values", test_range), &
+         new_unittest("contacts outside the range give an error and no number", test_beyond), &
+         new_unittest("films that differ too much between two grids are an error", test_difference) &
          ]
    end subroutine collect_ehl
 

@@ -27,21 +27,21 @@ contains
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
       testsuite = [ &
-         new_unittest("rates are exact for a straight line, with two moments before for a parabola", test_rates), &
-         new_unittest("where nothing changes the film is the steady one", test_dwell), &
-         new_unittest("shorter steps and more nodes change film and slip as little as they should", test_convergence), &
-         new_unittest("short steps leave no noise: the smallest film is the same at every angle", test_short_steps), &
-         new_unittest("squeeze delays the film", test_squeeze), &
-         new_unittest("the roller's equation holds over the cycle with film and slip found together", test_coupling), &
-         new_unittest("profiles carry the load", test_profiles), &
-         new_unittest("where friction can hold the roller it rests, else it slides against all of it", test_rest), &
-         new_unittest("contact is lost and found again", test_loss), &
-         new_unittest("a light contact of rough surfaces is solved as wide as its asperities touch", test_light), &
-         new_unittest("no step passes over an event of one degree", test_short_event), &
-         new_unittest("two grids that differ by too much are an error, in film and in slip", test_grids), &
-         new_unittest("where two grids do not agree within the accuracy, finer ones are taken, or there is an error", &
+         new_unittest("difference rates are exact for a line from two times and for a parabola from three", test_rates), &
+         new_unittest("with constant load and speed the transient film is the steady one", test_dwell), &
+         new_unittest("shorter steps and more nodes change film and slip within their tolerances", test_convergence), &
+         new_unittest("the smallest film does not change at any angle with shorter steps", test_short_steps), &
+         new_unittest("squeeze delays the smallest film", test_squeeze), &
+         new_unittest("film and slip solved together satisfy the roller equation over the cycle", test_coupling), &
+         new_unittest("the pressure profiles carry the load at every angle", test_profiles), &
+         new_unittest("the roller sticks where friction can hold it, and slides against full friction elsewhere", test_rest), &
+         new_unittest("a cycle passes loss and return of contact", test_loss), &
+         new_unittest("the domain of a light rough contact reaches as far as asperities touch", test_light), &
+         new_unittest("no time step passes over a lift event of one degree", test_short_event), &
+         new_unittest("differences between two grids above the tolerance are an error, for film and for slip", test_grids), &
+         new_unittest("grids are refined until the accuracy is reached, or an error is returned", &
          & test_accuracy), &
-         new_unittest("a contact too heavy is refused", test_too_heavy) &
+         new_unittest("a contact above the range of pressures is refused", test_too_heavy) &
          ]
    end subroutine collect_ehl_cycle
 

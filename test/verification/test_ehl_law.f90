@@ -36,17 +36,18 @@ contains
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
       testsuite = [ &
-         new_unittest("a table gives the films of solutions between its points", test_table), &
-         new_unittest("films anywhere in a table differ from solutions by no more than it states", test_stated), &
-         new_unittest("films in the tables of cold, hot, fast, slow and heavy decks differ no more", test_stated_of_decks), &
-         new_unittest("slopes of the table are those of its difference quotients, inside and beyond", test_slopes), &
-         new_unittest("a contact too heavy for solutions is refused with the place", test_too_heavy), &
+         new_unittest("a table interpolates the films of direct solutions", test_table), &
+         new_unittest("films at random places in a table agree with direct solutions within its error estimate", test_stated), &
+         new_unittest("the same for the tables of cold, hot, fast, slow and heavily loaded decks", test_stated_of_decks), &
+         new_unittest("slopes of the table agree with difference quotients, inside and outside", test_slopes), &
+         new_unittest("a table that would need contacts above 1.5 GPa is refused", test_too_heavy), &
          new_unittest("a case with a numerical film closes its energy balance", test_case), &
-         new_unittest("a contact that is followed has the film of one solved from nothing", test_followed), &
-         new_unittest("asperities at each place carry about what the shared load says", test_rough), &
-         new_unittest("without roughness, thinning and flow factors nothing changes", test_nothing), &
-         new_unittest("thinning lowers the film, flow factors raise the gap they hinder", test_thinning), &
-         new_unittest("rolling resistance is near that of Biboulet and Houpert", test_rolling) &
+         new_unittest("a contact solved from a nearby solution has the film of one solved from default initial values", &
+            & test_followed), &
+         new_unittest("asperities at each node carry about the share of the load-sharing law", test_rough), &
+         new_unittest("thinning without sliding and flow factors without roughness change nothing", test_nothing), &
+         new_unittest("shear thinning makes the film thinner, flow factors make it thicker", test_thinning), &
+         new_unittest("rolling resistance is at most 14 % above that of Biboulet and Houpert", test_rolling) &
          ]
    end subroutine collect_ehl_law
 

@@ -33,7 +33,7 @@ contains
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
       testsuite = [ &
-         new_unittest("each formula differs from numerical films by what its map says", test_map) &
+         new_unittest("deviations of each formula from numerical films are those of the map in the documentation", test_map) &
          ]
    end subroutine collect_ehl_map
 

@@ -24,10 +24,10 @@ contains
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
       testsuite = [ &
-         new_unittest("energy is in balance over a solved cycle", test_energy), &
+         new_unittest("energy balances over a solved cycle", test_energy), &
          new_unittest("the shear strength of the surface film acts on the area that asperities touch", test_shear_strength), &
-         new_unittest("thinning and flow factors act where the case asks for them", test_choices), &
-         new_unittest("profiles of a run carry its load at its slip, and friction is near the closed formulas", test_run) &
+         new_unittest("shear thinning and flow factors act if the case asks for them", test_choices), &
+         new_unittest("profiles of a run carry its load, and their friction is near the closed formulas", test_run) &
          ]
    end subroutine collect_ehl_record
 

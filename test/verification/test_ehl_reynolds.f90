@@ -19,8 +19,8 @@ contains
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
       testsuite = [ &
-         new_unittest("the derivatives of the flow are those of its difference quotients", test_slopes), &
-         new_unittest("oil of one thickness and density keeps both while the nodes move apart", test_uniform) &
+         new_unittest("derivatives of the flow agree with difference quotients", test_slopes), &
+         new_unittest("a uniform film stays uniform while the nodes move apart", test_uniform) &
          ]
    end subroutine collect_ehl_reynolds
 

@@ -33,8 +33,9 @@ contains
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
       testsuite = [ &
-         new_unittest("rough rows of Masjedi and Khonsari: films within 5 %, shares within 9 % of theirs", test_rows), &
-         new_unittest("rough surfaces leave more room than the distance of their mean planes, where they nearly touch", test_gap) &
+         new_unittest("Masjedi and Khonsari's rough contacts: films agree within 5 %, asperity shares within 9 %", test_rows), &
+         new_unittest("the mean gap of rough surfaces exceeds the distance of their mean planes where they nearly touch", &
+            & test_gap) &
          ]
    end subroutine collect_ehl_rough
 

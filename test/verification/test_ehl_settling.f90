@@ -23,10 +23,11 @@ contains
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
       testsuite = [ &
-         new_unittest("a film that settles from a distant start becomes that of Newton's method", test_same), &
-         new_unittest("pressure spikes between which Newton's method oscillates are found on every grid", test_spikes), &
-         new_unittest("the logarithm of the viscosity and its slope continue where the viscosity is held", test_logarithm), &
-         new_unittest("the mean fluidity has its slopes, however much the viscosity differs", test_fluidity) &
+         new_unittest("a film integrated to steady state from a distant start is that of Newton's method", test_same), &
+         new_unittest("contacts with pressure spikes for which Newton's method oscillates are solved on every grid", test_spikes), &
+         new_unittest("the logarithm of the viscosity has its exact slope, also beyond the largest representable viscosity", &
+            & test_logarithm), &
+         new_unittest("slopes of the mean fluidity agree with difference quotients for any ratio of viscosities", test_fluidity) &
          ]
    end subroutine collect_ehl_settling
 

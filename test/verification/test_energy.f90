@@ -45,9 +45,9 @@ contains
          new_unittest("energy closes for every film law, an Eyring oil and a sharp cap", test_laws), &
          new_unittest("energy closes at any sliding speed, also with the roller turning backwards", test_any_slip), &
          new_unittest("work of the geometric torque between two angles is the change of stored energy", test_work), &
-         new_unittest("work of the geometric torque is stored with a lift table as well", test_work_table), &
-         new_unittest("over a cycle the geometric torque does no work", test_closed_cycle), &
-         new_unittest("over a cycle the drive's work is lost, but for what is done on the gas", test_mean_power) &
+         new_unittest("the same with a lift table", test_work_table), &
+         new_unittest("the geometric torque does no work over a cycle", test_closed_cycle), &
+         new_unittest("over a cycle the drive's work is that of the losses plus the work on the gas", test_mean_power) &
          ]
    end subroutine collect_energy
 

@@ -32,14 +32,14 @@ contains
          new_unittest("a constant defect with decay gives the closed form", test_constant), &
          new_unittest("without decay a defect adds up to its integral", test_integral), &
          new_unittest("under fast decay the error is the defect over the decay rate", test_stiff), &
-         new_unittest("a defect that is none at the Gauss nodes still has its error between them", test_between), &
-         new_unittest("a defect at the ends of an interval counts", test_ends), &
+         new_unittest("a defect that vanishes at the Gauss nodes is seen between them", test_between), &
+         new_unittest("a defect at the ends of an interval enters the estimate", test_ends), &
          new_unittest("a cycle without decay has no finite error", test_no_decay), &
-         new_unittest("where disturbances grow the error grows with them", test_growth), &
+         new_unittest("where disturbances grow, the estimate grows with them", test_growth), &
          new_unittest("the estimate bounds the error against the reference for every kind of method", test_methods), &
-         new_unittest("method and tolerance follow from the accuracy unless they are given", test_resolved), &
-         new_unittest("an accuracy is kept, and one that cannot be is remarked on", test_kept), &
-         new_unittest("a tolerance given by hand that does not hold the error is remarked on", test_far_beyond) &
+         new_unittest("method and tolerance follow from the accuracy unless given in the case", test_resolved), &
+         new_unittest("errors are within the accuracy, or a remark says that it was not reached", test_kept), &
+         new_unittest("a tolerance too loose for its error gives a remark", test_far_beyond) &
          ]
    end subroutine collect_error_estimate
 

@@ -22,20 +22,21 @@ contains
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
       testsuite = [ &
-         new_unittest("edges of the event and the valve's leaving its seat are stops", test_stops), &
+         new_unittest("ends of the event and lift-off of the valve from its seat are stops", test_stops), &
          new_unittest("loss and return of contact are stops", test_loss_stops), &
-         new_unittest("contact lost or found for less than a step of the scan has its stops", test_short_losses), &
-         new_unittest("the change between the adjuster's load and the spring's is a stop", test_load_stops), &
-         new_unittest("stops of a cycle begin anywhere and keep their order", test_cycle_stops), &
-         new_unittest("stops between two angles over several turns", test_stops_between), &
-         new_unittest("an undercut cam is refused with its angle", test_undercut), &
-         new_unittest("a hollow narrower than a quarter of a degree is found", test_narrow_hollow), &
-         new_unittest("a hollow flank refuses a large grinding wheel and takes a small one", test_wheel), &
-         new_unittest("a lift out of reach is refused with its angle", test_reach), &
-         new_unittest("a closed energy balance refuses what it cannot have, all at once", test_contradictions), &
-         new_unittest("an adjuster that lifts the valve is refused with both forces", test_adjuster), &
-         new_unittest("unknown names list the known ones", test_names), &
-         new_unittest("numbers that cannot be are refused", test_numbers) &
+         new_unittest("a loss or return of contact shorter than a step of the scan is detected", test_short_losses), &
+         new_unittest("the change from the adjuster's to the spring's load is a stop with seating 'maximum'", test_load_stops), &
+         new_unittest("stops of a cycle that starts at any angle are in order", test_cycle_stops), &
+         new_unittest("stops between two angles several turns apart", test_stops_between), &
+         new_unittest("an undercut cam is refused, and the message states the angle", test_undercut), &
+         new_unittest("a hollow narrower than a quarter of a degree is detected", test_narrow_hollow), &
+         new_unittest("a hollow flank is refused for a large grinding wheel and accepted for a small one", test_wheel), &
+         new_unittest("a lift that the finger cannot reach is refused, and the message states the angle", test_reach), &
+         new_unittest("energy 'consistent' refuses all options that contradict it, in one message", test_contradictions), &
+         new_unittest("an adjuster force that would open the valve is refused, and the message states both forces", &
+            & test_adjuster), &
+         new_unittest("an unknown name is refused with a list of the known ones", test_names), &
+         new_unittest("impossible numbers are refused", test_numbers) &
          ]
    end subroutine collect_events
 

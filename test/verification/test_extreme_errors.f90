@@ -30,9 +30,9 @@ contains
 
       testsuite = [ &
          new_unittest("the estimate bounds the errors of extremes for every kind of method", test_estimate), &
-         new_unittest("extremes take in both sides of a jump", test_jump), &
-         new_unittest("where traction saturates a sliding speed moves to fit the slope, within the error allowed", test_settle), &
-         new_unittest("where the load falls to next to nothing films have no mean, and a remark names them", test_film_remark) &
+         new_unittest("extremes include both sides of a jump", test_jump), &
+         new_unittest("where traction saturates, the sliding speed is corrected within the error allowed", test_settle), &
+         new_unittest("where the load tends to zero a remark names the films that have no mean", test_film_remark) &
          ]
    end subroutine collect_extreme_errors
 

@@ -17,9 +17,9 @@ contains
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
       testsuite = [ &
-         new_unittest("the regressions of Masjedi and Khonsari give their printed columns, that of the asperities' load too", &
+         new_unittest("regressions of Masjedi and Khonsari reproduce their printed columns for films and asperity load", &
          & test_masjedi_khonsari), &
-         new_unittest("every law is near the numerical solution of a smooth contact", test_laws_agree) &
+         new_unittest("every film law is near the published numerical solutions of smooth contacts", test_laws_agree) &
          ]
    end subroutine collect_film_literature
 

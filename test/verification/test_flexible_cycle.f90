@@ -33,13 +33,14 @@ contains
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
       testsuite = [ &
-         new_unittest("fixed pivot, 300 rev/min: load, lift, seating, surge, joint and torque", test_fixed_slow), &
-         new_unittest("fixed pivot, 900 rev/min: the same", test_fixed_fast), &
-         new_unittest("lash adjuster, 300 rev/min: the same with travel, pressure and leak", test_adjuster), &
-         new_unittest("two methods agree", test_methods), &
-         new_unittest("a stiff train is a rigid train", test_rigid_limit), &
-         new_unittest("impacts on a film as good as solid take few steps, and means agree", test_impacts), &
-         new_unittest("acceleration never leaves what a train can be in", test_mixture) &
+         new_unittest("fixed pivot at 300 rev/min agrees with the reference: load, lift, seating, surge, joint and torque", &
+            & test_fixed_slow), &
+         new_unittest("fixed pivot at 900 rev/min agrees with the reference", test_fixed_fast), &
+         new_unittest("lash adjuster at 300 rev/min agrees with the reference, also in travel, pressure and leak", test_adjuster), &
+         new_unittest("two integration methods agree on the cycle of a flexible train", test_methods), &
+         new_unittest("a very stiff train has the results of a rigid train", test_rigid_limit), &
+         new_unittest("impacts on a nearly solid film take few steps, and results for two tolerances agree", test_impacts), &
+         new_unittest("the acceleration of the cycles never leaves the possible states of a train", test_mixture) &
          ]
    end subroutine collect_flexible_cycle
 

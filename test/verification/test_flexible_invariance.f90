@@ -27,9 +27,10 @@ contains
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
       testsuite = [ &
-         new_unittest("a plucked train without dampers keeps its energy, contacts opening; with dampers not", test_conservation), &
-         new_unittest("time reversed, without dampers and friction: the same accelerations", test_reversal), &
-         new_unittest("errors of a turn fall as the tolerance does, as fast as is promised", test_convergence) &
+         new_unittest("free vibration with opening contacts keeps its energy without dampers and loses it with them", &
+            & test_conservation), &
+         new_unittest("without dampers and friction, reversed time gives the same accelerations", test_reversal), &
+         new_unittest("errors of a turn are within ten tolerances and fall with the tolerance", test_convergence) &
          ]
    end subroutine collect_flexible_invariance
 

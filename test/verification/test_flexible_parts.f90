@@ -21,14 +21,14 @@ contains
 
       testsuite = [ &
          new_unittest("approach of a line contact with a spring in series, and its inverse", test_series), &
-         new_unittest("energy of that contact is the integral of its load", test_series_energy), &
-         new_unittest("restitution of a damping that grows with the force", test_restitution), &
-         new_unittest("a body leaves a damped contact with the speed of the closed form", test_impact), &
+         new_unittest("energy of that contact is the integral of its load over the approach", test_series_energy), &
+         new_unittest("restitution of a damping proportional to the force agrees with the closed form", test_restitution), &
+         new_unittest("a body leaves a damped contact at the speed of the closed form", test_impact), &
          new_unittest("modes of a spring, alone and with a mass at its end", test_modes), &
-         new_unittest("surge that a harmonic of the lift forces", test_surge), &
-         new_unittest("bulk modulus of oil that holds air", test_bulk_modulus), &
-         new_unittest("work to a pressure, flows and their derivatives", test_flows), &
-         new_unittest("leak-down of an adjuster", test_leak_down) &
+         new_unittest("surge forced by one harmonic of the lift agrees with the closed form", test_surge), &
+         new_unittest("bulk modulus of oil that contains air", test_bulk_modulus), &
+         new_unittest("derivatives of an adjuster's flows and compression work agree with difference quotients", test_flows), &
+         new_unittest("leak-down time of an adjuster agrees with the reference", test_leak_down) &
          ]
    end subroutine collect_flexible_parts
 

@@ -29,13 +29,13 @@ contains
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
       testsuite = [ &
-         new_unittest("rest on the base circle", test_rest), &
-         new_unittest("nothing moves at rest but the roller, which friction turns", test_rest_is_rest), &
-         new_unittest("on the rigid train's way the geometry is the rigid train's", test_rigid_way), &
-         new_unittest("approach and speed follow a motion off that way", test_motion), &
-         new_unittest("energy closes at random states, both senses, with every part of the train", test_energy), &
-         new_unittest("stored energy changes at the rate that is given", test_stored_rate), &
-         new_unittest("Jacobian against differences of the rate", test_jacobian) &
+         new_unittest("a train at rest on the base circle is in equilibrium", test_rest), &
+         new_unittest("at rest only the roller accelerates, by friction", test_rest_is_rest), &
+         new_unittest("at positions of the rigid train the geometry is that of the rigid train", test_rigid_way), &
+         new_unittest("approach and speed are right at positions off the rigid train's path", test_motion), &
+         new_unittest("energy closes at random states, for both senses of rotation and every part of the train", test_energy), &
+         new_unittest("the rate of the stored energy agrees with a difference quotient", test_stored_rate), &
+         new_unittest("the Jacobian agrees with difference quotients of the rates", test_jacobian) &
          ]
    end subroutine collect_flexible_train
 

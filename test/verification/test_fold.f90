@@ -28,8 +28,8 @@ contains
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
       testsuite = [ &
-         new_unittest("several loads at one sliding speed are seen, and an ordinary contact has none", test_seen), &
-         new_unittest("a message names it as the cause, where there is one", test_words) &
+         new_unittest("several balanced loads at one sliding speed are detected, and an ordinary contact has one", test_seen), &
+         new_unittest("an error message names several balances as the cause where there are several", test_words) &
          ]
    end subroutine collect_fold
 

@@ -71,13 +71,13 @@ contains
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
       testsuite = [ &
-         new_unittest("every stable method solves every hard case, and all agree", test_solved), &
-         new_unittest("what has no answer ends with an error that says why", test_endings), &
-         new_unittest("where a case is beyond a method, its error says why and names the angle", test_beyond), &
-         new_unittest("steps far too large give a result that says it is none", test_large_steps), &
-         new_unittest("every hard deck is tested", test_all_decks), &
+         new_unittest("every method with step-size control solves every hard case, and all agree", test_solved), &
+         new_unittest("cases without a solution end with an error that names the cause", test_endings), &
+         new_unittest("where a method fails, the error names the cause and the angle", test_beyond), &
+         new_unittest("steps far too large give a result with a remark that it is not one", test_large_steps), &
+         new_unittest("every hard deck is in one of the lists of this suite", test_all_decks), &
          new_unittest("no method steps over an event after a long dwell, whatever its tolerance", test_long_dwell), &
-         new_unittest("a roller that starts backwards forgets it within a turn", test_backwards) &
+         new_unittest("a backward initial spin has decayed within a turn", test_backwards) &
          ]
    end subroutine collect_hard_cases
 

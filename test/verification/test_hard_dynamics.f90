@@ -33,8 +33,9 @@ contains
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
       testsuite = [ &
-         new_unittest("hard trains with a period: two methods find the same, with closed energy and few steps", test_periodic), &
-         new_unittest("trains that fly: two methods agree on the first turn, energy is closed, steps are few", test_flying) &
+         new_unittest("hard flexible trains with periodic motion: two methods agree, energy closes, steps are few", &
+            & test_periodic), &
+         new_unittest("trains that lose contact: two methods agree on the first turn, energy closes, steps are few", test_flying) &
          ]
    end subroutine collect_hard_dynamics
 

@@ -71,9 +71,11 @@ contains
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
       testsuite = [ &
-         new_unittest("every hard deck with a numerical film as its law passes the checks of a cycle, or says why not", test_law), &
-         new_unittest("contacts solved over the cycle of every hard deck pass them, or say why not", test_cycle), &
-         new_unittest("cycles of steady films find their balance, or say that it jumps", test_steady) &
+         new_unittest("every hard deck with the numerical film as law passes the checks of a cycle, or its error names the cause", &
+            & test_law), &
+         new_unittest("contacts of every hard deck solved over the cycle pass the checks, or an error names the cause", &
+            & test_cycle), &
+         new_unittest("cycles of steady films find the balance at each angle, or an error says that it jumps", test_steady) &
          ]
    end subroutine collect_hard_ehl
 

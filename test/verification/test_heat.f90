@@ -32,12 +32,12 @@ contains
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
       testsuite = [ &
-         new_unittest("the heat of friction keeps the temperature that friction is taken at, at any slip", test_root), &
-         new_unittest("energy closes at 720 angles with heat, either sense, with gas force", test_energy), &
-         new_unittest("bodies of infinite conductivity and an oil that does not thin leave every bit as it was", test_cold), &
-         new_unittest("the same numbers in any units", test_units), &
-         new_unittest("a remark says where the inlet is warmer than its factor can tell", test_remark), &
-         new_unittest("a case says how its oil thins, once", test_refusals) &
+         new_unittest("friction and film temperature are consistent at any slip", test_root), &
+         new_unittest("energy closes at 720 angles with heat, for both senses of rotation, with gas force", test_energy), &
+         new_unittest("bodies of infinite conductivity and an oil whose viscosity ignores temperature change no bit", test_cold), &
+         new_unittest("results are the same in other units", test_units), &
+         new_unittest("a remark names the angles where the inlet factor is beyond its range", test_remark), &
+         new_unittest("incomplete or contradictory cases with heat are refused", test_refusals) &
          ]
    end subroutine collect_heat
 

@@ -24,14 +24,16 @@ contains
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
       testsuite = [ &
-         new_unittest("Bessel functions K_0 and K_1 as tabulated, both methods alike where they meet", test_bessel), &
-         new_unittest("rise under a band, film by either inlet law, as integrated in Python", test_reference), &
-         new_unittest("a fast even band has 1.1284 and two thirds of it, a Hertzian one 1.1115 at 0.652 b and 0.7662", test_band), &
-         new_unittest("slopes of band, inlet factor and shear over the temperature", test_slopes), &
-         new_unittest("beyond half the pressure's fall the inlet factor goes on smoothly and stays positive", test_continuation), &
-         new_unittest("a film heated evenly across is q h/(12 k) warmer in the mean, q h/(8 k) in the middle", test_film), &
-         new_unittest("shear at its own temperature as solved in Python, by every law", test_shear), &
-         new_unittest("Vogel's oil is met to round-off, Walther's to 0.3 % up to 60 K from 47 degC on", test_oils) &
+         new_unittest("Bessel functions K_0 and K_1 agree with tables, and both formulas where they meet", test_bessel), &
+         new_unittest("temperature rise under a band and film with both inlet laws agree with Python", test_reference), &
+         new_unittest("rises under fast uniform and Hertzian bands have the published factors: largest and mean", test_band), &
+         new_unittest("slopes of band and inlet factor, and of the shear over temperature, agree with difference quotients", &
+            & test_slopes), &
+         new_unittest("the inlet factor continues smoothly beyond its range and stays positive", test_continuation), &
+         new_unittest("a film heated uniformly is q h/(12 k) warmer in the mean and q h/(8 k) in the middle", test_film), &
+         new_unittest("shear at the temperature that it causes agrees with Python for every shear law", test_shear), &
+         new_unittest("the fitted viscosity change agrees with Vogel's law to round-off and Walther's to 0.3 % over 60 K", &
+            & test_oils) &
          ]
    end subroutine collect_heat_laws
 

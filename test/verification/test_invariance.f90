@@ -31,11 +31,12 @@ contains
          new_unittest("shifting a lift table by a turn or more changes nothing", test_table_turns), &
          new_unittest("shifting a lift table shifts the result", test_table_shift), &
          new_unittest("refining a lift table converges to the law it was made from", test_table_refinement), &
-         new_unittest("rows at rest change nothing", test_rest_rows), &
+         new_unittest("additional rows at zero lift change nothing", test_rest_rows), &
          new_unittest("effects of zero strength change nothing", test_zero_effects), &
-         new_unittest("mirrored lift and sense of rotation turn friction's moments round, and nothing else", test_mirror), &
-         new_unittest("two models side by side give the bits that each gives alone", test_side_by_side), &
-         new_unittest("a model gives the same bits again", test_repeat) &
+         new_unittest("mirroring lift and sense of rotation reverses the moments of friction and changes nothing else", &
+            & test_mirror), &
+         new_unittest("two models used side by side give the same bits as each alone", test_side_by_side), &
+         new_unittest("a model gives the same bits when used again", test_repeat) &
          ]
    end subroutine collect_invariance
 

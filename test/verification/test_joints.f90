@@ -40,18 +40,18 @@ contains
 
       testsuite = [ &
          new_unittest("Stribeck's curve: standstill, 1/e at the decay speed, viscous part, no load", test_curve), &
-         new_unittest("forces and torques as of two free bodies", test_bodies), &
-         new_unittest("the pad slides over the tip as the change of its place and its turn say", test_sliding_speed), &
-         new_unittest("a turn of the reference train slides the pad by 9.732 mm", test_sliding_distance), &
-         new_unittest("a seal of 8 N takes 0.152 J a turn where friction jumps", test_seal_work), &
+         new_unittest("forces and torques agree with the equilibrium of two free bodies", test_bodies), &
+         new_unittest("the sliding of the pad over the tip follows from the changes of position and angle", test_sliding_speed), &
+         new_unittest("the pad of the reference train slides 9.732 mm in a turn", test_sliding_distance), &
+         new_unittest("a seal of 8 N with friction that jumps takes 0.152 J a turn", test_seal_work), &
          new_unittest("friction of the guide in closed form, with and without friction at the tip", test_guide_side), &
-         new_unittest("energy closes at 720 angles with all joints, needles' drag and gas force, either law and sense", &
-         & test_energy), &
+         new_unittest("energy closes at 720 angles with all joints, needle drag and gas force, both laws, both senses", &
+            & test_energy), &
          new_unittest("energy closes at any sliding speed", test_any_slip), &
-         new_unittest("friction that jumps has a stop on both sides, none inside a dwell", test_stops), &
-         new_unittest("friction that jumps is the limit of friction that reverses over a small speed", test_limit), &
-         new_unittest("joints without friction are no joints", test_no_friction), &
-         new_unittest("refusals: a jammed stem, other bookkeeping, a flexible train, no mass of the finger", test_refusals) &
+         new_unittest("friction that jumps has a stop on both sides of each jump and none inside a dwell", test_stops), &
+         new_unittest("friction that reverses over a small speed tends to friction that jumps", test_limit), &
+         new_unittest("joints with zero friction change no result", test_no_friction), &
+         new_unittest("a jammed stem, energy 'source', a flexible train and a missing finger mass are refused", test_refusals) &
          ]
    end subroutine collect_joints
 

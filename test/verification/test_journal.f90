@@ -26,13 +26,13 @@ contains
          new_unittest("long bearing: closed forms of Sommerfeld number and friction", test_long), &
          new_unittest("short bearing: Ocvirk's table", test_short), &
          new_unittest("finite bearing: Raimondi and Boyd's table", test_finite), &
-         new_unittest("narrow bearings: finite and short law agree", test_narrow), &
+         new_unittest("for narrow bearings the finite and the short law agree", test_narrow), &
          new_unittest("without load the friction is Petroff's", test_unloaded), &
          new_unittest("under light loads the eccentricity is proportional to the load", test_light), &
          new_unittest("under heavy loads the friction tends to its limit", test_heavy), &
-         new_unittest("friction rises with load, whatever its sign", test_monotonic), &
-         new_unittest("torque is friction times radius", test_torque), &
-         new_unittest("no film, no friction, and a status", test_no_film), &
+         new_unittest("friction rises with the magnitude of the load", test_monotonic), &
+         new_unittest("the torque is friction times radius", test_torque), &
+         new_unittest("without viscosity there is no friction, and a status reports it", test_no_film), &
          new_unittest("impossible bearings are refused with a message", test_refusals) &
          ]
    end subroutine collect_journal

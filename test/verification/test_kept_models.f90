@@ -40,7 +40,7 @@ contains
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
       testsuite = [ &
-         new_unittest("whichever key varies, kept and new models give the same bits", every_key) &
+         new_unittest("models kept from case to case give the same bits as new ones, whichever key varies", every_key) &
          ]
    end subroutine collect_kept_models
 

@@ -30,8 +30,9 @@ contains
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
       testsuite = [ &
-         new_unittest("every quantity agrees with the construction, both geometries, both senses", test_table), &
-         new_unittest("the thesis's lift law has the values of the construction", test_lift_values), &
+         new_unittest("every quantity agrees with an independent construction, for two geometries and both senses of rotation", &
+            & test_table), &
+         new_unittest("the thesis's lift law agrees with the independent construction", test_lift_values), &
          new_unittest("slopes of surface and rolling travel agree with central differences", test_slopes) &
          ]
    end subroutine collect_kinematics_reference

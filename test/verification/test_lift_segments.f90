@@ -19,9 +19,9 @@ contains
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
       testsuite = [ &
-         new_unittest("three equal pulses of acceleration are the closed form", test_pulses), &
-         new_unittest("segments keep their shape, come to rest and peak at full lift", test_segments), &
-         new_unittest("impossible segments are refused in words", test_segment_refusals) &
+         new_unittest("three equal pulses of acceleration give the lift of the closed form", test_pulses), &
+         new_unittest("scaled segments keep their shape, end at rest and reach full lift", test_segments), &
+         new_unittest("impossible segments are refused with a message", test_segment_refusals) &
          ]
    end subroutine collect_lift_segments
 

@@ -24,9 +24,9 @@ contains
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
       testsuite = [ &
-         new_unittest("a rigid train has the limits of its margins, and loses contact there", test_rigid), &
-         new_unittest("a joint that unloads is found to 1 rev/min", test_joint), &
-         new_unittest("a speed that cannot be computed ends the scan and is told", test_failure) &
+         new_unittest("limit speeds of a rigid train are those of its margins, and contact is lost above them", test_rigid), &
+         new_unittest("the speed at which a joint unloads is found to 1 rev/min", test_joint), &
+         new_unittest("a speed that cannot be computed ends the scan with a message that names it", test_failure) &
          ]
    end subroutine collect_limit_speeds
 

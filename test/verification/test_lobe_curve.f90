@@ -31,9 +31,9 @@ contains
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
       testsuite = [ &
-         new_unittest("a curve is known nearly everywhere, and is that of the states", test_known), &
-         new_unittest("where states bend within a piece no curve is known", test_bends), &
-         new_unittest("a curve with no piece to halve stays as it is", test_nothing_to_halve) &
+         new_unittest("the fitted curve covers nearly the whole turn and agrees with the states", test_known), &
+         new_unittest("intervals with a kink of the states have no fitted curve", test_bends), &
+         new_unittest("a curve without an interval to halve is returned unchanged", test_nothing_to_halve) &
          ]
    end subroutine collect_lobe_curve
 

@@ -23,10 +23,10 @@ contains
 
       testsuite = [ &
          new_unittest("base circle of the thesis's geometry", test_base_circle), &
-         new_unittest("modulus, inertia and friction radius of the thesis's parts", test_parts), &
-         new_unittest("closed valve: the adjuster's load on the cam, its rest on the seat", test_closed_valve), &
+         new_unittest("modulus, inertia and friction radius are those of the thesis", test_parts), &
+         new_unittest("with a closed valve the cam carries the adjuster's load and the seat the rest", test_closed_valve), &
          new_unittest("peak pressure at the nose is that of the thesis", test_peak_pressure), &
-         new_unittest("loss of a cycle is of the size measured on engines", test_loss) &
+         new_unittest("the loss of a cycle is within the range measured on engines", test_loss) &
          ]
    end subroutine collect_magnitudes
 

@@ -30,15 +30,15 @@ contains
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
       testsuite = [ &
-         new_unittest("speeds of loss, pump-up and opening are those of the reference", test_numbers), &
+         new_unittest("speeds of contact loss, pump-up and joint opening agree with the independent reference", test_numbers), &
          new_unittest("margins are the smallest forces of a fine scan", test_scan), &
-         new_unittest("at the speed of a margin a fine scan just reaches zero", test_speeds), &
+         new_unittest("at the limit speed of a margin the smallest force of a fine scan is zero", test_speeds), &
          new_unittest("the adjuster's force balances the finger at rest", test_adjuster_force), &
-         new_unittest("the pivot's force is the momentum that the other forces leave", test_momentum), &
+         new_unittest("the pivot's force agrees with the momentum balance of the finger", test_momentum), &
          new_unittest("without negative inertia forces contact is never lost", test_no_loss_speed), &
-         new_unittest("seating 'maximum' keeps the base circle load", test_maximum), &
+         new_unittest("with seating 'maximum' the margin of the base circle is the base circle load", test_maximum), &
          new_unittest("a centre of mass beyond the radius of gyration is refused", test_centre), &
-         new_unittest("without the finger's mass there is no margin of the pivot", test_no_mass) &
+         new_unittest("without the finger's mass no margin of the pivot is given", test_no_mass) &
          ]
    end subroutine collect_margins
 

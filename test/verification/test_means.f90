@@ -37,15 +37,15 @@ contains
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
       testsuite = [ &
-         new_unittest("mean torques are those of the curve within the tolerance of the cycle", test_curve), &
+         new_unittest("mean torques agree with integrals of the solution within the tolerance of the cycle", test_curve), &
          new_unittest("the estimated error of means bounds the error", test_estimate), &
          new_unittest("without gas and loss of contact the mean of the geometric torque is zero", test_closed), &
-         new_unittest("stored energy is given back where contact is lost", test_lost), &
-         new_unittest("what drives a follower over a step of a host goes into losses, store and spin", test_step), &
-         new_unittest("losses of a result have the accuracy asked for", test_accuracy), &
-         new_unittest("means whose accuracy is not reached are remarked on", test_remark), &
-         new_unittest("where nothing is entrained the smallest film does not depend on the accuracy", test_standstill), &
-         new_unittest("extremes are those of the curve whatever the output step", test_extremes) &
+         new_unittest("means account for the energy stored at loss and return of contact", test_lost), &
+         new_unittest("drive work of a host's step equals losses, stored energy and kinetic energy of the roller", test_step), &
+         new_unittest("mean losses are within the accuracy asked for", test_accuracy), &
+         new_unittest("a remark names the means whose accuracy is not reached", test_remark), &
+         new_unittest("the smallest film at zero entrainment does not depend on the accuracy", test_standstill), &
+         new_unittest("extremes agree with a fine scan of the solution for every output step", test_extremes) &
          ]
    end subroutine collect_means
 

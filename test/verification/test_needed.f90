@@ -60,11 +60,11 @@ contains
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
       testsuite = [ &
-         new_unittest("no change is larger than its estimate, for random cases", test_random), &
-         new_unittest("nor for decks whose changes are hard to bound", test_hard), &
-         new_unittest("every quantity keeps its promise at the operating points of the thesis", test_thesis), &
-         new_unittest("nothing negligible leaves every effect that matters", test_zero), &
-         new_unittest("what is left out has no series, and what tells about it has its scalars", test_left_out) &
+         new_unittest("changes by leaving effects out are within their estimates, for random cases", test_random), &
+         new_unittest("changes are within their estimates for decks whose changes are hard to bound", test_hard), &
+         new_unittest("changes of every quantity are within the fraction allowed at the thesis's operating points", test_thesis), &
+         new_unittest("with negligible = 0 every effect that changes anything is kept", test_zero), &
+         new_unittest("an effect left out has no series, and the result has the scalars of the choice", test_left_out) &
          ]
    end subroutine collect_needed
 

@@ -25,10 +25,10 @@ contains
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
       testsuite = [ &
-         new_unittest("Palmgren's formula on both branches, which meet at 2023.9", test_branches), &
-         new_unittest("its slope over the spin", test_slope), &
-         new_unittest("2.9 N mm on the base circle at 300 rev/min and 25 degC without slip", test_magnitude), &
-         new_unittest("the load's part of the torque is what it is without drag", test_parts), &
+         new_unittest("both branches of Palmgren's formula, which meet at 2023.9", test_branches), &
+         new_unittest("slope of the drag over the spin", test_slope), &
+         new_unittest("drag on the base circle at 300 rev/min and 25 degC without slip is 2.9 N mm", test_magnitude), &
+         new_unittest("drag leaves the part of the torque that depends on the load unchanged", test_parts), &
          new_unittest("without contact energy closes and nothing drives the cam, in both senses of rotation", test_flight), &
          new_unittest("a flexible train is refused", test_refusal) &
          ]

@@ -15,9 +15,9 @@ contains
 
       testsuite = [ &
          new_unittest("the integration tends to the quasi-static limit as the roller's inertia vanishes", test_limit), &
-         new_unittest("hot oil: slip within a hundredth of the integration's", test_hot), &
-         new_unittest("the energy balance closes", test_energy), &
-         new_unittest("without contact there is no balance, and the message names the angle", test_lost) &
+         new_unittest("in hot oil the quasi-static slip is within one per cent of the integrated one", test_hot), &
+         new_unittest("the energy balance closes in the quasi-static limit", test_energy), &
+         new_unittest("loss of contact ends the quasi-static method with an error that names the angle", test_lost) &
          ]
    end subroutine collect_quasi_static
 

@@ -46,9 +46,10 @@ contains
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
       testsuite = [ &
-         new_unittest("random cases have one cycle, by two unlike methods", test_random), &
-         new_unittest("cases with a slip of next to nothing, or hardly any damping, have a cycle", test_difficult), &
-         new_unittest("a case with several balances at once ends soon, with an error that names angle and cause", test_folded) &
+         new_unittest("two unrelated methods find the same cycle for random cases", test_random), &
+         new_unittest("cases with vanishing slip or hardly any damping have a cycle", test_difficult), &
+         new_unittest("a case with several balances at one angle ends soon, with an error that names angle and cause", &
+            & test_folded) &
          ]
    end subroutine collect_random_cases
 

@@ -53,8 +53,8 @@ contains
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
       testsuite = [ &
-         new_unittest("random cases with a numerical film law have one cycle, by two methods and accuracies", test_law), &
-         new_unittest("random cycles of solved contacts agree on three grids and with two step errors", test_cycle) &
+         new_unittest("two methods and two accuracies agree for random cases with a numerical film law", test_law), &
+         new_unittest("random cycles of solved contacts agree on three grids and for two step errors", test_cycle) &
          ]
    end subroutine collect_random_ehl
 

@@ -43,7 +43,7 @@ contains
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
       testsuite = [ &
-         new_unittest("random flexible trains: two methods agree on load and losses, or words say why not", test_flexible) &
+         new_unittest("random flexible trains: two methods agree on load and losses, or a message says why not", test_flexible) &
          ]
    end subroutine collect_random_flexible
 

@@ -51,12 +51,14 @@ contains
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
       testsuite = [ &
-         new_unittest("random decks have every choice of every key, every key given and left out, both ends of every range", &
+         new_unittest("random decks draw every choice of every key, each key given and left out, and both ends of every range", &
          test_coverage), &
-         new_unittest("a new choice or group of a deck is drawn, and a new number must be given a range", test_new_keys), &
-         new_unittest("groups that are not drawn are there, few, and have a reason", test_exceptions), &
-         new_unittest("random cases are the same in other units, by the units that their results name", test_units), &
-         new_unittest("random cases with every option end with a result that is right, or with an error message", test_wide) &
+         new_unittest("a new choice or group of the schema is drawn, and a new number without a range is a failure", &
+            & test_new_keys), &
+         new_unittest("groups that are not drawn exist in the schema, are few, and have a reason", test_exceptions), &
+         new_unittest("random cases give the same results in other units, converted by the units in the results", test_units), &
+         new_unittest("random cases with every option end with results that agree between methods, or with an error message", &
+            & test_wide) &
          ]
    end subroutine collect_random_wide
 

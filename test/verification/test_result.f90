@@ -31,16 +31,16 @@ contains
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
       testsuite = [ &
-         new_unittest("a second lobe shape with the first one's lift has its series", test_same_lobes), &
-         new_unittest("series follow the lobe shape, not its number", test_swapped_lobes), &
-         new_unittest("every series says what it belongs to", test_scopes), &
-         new_unittest("a first cam of lobe 2 leaves lobe 1 its series", test_first_cam), &
-         new_unittest("smallest and largest values are those of a fine scan", test_extremes), &
+         new_unittest("a second lobe shape with the lift of the first has the series of the first", test_same_lobes), &
+         new_unittest("series belong to a lobe shape, whatever its number", test_swapped_lobes), &
+         new_unittest("every series has a scope", test_scopes), &
+         new_unittest("lobe 1 has its series if the first cam has lobe 2", test_first_cam), &
+         new_unittest("smallest and largest values agree with a fine scan", test_extremes), &
          new_unittest("extremes do not depend on the output step", test_coarse_output), &
-         new_unittest("intervals without contact are those of a fine scan", test_intervals), &
-         new_unittest("what is not a finite number is refused by name, angle and value", test_gate), &
-         new_unittest("a case whose formulas overflow has no result", test_overflow), &
-         new_unittest("lift that dips below zero meets no seat where there is none", test_dip) &
+         new_unittest("intervals without contact agree with a fine scan", test_intervals), &
+         new_unittest("a series that is not finite is refused, and the message has name, angle and value", test_gate), &
+         new_unittest("a case whose formulas overflow ends with an error", test_overflow), &
+         new_unittest("a lift below zero gives finite numbers where there is no seat force", test_dip) &
          ]
    end subroutine collect_result
 

@@ -22,9 +22,9 @@ contains
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
       testsuite = [ &
-         new_unittest("loss of contact is a remark with part, speed and angles", test_remark), &
-         new_unittest("the lobe that loses contact is named", test_lobe_remark), &
-         new_unittest("contact_policy 'stop' refuses loss of contact alone", test_policy) &
+         new_unittest("loss of contact gives a remark with fraction of the turn, speed and angles", test_remark), &
+         new_unittest("the remark on loss of contact names the lobe", test_lobe_remark), &
+         new_unittest("contact_policy 'stop' refuses loss of contact and no other remark", test_policy) &
          ]
    end subroutine collect_result_remarks
 

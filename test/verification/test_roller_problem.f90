@@ -58,7 +58,7 @@ contains
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
       testsuite = [ &
-         new_unittest("dormand_prince finds the losses of the reference", test_dormand_prince) &
+         new_unittest("dormand_prince reproduces the losses of the reference roller problem", test_dormand_prince) &
          ]
    end subroutine collect_roller_problem
 

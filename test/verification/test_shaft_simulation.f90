@@ -22,15 +22,16 @@ contains
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
       testsuite = [ &
-         new_unittest("turns of an engine's camshafts tend to the means of its run", test_periodic), &
-         new_unittest("a case with one cam gives what its follower gives, to the last bit", test_one_cam), &
+         new_unittest("repeated turns of an engine's camshafts tend to the means of its run", test_periodic), &
+         new_unittest("a shaft with one cam gives the bits of its follower", test_one_cam), &
          new_unittest("torques of bearings and followers are of second order in the host's step", test_order), &
-         new_unittest("the error that is estimated covers that of a step", test_estimate), &
-         new_unittest("numbers of threads change no bit", test_threads), &
-         new_unittest("a shaft that was saved goes on with the same bits", test_saved), &
-         new_unittest("a step that fails for one cam leaves all where they were", test_failure), &
-         new_unittest("backward turns, standstill and flexible trains are refused with a way out", test_refusals), &
-         new_unittest("numbers have the names of a run's series", test_names) &
+         new_unittest("the estimated error of a step bounds its error", test_estimate), &
+         new_unittest("the number of threads changes no bit", test_threads), &
+         new_unittest("a saved and restored shaft continues with the same bits", test_saved), &
+         new_unittest("a step that fails for one cam leaves all followers unchanged", test_failure), &
+         new_unittest("backward turns, standstill and flexible trains are refused with a message that says what to do", &
+            & test_refusals), &
+         new_unittest("numbers of a shaft have the names of the series of a run", test_names) &
          ]
    end subroutine collect_shaft_simulation
 

@@ -15,12 +15,12 @@ contains
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
       testsuite = [ &
-         new_unittest("turns at constant speed tend to the periodic cycle", test_periodic), &
-         new_unittest("the number of steps of the host does not matter", test_steps), &
-         new_unittest("speed and temperature may change on the way", test_changes), &
-         new_unittest("a change of speed and temperature leads to the cycle of the new ones", test_new_point), &
-         new_unittest("two followers side by side do not touch each other", test_two), &
-         new_unittest("a roller that sticks has the friction of its cycle with default numerics", test_sticking) &
+         new_unittest("repeated turns at constant speed tend to the periodic cycle", test_periodic), &
+         new_unittest("results do not depend on the number of the host's steps", test_steps), &
+         new_unittest("speed and temperature may change during a turn", test_changes), &
+         new_unittest("after a change of speed and temperature the state tends to the new periodic cycle", test_new_point), &
+         new_unittest("two followers side by side give the bits of each alone", test_two), &
+         new_unittest("a sticking roller has the mean friction of its cycle, with default numerics", test_sticking) &
          ]
    end subroutine collect_simulation
 

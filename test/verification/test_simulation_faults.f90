@@ -18,11 +18,11 @@ contains
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
       testsuite = [ &
-         new_unittest("the second lobe shape can be driven, one that is not there cannot", test_lobe), &
-         new_unittest("a step back, angles and operating points that cannot be are refused", test_refusal), &
-         new_unittest("after a step that failed all goes on bit by bit as if it had not been", test_failed_step), &
-         new_unittest("a step of the smallest length has the torque at its place", test_smallest_step), &
-         new_unittest("numerics of a case made by hand are checked for runs and for simulations", test_numerics) &
+         new_unittest("the second lobe shape can be driven, and one that the case lacks is refused", test_lobe), &
+         new_unittest("backward steps and impossible angles or operating points are refused", test_refusal), &
+         new_unittest("after a failed step the follower continues with the same bits as without it", test_failed_step), &
+         new_unittest("the torque of the shortest possible step is that at its angle", test_smallest_step), &
+         new_unittest("numerics of a case built without a deck are checked in runs and simulations", test_numerics) &
          ]
    end subroutine collect_simulation_faults
 

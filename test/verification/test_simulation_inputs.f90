@@ -23,11 +23,11 @@ contains
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
       testsuite = [ &
-         new_unittest("under a ripple torques and slip are of second order in the host's step", test_order), &
-         new_unittest("a turn from a speed back to it gives what is lost, whatever the ripple", test_energy), &
-         new_unittest("a pressure from the host does what the same table of the case does", test_pressure), &
-         new_unittest("an engine that stops and starts again has its roller at rest between", test_halt), &
-         new_unittest("impossible inputs are refused and change nothing", test_refusals) &
+         new_unittest("with a speed ripple torques and slip converge with second order in the host's step", test_order), &
+         new_unittest("a turn that ends at its initial speed gives drive work equal to losses for any speed ripple", test_energy), &
+         new_unittest("gas pressure from the host gives the results of the same table in the case", test_pressure), &
+         new_unittest("the roller is at rest between a stop and a new start of the engine", test_halt), &
+         new_unittest("impossible inputs are refused and leave the follower unchanged", test_refusals) &
          ]
    end subroutine collect_simulation_inputs
 

@@ -32,14 +32,14 @@ contains
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
       testsuite = [ &
-         new_unittest("closed balance: every film law, either sense of rotation", test_film_laws), &
-         new_unittest("closed balance: every viscosity and shear law", test_shear_laws), &
-         new_unittest("the source's bookkeeping", test_source), &
-         new_unittest("with gas force; with asperities that yield; without any, nor bearing and guide", test_effects), &
-         new_unittest("with friction at valve tip, seal, guide and pivot, and drag of needles", test_with_joints), &
-         new_unittest("with heat in inlet and contact, every film, viscosity and shear law", test_with_heat), &
-         new_unittest("with a given part of the boundary friction, as sliding and sticking have it", test_given_share), &
-         new_unittest("without contact only the kinematics is left", test_no_contact) &
+         new_unittest("slopes with energy 'consistent': every film law, both senses of rotation", test_film_laws), &
+         new_unittest("slopes with energy 'consistent': every viscosity and shear law", test_shear_laws), &
+         new_unittest("slopes with energy 'source'", test_source), &
+         new_unittest("slopes with gas force, with yielding asperities, and without asperities, bearing and guide", test_effects), &
+         new_unittest("slopes with friction at valve tip, seal, guide and pivot, and needle drag", test_with_joints), &
+         new_unittest("slopes with heat of inlet and contact, for every film, viscosity and shear law", test_with_heat), &
+         new_unittest("slopes with a given fraction of the boundary friction, as in sliding and sticking", test_given_share), &
+         new_unittest("slopes without contact are those of the kinematics", test_no_contact) &
          ]
    end subroutine collect_spin_slopes
 

@@ -41,18 +41,18 @@ contains
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
       testsuite = [ &
-         new_unittest("regularised friction tends to it where the roller sticks all the time", test_limit_sticking), &
-         new_unittest("regularised friction tends to it where the roller sticks and slides", test_limit_both), &
+         new_unittest("regularised friction tends to stick-slip where the roller sticks all the time", test_limit_sticking), &
+         new_unittest("regularised friction tends to stick-slip where the roller sticks and slides", test_limit_both), &
          new_unittest("energy closes at every angle, sticking or sliding", test_energy), &
-         new_unittest("a roller at rest needs no more friction than there is, a sliding one takes all", test_law), &
-         new_unittest("phases begin where friction fails or the slip ends, and alternate", test_phases), &
+         new_unittest("a sticking roller needs no more than the friction limit, a sliding one has all of it", test_law), &
+         new_unittest("sticking and sliding alternate, and change where friction reaches its limit or slip ends", test_phases), &
          new_unittest("a second cycle repeats the first", test_periodic), &
          new_unittest("asperities that do not touch change nothing", test_no_asperities), &
-         new_unittest("a cold roller slides all the time, as with a tiny mobilising speed", test_cold), &
+         new_unittest("a cold roller slides all the time, as with a very small mobilising speed", test_cold), &
          new_unittest("results do not depend on the mobilising speed", test_no_speed), &
          new_unittest("a follower driven angle by angle sticks and slides as in its cycle", test_driven), &
-         new_unittest("a trajectory that is cut off keeps its curve", test_cut), &
-         new_unittest("fixed steps and the quasi-static limit are refused", test_refused) &
+         new_unittest("a trajectory that is cut off keeps its curve up to the cut", test_cut), &
+         new_unittest("stick-slip with fixed steps or the quasi-static method is refused", test_refused) &
          ]
    end subroutine collect_stick_slip
 

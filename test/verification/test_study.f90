@@ -26,10 +26,10 @@ contains
          new_unittest("errors are relative to the largest value of the reference", test_errors), &
          new_unittest("the median of runs does not follow one slow run", test_median), &
          new_unittest("references that disagree are refused", test_refusal), &
-         new_unittest("accuracies that a deck asks for and every method are among the ways", test_ways), &
-         new_unittest("a flexible train has references and ways of its own", test_flexible_plan), &
-         new_unittest("a way changes what it is for and leaves the rest", test_apply), &
-         new_unittest("a table grows and gives its columns back", test_table), &
+         new_unittest("a study includes the accuracies of decks and every method", test_ways), &
+         new_unittest("a study of a flexible train has its own references and settings", test_flexible_plan), &
+         new_unittest("a setting of a study changes its own option and no other", test_apply), &
+         new_unittest("a table that grows returns its columns", test_table), &
          new_unittest("a trial that fails is recorded", test_failure), &
          new_unittest("a quick study: errors fall with tolerance and accuracy, and accuracies are kept", test_quick) &
          ]

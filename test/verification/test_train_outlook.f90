@@ -20,9 +20,10 @@ contains
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
       testsuite = [ &
-         new_unittest("an oscillator under a force of one frequency has its closed response", test_harmonic), &
-         new_unittest("natural frequencies of the reference train, with a fixed pivot and an adjuster", test_frequencies), &
-         new_unittest("load factors of the reference train", test_load_factors), &
+         new_unittest("the response of an oscillator to a harmonic force agrees with the closed form", test_harmonic), &
+         new_unittest("natural frequencies of the reference train, with fixed pivot and with adjuster, agree with the reference", &
+            & test_frequencies), &
+         new_unittest("load factors of the reference train agree with the reference within one per cent", test_load_factors), &
          new_unittest("surge is the sum of the closed responses to the harmonics of the lift", test_surge), &
          new_unittest("a train of unknown mass has no estimate", test_unknown) &
          ]

@@ -29,12 +29,12 @@ contains
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
       testsuite = [ &
-         new_unittest("Hertz and materials", test_contact), &
-         new_unittest("oil: Vogel, Barus, Cameron", test_oil), &
-         new_unittest("asperities", test_asperities), &
-         new_unittest("load share, every film law", test_load_share), &
-         new_unittest("shear of the film and its limit", test_shear), &
-         new_unittest("rolling resistance, every law", test_rolling), &
+         new_unittest("Hertz pressure and materials scale with the units", test_contact), &
+         new_unittest("viscosity laws of Vogel, Barus and Cameron scale with the units", test_oil), &
+         new_unittest("asperity load and area scale with the units", test_asperities), &
+         new_unittest("load share scales with the units, for every film law", test_load_share), &
+         new_unittest("shear of the film and its limit scale with the units", test_shear), &
+         new_unittest("rolling resistance scales with the units, for every law", test_rolling), &
          new_unittest("a changed constant of Roelands or Walther is noticed", test_named_constants) &
          ]
    end subroutine collect_unit_rescaling_contact

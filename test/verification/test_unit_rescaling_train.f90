@@ -34,15 +34,15 @@ contains
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
       testsuite = [ &
-         new_unittest("lift laws", test_lift_laws), &
-         new_unittest("splines, interpolating and smoothing", test_splines), &
-         new_unittest("kinematics", test_kinematics), &
-         new_unittest("moments, energy and power of the train", test_dynamics), &
-         new_unittest("gas force", test_gas), &
-         new_unittest("roller, its bearing, valve guide", test_small_kernels), &
-         new_unittest("torque and power of the contact", test_torque), &
-         new_unittest("journal bearings, every law", test_journals), &
-         new_unittest("balance of the camshaft", test_camshaft) &
+         new_unittest("lift laws scale with the units", test_lift_laws), &
+         new_unittest("interpolating and smoothing splines scale with the units", test_splines), &
+         new_unittest("kinematics scale with the units", test_kinematics), &
+         new_unittest("moments, energy and power of the train scale with the units", test_dynamics), &
+         new_unittest("the gas force scales with the units", test_gas), &
+         new_unittest("roller, roller bearing and valve guide scale with the units", test_small_kernels), &
+         new_unittest("torque and power of the contact scale with the units", test_torque), &
+         new_unittest("journal bearings scale with the units, for every law", test_journals), &
+         new_unittest("forces on the camshaft bearings scale with the units", test_camshaft) &
          ]
    end subroutine collect_unit_rescaling_train
 

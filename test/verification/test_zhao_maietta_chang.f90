@@ -23,10 +23,11 @@ contains
 
       testsuite = [ &
          new_unittest("pressure and area agree with an independent quadrature", test_table), &
-         new_unittest("without yield the load is that of elastic summits at their own height and scatter", test_elastic), &
+         new_unittest("without yield the load is that of elastic summits with their own mean plane and standard deviation", &
+            & test_elastic), &
          new_unittest("derivatives agree with central differences", test_derivatives), &
-         new_unittest("softer summits carry less on a larger area; all fall with the gap", test_order), &
-         new_unittest("beyond the reach nothing is left, and next to nothing before it", test_reach) &
+         new_unittest("softer summits carry less load on a larger area; load and area fall with the gap", test_order), &
+         new_unittest("beyond the largest gap load and area are zero, and negligible just before it", test_reach) &
          ]
    end subroutine collect_zhao_maietta_chang
 
