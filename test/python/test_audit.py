@@ -51,7 +51,7 @@ def test_an_audit_has_a_run_without_each_effect(camroller, folder):
         assert left_out["without", "asperity"] == 1 and left_out["without", "needle_bearing"] == 0
 
 
-def test_decisions_are_in_the_file_and_left_out_cases_have_no_numbers(camroller, folder):
+def test_file_has_the_choice_of_effects_and_no_numbers_where_an_effect_is_left_out(camroller, folder):
     result = start(camroller, "run", "two.nml", "--set", "effects.select=needed", folder=folder)
     assert result.returncode == 0, result.stderr
     listed = start(camroller, "run", "two.nml", "-o", "listed.h5", folder=folder)
@@ -67,13 +67,13 @@ def test_decisions_are_in_the_file_and_left_out_cases_have_no_numbers(camroller,
         assert numpy.allclose(*torque, rtol=1e-3, atol=0)
 
 
-def test_a_single_case_has_no_dataset_for_what_is_left_out(camroller, folder):
+def test_a_single_case_has_no_dataset_for_effects_left_out(camroller, folder):
     assert start(camroller, "run", "one.nml", "--set", "effects.select=needed", folder=folder).returncode == 0
     with h5py.File(folder / "one.h5") as file:
         assert "asperity_load" not in file["series"] and "mean_asperity_load" not in file["summary"]
 
 
-def test_check_prints_decisions(camroller, folder):
+def test_check_prints_which_effects_are_left_out(camroller, folder):
     result = start(camroller, "check", "two.nml", "--set", "effects.select=needed", folder=folder)
     assert result.returncode == 0, result.stderr
     assert result.stdout.count("asperity            left out") == 1 and result.stdout.count("asperity            kept") == 1

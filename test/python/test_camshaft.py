@@ -188,19 +188,19 @@ def test_torques_of_the_followers_are_those_of_each_alone_shifted_and_added(shaf
     numpy.testing.assert_array_equal(found["contact_load"], followers[data["lobes"][0]]["contact_load"])
 
 
-def test_bearings_take_what_balances_the_cams(shaft):
+def test_bearing_forces_balance_the_forces_on_the_cams(shaft):
     found, rotation, followers, data = shaft
     expected = put_together(rotation, followers, data)
     numpy.testing.assert_allclose(found["torque_bearings"], expected, rtol=DIFFERENCE)
 
 
-def test_the_mean_of_the_bearings_is_that_of_a_uniform_sum(shaft):
+def test_mean_bearing_torque_equals_a_uniform_sum_over_the_turn(shaft):
     found, _, _, _ = shaft
     # kinks where a valve leaves its seat cost the sum a share of the square of its step
     assert found["summary"]["mean_torque_bearings"] == pytest.approx(numpy.mean(found["torque_bearings"]), rel=1e-5)
 
 
-def test_the_side_on_which_followers_stand_matters_above(alone):
+def test_side_of_the_followers_changes_the_bearing_torque(alone):
     rotation, followers = alone
     data = SHAFTS["followers at two angles on one span"]
     change = put_together(rotation, followers, data) - put_together(rotation, followers, data, sign=-1)

@@ -33,7 +33,7 @@ def faults(root, capsys):
     return code, capsys.readouterr().err.splitlines()
 
 
-def test_downward_arrows_pass(tmp_path, capsys):
+def test_use_of_a_lower_folder_passes(tmp_path, capsys):
     write(tmp_path, {"src/base/kinds": [], "src/numerics/roots": ["kinds"], "src/case/model": ["roots", "film"],
                      "src/case/film": ["kinds"], "src/deck/deck": ["model", "film"], "src/capi": ["deck", "roots"]})
     assert faults(tmp_path, capsys) == (0, [])
@@ -41,7 +41,7 @@ def test_downward_arrows_pass(tmp_path, capsys):
 
 @pytest.mark.parametrize(("user", "used"), [
     ("base/a", "numerics/b"), ("numerics/a", "case/film"), ("case/film", "deck/b"), ("deck/a", "numerics/b"), ("base/a", "deck/b")])
-def test_an_arrow_up_fails_with_its_place(tmp_path, capsys, user, used):
+def test_use_of_a_higher_folder_fails_with_its_line(tmp_path, capsys, user, used):
     name = used.split("/")[1]
     write(tmp_path, {f"src/{user}": [name], f"src/{used}": []})
     code, lines = faults(tmp_path, capsys)
@@ -49,35 +49,35 @@ def test_an_arrow_up_fails_with_its_place(tmp_path, capsys, user, used):
     assert lines == [f"src/{user}.f90:2: {user.split('/')[0]} may not use camroller_{name} of {used.split('/')[0]}"]
 
 
-def test_nothing_uses_the_app(tmp_path, capsys):
+def test_use_of_the_app_fails(tmp_path, capsys):
     write(tmp_path, {"app/cli": [], "src/case/a": ["cli"]})
     code, lines = faults(tmp_path, capsys)
     assert code == 1
     assert "case may not use camroller_cli of app" in lines[0]
 
 
-def test_a_circle_is_named(tmp_path, capsys):
+def test_a_circle_of_files_is_reported(tmp_path, capsys):
     write(tmp_path, {"src/case/a": ["b"], "src/case/b": ["c"], "src/case/c": ["a"]})
     code, lines = faults(tmp_path, capsys)
     assert code == 1
     assert lines == ["circle: src/case/a.f90 -> src/case/b.f90 -> src/case/c.f90 -> src/case/a.f90"]
 
 
-def test_new_folders_have_to_be_placed(tmp_path, capsys):
+def test_a_folder_missing_from_the_table_fails(tmp_path, capsys):
     write(tmp_path, {"src/misc/a": []})
     code, lines = faults(tmp_path, capsys)
     assert code == 1
     assert lines == ["src/misc/a.f90: folder 'misc' is not in the table of folders of CONTRIBUTING.md"]
 
 
-def test_a_row_may_name_rows_below_it_only(tmp_path, capsys):
+def test_a_row_that_names_a_row_above_it_fails(tmp_path, capsys):
     write(tmp_path, {}, TABLE.replace("| base |\n", "| base, deck, gone |\n"))
     code, lines = faults(tmp_path, capsys)
     assert code == 1
     assert [line.split("'")[3] for line in lines] == ["deck", "gone"]
 
 
-def test_names_in_strings_and_comments_are_no_arrows(tmp_path, capsys):
+def test_use_in_strings_and_comments_is_ignored(tmp_path, capsys):
     write(tmp_path, {"src/deck/deck": []})
     text = "module camroller_kinds\n! use camroller_deck\ncharacter(40) :: a = 'use camroller_deck'\nend module\n"
     (tmp_path / "src/base").mkdir()
@@ -85,10 +85,10 @@ def test_names_in_strings_and_comments_are_no_arrows(tmp_path, capsys):
     assert faults(tmp_path, capsys) == (0, [])
 
 
-def test_no_folder_of_this_project_holds_more_than_fifteen_files():
+def test_no_folder_has_more_than_fifteen_files():
     counts = {name: len(list((ROOT / "src" / name).glob("*.f90"))) for name in read_table(ROOT) if name != "app"}
     assert max(counts.values()) <= 15 and min(counts.values()) > 0, counts
 
 
-def test_this_project_keeps_its_layers(capsys):
+def test_layers_of_this_project_pass(capsys):
     assert main([]) == 0, capsys.readouterr().err

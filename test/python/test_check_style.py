@@ -73,7 +73,7 @@ def test_good_code_passes(tmp_path, capsys):
     ("!> A sentence.\n", "!> A sentence.\n"*500, "length"),
     ("!> A sentence.\n", "module camroller_second\nend module\n", "module"),
 ])
-def test_each_rule_can_fail(tmp_path, capsys, old, new, rule):
+def test_each_rule_finds_its_violation(tmp_path, capsys, old, new, rule):
     assert old in GOOD
     assert rule in faults(tmp_path, capsys, GOOD.replace(old, new))
 
@@ -89,7 +89,7 @@ def test_an_excuse_without_a_reason_does_not_count(tmp_path, capsys):
     assert faults(tmp_path, capsys, GOOD.replace("   public :: half", long)) == ["width"]
 
 
-def test_one_comment_speaks_for_declarations_that_follow_each_other(tmp_path, capsys):
+def test_one_unit_comment_covers_consecutive_declarations(tmp_path, capsys):
     line = "      real(wp) :: stop_length ! [m]"
     assert line in GOOD
     pair = "      !> Both [m]\n      real(wp) :: a\n      real(wp) :: b\n"
@@ -99,17 +99,17 @@ def test_one_comment_speaks_for_declarations_that_follow_each_other(tmp_path, ca
     assert faults(tmp_path / "other", capsys, GOOD.replace(line, apart)) == ["unit"]
 
 
-def test_programs_may_stop_and_print_where_it_is_noticed(tmp_path, capsys):
+def test_stop_and_print_are_allowed_in_programs_only(tmp_path, capsys):
     text = "program main\n   implicit none\n   print *, 1\n   stop\nend program\n"
     assert faults(tmp_path, capsys, text, "app/main.f90") == ["print"]
 
 
-def test_writing_to_units_is_no_write_into_a_text(tmp_path, capsys):
+def test_write_to_a_unit_is_allowed(tmp_path, capsys):
     lines = "".join(f"      write ({unit}, '(a)') words\n" for unit in ("unit", "self%unit", "unit=file_unit"))
     assert faults(tmp_path, capsys, GOOD.replace("      answer =", lines + "      answer =")) == []
 
 
-def test_inner_procedures_count_for_themselves(tmp_path, capsys):
+def test_lines_of_inner_procedures_are_counted_separately(tmp_path, capsys):
     body = "         x = 1\n"*40
     inner = "".join(f"      subroutine s{i}()\n{body}      end subroutine s{i}\n" for i in range(3))
     text = f"module camroller_sample\n   implicit none\n   private\ncontains\n   subroutine s()\n   contains\n{inner}" \

@@ -43,7 +43,7 @@ def test_help_names_every_command(camroller):
     assert re.findall(r"^  camroller (\w+)", text, re.MULTILINE) == COMMANDS
 
 
-def test_version_is_told(camroller):
+def test_version_is_printed(camroller):
     text = run(camroller, "version").stdout
     assert text.startswith("camroller 0.")
     assert run(camroller, "--version").stdout == text
@@ -75,7 +75,7 @@ def test_version_is_told(camroller):
     (["help", "me"], "unknown command 'me'"),
     (["defaults", "asperty"], "no group 'asperty'; did you mean 'asperity'?"),
 ])
-def test_wrong_words_are_usage_errors(camroller, arguments, words):
+def test_invalid_arguments_are_usage_errors(camroller, arguments, words):
     assert words in refused(run(camroller, *arguments), USAGE)
 
 
@@ -111,7 +111,7 @@ def test_missing_deck_is_a_file_error(camroller):
     assert "there is no file 'no_such.nml'" in refused(run(camroller, "check", "no_such.nml"), FILE)
 
 
-def test_folder_is_no_deck(camroller):
+def test_a_folder_in_place_of_a_deck_is_refused(camroller):
     assert "cannot read 'decks'" in refused(run(camroller, "check", "decks"), FILE)
 
 
@@ -126,7 +126,7 @@ def test_mistakes_are_deck_errors(camroller, tmp_path):
 
 
 @pytest.mark.parametrize("line", ["accuracy = 1e", "accuracy = 1.d", "accuracy = abc", "shear_thinning = 3", "profiles = 'y'"])
-def test_a_value_that_cannot_be_read_does_not_spoil_the_next(camroller, tmp_path, line):
+def test_values_after_an_unreadable_one_are_still_read(camroller, tmp_path, line):
     deck = tmp_path / "bad.nml"
     text = (ROOT / "decks/numerical_film.nml").read_text()
     assert "accuracy = 0.01" in text
@@ -136,7 +136,7 @@ def test_a_value_that_cannot_be_read_does_not_spoil_the_next(camroller, tmp_path
     assert f"'{line.split()[0]}' takes" in message
 
 
-def test_table_is_found_beside_the_deck(camroller, tmp_path):
+def test_a_table_is_looked_up_relative_to_the_deck(camroller, tmp_path):
     result = run(camroller, "check", ROOT / "decks/tabulated_lift.nml", folder=tmp_path)
     assert result.returncode == 0, result.stderr
 
@@ -147,7 +147,7 @@ def test_binary_file_is_refused(camroller, tmp_path):
     assert "is not a text file" in refused(run(camroller, "check", deck), FILE)
 
 
-def test_a_load_of_any_size_has_words(camroller):
+def test_a_load_of_any_size_is_printed_as_a_number(camroller):
     message = refused(run(camroller, "check", "decks/thesis.nml", "--set", "spring.base_circle_load_N=1e12"), DECK)
     assert "lifts the valve off its seat" in message
     message = refused(run(camroller, "check", "decks/thesis.nml", "--set", "spring.precompression_mm=0.01"), DECK)

@@ -43,7 +43,7 @@ def test_a_byte_order_mark_is_skipped(camroller, tmp_path, text):
     (b"\x89HDF\r\n\x1a\n" + bytes(range(1, 256))*4, "is not a text file: it contains bytes that do not occur in text"),
     (b"\x7fELF\x02\x01\x01" + b"\x90"*400, "is not a text file: it contains bytes that do not occur in text"),
 ])
-def test_a_file_that_is_no_text_is_said_to_be_none_and_not_quoted(camroller, tmp_path, content, words):
+def test_a_binary_deck_is_refused_without_quoting_it(camroller, tmp_path, content, words):
     path = tmp_path / "deck.nml"
     path.write_bytes(content)
     result = check(camroller, path)
@@ -51,7 +51,7 @@ def test_a_file_that_is_no_text_is_said_to_be_none_and_not_quoted(camroller, tmp
     assert result.stderr == f"camroller: '{path}' {words}\n"
 
 
-def test_bytes_of_another_encoding_do_not_spoil_the_message(camroller, tmp_path):
+def test_messages_are_readable_for_a_deck_in_another_encoding(camroller, tmp_path):
     path = tmp_path / "deck.nml"
     path.write_bytes(b"! gr\xf6\xdfe\n" + THESIS.encode("utf-8"))
     assert check(camroller, path).returncode == 0
@@ -75,7 +75,7 @@ def test_a_heading_of_a_table_is_skipped(camroller, tmp_path, heading):
     ("angle lift\nangle lift\n" + ROWS, 2, "'angle' is no finite number"),
     (ROWS + "angle lift\n", ROWS.count("\n") + 1, "'angle' is no finite number"),
 ])
-def test_a_line_of_words_is_no_heading_elsewhere(camroller, tmp_path, table, line, words):
+def test_a_line_of_words_in_another_place_is_a_mistake(camroller, tmp_path, table, line, words):
     result, path = check_table(camroller, tmp_path, table)
     assert result.returncode == DECK
     assert f"{path}:{line}:1: {words}" in result.stderr or f"{path}:{line}:3: {words}" in result.stderr
@@ -90,12 +90,12 @@ def test_every_mistake_of_a_table_is_counted(camroller, tmp_path):
     assert lines[-1] == "... and 80 more"
 
 
-def test_a_short_table_is_named_itself(camroller, tmp_path):
+def test_a_table_with_too_few_rows_is_named_in_the_message(camroller, tmp_path):
     result, path = check_table(camroller, tmp_path, "".join(ROWS.splitlines(keepends=True)[:5]))
     assert result.stderr == f"camroller: {path}: the table has 5 of at least 8 rows\n"
 
 
-def test_mistakes_are_counted_where_they_are(camroller, tmp_path):
+def test_mistakes_in_the_deck_and_in_set_values_are_counted_separately(camroller, tmp_path):
     path = tmp_path / "deck.nml"
     path.write_text(THESIS.replace("mass_kg", "mas_kg"), encoding="utf-8")
     result = check(camroller, path, "--set", "film.law=moess", "--set", "nothing=1")
@@ -130,7 +130,7 @@ def test_mistakes_in_a_table_of_cases_name_its_lines(camroller, tmp_path):
     (["lift.max_lift_mm=30"], "smaller than roller.radius_mm = 8.5", ["mechanism.base_radius_mm = 18", "roller.radius_mm = 8.5"]),
     (["spring.precompression_mm=0.01"], "the closed spring holds 0.25 N", ["spring.stiffness_N_m = 25000"]),
 ])
-def test_an_impossible_geometry_is_told_with_values_keys_and_lines(camroller, tmp_path, options, words, keys):
+def test_a_message_on_impossible_geometry_has_values_keys_and_lines(camroller, tmp_path, options, words, keys):
     path = ROOT / "decks/thesis.nml"
     changes = [word for option in options for word in ("--set", option)]
     for command in (["check", path], ["run", path, "-o", tmp_path / "x.h5"]):
@@ -148,7 +148,7 @@ def test_an_impossible_geometry_is_told_with_values_keys_and_lines(camroller, tm
             assert f"override: {options[0]}" in lines
 
 
-def test_numbers_have_bounds_by_unit(camroller):
+def test_numbers_beyond_the_bounds_of_their_unit_are_refused(camroller):
     for option, words in {
         "materials.cam_modulus_GPa=1e-310": "'cam_modulus_GPa' must be from 1e-12 to 1000000, not 1e-310",
         "materials.cam_modulus_GPa=1e300": "'cam_modulus_GPa' must be from 1e-12 to 1000000, not 1e300",
@@ -162,7 +162,7 @@ def test_numbers_have_bounds_by_unit(camroller):
         assert words in result.stderr
 
 
-def test_reading_a_deck_leaks_nothing(camroller):
+def test_reading_a_deck_leaks_no_memory(camroller):
     """With a sweep, and a value beside the deck that is wrong, so that nothing is computed."""
     valgrind = shutil.which("valgrind")
     if not valgrind:

@@ -37,7 +37,7 @@ def test_no_remark_on_a_deck_of_an_engine(camroller, deck):
     (["needle_bearing.friction_coefficient=1.5"], r"friction_coefficient = 1.5 .*did you mean 0.0015\?"),
     (["sweep.values_1=300,600,90000"], r"operating_point.speed_rpm = 90000 is unusual"),
 ], ids=str)
-def test_a_slip_has_its_remark(camroller, values, words):
+def test_an_unusual_value_gives_a_remark(camroller, values, words):
     remarks = remarks_of(camroller, "decks/thesis.nml", *values)
     assert any(re.search(words, remark) for remark in remarks), remarks
 
@@ -46,7 +46,7 @@ def test_a_slip_has_its_remark(camroller, values, words):
     (lambda angle, lift: (angle, lift / 1000), r"largest lift of 0.0092 mm is unusual.*is 'table_unit' right\?"),
     (lambda angle, lift: (180 + 2 * (angle - 180), lift), r"an event of .* degrees .*crankshaft\?"),
 ], ids=["metres", "crank degrees"])
-def test_a_lift_table_in_other_units_has_its_remark(camroller, tmp_path, change, words):
+def test_a_lift_table_in_wrong_units_gives_a_remark(camroller, tmp_path, change, words):
     text = (ROOT / "decks/tables/polynomial_lift.txt").read_text(encoding="utf-8")
     rows = [tuple(map(float, line.split())) for line in text.splitlines() if line.strip() and line.strip()[0].isdigit()]
     (tmp_path / "lift.txt").write_text("\n".join("{} {}".format(*change(*row)) for row in rows), encoding="utf-8")
@@ -54,7 +54,7 @@ def test_a_lift_table_in_other_units_has_its_remark(camroller, tmp_path, change,
     assert any(re.search(words, remark) for remark in remarks), remarks
 
 
-def test_a_usual_value_has_no_remark_and_defaults_show_the_range(camroller):
+def test_a_usual_value_gives_no_remark_and_defaults_show_the_range(camroller):
     assert remarks_of(camroller, "decks/thesis.nml", "roller.mass_kg=0.02", "asperity.boundary_coefficient=0.15") == []
     page = subprocess.run([camroller, "defaults", "roller"], capture_output=True, text=True, check=True).stdout
     assert "usually 0.001 to 0.3" in re.sub(r"\s*\n\s*! ", " ", page)
@@ -80,7 +80,7 @@ def rounded_lift(folder, digit):
     return path
 
 
-def test_noise_of_a_lift_table_has_its_remark_and_smoothing_ends_it(camroller, tmp_path):
+def test_a_noisy_lift_table_gives_a_remark_and_a_smoothed_one_does_not(camroller, tmp_path):
     table = rounded_lift(tmp_path, 0.002)
     (found,) = remarks_of(camroller, "decks/tabulated_lift.nml", f"lift.table={table}")
     told = re.search(r"noise of about ([\d.]+) um.*second derivative (-[\d.]+) to ([\d.]+) mm/rad\^2; with smoothing_um = ([\d.]+) in "
@@ -94,7 +94,7 @@ def test_noise_of_a_lift_table_has_its_remark_and_smoothing_ends_it(camroller, t
     assert remarks_of(camroller, "decks/tabulated_lift.nml", f"lift.table={table}", f"lift.smoothing_um={float(told[1]) + 0.05}") == []
 
 
-def test_check_tells_the_noise_of_a_table(camroller):
+def test_check_prints_the_noise_of_a_table(camroller):
     text = subprocess.run([camroller, "check", "decks/tabulated_lift.nml"], capture_output=True, text=True, cwd=ROOT, check=True).stdout
     found = re.search(r"lift table: noise of about ([\d.e-]+) um, smoothing_um = 0; second derivative", text)
     # rounded to 1e-6 mm
@@ -107,7 +107,7 @@ def test_check_tells_the_noise_of_a_table(camroller):
     ("cameron", "decks/hard/pressure_1500_MPa_roelands.nml", "up to 1.5 GPa; the law 'cameron' of viscosity over pressure holds to about 1 GPa"),
     ("roelands", "decks/hard/pressure_1500_MPa_roelands.nml", None),
 ])
-def test_a_pressure_above_that_of_the_law_of_viscosity_is_told(camroller, tmp_path, law, deck, words):
+def test_a_pressure_above_the_range_of_the_viscosity_law_gives_a_remark(camroller, tmp_path, law, deck, words):
     result = subprocess.run([camroller, "run", deck, "--set", f"lubricant.pressure_law={law}", "-o", tmp_path / "a.h5"], cwd=ROOT,
                             capture_output=True, text=True, check=False)
     assert result.returncode == 0, result.stderr

@@ -69,7 +69,7 @@ def read(camroller, path, *options):
 
 
 @pytest.mark.parametrize("name", LARGE)
-def test_a_megabyte_is_read_or_refused_in_few_words(camroller, tmp_path, name):
+def test_a_deck_of_a_megabyte_is_read_or_refused_with_a_short_message(camroller, tmp_path, name):
     deck = tmp_path / "large.nml"
     deck.write_text(LARGE[name], encoding="utf-8")
     result = read(camroller, deck)
@@ -103,7 +103,7 @@ def test_the_first_mistakes_are_shown_and_the_others_counted(camroller, tmp_path
     assert [line.split(":")[1] for line in lines if line.startswith(f"{deck}:")] == [str(first + i) for i in range(20)]
 
 
-def test_of_a_long_line_what_stands_around_the_mistake_is_shown(camroller, tmp_path):
+def test_for_a_long_line_the_text_around_the_mistake_is_shown(camroller, tmp_path):
     deck = tmp_path / "long.nml"
     deck.write_text("&roller" + 3000*" " + "\u00fc"*300 + " mas_kg = 1 " + 3000*"b" + " /\n", encoding="utf-8")
     lines = read(camroller, deck).stderr.splitlines()
@@ -114,7 +114,7 @@ def test_of_a_long_line_what_stands_around_the_mistake_is_shown(camroller, tmp_p
     assert source[caret.index("^"):caret.rindex("^") + 1] == "mas_kg"
 
 
-def test_a_table_of_a_megabyte_is_refused_in_few_words(camroller, tmp_path):
+def test_a_table_of_a_megabyte_is_refused_with_a_short_message(camroller, tmp_path):
     deck = (ROOT / "decks/tabulated_lift.nml").read_text(encoding="utf-8")
     (tmp_path / "tables").mkdir()
     path = tmp_path / "deck.nml"

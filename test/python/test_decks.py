@@ -39,7 +39,7 @@ def differences(one, other):
     return {f"{group}.{key}" for group, key in keys if first.get(group, {}).get(key) != second.get(group, {}).get(key)}
 
 
-def test_the_thesis_decks_differ_in_what_they_say():
+def test_the_thesis_decks_differ_only_in_the_keys_listed():
     bookkeeping = {"case.title", "case.energy", "spring.load_arm", "roller.spin", "asperity.boundary",
                    "traction.rolling_law", "traction.in_roller_balance"}
     assert differences("thesis.nml", "thesis_source.nml") == bookkeeping

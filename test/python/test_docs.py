@@ -11,7 +11,7 @@ def test_links_lead_to_html_and_formulas_are_kept_apart():
     assert "<math" in pages.filled(text) and "FORMULA" not in pages.filled(text)
 
 
-def test_commas_in_lengths_do_not_end_them():
+def test_commas_inside_a_character_length_are_kept():
     text = "character(len=f(a, g(b, c)) + 1), intent(in) :: x, y\ncharacter(len=*), intent(out) :: z\n"
     assert lengths_without_commas(text) == text.replace("(a, g(b, c))", f"(a{COMMA} g(b{COMMA} c))")
 

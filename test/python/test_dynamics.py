@@ -33,13 +33,13 @@ MISTAKES = [
 
 
 @pytest.mark.parametrize("deck, change, words", MISTAKES, ids=[change for _, change, _ in MISTAKES])
-def test_a_train_that_cannot_be_is_told_in_one_line(deck, change, words, camroller):
+def test_an_impossible_train_is_refused_with_a_message_of_one_line(deck, change, words, camroller):
     done = subprocess.run([camroller, "check", deck, "--set", change], capture_output=True, text=True)
     assert done.returncode != 0
     assert words in done.stderr
 
 
-def test_parts_of_a_flexible_train_need_it(tmp_path, camroller):
+def test_spring_surge_and_lash_adjuster_without_dynamics_are_refused(tmp_path, camroller):
     text = DECK.read_text().replace("&dynamics\n   finger_stiffness_N_m = 5.0e7\n   pad_stiffness_N_m = 5.0e7\n"
                                     "   seat_stiffness_N_m = 5.0e7\n/\n", "")
     assert "&dynamics" not in text
@@ -77,7 +77,7 @@ def test_the_plungers_spring_makes_the_base_circle_load(tmp_path, camroller):
     assert one["dynamic_load_max"] == pytest.approx(other["dynamic_load_max"], rel=1e-5)
 
 
-def test_tension_and_overspeed_are_told(tmp_path, camroller):
+def test_joint_tension_and_overspeed_give_remarks(tmp_path, camroller):
     summary, warnings = run(camroller, DECK, tmp_path / "run.h5", "sweep.values_1=2500")
     assert summary["joint_force_min"] < 0 and "the joint of finger and pivot is in tension" in warnings
     shown = subprocess.run([camroller, "run", DECK, "--no-sweep", "-o", tmp_path / "shown.h5", "--set", "dynamics.lash_mm=0.1",
@@ -91,7 +91,7 @@ def test_tension_and_overspeed_are_told(tmp_path, camroller):
         assert summary["dynamic_load_max_deviation"] > 0
 
 
-def test_check_tells_what_a_rigid_train_will_do(camroller):
+def test_check_prints_estimates_for_a_rigid_train(camroller):
     done = subprocess.run([camroller, "check", ROOT / "decks/thesis.nml"], capture_output=True, text=True)
     assert done.returncode == 0
     # 2471 and 2357 rev/min and 2012 Hz are those of an independent program
@@ -100,7 +100,7 @@ def test_check_tells_what_a_rigid_train_will_do(camroller):
     assert "natural frequency of the train 2010 1/s" in done.stdout
 
 
-def test_estimates_stand_beside_what_is_computed(tmp_path, camroller):
+def test_results_have_estimates_beside_computed_values(tmp_path, camroller):
     summary, _ = run(camroller, DECK, tmp_path / "run.h5", "sweep.values_1=900")
     # Forced by the lift of a rigid train, and by that of a train that bends: 3.76 N to 4 digits in the latter
     assert summary["surge_estimate_1"] == pytest.approx(summary["surge_force"], rel=0.2)

@@ -65,7 +65,7 @@ def test_a_signal_to_a_thread_of_a_library_leaves_nothing_behind(camroller, tmp_
         pytest.skip("the linear algebra library has no threads of its own")
 
 
-def test_a_signal_that_is_to_be_ignored_still_is(camroller, tmp_path):
+def test_an_ignored_signal_stays_ignored(camroller, tmp_path):
     """As `nohup` asks for."""
     words = [camroller, "run", str(ROOT / "decks/thesis.nml"), "-o", "new.h5", "--set", "output.angle_step_deg=0.02", "--quiet"]
     with subprocess.Popen(words, cwd=tmp_path, stdin=subprocess.DEVNULL,

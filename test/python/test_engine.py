@@ -69,7 +69,7 @@ def test_torque_repeats_with_every_firing(result):
     assert amplitudes == pytest.approx(spectrum[1:13], abs=ROUND_OFF * spectrum.max())
 
 
-def test_scopes_tell_follower_camshaft_and_engine(result):
+def test_scopes_distinguish_follower_camshaft_and_engine(result):
     scope = {name: value if isinstance(value, str) else value.decode() for name, value in result["scope"].items()}
     assert scope["contact_load"] == "lobe 1" and scope["lobe_2_contact_load"] == "lobe 2"
     assert scope["camshaft_2_torque_drive"] == "camshaft 2" and scope["torque_drive"] == "engine"
@@ -108,7 +108,7 @@ def test_firing_order_gives_the_phases(camroller, tmp_path):
     ("cam_cylinders = 1, 1, 2, 2, 3, 3, 4, 4", "cam_cylinders = 1, 1, 2, 2, 3, 3, 4, 5", "the engine has 4 cylinders"),
     ("cam_cylinders = 1, 1, 2, 2, 3, 3, 4, 4", "cam_phases_deg = 0, 0, 0, 0, 0, 0, 0, 0", "follows from the firing order"),
 ])
-def test_contradictions_are_mistakes(camroller, tmp_path, old, new, words):
+def test_contradicting_keys_are_refused(camroller, tmp_path, old, new, words):
     text = DECK.read_text(encoding="utf-8").replace("shared/", f"{ROOT}/decks/shared/")
     assert old in text
     deck = tmp_path / "deck.nml"
@@ -117,7 +117,7 @@ def test_contradictions_are_mistakes(camroller, tmp_path, old, new, words):
     assert result.returncode == 3 and words in result.stderr, result.stderr
 
 
-def test_remarks_and_facts_speak_of_the_crankshaft(camroller, tmp_path):
+def test_remarks_and_facts_state_crankshaft_speeds(camroller, tmp_path):
     """Contact is lost above half the number of turns of the crankshaft: the words say whose turns they are."""
     path = tmp_path / "fast.h5"
     words = run(camroller, "run", DECK, "-o", path, "--set", "sweep.values_1=9000", "--set", "sweep.values_2=90").stderr

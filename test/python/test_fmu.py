@@ -209,7 +209,7 @@ def test_parameters_are_keys_of_the_deck_and_pressures_inputs(write, package, tm
 
 
 @pytest.mark.parametrize("version", VERSIONS)
-def test_what_cannot_be_is_an_error_with_words(write, tmp_path, version):
+def test_impossible_inputs_are_errors_with_messages(write, tmp_path, version):
     unit = Unit(write(version), tmp_path / "unit")
     unit.start()
     unit.drive(2)
@@ -234,7 +234,7 @@ def test_what_cannot_be_is_an_error_with_words(write, tmp_path, version):
 
 
 @pytest.mark.parametrize("version", VERSIONS)
-def test_instances_in_threads_do_not_touch_each_other(write, tmp_path, version):
+def test_instances_in_threads_give_the_same_bits_as_alone(write, tmp_path, version):
     path = write(version)
     units = [Unit(path, tmp_path / "unit", f"number {i}") for i in range(6)]
 

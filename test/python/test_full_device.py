@@ -78,7 +78,7 @@ def leave(disk, room):
 
 
 @pytest.mark.parametrize("name", sorted(PRINTED))
-def test_a_full_output_is_told(camroller, results, full, name):
+def test_a_full_standard_output_is_an_error(camroller, results, full, name):
     with full.open("w") as output:
         finished = run(camroller, *PRINTED[name], folder=results, stdout=output)
     assert finished.returncode == FILE_ERROR, finished.stderr
@@ -86,7 +86,7 @@ def test_a_full_output_is_told(camroller, results, full, name):
     assert not [path.name for path in results.iterdir() if ".unfinished-" in path.name]
 
 
-def test_a_full_output_costs_no_result(camroller, results, full, tmp_path):
+def test_a_full_standard_output_keeps_the_result_file(camroller, results, full, tmp_path):
     """The file was complete before anything was printed."""
     with full.open("w") as output:
         run(camroller, "run", results / "deck.nml", "-o", "new.h5", *COARSE, folder=tmp_path, stdout=output)
@@ -100,13 +100,13 @@ def test_a_full_error_unit_changes_no_exit_code(camroller, results, full):
 
 
 @pytest.mark.parametrize("name", ["help", "export", "defaults", "check"])
-def test_a_closed_output_is_told(camroller, results, name):
+def test_a_closed_standard_output_is_an_error(camroller, results, name):
     finished = run(camroller, *PRINTED[name], folder=results, preexec_fn=lambda: os.close(1))
     assert finished.returncode == FILE_ERROR
     assert "camroller: cannot write to standard output: " in finished.stderr
 
 
-def test_no_file_takes_the_place_of_a_closed_output(camroller, results, tmp_path):
+def test_no_file_is_opened_as_a_closed_standard_output(camroller, results, tmp_path):
     """A file that is opened where the output was would get what is printed."""
     words = ["run", results / "deck.nml", "-o", "new.h5", *COARSE]
     finished = run(camroller, *words, folder=tmp_path, preexec_fn=lambda: [os.close(number) for number in (0, 1)])
@@ -116,7 +116,7 @@ def test_no_file_takes_the_place_of_a_closed_output(camroller, results, tmp_path
 
 @pytest.mark.parametrize("ignored", [False, True])
 @pytest.mark.parametrize("name", ["help", "export", "defaults", "check", "run"])
-def test_output_that_nobody_reads_is_no_error(camroller, results, name, ignored):
+def test_a_closed_pipe_is_no_error(camroller, results, name, ignored):
     """`camroller help | head -1`, whether the caller ignores the signal or not: quiet, and the work is done."""
     reading, writing = os.pipe()
     os.close(reading)
@@ -167,7 +167,7 @@ def test_a_file_on_a_full_disk_leaves_the_earlier_one(camroller, results, disk, 
     assert sorted(os.listdir(target.parent)) == before
 
 
-def test_a_sweep_on_a_full_disk_goes_on_when_there_is_room(camroller, results, disk):
+def test_a_sweep_stopped_by_a_full_disk_can_be_resumed(camroller, results, disk):
     leave(disk, 8192)
     words = ["sweep", results / "deck.nml", "-o", "new.h5", *COARSE]
     finished = run(camroller, *words, folder=disk)

@@ -103,7 +103,7 @@ SHAPES = {
 
 
 @pytest.mark.parametrize("name", SHAPES)
-def test_another_shape_is_told(camroller, folder, name):
+def test_datasets_of_unexpected_shape_are_refused(camroller, folder, name):
     change, command, words = SHAPES[name]
     with h5py.File(folder / "x.h5", "r+") as file:
         change(file)
@@ -139,7 +139,7 @@ def test_angles_are_computed_again_too(camroller, folder):
 
 @pytest.mark.parametrize("command", [EXPORT, SUMMARY, RERUN], ids=" ".join)
 @pytest.mark.parametrize("place", [0.0, 0.02, 0.3, 0.6, 0.9, 1.0])
-def test_one_changed_bit_is_told(camroller, folder, command, place):
+def test_one_changed_bit_is_detected(camroller, folder, command, place):
     """Of the numbers too, which HDF5 does not look at."""
     path = folder / "x.h5"
     content = bytearray(path.read_bytes())
@@ -149,7 +149,7 @@ def test_one_changed_bit_is_told(camroller, folder, command, place):
 
 
 @pytest.mark.parametrize("length", [0, 7, 8, 100, 4096, 50000, -SEAL - 8])
-def test_a_file_that_was_cut_is_told(camroller, folder, length):
+def test_a_truncated_file_is_refused(camroller, folder, length):
     path = folder / "x.h5"
     path.write_bytes(path.read_bytes()[:length])
     expect_words(camroller, folder, EXPORT, "cannot read 'x.h5'")
@@ -163,7 +163,7 @@ def test_a_file_that_was_changed_on_purpose_is_read(camroller, folder):
     assert run(camroller, *RERUN, folder=folder).returncode == 0
 
 
-def test_a_list_without_end_is_told(camroller, folder):
+def test_an_endless_list_of_objects_is_refused(camroller, folder):
     """HDF5 looks for a text in a heap whose first piece has no length, and stays there."""
     path = folder / "x.h5"
     content = bytearray(path.read_bytes()[:-SEAL])
@@ -175,7 +175,7 @@ def test_a_list_without_end_is_told(camroller, folder):
 
 
 @pytest.mark.parametrize("place", [0, 4096, 2**31])
-def test_no_part_of_another_file_is_taken_for_a_seal(camroller, folder, place):
+def test_trailing_bytes_of_another_file_are_not_taken_for_a_checksum(camroller, folder, place):
     """A seal of a longer or a shorter file."""
     path = folder / "x.h5"
     content = path.read_bytes()

@@ -25,7 +25,7 @@ def split_deck(folder, change=("", "")):
     return deck
 
 
-def test_included_lines_count_as_the_decks_own(camroller, tmp_path):
+def test_included_lines_are_part_of_the_deck(camroller, tmp_path):
     deck = split_deck(tmp_path)
     result = run(camroller, "check", deck)
     assert result.returncode == 0, result.stderr
@@ -43,7 +43,7 @@ def test_result_of_a_split_deck_can_be_repeated_without_the_files(camroller, tmp
     assert result.returncode == 0, result.stderr + result.stdout
 
 
-def test_mistake_is_told_with_the_line_of_its_file(camroller, tmp_path):
+def test_a_mistake_in_an_included_file_has_its_file_and_line(camroller, tmp_path):
     deck = split_deck(tmp_path, ("pressure_law = 'cameron'", "pressure_law = 'cameroon'"))
     deck.write_text(deck.read_text(encoding="utf-8").replace("law = 'dowson_higginson'", "law = 'dowson'"), encoding="utf-8")
     result = run(camroller, "check", deck)
@@ -73,7 +73,7 @@ def test_result_does_not_replace_an_included_file(camroller, tmp_path):
     assert result.returncode != 0 and (tmp_path / "parts/oil.nml").read_text(encoding="utf-8").startswith("! an oil")
 
 
-def test_word_within_a_group_includes_nothing(camroller, tmp_path):
+def test_the_word_include_inside_a_group_includes_nothing(camroller, tmp_path):
     deck = tmp_path / "deck.nml"
     text = (ROOT / "decks/thesis.nml").read_text(encoding="utf-8")
     deck.write_text(text.replace("&film\n", "&film\n   include = 'film.nml'\n"), encoding="utf-8")

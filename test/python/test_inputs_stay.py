@@ -61,7 +61,7 @@ def refused(camroller, folder, words, target, code):
 
 
 @pytest.mark.parametrize("spelling", ["lift.nml", "./lift.nml", "tables/../lift.nml", "absolute", "link", "hard link", "link to link"])
-def test_the_deck_stays_however_it_is_called(camroller, folder, spelling):
+def test_the_deck_is_not_overwritten_under_any_of_its_names(camroller, folder, spelling):
     target = spelling
     if spelling == "absolute":
         target = folder / "lift.nml"
@@ -78,26 +78,26 @@ def test_the_deck_stays_however_it_is_called(camroller, folder, spelling):
 
 
 @pytest.mark.parametrize("command", WRITERS)
-def test_every_command_lets_the_deck_stay(camroller, folder, command):
+def test_no_command_overwrites_the_deck(camroller, folder, command):
     refused(camroller, folder, [command, "lift.nml", *COARSE], "./lift.nml", USAGE)
 
 
 @pytest.mark.parametrize("command", WRITERS)
 @pytest.mark.parametrize("deck, table", [("lift", "lift"), ("cams", "pressure"), ("csv", "cases.csv"), ("h5", "cases.h5"),
                                          ("swept", "other")])
-def test_every_table_stays(camroller, folder, deck, table, command):
+def test_no_table_is_overwritten(camroller, folder, deck, table, command):
     target = next(path for path in sorted((folder / "tables").iterdir()) if table in path.name)
     assert "which is read" in refused(camroller, folder, [command, f"{deck}.nml", *COARSE], target, USAGE)
 
 
-def test_a_table_that_is_given_beside_the_deck_stays(camroller, folder):
+def test_a_table_given_by_set_is_not_overwritten(camroller, folder):
     table = next((folder / "tables").glob("*lift*"))
     shutil.copy(table, folder / "mine.txt")
     refused(camroller, folder, ["run", "lift.nml", *COARSE, "--set", "lift.table=mine.txt"], "./mine.txt", USAGE)
 
 
 @pytest.mark.parametrize("spelling", ["r.h5", "./r.h5", "link.h5"])
-def test_an_exported_result_stays(camroller, folder, spelling):
+def test_export_does_not_overwrite_its_result(camroller, folder, spelling):
     assert run(camroller, "run", "lift.nml", "-o", "r.h5", *COARSE, folder=folder).returncode == 0
     (folder / "link.h5").symlink_to("r.h5")
     refused(camroller, folder, ["export", "r.h5"], spelling, USAGE)
@@ -160,7 +160,7 @@ def test_a_link_is_followed(camroller, folder, command):
     assert (folder / "store/old").read_bytes() != b"earlier"
 
 
-def test_what_is_no_file_is_not_read_as_a_result(camroller, tmp_path):
+def test_only_regular_files_are_read_as_results(camroller, tmp_path):
     os.mkfifo(tmp_path / "pipe")
     for command in ("export", "rerun"):
         result = run(camroller, command, "pipe", folder=tmp_path)

@@ -64,7 +64,7 @@ def test_no_memory_is_lost_or_misused(host):
 
 
 @pytest.mark.parametrize("deck", ["thesis", "numerical_film"])
-def test_a_follower_goes_on_in_another_process_bit_by_bit(host, tmp_path, deck):
+def test_a_saved_follower_continues_in_another_process_with_the_same_bits(host, tmp_path, deck):
     """With films solved beforehand, too: the second process solves them for the same speed and oil."""
     block = tmp_path / "block"
     first = run(host, ROOT / "decks" / f"{deck}.nml", "--restore", block, cwd=ROOT)
@@ -72,18 +72,18 @@ def test_a_follower_goes_on_in_another_process_bit_by_bit(host, tmp_path, deck):
     assert run(host, ROOT / "decks" / f"{deck}.nml", "--restore", block, cwd=ROOT) == first
 
 
-def test_decks_and_followers_in_64_threads_have_the_bits_of_one(threads):
+def test_decks_and_followers_in_64_threads_give_the_bits_of_one_thread(threads):
     """THREAD_RUNS=100 does it as often for each thread, which takes a minute."""
     assert "0 of 64" in run(threads, DECK, 64, os.environ.get("THREAD_RUNS", "5"))
 
 
-def test_helgrind_sees_no_race(threads):
+def test_helgrind_finds_no_data_race(threads):
     if shutil.which("valgrind") is None:
         pytest.skip("valgrind is not installed")
     run("valgrind", "--tool=helgrind", "-q", "--error-exitcode=7", threads, DECK, 3, 1)
 
 
-def test_header_is_c_plus_plus_too(prefix, tmp_path):
+def test_the_header_compiles_as_c_plus_plus(prefix, tmp_path):
     source = tmp_path / "use.cpp"
     source.write_text("#include <camroller.h>\nint main() { return camroller_library_version() / 100 != CAMROLLER_VERSION / 100; }\n")
     run("gcc", "-x", "c++", "-fsyntax-only", "-Wall", "-Wextra", "-Werror", f"-I{prefix}/include", source)

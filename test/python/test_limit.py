@@ -32,7 +32,7 @@ def test_a_flexible_train_by_runs(camroller):
     assert re.match(r"speeds in rev/min; the flexible train was tried at \d+ speeds, in steps of 400 and then to 1$", notes[0])
 
 
-def test_words_that_are_no_speeds(camroller):
+def test_invalid_speeds_are_usage_errors(camroller):
     for option, word in (("--to", "fast"), ("--step", "0"), ("--seating", "-1"), ("--to", "1e9"), ("--to", "")):
         done = subprocess.run([camroller, "limit", ROOT / "decks/thesis.nml", f"{option}={word}"], capture_output=True, text=True)
         assert done.returncode == 2 and f"option '{option}' takes a speed above 0 and up to 100000, not '{word}'" in done.stderr

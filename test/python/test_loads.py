@@ -40,7 +40,7 @@ def test_a_lift_that_dips_below_zero_gives_numbers(camroller, tmp_path):
             assert numpy.isfinite(values[...]).all() or name.endswith("_speed"), name
 
 
-def test_a_stored_nan_is_not_certified(camroller, tmp_path):
+def test_a_result_with_nan_fails_the_comparison_of_rerun(camroller, tmp_path):
     assert run(camroller, "run", DECKS / "tabulated_lift.nml", *COARSE, "-o", "r.h5", folder=tmp_path).returncode == 0
     with h5py.File(tmp_path / "r.h5", "r+") as file:
         file["series/contact_load"][0, 7] = numpy.nan
@@ -50,7 +50,7 @@ def test_a_stored_nan_is_not_certified(camroller, tmp_path):
 
 
 @pytest.mark.parametrize("command", ["run", "sweep"])
-def test_lost_contact_is_said_for_every_case_and_once_on_the_screen(camroller, tmp_path, command):
+def test_loss_of_contact_gives_a_remark_for_every_case_and_one_on_the_screen(camroller, tmp_path, command):
     done = run(camroller, command, DECKS / "thesis.nml", *FAST, *COARSE, "-o", "r.h5", folder=tmp_path)
     assert done.returncode == 0, done.stderr
     lines = [line for line in done.stderr.splitlines() if "contact is lost" in line]
@@ -94,13 +94,13 @@ def test_the_second_lobe_is_in_file_and_remarks(camroller, tmp_path):
         assert 160 < angles.min() and angles.max() < 200
 
 
-def test_one_lobe_alone_keeps_its_names(camroller, tmp_path):
+def test_series_of_a_single_lobe_have_plain_names(camroller, tmp_path):
     assert run(camroller, "run", DECKS / "tabulated_lift.nml", *COARSE, "-o", "r.h5", folder=tmp_path).returncode == 0
     with h5py.File(tmp_path / "r.h5") as file:
         assert not [name for group in ("series", "summary") for name in file[group] if "lobe" in name]
 
 
-def test_infinite_speeds_are_those_of_what_never_happens(camroller, tmp_path):
+def test_limit_speeds_that_are_never_reached_are_infinite(camroller, tmp_path):
     assert run(camroller, "run", DECKS / "thesis.nml", *COARSE, "-o", "r.h5", folder=tmp_path).returncode == 0
     with h5py.File(tmp_path / "r.h5") as file:
         summary = file["summary"]

@@ -69,7 +69,7 @@ def test_drawing_of_a_noisy_lift_has_its_rows_and_the_smoothed_curve(camroller, 
     assert [set(panel) for panel in curves_of(path)] == 4 * [{blue}]
 
 
-def test_check_says_what_a_person_wants_to_know(camroller):
+def test_check_prints_facts_of_the_deck(camroller):
     text = run(camroller, "check", "decks/four_cylinder.nml").stdout
     for words in (r"oil at 90 degC: 11\.\d mPa s, .* \(estimated by So and Klaus", r"composite roughness: 0\.17 um",
                   r"smallest cam radius [\d.]+ mm at [\d.]+ deg", r"largest pressure angle [\d.]+ deg", r"ramps below 0\.1 mm",
@@ -78,7 +78,7 @@ def test_check_says_what_a_person_wants_to_know(camroller):
     assert "?" not in text.split("&case")[0]
 
 
-def test_check_says_where_a_bearing_law_is_not_at_home(camroller):
+def test_check_says_where_a_bearing_law_is_outside_its_range(camroller):
     text = run(camroller, "check", "decks/thesis.nml", "--no-sweep").stdout
     assert "width over diameter 0.87, law 'long_full_sommerfeld', which is for bearings wider than 2 diameters; 'finite'" in text
     text = run(camroller, "check", "decks/four_cylinder.nml", "--no-sweep").stdout
@@ -106,7 +106,7 @@ def test_run_ends_with_a_table_of_results(camroller, tmp_path):
     assert run(camroller, "run", "decks/thesis.nml", "-o", tmp_path / "a.h5", "--quiet").stdout == ""
 
 
-def test_one_point_of_a_deck_with_a_sweep(camroller, tmp_path):
+def test_point_selects_one_case_of_a_sweep(camroller, tmp_path):
     run(camroller, "run", "decks/thesis.nml", "-o", tmp_path / "all.h5", "--quiet")
     run(camroller, "run", "decks/thesis.nml", "-o", tmp_path / "one.h5", "--quiet", "--point", "speed_rpm=600",
         "--point", "operating_point.oil_temperature_degC=60")
@@ -127,7 +127,7 @@ def test_deck_from_the_standard_input(camroller, tmp_path):
     assert "standard input:" in result.stderr
 
 
-def test_exports_with_columns_and_forms(camroller, tmp_path):
+def test_export_selects_columns_and_formats(camroller, tmp_path):
     path = tmp_path / "a.h5"
     run(camroller, "run", "decks/thesis.nml", "-o", path, "--quiet")
     text = run(camroller, "export", path, "--summary", "--columns", "mean_torque_friction,min_film_ratio", "--format", "plain").stdout
@@ -143,7 +143,7 @@ def test_exports_with_columns_and_forms(camroller, tmp_path):
     assert "did you mean 'contact_load'?" in result.stderr
 
 
-def test_study_of_laws_refuses_a_file_that_it_would_not_write(camroller, tmp_path):
+def test_study_of_laws_refuses_an_output_file(camroller, tmp_path):
     words = run(camroller, "study", "decks/thesis.nml", "--laws", "-o", tmp_path / "x.h5", code=2).stderr
     assert "writes no file: leave '--output' out" in words and not (tmp_path / "x.h5").exists()
 

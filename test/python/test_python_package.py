@@ -106,7 +106,7 @@ def answers(installed):
     return json.loads(run(installed[0], "-c", CHECK, DECK, ROOT / "decks" / "three_cam_head.nml", env=clean))
 
 
-def test_bits_are_those_of_the_program(answers, tmp_path):
+def test_results_have_the_bits_of_the_program(answers, tmp_path):
     # bits are the same within one set of compiler options, and CMake builds what is optimised
     camroller = ROOT / "build/release/bin/camroller"
     run(camroller, "run", DECK, "-o", tmp_path / "deck.h5", "--quiet")
@@ -132,7 +132,7 @@ def test_errors_are_exceptions_with_the_line_of_the_deck(answers):
     assert "each of the 3 cams" in errors["pressures"]
 
 
-def test_what_is_driven_goes_on_from_copies_and_blocks_bit_by_bit(answers):
+def test_copies_and_saved_states_continue_with_the_same_bits(answers):
     assert answers["same"] and answers["load"] > 0.0
 
 
@@ -165,14 +165,14 @@ print("fine")
     assert done.strip() == "fine"
 
 
-def test_the_wheel_brings_what_it_needs(installed):
+def test_the_wheel_contains_all_libraries_that_it_needs(installed):
     folder = installed[1] / "camroller" / "lib"
     needed = run("ldd", next(folder.glob("libcamroller_bundle.so.*")))
     for name in ("libgfortran.so.5", "libquadmath.so.0", "libopenblas.so.0"):
         assert f"{name} => {folder}/{name}" in needed, needed
 
 
-def test_calls_are_those_of_the_header(installed):
+def test_declared_functions_agree_with_the_header(installed):
     words = """
 import re, sys
 from camroller import _library

@@ -38,7 +38,7 @@ def test_every_place_states_the_version_of_the_manifest(place):
     assert versions()[place] == [VERSION]
 
 
-def test_changes_begin_with_this_version_and_descend():
+def test_changelog_begins_with_this_version_and_descends():
     headings = [line for line in (ROOT / "CHANGELOG.md").read_text(encoding="utf-8").splitlines() if line.startswith("## ")]
     found = [HEADING.match(line) for line in headings]
     assert all(found), headings

@@ -21,13 +21,13 @@ def folder(camroller, tmp_path_factory):
     return path
 
 
-def test_same_to_the_last_bit(camroller, folder):
+def test_rerun_gives_the_same_bits(camroller, folder):
     for threads in (1, 3):
         result = done(camroller, "rerun", "deck.h5", "--threads", threads, folder=folder)
         assert result.stdout.startswith("deck.h5: 4 cases are the same to the last bit, in ")
 
 
-def test_what_differs_is_told(camroller, folder, tmp_path):
+def test_differences_are_reported(camroller, folder, tmp_path):
     shutil.copy(folder / "deck.h5", tmp_path / "changed.h5")
     with h5py.File(tmp_path / "changed.h5", "r+") as file:
         file["summary/mean_torque_drive"][3] *= 1 + 1e-15
@@ -90,7 +90,7 @@ def test_a_choice_of_effects_is_compared(camroller, tmp_path):
     assert "  effects/bound: in 1 case, at most by " in result.stderr
 
 
-def test_what_is_no_result(camroller, tmp_path):
+def test_files_that_are_no_results_are_refused(camroller, tmp_path):
     with h5py.File(tmp_path / "other.h5", "w") as file:
         file["x"] = 1
     assert run(camroller, "rerun", "other.h5", folder=tmp_path).returncode == FILE

@@ -69,7 +69,7 @@ def test_axes_are_case_and_angle(result_file):
                 assert list(dataset.dims[0].keys()) == ["case"], name
 
 
-def test_every_quantity_says_what_it_is(result_file):
+def test_every_quantity_has_unit_meaning_and_scope(result_file):
     with h5py.File(result_file) as file:
         for group in ("series", "summary"):
             assert len(file[group]) > 1
@@ -140,7 +140,7 @@ def expect_failure(finished, target, words):
 
 
 @pytest.mark.parametrize("limit", [10_000, 700_000])
-def test_a_limit_on_file_sizes_is_told(camroller, tmp_path, limit):
+def test_a_limit_on_file_sizes_is_an_error(camroller, tmp_path, limit):
     target = tmp_path / "old.h5"
     target.write_text("old content")
     finished = run(camroller, target, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit)))
@@ -148,7 +148,7 @@ def test_a_limit_on_file_sizes_is_told(camroller, tmp_path, limit):
 
 
 @pytest.mark.parametrize("room", [0, 300, 600, 900])
-def test_a_full_disk_is_told(camroller, tmp_path, room):
+def test_a_full_disk_is_an_error(camroller, tmp_path, room):
     disk = tmp_path / "disk"
     disk.mkdir()
     mount = subprocess.run(["mount", "-t", "tmpfs", "-o", "size=2m", "tmpfs", str(disk)], capture_output=True, check=False)
@@ -170,7 +170,7 @@ def test_a_full_disk_is_told(camroller, tmp_path, room):
     ("/proc/a.h5", "cannot write '/proc/a.h5': "),
     ("/", "it is a folder"),
 ])
-def test_an_impossible_place_is_told(camroller, place, words):
+def test_a_path_that_cannot_be_written_is_an_error(camroller, place, words):
     finished = run(camroller, place)
     assert finished.returncode == FILE_ERROR
     assert words in finished.stderr

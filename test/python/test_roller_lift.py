@@ -39,7 +39,7 @@ def summary(camroller, folder, *values):
         return {name: data[0] for name, data in file["summary"].items() if data.dtype.kind == "f"}
 
 
-def test_both_lifts_of_one_cam_are_the_same(camroller, tmp_path):
+def test_valve_lift_and_roller_lift_of_a_cam_give_the_same_results(camroller, tmp_path):
     valve = write_table(tmp_path / "valve.txt", lambda lift: lift)
     roller = write_table(tmp_path / "roller.txt", roller_lift)
     first = summary(camroller, tmp_path, f"lift.table={valve}")
@@ -50,7 +50,7 @@ def test_both_lifts_of_one_cam_are_the_same(camroller, tmp_path):
     assert second["max_valve_lift"] == pytest.approx(9.2e-3, rel=1e-6)
 
 
-def test_a_lift_that_no_roller_can_have_is_a_mistake(camroller, tmp_path):
+def test_an_impossible_roller_lift_is_refused(camroller, tmp_path):
     table = write_table(tmp_path / "far.txt", lambda lift: 4.0 * lift)
     result = subprocess.run([camroller, "check", "decks/tabulated_lift.nml", "--set", f"lift.table={table}", "--set",
                              "lift.table_kind=roller_lift"], capture_output=True, text=True, cwd=ROOT, check=False)
@@ -100,7 +100,7 @@ def test_the_contour_of_the_cam_gives_the_lift_that_it_was_made_of(camroller, tm
     (lambda radius: radius + 0.5, "the contour must start on the base circle"),
     (lambda radius: 18 + (radius - 18) * (1 + 0.3 * (np.arange(radius.size) % 40 == 20)), "the roller does not touch the contour here"),
 ])
-def test_a_contour_that_no_roller_can_follow_is_a_mistake(camroller, tmp_path, change, words):
+def test_a_contour_that_no_roller_can_follow_is_refused(camroller, tmp_path, change, words):
     polar, radius = contour(1)
     path = tmp_path / "contour.txt"
     np.savetxt(path, np.column_stack([polar, change(radius)]), fmt="%.9f")

@@ -54,7 +54,7 @@ def test_cases_stand_in_the_order_of_the_sweep(thesis):
         assert list(file["summary/status"]) == [0] * 9
 
 
-def test_file_tells_its_deck_and_its_run(camroller, thesis):
+def test_file_has_its_deck_and_the_facts_of_its_run(camroller, thesis):
     with h5py.File(thesis) as file:
         assert file["deck/text"][()].decode() == THESIS.read_text()
         values = file["deck/values"]
@@ -67,7 +67,7 @@ def test_file_tells_its_deck_and_its_run(camroller, thesis):
         assert str(THESIS) in (command if isinstance(command, str) else command.decode())
 
 
-def test_nothing_is_said_when_quiet(camroller, tmp_path):
+def test_quiet_prints_nothing(camroller, tmp_path):
     result = run(camroller, "run", one_case(tmp_path / "deck.nml"), *COARSE, "--quiet", folder=tmp_path)
     assert (result.returncode, result.stdout, result.stderr) == (0, "", "")
     assert (tmp_path / "deck.h5").exists()
@@ -86,7 +86,7 @@ def test_export_gives_the_numbers_of_the_file(camroller, thesis, tmp_path):
     assert len((tmp_path / "summary.csv").read_text().splitlines()) == 2 + 9
 
 
-def test_export_of_a_case_that_is_not_there(camroller, thesis, tmp_path):
+def test_export_of_a_missing_case_is_an_error(camroller, thesis, tmp_path):
     assert run(camroller, "export", thesis, "--case", 9, folder=tmp_path).returncode == USAGE
 
 
@@ -106,7 +106,7 @@ def test_two_runs_give_the_same_numbers(camroller, thesis, tmp_path):
     ([("stiffness_N_m = 25000", "stiffness_N_m = 2500")], DECK, "seat"),
     ([("radius_mm = 8.5", "radius_mm = -8.5")], DECK, "must be above 0"),
 ], ids=["no triangle", "too much lift", "adjuster stronger than spring", "negative length"])
-def test_impossible_cases_leave_the_earlier_file(camroller, tmp_path, changes, code, words):
+def test_a_run_without_results_keeps_the_earlier_file(camroller, tmp_path, changes, code, words):
     deck = one_case(tmp_path / "deck.nml", *changes)
     (tmp_path / "deck.h5").write_text("earlier")
     result = run(camroller, "run", deck, folder=tmp_path)
@@ -133,7 +133,7 @@ def test_a_case_that_fails_does_not_end_the_others(camroller, tmp_path):
 
 
 @pytest.mark.parametrize("output", ["no_such_folder/x.h5", "deck.nml/x.h5", "/proc/x.h5", "."])
-def test_places_that_cannot_be_written(camroller, tmp_path, output):
+def test_paths_that_cannot_be_written_are_errors(camroller, tmp_path, output):
     deck = one_case(tmp_path / "deck.nml")
     result = run(camroller, "run", deck, "-o", output, *COARSE, folder=tmp_path)
     assert result.returncode == FILE, result.stderr
@@ -214,7 +214,7 @@ SMALL = ["--set", "sweep.values_1=300", "--set", "sweep.values_2=60"]
     ("run", "mechanism.contact_width_mm=1", DOMAIN, "above 1.5 GPa"),
     ("ehl", "lubricant.pressure_viscosity_coefficient_per_GPa=80", DOMAIN, "times peak pressure above 35 at cam angle "),
     ("run", "lubricant.pressure_viscosity_coefficient_per_GPa=80", DOMAIN, "times peak pressure above 35")])
-def test_beyond_what_numerical_films_are_good_for_there_is_an_error_and_no_file(camroller, tmp_path, command, change, code, words):
+def test_numerical_films_outside_their_range_are_an_error_and_no_file(camroller, tmp_path, command, change, code, words):
     """A contact too heavy, an oil too stiff."""
     path = tmp_path / "beyond.h5"
     result = run(camroller, command, ROOT / "decks/numerical_film.nml", "-o", path, *SMALL, "--set", change, folder=tmp_path)
@@ -238,7 +238,7 @@ def test_a_higher_accuracy_takes_more_nodes(camroller, tmp_path):
         assert numpy.abs(load / file["ehl/load"][0] - 1).max() < 0.02
 
 
-def test_a_contact_that_cannot_be_solved_leaves_no_number_beside_those_that_can(camroller, tmp_path):
+def test_a_failed_case_of_ehl_has_no_numbers_and_the_others_do(camroller, tmp_path):
     path = tmp_path / "two.h5"
     result = run(camroller, "ehl", ROOT / "decks/numerical_film.nml", "-o", path, "--set", "sweep.values_1=300", "--set",
                  "sweep.key_2=mechanism.contact_width_mm", "--set", "sweep.values_2=13.7, 1", "--set",

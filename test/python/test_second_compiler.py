@@ -12,13 +12,13 @@ def units_of(folder, **texts):
     return {unit.name: unit for unit in (Unit(folder / f"{name}.f90") for name in texts)}
 
 
-def test_what_needs_a_module_from_outside_is_left_out(tmp_path):
+def test_files_that_need_an_external_module_are_left_out(tmp_path):
     units = units_of(tmp_path, c="module c\nuse b\nused = 1\nend module\n", a="module a\nuse, intrinsic :: iso_c_binding\nend module\n",
                      b="module b\nuse :: a, only : x\nend module\n", d="module d\nuse hdf5\nend module\n", e="module e\nuse d\nend module\n")
     assert list(available(units)) == ["a", "b", "c"]
 
 
-def test_all_that_is_left_out_of_the_library_uses_hdf5():
+def test_files_left_out_of_the_library_use_hdf5():
     library = {unit.name: unit for unit in map(Unit, sources("src"))}
     left = {name: library[name].uses for name in library.keys() - available(library).keys()}
     outside = set().union(*left.values()) - library.keys()
@@ -26,7 +26,7 @@ def test_all_that_is_left_out_of_the_library_uses_hdf5():
     assert all(uses & (outside | left.keys()) for uses in left.values())
 
 
-def test_a_file_that_does_not_compile_is_a_fault_and_what_uses_it_waits(tmp_path, monkeypatch):
+def test_a_file_that_does_not_compile_is_counted_and_its_users_are_skipped(tmp_path, monkeypatch):
     monkeypatch.setattr(second_compiler, "ROOT", tmp_path)
     monkeypatch.setattr(second_compiler, "BUILD", tmp_path)
     (tmp_path / "fc").write_text('#!/bin/sh\ncase $2 in */b.f90) echo no good >&2; exit 1;; esac\necho $2 >> asked\n', encoding="utf-8")
@@ -36,7 +36,7 @@ def test_a_file_that_does_not_compile_is_a_fault_and_what_uses_it_waits(tmp_path
     assert (tmp_path / "asked").read_text(encoding="utf-8").split() == [str(tmp_path / "a.f90")]
 
 
-def test_the_runner_holds_the_suites_that_are_there(tmp_path, monkeypatch):
+def test_the_runner_has_the_suites_that_compile(tmp_path, monkeypatch):
     monkeypatch.setattr(second_compiler, "BUILD", tmp_path)
     unit, kept, out = runner({"test_film": None, "test_error": None})
     text = unit.path.read_text(encoding="utf-8")
@@ -45,7 +45,7 @@ def test_the_runner_holds_the_suites_that_are_there(tmp_path, monkeypatch):
     assert text.count("new_testsuite(") == 2 and 'new_testsuite("film", collect_film) &\n         ]' in text
 
 
-def test_without_another_compiler_this_is_said(monkeypatch, capsys):
+def test_a_missing_second_compiler_is_reported(monkeypatch, capsys):
     monkeypatch.setattr(second_compiler.shutil, "which", lambda name: None)
     monkeypatch.delenv("SECOND_FC", raising=False)
     assert second_compiler.main() == NO_COMPILER

@@ -82,7 +82,7 @@ def test_a_case_without_a_reference_is_recorded_and_ends_with_its_error(camrolle
     assert set(table["case"][table["dial"] != "reference"]) == {0}
 
 
-def test_the_deck_is_not_replaced_and_wrong_words_are_refused(camroller, tmp_path):
+def test_the_deck_is_not_overwritten_and_invalid_arguments_are_refused(camroller, tmp_path):
     (tmp_path / "deck_study.h5").write_text(THESIS)
     for arguments in (["deck_study.h5", "-o", "deck_study.h5"], ["deck.nml", "--repeats", "few"], ["deck.nml", "--series"]):
         result = study(camroller, *arguments, folder=tmp_path)
@@ -91,7 +91,7 @@ def test_the_deck_is_not_replaced_and_wrong_words_are_refused(camroller, tmp_pat
     assert (tmp_path / "deck_study.h5").read_text() == THESIS
 
 
-def test_films_over_accuracies_and_nodes(camroller, tmp_path):
+def test_study_of_films_has_rows_for_accuracies_and_nodes(camroller, tmp_path):
     """More nodes and more accuracy give smaller errors; each model has its own reference."""
     text = (ROOT / "decks/numerical_film.nml").read_text()
     (tmp_path / "one.nml").write_text(text[:text.index("&sweep")].replace("oil_temperature_degC = 25", "oil_temperature_degC = 60"))

@@ -39,7 +39,7 @@ def left(result):
     return int(re.search(r"with (\d+) of \d+ cases to do", result.stderr)[1])
 
 
-def test_file_is_that_of_run(camroller, deck, reference, tmp_path):
+def test_file_equals_that_of_run(camroller, deck, reference, tmp_path):
     done(camroller, "run", deck, "--set", "output.series=.false.", "--quiet", folder=tmp_path)
     with h5py.File(reference) as sweep, h5py.File(tmp_path / "deck.h5") as single:
         assert list(sweep["summary"]) == list(single["summary"])
@@ -53,7 +53,7 @@ def test_file_is_that_of_run(camroller, deck, reference, tmp_path):
                                    "key_2 = 'operating_point.speed_rpm' values_2 = 300, 900",
                                    "key_1 = 'mechanism.pivot_to_cam_mm' values_1 = 60, 31, 31.5"], ids=["quantities", "failure"])
 @pytest.mark.parametrize("select", ["listed", "needed"])
-def test_run_writes_what_a_sweep_with_series_writes(camroller, tmp_path, sweep, select):
+def test_run_equals_a_sweep_that_keeps_all_series(camroller, tmp_path, sweep, select):
     """Cases with other quantities than those before, a first case that fails, effects that are left out, and why."""
     deck = write_deck(tmp_path / "deck.nml", f"series = 'all' {sweep}")
     arguments = deck, "--set", f"effects.select={select}", "--quiet"
@@ -65,7 +65,7 @@ def test_run_writes_what_a_sweep_with_series_writes(camroller, tmp_path, sweep, 
 
 
 @pytest.mark.parametrize("threads", [2, 5])
-def test_threads_change_nothing(camroller, deck, reference, tmp_path, threads):
+def test_threads_change_no_bit(camroller, deck, reference, tmp_path, threads):
     result = done(camroller, "sweep", deck, "--threads", threads, folder=tmp_path)
     assert result.stdout.startswith("deck.h5: 24 cases in ")
     assert parts(tmp_path) == []
@@ -88,7 +88,7 @@ def test_as_many_threads_as_are_allowed(camroller, deck, reference, tmp_path):
     assert same(reference, tmp_path / "deck.h5")
 
 
-def test_one_of_anything_has_no_plural(camroller, tmp_path):
+def test_messages_use_the_singular_for_one(camroller, tmp_path):
     deck = write_deck(tmp_path / "deck.nml", "key_1 = 'operating_point.speed_rpm' values_1 = 300")
     assert done(camroller, "sweep", deck, folder=tmp_path).stdout.startswith("deck.h5: 1 case in ")
     assert done(camroller, "rerun", "deck.h5", folder=tmp_path).stdout.startswith("deck.h5: 1 case is the same to the last bit, in ")
@@ -107,7 +107,7 @@ def test_a_table_of_cases_with_too_many_columns_is_refused(camroller, tmp_path):
     assert "wide.csv:1: a table of cases has at most 64 columns" in result.stderr
 
 
-def test_check_tells_what_it_costs(camroller, deck):
+def test_check_prints_time_memory_and_disk_space(camroller, deck):
     lines = done(camroller, "check", deck, folder=deck.parent).stdout.splitlines()
     assert lines[0].endswith("is valid: 24 cases over 6 of operating_point.speed_rpm and 4 of "
                              "operating_point.oil_temperature_degC")
@@ -115,20 +115,20 @@ def test_check_tells_what_it_costs(camroller, deck):
     assert "memory about " in lines[2] and " MB in parts while it runs" in lines[2]
 
 
-def test_check_of_more_cases_than_it_can_build(camroller, deck):
+def test_check_of_a_million_cases_checks_some_of_them(camroller, deck):
     result = done(camroller, "check", deck, "--set", "sweep.count_1=250000", folder=deck.parent)
     assert "1000000 cases over 250000 of operating_point.speed_rpm" in result.stdout
     assert ", of which 10000 were checked" in result.stdout
 
 
 @pytest.mark.parametrize("command", ["run", "sweep"])
-def test_a_value_that_the_sweep_varies_is_not_taken_in_silence(camroller, deck, tmp_path, command):
+def test_set_of_a_swept_key_gives_a_message(camroller, deck, tmp_path, command):
     result = done(camroller, command, deck, "--set", "operating_point.speed_rpm=350", "--set", "roller.mass_kg=0.009", folder=tmp_path)
     assert [line for line in result.stderr.splitlines() if "is not used" in line] == [
         "remark: 'operating_point.speed_rpm=350' is not used, since &sweep varies operating_point.speed_rpm"]
 
 
-def test_shards_change_nothing(camroller, deck, reference, tmp_path):
+def test_shards_change_no_bit(camroller, deck, reference, tmp_path):
     runs = [subprocess.Popen([camroller, "sweep", deck, "--shard", f"{i}/3", "--quiet"], cwd=tmp_path) for i in (3, 1, 2)]
     assert [process.wait() for process in runs] == [0, 0, 0]
     assert len(parts(tmp_path)) == 3
@@ -163,7 +163,7 @@ def test_profiles_of_the_cases_whose_series_are_kept(camroller, tmp_path):
             assert numpy.isnan(sweep["ehl"][name][1::2]).all(), name
 
 
-def test_merge_of_what_is_there(camroller, deck, reference, tmp_path):
+def test_merge_partial_has_the_cases_computed_so_far(camroller, deck, reference, tmp_path):
     done(camroller, "sweep", deck, "--shard", "2/3", "--quiet", folder=tmp_path)
     result = run(camroller, "merge", deck, folder=tmp_path)
     assert result.returncode == UNFINISHED
@@ -277,7 +277,7 @@ def test_series_of_chosen_cases(camroller, deck, tmp_path):
         assert some["series/contact_load"].chunks == (1, 36)
 
 
-def test_texts_and_names_vary(camroller, tmp_path):
+def test_texts_and_names_can_be_swept(camroller, tmp_path):
     deck = write_deck(tmp_path / "deck.nml", "key_1 = 'case.title' values_1 = 'a', 'b' key_2 = 'film.law' values_2 = 'moes', "
                                              "'dowson_higginson'")
     done(camroller, "sweep", deck, "--threads", 2, folder=tmp_path)
@@ -286,7 +286,7 @@ def test_texts_and_names_vary(camroller, tmp_path):
         assert file["summary/mean_torque_drive"][0] == file["summary/mean_torque_drive"][2]
 
 
-def test_lists_side_by_side(camroller, tmp_path):
+def test_zip_pairs_lists_of_equal_length(camroller, tmp_path):
     deck = write_deck(tmp_path / "deck.nml", "kind = 'zip' key_1 = 'operating_point.speed_rpm' values_1 = 300, 500 "
                                              "key_2 = 'film.law' values_2 = 'moes', 'dowson_higginson'")
     done(camroller, "sweep", deck, folder=tmp_path)
@@ -374,7 +374,7 @@ def test_a_result_is_a_table_of_its_cases(camroller, deck, reference, tmp_path):
     ("key_1 = 'numerics.max_cycles' from_1 = 1 to_1 = 4 count_1 = 3", "takes whole numbers"),
     ("key_1 = 'roller.mass_kg' from_1 = 0 to_1 = 4 count_1 = 3 scale_1 = 'logarithmic'", "needs ends above zero"),
 ])
-def test_decks_that_make_no_sweep(camroller, tmp_path, sweep, words):
+def test_invalid_sweeps_are_refused(camroller, tmp_path, sweep, words):
     (tmp_path / "bad.csv").write_text("# two columns\noperating_point.speed_rpm, film.law\n300\n")
     (tmp_path / "wrong.csv").write_text("operating_point.speed\n300\n")
     result = run(camroller, "sweep", write_deck(tmp_path / "deck.nml", sweep), folder=tmp_path)
@@ -383,11 +383,11 @@ def test_decks_that_make_no_sweep(camroller, tmp_path, sweep, words):
 
 
 @pytest.mark.parametrize("option", ["0/3", "4/3", "x/3", "2", "2/"])
-def test_shards_that_there_are_not(camroller, deck, tmp_path, option):
+def test_impossible_shards_are_refused(camroller, deck, tmp_path, option):
     assert run(camroller, "sweep", deck, "--shard", option, folder=tmp_path).returncode == USAGE
 
 
-def test_a_log_has_plain_lines(camroller, tmp_path):
+def test_progress_in_a_log_is_plain_lines(camroller, tmp_path):
     deck = write_deck(tmp_path / "deck.nml", GRID.replace("count_1 = 6", "count_1 = 60"))
     result = done(camroller, "sweep", deck, "--log-every", 0, folder=tmp_path)
     lines = [line for line in result.stderr.splitlines() if "left" in line]
@@ -395,7 +395,7 @@ def test_a_log_has_plain_lines(camroller, tmp_path):
     assert all(" of 240 cases, " in line and "/s, " in line and "\r" not in line for line in lines)
 
 
-def test_a_terminal_has_one_line(camroller, tmp_path):
+def test_progress_on_a_terminal_is_one_line(camroller, tmp_path):
     """Written over again and again, from the first second on, and taken away at the end."""
     deck = write_deck(tmp_path / "deck.nml", GRID.replace("count_1 = 6", "count_1 = 5000"))
     ours, theirs = os.openpty()
@@ -413,7 +413,7 @@ def test_a_terminal_has_one_line(camroller, tmp_path):
     assert re.search(rb"\r {72}\rcamroller: the sweep was stopped with ", shown), shown
 
 
-def test_a_full_device_leaves_what_was_done(camroller, deck, reference, tmp_path):
+def test_a_full_disk_keeps_computed_cases(camroller, deck, reference, tmp_path):
     """A limit on the size of files stands for the device."""
     result = run("bash", "-c", f"ulimit -f 24; exec {camroller} sweep {deck} --threads 1", folder=tmp_path)
     assert result.returncode == FILE, result.stderr

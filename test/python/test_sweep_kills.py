@@ -31,7 +31,7 @@ def undisturbed(camroller, deck):
     return deck.with_suffix(".h5"), time.monotonic() - start
 
 
-def test_killed_at_random_moments(camroller, deck, undisturbed, tmp_path):
+def test_sweep_killed_at_random_moments_can_be_resumed(camroller, deck, undisturbed, tmp_path):
     """Kills between start and end, assembly of the file included; a sweep that got to its end is compared and begun anew."""
     reference, duration = undisturbed
     moments = random.Random(SEED)
@@ -58,7 +58,7 @@ def test_killed_at_random_moments(camroller, deck, undisturbed, tmp_path):
     print(f"{kills} kills, {ends} ends compared, {torn} of them while the file was made")
 
 
-def test_ended_at_random_moments(camroller, deck, undisturbed, tmp_path):
+def test_sweep_stopped_by_sigterm_at_random_moments_can_be_resumed(camroller, deck, undisturbed, tmp_path):
     """The same with a signal that can be heeded: what is done is kept, and the exit code says that there is more to do."""
     reference, duration = undisturbed
     moments = random.Random(SEED + 1)
@@ -80,7 +80,7 @@ def test_ended_at_random_moments(camroller, deck, undisturbed, tmp_path):
     assert to_do == sorted(to_do, reverse=True) and min(to_do) < 160
 
 
-def test_kill_of_a_shard(camroller, deck, undisturbed, tmp_path):
+def test_killed_shard_can_be_resumed(camroller, deck, undisturbed, tmp_path):
     """Shards that were killed are gone on with one by one."""
     reference, duration = undisturbed
     for shard in ("1/2", "2/2"):

@@ -49,21 +49,21 @@ def reference(deck):
 
 
 @pytest.mark.parametrize("ranks", [1, 2, 4])
-def test_processes_change_nothing(deck, reference, tmp_path, ranks):
+def test_number_of_processes_changes_no_bit(deck, reference, tmp_path, ranks):
     result = done(by(ranks), "sweep", deck, folder=tmp_path, env=ENVIRONMENT)
     assert result.stdout.count("deck.h5: 48 cases in ") == 1
     assert [path.name for path in tmp_path.iterdir()] == ["deck.h5"]
     assert same(reference, tmp_path / "deck.h5")
 
 
-def test_a_mistake_is_told_once(tmp_path):
+def test_a_mistake_is_printed_by_one_process(tmp_path):
     deck = write_deck(tmp_path / "deck.nml", "kind = 'sobol'")
     result = run(by(2), "sweep", deck, folder=tmp_path, env=ENVIRONMENT)
     assert result.returncode == DECK
     assert result.stderr.count("camroller: ") == 1
 
 
-def test_a_process_that_dies(tmp_path):
+def test_results_survive_a_process_that_dies(tmp_path):
     """The others end with it; what all of them had done is gone on with by another number of processes, and by the program
     without MPI."""
     deck = write_deck(tmp_path / "deck.nml", GRID.replace("count_1 = 6", "count_1 = 300"))

@@ -67,7 +67,7 @@ def flip(path, place, bit=0):
 @pytest.mark.parametrize("name", ["deck.h5.part-notes", "deck.h5.part-1", "deck.h5.part-rank-0.bak", "deck.h5.unfinished-notes",
                                   "deck.h5.unfinished-12-0", "deck.h5.part-lock.txt"])
 @pytest.mark.parametrize("command", ["sweep", "merge"])
-def test_files_of_others_stay(camroller, deck, whole, parts, name, command):
+def test_files_of_other_programs_are_not_touched(camroller, deck, whole, parts, name, command):
     content = b"what somebody else has written here, for longer than eight bytes\n"
     (parts / name).write_bytes(content)
     if command == "sweep":
@@ -80,7 +80,7 @@ def test_files_of_others_stay(camroller, deck, whole, parts, name, command):
 
 
 @pytest.mark.parametrize("name", ["deck.h5.part-rank-0", "deck.h5.part-lock"])
-def test_a_file_in_the_place_of_our_own_is_an_error(camroller, deck, tmp_path, name):
+def test_a_foreign_file_named_like_a_part_is_an_error(camroller, deck, tmp_path, name):
     (tmp_path / name).write_text("what somebody else has written here\n")
     result = run(camroller, "sweep", deck, "--resume", folder=tmp_path)
     assert result.returncode == FILE
@@ -88,7 +88,7 @@ def test_a_file_in_the_place_of_our_own_is_an_error(camroller, deck, tmp_path, n
     assert (tmp_path / name).read_text() == "what somebody else has written here\n"
 
 
-def test_the_parts_of_another_sweep_stay(camroller, deck, parts):
+def test_parts_of_another_sweep_are_not_touched(camroller, deck, parts):
     """A part that has been given the name of one of ours is told by what it says of itself."""
     before = {path.name: path.read_bytes() for path in parts.iterdir()}
     result = run(camroller, "merge", deck, "--set", "roller.mass_kg=0.012", folder=parts)
@@ -97,7 +97,7 @@ def test_the_parts_of_another_sweep_stay(camroller, deck, parts):
     assert {path.name: path.read_bytes() for path in parts.iterdir()} == before
 
 
-def test_unfinished_files_of_processes_that_are_gone_are_removed(camroller, deck, whole, parts):
+def test_unfinished_files_of_ended_processes_are_removed(camroller, deck, whole, parts):
     """Empty ones, blank ones, and results of ours; not one that a process is writing."""
     contents = {"deck.h5.unfinished-1-0": b"", "deck.h5.unfinished-2-0": b" " * 4096, "deck.h5.unfinished-3-0": bytes(100000)}
     for name, content in contents.items():
@@ -161,7 +161,7 @@ def test_partial_merges_beside_a_complete_one(camroller, deck, whole, parts, tmp
         assert same(whole, folder / "deck.h5")
 
 
-def test_a_merge_after_all_is_done_says_so(camroller, deck, whole, parts):
+def test_merge_of_a_complete_result_says_so(camroller, deck, whole, parts):
     shutil.copy(whole, parts)
     for part in parts.glob("*.part-*"):
         part.unlink()
@@ -170,7 +170,7 @@ def test_a_merge_after_all_is_done_says_so(camroller, deck, whole, parts):
     assert "there is no 'deck.h5.part-*'" in run(camroller, "merge", deck, folder=parts).stderr
 
 
-def test_a_lock_of_a_process_that_is_gone_does_no_harm(camroller, deck, whole, parts):
+def test_a_lock_of_an_ended_process_is_ignored(camroller, deck, whole, parts):
     process = subprocess.Popen([camroller, "merge", deck, "--quiet"], cwd=parts)
     process.kill()
     process.wait()
@@ -182,7 +182,7 @@ def test_a_lock_of_a_process_that_is_gone_does_no_harm(camroller, deck, whole, p
 
 @pytest.mark.parametrize("record", ["layout", "first cases", "last cases"])
 @pytest.mark.parametrize("where", ["mark", "length", "checksum", "words"])
-def test_a_flipped_bit_costs_one_record(camroller, deck, whole, parts, record, where):
+def test_a_flipped_bit_loses_one_record_only(camroller, deck, whole, parts, record, where):
     """Every record behind it counts; what is damaged and what is computed again is said; no number is another."""
     part = sorted(parts.glob("*.part-*"))[0]
     found = records(part)
@@ -227,7 +227,7 @@ def test_every_case_is_in_one_record(parts):
 
 
 @pytest.mark.parametrize("record", [0, -1])
-def test_cases_that_are_there_twice_count_once(camroller, deck, whole, parts, record):
+def test_cases_computed_twice_count_once(camroller, deck, whole, parts, record):
     """A record twice in a part, and a part that was copied beside itself."""
     part = sorted(parts.glob("*.part-*"))[0]
     content = part.read_bytes()
@@ -273,7 +273,7 @@ def test_a_damaged_beginning_is_refused(camroller, deck, parts):
         assert f"'{part.name}' is damaged at its beginning" in result.stderr
 
 
-def test_a_torn_first_record_is_begun_anew(camroller, deck, whole, tmp_path):
+def test_a_part_with_incomplete_first_record_is_started_again(camroller, deck, whole, tmp_path):
     """A process that ended while it wrote what its part belongs to has lost nothing."""
     for length in (0, 5, WORD, 30, 2000):
         (tmp_path / "deck.h5.part-rank-0").write_bytes((whole.parent / "parts/deck.h5.part-shard-1-of-3-rank-0").read_bytes()[:length])

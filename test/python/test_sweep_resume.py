@@ -41,7 +41,7 @@ def partial_file(camroller, deck, folder):
         return list(file["summary/status"]).count(0)
 
 
-def test_a_partial_file_is_told_from_a_complete_one(camroller, deck, reference, tmp_path):
+def test_a_partial_file_is_marked_as_such(camroller, deck, reference, tmp_path):
     there = partial_file(camroller, deck, tmp_path)
     assert 0 < there < CASES
     with h5py.File(tmp_path / "deck.h5") as file, h5py.File(reference) as whole:
@@ -50,7 +50,7 @@ def test_a_partial_file_is_told_from_a_complete_one(camroller, deck, reference, 
         assert "-1 where it was not computed" in str(file["summary/status"].attrs["long_name"])
 
 
-def test_a_partial_file_does_not_end_a_sweep(camroller, deck, reference, tmp_path):
+def test_a_sweep_continues_after_a_partial_file_was_made(camroller, deck, reference, tmp_path):
     there = partial_file(camroller, deck, tmp_path)
     result = done(camroller, "sweep", deck, "--resume", folder=tmp_path)
     assert result.stdout.startswith(f"deck.h5: {CASES} cases in ")
@@ -58,7 +58,7 @@ def test_a_partial_file_does_not_end_a_sweep(camroller, deck, reference, tmp_pat
     assert same(reference, tmp_path / "deck.h5")
 
 
-def test_a_partial_file_of_an_earlier_version_does_not_end_a_sweep(camroller, deck, reference, tmp_path):
+def test_a_sweep_continues_after_a_partial_file_of_an_earlier_version(camroller, deck, reference, tmp_path):
     """Whatever its attribute says, a file in which a case has not been computed is not complete."""
     partial_file(camroller, deck, tmp_path)
     with h5py.File(tmp_path / "deck.h5", "r+") as file:
@@ -68,7 +68,7 @@ def test_a_partial_file_of_an_earlier_version_does_not_end_a_sweep(camroller, de
     assert same(reference, tmp_path / "deck.h5")
 
 
-def test_a_partial_file_is_gone_on_with_from_its_parts(camroller, deck, reference, tmp_path):
+def test_resume_continues_from_the_parts_of_a_partial_file(camroller, deck, reference, tmp_path):
     stopped = run(camroller, "sweep", deck, *STOP, folder=tmp_path)
     done(camroller, "merge", deck, "--partial", folder=tmp_path)
     further = run(camroller, "sweep", deck, "--resume", *STOP, folder=tmp_path)
@@ -96,7 +96,7 @@ def test_a_partial_file_can_be_read_and_computed_again(camroller, deck, referenc
     assert f"deck.h5: 1 of {there} " in run(camroller, "rerun", "deck.h5", folder=tmp_path).stderr
 
 
-def test_a_partial_file_replaces_no_complete_one(camroller, deck, reference, tmp_path):
+def test_a_partial_file_does_not_replace_a_complete_one(camroller, deck, reference, tmp_path):
     shutil.copy(reference, tmp_path / "deck.h5")
     done(camroller, "sweep", deck, "--shard", "2/3", "--quiet", folder=tmp_path)
     result = run(camroller, "merge", deck, "--partial", folder=tmp_path)
@@ -111,7 +111,7 @@ def message(result):
 
 
 @pytest.mark.parametrize("values, code", [("60, 31.5, 61, 31", DOMAIN), ("61, 60", DOMAIN)])
-def test_a_finished_sweep_ends_as_it_did(camroller, tmp_path, values, code):
+def test_resume_of_a_finished_sweep_repeats_its_exit_code(camroller, tmp_path, values, code):
     deck = write_deck(tmp_path / "deck.nml", f"key_1 = 'mechanism.pivot_to_cam_mm' values_1 = {values}")
     first = run(camroller, "sweep", deck, folder=tmp_path)
     before = (tmp_path / "deck.h5").read_bytes()
@@ -128,7 +128,7 @@ def test_a_finished_sweep_ends_as_it_did(camroller, tmp_path, values, code):
     ("sweep.count_1=7", "its deck, a table or a value of --set differs"),
     ("build", "commit: 'another' made the file, this is '"),
 ])
-def test_a_finished_file_of_another_study_stays(camroller, deck, reference, tmp_path, change, words):
+def test_resume_does_not_replace_a_result_of_another_study(camroller, deck, reference, tmp_path, change, words):
     shutil.copy(reference, tmp_path / "deck.h5")
     options = ["--set", change]
     if change == "build":
@@ -145,7 +145,7 @@ def test_a_finished_file_of_another_study_stays(camroller, deck, reference, tmp_
 
 
 @pytest.mark.parametrize("content", [b"", b"my notes\n", b"hdf5"])
-def test_a_file_that_is_no_result_stays(camroller, deck, tmp_path, content):
+def test_resume_does_not_replace_a_file_that_is_no_result(camroller, deck, tmp_path, content):
     path = tmp_path / "deck.h5"
     path.write_bytes(content)
     if content == b"hdf5":
@@ -158,7 +158,7 @@ def test_a_file_that_is_no_result_stays(camroller, deck, tmp_path, content):
     assert path.read_bytes() == before
 
 
-def test_an_earlier_result_is_not_replaced_in_silence(camroller, deck, reference, tmp_path):
+def test_replacing_an_earlier_result_gives_a_message(camroller, deck, reference, tmp_path):
     """Without --resume a new result takes the place of an older one, as with `run`; of another study that is said at once."""
     shutil.copy(reference, tmp_path / "deck.h5")
     again = done(camroller, "sweep", deck, folder=tmp_path)
@@ -225,7 +225,7 @@ def changed(text):
     return "\n".join(lines) + "\n"
 
 
-def test_a_table_that_only_some_cases_name_is_part_of_the_study(camroller, tables):
+def test_a_table_that_only_some_cases_use_is_part_of_the_study(camroller, tables):
     """A key that names a table can vary; each of its tables belongs to the study."""
     table = table_of(tables / "decks/tabulated_lift.nml", "lift")
     other = table.with_name("other.dat")
@@ -241,7 +241,7 @@ def test_a_table_that_only_some_cases_name_is_part_of_the_study(camroller, table
     assert "table of &lift with checksum" in result.stderr
 
 
-def test_a_table_that_changes_while_cases_name_it_is_an_error(camroller, tables):
+def test_a_table_that_changes_during_a_sweep_is_an_error(camroller, tables):
     """Which case had the old one and which the new one would not be known."""
     table = table_of(tables / "decks/tabulated_lift.nml", "lift")
     shutil.copy(table, table.with_name("other.txt"))
@@ -260,7 +260,7 @@ def test_a_table_that_changes_while_cases_name_it_is_an_error(camroller, tables)
     assert not (tables / "x.h5").exists()
 
 
-def test_a_table_of_cases_that_changed_is_refused_when_all_is_done(camroller, tmp_path):
+def test_a_changed_table_of_cases_is_refused_after_the_sweep_is_done(camroller, tmp_path):
     table = tmp_path / "cases.csv"
     table.write_text("operating_point.speed_rpm\n300\n400\n")
     deck = write_deck(tmp_path / "deck.nml", "kind = 'table' table = 'cases.csv'")
@@ -270,7 +270,7 @@ def test_a_table_of_cases_that_changed_is_refused_when_all_is_done(camroller, tm
 
 
 @pytest.mark.parametrize("deck", ["tabulated_lift", "three_cam_head", "cases"])
-def test_where_a_deck_stands_does_not_matter(camroller, tables, deck):
+def test_the_folder_of_the_deck_does_not_matter(camroller, tables, deck):
     """The same study from another folder, by an absolute path, as a copy elsewhere, with its table named in another way."""
     if deck == "cases":
         (tables / "decks/cases.csv").write_text("operating_point.speed_rpm\n500\n600\n700\n")

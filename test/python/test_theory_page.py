@@ -28,7 +28,7 @@ def test_every_numbered_equation_has_a_row():
 
 
 @pytest.mark.parametrize("number, what, where, test", ROWS, ids=[row[0] for row in ROWS])
-def test_row_points_at_what_exists(number, what, where, test):
+def test_files_procedures_and_tests_of_a_row_exist(number, what, where, test):
     if where.startswith("not used"):
         assert test == "-"
         return

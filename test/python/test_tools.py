@@ -9,12 +9,12 @@ from fortran_source import ROOT, statements
 from readme_commands import commands_of, main
 
 
-def test_only_sh_blocks_hold_commands():
+def test_commands_are_taken_from_sh_blocks_only():
     text = "```sh\nmake run\n```\ntext `make no`\n```\nmake neither\n```\n```fortran\nuse x\n```\n```sh\nmake test\n```\n"
     assert commands_of(text) == ["make run", "make test"]
 
 
-def test_remarks_and_continued_lines_are_understood():
+def test_comments_and_continued_lines_of_commands_are_read():
     text = "```sh\n# all of it\nmake run  # quick\ncamroller run a.nml \\\n  -o b.h5\n\n```\n"
     assert commands_of(text) == ["make run", "camroller run a.nml -o b.h5"]
 
@@ -35,7 +35,7 @@ def test_statements_are_joined_and_strings_emptied():
 
 
 @pytest.mark.skipif(not (ROOT / ".venv/requirements.done").exists(), reason="not set up by tools/setup.sh")
-def test_set_up_repeats_without_work():
+def test_set_up_does_nothing_the_second_time():
     """Where everything is there, nothing is said and nothing is fetched."""
     result = subprocess.run([ROOT / "tools/setup.sh"], capture_output=True, text=True, check=False, stdin=subprocess.DEVNULL)
     assert (result.returncode, result.stdout, result.stderr) == (0, "", "")
@@ -96,7 +96,7 @@ def with_python_tools(top):
     (top / ".venv/requirements.done").write_text(f"# {top / '.venv'}\n", encoding="utf-8")
 
 
-def test_set_up_makes_the_tools_anew_in_a_checkout_that_was_moved(tmp_path):
+def test_set_up_makes_the_tools_again_in_a_moved_checkout(tmp_path):
     """Commands of a virtual environment name the folder where it was made."""
     before = tmp_path / "before"
     before.mkdir()
@@ -180,7 +180,7 @@ def test_set_up_goes_on_without_open_mpi(tmp_path):
     ("sleep 0.1; kill -KILL $$", ["6 passed, 1 failed"], 1),
     ("echo no root here; exit 77", ["skipped: timeout --kill-after=20 300 slurm/one_node.sh: no root here", "6 passed, 0 failed"], 0),
 ])
-def test_all_checks_count_what_failed_and_name_what_cannot_run(tmp_path, node, lines, code):
+def test_ci_counts_failed_checks_and_names_those_that_cannot_run(tmp_path, node, lines, code):
     """`.ci/run` over stand-ins: a set-up, two tests that pass, stages without counts, a Slurm that does as told."""
     stand_ins = {"tools/setup.sh": "true", "slurm/one_node.sh": node, ".venv/bin/python": "true"}
     for name, text in stand_ins.items():
@@ -195,7 +195,7 @@ def test_all_checks_count_what_failed_and_name_what_cannot_run(tmp_path, node, l
     assert result.returncode == code
 
 
-def test_what_knows_the_commit_is_compiled_again(tmp_path):
+def test_files_that_contain_the_commit_are_recompiled(tmp_path):
     """Objects made from the former commit are removed, with the names that fpm gives them in both programs."""
     objects = [tmp_path / "build/gfortran_1/camroller/src_base_version.f90.o",
                tmp_path / "mpi/build/mpifort_1/camroller-mpi/.._src_base_version.f90.o"]
@@ -207,7 +207,7 @@ def test_what_knows_the_commit_is_compiled_again(tmp_path):
     assert [path for path in objects if path.exists()] == []
 
 
-def test_what_a_moved_source_left_is_not_linked(tmp_path):
+def test_objects_of_moved_sources_are_not_linked(tmp_path):
     """fpm leaves the object of a source that was moved in its library, beside the new one."""
     folder = tmp_path / "build/gfortran_1/camroller"
     for name in ("tools/write_commit.sh", "src/base/words.f90", "build/gfortran_1/camroller/src_base_words.f90.o",

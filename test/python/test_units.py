@@ -104,7 +104,7 @@ def results(request, camroller, tmp_path_factory):
         yield file
 
 
-def test_units_are_read_as_they_are_meant():
+def test_unit_names_are_read_as_dimensions():
     assert parse("N m") == (1, TORQUE) == parse("J")
     assert parse("W") == parse("J s-1") == (1, POWER) == parse("N m s-1")
     assert parse("m s-1") == parse("m/s") == (1, SPEED)
@@ -246,7 +246,7 @@ def allowed(key):
 
 
 @pytest.mark.parametrize("key, units", [("table_unit", LENGTHS), ("pressure_unit", PRESSURES)])
-def test_every_unit_that_a_table_may_have_is_tested_below(key, units):
+def test_every_unit_of_tables_is_tested_in_this_file(key, units):
     assert allowed(key) and all(set(names) == set(units) for names in allowed(key))
 
 
