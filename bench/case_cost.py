@@ -26,7 +26,7 @@ PARTS = {
     ". camshaft": ["mean_bearings_MOD_mean_bearing_torque", "report_MOD_search_camshaft"],
     ". margins": ["margins_MOD_find_margins"],
     ". summary": ["summary_MOD_make_summary"],
-    "contacts": ["contact_MOD_prepare_and_solve", "contact_MOD_solve_contact"],
+    "contacts": ["contact_MOD_solve_at_speeds", "contact_MOD_solve_contact"],
 }
 EIGHT_CAMS = [
     "cam_bearings.bearing_positions_mm=0,80,160,240,320",
@@ -98,7 +98,7 @@ def inclusive(profile: pathlib.Path) -> dict[str, float]:
 
 def family(name: str) -> str:
     """Name of a procedure without what the compiler adds to copies of it; calls inside a family count once."""
-    return re.sub(r"\.(constprop|isra|part|cold)\.\d+", "", name).replace("prepare_and_solve", "solve_contact")
+    return re.sub(r"\.(constprop|isra|part|cold)\.\d+", "", name).replace("solve_at_speeds", "solve_contact")
 
 
 def main():

@@ -14,7 +14,8 @@ module camroller_conjunction
    implicit none
    private
 
-   public :: hot_oil_t, body_t, band_t, band_mean, new_band, flash_resistance, film_resistance, log_viscosity_change, hot_shear
+   public :: hot_oil_t, body_t, band_t, sheared_film_t, film_shear_t, band_mean, new_band, flash_resistance, film_resistance, &
+      & log_viscosity_change, hot_shear
 
    !> How the oil follows the temperature from that of the oil around on
    type :: hot_oil_t
@@ -39,6 +40,30 @@ module camroller_conjunction
       !> ln(mean rise over q b/k), its derivative over ln(V b/kappa) [-]
       real(wp), allocatable :: values(:), slopes(:)
    end type band_t
+
+   !> A film between surfaces that slide
+   type :: sheared_film_t
+      !> Position in `shear_law_names`
+      integer :: law
+      !> Sliding speed, V_s [m/s]
+      real(wp) :: sliding_speed
+      !> Pressure in the middle of the film [Pa]
+      real(wp) :: peak
+      !> Apparent contact area, 2 b L [m^2]
+      real(wp) :: area
+      !> Central film thickness, positive [m]
+      real(wp) :: thickness
+      !> Eyring stress, tau_E; of no meaning with a Newtonian film [Pa]
+      real(wp) :: eyring_stress
+   end type sheared_film_t
+
+   !> Shear of a film, before any limit
+   type :: film_shear_t
+      !> Shear force [N]
+      real(wp) :: force
+      !> Its slopes over the sliding speed [N s/m], ln(peak) [N] and the rise of the temperature [N/K]
+      real(wp) :: by_speed, by_peak, by_rise
+   end type film_shear_t
 
    !> Mean rise of the film above surfaces of the same temperature, over flux, thickness and conductivity: heat made evenly across
    !> [-]
@@ -202,34 +227,21 @@ contains
    end subroutine log_viscosity_change
 
    !> Shear force of a film that is warmer than the oil around, by either shear law, before any limit, with its slopes.
-   pure subroutine hot_shear(law, oil, hot, rise, sliding_speed, peak, area, film, eyring_stress, force, slope, peak_slope, &
-      & rise_slope)
-      !> Position in `shear_law_names`
-      integer, intent(in) :: law
+   pure subroutine hot_shear(film, oil, hot, rise, shear)
+      !> The film
+      type(sheared_film_t), intent(in) :: film
       !> Oil at the temperature around
       type(oil_t), intent(in) :: oil
       !> How it follows the temperature
       type(hot_oil_t), intent(in) :: hot
       !> Mean rise of the film's temperature [K]
       real(wp), intent(in) :: rise
-      !> Sliding speed, V_s [m/s]
-      real(wp), intent(in) :: sliding_speed
-      !> Pressure in the middle of the film [Pa]
-      real(wp), intent(in) :: peak
-      !> Apparent contact area, 2 b L [m^2]
-      real(wp), intent(in) :: area
-      !> Central film thickness [m], positive
-      real(wp), intent(in) :: film
-      !> Eyring stress, tau_E [Pa]; of no meaning with a Newtonian film
-      real(wp), intent(in) :: eyring_stress
-      !> Shear force [N]
-      real(wp), intent(out) :: force
-      !> Its slopes over the sliding speed [N s/m], ln(peak) [N] and the rise [N/K]
-      real(wp), intent(out) :: slope, peak_slope, rise_slope
+      !> Shear force and slopes
+      type(film_shear_t), intent(out) :: shear
 
       type(oil_t) :: warm
-      ! Change of ln(viscosity) at ambient pressure [-], its slope [1/K]; logarithmic slope of the mean viscosity [-]
-      real(wp) :: change, change_slope, log_slope
+      ! Change of ln(viscosity) at ambient pressure [-], its slope [1/K]; mean viscosity ratio, its logarithmic slope [-]
+      real(wp) :: change, change_slope, ratio, log_slope
 
       call log_viscosity_change(hot, rise, change, change_slope)
       warm = oil
@@ -237,33 +249,27 @@ contains
       warm%pressure_viscosity = oil%pressure_viscosity*exp(-hot%pressure_fall*rise)
       ! Roelands' law has no viscosity below that of its exponent 0
       warm%roelands_exponent = max(oil%roelands_exponent + change, 0.0_wp)
-      if (law == law_newtonian .and. oil%pressure_law /= law_roelands) then
-         call mean_relative_viscosity(warm, peak, force, log_slope)
-         slope = newtonian_shear(1.0_wp, warm%viscosity*force, area, film)
-         force = slope*sliding_speed
-         peak_slope = force*log_slope
-         rise_slope = force*(change_slope - hot%pressure_fall*log_slope)
+      if (film%law == law_newtonian .and. oil%pressure_law /= law_roelands) then
+         call mean_relative_viscosity(warm, film%peak, ratio, log_slope)
+         shear%by_speed = newtonian_shear(1.0_wp, warm%viscosity*ratio, film%area, film%thickness)
+         shear%force = shear%by_speed*film%sliding_speed
+         shear%by_peak = shear%force*log_slope
+         shear%by_rise = shear%force*(change_slope - hot%pressure_fall*log_slope)
       else
-         call sum_shear(law, warm, hot%pressure_fall, change_slope, sliding_speed, peak, area, film, eyring_stress, force, slope, &
-            & peak_slope, rise_slope)
+         call sum_shear(film, warm, hot%pressure_fall, change_slope, shear)
       end if
    end subroutine hot_shear
 
    !> The same by quadrature over the contact.
-   pure subroutine sum_shear(law, warm, pressure_fall, change_slope, sliding_speed, peak, area, film, eyring_stress, force, slope, &
-      & peak_slope, rise_slope)
-      !> Position in `shear_law_names`
-      integer, intent(in) :: law
+   pure subroutine sum_shear(film, warm, pressure_fall, change_slope, shear)
+      !> The film
+      type(sheared_film_t), intent(in) :: film
       !> Oil at the temperature of the film
       type(oil_t), intent(in) :: warm
       !> Fall of ln(alpha), derivative of ln(viscosity) at ambient pressure, per kelvin [1/K]
       real(wp), intent(in) :: pressure_fall, change_slope
-      !> Sliding speed [m/s], pressure in the middle [Pa], area [m^2], central film [m], Eyring stress [Pa]
-      real(wp), intent(in) :: sliding_speed, peak, area, film, eyring_stress
-      !> Shear force [N]
-      real(wp), intent(out) :: force
-      !> Its slopes over the sliding speed [N s/m], ln(peak) [N] and the rise [N/K]
-      real(wp), intent(out) :: slope, peak_slope, rise_slope
+      !> Shear force and slopes
+      type(film_shear_t), intent(out) :: shear
 
       ! Viscosity over film thickness [Pa s/m], at a point; over the Eyring stress [s/m]; what the shear law makes of its slope [-]
       real(wp) :: unit, rate, reduced, bend
@@ -273,36 +279,33 @@ contains
       real(wp) :: stress
       integer :: i
 
-      force = 0.0_wp
-      slope = 0.0_wp
-      peak_slope = 0.0_wp
-      rise_slope = 0.0_wp
-      unit = warm%viscosity/film
+      shear = film_shear_t(0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp)
+      unit = warm%viscosity/film%thickness
       do i = 1, size(rule_heights)
-         call relative_viscosity(warm, peak*rule_heights(i), ratio, log_slope)
+         call relative_viscosity(warm, film%peak*rule_heights(i), ratio, log_slope)
          by_rise = change_slope - pressure_fall*log_slope
          ! Roelands: ln(eta/eta_r) is the exponent times a power of the pressure, so both grow by the same factor
          if (warm%pressure_law == law_roelands .and. warm%roelands_exponent > 0.0_wp) then
             by_rise = change_slope*(1.0_wp + log(ratio)/warm%roelands_exponent)
          end if
          rate = unit*ratio
-         stress = rate*sliding_speed
+         stress = rate*film%sliding_speed
          bend = 1.0_wp
-         if (law /= law_newtonian) then
-            reduced = stress/eyring_stress
-            stress = eyring_stress*asinh(reduced)
+         if (film%law /= law_newtonian) then
+            reduced = stress/film%eyring_stress
+            stress = film%eyring_stress*asinh(reduced)
             bend = 1.0_wp/hypot(1.0_wp, reduced)
          end if
          rate = rule_weights(i)*bend*rate
-         force = force + rule_weights(i)*stress
-         slope = slope + rate
-         peak_slope = peak_slope + rate*log_slope
-         rise_slope = rise_slope + rate*by_rise
+         shear%force = shear%force + rule_weights(i)*stress
+         shear%by_speed = shear%by_speed + rate
+         shear%by_peak = shear%by_peak + rate*log_slope
+         shear%by_rise = shear%by_rise + rate*by_rise
       end do
-      force = force*area
-      slope = slope*area
-      peak_slope = peak_slope*area*sliding_speed
-      rise_slope = rise_slope*area*sliding_speed
+      shear%force = shear%force*film%area
+      shear%by_speed = shear%by_speed*film%area
+      shear%by_peak = shear%by_peak*film%area*film%sliding_speed
+      shear%by_rise = shear%by_rise*film%area*film%sliding_speed
    end subroutine sum_shear
 
 end module camroller_conjunction

@@ -82,8 +82,8 @@ contains
       real(wp), intent(out), optional :: change
 
       type(film_shape_t) :: shape
-      ! Film ratio; asperity load and film load over E' R L, change of the first with ln H [-]
-      real(wp) :: film_ratio, asperity_load, film_load, stiffness
+      ! Film ratio [-]
+      real(wp) :: film_ratio
       ! Change that may be the last, the last change [-]
       real(wp) :: last_allowed, last
       logical :: touches, is_part
@@ -104,9 +104,9 @@ contains
       if (is_part) then
          call share_by_regression(line, load, shape, share)
       else if (touches) then
-         call share_with_asperities(line, load, asperity, area, last_allowed, film_ratio, asperity_load, film_load, stiffness, &
-            & last, shape)
-         call complete_share(line, asperity, film_ratio, asperity_load, film_load, stiffness, shape, share)
+         share%shape = shape
+         call share_with_asperities(line, load, asperity, area, last_allowed, film_ratio, share, last)
+         call complete_share(line, asperity, film_ratio, share)
       else
          call film_alone(shape, load, share)
       end if
@@ -170,9 +170,9 @@ contains
       real(wp), intent(in), optional :: coarse
 
       type(film_shape_t) :: shape
-      ! The asperities' function of the film ratio, its derivative; film load over E' R L and its derivative over ln H; asperity
-      ! load; logarithms of the films [-]
-      real(wp) :: value, slope, film_load, film_load_slope, asperity_load, logs(2)
+      ! The asperities' function of the film ratio, its derivative; film load over E' R L and its derivative over ln H; logarithms
+      ! of the films [-]
+      real(wp) :: value, slope, film_load, film_load_slope, logs(2)
 
       change = 0.0_wp
       film_load = 0.0_wp
@@ -191,9 +191,11 @@ contains
          return
       end if
       shape%central = exp(logs(2))*(1.0_wp + shape%central_load_slope*film_load_slope/film_load*change)
-      asperity_load = max(0.0_wp, min(asperity%load_factor*area*value - film_load_slope*change, load))
-      call complete_share(line, asperity, start*(1.0_wp + change), asperity_load, load - asperity_load, -film_load_slope, shape, &
-         & share)
+      share%asperity_load = max(0.0_wp, min(asperity%load_factor*area*value - film_load_slope*change, load))
+      share%film_load = load - share%asperity_load
+      share%stiffness = -film_load_slope
+      share%shape = shape
+      call complete_share(line, asperity, start*(1.0_wp + change), share)
    end subroutine improve_share
 
    !> Load share without asperities within reach.
@@ -219,37 +221,29 @@ contains
       share%shape = shape
    end subroutine film_alone
 
-   !> Load share with asperities: real area and what the slopes need.
-   pure subroutine complete_share(line, asperity, film_ratio, asperity_load, film_load, stiffness, shape, share)
+   !> Load share with asperities whose loads are found: films, real area and what the slopes need.
+   pure subroutine complete_share(line, asperity, film_ratio, share)
       !> Film over the load at the speed of the contact
       type(film_line_t), intent(in) :: line
       !> Asperities
       type(asperity_constants_t), intent(in) :: asperity
       !> Film ratio [-]
       real(wp), intent(in) :: film_ratio
-      !> Asperity load and film load over E' R L, change of the first with ln H [-]
-      real(wp), intent(in) :: asperity_load, film_load, stiffness
-      !> Film there
-      type(film_shape_t), intent(in) :: shape
-      !> Film and load share
-      type(share_t), intent(out) :: share
+      !> In: loads of asperities and film, stiffness and shape; out: everything
+      type(share_t), intent(inout) :: share
 
       ! The area's function of the film ratio with its derivative [-]
       real(wp) :: area_value, area_slope
 
       call asperity_area_function(asperity, film_ratio, area_value, area_slope)
       share%film_min = film_ratio*line%groups%roughness
-      share%film_central = max(shape%central, share%film_min, smallest_film)
-      share%asperity_load = asperity_load
+      share%film_central = max(share%shape%central, share%film_min, smallest_film)
       share%real_area_ratio = asperity%area_factor*area_value
-      share%film_load = film_load
       share%has_asperities = .true.
       share%is_regressed = .false.
       share%by_groups = 0.0_wp
-      share%has_own_central = shape%central >= max(share%film_min, smallest_film)
-      share%stiffness = stiffness
+      share%has_own_central = share%shape%central >= max(share%film_min, smallest_film)
       share%area_stiffness = asperity%area_factor*area_slope*film_ratio
-      share%shape = shape
    end subroutine complete_share
 
    !> How the share follows changes of load over radius, speed and radius; the apparent area is that of a line contact.
@@ -306,8 +300,7 @@ contains
    end function share_change
 
    !> Film ratio at which the asperities carry what the film does not, by Newton's method on logarithms inside a bracket.
-   pure subroutine share_with_asperities(line, load, asperity, area, last_allowed, film_ratio, asperity_load, film_load, &
-      & stiffness, change, shape)
+   pure subroutine share_with_asperities(line, load, asperity, area, last_allowed, film_ratio, share, change)
       !> Film over the load at the speed of the contact
       type(film_line_t), intent(in) :: line
       !> Whole load over E' R L, relative change of the film ratio that may be the last [-]
@@ -319,12 +312,10 @@ contains
       !> In: film ratio to start from, that with the film carrying everything for laws that take the whole load; out: film
       !> ratio [-]
       real(wp), intent(inout) :: film_ratio
-      !> Asperity load and film load over E' R L, change of the first with ln H [-]
-      real(wp), intent(out) :: asperity_load, film_load, stiffness
+      !> In: shape of the film that carries everything; out: loads of asperities and film, stiffness and shape of the film
+      type(share_t), intent(inout) :: share
       !> Last relative change of the film ratio [-]
       real(wp), intent(out) :: change
-      !> In: film that carries everything; out: film
-      type(film_shape_t), intent(inout) :: shape
 
       ! Bracket of the film ratio; logarithms of film ratio, films and roughness [-]
       real(wp) :: low, high, log_ratio, logs(2), log_roughness
@@ -334,53 +325,55 @@ contains
       integer :: iteration
       logical :: has_film
 
-      change = 0.0_wp
-      capacity = asperity%load_factor*area
-      call carry_load(load, asperity, area, film_ratio, asperity_load, film_load, value, slope)
-      stiffness = capacity*slope*film_ratio
-      if (takes_whole_load(line%law)) return
-      if (line%groups%speed <= 0.0_wp .and. asperity_load < load) return
-
-      low = 0.0_wp
-      high = asperity%reach
-      log_ratio = log(max(film_ratio, tiny(film_ratio)))
-      log_roughness = log(line%groups%roughness)
-      do iteration = 1, max_iterations
-         film_load = load - capacity*value
+      associate (film_load => share%film_load, asperity_load => share%asperity_load, shape => share%shape)
          change = 0.0_wp
-         has_film = film_load > 0.0_wp .and. line%groups%speed > 0.0_wp
-         if (has_film) then
-            call log_films_at_load(line, film_load, logs, shape)
-            film_load_slope = -capacity*slope*film_ratio
-            stiffness = -film_load_slope
-            change = (logs(1) - log_ratio - log_roughness)/(1.0_wp - shape%minimum_load_slope*film_load_slope/film_load)
-            if (abs(change) <= max(tolerance, last_allowed*min(1.0_wp, film_load/(ample_film_part*load)))) then
-               film_ratio = film_ratio*(1.0_wp + change)
-               asperity_load = capacity*value - film_load_slope*change
-               call split_load(load, log_ratio + change + log_roughness - logs(1), shape, film_load, asperity_load)
-               shape%central = central_at(logs, log_ratio + change + log_roughness, shape)
-               return
+         capacity = asperity%load_factor*area
+         call carry_load(load, asperity, area, film_ratio, asperity_load, film_load, value, slope)
+         share%stiffness = capacity*slope*film_ratio
+         if (takes_whole_load(line%law)) return
+         if (line%groups%speed <= 0.0_wp .and. asperity_load < load) return
+
+         low = 0.0_wp
+         high = asperity%reach
+         log_ratio = log(max(film_ratio, tiny(film_ratio)))
+         log_roughness = log(line%groups%roughness)
+         do iteration = 1, max_iterations
+            film_load = load - capacity*value
+            change = 0.0_wp
+            has_film = film_load > 0.0_wp .and. line%groups%speed > 0.0_wp
+            if (has_film) then
+               call log_films_at_load(line, film_load, logs, shape)
+               film_load_slope = -capacity*slope*film_ratio
+               share%stiffness = -film_load_slope
+               change = (logs(1) - log_ratio - log_roughness)/(1.0_wp - shape%minimum_load_slope*film_load_slope/film_load)
+               if (abs(change) <= max(tolerance, last_allowed*min(1.0_wp, film_load/(ample_film_part*load)))) then
+                  film_ratio = film_ratio*(1.0_wp + change)
+                  asperity_load = capacity*value - film_load_slope*change
+                  call split_load(load, log_ratio + change + log_roughness - logs(1), shape, film_load, asperity_load)
+                  shape%central = central_at(logs, log_ratio + change + log_roughness, shape)
+                  return
+               end if
             end if
-         end if
-         ! Without a positive film load the film ratio is below the root; at standstill it is above it otherwise
-         if (film_load <= 0.0_wp .or. change > 0.0_wp) then
-            low = max(low, film_ratio)
-         else
-            high = min(high, film_ratio)
-         end if
-         if (high - low <= 4.0_wp*epsilon(1.0_wp)*high) exit
-         log_ratio = log_ratio + change
-         film_ratio = exp(log_ratio)
-         if (.not. has_film .or. film_ratio <= low .or. film_ratio >= high) then
-            film_ratio = low + 0.5_wp*(high - low)
-            log_ratio = log(film_ratio)
-         end if
-         call asperity_load_function(asperity, film_ratio, value, slope)
-      end do
-      change = 0.0_wp
-      film_ratio = high
-      if (has_film) shape%central = central_at(logs, log(film_ratio) + log_roughness, shape)
-      call carry_load(load, asperity, area, film_ratio, asperity_load, film_load, value, slope)
+            ! Without a positive film load the film ratio is below the root; at standstill it is above it otherwise
+            if (film_load <= 0.0_wp .or. change > 0.0_wp) then
+               low = max(low, film_ratio)
+            else
+               high = min(high, film_ratio)
+            end if
+            if (high - low <= 4.0_wp*epsilon(1.0_wp)*high) exit
+            log_ratio = log_ratio + change
+            film_ratio = exp(log_ratio)
+            if (.not. has_film .or. film_ratio <= low .or. film_ratio >= high) then
+               film_ratio = low + 0.5_wp*(high - low)
+               log_ratio = log(film_ratio)
+            end if
+            call asperity_load_function(asperity, film_ratio, value, slope)
+         end do
+         change = 0.0_wp
+         film_ratio = high
+         if (has_film) shape%central = central_at(logs, log(film_ratio) + log_roughness, shape)
+         call carry_load(load, asperity, area, film_ratio, asperity_load, film_load, value, slope)
+      end associate
    end subroutine share_with_asperities
 
    !> Load of the asperities at a film ratio, no more than the whole, and what is left to the film.

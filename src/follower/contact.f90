@@ -17,7 +17,15 @@ module camroller_contact
    implicit none
    private
 
-   public :: solve_contact, prepare_and_solve
+   public :: contact_basis_t, solve_contact, solve_at_speeds
+
+   !> What the slopes of a contact with a load are made of
+   type :: contact_basis_t
+      !> What does not change with the load
+      type(setting_t) :: setting
+      !> What does
+      type(parts_t) :: parts
+   end type contact_basis_t
 
    !> What the friction of the pivot is made of
    type :: hinge_t
@@ -63,29 +71,24 @@ contains
       !> A contact nearby to start from, where it touches
       type(contact_t), intent(in), optional :: start
 
-      type(setting_t) :: setting
-      type(parts_t) :: parts
+      type(contact_basis_t) :: basis
 
-      call prepare_and_solve(model, position, moments, sliding_speed, contact, setting, parts, status, accuracy, mobilised, start)
+      call set_speeds(model, position, sliding_speed, contact)
+      call solve_at_speeds(model, position, moments, contact, basis, status, accuracy, mobilised, start)
    end subroutine solve_contact
 
-   !> Solve the contact and keep what its slopes are made of.
-   pure subroutine prepare_and_solve(model, position, moments, sliding_speed, contact, setting, parts, status, accuracy, &
-      & mobilised, start)
+   !> Solve a contact whose speeds are set (`set_speeds`), and keep what its slopes are made of.
+   pure subroutine solve_at_speeds(model, position, moments, contact, basis, status, accuracy, mobilised, start)
       !> The model
       type(model_t), intent(in) :: model
       !> Geometry at this angle
       type(position_t), intent(in) :: position
       !> Moments about the pivot at this angle
       type(moments_t), intent(in) :: moments
-      !> Sliding speed, V_s [m/s]
-      real(wp), intent(in) :: sliding_speed
-      !> State of the contact
-      type(contact_t), intent(out) :: contact
-      !> What does not change with the load, where there is a load
-      type(setting_t), intent(out) :: setting
+      !> State of the contact; in: its speeds
+      type(contact_t), intent(inout) :: contact
       !> What slopes are made of, where there is a load
-      type(parts_t), intent(out) :: parts
+      type(contact_basis_t), intent(out) :: basis
       !> 0 fine, positive where the balance was not reached
       integer, intent(out) :: status
       !> Relative error of load and forces that is good enough; absent: round-off [-]
@@ -101,7 +104,6 @@ contains
       real(wp) :: change, enough
 
       status = 0
-      call set_speeds(model, position, sliding_speed, contact)
       moment = contact_moment(model, position, moments)
       load = moment/merge(position%normal_arm, position%parallel_arm, model%has_exact_arm)
       if (model%takes_maximum_load) load = max(model%base_circle_load, load)
@@ -112,17 +114,17 @@ contains
       contact%load = load
       enough = 0.0_wp
       if (present(accuracy)) enough = accuracy
-      call prepare_contact(model, position, contact, enough, setting, mobilised)
+      call prepare_contact(model, position, contact, enough, basis%setting, mobilised)
       contact%film_ratio = 0.0_wp
       if (model%is_consistent) then
          if (present(start)) then
             if (start%is_touching) call start_nearby(model, position, moment, start, contact)
          end if
-         call balance_finger(model, position, moments, setting, moment, enough, contact, parts, status)
+         call balance_finger(model, position, moments, moment, enough, contact, basis, status)
       else
-         call evaluate_contact(model, position, setting, load, contact, parts, change)
+         call evaluate_contact(model, position, basis%setting, load, contact, basis%parts, change)
       end if
-   end subroutine prepare_and_solve
+   end subroutine solve_at_speeds
 
    !> Load with the friction of a contact nearby, and its film ratio.
    pure subroutine start_nearby(model, position, moment, nearby, contact)
@@ -153,23 +155,21 @@ contains
    !>
    !> Friction changes the load by a few per cent at most, so the second evaluation is good to about 1e-5 and the third to
    !> 1e-10. Without a load at which friction lets the balance be, contact is lost.
-   pure subroutine balance_finger(model, position, moments, setting, moment, enough, contact, parts, status)
+   pure subroutine balance_finger(model, position, moments, moment, enough, contact, basis, status)
       !> The model
       type(model_t), intent(in) :: model
       !> Geometry at this angle
       type(position_t), intent(in) :: position
       !> Moments about the pivot at this angle
       type(moments_t), intent(in) :: moments
-      !> What does not change with the load
-      type(setting_t), intent(in) :: setting
       !> Moment to be balanced, with the friction of the pivot as it is without load, positive [N m]
       real(wp), intent(in) :: moment
       !> Relative error of load and forces that is good enough [-]
       real(wp), intent(in) :: enough
       !> State of the contact; in: with the load to start from and the film ratio there, or zero
       type(contact_t), intent(inout) :: contact
-      !> What slopes are made of
-      type(parts_t), intent(out) :: parts
+      !> What slopes are made of; in: what does not change with the load
+      type(contact_basis_t), intent(inout) :: basis
       !> 0 fine, positive where the balance was not reached
       integer, intent(out) :: status
 
@@ -185,7 +185,7 @@ contains
       integer :: iteration
 
       status = 0
-      in_use = setting
+      in_use = basis%setting
       load = contact%load
       low = 0.0_wp
       high = huge(1.0_wp)
@@ -193,8 +193,8 @@ contains
       do iteration = 1, max_iterations
          ! A share that is not quite found narrows no bracket: what has taken so long needs all of its figures
          if (iteration > usual_iterations) in_use%coarse = 0.0_wp
-         call evaluate_contact(model, position, in_use, load, contact, parts, change)
-         slopes = follow_contact(model, in_use, contact, parts, motion_t(load=1.0_wp))
+         call evaluate_contact(model, position, in_use, load, contact, basis%parts, change)
+         slopes = follow_contact(model, in_use, contact, basis%parts, motion_t(load=1.0_wp))
          excess = load*position%normal_arm - moment &
             & + model%linkage%sense*(contact%tangential_force*position%tangent_arm + contact%bearing_torque)
          slope = load*position%normal_arm &

@@ -7,7 +7,7 @@
 !> value.
 module camroller_contact_traction
    use camroller_kinds, only : wp
-   use camroller_conjunction, only : flash_resistance, film_resistance, hot_shear
+   use camroller_conjunction, only : sheared_film_t, film_shear_t, flash_resistance, film_resistance, hot_shear
    use camroller_contact_state, only : contact_t, setting_t, parts_t, motion_t
    use camroller_load_share, only : share_change_t
    use camroller_lubricant, only : mean_relative_viscosity
@@ -93,6 +93,7 @@ contains
       real(wp) :: by_free, by_limit
       ! Derivative of the shear before its limit over the rise [N/K]; the limit [N]
       real(wp) :: rise_slope, limit
+      type(film_shear_t) :: hot
 
       limit = model%limiting_coefficient*contact%load
       parts%limit_share = 1.0_wp
@@ -100,8 +101,12 @@ contains
       if (has_hot_film(model)) then
          parts%limit_share = exp(-model%heat%limit_fall*rise)
          limit = limit*parts%limit_share
-         call hot_shear(model%shear_law, model%oil, model%heat%hot, rise, contact%sliding_speed, peak, contact%apparent_area, &
-            & contact%film_central, model%eyring_stress, parts%free_shear, parts%speed_slope, parts%pressure_slope, rise_slope)
+         call hot_shear(sheared_film_t(model%shear_law, contact%sliding_speed, peak, contact%apparent_area, contact%film_central, &
+            & model%eyring_stress), model%oil, model%heat%hot, rise, hot)
+         parts%free_shear = hot%force
+         parts%speed_slope = hot%by_speed
+         parts%pressure_slope = hot%by_peak
+         rise_slope = hot%by_rise
       else if (model%shear_law == law_newtonian) then
          call mean_relative_viscosity(model%oil, peak, viscosity, viscosity_slope)
          parts%speed_slope = newtonian_shear(1.0_wp, model%oil%viscosity*viscosity, contact%apparent_area, contact%film_central)

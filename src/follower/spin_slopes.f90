@@ -9,11 +9,11 @@ module camroller_spin_slopes
    use camroller_kinematics, only : position_t
    use camroller_dynamics, only : moments_t, moment_slope, acceleration_slope
    use camroller_gas, only : gas_force, gas_force_slope
-   use camroller_contact, only : prepare_and_solve
+   use camroller_contact, only : contact_basis_t, solve_at_speeds
    use camroller_dual, only : dual_t
    use camroller_joint_forces, only : finger_moment, finger_moment_slope, has_pivot_friction, set_pivot_forces
    use camroller_pivot_friction, only : pivot_forces_t, pivot_moment, hold_forces
-   use camroller_contact_forces, only : contact_t, setting_t, parts_t, motion_t, slopes_t, follow_contact
+   use camroller_contact_forces, only : contact_t, motion_t, slopes_t, set_speeds, follow_contact
    use camroller_needle_drag, only : drag_torque_slope
    use camroller_roller, only : spin_acceleration
    implicit none
@@ -29,6 +29,18 @@ module camroller_spin_slopes
       !> Its derivatives over the sliding speed [rad/s/m] and, at constant sliding speed, over the cam angle [1/s^2]
       real(wp) :: speed_slope, angle_slope
    end type spin_slopes_t
+
+   !> Changes of forces and torque of a contact at constant load, and with the load
+   type :: changes_t
+      !> With ln(load), sliding speed and cam angle
+      type(slopes_t) :: by_load, by_speed, by_angle
+   end type changes_t
+
+   !> Changes of the moment about the pivot that the contact makes
+   type :: moment_changes_t
+      !> With ln(load) [N m], sliding speed [N s] and cam angle [N m/rad]
+      real(wp) :: by_load, by_speed, by_angle
+   end type moment_changes_t
 
 contains
 
@@ -53,9 +65,8 @@ contains
       !> Mobilised part of the boundary friction; absent: as the sliding speed has it [-]
       real(wp), intent(in), optional :: mobilised
 
-      type(setting_t) :: setting
-      type(parts_t) :: parts
-      type(slopes_t) :: by_load, by_speed, by_angle
+      type(contact_basis_t) :: basis
+      type(changes_t) :: changes
       ! Derivative of the moments' sum over the cam angle [N m/rad]; gas force [N], its derivative over the angle [N/rad]
       real(wp) :: slope, force, gas_slope
       ! Change of the load, its logarithm, over the sliding speed [s/m] and over the cam angle [1/rad]
@@ -65,7 +76,8 @@ contains
          speed_slope = 0.0_wp
          angle_slope = 0.0_wp
          slopes%acceleration = 0.0_wp
-         call prepare_and_solve(model, position, moments, sliding_speed, contact, setting, parts, status, accuracy, mobilised)
+         call set_speeds(model, position, sliding_speed, contact)
+         call solve_at_speeds(model, position, moments, contact, basis, status, accuracy, mobilised)
          if (status /= 0) return
          slopes%acceleration = acceleration_of(model, contact%traction, contact%rolling_resistance, contact%bearing_torque)
          if (.not. contact%is_touching) then
@@ -73,9 +85,9 @@ contains
             return
          end if
 
-         by_load = follow_contact(model, setting, contact, parts, motion_t(load=1.0_wp))
-         by_speed = follow_contact(model, setting, contact, parts, speed_motion(model, contact))
-         by_angle = follow_contact(model, setting, contact, parts, angle_motion(model, position, contact))
+         changes%by_load = follow_contact(model, basis%setting, contact, basis%parts, motion_t(load=1.0_wp))
+         changes%by_speed = follow_contact(model, basis%setting, contact, basis%parts, speed_motion(model, contact))
+         changes%by_angle = follow_contact(model, basis%setting, contact, basis%parts, angle_motion(model, position, contact))
          force = 0.0_wp
          gas_slope = 0.0_wp
          if (allocated(model%gas)) then
@@ -87,7 +99,7 @@ contains
             slope = slope + acceleration_slope(model%train, position, model%speed*model%speed_slope)
          end if
          if (model%is_consistent) then
-            call follow_balance(model, position, moments, contact, slope, by_load, by_speed, by_angle, load_by_speed, load_by_angle)
+            call follow_balance(model, position, moments, contact, slope, changes, load_by_speed, load_by_angle)
          else
             load_by_speed = 0.0_wp
             load_by_angle = slope/finger_moment(model, position, moments)
@@ -98,8 +110,8 @@ contains
             end if
             if (model%takes_maximum_load .and. contact%load <= model%base_circle_load) load_by_angle = 0.0_wp
          end if
-         speed_slope = slope_along(model, by_speed, by_load, load_by_speed)
-         angle_slope = slope_along(model, by_angle, by_load, load_by_angle)
+         speed_slope = slope_along(model, changes%by_speed, changes%by_load, load_by_speed)
+         angle_slope = slope_along(model, changes%by_angle, changes%by_load, load_by_angle)
       end associate
    end subroutine evaluate_spin_slopes
 
@@ -159,8 +171,7 @@ contains
    end function angle_motion
 
    !> How the load follows through `W h_W + sense (T' h_t + T_B) = moment + M_pivot`.
-   pure subroutine follow_balance(model, position, moments, contact, moment_slope, by_load, by_speed, by_angle, load_by_speed, &
-      & load_by_angle)
+   pure subroutine follow_balance(model, position, moments, contact, moment_slope, changes, load_by_speed, load_by_angle)
       !> The model
       type(model_t), intent(in) :: model
       !> Geometry at this angle
@@ -171,31 +182,27 @@ contains
       type(contact_t), intent(in) :: contact
       !> Derivative of their sum over the cam angle [N m/rad]
       real(wp), intent(in) :: moment_slope
-      !> Changes with ln(load), sliding speed and cam angle
-      type(slopes_t), intent(in) :: by_load, by_speed, by_angle
+      !> Changes of forces and torque
+      type(changes_t), intent(in) :: changes
       !> Change of the load, its logarithm, over the sliding speed [s/m] and over the cam angle [1/rad]
       real(wp), intent(out) :: load_by_speed, load_by_angle
 
-      ! Change of the moment that the contact makes, over ln(load) [N m]
-      real(wp) :: stiffness
-      ! Changes of the same over the sliding speed [N s] and over the cam angle [N m/rad]
-      real(wp) :: speed_part, angle_part
+      type(moment_changes_t) :: moment
 
-      stiffness = contact%load*position%normal_arm + model%linkage%sense*(by_load%tangential_force*position%tangent_arm &
-         & + by_load%bearing_torque)
-      speed_part = model%linkage%sense*(by_speed%tangential_force*position%tangent_arm + by_speed%bearing_torque)
-      angle_part = model%linkage%sense*(by_angle%tangential_force*position%tangent_arm &
-         & + contact%tangential_force*position%tangent_arm_slope + by_angle%bearing_torque)
-      if (has_pivot_friction(model)) call follow_pivot(model, position, moments, contact, moment_slope, by_load, by_speed, &
-         & by_angle, stiffness, speed_part, angle_part)
-      load_by_speed = -speed_part/stiffness
+      moment%by_load = contact%load*position%normal_arm + model%linkage%sense*(changes%by_load%tangential_force &
+         & *position%tangent_arm + changes%by_load%bearing_torque)
+      moment%by_speed = model%linkage%sense*(changes%by_speed%tangential_force*position%tangent_arm &
+         & + changes%by_speed%bearing_torque)
+      moment%by_angle = model%linkage%sense*(changes%by_angle%tangential_force*position%tangent_arm &
+         & + contact%tangential_force*position%tangent_arm_slope + changes%by_angle%bearing_torque)
+      if (has_pivot_friction(model)) call follow_pivot(model, position, moments, contact, moment_slope, changes, moment)
+      load_by_speed = -moment%by_speed/moment%by_load
       load_by_angle = (finger_moment_slope(model, position, moments, moment_slope) - contact%load*position%normal_arm_slope &
-         & - angle_part)/stiffness
+         & - moment%by_angle)/moment%by_load
    end subroutine follow_balance
 
    !> Take the friction of the pivot from the changes of the moment that the contact makes.
-   pure subroutine follow_pivot(model, position, moments, contact, moment_slope, by_load, by_speed, by_angle, stiffness, &
-      & speed_part, angle_part)
+   pure subroutine follow_pivot(model, position, moments, contact, moment_slope, changes, moment)
       !> The model
       type(model_t), intent(in) :: model
       !> Geometry at this angle
@@ -206,10 +213,10 @@ contains
       type(contact_t), intent(in) :: contact
       !> Derivative of their sum over the cam angle [N m/rad]
       real(wp), intent(in) :: moment_slope
-      !> Changes with ln(load), sliding speed and cam angle
-      type(slopes_t), intent(in) :: by_load, by_speed, by_angle
-      !> Changes over ln(load) [N m], sliding speed [N s] and cam angle [N m/rad]
-      real(wp), intent(inout) :: stiffness, speed_part, angle_part
+      !> Changes of forces and torque
+      type(changes_t), intent(in) :: changes
+      !> Changes of the moment that the contact makes; out: less the friction of the pivot
+      type(moment_changes_t), intent(inout) :: moment
 
       type(pivot_forces_t) :: forces
       ! Friction of the pivot [N m]
@@ -217,15 +224,15 @@ contains
 
       call set_pivot_forces(model, position, moments, moment_slope, forces)
       friction = pivot_moment(model%joints%pivot, forces, dual_t(contact%load, 0.0_wp), &
-         & dual_t(contact%tangential_force, by_angle%tangential_force))
-      angle_part = angle_part - friction%slope
+         & dual_t(contact%tangential_force, changes%by_angle%tangential_force))
+      moment%by_angle = moment%by_angle - friction%slope
       call hold_forces(forces)
       friction = pivot_moment(model%joints%pivot, forces, dual_t(contact%load, 0.0_wp), &
-         & dual_t(contact%tangential_force, by_speed%tangential_force))
-      speed_part = speed_part - friction%slope
+         & dual_t(contact%tangential_force, changes%by_speed%tangential_force))
+      moment%by_speed = moment%by_speed - friction%slope
       friction = pivot_moment(model%joints%pivot, forces, dual_t(contact%load, contact%load), &
-         & dual_t(contact%tangential_force, by_load%tangential_force))
-      stiffness = stiffness - friction%slope
+         & dual_t(contact%tangential_force, changes%by_load%tangential_force))
+      moment%by_load = moment%by_load - friction%slope
    end subroutine follow_pivot
 
    !> Change of the angular acceleration along a motion with the load that goes with it.

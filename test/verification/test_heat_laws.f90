@@ -4,8 +4,8 @@ module test_heat_laws
    use camroller_kinds, only : wp, two_pi
    use camroller_bessel, only : scaled_bessel_k
    use camroller_error, only : error_t
-   use camroller_conjunction, only : hot_oil_t, body_t, band_t, band_mean, new_band, flash_resistance, film_resistance, &
-      & log_viscosity_change, hot_shear
+   use camroller_conjunction, only : hot_oil_t, body_t, band_t, sheared_film_t, film_shear_t, band_mean, new_band, &
+      & flash_resistance, film_resistance, log_viscosity_change, hot_shear
    use camroller_heat, only : heat_t, heat_part_t, new_heat_part, set_heat_oil, inlet_factor, inlet_law_names, &
       & is_inlet_in_range
    use camroller_lubricant, only : lubricant_t, oil_t, get_oil, pressure_law_names, law_roelands
@@ -249,8 +249,11 @@ contains
          & 700.0_wp]
       ! Half width, film [m]; pressure in the middle [Pa]; limit of the stress [Pa]
       real(wp), parameter :: width = 60.0e-6_wp, film = 0.2e-6_wp, peak = 0.6e9_wp, limit = 0.02_wp*two_pi/2.0_wp*peak
-      ! Rise per flux [m^2 K/W], slopes; stress and its slopes over sliding speed, pressure and rise, at both sides [Pa]
-      real(wp) :: flash, unused, pair(2), stress, slopes(3), beside(2), h
+      ! Rise per flux [m^2 K/W], slopes; stress [Pa]; relative step of the rise [-]
+      real(wp) :: flash, unused, pair(2), stress, h
+      ! Stress on one square metre with its slopes, on both sides
+      type(film_shear_t) :: shear, beside(2)
+      type(sheared_film_t) :: sheared
       type(hot_oil_t) :: hot
       integer :: i, law, k, rows_found
 
@@ -273,14 +276,15 @@ contains
          oil%pressure_law = law
          hot = hot_oil_t(0.045_wp, 1.0_wp/150.0_wp, merge(0.0_wp, 0.002_wp, law == law_roelands))
          associate (shear_law => merge(law_eyring, law_newtonian, rows(1, i) > 0.0_wp), slip => rows(2, i), rise => rows(3, i))
-            call hot_shear(shear_law, oil, hot, rise, slip, peak, 1.0_wp, film, rows(1, i), stress, slopes(1), slopes(2), slopes(3))
+            sheared = sheared_film_t(shear_law, slip, peak, 1.0_wp, film, rows(1, i))
+            call hot_shear(sheared, oil, hot, rise, shear)
+            stress = shear%force
             do k = 1, 2
                h = merge(-1.0e-5_wp, 1.0e-5_wp, k == 1)
-               call hot_shear(shear_law, oil, hot, rise*(1.0_wp + h), slip, peak, 1.0_wp, film, rows(1, i), beside(k), unused, &
-                  & pair(1), pair(2))
+               call hot_shear(sheared, oil, hot, rise*(1.0_wp + h), beside(k))
             end do
             ! rounding of the stress over the step beside the truncation
-            call check_scaled(error, slopes(3)*rise, (beside(2) - beside(1))/2.0e-5_wp, abs(stress), 1.0e-9_wp, &
+            call check_scaled(error, shear%by_rise*rise, (beside(2)%force - beside(1)%force)/2.0e-5_wp, abs(stress), 1.0e-9_wp, &
                & "slope over the rise, "//trim(names(i)))
             if (allocated(error)) return
             call limit_shear(cap_smooth, limit, stress, unused, pair(1))
