@@ -11,9 +11,9 @@ module camroller_c_case
    use camroller_text_file, only : folder_of, read_text_file
    use camroller_deck, only : deck_t, override_t, parse_deck, make_case, add_places
    use camroller_run, only : run_case, build_models
-   use camroller_result, only : result_t, quantity_t, find_quantity, get_series, get_summary
+   use camroller_result, only : result_t, find_quantity, get_series, get_summary
    use camroller_remarks, only : remark_lines
-   use camroller_c_structs, only : give_address
+   use camroller_c_structs, only : give_address, give_quantity
    use camroller_c_texts, only : take_text, give_text, give_error, refuse_null
    implicit none
    private
@@ -362,25 +362,12 @@ contains
          if (number >= count .or. kind < 0 .or. kind > 1) then
             call raise(failure, kind_usage, "the result has no quantity of that number")
          else if (kind == 0) then
-            call give_quantity(given%result%series(number + 1))
+            call give_quantity(given%result%series(number + 1), texts, rooms)
          else
-            call give_quantity(given%result%summary(number + 1))
+            call give_quantity(given%result%summary(number + 1), texts, rooms)
          end if
       end if
       call give_error(failure, error, code)
-
-   contains
-
-      !> Fill the buffers.
-      subroutine give_quantity(quantity)
-         !> The quantity
-         type(quantity_t), intent(in) :: quantity
-
-         call give_text(quantity%name, texts(1), rooms)
-         call give_text(quantity%unit, texts(2), rooms)
-         call give_text(quantity%description, texts(3), rooms)
-      end subroutine give_quantity
-
    end function result_quantity
 
    !> Unit of a series or a scalar by name.

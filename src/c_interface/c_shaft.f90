@@ -5,7 +5,7 @@
 module camroller_c_shaft
    use, intrinsic :: iso_c_binding, only : c_associated, c_double, c_f_pointer, c_int, c_loc, c_null_ptr, c_ptr, c_size_t
    use, intrinsic :: iso_fortran_env, only : int8
-   use camroller_error, only : error_t, raise, kind_usage
+   use camroller_error, only : error_t
    use camroller_case, only : case_t
    use camroller_catalogue, only : list_series, lobe_columns, camshaft_columns
    use camroller_result, only : quantity_t
@@ -15,7 +15,7 @@ module camroller_c_shaft
    use camroller_saved_simulation, only : save_shaft, restore_shaft, shaft_block_size
    use camroller_torque_list, only : of_bearings
    use camroller_c_case, only : case_handle_t
-   use camroller_c_structs, only : listed_torques, take_inputs, refuse_size, give_address
+   use camroller_c_structs, only : listed_torques, take_inputs, refuse_size, give_address, give_bytes
    use camroller_c_texts, only : give_error, refuse_null
    implicit none
    private
@@ -270,7 +270,6 @@ contains
       type(shaft_handle_t), pointer :: given
       type(error_t), allocatable :: failure
       integer(int8), allocatable :: bytes(:)
-      integer(int8), pointer :: letters(:)
 
       call refuse_null(handle, "camroller_shaft", failure)
       call refuse_null(buffer, "buffer", failure)
@@ -278,14 +277,7 @@ contains
          call c_f_pointer(handle, given)
          call save_shaft(given%shaft, bytes, failure)
       end if
-      if (.not. allocated(failure)) then
-         if (room < size(bytes)) then
-            call raise(failure, kind_usage, "the buffer is too small; ask camroller_shaft_save_size")
-         else
-            call c_f_pointer(buffer, letters, [size(bytes)])
-            letters = bytes
-         end if
-      end if
+      if (.not. allocated(failure)) call give_bytes(bytes, buffer, room, "camroller_shaft_save_size", failure)
       call give_error(failure, error, code)
    end function shaft_save
 

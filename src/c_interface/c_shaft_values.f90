@@ -9,8 +9,8 @@ module camroller_c_shaft_values
    use camroller_result, only : quantity_t, find_quantity
    use camroller_shaft_simulation, only : cam_number, cam_place, shaft_values
    use camroller_c_shaft, only : shaft_handle_t
-   use camroller_c_structs, only : check_outcome, give_outcome, refuse_size
-   use camroller_c_texts, only : take_text, give_text, give_error, refuse_null
+   use camroller_c_structs, only : check_outcome, give_outcome, give_quantity, refuse_size
+   use camroller_c_texts, only : take_text, give_error, refuse_null
    implicit none
    private
 
@@ -232,11 +232,7 @@ contains
             quantity = given%of_camshaft(number + 1)
          end if
       end if
-      if (.not. allocated(failure)) then
-         call give_text(quantity%name, texts(1), rooms)
-         call give_text(quantity%unit, texts(2), rooms)
-         call give_text(quantity%description, texts(3), rooms)
-      end if
+      if (.not. allocated(failure)) call give_quantity(quantity, texts, rooms)
       call give_error(failure, error, code)
    end function shaft_quantity
 

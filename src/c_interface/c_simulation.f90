@@ -13,7 +13,7 @@ module camroller_c_simulation
    use camroller_simulation, only : simulation_t, outcome_t, inputs_t, start_simulation, advance, halt, get_point, get_values
    use camroller_saved_simulation, only : save_simulation, restore_simulation, block_size
    use camroller_c_case, only : case_handle_t
-   use camroller_c_structs, only : take_inputs, check_outcome, give_outcome, give_address
+   use camroller_c_structs, only : take_inputs, check_outcome, give_outcome, give_address, give_bytes
    use camroller_c_texts, only : take_text, give_error, refuse_null
    implicit none
    private
@@ -254,20 +254,14 @@ contains
       type(simulation_handle_t), pointer :: given
       type(error_t), allocatable :: failure
       integer(int8), allocatable :: bytes(:)
-      integer(int8), pointer :: letters(:)
 
       call refuse_null(handle, "camroller_simulation", failure)
       call refuse_null(buffer, "buffer", failure)
-      if (.not. allocated(failure) .and. room < block_size) call raise(failure, kind_usage, "the buffer is too small; ask "// &
-         & "camroller_simulation_save_size")
       if (.not. allocated(failure)) then
          call c_f_pointer(handle, given)
          call save_simulation(given%simulation, bytes, failure)
       end if
-      if (.not. allocated(failure)) then
-         call c_f_pointer(buffer, letters, [room])
-         letters(:size(bytes)) = bytes
-      end if
+      if (.not. allocated(failure)) call give_bytes(bytes, buffer, room, "camroller_simulation_save_size", failure)
       call give_error(failure, error, code)
    end function simulation_save
 

@@ -1,15 +1,19 @@
-!> Structs of steps between C and Fortran: inputs of a host, what a step gives.
+!> Structs and buffers between C and Fortran: inputs of a host, what a step gives, names of quantities, saved states.
 !>
 !> In: structs of C, whose `size` the caller sets. Out: types of ours, and back.
 module camroller_c_structs
    use, intrinsic :: iso_c_binding, only : c_associated, c_double, c_f_pointer, c_int, c_null_ptr, c_ptr, c_size_t
+   use, intrinsic :: iso_fortran_env, only : int8
    use camroller_error, only : error_t, raise, kind_usage
+   use camroller_result, only : quantity_t
    use camroller_simulation, only : outcome_t, inputs_t
    use camroller_torque_list, only : of_geometric, of_contact, of_needle, of_guide, of_roller_inertia
+   use camroller_c_texts, only : give_text
    implicit none
    private
 
-   public :: listed_torques, take_inputs, check_outcome, give_outcome, refuse_size, give_address
+   public :: listed_torques, take_inputs, check_outcome, give_outcome, give_quantity, give_bytes, refuse_size, &
+      & give_address
 
    !> Torques in the order of the structs
    integer, parameter :: listed_torques(*) = [of_geometric, of_contact, of_needle, of_guide, of_roller_inertia]
@@ -123,5 +127,42 @@ contains
       given%smallest_film = outcome%extremes%film_min
       given%estimated_error = outcome%estimated_error
    end subroutine give_outcome
+
+   !> Fill a caller's buffers with name, unit and meaning of a quantity.
+   subroutine give_quantity(quantity, texts, room)
+      !> The quantity
+      type(quantity_t), intent(in) :: quantity
+      !> Buffers for name, unit and meaning; NULL takes nothing
+      type(c_ptr), intent(in) :: texts(3)
+      !> Size of each
+      integer(c_size_t), intent(in) :: room
+
+      call give_text(quantity%name, texts(1), room)
+      call give_text(quantity%unit, texts(2), room)
+      call give_text(quantity%description, texts(3), room)
+   end subroutine give_quantity
+
+   !> Fill a caller's buffer with what is saved.
+   subroutine give_bytes(bytes, address, room, asked, error)
+      !> What is saved
+      integer(int8), intent(in) :: bytes(:)
+      !> The buffer
+      type(c_ptr), intent(in) :: address
+      !> Its size
+      integer(c_size_t), intent(in) :: room
+      !> Call that tells the size needed
+      character(len=*), intent(in) :: asked
+      !> Usage error where the buffer is too small
+      type(error_t), allocatable, intent(out) :: error
+
+      integer(int8), pointer :: letters(:)
+
+      if (room < size(bytes)) then
+         call raise(error, kind_usage, "the buffer is too small; ask "//asked)
+      else
+         call c_f_pointer(address, letters, [size(bytes)])
+         letters = bytes
+      end if
+   end subroutine give_bytes
 
 end module camroller_c_structs

@@ -17,7 +17,7 @@ module camroller_lubricant
    public :: lubricant_t, oil_t, temperature_law_names, pressure_law_names
    public :: get_oil, relative_viscosity, log_relative_viscosity, mean_relative_viscosity
    public :: law_barus, law_cameron, law_roelands, law_direct, pressure_limit
-   public :: kinematic_points, density_at
+   public :: density_at
 
    !> Viscosity over temperature
    character(len=*), parameter :: temperature_law_names(*) = [character(len=name_length) :: "direct", "vogel", "walther", &

@@ -19,7 +19,7 @@ module camroller_ehl_reynolds
    implicit none
    private
 
-   public :: ehl_fields_t, new_ehl_fields, evaluate_film, evaluate_oil, evaluate_flow, effective_viscosity, mean_fluidity, storage_t
+   public :: ehl_fields_t, new_ehl_fields, evaluate_film, evaluate_oil, evaluate_flow, mean_fluidity, storage_t
 
    !> Everything at the nodes and between them at a given pressure
    type :: ehl_fields_t

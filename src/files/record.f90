@@ -8,7 +8,7 @@ module camroller_record
    private
 
    public :: record_t, clear_record, put_integer, put_numbers, put_text, take_integer, take_numbers, take_text
-   public :: skip_numbers, set_integer, checksum, text_words
+   public :: set_integer, checksum, text_words
 
    !> Letters of a word
    integer, parameter :: letters_of_word = 8
@@ -163,17 +163,6 @@ contains
       end do
       record%position = record%position + size(numbers)
    end subroutine take_numbers
-
-   !> Leave numbers out.
-   pure subroutine skip_numbers(record, count)
-      !> The record
-      type(record_t), intent(inout) :: record
-      !> How many
-      integer, intent(in) :: count
-
-      record%is_short = record%is_short .or. record%position + count > record%length
-      if (.not. record%is_short) record%position = record%position + count
-   end subroutine skip_numbers
 
    !> Take the next text.
    pure subroutine take_text(record, text)

@@ -8,7 +8,7 @@ module camroller_spring_modes
    implicit none
    private
 
-   public :: spring_surge_t, spring_modes_t, most_modes, new_spring_modes, effective_mass, mode_frequency, valve_pull, &
+   public :: spring_surge_t, spring_modes_t, most_modes, new_spring_modes, effective_mass, valve_pull, &
       & mode_energy, surge_of_harmonic
 
    !> Modes that a spring can have

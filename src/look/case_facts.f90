@@ -17,7 +17,7 @@ module camroller_case_facts
    implicit none
    private
 
-   public :: describe_case, shape_t, get_shape
+   public :: describe_case
 
    !> Step of the cam angle in which geometry is looked at [rad]
    real(wp), parameter :: step = 0.25_wp*degree

@@ -11,7 +11,7 @@ module camroller_ode_problem
    implicit none
    private
 
-   public :: problem_t, linear_t, counters_t, new_linear, copy_linear, linearise_in_two, difference_jacobian, time_increment
+   public :: problem_t, linear_t, counters_t, new_linear, copy_linear, linearise_in_two, time_increment
    public :: words_length
 
    !> Length of a time in words

@@ -9,7 +9,7 @@ module camroller_layout
    implicit none
    private
 
-   public :: layout_t, layout_list_t, layout_of, fits_layout, put_layout, take_layout, join_layouts, places_of
+   public :: layout_t, layout_list_t, layout_of, put_layout, take_layout, join_layouts, places_of
    public :: find_layout, set_layout_at
 
    !> Quantities of a case

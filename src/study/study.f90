@@ -17,7 +17,7 @@ module camroller_study
    implicit none
    private
 
-   public :: way_t, plan_t, plan_for, new_study_table, study_case, study_film, make_reference, check_agreement, list_ways, apply_way
+   public :: way_t, plan_t, plan_for, new_study_table, study_case, study_film, check_agreement, list_ways, apply_way
    public :: dial_reference
 
    !> A way to compute a case
