@@ -442,7 +442,7 @@ contains
       call add_group(schema, "numerics", group_standard, "how the roller's spin is integrated")
       call add_number(schema, "accuracy", range_t(1.0e-10_wp, 0.1_wp), &
          & "largest error of the sliding speed relative to its largest value (at least 1e-5 of the largest speed in pure "// &
-         & "rolling), and of the mean of each loss relative to that mean", &
+         & "rolling), of each mean relative to its mean magnitude, of smallest and largest values relative to their range", &
          & default=standard%numerics%accuracy)
       call add_name(schema, "method", method_choices, standard%numerics%method, "integration method; 'automatic' takes "// &
          & "the one with the least work")
