@@ -79,7 +79,7 @@ audit: build ## influence and cost of each effect of decks/thesis.nml: tables an
 	$(PYTHON) post/plot_audit.py results/thesis_audit.h5 --output doc/figures --name thesis_effects
 	$(PYTHON) post/plot_audit.py results/thesis_audit.h5 --table
 
-trends: build ## which measured trends come out over the ranges of unknown coefficients: doc/trends.md and its figure, one minute
+trends: build ## which measured trends the model reproduces over the ranges of uncertain coefficients: doc/trends.md and its figure, one minute
 	@mkdir -p results
 	$(PYTHON) post/trends.py --cases results/trends
 	build/release/bin/camroller sweep results/trends/trends.nml -o results/trends/trends.h5 --quiet

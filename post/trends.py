@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Compare measured trends of roller valve trains with what the model gives over the ranges of coefficients that nobody knows.
+"""Compare measured trends of roller valve trains with what the model gives over the plausible ranges of uncertain coefficients.
 
     python post/trends.py --cases FOLDER         writes FOLDER/trends.nml and FOLDER/cases.txt, the cases to run
     python post/trends.py FILE.h5 --page doc/trends.md --figure doc/figures/trends.png
@@ -180,26 +180,26 @@ def read_data(path):
 def page(data):
     """The page in Markdown."""
     lines = ["# Measured trends", "",
-             "Made by `make trends` (`post/trends.py`); nothing is fitted. Which trends that others measured on roller valve",
-             "trains come out of the model, for which part of the coefficients that nobody knows. The rigs differ from the train computed here, so",
-             "trends are compared, not numbers.", "",
-             f"{SAMPLES} sets of coefficients, spread evenly over the ranges below, each at nine points: 300, 600 and 900 rev/min of the camshaft, oil at 25,",
-             "60 and 95 °C. All else is as in `decks/sliding_joints.nml`, with the film law `moes` and drag of the needles.", "",
-             "| coefficient | from | to | why |", "|---|---|---|---|"]
+             "Trends that others measured on roller valve trains, and for what fraction of the plausible coefficients the model reproduces them. Trends are",
+             "compared and not numbers, because the rigs differ from the train computed here. Nothing is fitted. `make trends` (`post/trends.py`) makes",
+             "this page.", "",
+             f"There are {SAMPLES} sets of coefficients, distributed uniformly over the ranges below. Each is computed at nine points: 300, 600 and 900 rev/min of the",
+             "camshaft, oil at 25, 60 and 95 °C. All other values are those of `decks/sliding_joints.nml`, with the film law `moes` and drag of the needles.", "",
+             "| coefficient | from | to | range |", "|---|---|---|---|"]
     for key, low, high, is_ratio, why in RANGES:
-        lines.append(f"| {label(key)} | {low:g} | {high:g} | {why}{'; equal ratios' if is_ratio else ''} |")
-    lines += ["", "## What comes out", "", "| source | trend | samples that show it | where they lie (middle 80 %) |", "|---|---|---|---|"]
+        lines.append(f"| {label(key)} | {low:g} | {high:g} | {why}{'; logarithmic' if is_ratio else ''} |")
+    lines += ["", "## Results", "", "| source | trend | sets that show it | their coefficients, as far as they differ from the others (middle 80 %) |", "|---|---|---|---|"]
     for source, trend, shown in find_trends(data):
         lines.append(f"| {source} | {trend} | {100 * shown.mean():.0f} % | {where_it_lies(shown)} |")
-    lines += ["", "| source | trend over the samples | rank correlation |", "|---|---|---|"]
+    lines += ["", "| source | trend over the sets | rank correlation |", "|---|---|---|"]
     for source, trend, value in find_monotonies(data):
         lines.append(f"| {source} | {trend} | {value:+.2f} |")
     lines += ["", "![Friction torque over oil temperature](figures/trends.png)", "",
-              "*Mean friction torque without camshaft bearings over the oil's temperature, every sample a line; orange where it rises from 60 to",
-              "95 °C.*", "", "## What is not compared", "",
-              "- Flash temperature (Umar, Mufti and Khurram 2018), tribofilms, slip of a start-up (Li and others 2023): the model has none of these.",
+              "*Mean friction torque without camshaft bearings over the oil temperature, one line for each set; orange if it rises from 60 to",
+              "95 °C.*", "", "## Trends that are not compared", "",
+              "- Flash temperature (Umar, Mufti and Khurram 2018), tribofilms, slip during a start-up (Li and others 2023): not in the model.",
               "- Axial thrust of the roller (Duffy 1993): the contact is a line without tilt.",
-              "- A pin in the place of needles, and rolling friction as the main loss of the contact (Alakhramsing 2018): the pin has no film here.",
+              "- A plain pin in place of needles, and rolling friction as the main loss of the contact (Alakhramsing 2018): the pin has no film here.",
               "", "## Sources", "",
               "- Bair, S., Griffioen, J. A. and Winer, W. O. (1986): J. Tribology 108, 478.",
               "- Bhutta, M. U. and others (2023): Materials 16, 3431.",
