@@ -273,22 +273,23 @@ contains
 
       ! Viscosity over film thickness [Pa s/m], at a point; over the Eyring stress [s/m]; what the shear law makes of its slope [-]
       real(wp) :: unit, rate, reduced, bend
-      ! Viscosity ratio at a point, its logarithmic slope [-]; derivative of ln(viscosity) there over the rise [1/K]
-      real(wp) :: ratio, log_slope, by_rise
+      ! Viscosity ratios at the points of the rule, their logarithmic slopes [-]; derivative of ln(viscosity) at a point over the
+      ! rise [1/K]
+      real(wp) :: ratios(size(rule_heights)), log_slopes(size(rule_heights)), by_rise
       ! Stress at a point [Pa]
       real(wp) :: stress
       integer :: i
 
       shear = film_shear_t(0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp)
       unit = warm%viscosity/film%thickness
+      call relative_viscosity(warm, film%peak*rule_heights, ratios, log_slopes)
       do i = 1, size(rule_heights)
-         call relative_viscosity(warm, film%peak*rule_heights(i), ratio, log_slope)
-         by_rise = change_slope - pressure_fall*log_slope
+         by_rise = change_slope - pressure_fall*log_slopes(i)
          ! Roelands: ln(eta/eta_r) is the exponent times a power of the pressure, so both grow by the same factor
          if (warm%pressure_law == law_roelands .and. warm%roelands_exponent > 0.0_wp) then
-            by_rise = change_slope*(1.0_wp + log(ratio)/warm%roelands_exponent)
+            by_rise = change_slope*(1.0_wp + log(ratios(i))/warm%roelands_exponent)
          end if
-         rate = unit*ratio
+         rate = unit*ratios(i)
          stress = rate*film%sliding_speed
          bend = 1.0_wp
          if (film%law /= law_newtonian) then
@@ -299,7 +300,7 @@ contains
          rate = rule_weights(i)*bend*rate
          shear%force = shear%force + rule_weights(i)*stress
          shear%by_speed = shear%by_speed + rate
-         shear%by_peak = shear%by_peak + rate*log_slope
+         shear%by_peak = shear%by_peak + rate*log_slopes(i)
          shear%by_rise = shear%by_rise + rate*by_rise
       end do
       shear%force = shear%force*film%area

@@ -396,44 +396,43 @@ contains
       !> Film thickness and its slopes
       type(film_shape_t), intent(out) :: shape
 
-      ! Moes' numbers: load M, lubricant L [-]
-      real(wp) :: m, l
-      ! Asymptotes: rigid and elastic, isoviscous (R, E) and piezoviscous (P, Q) [-]
-      real(wp) :: rigid, elastic, rigid_piezo, elastic_piezo
-      ! Exponent s, and E/R [-]
-      real(wp) :: s, ratio
-      ! Isoviscous and piezoviscous branch, each to the power 1 in H [-]
-      real(wp) :: iso, piezo
+      ! Logarithms of M and L, of the asymptotes R and Q, of E/R and Q/P [-]
+      real(wp) :: log_m, log_l, log_rigid, log_elastic_piezo, log_ratio, log_piezo_ratio
+      ! Exponent s; E/R, also to the power 7/3 [-]
+      real(wp) :: s, ratio, power
+      ! Logarithms of the isoviscous and the piezoviscous branch, each to the power 1 in H [-]
+      real(wp) :: log_iso, log_piezo
       ! Shares of the branches and of the asymptotes in them [-]
       real(wp) :: iso_share, elastic_share, elastic_piezo_share
       ! d ln/d ln M and d ln/d ln L of the film; d s/d ln M [-]
       real(wp) :: slope_m, slope_l, s_slope
-      ! Film in Moes' units [-]
-      real(wp) :: film
+      ! Logarithm of the film in Moes' units [-]
+      real(wp) :: log_film
       ! Dip of the minimum film and its slope with ln M [-]
       real(wp) :: dip, dip_slope
 
-      m = groups%load/sqrt(2.0_wp*groups%speed)
-      l = groups%material*sqrt(sqrt(2.0_wp*groups%speed))
-      rigid = 3.0_wp/m
-      elastic = 2.621_wp*m**(-0.2_wp)
-      rigid_piezo = 1.287_wp*l**(2.0_wp/3.0_wp)
-      elastic_piezo = 1.311_wp*m**(-0.125_wp)*l**0.75_wp
-      ratio = elastic/rigid
+      log_m = log(groups%load/sqrt(2.0_wp*groups%speed))
+      log_l = log(groups%material*sqrt(sqrt(2.0_wp*groups%speed)))
+      log_rigid = log(3.0_wp) - log_m
+      log_elastic_piezo = log(1.311_wp) - 0.125_wp*log_m + 0.75_wp*log_l
+      log_ratio = log(2.621_wp/3.0_wp) + 0.8_wp*log_m
+      log_piezo_ratio = log_elastic_piezo - log(1.287_wp) - 2.0_wp/3.0_wp*log_l
+      ratio = exp(log_ratio)
+      power = exp(7.0_wp/3.0_wp*log_ratio)
       s = 0.2_wp*(7.0_wp + 8.0_wp*exp(-2.0_wp*ratio))
       s_slope = -1.6_wp*exp(-2.0_wp*ratio)*2.0_wp*0.8_wp*ratio
 
-      elastic_share = 1.0_wp/(1.0_wp + ratio**(-7.0_wp/3.0_wp))
-      iso = rigid*(1.0_wp + ratio**(7.0_wp/3.0_wp))**(3.0_wp/7.0_wp)
-      elastic_piezo_share = 1.0_wp/(1.0_wp + (elastic_piezo/rigid_piezo)**3.5_wp)
-      piezo = elastic_piezo*elastic_piezo_share**(2.0_wp/7.0_wp)
-      iso_share = 1.0_wp/(1.0_wp + (piezo/iso)**s)
-      film = iso*iso_share**(-1.0_wp/s)
+      elastic_share = power/(1.0_wp + power)
+      log_iso = log_rigid + 3.0_wp/7.0_wp*log(1.0_wp + power)
+      elastic_piezo_share = 1.0_wp/(1.0_wp + exp(3.5_wp*log_piezo_ratio))
+      log_piezo = log_elastic_piezo + 2.0_wp/7.0_wp*log(elastic_piezo_share)
+      iso_share = 1.0_wp/(1.0_wp + exp(s*(log_piezo - log_iso)))
+      log_film = log_iso - log(iso_share)/s
 
       slope_m = iso_share*(-1.0_wp + 0.8_wp*elastic_share) + (1.0_wp - iso_share)*(-0.125_wp*elastic_piezo_share) &
-         & + s_slope/s*(iso_share*log(iso) + (1.0_wp - iso_share)*log(piezo) - log(film))
+         & + s_slope/s*(iso_share*log_iso + (1.0_wp - iso_share)*log_piezo - log_film)
       slope_l = (1.0_wp - iso_share)*(0.75_wp*elastic_piezo_share + 2.0_wp/3.0_wp*(1.0_wp - elastic_piezo_share))
-      shape%central = film*sqrt(2.0_wp*groups%speed)
+      shape%central = exp(log_film)*sqrt(2.0_wp*groups%speed)
       shape%central_load_slope = slope_m
       shape%central_speed_slope = 0.5_wp - 0.5_wp*slope_m + 0.25_wp*slope_l
 

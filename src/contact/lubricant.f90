@@ -398,13 +398,11 @@ contains
       real(wp), intent(out) :: log_slope
 
       integer :: i
-      ! alpha p0; derivative of the mean over it; viscosity ratio at a point and its logarithmic slope [-]
-      real(wp) :: exponent, derivative, ratio, point_slope
+      ! alpha p0; viscosity ratios at the points of the rule and their logarithmic slopes [-]
+      real(wp) :: exponent, ratios(size(rule_heights)), slopes(size(rule_heights))
       ! Square of alpha p0; polynomials of its even and odd powers, with each term times its power [-]
       real(wp) :: square, even, odd, even_slope, odd_slope
 
-      mean = 0.0_wp
-      derivative = 0.0_wp
       if (oil%pressure_law == law_cameron) then
          exponent = oil%pressure_viscosity*peak
          square = exponent**2
@@ -423,12 +421,9 @@ contains
          log_slope = (even_slope + exponent*odd_slope)/mean
          return
       end if
-      do i = 1, size(rule_heights)
-         call relative_viscosity(oil, peak*rule_heights(i), ratio, point_slope)
-         mean = mean + rule_weights(i)*ratio
-         derivative = derivative + rule_weights(i)*ratio*point_slope
-      end do
-      log_slope = derivative/mean
+      call relative_viscosity(oil, peak*rule_heights, ratios, slopes)
+      mean = sum(rule_weights*ratios)
+      log_slope = sum(rule_weights*ratios*slopes)/mean
    end subroutine mean_relative_viscosity
 
    !> Viscosity at a pressure over that at ambient pressure, and its logarithmic slope.
@@ -438,29 +433,34 @@ contains
    pure subroutine relative_viscosity(oil, pressure, ratio, log_slope)
       !> Oil at its temperature
       type(oil_t), intent(in) :: oil
-      !> Pressure above ambient [Pa]
-      real(wp), intent(in) :: pressure
-      !> Viscosity ratio [-]
-      real(wp), intent(out) :: ratio
+      !> Pressures above ambient [Pa]
+      real(wp), contiguous, intent(in) :: pressure(:)
+      !> Viscosity ratios [-]
+      real(wp), contiguous, intent(out) :: ratio(:)
       !> d ln(ratio)/d ln(pressure) [-]
-      real(wp), intent(out) :: log_slope
+      real(wp), contiguous, intent(out) :: log_slope(:)
 
       ! Base of the power in Cameron's and in Roelands' law; the latter's power [-]
       real(wp) :: base, power
+      integer :: i
 
       select case (oil%pressure_law)
       case (law_barus)
          log_slope = oil%pressure_viscosity*pressure
          ratio = exp(min(log_slope, largest_exponent))
       case (law_cameron)
-         base = 1.0_wp + oil%pressure_viscosity*pressure/cameron_power
-         ratio = base**cameron_power
-         log_slope = oil%pressure_viscosity*pressure/base
+         do i = 1, size(pressure)
+            base = 1.0_wp + oil%pressure_viscosity*pressure(i)/cameron_power
+            ratio(i) = base**cameron_power
+            log_slope(i) = oil%pressure_viscosity*pressure(i)/base
+         end do
       case default
-         base = 1.0_wp + pressure/roelands_pressure
-         power = base**oil%roelands_index
-         ratio = exp(min(oil%roelands_exponent*(power - 1.0_wp), largest_exponent))
-         log_slope = oil%roelands_exponent*oil%roelands_index*power*(1.0_wp - 1.0_wp/base)
+         do i = 1, size(pressure)
+            base = 1.0_wp + pressure(i)/roelands_pressure
+            power = base**oil%roelands_index
+            ratio(i) = exp(min(oil%roelands_exponent*(power - 1.0_wp), largest_exponent))
+            log_slope(i) = oil%roelands_exponent*oil%roelands_index*power*(1.0_wp - 1.0_wp/base)
+         end do
       end select
    end subroutine relative_viscosity
 

@@ -99,59 +99,51 @@ contains
       !> d force/d ln(peak) at constant film [N]
       real(wp), intent(out) :: peak_slope
 
-      ! eta/(h_c tau_E) at a point, and over the viscosity ratio there [s/m]
-      real(wp) :: rate, unit_rate
-      ! Viscosity ratio at a point, its logarithmic slope; size of the argument of asinh, its asinh and hypot(1, it) [-]
-      real(wp) :: ratio, log_slope, x, stress, root
-      ! Slope of asinh over the sliding speed [s/m]
-      real(wp) :: bend
-      integer :: i
+      ! eta/(h_c tau_E) at the points of the rule; slopes of asinh over the sliding speed, weighted [s/m]
+      real(wp), dimension(size(rule_heights)) :: rates, bends
+      ! Viscosity ratios there, their logarithmic slopes; sizes of the arguments of asinh, their asinh and hypot(1, they) [-]
+      real(wp), dimension(size(rule_heights)) :: ratios, log_slopes, x, stresses, roots
 
-      force = 0.0_wp
-      slope = 0.0_wp
-      peak_slope = 0.0_wp
-      unit_rate = oil%viscosity/(film*eyring_stress)
-      do i = 1, size(rule_heights)
-         call relative_viscosity(oil, peak*rule_heights(i), ratio, log_slope)
-         rate = unit_rate*ratio
-         x = abs(rate*sliding_speed)
-         call stress_and_root(x, stress, root)
-         bend = rate/root
-         force = force + rule_weights(i)*stress
-         slope = slope + rule_weights(i)*bend
-         peak_slope = peak_slope + rule_weights(i)*bend*sliding_speed*log_slope
-      end do
-      force = sign(force*area*eyring_stress, sliding_speed)
-      slope = slope*area*eyring_stress
-      peak_slope = peak_slope*area*eyring_stress
+      call relative_viscosity(oil, peak*rule_heights, ratios, log_slopes)
+      rates = oil%viscosity/(film*eyring_stress)*ratios
+      x = abs(rates*sliding_speed)
+      call stresses_and_roots(x, stresses, roots)
+      bends = rule_weights*rates/roots
+      force = sign(sum(rule_weights*stresses)*area*eyring_stress, sliding_speed)
+      slope = sum(bends)*area*eyring_stress
+      peak_slope = sum(bends*log_slopes)*sliding_speed*area*eyring_stress
    end subroutine eyring_shear
 
-   !> asinh(x) and sqrt(1 + x^2), both to round-off, at the cost of one root and one logarithm.
-   elemental subroutine stress_and_root(x, stress, root)
-      !> Argument, not negative [-]
-      real(wp), intent(in) :: x
-      !> asinh(x) [-]
-      real(wp), intent(out) :: stress
-      !> sqrt(1 + x^2) [-]
-      real(wp), intent(out) :: root
+   !> asinh(x) and sqrt(1 + x^2), both to round-off, at the cost of one root and one logarithm each. No branch depends on one x, so
+   !> that compilers can take several at once.
+   pure subroutine stresses_and_roots(x, stresses, roots)
+      !> Arguments, not negative [-]
+      real(wp), contiguous, intent(in) :: x(:)
+      !> asinh(x), sqrt(1 + x^2) [-]
+      real(wp), contiguous, intent(out) :: stresses(:), roots(:)
 
       ! Argument from which on x + sqrt(1 + x^2) is 2 x to round-off [-]
       real(wp), parameter :: large = 1.0e9_wp
       ! exp(asinh(x)) - 1, and 1 more as it is rounded [-]
       real(wp) :: excess, rounded
+      ! x, up to `large` [-]
+      real(wp) :: held
+      integer :: i
 
-      if (x > large) then
-         root = x
-         stress = log(x) + log(2.0_wp)
-         return
-      end if
-      root = sqrt(1.0_wp + x**2)
-      excess = x + x**2/(1.0_wp + root)
-      rounded = 1.0_wp + excess
-      ! ln(1 + e) as ln(r) e/(r - 1), in which the rounding of r = 1 + e cancels (Kahan)
-      stress = excess
-      if (rounded > 1.0_wp) stress = log(rounded)*excess/(rounded - 1.0_wp)
-   end subroutine stress_and_root
+      do i = 1, size(x)
+         held = min(x(i), large)
+         roots(i) = sqrt(1.0_wp + held**2)
+         excess = held + held**2/(1.0_wp + roots(i))
+         rounded = 1.0_wp + excess
+         ! ln(1 + e) as ln(r) + (e - (r - 1))/r, in which the rounding of r = 1 + e cancels to its square
+         stresses(i) = log(rounded) + (excess - (rounded - 1.0_wp))/rounded
+      end do
+      if (all(x <= large)) return
+      where (x > large)
+         roots = x
+         stresses = log(x) + log(2.0_wp)
+      end where
+   end subroutine stresses_and_roots
 
    !> Shear in series with a slip that is not resolved: the sliding speed that a force needs grows by at most about `resolution`.
    !>

@@ -258,41 +258,41 @@ contains
    subroutine test_pressure_laws(error)
       type(error_type), allocatable, intent(out) :: error
       type(oil_t) :: oil
-      real(wp) :: ratio, slope
+      real(wp) :: ratio(1), slope(1)
       ! alpha p = 11 at 0.5 GPa [-]
       real(wp), parameter :: pressure = 0.5e9_wp, exponent = 11.0_wp
 
       call make_oil(law_barus, oil)
-      call relative_viscosity(oil, pressure, ratio, slope)
-      call check(error, ratio, exp(exponent), thr=roundings, rel=.true.)
+      call relative_viscosity(oil, [pressure], ratio, slope)
+      call check(error, ratio(1), exp(exponent), thr=roundings, rel=.true.)
       if (allocated(error)) return
       call make_oil(law_cameron, oil)
-      call relative_viscosity(oil, pressure, ratio, slope)
-      call check(error, ratio, (27.0_wp/16.0_wp)**16, thr=roundings, rel=.true.)
+      call relative_viscosity(oil, [pressure], ratio, slope)
+      call check(error, ratio(1), (27.0_wp/16.0_wp)**16, thr=roundings, rel=.true.)
       if (allocated(error)) return
       call make_oil(law_roelands, oil)
-      call relative_viscosity(oil, pressure, ratio, slope)
+      call relative_viscosity(oil, [pressure], ratio, slope)
       ! Z = alpha/(5.1e-9 (ln 0.0305 + 9.67)) = 0.69802, (1 + 2.55)^Z = 2.42119
       call check(error, oil%roelands_index, 0.69802_wp, thr=0.5e-5_wp)
       if (allocated(error)) return
-      call check(error, log(ratio), (log(0.0305_wp) + 9.67_wp)*(3.55_wp**oil%roelands_index - 1.0_wp), thr=roundings, rel=.true.)
+      call check(error, log(ratio(1)), (log(0.0305_wp) + 9.67_wp)*(3.55_wp**oil%roelands_index - 1.0_wp), thr=roundings, rel=.true.)
    end subroutine test_pressure_laws
 
    subroutine test_initial_slope(error)
       type(error_type), allocatable, intent(out) :: error
       type(oil_t) :: oil
-      real(wp) :: ratio, slope
+      real(wp) :: ratio(1), slope(1)
       real(wp), parameter :: pressure = 10.0_wp
       integer :: law
 
       do law = 1, size(pressure_law_names)
          call make_oil(law, oil)
-         call relative_viscosity(oil, 0.0_wp, ratio, slope)
-         call check(error, ratio, 1.0_wp, thr=roundings)
+         call relative_viscosity(oil, [0.0_wp], ratio, slope)
+         call check(error, ratio(1), 1.0_wp, thr=roundings)
          if (allocated(error)) return
          ! ln(ratio) = alpha p (1 + O(p/p_r)): 10 Pa over 196 MPa leaves 1e-7, and the logarithm of 1 + 2e-7 loses 1e-9
-         call relative_viscosity(oil, pressure, ratio, slope)
-         call check(error, log(ratio), oil%pressure_viscosity*pressure, thr=1.0e-7_wp, rel=.true.)
+         call relative_viscosity(oil, [pressure], ratio, slope)
+         call check(error, log(ratio(1)), oil%pressure_viscosity*pressure, thr=1.0e-7_wp, rel=.true.)
          if (allocated(error)) return
       end do
    end subroutine test_initial_slope
@@ -317,10 +317,10 @@ contains
       class(profile_t), intent(in) :: self
       real(wp), intent(in) :: x
       real(wp) :: f
-      real(wp) :: ratio, slope
+      real(wp) :: ratio(1), slope(1)
 
-      call relative_viscosity(self%oil, self%peak*cos(x), ratio, slope)
-      f = ratio*cos(x)
+      call relative_viscosity(self%oil, [self%peak*cos(x)], ratio, slope)
+      f = ratio(1)*cos(x)
    end function profile_value
 
    subroutine test_mean(error)

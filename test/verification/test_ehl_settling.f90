@@ -92,7 +92,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(oil_t) :: oil
       ! ln of the viscosity ratio and its slope [-], [1/Pa]; the same by the ratio; values on either side, distance of both [Pa]
-      real(wp) :: value, slope, ratio, log_slope, sides(2), unused
+      real(wp) :: value, slope, ratio(1), log_slope(1), sides(2), unused
       real(wp), parameter :: distance = 1.0e3_wp
       integer :: law
 
@@ -102,9 +102,9 @@ contains
       do law = law_barus, law_roelands
          oil%pressure_law = law
          call log_relative_viscosity(oil, 4.0e8_wp, value, slope)
-         call relative_viscosity(oil, 4.0e8_wp, ratio, log_slope)
-         call check_close(error, value, log(ratio), 100.0_wp*epsilon(1.0_wp), "logarithm")
-         if (.not. allocated(error)) call check_close(error, slope*4.0e8_wp, log_slope, 100.0_wp*epsilon(1.0_wp), "slope")
+         call relative_viscosity(oil, [4.0e8_wp], ratio, log_slope)
+         call check_close(error, value, log(ratio(1)), 100.0_wp*epsilon(1.0_wp), "logarithm")
+         if (.not. allocated(error)) call check_close(error, slope*4.0e8_wp, log_slope(1), 100.0_wp*epsilon(1.0_wp), "slope")
          if (allocated(error)) return
          ! A hundred times as high: a viscosity that no number holds by Barus' law
          call log_relative_viscosity(oil, 4.0e10_wp, value, slope)

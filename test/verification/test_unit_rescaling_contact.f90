@@ -104,8 +104,8 @@ contains
          do k = 1, 2
             call sample_oil("direct", pressure_laws(k), units_t(1.0_wp, 1.0_wp, 1.0_wp, 1.0_wp), oil)
             call sample_oil("direct", pressure_laws(k), u, oil_in_units)
-            call relative_viscosity(oil, 4.0e8_wp, f(1), f(2))
-            call relative_viscosity(oil_in_units, scaled(u, 4.0e8_wp, pressure), g(1), g(2))
+            call relative_viscosity(oil, [4.0e8_wp], f(1:1), f(2:2))
+            call relative_viscosity(oil_in_units, [scaled(u, 4.0e8_wp, pressure)], g(1:1), g(2:2))
             call compare(error, "relative viscosity", u, number, f, g)
             if (allocated(error)) return
             call mean_relative_viscosity(oil, 6.0e8_wp, f(1), f(2))
@@ -277,8 +277,8 @@ contains
 
       call sample_oil("direct", "roelands", si, oil)
       call sample_oil("direct", "roelands", u, oil_in_units)
-      call relative_viscosity(oil, 4.0e8_wp, f(1), f(2))
-      call relative_viscosity(oil_in_units, scaled(u, 4.0e8_wp, pressure), g(1), g(2))
+      call relative_viscosity(oil, [4.0e8_wp], f(1:1), f(2:2))
+      call relative_viscosity(oil_in_units, [scaled(u, 4.0e8_wp, pressure)], g(1:1), g(2:2))
       call compare(expected, "Roelands", u, number, f, g, round_off=1.0e12_wp)
       call check(error, allocated(expected), "the reference pressure of Roelands' law is not noticed")
       if (allocated(error)) return
