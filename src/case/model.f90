@@ -27,7 +27,7 @@ module camroller_model
    use camroller_traction, only : shear_law_names, cap_names, rolling_law_names
    use camroller_heat, only : heat_part_t, new_heat_part, set_heat_oil
    use camroller_needle, only : bearing_part_t, new_bearing_part
-   use camroller_needle_drag, only : drag_part_t, new_drag_part, set_drag_oil
+   use camroller_needle_drag, only : drag_part_t, new_drag_part, set_drag_oil, set_drag_speed
    use camroller_guide, only : guide_drag_coefficient
    use camroller_joints, only : joints_t, set_joint_oil
    use camroller_joint_setup, only : set_joints
@@ -36,7 +36,7 @@ module camroller_model
    implicit none
    private
 
-   public :: model_t, new_model, revise_model, set_operating_point, evaluate_geometry
+   public :: model_t, new_model, revise_model, set_operating_point, set_speed, evaluate_geometry
 
    !> A model of one lobe and its follower
    type :: model_t
@@ -202,19 +202,29 @@ contains
          call raise(error, kind_deck, "operating point: the oil temperature must be finite and above -273.15 degC, 0 K")
       end if
       if (allocated(error)) return
-      model%speed = speed
+      call set_speed(model, speed)
       call get_oil(model%lubricant, oil_temperature, model%oil, error)
       if (allocated(error)) return
       if (allocated(model%guide_drag)) model%guide_drag = model%guide_factor*model%oil%viscosity
       if (allocated(model%joints)) call set_joint_oil(model%joints, model%oil%viscosity)
       if (allocated(model%flexible)) call set_oil(model%flexible, model%oil%viscosity)
-      if (allocated(model%bearing)) model%bearing%reversal_spin = model%bearing%reversal_ratio*speed
-      if (allocated(model%drag)) call set_drag_oil(model%drag, model%oil%viscosity/density_at(model%lubricant, oil_temperature), &
-         & speed)
+      if (allocated(model%drag)) call set_drag_oil(model%drag, model%oil%viscosity/density_at(model%lubricant, oil_temperature))
       if (allocated(model%heat)) call set_heat_oil(model%heat, model%lubricant, oil_temperature, model%oil, error)
       if (allocated(error)) return
       if (allocated(model%ehl)) call set_film_table(model, error)
    end subroutine set_operating_point
+
+   !> Speed alone, with the oil as it is. Films solved beforehand stay.
+   pure subroutine set_speed(model, speed)
+      !> The model
+      type(model_t), intent(inout) :: model
+      !> Cam speed, above zero [rad/s]
+      real(wp), intent(in) :: speed
+
+      model%speed = speed
+      if (allocated(model%bearing)) model%bearing%reversal_spin = model%bearing%reversal_ratio*speed
+      if (allocated(model%drag)) call set_drag_speed(model%drag, speed)
+   end subroutine set_speed
 
    !> Films for every speed and load that the cycle may have.
    subroutine set_film_table(model, error)

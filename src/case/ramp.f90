@@ -6,7 +6,7 @@ module camroller_ramp
    use camroller_kinds, only : wp
    use camroller_error, only : error_t
    use camroller_ehl_table, only : ehl_t
-   use camroller_model, only : model_t, set_operating_point
+   use camroller_model, only : model_t, set_operating_point, set_speed
    implicit none
    private
 
@@ -38,8 +38,12 @@ contains
       type(error_t), allocatable :: error
 
       if (.not. model%ramp%is_moving) return
-      call keep_films(model, speed_on_ramp(model, angle), model%ramp%temperature + model%ramp%temperature_slope &
-         & *(angle - model%ramp%angle), error)
+      if (abs(model%ramp%temperature_slope) > 0.0_wp) then
+         call keep_films(model, speed_on_ramp(model, angle), model%ramp%temperature + model%ramp%temperature_slope &
+            & *(angle - model%ramp%angle), error)
+      else
+         call set_speed(model, speed_on_ramp(model, angle))
+      end if
    end subroutine follow_ramp
 
    !> Set speed and oil temperature without solving films again.

@@ -69,8 +69,8 @@ module camroller_cycle
    real(wp), parameter :: contact_accuracy = 1.0e-3_wp
    !> Error allowed per step over the error allowed in the cycle: errors of a few steps add up before they decay [-]
    real(wp), parameter :: step_part = 0.2_wp
-   !> First step of a method with error control [rad]
-   real(wp), parameter :: first_step = 0.1_wp*degree
+   !> First step of a method with error control, over a cycle, and most of it over a step of a host [rad]
+   real(wp), parameter :: first_step = 0.1_wp*degree, first_step_of_piece = 1.0_wp*degree
    !> Steps after which a method that stiffness does not slow down is given up: several times what a lift table of thousands of rows
    !> takes
    integer, parameter :: most_implicit_steps = 100000
@@ -283,10 +283,10 @@ contains
 
       last = size(stops)
       piece%start = stops(1)
-      piece%stops = stops
       call choose_method(piece, model, numerics, scale, problem, method, options, error)
       if (allocated(error)) return
       options%fewest_steps = ceiling(options%fewest_steps*(stops(last) - stops(1))/two_pi)
+      if (.not. piece%is_linear) options%step = min(stops(last) - stops(1), first_step_of_piece)
       state = roller_spin*model%roller_radius
       if (.not. piece%has_surface_speed) state = rolling_speed_at_angle(model, stops(1)) - state
       call integrate_spin(piece, problem, method, options, stops, state, error)

@@ -44,6 +44,10 @@ module camroller_spin
    !> roller needs exceeds the limit by less than that, friction that has given way still seems to hold
    real(wp), parameter :: coarsest_resolution = 1.0e-4_wp, finest_resolution = 1.0e-10_wp, accuracy_ratio = 1.0e3_wp
 
+   !> Relative error of load and forces of solutions whose difference is taken [-]: where only the inputs change, by a millionth or
+   !> so, the first step from one solution to the other is the last
+   real(wp), parameter :: difference_accuracy = 1.0e-12_wp
+
 contains
 
    !> Rate of change of the state with the cam angle.
@@ -220,7 +224,8 @@ contains
       counters%evaluations = counters%evaluations + 1
       counters%jacobians = counters%jacobians + 1
       ! What inputs add to the derivative is a difference of two solutions
-      accuracy = merge(0.0_wp, self%accuracy, self%model%ramp%is_moving)
+      accuracy = self%accuracy
+      if (self%model%ramp%is_moving) accuracy = min(accuracy, difference_accuracy)
       call follow_ramp(self%model, time)
       call evaluate_loading(self%model, time, position, force, moments, status)
       if (status /= 0) return
@@ -234,11 +239,12 @@ contains
       linear%resolution = max(min(coarsest_resolution, accuracy_ratio*self%accuracy), finest_resolution)
       linear%clearance = huge(1.0_wp)
       if (slopes%contact%is_touching) linear%clearance = 2.0_wp*slopes%contact%entrainment_speed
-      if (self%model%ramp%is_moving) call add_inputs(self, time, state(1), position, linear, counters, status)
+      if (self%model%ramp%is_moving) call add_inputs(self, time, state(1), position, slopes%contact, &
+         & linear, counters, status)
    end subroutine linearise
 
    !> Add what changing inputs do to the derivative over the cam angle: a difference at one position.
-   subroutine add_inputs(self, time, sliding_speed, position, linear, counters, status)
+   subroutine add_inputs(self, time, sliding_speed, position, nearby, linear, counters, status)
       !> The problem, with its model at the inputs of the angle
       class(spin_problem_t), intent(in) :: self
       !> Cam angle from full lift [rad]
@@ -247,6 +253,8 @@ contains
       real(wp), intent(in) :: sliding_speed
       !> Geometry at this angle
       type(position_t), intent(in) :: position
+      !> Contact there, to start from
+      type(contact_t), intent(in) :: nearby
       !> Rate with its derivatives; out: with the inputs'
       type(linear_t), intent(inout) :: linear
       !> Work done
@@ -266,7 +274,7 @@ contains
       call follow_ramp(self%model, time + increment)
       call evaluate_loading(self%model, time, same, force, moments, status)
       if (status == 0) call evaluate_spin(self%model, position, moments, sliding_speed, contact, acceleration, status, &
-         & mobilised=self%mobilised)
+         & difference_accuracy, self%mobilised, nearby)
       rate = slip_rate(self%model, position, acceleration)
       if (status == 0) linear%time_slope(1) = linear%time_slope(1) + (rate - linear%rate(1))/increment
       call follow_ramp(self%model, time)

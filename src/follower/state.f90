@@ -120,7 +120,7 @@ contains
    end subroutine evaluate_spin
 
    !> Everything at one angle.
-   pure subroutine evaluate_state(model, angle, sliding_speed, state, status, mobilised, start)
+   pure subroutine evaluate_state(model, angle, sliding_speed, state, status, mobilised, start, accuracy)
       !> The model
       type(model_t), intent(in) :: model
       !> Cam angle from full lift [rad]
@@ -135,11 +135,13 @@ contains
       real(wp), intent(in), optional :: mobilised
       !> A contact nearby to start from, where it touches
       type(contact_t), intent(in), optional :: start
+      !> Relative error of load and forces that is good enough; absent: round-off [-]
+      real(wp), intent(in), optional :: accuracy
 
       call evaluate_loading(model, angle, state%position, state%gas_force, state%moments, status)
       if (status /= 0) return
       call evaluate_spin(model, state%position, state%moments, sliding_speed, state%contact, state%spin_acceleration, status, &
-         & mobilised=mobilised, start=start)
+         & accuracy, mobilised, start)
       if (status /= 0) return
       call add_torques(model, state)
    end subroutine evaluate_state

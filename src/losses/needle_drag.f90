@@ -11,7 +11,7 @@ module camroller_needle_drag
    implicit none
    private
 
-   public :: needle_drag_t, drag_part_t, new_drag_part, set_drag_oil, drag_torque, drag_torque_slope
+   public :: needle_drag_t, drag_part_t, new_drag_part, set_drag_oil, set_drag_speed, drag_torque, drag_torque_slope
 
    !> Drag, as a deck has it
    type :: needle_drag_t
@@ -62,18 +62,25 @@ contains
       part%reversal_ratio = drag%reversal_ratio
    end subroutine new_drag_part
 
-   !> Give the drag the oil and the cam's speed.
-   pure subroutine set_drag_oil(part, kinematic_viscosity, speed)
+   !> Give the drag the oil.
+   pure subroutine set_drag_oil(part, kinematic_viscosity)
       !> The drag
       type(drag_part_t), intent(inout) :: part
       !> Kinematic viscosity of the oil, nu [m^2/s]
       real(wp), intent(in) :: kinematic_viscosity
+
+      part%limit = floor**1.5_wp/(kinematic_viscosity*square_millimetres*turns_a_minute)
+   end subroutine set_drag_oil
+
+   !> Give the drag the cam's speed.
+   pure subroutine set_drag_speed(part, speed)
+      !> The drag
+      type(drag_part_t), intent(inout) :: part
       !> Cam speed [rad/s]
       real(wp), intent(in) :: speed
 
-      part%limit = floor**1.5_wp/(kinematic_viscosity*square_millimetres*turns_a_minute)
       part%reversal_spin = part%reversal_ratio*speed
-   end subroutine set_drag_oil
+   end subroutine set_drag_speed
 
    !> Torque on the roller against its spin, `M_0 tanh(spin/reversal spin)`.
    elemental function drag_torque(part, spin) result(torque)

@@ -31,7 +31,7 @@ module camroller_trajectory
    end type trajectory_t
 
    !> Points for which a new trajectory has room
-   integer, parameter :: first_room = 512
+   integer, parameter :: first_room = 64
    !> Numbers that make a curve, and how many of them are bends
    integer, parameter, public :: curve_numbers = 6, most_bends = 4
 

@@ -23,7 +23,8 @@ module camroller_follower_samples
    implicit none
    private
 
-   public :: shares_t, add_shares, follower_samples_t, start_samples, sampled_values, entrainment_t, entrainment_of, extremes_t
+   public :: shares_t, add_shares, follower_samples_t, start_samples, sampled_values, entrainment_t, entrainment_of, &
+      & extremes_t, widen
 
    !> Fractions of a cycle without contact and outside the film law's range
    type :: shares_t
@@ -136,8 +137,8 @@ contains
          samples%case => case
          samples%series = series
          samples%first_torque = first_torque
+         call start_rows(samples%rows, samples%first_torque - 1)
       end if
-      call start_rows(samples%rows, samples%first_torque - 1)
    end subroutine start_samples
 
    !> Series and torques at a cam angle, with zero for torques among the series and for what follows from stored energy.

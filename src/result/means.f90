@@ -29,7 +29,7 @@ module camroller_means
    implicit none
    private
 
-   public :: statistics_t, integrate_lobe, integrate_torques, mean_tolerance
+   public :: statistics_t, integrate_lobe, integrate_torques, mean_tolerance, stored_torques
 
    !> Means over the cycle of one lobe shape
    type, extends(shares_t) :: statistics_t

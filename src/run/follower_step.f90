@@ -11,7 +11,7 @@ module camroller_follower_step
    use camroller_kinds, only : wp, pi
    use camroller_error, only : error_t, raise, kind_convergence
    use camroller_case, only : numerics_t
-   use camroller_model, only : model_t, set_operating_point, evaluate_geometry
+   use camroller_model, only : model_t, set_operating_point, set_speed, evaluate_geometry
    use camroller_ramp, only : follow_ramp, keep_films
    use camroller_gas, only : give_pressure
    use camroller_kinematics, only : position_t
@@ -25,6 +25,7 @@ module camroller_follower_step
    use camroller_cycle, only : cycle_t, integrate_between, state_at
    use camroller_means, only : integrate_torques
    use camroller_run, only : take_way_out
+   use camroller_short_piece, only : integrate_short, contact_part
    implicit none
    private
 
@@ -113,11 +114,11 @@ contains
       real(wp), intent(out), optional :: nodes(:, 0:)
 
       type(inputs_t) :: here, there
-      ! First angle, end of a piece [rad]; error of the mean torque of a piece [N m]
-      real(wp) :: first, next, torque_error
-      ! Mean torques of a piece [N m], last the energy residual [W]
-      real(wp) :: torques(torque_count)
+      ! First angle, end of a piece [rad]
+      real(wp) :: first, next
       integer :: piece, pieces, places
+      ! Has the state at the end been evaluated?
+      logical :: has_state
       ! Direction of sliding at the end, 0 at rest; not allocated where the sliding speed decides
       integer, allocatable :: direction
 
@@ -135,20 +136,18 @@ contains
             there = inputs_between(start, finish, real(piece, wp)/pieces)
          end if
          if (places > 0) then
-            call advance_piece(follower, next, here, there, torques, torque_error, outcome%extremes, direction, error, &
+            call advance_piece(follower, next, here, there, 1.0_wp/pieces, outcome, has_state, direction, error, &
                & nodes(:, (piece - 1)*places:piece*places - 1))
          else
-            call advance_piece(follower, next, here, there, torques, torque_error, outcome%extremes, direction, error)
+            call advance_piece(follower, next, here, there, 1.0_wp/pieces, outcome, has_state, direction, error)
          end if
          if (allocated(error)) return
-         outcome%mean_torques = outcome%mean_torques + torques/pieces
-         outcome%estimated_error = outcome%estimated_error + torque_error/pieces
       end do
       call set_model(follower, finish%speed, finish%oil_temperature, .false., error)
-      if (.not. allocated(error)) call state_with_spin(follower, direction, outcome%state, error)
+      if (.not. (allocated(error) .or. has_state)) call state_with_spin(follower, direction, outcome%state, error)
       if (allocated(error)) return
       call fill_outcome(follower%model, outcome)
-      call add_slip_error(follower, outcome)
+      call add_slip_error(follower, cam_angle - first, outcome)
       if (present(nodes)) nodes(:, ubound(nodes, 2)) = [outcome%cam_force, outcome%torque_drive]
       if (.not. all(ieee_is_finite([outcome%mean_torque_drive, outcome%torque_drive, follower%point%roller_spin]))) then
          call raise(error, kind_convergence, "advance: torques or spin are not finite")
@@ -166,10 +165,13 @@ contains
    end function piece_number
 
    !> Add to the error of the mean torque what the error of the sliding speed makes of it: its tolerance, times the slope of the
-   !> torque at the end of the step. Where the roller rests on friction, nothing slides.
-   subroutine add_slip_error(follower, outcome)
+   !> torque at the end of the step, and as a difference of the roller's energy between start and end. Where the roller rests on
+   !> friction, nothing slides.
+   subroutine add_slip_error(follower, span, outcome)
       !> The follower, at the end of the step
       type(follower_t), intent(in) :: follower
+      !> Cam angle of the step [rad]
+      real(wp), intent(in) :: span
       !> Outcome with the state there
       type(outcome_t), intent(inout) :: outcome
 
@@ -180,8 +182,12 @@ contains
 
       slip_error = follower%numerics%tolerance*follower%point%scale
       if (abs(outcome%state%contact%sliding_speed) <= 0.0_wp) return
+      associate (model => follower%model)
+         if (model%is_consistent) outcome%estimated_error = outcome%estimated_error + 2.0_wp*model%roller_inertia &
+            & *abs(follower%point%roller_spin)*slip_error/(model%roller_radius*span)
+      end associate
       call evaluate_state(follower%model, follower%point%angle - pi, outcome%state%contact%sliding_speed + slip_error, beside, &
-         & status)
+         & status, start=outcome%state%contact, accuracy=contact_part*follower%numerics%tolerance)
       if (status == 0) outcome%estimated_error = outcome%estimated_error &
          & + abs(beside%torque_friction - outcome%state%torque_friction)
    end subroutine add_slip_error
@@ -247,10 +253,12 @@ contains
       logical :: has_films
 
       associate (point => follower%point)
-         if (same_bits(speed, follower%model%speed) .and. same_bits(oil_temperature, point%oil_temperature)) then
-            if (.not. (may_solve .and. allocated(follower%model%ehl))) return
-            if (same_bits(oil_temperature, point%film_temperature)) return
+         if (same_bits(oil_temperature, point%oil_temperature) .and. .not. (may_solve .and. allocated(follower%model%ehl))) then
+            call set_speed(follower%model, speed)
+            return
          end if
+         if (same_bits(speed, follower%model%speed) .and. same_bits(oil_temperature, point%oil_temperature) &
+            & .and. same_bits(oil_temperature, point%film_temperature)) return
          has_films = allocated(follower%model%ehl) .and. (.not. may_solve .or. (same_bits(oil_temperature, &
             & point%film_temperature) .and. abs(speed - sum(film_range)*0.5_wp*point%film_speed) &
             & <= 0.5_wp*(film_range(2) - film_range(1))*point%film_speed))
@@ -277,19 +285,19 @@ contains
    end function same_bits
 
    !> One piece of a step, shorter than a turn.
-   subroutine advance_piece(follower, to, start, finish, torques, torque_error, extremes, direction, error, nodes)
+   subroutine advance_piece(follower, to, start, finish, part, outcome, has_state, direction, error, nodes)
       !> The follower
       type(follower_t), intent(inout) :: follower
       !> Cam angle at the end [rad]
       real(wp), intent(in) :: to
       !> Inputs at the start and at the end of the piece
       type(inputs_t), intent(in) :: start, finish
-      !> Mean torques of the follower over the piece [N m], last the energy residual [W]
-      real(wp), intent(out) :: torques(torque_count)
-      !> Error of the mean torque that drives, by its integration [N m]
-      real(wp), intent(out) :: torque_error
-      !> Extremes so far, then with those of the piece
-      type(extremes_t), intent(inout) :: extremes
+      !> Part of the step that the piece is [-]
+      real(wp), intent(in) :: part
+      !> What the step gives; out: with means and extremes of the piece, and its state at the end where that has been evaluated
+      type(outcome_t), intent(inout) :: outcome
+      !> Has it?
+      logical, intent(out) :: has_state
       !> Direction of sliding at the end, 0 at rest; not allocated where the sliding speed decides
       integer, allocatable, intent(out) :: direction
       !> Convergence error
@@ -300,11 +308,14 @@ contains
       type(cycle_t) :: piece
       type(inputs_t) :: middle
       type(extremes_t) :: met
+      ! States at the ends and in the middle of a short piece
+      type(state_t) :: states(3)
+      ! Mean torques [N m], last the energy residual [W]; error of the mean torque that drives, by its integration [N m]
+      real(wp) :: torques(torque_count), torque_error
       ! Angles at which the right-hand side has kinks [rad]
       real(wp), allocatable :: stops(:)
+      integer :: i
 
-      torques = 0.0_wp
-      torque_error = 0.0_wp
       middle = inputs_between(start, finish, 0.5_wp)
       call set_model(follower, middle%speed, middle%oil_temperature, .true., error)
       if (allocated(error)) return
@@ -316,13 +327,27 @@ contains
          end if
          call find_stops_between(model, point%angle - pi, to - pi, stops)
          call integrate_piece(follower, stops, piece, error)
-         if (.not. allocated(error)) call integrate_torques(model, piece, torques, error, met, torque_error)
-         if (present(nodes) .and. .not. allocated(error)) call sample_nodes(model, piece, [point%angle, to] - pi, nodes, error)
+         has_state = .false.
+         if (size(stops) == 2 .and. .not. allocated(error)) call integrate_short(model, piece, states, torques, torque_error, &
+            & met, has_state, error)
+         if (.not. (allocated(error) .or. has_state)) call integrate_torques(model, piece, torques, error, met, torque_error)
+         if (present(nodes) .and. .not. allocated(error)) then
+            if (has_state .and. size(nodes, 2) == 2) then
+               do i = 1, 2
+                  nodes(:, i) = [cam_force(model, states(i)), states(i)%torque_drive]
+               end do
+            else
+               call sample_nodes(model, piece, [point%angle, to] - pi, nodes, error)
+            end if
+         end if
          ! On the way the model has followed the inputs
-         if (model%ramp%is_moving) point%oil_temperature = -1.0_wp
+         if (model%ramp%is_moving .and. abs(model%ramp%temperature_slope) > 0.0_wp) point%oil_temperature = -1.0_wp
          model%ramp%is_moving = .false.
          if (allocated(error)) return
-         extremes = joined(extremes, met)
+         outcome%mean_torques = outcome%mean_torques + part*torques
+         outcome%estimated_error = outcome%estimated_error + part*torque_error
+         outcome%extremes = joined(outcome%extremes, met)
+         if (has_state) outcome%state = states(3)
          point%angle = to
          if (allocated(piece%phases)) direction = direction_at(piece%phases, to - pi)
       end associate

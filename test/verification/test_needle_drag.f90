@@ -5,7 +5,8 @@ module test_needle_drag
    use camroller_error, only : error_t, kind_deck
    use camroller_case, only : case_t
    use camroller_model, only : model_t, new_model
-   use camroller_needle_drag, only : needle_drag_t, drag_part_t, new_drag_part, set_drag_oil, drag_torque, drag_torque_slope
+   use camroller_needle_drag, only : needle_drag_t, drag_part_t, new_drag_part, set_drag_oil, set_drag_speed, &
+      & drag_torque, drag_torque_slope
    use camroller_state, only : state_t, evaluate_state
    use camroller_kinematics, only : rotation_names
    use camroller_torque_list, only : of_needle, of_needle_drag, of_residual
@@ -42,7 +43,8 @@ contains
       type(error_t), allocatable :: failure
 
       call new_drag_part(part, needle_drag_t(10.22e-3_wp, 12.0_wp, 1.0e-3_wp), .false., failure)
-      call set_drag_oil(part, 1.0e-6_wp*viscosity, 10.0_wp)
+      call set_drag_oil(part, 1.0e-6_wp*viscosity)
+      call set_drag_speed(part, 10.0_wp)
    end subroutine make_part
 
    subroutine test_branches(error)

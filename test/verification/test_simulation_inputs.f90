@@ -25,6 +25,7 @@ contains
       testsuite = [ &
          new_unittest("with a speed ripple torques and slip converge with second order in the host's step", test_order), &
          new_unittest("a turn that ends at its initial speed gives drive work equal to losses for any speed ripple", test_energy), &
+         new_unittest("the estimated error of a step is above its true error", test_estimate), &
          new_unittest("gas pressure from the host gives the results of the same table in the case", test_pressure), &
          new_unittest("the roller is at rest between a stop and a new start of the engine", test_halt), &
          new_unittest("impossible inputs are refused and leave the follower unchanged", test_refusals) &
@@ -129,6 +130,47 @@ contains
       ! energies at the ends of 360 steps to round-off of the largest; the roller's spin is that of a turn before to the tolerance
       call check(error, abs(turn%driven - turn%lost) < 1.0e-9_wp*turn%lost, "energy is made or lost over a turn")
    end subroutine test_energy
+
+   !> Steps of half a degree over a turn, with usual accuracies and with one far below: errors of the torque that drives are those
+   !> of the roller's energy for the most part, over so short a step.
+   subroutine test_estimate(error)
+      type(error_type), allocatable, intent(out) :: error
+      integer, parameter :: steps = 720
+      real(wp), parameter :: accuracies(2) = [1.0e-3_wp, 1.0e-4_wp]
+      type(simulation_t) :: rough, exact
+      type(outcome_t) :: outcome, exact_outcome
+      type(case_t) :: the_case
+      type(error_t), allocatable :: failure
+      ! Cam angles at start and end of a step [rad]
+      real(wp) :: ends(2)
+      integer :: i, k
+
+      do k = 1, size(accuracies)
+         the_case = tight_case()
+         call start_simulation(exact, the_case, 0.0_wp, failure)
+         the_case%numerics%tolerance = 0.0_wp
+         the_case%numerics%accuracy = accuracies(k)
+         if (.not. allocated(failure)) call start_simulation(rough, the_case, 0.0_wp, failure)
+         do i = 1, steps
+            ends = two_pi*[i - 1, i]/steps
+            if (.not. allocated(failure)) call advance(exact, ends(2), inputs_at(ends(1), .true.), inputs_at(ends(2), .true.), &
+               & exact_outcome, failure)
+            if (.not. allocated(failure)) call advance(rough, ends(2), inputs_at(ends(1), .true.), inputs_at(ends(2), .true.), &
+               & outcome, failure)
+            if (allocated(failure)) then
+               call test_failed(error, failure%message)
+               return
+            end if
+            call check(error, abs(outcome%mean_torque_drive - exact_outcome%mean_torque_drive) <= outcome%estimated_error, &
+               & "an error is larger than estimated")
+            if (allocated(error)) return
+            ! an estimate that says nothing would be of the size of the torque
+            call check(error, outcome%estimated_error < 10.0_wp*accuracies(k)*exact_outcome%mean_torque_friction, &
+               & "the estimate is of no use")
+            if (allocated(error)) return
+         end do
+      end do
+   end subroutine test_estimate
 
    subroutine test_pressure(error)
       type(error_type), allocatable, intent(out) :: error

@@ -1,0 +1,128 @@
+!> Torques of a short piece of a host's step, one without stops: means from five angles, the ends among them.
+!>
+!> In: model that follows the inputs, piece. Out: mean torques with their error, extremes, states at the ends and in the middle.
+!>
+!> The rule is that of Lobatto with five points, exact for polynomials of degree 7, which holds Simpson's with three. The error
+!> estimate is the root of the sum of squares of two terms: the difference of both rules, and the part of degree 3 that a parabola
+!> leaves, so that a kink at which one of them vanishes by chance is seen by the other. Source of the rule: Abramowitz and Stegun
+!> (1964), 25.4.32.
+module camroller_short_piece
+   use camroller_kinds, only : wp
+   use camroller_error, only : error_t
+   use camroller_model, only : model_t
+   use camroller_ramp, only : follow_ramp
+   use camroller_state, only : state_t, evaluate_state
+   use camroller_cycle, only : cycle_t
+   use camroller_follower_samples, only : follower_samples_t, start_samples, sampled_values, extremes_t, widen
+   use camroller_means, only : mean_tolerance, stored_torques
+   use camroller_stored_work, only : stored_work_t, follow_contact
+   use camroller_torque_list, only : torque_count, is_loss, is_torque
+   use camroller_trajectory, only : interpolate_state
+   implicit none
+   private
+
+   public :: integrate_short, contact_part
+
+   !> Number of places, and those of Simpson's rule among them
+   integer, parameter :: places = 5, simpson_places(3) = [1, 3, 5]
+   !> Distance of the second and the fourth place from the middle, over half of the piece [-]
+   real(wp), parameter :: inner = sqrt(3.0_wp/7.0_wp)
+   !> Places in the piece; weights of both rules [-]
+   real(wp), parameter :: lobatto_places(places) = 0.5_wp*(1.0_wp + [-1.0_wp, -inner, 0.0_wp, inner, 1.0_wp])
+   real(wp), parameter :: lobatto_weights(places) = [9.0_wp, 49.0_wp, 64.0_wp, 49.0_wp, 9.0_wp]/180.0_wp
+   real(wp), parameter :: simpson_weights(places) = [1.0_wp, 0.0_wp, 4.0_wp, 0.0_wp, 1.0_wp]/6.0_wp
+   !> Weights that leave nothing of a parabola: those of the rule, with the values at opposite places against each other [-]
+   real(wp), parameter :: odd_weights(places) = lobatto_weights(2)*[inner, -1.0_wp, 0.0_wp, 1.0_wp, -inner]
+   !> Accepted points of a piece that may be short: in more steps of the integration more happens than five angles show
+   integer, parameter :: most_points = 4
+   !> Error estimate over the tolerance up to which the means serve [-]: a tenth of the accuracy. The estimate is that of Simpson's
+   !> rule for the most part, and the rule of five points far better
+   real(wp), parameter :: largest_error = 10.0_wp
+   !> Error of load and forces over the tolerance, to which a state is solved that is no part of what a step returns [-]
+   real(wp), parameter :: contact_part = 1.0e-3_wp
+
+contains
+
+   !> Mean torques of a follower over a piece without stops that the integration has covered in a few steps.
+   subroutine integrate_short(model, piece, states, torques, drive_error, extremes, is_enough, error)
+      !> Model of the lobe, which follows the inputs
+      type(model_t), intent(inout), target :: model
+      !> The piece, without stops
+      type(cycle_t), intent(in), target :: piece
+      !> States at its start, in its middle and at its end
+      type(state_t), intent(out) :: states(3)
+      !> Mean torques [N m], last the energy residual [W]
+      real(wp), intent(out) :: torques(torque_count)
+      !> Estimate of the error of the mean torque that drives [N m]
+      real(wp), intent(out) :: drive_error
+      !> Smallest and largest values at the points that the means are made of
+      type(extremes_t), intent(out) :: extremes
+      !> Is the piece so short, and are the means good enough? If not, nothing else has a meaning
+      logical, intent(out) :: is_enough
+      !> Convergence error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(follower_samples_t) :: samples
+      type(stored_work_t) :: work
+      ! Values at the places; mean magnitudes, error estimates [N m]; length of the piece [rad]
+      real(wp) :: values(torque_count, places), sizes(torque_count), errors(torque_count), length
+      ! Mean magnitude of all losses [N m]
+      real(wp) :: losses
+      integer :: i, status
+
+      associate (path => piece%trajectory)
+         is_enough = path%count <= most_points .and. .not. (path%is_linear .or. allocated(piece%phases))
+         if (.not. is_enough) return
+         call start_samples(samples, model, piece)
+         length = path%time(path%count) - path%time(1)
+         do i = 1, places
+            call sample_place(samples, path%time(1) + lobatto_places(i)*length, i == places, values(:, i), status)
+            ! Where contact is lost or comes back on the way, the angle of that is for panels to find
+            is_enough = status == 0
+            if (is_enough .and. i > 1) is_enough = samples%state%contact%is_touching .eqv. states(1)%contact%is_touching
+            if (.not. is_enough) return
+            call follow_contact(work, samples, path%time(1) + lobatto_places(i)*length, path%time(1), error)
+            if (any(simpson_places == i)) states((i + 1)/2) = samples%state
+         end do
+      end associate
+      do i = 1, torque_count
+         torques(i) = sum(lobatto_weights*values(i, :))
+         sizes(i) = sum(lobatto_weights*abs(values(i, :)))
+         errors(i) = sqrt((torques(i) - sum(simpson_weights*values(i, :)))**2 + sum(odd_weights*values(i, :))**2)
+      end do
+      ! What a torque adds to that of all losses counts: within a step one of them may be next to nothing
+      losses = sum(sizes, mask=is_loss)
+      is_enough = all(errors <= largest_error*mean_tolerance(piece%tolerance)*losses .or. .not. is_torque)
+      torques = torques + stored_torques(samples, work, length)
+      drive_error = sum(errors, mask=is_torque)
+      extremes = samples%extremes
+   end subroutine integrate_short
+
+   !> Sample a place of the piece, from the contact at the place before.
+   subroutine sample_place(samples, angle, is_last, values, status)
+      !> The samples
+      type(follower_samples_t), intent(inout) :: samples
+      !> Cam angle from full lift [rad]
+      real(wp), intent(in) :: angle
+      !> Is it the end, whose state a step returns?
+      logical, intent(in) :: is_last
+      !> Torques [N m], last the energy residual [W]
+      real(wp), intent(out) :: values(:)
+      !> 0 where there is a state
+      integer, intent(out) :: status
+
+      type(state_t) :: state
+      ! Sliding speed [m/s]
+      real(wp) :: sliding_speed(1)
+
+      call follow_ramp(samples%model, angle)
+      call interpolate_state(samples%cycle%trajectory, angle, samples%hint, sliding_speed)
+      call evaluate_state(samples%model, angle, sliding_speed(1), state, status, start=samples%state%contact, &
+         & accuracy=merge(0.0_wp, contact_part*samples%cycle%tolerance, is_last))
+      if (status /= 0) return
+      samples%state = state
+      call sampled_values(samples, state, values)
+      call widen(samples%extremes, samples%model, state)
+   end subroutine sample_place
+
+end module camroller_short_piece
