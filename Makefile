@@ -2,7 +2,7 @@
 
 SHELL := /bin/bash
 .DEFAULT_GOAL := help
-.PHONY: help setup commit build debug mpi install run dynamics comparison test quick bless random random-ehl random-flexible random-wide needed rough-rows fuzz sanitize study study-film study-dynamics audit trends check check-layers \
+.PHONY: help setup commit build debug mpi install run dynamics comparison test quick bless random random-ehl random-flexible random-wide needed needed-flexible rough-rows fuzz sanitize study study-film study-dynamics audit trends check check-layers \
   check-style check-format check-lint check-warnings second-compiler format docs recipes bench bench-ehl range-ehl bench-batch bench-cases bench-effects bench-hosts clean distclean
 
 FPM := .venv/bin/fpm
@@ -119,6 +119,10 @@ random-flexible: commit ## random flexible trains by two methods, optimised buil
 
 needed: commit ## changes by leaving effects out, compared with their estimates, for random cases: CASES=300 SEED=1
 	@NEEDED_TABLE=1 NEEDED_CASES=$(or $(CASES),300) NEEDED_SEED=$(or $(SEED),1) $(FPM) test --flag "$(RELEASE_FLAGS)" -- needed
+
+needed-flexible: commit ## the same for random flexible trains: CASES=50 SEED=1
+	@NEEDED_TABLE=1 NEEDED_FLEXIBLE=$(or $(CASES),50) NEEDED_SEED=$(or $(SEED),1) $(FPM) test --flag "$(RELEASE_FLAGS)" \
+	  -- needed_flexible
 
 fuzz: build debug ## malformed decks and files for both builds, outcomes counted: CASES=300 SEED=1 (of each campaign), KIND=decks for one
 	@for campaign in $(if $(KIND),test/fuzz/fuzz_$(KIND).py,$(wildcard test/fuzz/fuzz_*.py)); do \

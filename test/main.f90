@@ -109,6 +109,7 @@ program main
    use test_random_wide, only : collect_random_wide
    use test_effects, only : collect_effects
    use test_needed, only : collect_needed
+   use test_needed_flexible, only : collect_needed_flexible
    use test_kept_models, only : collect_kept_models
    implicit none
 
@@ -167,6 +168,7 @@ contains
          new_testsuite("ehl_law", collect_ehl_law), &
          new_testsuite("ehl_settling", collect_ehl_settling), &
          new_testsuite("needed", collect_needed), &
+         new_testsuite("needed_flexible", collect_needed_flexible), &
          new_testsuite("kept_models", collect_kept_models), &
          new_testsuite("ehl_cycle", collect_ehl_cycle), &
          new_testsuite("ehl_factors", collect_ehl_factors), &

@@ -3,11 +3,14 @@
 !> In: a case. Out: the case without an effect, or with the simpler law in its place.
 module camroller_effect_list
    use camroller_kinds, only : wp
+   use camroller_error, only : error_t
    use camroller_names, only : name_length
    use camroller_case, only : case_t, quasi_static, automatic_method, quantity_names
    use camroller_asperity, only : asperity_law_names, law_masjedi_khonsari_asperities => law_masjedi_khonsari
    use camroller_film, only : film_law_names, law_dowson_higginson, law_masjedi_khonsari, law_masjedi_khonsari_rough, law_moes
+   use camroller_flexible_setup, only : base_load
    use camroller_heat, only : inlet_law_names, contact_heat_names, inlet_none, contact_heat_none
+   use camroller_kinematics, only : linkage_t, position_t, new_linkage, evaluate_position
    use camroller_lubricant, only : pressure_law_names, law_cameron
    use camroller_traction, only : rolling_law_names, rolling_none, shear_law_names, law_newtonian
    implicit none
@@ -16,17 +19,18 @@ module camroller_effect_list
    public :: effect_names, effect_count, decision_t, choice_t, leave_out, leave_all_but, has_effect
    public :: effect_asperity, effect_needle, effect_guide, effect_bearings, effect_gas, effect_rolling, effect_film, &
       & effect_pressure, effect_shear, effect_spin, effect_ehl, effect_tip, effect_seal, effect_side, effect_pivot, &
-      & effect_drag, effect_inlet_heat, effect_contact_heat
+      & effect_drag, effect_inlet_heat, effect_contact_heat, effect_dynamics, effect_surge, effect_adjuster, is_part_of_train
 
    !> Effects: groups of the deck, and laws that have a simpler one beside them
    character(len=*), parameter :: effect_names(*) = [character(len=name_length) :: "asperity", "needle_bearing", "valve_guide", &
       & "cam_bearings", "gas_force", "rolling_resistance", "film_law", "pressure_law", "shear_law", "roller_equation", &
-      & "ehl", "valve_tip", "stem_seal", "guide_side_load", "finger_pivot", "needle_drag", "inlet_heat", "contact_heat"]
+      & "ehl", "valve_tip", "stem_seal", "guide_side_load", "finger_pivot", "needle_drag", "inlet_heat", "contact_heat", &
+      & "dynamics", "spring_surge", "lash_adjuster"]
    !> Positions in it
    integer, parameter :: effect_asperity = 1, effect_needle = 2, effect_guide = 3, effect_bearings = 4, effect_gas = 5, &
       & effect_rolling = 6, effect_film = 7, effect_pressure = 8, effect_shear = 9, effect_spin = 10, effect_ehl = 11, &
       & effect_tip = 12, effect_seal = 13, effect_side = 14, effect_pivot = 15, effect_drag = 16, &
-      & effect_inlet_heat = 17, effect_contact_heat = 18
+      & effect_inlet_heat = 17, effect_contact_heat = 18, effect_dynamics = 19, effect_surge = 20, effect_adjuster = 21
    !> Their number
    integer, parameter :: effect_count = size(effect_names)
    !> Words of a reason
@@ -60,8 +64,19 @@ module camroller_effect_list
 
 contains
 
-   !> Leave an effect out, or put the simpler law in its place.
-   pure subroutine leave_out(variant, effect)
+   !> Is an effect one that a flexible train alone can have, so that it goes where the train is made rigid?
+   elemental function is_part_of_train(effect) result(is_part)
+      !> Position in `effect_names`
+      integer, intent(in) :: effect
+      !> Is it?
+      logical :: is_part
+
+      is_part = effect == effect_surge .or. effect == effect_adjuster
+   end function is_part_of_train
+
+   !> Leave an effect out, or put the simpler law in its place. A rigid train has neither a spring that surges nor an adjuster that
+   !> gives way.
+   subroutine leave_out(variant, effect)
       !> In: a case; out: the case without the effect, the same where it has not got it
       type(case_t), intent(inout) :: variant
       !> Position in `effect_names`
@@ -106,8 +121,35 @@ contains
          if (allocated(variant%heat)) variant%heat%inlet_law = inlet_law_names(inlet_none)
       case (effect_contact_heat)
          if (allocated(variant%heat)) variant%heat%contact = contact_heat_names(contact_heat_none)
+      case (effect_dynamics)
+         call fix_pivot(variant)
+         if (allocated(variant%spring_surge)) deallocate (variant%spring_surge)
+         if (allocated(variant%dynamics)) deallocate (variant%dynamics)
+      case (effect_surge)
+         if (allocated(variant%spring_surge)) deallocate (variant%spring_surge)
+      case (effect_adjuster)
+         call fix_pivot(variant)
       end select
    end subroutine leave_out
+
+   !> Take the lash adjuster away: the pivot stays where the adjuster holds it at rest, and the base circle keeps its load.
+   subroutine fix_pivot(variant)
+      !> In: a case; out: without an adjuster
+      type(case_t), intent(inout) :: variant
+
+      type(linkage_t) :: linkage
+      type(position_t) :: closed
+      type(error_t), allocatable :: error
+      integer :: status
+
+      if (.not. allocated(variant%lash_adjuster)) return
+      call new_linkage(linkage, variant%mechanism, error)
+      if (.not. allocated(error)) then
+         call evaluate_position(linkage, [0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp], closed, status)
+         if (status == 0) variant%spring%base_circle_load = base_load(variant, linkage, closed)
+      end if
+      deallocate (variant%lash_adjuster)
+   end subroutine fix_pivot
 
    !> Has a case a rough film that a smooth one may stand for? Not where its asperities come with it.
    pure function has_rough_film(case) result(has)
@@ -120,7 +162,7 @@ contains
    end function has_rough_film
 
    !> Leave out every effect but one; the roller's equation stays.
-   pure subroutine leave_all_but(case, effect)
+   subroutine leave_all_but(case, effect)
       !> In: a case; out: with one effect
       type(case_t), intent(inout) :: case
       !> Position in `effect_names`; 0: none at all
@@ -129,7 +171,9 @@ contains
       integer :: other
 
       do other = 1, effect_count
-         if (other /= effect .and. other /= effect_spin) call leave_out(case, other)
+         if (other == effect .or. other == effect_spin) cycle
+         if (other == effect_dynamics .and. is_part_of_train(effect)) cycle
+         call leave_out(case, other)
       end do
    end subroutine leave_all_but
 
@@ -164,7 +208,7 @@ contains
       case (effect_shear)
          has = case%traction%shear_law /= shear_law_names(law_newtonian)
       case (effect_spin)
-         has = case%numerics%method == automatic_method
+         has = case%numerics%method == automatic_method .and. .not. allocated(case%dynamics)
       case (effect_ehl)
          has = allocated(case%ehl)
       case (effect_tip)
@@ -181,6 +225,12 @@ contains
          if (allocated(case%heat)) has = case%heat%inlet_law /= inlet_law_names(inlet_none)
       case (effect_contact_heat)
          if (allocated(case%heat)) has = case%heat%contact /= contact_heat_names(contact_heat_none)
+      case (effect_dynamics)
+         has = allocated(case%dynamics)
+      case (effect_surge)
+         has = allocated(case%dynamics) .and. allocated(case%spring_surge)
+      case (effect_adjuster)
+         has = allocated(case%dynamics) .and. allocated(case%lash_adjuster)
       end select
    end function has_effect
 

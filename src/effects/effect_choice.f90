@@ -13,9 +13,11 @@ module camroller_effect_choice
    use camroller_camshaft, only : bearing_loads
    use camroller_case, only : case_t, select_names, select_needed, quantity_names, quantity_torque, quantity_film, &
       & quantity_slip
-   use camroller_effect_list, only : choice_t, decision_t, effect_count, effect_bearings, effect_spin, has_effect, leave_out
-   use camroller_effect_reasons, only : find_reason
+   use camroller_effect_list, only : choice_t, decision_t, effect_count, effect_bearings, effect_dynamics, effect_spin, &
+      & has_effect, is_part_of_train, leave_out
+   use camroller_effect_reasons, only : find_reason, find_train_reason
    use camroller_effect_survey, only : survey_t, response_t, make_survey, respond
+   use camroller_effect_train, only : compare_trains, estimate_train, train_change_t, train_load_t
    use camroller_journal, only : journal_t, new_journal, journal_torque
    use camroller_model, only : model_t, revise_model
    use camroller_state, only : cam_force
@@ -62,8 +64,8 @@ contains
       !> Deck error
       type(error_t), allocatable, intent(out) :: error
 
-      ! Smallest estimate of the effects not surveyed yet [-]
-      real(wp) :: least
+      ! Smallest estimate of the effects not surveyed yet; what it adds to the bound [-]
+      real(wp) :: least, added
       integer :: i, next
       logical, allocatable :: is_open(:)
 
@@ -82,10 +84,21 @@ contains
             next = i
          end do
          is_open(next) = .false.
-         if (least > choice%negligible - choice%bound) cycle
-         choice%bound = choice%bound + least
-         choice%decisions(next)%is_used = .false.
-         call leave_out(chosen, choice%decisions(next)%effect)
+         associate (all => choice%decisions, effect => choice%decisions(next)%effect)
+            added = least
+            ! A rigid train has no parts of a flexible one: its estimate is for all of them
+            if (effect == effect_dynamics) added = least - sum(all%estimates(choice%quantity), &
+               & mask=is_part_of_train(all%effect) .and. .not. all%is_used)
+            if (added > choice%negligible - choice%bound) cycle
+            choice%bound = choice%bound + added
+            all(next)%is_used = .false.
+            call leave_out(chosen, effect)
+            if (effect /= effect_dynamics) cycle
+            where (is_part_of_train(all%effect))
+               all%is_used = .false.
+               is_open = .false.
+            end where
+         end associate
       end do
    end subroutine choose_effects
 
@@ -101,6 +114,7 @@ contains
       type(error_t), allocatable, intent(out) :: error
 
       type(survey_t), allocatable :: surveys(:)
+      type(train_load_t), allocatable :: trains(:)
       type(mean_torque_t) :: torque
       integer :: lobe, effect
 
@@ -109,11 +123,13 @@ contains
       choice%negligible = case%effects%negligible
       choice%bound = 0.0_wp
       choice%evaluations = 0
-      allocate (choice%decisions(0), surveys(size(models)))
+      allocate (choice%decisions(0), surveys(size(models)), trains(size(models)))
       do lobe = 1, size(models)
          call make_survey(models(lobe), surveys(lobe))
          if (case%numerics%method == fixed_step) surveys(lobe)%trouble = "a fixed step may not resolve the cycle"
          choice%evaluations = choice%evaluations + surveys(lobe)%evaluations
+         call estimate_train(models(lobe), trains(lobe))
+         if (allocated(trains(lobe)%trouble)) surveys(lobe)%trouble = trains(lobe)%trouble
          if (allocated(surveys(lobe)%trouble)) cycle
          torque%followers = torque%followers + followers_of(case, lobe)*surveys(lobe)%torque
          torque%error = torque%error + followers_of(case, lobe)*surveys(lobe)%torque_error
@@ -124,19 +140,37 @@ contains
       end if
       do effect = 1, effect_count
          if (.not. has_effect(case, effect)) cycle
-         call weigh_effect(case, models, surveys, effect, torque, choice, error)
+         call weigh_effect(case, models, surveys, trains, effect, torque, choice, error)
          if (allocated(error)) return
       end do
+      call doubt_others(choice)
    end subroutine weigh_effects
 
+   !> The cycle of a rigid train says nothing where a flexible one is another in ways that are not estimated.
+   subroutine doubt_others(choice)
+      !> What is to be decided
+      type(choice_t), intent(inout) :: choice
+
+      integer :: i, k
+
+      do i = 1, size(choice%decisions)
+         if (choice%decisions(i)%effect /= effect_dynamics) cycle
+         do k = 1, size(quantity_names)
+            if (choice%decisions(i)%estimates(k) > largest_estimate) choice%decisions%estimates(k) = huge(1.0_wp)
+         end do
+      end do
+   end subroutine doubt_others
+
    !> What leaving one effect out would change.
-   subroutine weigh_effect(case, models, surveys, effect, torque, choice, error)
+   subroutine weigh_effect(case, models, surveys, trains, effect, torque, choice, error)
       !> The case with all its effects
       type(case_t), intent(in) :: case
       !> Model of each lobe shape
       type(model_t), intent(in) :: models(:)
       !> Cycle of each
       type(survey_t), intent(in) :: surveys(:)
+      !> Load of each
+      type(train_load_t), intent(in) :: trains(:)
       !> Position in `effect_names`
       integer, intent(in) :: effect
       !> Mean torque for losses
@@ -162,6 +196,11 @@ contains
       if (allocated(surveys(lobe)%trouble)) then
          if (decision%reason == "") decision%reason = "not estimated: "//surveys(lobe)%trouble
       else if (decision%reason == "") then
+         if (effect == effect_dynamics .or. is_part_of_train(effect)) then
+            call weigh_train(case, models, surveys, trains, effect, torque, choice, decision, error)
+            choice%decisions = [choice%decisions, decision]
+            return
+         end if
          call find_reason(effect, models(1), surveys(1), torque%bearings/(torque%followers + torque%bearings), decision%reason)
          ! The roller equation is as quick as its limit: there is nothing to be saved
          if (effect /= effect_bearings .and. effect /= effect_spin) then
@@ -172,6 +211,63 @@ contains
       end if
       choice%decisions = [choice%decisions, decision]
    end subroutine weigh_effect
+
+   !> What a flexible train changes as a whole, or its spring or adjuster: the load, and losses of its own.
+   subroutine weigh_train(case, models, surveys, trains, effect, torque, choice, decision, error)
+      !> The case with all its effects
+      type(case_t), intent(in) :: case
+      !> Model of each lobe shape
+      type(model_t), intent(in) :: models(:)
+      !> Cycle of each
+      type(survey_t), intent(in) :: surveys(:)
+      !> Load of each
+      type(train_load_t), intent(in) :: trains(:)
+      !> Position in `effect_names`
+      integer, intent(in) :: effect
+      !> Mean torque for losses
+      type(mean_torque_t), intent(in) :: torque
+      !> Counts the work
+      type(choice_t), intent(inout) :: choice
+      !> Gets estimates and reason
+      type(decision_t), intent(inout) :: decision
+      !> Deck error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(case_t) :: variant
+      type(model_t) :: model
+      type(train_load_t) :: other
+      type(train_change_t) :: change
+      type(response_t) :: responses(size(models)), peak
+      ! Largest part of the load that changes, in the mean [-]
+      real(wp) :: share
+      integer :: lobe
+
+      variant = case
+      call leave_out(variant, effect)
+      share = 0.0_wp
+      do lobe = 1, size(models)
+         model = models(lobe)
+         call revise_model(model, variant, error)
+         if (allocated(error)) return
+         call estimate_train(model, other)
+         if (allocated(other%trouble)) then
+            decision%reason = "not estimated: without it "//other%trouble
+            return
+         end if
+         call compare_trains(trains(lobe), other, surveys(lobe)%grid, change)
+         call respond(surveys(lobe), models(lobe), models(lobe), responses(lobe), change%mean)
+         call respond(surveys(lobe), models(lobe), models(lobe), peak, change%largest)
+         responses(lobe)%is_known = responses(lobe)%is_known .and. peak%is_known
+         responses(lobe)%evaluations = responses(lobe)%evaluations + peak%evaluations
+         responses(lobe)%film = peak%film
+         responses(lobe)%torque = responses(lobe)%torque + change%loss
+         share = max(share, change%share)
+         if (lobe == 1) call find_train_reason(effect, trains(1), change, decision%reason)
+      end do
+      call set_estimates(case, surveys(1), responses, torque, choice, decision)
+      ! Camshaft bearings follow the load no more than in proportion
+      if (allocated(case%cam_bearings)) decision%estimates(quantity_torque) = max(decision%estimates(quantity_torque), margin*share)
+   end subroutine weigh_train
 
    !> Estimates from how every lobe's cycle answers.
    subroutine set_estimates(case, survey, responses, torque, choice, decision)

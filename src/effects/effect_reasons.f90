@@ -8,9 +8,10 @@ module camroller_effect_reasons
    use camroller_contact_forces, only : film_groups
    use camroller_effect_list, only : effect_names, effect_asperity, effect_needle, effect_guide, effect_bearings, effect_gas, &
       & effect_rolling, effect_film, effect_pressure, effect_shear, effect_spin, effect_ehl, effect_tip, effect_seal, effect_side, &
-      & effect_pivot, effect_drag, effect_inlet_heat, effect_contact_heat
+      & effect_pivot, effect_drag, effect_inlet_heat, effect_contact_heat, effect_dynamics, effect_surge, effect_adjuster
    use camroller_effect_grid, only : points, mean_over
    use camroller_effect_survey, only : survey_t
+   use camroller_effect_train, only : train_change_t, train_load_t
    use camroller_film, only : groups_t
    use camroller_hertz, only : peak_pressure
    use camroller_number_text, only : fixed_text, scientific_text
@@ -18,12 +19,14 @@ module camroller_effect_reasons
    implicit none
    private
 
-   public :: find_reason
+   public :: find_reason, find_train_reason
 
    !> Length of a number in words
    integer, parameter :: number_length = 12
    !> Pascal in a gigapascal [-]
    real(wp), parameter :: giga = 1.0e9_wp
+   !> Micrometres in a metre [-]
+   real(wp), parameter :: micro = 1.0e6_wp
 
 contains
 
@@ -83,6 +86,28 @@ contains
          end select
       end associate
    end subroutine find_reason
+
+   !> What decides about a part of a flexible train.
+   subroutine find_train_reason(effect, train, change, reason)
+      !> Position in `effect_names`
+      integer, intent(in) :: effect
+      !> The train
+      type(train_load_t), intent(in) :: train
+      !> What the load changes by without the effect
+      type(train_change_t), intent(in) :: change
+      !> A few words
+      character(len=*), intent(out) :: reason
+
+      select case (effect)
+      case (effect_dynamics)
+         reason = "train frequency "//trim(text(train%frequency))//" Hz, "
+      case (effect_surge)
+         reason = "modes of the spring pull with up to "//trim(text(train%surge))//" N, "
+      case (effect_adjuster)
+         reason = "the plunger sinks by up to "//trim(text(micro*train%sink))//" um, "
+      end select
+      reason = trim(reason)//" load changes by "//trim(percent(change%share))//" in the mean"
+   end subroutine find_train_reason
 
    !> Moes' numbers round the cycle.
    subroutine find_moes_numbers(model, survey, reason)

@@ -204,7 +204,7 @@ contains
    end function is_nearly_lost
 
    !> How the cycle answers to another model.
-   subroutine respond(survey, model, other, response)
+   subroutine respond(survey, model, other, response, moments)
       !> The cycle of a model
       type(survey_t), intent(in) :: survey
       !> That model
@@ -213,6 +213,8 @@ contains
       type(model_t), intent(in) :: other
       !> What changes
       type(response_t), intent(out) :: response
+      !> Further moments about the pivot that press the roller on the cam in the other model; absent: none [N m]
+      real(wp), intent(in), optional :: moments(points)
 
       type(state_t) :: first(points), second(points)
       ! Decay rates that count [1/rad], disturbing rate [m/s/rad], disturbance and its correction [m/s]
@@ -224,7 +226,7 @@ contains
       response%film = 0.0_wp
       response%sliding = 0.0_wp
       response%evaluations = points
-      call look(survey, other, survey%sliding, first, decay, is_fine)
+      call look(survey, other, survey%sliding, moments, first, decay, is_fine)
       if (.not. is_fine) return
       rates = rate_change(model, first, survey%states)
       decay = min(decay, survey%decay)
@@ -234,7 +236,7 @@ contains
       correction = 0.0_wp
       if (maxval(abs(change)) > 0.0_wp) then
          rates = decay*change
-         call look(survey, other, survey%sliding + change, second, decay, is_fine)
+         call look(survey, other, survey%sliding + change, moments, second, decay, is_fine)
          response%evaluations = response%evaluations + points
          if (.not. is_fine) return
          rates = rates + rate_change(model, second, first)
@@ -245,13 +247,15 @@ contains
    end subroutine respond
 
    !> States of a model round the cycle.
-   subroutine look(survey, model, sliding, states, decay, is_fine)
+   subroutine look(survey, model, sliding, moments, states, decay, is_fine)
       !> The angles
       type(survey_t), intent(in) :: survey
       !> The model
       type(model_t), intent(in) :: model
       !> Sliding speeds [m/s]
       real(wp), intent(in) :: sliding(points)
+      !> Further moments about the pivot [N m]
+      real(wp), intent(in), optional :: moments(points)
       !> The states
       type(state_t), intent(out) :: states(points)
       !> Decay rates [1/rad]
@@ -263,7 +267,11 @@ contains
 
       is_fine = .true.
       do i = 1, points
-         call evaluate_state(model, survey%grid%angles(i), sliding(i), states(i), status)
+         if (present(moments)) then
+            call evaluate_state(model, survey%grid%angles(i), sliding(i), states(i), status, further_moment=moments(i))
+         else
+            call evaluate_state(model, survey%grid%angles(i), sliding(i), states(i), status)
+         end if
          is_fine = status == 0
          if (is_fine) is_fine = states(i)%contact%is_touching
          if (.not. is_fine) return

@@ -19,7 +19,7 @@ module camroller_train_outlook
    implicit none
    private
 
-   public :: outlook_t, find_outlook, largest_response
+   public :: outlook_t, find_outlook, find_modes, follow_oscillator, largest_response
 
    !> The estimates
    type :: outlook_t
@@ -29,6 +29,11 @@ module camroller_train_outlook
       real(wp), allocatable :: frequencies(:)
       !> Damping ratio of the lowest [-]
       real(wp) :: damping_ratio = 0.0_wp
+      !> Change of the contact load and of the lift with its coordinate, half the square of whose rate is its energy [N/(m kg^0.5)],
+      !> [1/kg^0.5]
+      real(wp) :: load_shape = 0.0_wp, lift_shape = 0.0_wp
+      !> Stiffness of cam, roller and finger there [N/m]
+      real(wp) :: contact_stiffness = 0.0_wp
       !> Largest load over that of the rigid train [-]
       real(wp) :: load_factor = 1.0_wp
       !> Largest force of the spring's modes, `k n pi q_n` [N]
@@ -135,8 +140,11 @@ contains
       call dsygv(1, "V", "U", n, stiffness, 3, mass, 3, squares, work, size(work), status)
       if (status /= 0 .or. .not. squares(1) > 0.0_wp) return
       outlook%frequencies = [(sqrt(squares(i)), i=1, n)]
+      outlook%contact_stiffness = contact_stiffness
       associate (shape => stiffness(:n, 1))
          outlook%damping_ratio = dot_product(shape, matmul(damping(:n, :n), shape))/(2.0_wp*outlook%frequencies(1))
+         outlook%load_shape = contact_stiffness*dot_product(approach(:n), shape)
+         outlook%lift_shape = shape(valve)
       end associate
 
    contains
@@ -169,8 +177,7 @@ contains
       matrix = spread(vector, 2, size(vector))*spread(vector, 1, size(vector))
    end function outer
 
-   !> Largest displacement of an oscillator, `x'' + 2 zeta omega x' + omega^2 x = f`, under a force that repeats itself, linear
-   !> between its points: steps are exact, and the start is the one that the cycle comes back to.
+   !> Largest displacement of an oscillator under a force that repeats itself.
    pure function largest_response(force, frequency, damping_ratio, step, is_either_side) result(largest)
       !> f at the ends of the steps [any/s^2]
       real(wp), intent(in) :: force(:)
@@ -181,11 +188,29 @@ contains
       !> Largest x [any]
       real(wp) :: largest
 
+      ! Displacements and rates at the points [any], [any/s]
+      real(wp) :: displacement(size(force)), rate(size(force))
+
+      call follow_oscillator(force, frequency, damping_ratio, step, displacement, rate)
+      if (present(is_either_side)) displacement = abs(displacement)
+      largest = maxval(displacement)
+   end function largest_response
+
+   !> Motion of an oscillator, `x'' + 2 zeta omega x' + omega^2 x = f`, under a force that repeats itself, linear between its
+   !> points: steps are exact, and the start is the one that the cycle comes back to.
+   pure subroutine follow_oscillator(force, frequency, damping_ratio, step, displacement, rate)
+      !> f at the ends of the steps [any/s^2]
+      real(wp), intent(in) :: force(:)
+      !> omega [rad/s], zeta below 1 [-], time between two points [s]
+      real(wp), intent(in) :: frequency, damping_ratio, step
+      !> x [any] and its rate [any/s] at the same points
+      real(wp), intent(out) :: displacement(:), rate(:)
+
       ! The root p = -zeta omega + i omega_d and its exponential, integrals over a step, the state z = x' - conj(p) x with
       ! z' = p z + f and x = Im(z)/omega_d [any]
       complex(wp) :: pole, factor, by_start, by_slope, state
-      ! omega_d [rad/s], x [any]
-      real(wp) :: damped, displacement
+      ! omega_d [rad/s]
+      real(wp) :: damped
       integer :: pass, i, next
 
       damped = frequency*sqrt(1.0_wp - min(damping_ratio, 0.999_wp)**2)
@@ -195,18 +220,15 @@ contains
       by_start = (factor - 1.0_wp)/pole
       by_slope = (by_start/step - 1.0_wp)/pole
       state = (0.0_wp, 0.0_wp)
-      largest = -huge(1.0_wp)
       do pass = 1, 2
          do i = 1, size(force)
             next = modulo(i, size(force)) + 1
             state = factor*state + by_start*force(i) + by_slope*(force(next) - force(i))
-            if (pass == 1) cycle
-            displacement = aimag(state)/damped
-            if (present(is_either_side)) displacement = abs(displacement)
-            largest = max(largest, displacement)
+            displacement(next) = aimag(state)/damped
+            rate(next) = real(state + conjg(pole)*displacement(next), wp)
          end do
          if (pass == 1) state = state/(1.0_wp - exp(pole*step*size(force)))
       end do
-   end function largest_response
+   end subroutine follow_oscillator
 
 end module camroller_train_outlook

@@ -120,7 +120,7 @@ contains
    end subroutine evaluate_spin
 
    !> Everything at one angle.
-   pure subroutine evaluate_state(model, angle, sliding_speed, state, status, mobilised, start, accuracy)
+   pure subroutine evaluate_state(model, angle, sliding_speed, state, status, mobilised, start, accuracy, further_moment)
       !> The model
       type(model_t), intent(in) :: model
       !> Cam angle from full lift [rad]
@@ -137,9 +137,15 @@ contains
       type(contact_t), intent(in), optional :: start
       !> Relative error of load and forces that is good enough; absent: round-off [-]
       real(wp), intent(in), optional :: accuracy
+      !> Further moment about the pivot by which the valve's tip presses the roller on the cam; absent: none [N m]
+      real(wp), intent(in), optional :: further_moment
 
       call evaluate_loading(model, angle, state%position, state%gas_force, state%moments, status)
       if (status /= 0) return
+      if (present(further_moment)) then
+         state%moments%spring = state%moments%spring + further_moment
+         state%moments%total = state%moments%total + further_moment
+      end if
       call evaluate_spin(model, state%position, state%moments, sliding_speed, state%contact, state%spin_acceleration, status, &
          & accuracy, mobilised, start)
       if (status /= 0) return
