@@ -103,6 +103,7 @@ program main
    use test_flexible_invariance, only : collect_flexible_invariance
    use test_flexible_parts, only : collect_flexible_parts
    use test_flexible_train, only : collect_flexible_train
+   use test_flexible_twins, only : collect_flexible_twins
    use test_random_cases, only : collect_random_cases
    use test_random_ehl, only : collect_random_ehl
    use test_random_flexible, only : collect_random_flexible
@@ -157,6 +158,7 @@ contains
          new_testsuite("flexible_parts", collect_flexible_parts), &
          new_testsuite("flexible_invariance", collect_flexible_invariance), &
          new_testsuite("flexible_train", collect_flexible_train), &
+         new_testsuite("flexible_twins", collect_flexible_twins), &
          new_testsuite("random_cases", collect_random_cases), &
          new_testsuite("random_ehl", collect_random_ehl), &
          new_testsuite("random_flexible", collect_random_flexible), &

@@ -14,7 +14,7 @@ module test_flexible_invariance
    use camroller_ode_problem, only : counters_t
    use camroller_trajectory, only : trajectory_t
    use closeness, only : check_scaled
-   use flexible_cases, only : add_dynamics, random_state
+   use flexible_cases, only : add_dynamics, random_state, take_friction
    use reference_cases, only : make_model, set_point, skewed_case, thesis_case
    implicit none
    private
@@ -33,24 +33,6 @@ contains
          new_unittest("errors of a turn are within ten tolerances and fall with the tolerance", test_convergence) &
          ]
    end subroutine collect_flexible_invariance
-
-   !> Take friction out of a case, and dampers where that is asked for.
-   subroutine take_friction(the_case, has_dampers)
-      type(case_t), intent(inout) :: the_case
-      logical, intent(in) :: has_dampers
-
-      if (allocated(the_case%asperity)) deallocate (the_case%asperity)
-      if (allocated(the_case%needle_bearing)) deallocate (the_case%needle_bearing)
-      if (allocated(the_case%valve_guide)) deallocate (the_case%valve_guide)
-      the_case%traction%rolling_law = "none"
-      ! the film's traction cannot be left out; this much of it is below round-off
-      the_case%traction%limiting_coefficient = 1.0e-15_wp
-      if (has_dampers) return
-      the_case%dynamics%contact_damping = 0.0_wp
-      the_case%dynamics%pad_damping = 0.0_wp
-      the_case%dynamics%seat_damping = 0.0_wp
-      if (allocated(the_case%spring_surge)) the_case%spring_surge%damping_ratio = 0.0_wp
-   end subroutine take_friction
 
    !> Ten milliseconds on the base circle after the valve was struck: change of the energy over that of the vibration.
    subroutine pluck(has_dampers, tolerance, change, has_opened, error)

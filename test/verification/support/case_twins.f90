@@ -94,6 +94,7 @@ contains
       if (allocated(case%valve_guide)) call change(case%valve_guide%stem_diameter, length)
       if (allocated(case%valve_guide)) call change(case%valve_guide%radial_clearance, length)
       call change_joints()
+      call change_flexible()
       if (allocated(case%cam_bearings)) then
          call change(case%cam_bearings%diameter, length)
          call change(case%cam_bearings%width, length)
@@ -133,6 +134,42 @@ contains
             call change(case%stem_seal%reversal_speed, speed)
          end if
       end subroutine change_joints
+
+      !> A flexible train in other units; in an adjuster the pressure of the surroundings stays as it is.
+      subroutine change_flexible()
+         if (allocated(case%dynamics)) then
+            call change(case%dynamics%finger_stiffness, stiffness)
+            call change(case%dynamics%contact_damping, per_speed)
+            call change(case%dynamics%pad_stiffness, stiffness)
+            call change(case%dynamics%pad_damping, per_speed)
+            call change(case%dynamics%seat_stiffness, stiffness)
+            call change(case%dynamics%seat_damping, per_speed)
+            call change(case%dynamics%seat_restitution_speed, speed)
+            call change(case%dynamics%lash, length)
+         end if
+         if (allocated(case%spring_surge)) call change(case%spring_surge%mass, mass)
+         if (.not. allocated(case%lash_adjuster)) return
+         associate (adjuster => case%lash_adjuster)
+            call change(adjuster%diameter, length)
+            call change(adjuster%volume, dimension_t(3, 0, 0))
+            call change(adjuster%gap, length)
+            call change(adjuster%leak_length, length)
+            call change(adjuster%plunger_mass, mass)
+            call change(adjuster%spring_stiffness, stiffness)
+            call change(adjuster%spring_force, force)
+            call change(adjuster%check_area, area)
+            call change(adjuster%crack_pressure, pressure)
+            call change(adjuster%full_pressure, pressure)
+            call change(adjuster%transition_pressure, pressure)
+            call change(adjuster%supply_pressure, pressure)
+            call change(adjuster%oil_modulus, pressure)
+            call change(adjuster%density, density)
+            call change(adjuster%lowest, length)
+            call change(adjuster%highest, length)
+            call change(adjuster%stop_stiffness, stiffness)
+            call change(adjuster%stop_damping, per_speed)
+         end associate
+      end subroutine change_flexible
 
       !> A coefficient of friction in other units.
       subroutine change_sliding(sliding)

@@ -11,7 +11,7 @@ module flexible_cases
    implicit none
    private
 
-   public :: add_dynamics, random_state, largest_way
+   public :: add_dynamics, random_state, take_friction, largest_way
 
    !> Way off the rigid train that random states go to [m]: contacts are closed in some and open in others
    real(wp), parameter :: largest_way = 3.0e-5_wp
@@ -35,6 +35,26 @@ contains
       end if
       if (has_adjuster) allocate (the_case%lash_adjuster)
    end subroutine add_dynamics
+
+   !> Take friction out of a case, and dampers where that is asked for.
+   subroutine take_friction(the_case, has_dampers)
+      !> The case
+      type(case_t), intent(inout) :: the_case
+      !> Do they stay?
+      logical, intent(in) :: has_dampers
+
+      if (allocated(the_case%asperity)) deallocate (the_case%asperity)
+      if (allocated(the_case%needle_bearing)) deallocate (the_case%needle_bearing)
+      if (allocated(the_case%valve_guide)) deallocate (the_case%valve_guide)
+      the_case%traction%rolling_law = "none"
+      ! the film's traction cannot be left out; this much of it is below round-off
+      the_case%traction%limiting_coefficient = 1.0e-15_wp
+      if (has_dampers) return
+      the_case%dynamics%contact_damping = 0.0_wp
+      the_case%dynamics%pad_damping = 0.0_wp
+      the_case%dynamics%seat_damping = 0.0_wp
+      if (allocated(the_case%spring_surge)) the_case%spring_surge%damping_ratio = 0.0_wp
+   end subroutine take_friction
 
    !> A state near the rigid train's, by its number.
    subroutine random_state(model, number, angle, state)
