@@ -41,6 +41,7 @@ program main
    use test_number_text, only : collect_number_text
    use test_units, only : collect_units
    use test_journal, only : collect_journal
+   use test_mixed_bearings, only : collect_mixed_bearings
    use test_camshaft, only : collect_camshaft
    use test_kinematics_reference, only : collect_kinematics_reference
    use test_cycle_reference, only : collect_cycle_reference
@@ -212,6 +213,7 @@ contains
          new_testsuite("number_text", collect_number_text), &
          new_testsuite("units", collect_units), &
          new_testsuite("journal", collect_journal), &
+         new_testsuite("mixed_bearings", collect_mixed_bearings), &
          new_testsuite("camshaft", collect_camshaft), &
          new_testsuite("kinematics_reference", collect_kinematics_reference), &
          new_testsuite("cycle_reference", collect_cycle_reference), &

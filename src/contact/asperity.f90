@@ -17,7 +17,7 @@ module camroller_asperity
    public :: boundary_part_t, new_boundary_part
    public :: law_greenwood_tripp, law_zhao_maietta_chang, law_masjedi_khonsari, smallest_product
    public :: new_asperity_constants, asperity_load_function, asperity_area_function
-   public :: asperity_load, asperity_area
+   public :: asperity_load, asperity_area, load_factor
 
    !> Laws of touching asperities: elastic summits of both surfaces, summits of one surface that yield against a plane, or
    !> the regression that goes with the rough film of Masjedi and Khonsari

@@ -9,6 +9,7 @@ module camroller_deck_case
    use camroller_lift, only : lift_t
    use camroller_table_file, only : table_t
    use camroller_settings, only : settings_t, take, get_word, has_group
+   use camroller_deck_cam_bearings, only : fill_bearing_parts
    use camroller_deck_engine, only : fill_engine
    use camroller_deck_dynamics, only : fill_dynamics
    use camroller_deck_heat, only : fill_heat
@@ -48,6 +49,7 @@ contains
       call fill_heat(settings, case)
       call fill_asperity(settings, case)
       call fill_bearings(settings, case)
+      call fill_bearing_parts(settings, case)
       call fill_engine(settings, case)
       call fill_joints(settings, case)
       call fill_dynamics(settings, case)
@@ -248,6 +250,7 @@ contains
             call take(settings, "cam_bearings", "cam_phases_deg", bearings%cam_phases)
             call take(settings, "cam_bearings", "cam_lobes", bearings%cam_lobes)
             call take(settings, "cam_bearings", "follower_angles_deg", bearings%follower_angles)
+            call take(settings, "cam_bearings", "bearing_series", bearings%by_bearing)
          end associate
       end if
       if (has_group(settings, "valve_guide")) then

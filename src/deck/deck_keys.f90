@@ -20,6 +20,7 @@ module camroller_deck_keys
    use camroller_needle, only : needle_bearing_t, roller_bearing_names
    use camroller_journal, only : cam_bearings_t, journal_law_names
    use camroller_roller, only : spin_names
+   use camroller_deck_cam_bearings, only : add_bearing_part_keys
    use camroller_deck_engine, only : add_engine_keys
    use camroller_deck_sweep_keys, only : add_sweep_keys
    use camroller_deck_dynamics, only : add_dynamics_keys
@@ -61,6 +62,7 @@ contains
       call add_asperity_keys(schema)
       call add_needle_keys(schema)
       call add_cam_bearing_keys(schema)
+      call add_bearing_part_keys(schema)
       call add_engine_keys(schema)
       call add_guide_keys(schema)
       call add_joint_keys(schema)
@@ -403,6 +405,8 @@ contains
          & "angle of each cam's follower about the shaft, from the first one's, positive the way a finger turns as it opens "// &
          & "its valve; 0 for every cam where not given", &
          & is_optional=.true.)
+      call add_logical(schema, "bearing_series", standard%by_bearing, &
+         & "are there series of each bearing: load, eccentricity, smallest film, friction?")
    end subroutine add_cam_bearing_keys
 
    !> Valve guide.

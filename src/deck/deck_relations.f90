@@ -15,6 +15,7 @@ module camroller_deck_relations
    use camroller_deck_heat, only : check_heat
    use camroller_deck_joints, only : check_joints
    use camroller_deck_complaint, only : complain, complain_about_group, demand
+   use camroller_deck_cam_bearings, only : check_bearing_parts
    use camroller_deck_engine, only : check_engine
    implicit none
    private
@@ -40,6 +41,7 @@ contains
       call contact_has_what_its_laws_need(settings, mistakes)
       if (has_group(settings, "cam_bearings")) call bearings_have_the_width_of_their_law(settings, mistakes)
       if (has_group(settings, "cam_bearings")) call cams_stand_between_bearings(settings, mistakes)
+      call check_bearing_parts(settings, mistakes)
       call check_engine(settings, mistakes)
       call accuracy_or_tolerance(settings, mistakes)
       call output_step_divides_the_turn(settings, mistakes)

@@ -83,6 +83,13 @@ module camroller_usual_values
       usual_t("cam_bearings.radial_clearance_um", 5.0_wp, 150.0_wp), &
       usual_t("cam_bearings.bearing_positions_mm", -3000.0_wp, 3000.0_wp), &
       usual_t("cam_bearings.cam_positions_mm", -3000.0_wp, 3000.0_wp), &
+      usual_t("bearing_asperity.roughness_um", 0.05_wp, 5.0_wp), &
+      usual_t("bearing_asperity.modulus_GPa", 20.0_wp, 300.0_wp), &
+      usual_t("bearing_asperity.boundary_coefficient", 0.0_wp, 0.5_wp), &
+      usual_t("bearing_asperity.roughness_product", 0.01_wp, 0.15_wp), &
+      usual_t("bearing_asperity.roughness_over_tip_radius", 1.0e-5_wp, 0.1_wp), &
+      usual_t("belt_pull.force_N", 0.0_wp, 5000.0_wp), &
+      usual_t("belt_pull.position_mm", -3000.0_wp, 3000.0_wp), &
       usual_t("valve_guide.length_mm", 10.0_wp, 150.0_wp), &
       usual_t("valve_guide.stem_diameter_mm", 3.0_wp, 20.0_wp), &
       usual_t("valve_guide.radial_clearance_um", 3.0_wp, 100.0_wp), &

@@ -10,16 +10,15 @@ module camroller_effect_choice
    use camroller_kinds, only : wp
    use camroller_error, only : error_t
    use camroller_names, only : find_name
-   use camroller_camshaft, only : bearing_loads
    use camroller_case, only : case_t, select_names, select_needed, quantity_names, quantity_torque, quantity_film, &
       & quantity_slip
    use camroller_effect_list, only : choice_t, decision_t, effect_count, effect_bearings, effect_dynamics, effect_spin, &
-      & has_effect, is_part_of_train, leave_out
+      & has_effect, is_part_of_train, leave_out, needs_bearings
    use camroller_effect_reasons, only : find_reason, find_train_reason
    use camroller_effect_survey, only : survey_t, response_t, make_survey, respond
    use camroller_effect_train, only : compare_trains, estimate_train, train_change_t, train_load_t
-   use camroller_journal, only : journal_t, new_journal, journal_torque
    use camroller_model, only : model_t, revise_model
+   use camroller_shaft, only : shaft_t, bearing_torques, in_common_frame, new_shaft
    use camroller_state, only : cam_force
    implicit none
    private
@@ -189,6 +188,8 @@ contains
       decision%estimates = huge(1.0_wp)
       decision%reason = ""
       if (effect == effect_bearings) call weigh_bearings(case, surveys, torque, decision)
+      if (any(effect == needs_bearings)) call weigh_bearing_part(case, models, surveys, torque, decision, error)
+      if (allocated(error)) return
       lobe = 1
       do while (lobe < size(surveys) .and. .not. allocated(surveys(lobe)%trouble))
          lobe = lobe + 1
@@ -203,7 +204,7 @@ contains
          end if
          call find_reason(effect, models(1), surveys(1), torque%bearings/(torque%followers + torque%bearings), decision%reason)
          ! The roller equation is as quick as its limit: there is nothing to be saved
-         if (effect /= effect_bearings .and. effect /= effect_spin) then
+         if (all(effect /= [effect_bearings, effect_spin, needs_bearings])) then
             call find_responses(case, models, surveys, effect, responses, error)
             if (allocated(error)) return
             call set_estimates(case, surveys(1), responses, torque, choice, decision)
@@ -352,6 +353,37 @@ contains
       end if
    end subroutine weigh_bearings
 
+   !> What changes the friction of the camshaft bearings and nothing else.
+   subroutine weigh_bearing_part(case, models, surveys, torque, decision, error)
+      !> The case
+      type(case_t), intent(in) :: case
+      !> Model of each lobe shape
+      type(model_t), intent(in) :: models(:)
+      !> Cycle of each
+      type(survey_t), intent(in) :: surveys(:)
+      !> Mean torque for losses
+      type(mean_torque_t), intent(in) :: torque
+      !> The decision
+      type(decision_t), intent(inout) :: decision
+      !> Deck or domain error of the bearings
+      type(error_t), allocatable, intent(out) :: error
+
+      type(case_t) :: variant
+      ! Mean torque of the bearings without the effect [N m]
+      real(wp) :: without
+
+      decision%estimates([quantity_film, quantity_slip]) = 0.0_wp
+      if (.not. has_single_bearings(case)) then
+         decision%reason = "not estimated for several cams, or one that is not of the first lobe shape at phase 0"
+      else if (.not. allocated(surveys(1)%trouble)) then
+         variant = case
+         call leave_out(variant, decision%effect)
+         call mean_bearing_torque(variant, models(1), surveys(1), without, error)
+         if (allocated(error)) return
+         decision%estimates(quantity_torque) = relative(abs(torque%bearings - without), least_torque(torque))
+      end if
+   end subroutine weigh_bearing_part
+
    !> Are there camshaft bearings, and between them one cam of the first lobe shape at phase 0, as a case without them has it?
    pure function has_single_bearings(case) result(has)
       !> The case
@@ -378,21 +410,19 @@ contains
       !> Deck or domain error of the bearings
       type(error_t), allocatable, intent(out) :: error
 
-      type(journal_t) :: journal
-      ! Force on the cam, load of each bearing [N]; torque of one [N m]
-      real(wp) :: forces(2, 1), loads(2, size(case%cam_bearings%bearing_positions)), torque
-      integer :: i, bearing, status
+      type(shaft_t) :: shaft
+      ! Force on the cam in the frame of the first follower [N]; torque of the bearings [N m]
+      real(wp) :: forces(2, 1), torques(1)
+      integer :: i
 
       mean = 0.0_wp
-      call new_journal(journal, case%cam_bearings, model%oil%viscosity, model%speed, error)
+      call new_shaft(shaft, case, model%oil%viscosity, model%speed, error)
       if (allocated(error)) return
       do i = 1, size(survey%states)
-         forces(:, 1) = cam_force(model, survey%states(i))
-         call bearing_loads(case%cam_bearings, forces, loads)
-         do bearing = 1, size(loads, 2)
-            call journal_torque(journal, norm2(loads(:, bearing)), torque, status)
-            if (status == 0) mean = mean + survey%grid%weights(i)*torque
-         end do
+         forces(:, 1) = in_common_frame(shaft, 1, cam_force(model, survey%states(i)))
+         call bearing_torques(shaft, forces, torques, error)
+         if (allocated(error)) return
+         mean = mean + survey%grid%weights(i)*torques(1)
       end do
    end subroutine mean_bearing_torque
 

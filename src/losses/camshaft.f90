@@ -1,6 +1,6 @@
 !> Loads that the cams put on the bearings of a camshaft.
 !>
-!> In: places of bearings and cams, force on each cam at one instant. Out: load vector of each bearing.
+!> In: places of bearings and cams, force on each cam at one instant, pull of a belt. Out: load vector of each bearing.
 !> The shaft is a row of beams from bearing to bearing, hinged at the bearings, so that a cam loads its two neighbours only.
 !> Source: the usual static balance; Islam (2019), section on camshaft bearings.
 module camroller_camshaft
@@ -9,7 +9,18 @@ module camroller_camshaft
    implicit none
    private
 
-   public :: bearing_loads, share_loads, share_force
+   public :: belt_pull_t, bearing_loads, share_loads, share_force, share_pull
+
+   !> Constant force on a camshaft, of the belt or chain that drives it
+   type :: belt_pull_t
+      !> Force [N]
+      real(wp) :: force = 0.0_wp
+      !> Its direction, from the line from the first follower's pivot to the cam's centre, positive the way a finger turns as it
+      !> opens its valve [rad]
+      real(wp) :: angle = 0.0_wp
+      !> Place of the wheel along the shaft, which may overhang the bearings [m]
+      real(wp) :: position = 0.0_wp
+   end type belt_pull_t
 
 contains
 
@@ -46,13 +57,26 @@ contains
       end do
    end subroutine share_loads
 
-   !> Add the force of one cam to the loads of its two neighbouring bearings.
-   pure subroutine share_force(bearing_positions, cam_position, force, loads)
+   !> Add the pull of a belt to the loads of the two bearings beside it.
+   pure subroutine share_pull(bearing_positions, pull, loads)
       !> Places of the bearings along the shaft, increasing, at least two [m]
       real(wp), intent(in) :: bearing_positions(:)
-      !> Place of the cam, between the first and the last bearing [m]
-      real(wp), intent(in) :: cam_position
-      !> Its force [N]
+      !> The pull
+      type(belt_pull_t), intent(in) :: pull
+      !> Force of the shaft on each bearing, shape (2, bearing) [N]
+      real(wp), intent(inout) :: loads(:, :)
+
+      call share_force(bearing_positions, pull%position, pull%force*[cos(pull%angle), sin(pull%angle)], loads)
+   end subroutine share_pull
+
+   !> Add a force to the loads of its two neighbouring bearings. Beyond the last bearing the beam that ends there is a lever: it
+   !> presses on that bearing by more than the force, and lifts the next one.
+   pure subroutine share_force(bearing_positions, position, force, loads)
+      !> Places of the bearings along the shaft, increasing, at least two [m]
+      real(wp), intent(in) :: bearing_positions(:)
+      !> Place of the force [m]
+      real(wp), intent(in) :: position
+      !> The force [N]
       real(wp), intent(in) :: force(2)
       !> Force of the shaft on each bearing, shape (2, bearing) [N]
       real(wp), intent(inout) :: loads(:, :)
@@ -61,8 +85,8 @@ contains
       real(wp) :: part
       integer :: left
 
-      left = count(bearing_positions(2:size(bearing_positions) - 1) <= cam_position) + 1
-      part = (cam_position - bearing_positions(left))/(bearing_positions(left + 1) - bearing_positions(left))
+      left = count(bearing_positions(2:size(bearing_positions) - 1) <= position) + 1
+      part = (position - bearing_positions(left))/(bearing_positions(left + 1) - bearing_positions(left))
       loads(:, left) = loads(:, left) + (1.0_wp - part)*force
       loads(:, left + 1) = loads(:, left + 1) + part*force
    end subroutine share_force

@@ -16,7 +16,7 @@ module camroller_journal
 
    public :: cam_bearings_t, journal_t, journal_law_names
    public :: new_journal, journal_torque, journal_at_speed, journal_friction, law_covers_width, width_advice
-   public :: journal_solved, journal_without_film
+   public :: journal_solved, journal_without_film, find_tangent, load_at, film_friction, film_direction
 
    !> Journal bearing laws
    character(len=*), parameter :: journal_law_names(*) = [character(len=name_length) :: &
@@ -57,11 +57,12 @@ module camroller_journal
       integer, allocatable :: cam_shafts(:)
       !> Angle about the shaft at which each follower stands from the first, positive the way a finger turns as it opens [rad]
       real(wp), allocatable :: follower_angles(:)
+      !> Does each bearing have series of its own?
+      logical :: by_bearing = .false.
    end type cam_bearings_t
 
    !> A bearing at a speed, ready for any load
    type :: journal_t
-      private
       !> Place in `journal_law_names`
       integer :: law = law_long
       !> Radius of the journal [m]
@@ -182,62 +183,113 @@ contains
       !> `journal_solved` or `journal_without_film`
       integer, intent(out) :: status
 
-      !> Load over unit load, t, sqrt(1 + t^2) [-]
-      real(wp) :: number, t, secant
-      logical :: is_found
+      !> t [-]
+      real(wp) :: t
 
       friction = 0.0_wp
       eccentricity = 0.0_wp
-      status = journal_without_film
-      if (.not. journal%unit_load > 0.0_wp) return
-      number = abs(load)/journal%unit_load
-      if (number > huge(number)) return
-      call find_tangent(journal, number, t, is_found)
-      if (.not. is_found) return
+      call find_tangent(journal, load, t, status)
+      if (status /= journal_solved) return
+      eccentricity = t/sqrt(1.0_wp + t**2)
+      friction = film_friction(journal, load, t)
+   end subroutine journal_friction
+
+   !> Friction of the film of a bearing.
+   pure function film_friction(journal, load, t) result(friction)
+      !> The bearing
+      type(journal_t), intent(in) :: journal
+      !> Load that the film carries [N]
+      real(wp), intent(in) :: load
+      !> e/sqrt(1 - e^2) at that load [-]
+      real(wp), intent(in) :: t
+      !> Friction at the journal's surface, against the rotation [N]
+      real(wp) :: friction
+
+      !> sqrt(1 + t^2) [-]
+      real(wp) :: secant
+
       secant = sqrt(1.0_wp + t**2)
-      eccentricity = t/secant
       friction = journal%petroff_friction*secant
       select case (journal%law)
       case (law_long)
          friction = friction*(2.0_wp + 6.0_wp*t**2)/(2.0_wp + 3.0_wp*t**2)
       case (law_finite)
-         friction = friction + 0.5_wp*journal%clearance_ratio*abs(load)*eccentricity &
+         friction = friction + 0.5_wp*journal%clearance_ratio*abs(load)*(t/secant) &
             & *sin(attitude_angle(journal%width_ratio, t))
       end select
-      status = journal_solved
-   end subroutine journal_friction
+   end function film_friction
 
-   !> e/sqrt(1 - e^2) at a load number, by Newton's method on logarithms: there the load number rises with a slope between 1 and 4
-   !> which changes little, so that a few steps from a bound above the root suffice.
-   pure subroutine find_tangent(journal, number, t, is_found)
+   !> Load that the film carries.
+   pure function load_at(journal, t) result(load)
       !> The bearing
       type(journal_t), intent(in) :: journal
-      !> Load number, not negative [-]
-      real(wp), intent(in) :: number
+      !> e/sqrt(1 - e^2), positive [-]
+      real(wp), intent(in) :: t
+      !> The load [N]
+      real(wp) :: load
+
+      !> Load number, and its slope [-]
+      real(wp) :: number, slope
+
+      call load_number(journal, t, number, slope)
+      load = journal%unit_load*number
+   end function load_at
+
+   !> Angle between the film's force and the line of centres: a right one in the long bearing with its full film, that of Ocvirk
+   !> (1952) in the short one.
+   pure function film_direction(journal, t) result(angle)
+      !> The bearing
+      type(journal_t), intent(in) :: journal
+      !> e/sqrt(1 - e^2) [-]
+      real(wp), intent(in) :: t
+      !> Attitude angle [rad]
+      real(wp) :: angle
+
+      select case (journal%law)
+      case (law_long)
+         angle = 0.5_wp*pi
+      case (law_short)
+         angle = atan2(pi, 4.0_wp*t)
+      case default
+         angle = attitude_angle(journal%width_ratio, t)
+      end select
+   end function film_direction
+
+   !> e/sqrt(1 - e^2) under a load, by Newton's method on logarithms: there the load number rises with a slope between 1 and 4
+   !> which changes little, so that a few steps from a bound above the root suffice.
+   pure subroutine find_tangent(journal, load, t, status)
+      !> The bearing
+      type(journal_t), intent(in) :: journal
+      !> Load [N]
+      real(wp), intent(in) :: load
       !> e/sqrt(1 - e^2) [-]
       real(wp), intent(out) :: t
-      !> Is it the root?
-      logical, intent(out) :: is_found
+      !> `journal_solved` or `journal_without_film`
+      integer, intent(out) :: status
 
       !> Change of ln t whose square is round-off [-]
       real(wp), parameter :: last_change = 1.0e-9_wp
       !> Steps at most
       integer, parameter :: most_steps = 50
-      !> Load number and its slope, change of the logarithm of t [-]
-      real(wp) :: value, slope, change
+      !> Load number, that at t and its slope, change of the logarithm of t [-]
+      real(wp) :: number, value, slope, change
       integer :: step
 
       t = 0.0_wp
-      is_found = number <= tiny(1.0_wp)
-      if (is_found) return
+      status = journal_without_film
+      if (.not. journal%unit_load > 0.0_wp) return
+      number = abs(load)/journal%unit_load
+      if (number > huge(number)) return
+      status = journal_solved
+      if (number <= tiny(1.0_wp)) return
       t = largest_tangent(journal, number)
       do step = 1, most_steps
          call load_number(journal, t, value, slope)
          change = log(number/value)/slope
          t = t*exp(change)
-         is_found = abs(change) <= last_change
-         if (is_found) return
+         if (abs(change) <= last_change) return
       end do
+      status = journal_without_film
    end subroutine find_tangent
 
    !> Load number `W (c/r)^2/(eta omega r L)` of a bearing, and its slope over t in logarithms; rises with t from 0.

@@ -5,12 +5,14 @@
 module camroller_catalogue
    use, intrinsic :: iso_fortran_env, only : int8
    use camroller_kinds, only : wp
+   use camroller_bearing_asperity, only : bearing_state_t
    use camroller_case, only : camshaft_number, has_engine, case_t, energy_names
    use camroller_model, only : model_t
    use camroller_number_text, only : integer_text
    use camroller_effect_list, only : effect_names, has_effect, effect_inlet_heat, effect_contact_heat
-   use camroller_result, only : quantity_t, quantity_list_t, append_quantity, lobe_scope, scope_camshaft, scope_engine, &
-      & scope_length
+   use camroller_result, only : quantity_t, quantity_list_t, append_quantity, lobe_scope, scope_camshaft, scope_case, &
+      & scope_engine, scope_length
+   use camroller_shaft, only : add_bearings
    use camroller_state, only : state_t, flexible_values_t
    use camroller_torque_list, only : torque_list, torque_count, is_loss, is_torque, of_residual, torque_series
    use camroller_hertz, only : peak_pressure
@@ -52,8 +54,7 @@ contains
          if (lobe > 1) cycle
          first = list%count + 1
          call add_camshafts(list, case, none)
-         list%items(first:list%count)%scope = merge(scope_engine, scope_camshaft, has_engine(case))
-         call set_camshaft_scopes(list%items(first:list%count))
+         call set_camshaft_scopes(list%items(first:list%count), merge(scope_engine, scope_camshaft, has_engine(case)))
       end do
       series = list%items(:list%count)
    end subroutine list_series
@@ -137,18 +138,20 @@ contains
    end subroutine follower_values
 
    !> Values of the series of the camshafts.
-   pure subroutine camshaft_values(case, torques, values)
+   pure subroutine camshaft_values(case, torques, values, bearings)
       !> The case
       type(case_t), intent(in) :: case
       !> Torques on each camshaft, the rows of `torque_list` [N m], last the energy residual [W]
       real(wp), intent(in) :: torques(:, :)
       !> Values, in the order of `list_series` [unit of the series]
       real(wp), intent(out) :: values(:)
+      !> States of the bearings, shape (bearing, camshaft); without them their series are zero
+      type(bearing_state_t), intent(in), optional :: bearings(:, :)
 
       type(quantity_list_t) :: list
 
       allocate (list%values(size(values)))
-      call add_camshafts(list, case, torques)
+      call add_camshafts(list, case, torques, bearings)
       values = list%values(:list%count)
    end subroutine camshaft_values
 
@@ -330,35 +333,41 @@ contains
       end do
    end subroutine add_flexible
 
-   !> Series of all camshafts together, then, where there are several, of each.
-   pure subroutine add_camshafts(list, case, torques)
+   !> Series of all camshafts together, then, where there are several, of each, last those of the bearings.
+   pure subroutine add_camshafts(list, case, torques, bearings)
       !> List to extend
       type(quantity_list_t), intent(inout) :: list
       !> The case
       type(case_t), intent(in) :: case
       !> Torques on each camshaft, the rows of `torque_list` [N m], last the energy residual [W]
       real(wp), intent(in) :: torques(:, :)
+      !> States of the bearings, shape (bearing, camshaft)
+      type(bearing_state_t), intent(in), optional :: bearings(:, :)
 
       integer :: k
 
       call add_camshaft(list, case, sum(torques, 2))
-      if (size(torques, 2) == 1) return
-      do k = 1, size(torques, 2)
+      do k = 1, merge(0, size(torques, 2), size(torques, 2) == 1)
          call add(list, camshaft_prefix//integer_text(k)//"_torque_friction", "N m", "torque for all losses of camshaft "// &
             & integer_text(k), "torque", sum(torques(:, k), mask=is_loss))
          call add(list, camshaft_prefix//integer_text(k)//"_torque_drive", "N m", "torque that drives camshaft "// &
             & integer_text(k), "torque", sum(torques(:, k), mask=is_torque))
       end do
+      call add_bearings(list, case, bearings)
    end subroutine add_camshafts
 
-   !> Give series of one of several camshafts its scope.
-   pure subroutine set_camshaft_scopes(series)
+   !> Give series their scope: that of all camshafts, or of one of several. Those of bearings have theirs.
+   pure subroutine set_camshaft_scopes(series, of_all)
       !> Series of camshafts
       type(quantity_t), intent(inout) :: series(:)
+      !> Scope of all camshafts
+      character(len=*), intent(in) :: of_all
 
       integer :: i, length
 
       do i = 1, size(series)
+         if (series(i)%scope /= scope_case) cycle
+         series(i)%scope = of_all
          if (index(series(i)%name, camshaft_prefix) /= 1) cycle
          length = index(series(i)%name(len(camshaft_prefix) + 1:), "_") - 1
          series(i)%scope = scope_camshaft//" "//series(i)%name(len(camshaft_prefix) + 1:len(camshaft_prefix) + length)

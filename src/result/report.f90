@@ -4,6 +4,7 @@
 module camroller_report
    use camroller_kinds, only : wp, two_pi, degree
    use camroller_error, only : error_t
+   use camroller_bearing_asperity, only : bearing_state_t
    use camroller_case, only : case_t
    use camroller_model, only : model_t
    use camroller_state, only : state_t
@@ -14,8 +15,9 @@ module camroller_report
    use camroller_extremes, only : samples_t
    use camroller_series_extremes, only : extremes_t, find_extremes
    use camroller_margins, only : margins_t, find_margins
+   use camroller_names, only : name_length
    use camroller_result, only : result_t, check_numbers, find_quantity
-   use camroller_shaft, only : solved_t, new_shaft, refine_curves, shaft_torques
+   use camroller_shaft, only : bearing_count, bearing_series_count, solved_t, new_shaft, refine_curves, shaft_torques
    use camroller_mean_bearings, only : mean_bearing_torque
    use camroller_means, only : statistics_t, integrate_lobe
    use camroller_flexible_report, only : flexible_means_t, integrate_turns
@@ -103,12 +105,14 @@ contains
       type(error_t), allocatable, intent(out) :: error
 
       type(solved_t) :: solved
-      type(margins_t), allocatable :: margins(:)
+      type(margins_t) :: margins(size(models))
       type(extremes_t) :: extremes
       type(samples_t) :: torque_rows
-      ! Mean torque of the bearings of each camshaft [N m]; its error over itself [-]
-      real(wp), allocatable :: bearing_torque(:)
+      ! Mean torque of the bearings of each camshaft [N m], means of series of single bearings [unit of each]; their error [-]
+      real(wp), allocatable :: bearing_torque(:), of_bearings(:)
       real(wp) :: bearing_error
+      ! Name of the series that this is the error of
+      character(len=name_length) :: worst
       integer :: lobe
 
       allocate (result%remarks(0))
@@ -127,26 +131,25 @@ contains
       call sample_series(solved, with_series, result, error)
       if (allocated(error)) return
 
-      allocate (margins(size(models)))
       do lobe = 1, size(models)
          call find_margins(models(lobe), cycles(lobe)%stops, margins(lobe))
          call judge_lobe(models(lobe), cycles(lobe), statistics(lobe), margins(lobe), merge(lobe, 0, size(models) > 1), &
             & result%remarks, error)
          if (allocated(error)) return
       end do
-      allocate (bearing_torque(solved%shaft%count))
-      call mean_bearing_torque(solved, bearing_torque, bearing_error, torque_rows, error)
+      allocate (bearing_torque(solved%shaft%count), of_bearings(bearing_series_count(case)))
+      call mean_bearing_torque(solved, result%series, of_bearings, bearing_torque, bearing_error, worst, torque_rows, error)
       if (allocated(error)) return
       if (allocated(cycles(1)%flexible) .and. .not. allocated(case%cam_bearings)) torque_rows = statistics(1)%torque_rows
       if (bearing_error > maxval(statistics%mean_error)) then
          statistics%mean_error = bearing_error
-         statistics%worst_mean = "torque_bearings"
+         statistics%worst_mean = worst
       end if
       result%worst_mean = statistics(maxloc(statistics%mean_error, 1))%worst_mean
       call find_extremes(solved, margins, statistics, torque_rows, result, extremes, error)
       if (allocated(error)) return
       result%worst_extreme = statistics(maxloc(statistics%extreme_error, 1))%worst_extreme
-      call make_summary(solved, statistics, bearing_torque, margins, extremes, result)
+      call make_summary(solved, statistics, bearing_torque, of_bearings, margins, extremes, result)
       do lobe = 1, size(models)
          associate (named => merge(lobe, 0, size(models) > 1))
             call judge_films(statistics(lobe), named, result%remarks)
@@ -185,6 +188,8 @@ contains
       type(state_t) :: state
       ! Torques on each camshaft [N m]; values of the series; cam angle from full lift [rad]
       real(wp) :: torques(torque_count, solved%shaft%count), values(size(result%series)), angle
+      ! States of the bearings; allocated where they have series
+      type(bearing_state_t), allocatable :: bearings(:, :)
       integer :: hints(size(solved%models)), columns(2, size(solved%models)), of_camshaft(2), i, lobe
       ! Is there one follower, at the angle of the camshaft?
       logical :: is_alone
@@ -192,6 +197,7 @@ contains
       hints = 1
       values = 0.0_wp
       of_camshaft = camshaft_columns(solved%case)
+      if (bearing_count(solved%case) > 0) allocate (bearings(bearing_count(solved%case), solved%shaft%count))
       do lobe = 1, size(solved%models)
          columns(:, lobe) = lobe_columns(solved%case, lobe)
       end do
@@ -202,9 +208,9 @@ contains
             call state_at(solved%cycles(first), solved%models(first), angle - solved%shaft%phases(1), solved%shaft%hints(1), &
                & state, error)
          end associate
-         if (.not. allocated(error)) call shaft_torques(solved, angle, torques, error, state)
+         if (.not. allocated(error)) call shaft_torques(solved, angle, torques, error, state, bearings)
          if (allocated(error)) return
-         call camshaft_values(solved%case, torques, values(of_camshaft(1):of_camshaft(2)))
+         call camshaft_values(solved%case, torques, values(of_camshaft(1):of_camshaft(2)), bearings)
          do lobe = 1, merge(size(solved%models), 0, with_followers)
             if (.not. is_alone) call state_at(solved%cycles(lobe), solved%models(lobe), angle, hints(lobe), state, error)
             if (allocated(error)) return

@@ -17,7 +17,7 @@ module camroller_result
    public :: scope_length, scope_camshaft, scope_engine, scope_case
 
    !> Length of a scope
-   integer, parameter :: scope_length = 16
+   integer, parameter :: scope_length = 28
    !> Scopes beside those of `lobe_scope`: all followers and bearings of the camshaft, which has a number where there are several;
    !> all camshafts of the engine; the case as a whole
    character(len=*), parameter :: scope_camshaft = "camshaft", scope_engine = "engine  ", scope_case = "case"
@@ -32,7 +32,8 @@ module camroller_result
       character(len=:), allocatable :: description
       !> Part of the model that it comes from, e.g. `asperity`
       character(len=:), allocatable :: source
-      !> What it belongs to: `lobe 1` or `lobe 2` for one follower of that lobe shape, `camshaft`, `camshaft 1`, `engine`, or `case`
+      !> What it belongs to: `lobe 1` or `lobe 2` for one follower of that lobe shape, `camshaft`, `camshaft 1`, `bearing 1`,
+      !> `camshaft 1 bearing 1`, `engine`, or `case`
       character(len=scope_length) :: scope = scope_case
       !> Has infinity a meaning, as for the speed at which something that never happens would happen?
       logical :: may_be_infinite = .false.

@@ -4,6 +4,7 @@
 module camroller_series_extremes
    use camroller_kinds, only : wp
    use camroller_error, only : error_t
+   use camroller_bearing_asperity, only : bearing_state_t
    use camroller_catalogue, only : follower_values, camshaft_values, lobe_columns, camshaft_columns
    use camroller_cycle, only : state_at
    use camroller_cycle_remarks, only : has_film_limit
@@ -12,7 +13,7 @@ module camroller_series_extremes
    use camroller_means, only : statistics_t
    use camroller_model, only : model_t
    use camroller_result, only : result_t, quantity_t, find_quantity
-   use camroller_shaft, only : solved_t, shaft_torques
+   use camroller_shaft, only : bearing_count, solved_t, shaft_torques
    use camroller_slip_errors, only : error_of_extreme
    use camroller_state, only : state_t
    use camroller_torque_list, only : torque_count, torque_series, of_residual
@@ -306,10 +307,13 @@ contains
 
       ! Torques on each camshaft [N m]
       real(wp) :: torques(torque_count, solved%shaft%count)
+      ! States of the bearings; allocated where they have series
+      type(bearing_state_t), allocatable :: bearings(:, :)
 
-      call shaft_torques(solved, angle, torques, error)
+      if (bearing_count(solved%case) > 0) allocate (bearings(bearing_count(solved%case), solved%shaft%count))
+      call shaft_torques(solved, angle, torques, error, bearings=bearings)
       if (allocated(error)) return
-      call camshaft_values(solved%case, torques, values)
+      call camshaft_values(solved%case, torques, values, bearings)
    end subroutine camshaft_row
 
    !> Smallest contact load with the valve off its seat; over the whole cycle where it never leaves it.

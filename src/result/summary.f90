@@ -30,13 +30,15 @@ module camroller_summary
 contains
 
    !> Fill the summary of a result whose series are there.
-   subroutine make_summary(solved, statistics, bearing_torque, margins, extremes, result)
+   subroutine make_summary(solved, statistics, bearing_torque, of_bearings, margins, extremes, result)
       !> The solved case
       type(solved_t), intent(in) :: solved
       !> Means over the cycle of each lobe shape
       type(statistics_t), intent(in) :: statistics(:)
       !> Mean torque of the bearings of each camshaft [N m]
       real(wp), intent(in) :: bearing_torque(:)
+      !> Means of the series of single bearings [unit of each]
+      real(wp), intent(in) :: of_bearings(:)
       !> Margins of each lobe shape
       type(margins_t), intent(in) :: margins(:)
       !> Extremes of the series
@@ -47,10 +49,12 @@ contains
       type(quantity_list_t) :: list
       ! Means of the series [unit of the series]
       real(wp), allocatable :: means(:)
-      integer :: worst, lobe
+      integer :: columns(2), worst, lobe
 
       allocate (list%items(0), list%values(0))
       means = all_means(solved, result, statistics, bearing_torque)
+      columns = camshaft_columns(solved%case)
+      means(columns(2) - size(of_bearings) + 1:columns(2)) = of_bearings
       call add_series_statistics(result, extremes, means, list)
       call add_losses(solved%case, result, means, extremes, list)
       call add_engine_scalars(list, solved%case, result, means)

@@ -11,11 +11,12 @@ module camroller_shaft_simulation
    use camroller_kinds, only : wp, degree
    use camroller_error, only : error_t, raise, add_context, kind_usage
    use camroller_number_text, only : integer_text
+   use camroller_bearing_asperity, only : bearing_state_t
    use camroller_case, only : case_t
    use camroller_catalogue, only : camshaft_count, camshaft_values, follower_count
    use camroller_lubricant, only : oil_t, get_oil
    use camroller_follower_step, only : point_t, inputs_t, outcome_t, piece_number, inputs_between
-   use camroller_shaft, only : shaft_t, new_shaft, set_journal, in_common_frame, bearing_torques
+   use camroller_shaft, only : bearing_count, shaft_t, new_shaft, set_journal, in_common_frame, bearing_torques
    use camroller_simulation, only : simulation_t, advance, halt, check_step, prepare_simulation, place_simulation, &
       & check_angle, has_films, put_back, get_mark, get_point, set_point, get_values
    use camroller_model_mark, only : mixed
@@ -53,6 +54,8 @@ module camroller_shaft_simulation
       real(wp) :: estimated_error = 0.0_wp
       !> The same on each camshaft at the end, shape (torque, camshaft) [N m]
       real(wp), allocatable :: by_camshaft(:, :)
+      !> States of the bearings at the end, shape (bearing, camshaft); allocated where the case has series of them
+      type(bearing_state_t), allocatable :: bearings(:, :)
       !> What the follower of each cam gives
       type(outcome_t), allocatable :: followers(:)
    end type shaft_outcome_t
@@ -247,6 +250,8 @@ contains
       if (allocated(outcome%by_camshaft)) deallocate (outcome%by_camshaft)
       allocate (outcome%by_camshaft(torque_count, shaft%shaft%count))
       outcome%by_camshaft = 0.0_wp
+      k = bearing_count(shaft%case)
+      if (k > 0 .and. .not. allocated(outcome%bearings)) allocate (outcome%bearings(k, shaft%shaft%count))
       do i = 1, size(outcome%followers)
          k = shaft%shaft%shafts(i)
          outcome%mean_torques = outcome%mean_torques + outcome%followers(i)%mean_torques
@@ -255,7 +260,8 @@ contains
       end do
       outcome%extreme_torque = [huge(1.0_wp), -huge(1.0_wp)]
       do i = 0, last
-         call bearings_at(shaft, inputs_between(start, finish, real(i, wp)/last), nodes(:2, i, :), by_shaft, error)
+         call bearings_at(shaft, inputs_between(start, finish, real(i, wp)/last), nodes(:2, i, :), by_shaft, error, &
+            & outcome%bearings)
          if (allocated(error)) return
          bearings(i) = sum(by_shaft)
          drive = sum(nodes(3, i, :)) + bearings(i)
@@ -274,7 +280,7 @@ contains
    end subroutine add_up
 
    !> Torque of the bearings of each camshaft at inputs and forces.
-   subroutine bearings_at(shaft, inputs, forces, torques, error)
+   subroutine bearings_at(shaft, inputs, forces, torques, error, bearings)
       !> The shaft; its bearings are set to the inputs
       type(shaft_simulation_t), intent(inout) :: shaft
       !> Speed and oil temperature
@@ -285,6 +291,8 @@ contains
       real(wp), intent(out) :: torques(:)
       !> Domain error where a bearing law has no solution
       type(error_t), allocatable, intent(out) :: error
+      !> States of the bearings, shape (bearing, camshaft)
+      type(bearing_state_t), intent(out), optional :: bearings(:, :)
 
       type(oil_t) :: oil
       ! Forces in the frame of the first follower [N]
@@ -299,7 +307,7 @@ contains
       do cam = 1, size(forces, 2)
          turned(:, cam) = in_common_frame(shaft%shaft, cam, forces(:, cam))
       end do
-      call bearing_torques(shaft%shaft, turned, torques, error)
+      call bearing_torques(shaft%shaft, turned, torques, error, bearings)
    end subroutine bearings_at
 
    !> Bring all rollers to rest, as in an engine that has stopped: the next step starts without spin.
@@ -369,7 +377,7 @@ contains
          return
       end if
       allocate (values(camshaft_count(shaft%case)))
-      call camshaft_values(shaft%case, outcome%by_camshaft, values)
+      call camshaft_values(shaft%case, outcome%by_camshaft, values, outcome%bearings)
    end subroutine shaft_values
 
    !> Mark of a shaft: of its followers, where they stand, and of the bearings.
@@ -390,6 +398,10 @@ contains
                & bearings%radial_clearance, bearings%bearing_positions, bearings%cam_positions], parts)]
          end associate
       end if
+      if (allocated(shaft%shaft%touch)) parts = [parts, transfer([shaft%shaft%touch%roughness, shaft%shaft%touch%pressure, &
+         & shaft%shaft%touch%boundary_coefficient], parts)]
+      if (allocated(shaft%shaft%pull)) parts = [parts, transfer([shaft%shaft%pull%force, shaft%shaft%pull%angle, &
+         & shaft%shaft%pull%position], parts)]
       mark = mixed(parts)
    end subroutine get_shaft_mark
 

@@ -8,7 +8,7 @@ module camroller_audit
    use camroller_case, only : case_t, select_names, quantity_names
    use camroller_effect_choice, only : choose_effects
    use camroller_effect_list, only : choice_t, decision_t, effect_names, effect_count, effect_bearings, effect_ehl, &
-      & effect_rolling, has_effect, leave_all_but, leave_out
+      & effect_rolling, has_effect, leave_all_but, leave_out, needs_bearings
    use camroller_model, only : model_t
    use camroller_result, only : quantity_t
    use camroller_run, only : build_models
@@ -100,7 +100,8 @@ contains
       call add_outcome(table, position, run_none, full, full, none)
       do i = 1, effect_count
          ! A law has always another in its place, and bearings need what presses on them
-         if (.not. has_effect(listed, i) .or. (i > effect_rolling .and. i <= effect_ehl) .or. i == effect_bearings) cycle
+         if (.not. has_effect(listed, i) .or. (i > effect_rolling .and. i <= effect_ehl) &
+            & .or. any(i == [effect_bearings, needs_bearings])) cycle
          variant = listed
          call leave_all_but(variant, i)
          call run_trial(variant, repeats, outcome)

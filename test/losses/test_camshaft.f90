@@ -3,7 +3,7 @@ module test_camshaft
    use testdrive, only : unittest_type, new_unittest, error_type, check
    use camroller_kinds, only : wp
    use camroller_journal, only : cam_bearings_t
-   use camroller_camshaft, only : bearing_loads, share_loads
+   use camroller_camshaft, only : bearing_loads, belt_pull_t, share_loads, share_pull
    implicit none
    private
 
@@ -22,7 +22,8 @@ contains
          new_unittest("forces and moments balance", test_balance), &
          new_unittest("a cam over a bearing loads this one only", test_over_bearing), &
          new_unittest("forces of opposite cams cancel as vectors", test_vectors), &
-         new_unittest("the order of the cams does not matter", test_order) &
+         new_unittest("the order of the cams does not matter", test_order), &
+         new_unittest("a pull beyond the last bearing is balanced by the two beside it", test_overhang) &
          ]
    end subroutine collect_camshaft
 
@@ -100,5 +101,23 @@ contains
       call share_loads([0.0_wp, 0.1_wp, 0.2_wp], [0.15_wp, 0.05_wp], forces(:, [2, 1]), again)
       call check(error, all(abs(loads - again) <= epsilon(1.0_wp)))
    end subroutine test_order
+
+   subroutine test_overhang(error)
+      type(error_type), allocatable, intent(out) :: error
+      real(wp), parameter :: places(3) = [0.0_wp, 0.1_wp, 0.25_wp], wheels(4) = [-0.03_wp, 0.02_wp, 0.2_wp, 0.31_wp]
+      real(wp) :: loads(2, 3)
+      integer :: i
+
+      do i = 1, size(wheels)
+         loads = 0.0_wp
+         call share_pull(places, belt_pull_t(500.0_wp, 2.0_wp, wheels(i)), loads)
+         call check(error, all(abs(sum(loads, 2) - 500.0_wp*[cos(2.0_wp), sin(2.0_wp)]) < round_off) .and. &
+            & all(abs(matmul(loads, places) - 500.0_wp*wheels(i)*[cos(2.0_wp), sin(2.0_wp)]) < round_off), "balance")
+         if (allocated(error)) return
+         ! the span beyond the second bearing does not feel a wheel before it
+         call check(error, all(abs(loads(:, merge(3, 1, wheels(i) < 0.1_wp))) <= 0.0_wp), "another span")
+         if (allocated(error)) return
+      end do
+   end subroutine test_overhang
 
 end module test_camshaft

@@ -4,6 +4,7 @@ import time
 
 import numpy as np
 
+import bearing_reference
 import heat_reference
 import joint_reference
 import kinematics_reference
@@ -73,6 +74,7 @@ if __name__ == '__main__':
     start = time.time()
     for task in (lambda: kinematics_reference.write(DATA / 'kinematics_reference.csv'),
                  lambda: joint_reference.write(DATA / 'joint_reference.csv'),
+                 lambda: bearing_reference.write(DATA / 'bearing_reference.csv'),
                  lambda: heat_reference.write(DATA / 'heat_reference.csv'),
                  lambda: roller_problem_reference.write(DATA / 'roller_problem_reference.csv'), write_cycles):
         task()

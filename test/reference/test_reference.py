@@ -8,6 +8,7 @@ from scipy.integrate import quad
 from scipy.optimize import brentq
 from scipy.special import erfc, k0
 
+import bearing_reference
 import contact_laws as laws
 import heat_reference
 import pivot
@@ -177,3 +178,13 @@ def test_rigid_limit_of_the_rolling_resistance_is_1_4705():
     load = quad(lambda g: pressure(g, end) / math.cos(g)**2, -math.pi / 2 + 1e-9, end)[0]
     shear = abs(quad(lambda g: 1 - (math.cos(g) / math.cos(end))**2, -math.pi / 2, end)[0]) / 2
     assert abs(6 * math.sqrt(2) * shear / math.sqrt(12 * load) - 1.4705) < 5e-5
+
+
+@pytest.mark.parametrize('e', (0.1, 0.6, 0.95))
+def test_film_forces_of_bearings_are_the_closed_forms(e):
+    """Ocvirk (1952) and Sommerfeld (1904): eta omega R L^3/(4 c^2) e sqrt(16 e^2 + pi^2 (1 - e^2))/(1 - e^2)^2 and so on."""
+    r, c, width = bearing_reference.DIAMETER / 2, bearing_reference.CLEARANCE, bearing_reference.WIDTH
+    short = r * width**3 / (4 * c * c) * e * math.sqrt(16 * e * e + math.pi**2 * (1 - e * e)) / (1 - e * e)**2
+    assert abs(math.hypot(*bearing_reference.film_force('short_ocvirk', e)) / short - 1) < 1e-10
+    long = 12 * math.pi * r * width * (r / c)**2 * e / ((2 + e * e) * math.sqrt(1 - e * e))
+    assert abs(math.hypot(*bearing_reference.film_force('long_full_sommerfeld', e)) / long - 1) < 1e-10

@@ -35,7 +35,7 @@ module test_hard_cases
       "pressure_1500_MPa_roelands", "pressure_1500_MPa_barus", "smooth_surfaces", "rough_surfaces", &
       "wide_contact", "event_touches_cycle_end", "no_dwell", "periodic_table", "sharp_cap_eyring", "sharp_cap", &
       "stuck_roller", "towards_pivot_flight", "stick_slip_true", "outside_film_law", "narrow_contact", &
-      "pressure_4000_MPa_barus", "jumping_friction", "hot_contact_of_cold_oil"]
+      "pressure_4000_MPa_barus", "jumping_friction", "hot_contact_of_cold_oil", "touching_bearings"]
 
    !> A deck that has no answer, and what its error says
    type :: ending_t

@@ -95,13 +95,7 @@ contains
       if (allocated(case%valve_guide)) call change(case%valve_guide%radial_clearance, length)
       call change_joints()
       call change_flexible()
-      if (allocated(case%cam_bearings)) then
-         call change(case%cam_bearings%diameter, length)
-         call change(case%cam_bearings%width, length)
-         call change(case%cam_bearings%radial_clearance, length)
-         call change(case%cam_bearings%bearing_positions, length)
-         call change(case%cam_bearings%cam_positions, length)
-      end if
+      call change_bearings()
 
    contains
 
@@ -114,6 +108,21 @@ contains
 
          value = scaled(units, value, dimension)
       end subroutine change
+
+      !> Camshaft bearings, and what comes on top of them, in other units.
+      subroutine change_bearings()
+         if (allocated(case%cam_bearings)) then
+            call change(case%cam_bearings%diameter, length)
+            call change(case%cam_bearings%width, length)
+            call change(case%cam_bearings%radial_clearance, length)
+            call change(case%cam_bearings%bearing_positions, length)
+            call change(case%cam_bearings%cam_positions, length)
+         end if
+         if (allocated(case%bearing_asperity)) call change(case%bearing_asperity%roughness, length)
+         if (allocated(case%bearing_asperity)) call change(case%bearing_asperity%modulus, pressure)
+         if (allocated(case%belt_pull)) call change(case%belt_pull%force, force)
+         if (allocated(case%belt_pull)) call change(case%belt_pull%position, length)
+      end subroutine change_bearings
 
       !> The sliding joints in other units.
       subroutine change_joints()

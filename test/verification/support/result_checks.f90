@@ -4,7 +4,8 @@ module result_checks
    use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
    use camroller_kinds, only : wp
    use camroller_accuracy, only : is_checked
-   use camroller_case, only : case_t, energy_names
+   use camroller_case, only : camshaft_number, case_t, energy_names
+   use camroller_number_text, only : integer_text
    use camroller_remarks, only : film_without_limit, loose_tolerance, missed_extremes, missed_means
    use camroller_result, only : result_t, find_quantity
    use camroller_torque_list, only : is_loss, torque_count, torque_series
@@ -39,6 +40,7 @@ contains
       trouble = check_numbers(result)
       if (trouble == "") trouble = check_limits(case, result)
       if (trouble == "") trouble = check_sums(case, result)
+      if (trouble == "") trouble = check_bearings(case, result)
       if (trouble == "") trouble = check_energy(case, result)
    end function check_result
 
@@ -103,6 +105,40 @@ contains
             & result%series(i)%name//" outside its extremes;"
       end do
    end function check_limits
+
+   !> Bearings that have series: their torques are those of all, their journals stay inside them, and boundary friction is part of
+   !> the torque.
+   function check_bearings(case, result) result(trouble)
+      !> The case
+      type(case_t), intent(in) :: case
+      !> Its result
+      type(result_t), intent(in) :: result
+      character(len=:), allocatable :: trouble, name
+      ! Torque of all bearings [N m]
+      real(wp), allocatable :: whole(:)
+      integer :: bearing, shaft
+
+      trouble = ""
+      if (.not. allocated(case%cam_bearings)) return
+      if (.not. case%cam_bearings%by_bearing) return
+      whole = 0.0_wp*result%angle
+      do shaft = 1, camshaft_number(case)
+         do bearing = 1, size(case%cam_bearings%bearing_positions)
+            name = "bearing_"//integer_text(bearing)//"_"
+            if (camshaft_number(case) > 1) name = "camshaft_"//integer_text(shaft)//"_"//name
+            whole = whole + series_of(result, name//"torque")
+            if (any(series_of(result, name//"eccentricity") < 0.0_wp) .or. any(series_of(result, name//"eccentricity") > 1.0_wp) &
+               & .or. any(series_of(result, name//"film_min") <= 0.0_wp)) trouble = trouble//" "//name//" is left by its journal;"
+            if (.not. allocated(case%bearing_asperity)) cycle
+            if (any(series_of(result, name//"torque_boundary") > series_of(result, name//"torque"))) trouble = trouble//" "//name &
+               & //"torque is less than its part;"
+            if (any(series_of(result, name//"asperity_load") > series_of(result, name//"load")*(1.0_wp + rounding))) trouble = &
+               & trouble//" "//name//"asperity_load is more than the load;"
+         end do
+      end do
+      if (any(abs(whole - series_of(result, "torque_bearings")) > rounding*maxval(whole))) trouble = trouble// &
+         & " torques of bearings do not add up;"
+   end function check_bearings
 
    !> Sums of torques, at every angle and as means; powers are torques times speed.
    function check_sums(case, result) result(trouble)

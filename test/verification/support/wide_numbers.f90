@@ -90,6 +90,14 @@ module wide_numbers
       & usual_t("cam_bearings.diameter_mm", 18.0_wp, 35.0_wp), &
       & usual_t("cam_bearings.width_mm", 8.0_wp, 30.0_wp), &
       & usual_t("cam_bearings.radial_clearance_um", 10.0_wp, 100.0_wp, .true.), &
+      & usual_t("bearing_asperity.roughness_um", 0.02_wp, 1.2_wp, .true.), &
+      & usual_t("bearing_asperity.modulus_GPa", 50.0_wp, 250.0_wp), &
+      & usual_t("bearing_asperity.boundary_coefficient", 0.0_wp, 0.3_wp), &
+      & usual_t("bearing_asperity.roughness_product", 0.02_wp, 0.1_wp), &
+      & usual_t("bearing_asperity.roughness_over_tip_radius", 1.0e-4_wp, 0.05_wp, .true.), &
+      & usual_t("belt_pull.force_N", 0.0_wp, 2000.0_wp), &
+      & usual_t("belt_pull.angle_deg", -180.0_wp, 180.0_wp), &
+      & usual_t("belt_pull.position_mm", -60.0_wp, 60.0_wp), &
       & usual_t("engine.cylinders", 2.0_wp, 6.0_wp), &
       & usual_t("engine.strokes", 2.0_wp, 4.0_wp), &
       & usual_t("engine.camshafts", 1.0_wp, 2.0_wp), &

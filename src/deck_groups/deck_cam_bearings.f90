@@ -1,0 +1,96 @@
+!> Decks: what comes on top of the camshaft bearings, mixed friction and the pull of the belt or chain.
+!>
+!> In: schema, settings. Out: groups and keys, the components of a case, and the rules that tie their keys to others.
+module camroller_deck_cam_bearings
+   use camroller_bearing_asperity, only : bearing_asperity_t, clearance_advice, clearance_is_enough
+   use camroller_case, only : case_t
+   use camroller_deck_complaint, only : complain, complain_about_group
+   use camroller_deck_schema, only : schema_t, add_group, add_number, anything, from_to, group_effect, not_negative, positive
+   use camroller_kinds, only : wp
+   use camroller_mistakes, only : mistakes_t
+   use camroller_settings, only : settings_t, has_group, is_known, take
+   implicit none
+   private
+
+   public :: add_bearing_part_keys, fill_bearing_parts, check_bearing_parts
+
+   character(len=*), parameter :: bearings = "cam_bearings", mixed = "bearing_asperity", pull = "belt_pull"
+
+contains
+
+   !> Groups and keys.
+   subroutine add_bearing_part_keys(schema)
+      !> Schema to add to
+      type(schema_t), intent(inout) :: schema
+
+      type(bearing_asperity_t) :: standard
+
+      call add_group(schema, "bearing_asperity", group_effect, &
+         & "asperities that share the load of the camshaft bearings where their film is thin")
+      call add_number(schema, "roughness_um", positive, "root mean square roughness of journal and bearing together", &
+         & example="0.4")
+      call add_number(schema, "modulus_GPa", positive, &
+         & "E' of journal and bearing, 2/[(1 - nu1^2)/E1 + (1 - nu2^2)/E2]", example="110")
+      call add_number(schema, "boundary_coefficient", not_negative, "friction coefficient of touching asperities", &
+         & example="0.1")
+      call add_number(schema, "roughness_product", positive, "asperity density times tip radius times roughness", &
+         & default=standard%roughness_product)
+      call add_number(schema, "roughness_over_tip_radius", positive, "ratio of roughness to tip radius", &
+         & default=standard%roughness_over_tip_radius)
+      call add_group(schema, "belt_pull", group_effect, "constant force of the belt or chain that drives each camshaft")
+      call add_number(schema, "force_N", not_negative, "the force", example="400")
+      call add_number(schema, "angle_deg", from_to(-360.0_wp, 360.0_wp), "its direction, from the line from the first "// &
+         & "follower's pivot to the cam's centre, positive the way a finger turns as it opens its valve", example="-90")
+      call add_number(schema, "position_mm", anything, "place of its wheel along the shaft, which may overhang the bearings", &
+         & example="-30")
+   end subroutine add_bearing_part_keys
+
+   !> Fill the components of a case.
+   subroutine fill_bearing_parts(settings, case)
+      !> The settings
+      type(settings_t), intent(in) :: settings
+      !> The case
+      type(case_t), intent(inout) :: case
+
+      if (has_group(settings, mixed)) then
+         allocate (case%bearing_asperity)
+         call take(settings, mixed, "roughness_um", case%bearing_asperity%roughness)
+         call take(settings, mixed, "modulus_GPa", case%bearing_asperity%modulus)
+         call take(settings, mixed, "boundary_coefficient", case%bearing_asperity%boundary_coefficient)
+         call take(settings, mixed, "roughness_product", case%bearing_asperity%roughness_product)
+         call take(settings, mixed, "roughness_over_tip_radius", case%bearing_asperity%roughness_over_tip_radius)
+      end if
+      if (has_group(settings, pull)) then
+         allocate (case%belt_pull)
+         call take(settings, pull, "force_N", case%belt_pull%force)
+         call take(settings, pull, "angle_deg", case%belt_pull%angle)
+         call take(settings, pull, "position_mm", case%belt_pull%position)
+      end if
+   end subroutine fill_bearing_parts
+
+   !> Rules: both need bearings, and mixed friction surfaces that are apart where the journal is in the middle.
+   subroutine check_bearing_parts(settings, mistakes)
+      !> The settings
+      type(settings_t), intent(in) :: settings
+      !> Mistakes so far
+      type(mistakes_t), intent(inout) :: mistakes
+
+      ! Roughness, radial clearance [m]
+      real(wp) :: roughness, clearance
+
+      if (.not. has_group(settings, bearings)) then
+         if (has_group(settings, mixed)) call complain_about_group(mistakes, settings, mixed, &
+            & "&"//mixed//" needs the group &"//bearings)
+         if (has_group(settings, pull)) call complain_about_group(mistakes, settings, pull, &
+            & "&"//pull//" needs the group &"//bearings)
+         return
+      end if
+      if (.not. has_group(settings, mixed)) return
+      if (.not. (is_known(settings, mixed, "roughness_um") .and. is_known(settings, bearings, "radial_clearance_um"))) return
+      call take(settings, mixed, "roughness_um", roughness)
+      call take(settings, bearings, "radial_clearance_um", clearance)
+      if (.not. clearance_is_enough(roughness, clearance)) call complain(mistakes, settings, mixed, "roughness_um", &
+         & clearance_advice)
+   end subroutine check_bearing_parts
+
+end module camroller_deck_cam_bearings
