@@ -2,7 +2,7 @@
 
 SHELL := /bin/bash
 .DEFAULT_GOAL := help
-.PHONY: help setup commit build debug mpi install run dynamics comparison test quick bless random random-ehl random-flexible random-wide needed needed-flexible rough-rows fuzz sanitize study study-film study-dynamics audit trends check check-layers \
+.PHONY: help setup commit build debug mpi install run dynamics comparison test quick bless random random-ehl random-flexible random-wide needed needed-flexible rough-rows fuzz sanitize faults study study-film study-dynamics audit trends check check-layers \
   check-style check-format check-lint check-warnings second-compiler format docs recipes bench bench-ehl range-ehl bench-batch bench-cases bench-effects bench-hosts clean distclean
 
 FPM := .venv/bin/fpm
@@ -132,6 +132,9 @@ sanitize: commit ## all decks and Fortran tests with address and undefined-behav
 	@$(FPM) install --flag "$(SANITIZE_FLAGS)" --prefix build/sanitize > build/sanitize-build.log 2>&1 || \
 	  { cat build/sanitize-build.log; exit 1; }
 	@DECKS="$(DECKS)" SUITES="$(SUITES)" $(PYTHON) tools/sanitize.py
+
+faults: commit ## faults planted one at a time, each of which a named test must see, half an hour: ONLY=words in the name
+	@$(PYTHON) tools/planted_faults.py $(ONLY)
 
 rough-rows: commit ## comparison with rough contacts of Masjedi and Khonsari: bench/tables/ehl_rough.txt, for doc/notes/numerical_film.md
 	@ROUGH_TABLE=bench/tables/ehl_rough.txt $(FPM) test --flag "$(RELEASE_FLAGS)" -- ehl_rough

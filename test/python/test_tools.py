@@ -6,6 +6,7 @@ import sys
 
 import pytest
 from fortran_source import ROOT, statements
+from planted_faults import faults
 from readme_commands import commands_of, main
 
 
@@ -218,3 +219,15 @@ def test_objects_of_moved_sources_are_not_linked(tmp_path):
     subprocess.run(["bash", tmp_path / "tools/write_commit.sh"], check=True, capture_output=True)
     assert [path.name for path in folder.iterdir()] == ["src_base_words.f90.o"]
     assert list((tmp_path / "build/gfortran_2/camroller").iterdir()) == []
+
+
+def test_the_list_of_planted_faults_fits_the_sources():
+    """Each text stands once in its file, and the test that is to fail is there and is not the stored table of results."""
+    suites = (ROOT / "test/main.f90").read_text()
+    assert len(faults()) >= 20
+    for fault in faults():
+        assert (ROOT / fault["file"]).read_text().count(fault["old"]) == 1, fault["name"]
+        if "suite" in fault:
+            assert f'"{fault["suite"]}"' in suites and fault["suite"] != "regression"
+        else:
+            assert all((ROOT / word).is_file() for word in fault["pytest"].split())
