@@ -138,7 +138,7 @@ contains
       ignored = c_raise(number)
    end subroutine end_by_break
 
-   !> End the program by a signal, as its handler. The system may have a thread of a library interrupted by it: it is passed on, since
+   !> End the program by a signal, as its handler. The system may interrupt a thread of a library by it: it is passed on, since
    !> the thread that writes could otherwise create a file between the removal and the end.
    subroutine end_by_signal(number) bind(C)
       !> Number of the signal

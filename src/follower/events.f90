@@ -117,7 +117,7 @@ contains
       end do
    end function scan_angles
 
-   !> Angles between two others at which one of the switches changes its sign, found by a scan, and beside the lowest of three values
+   !> Angles between two others at which one of the switches changes its sign, found by a scan, and near the lowest of three values
    !> by a search.
    function switch_angles(model, start, finish) result(angles)
       !> The model

@@ -94,9 +94,8 @@ contains
       call check(error, losses >= 2 .and. mod(losses, 2) == 0, "contact is not lost and found again")
    end subroutine test_loss_stops
 
-   !> The larger of both loads has a kink where they are equal: every change between them that a scan meets has its stop.
-   !> The square of the speed at which contact is lost, over the cam angle: the moment falls linearly with it. Beside the smallest of
-   !> these squares the contact is lost for an angle that grows with the root of the excess, beside a largest one it is found again.
+   !> The square of the speed at which contact is lost, over the cam angle: the moment falls linearly with that square. Near the
+   !> smallest of these squares contact is lost for an angle that grows with the root of the excess; near a largest it returns.
    subroutine test_short_losses(error)
       type(error_type), allocatable, intent(out) :: error
       ! Angles of a degree; excess of the squared speed: losses of about 0.6, 0.2, 0.06 and 0.02 degrees [-]
@@ -152,6 +151,7 @@ contains
       square = slow%speed**2 + at_slow%total*(fast%speed**2 - slow%speed**2)/(at_slow%total - at_fast%total)
    end function loss_square
 
+   !> The larger of both loads has a kink where they are equal: every change between them that a scan meets has its stop.
    subroutine test_load_stops(error)
       type(error_type), allocatable, intent(out) :: error
       type(case_t) :: case
