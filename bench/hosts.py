@@ -1,5 +1,6 @@
 """What a step of a host costs: instructions and allocations of one follower in a step of one degree of crank angle, and processor
 time of a working cycle of all followers. Instructions and allocations are differences of two runs, so that the start does not count.
+The column `before`, instructions of an earlier program, stays as it is in the table.
 
 Usage: hosts.py PREFIX WORK        with the library installed in PREFIX; needs valgrind
 """
@@ -13,6 +14,7 @@ import subprocess
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
+TABLE = ROOT / "bench" / "tables" / "hosts.txt"
 DECKS = ("decks/thesis.nml", "decks/three_cam_head.nml", "decks/four_cylinder.nml")
 STEPS = (20, 60)
 CYCLE = 720
@@ -36,6 +38,12 @@ def count(program, deck, steps, work):
     return instructions, allocations, cams
 
 
+def counted_before():
+    """Instructions of each deck in the column `before`."""
+    found = re.findall(r"^(decks/\S+) +\d+ +(\d+)", TABLE.read_text(), re.MULTILINE)
+    return {deck: int(number) for deck, number in found}
+
+
 def main():
     prefix, work = (pathlib.Path(word).resolve() for word in sys.argv[1:3])
     work.mkdir(parents=True, exist_ok=True)
@@ -43,13 +51,15 @@ def main():
     run("gcc", "-O2", "-std=c11", ROOT / "bench" / "host_steps.c", f"-I{prefix}/include", f"-L{prefix}/lib", "-lcamroller", "-lm",
         f"-Wl,-rpath,{prefix}/lib", "-o", program)
     print("One degree of crank angle, half a degree of cam angle, with a ripple of the speed; one thread")
-    print(f"{'deck':26}{'cams':>5}{'instructions':>14}{'allocations':>13}{'a cycle [s]':>13}")
-    print(f"{'':26}{'':5}{'a step and cam':>14}{'a step, cam':>13}{'all cams':>13}")
+    print(f"{'deck':26}{'cams':>5}{'before':>14}{'instructions':>14}{'allocations':>13}{'a cycle [s]':>13}")
+    print(f"{'':26}{'':5}{'a step, cam':>14}{'a step, cam':>14}{'a step, cam':>13}{'all cams':>13}")
+    before = counted_before()
     for deck in DECKS:
         few, many = (count(program, deck, steps, work) for steps in STEPS)
         pairs = (STEPS[1] - STEPS[0]) * few[2]
         times = sorted(float(run(program, deck, CYCLE).split()[1]) for _ in range(3))
-        print(f"{deck:26}{few[2]:5d}{(many[0] - few[0]) / pairs:14.0f}{(many[1] - few[1]) / pairs:13.1f}{times[1]:13.3f}")
+        print(f"{deck:26}{few[2]:5d}{before[deck]:14d}{(many[0] - few[0]) / pairs:14.0f}{(many[1] - few[1]) / pairs:13.1f}"
+              f"{times[1]:13.3f}")
 
 
 main()

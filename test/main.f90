@@ -59,6 +59,7 @@ program main
    use test_result_remarks, only : collect_result_remarks
    use test_extremes, only : collect_extremes
    use test_remarks, only : collect_remarks
+   use test_follower_samples, only : collect_follower_samples
    use test_train, only : collect_train
    use test_traction, only : collect_traction
    use test_load_share, only : collect_load_share
@@ -230,6 +231,7 @@ contains
          new_testsuite("result_remarks", collect_result_remarks), &
          new_testsuite("extremes", collect_extremes), &
          new_testsuite("remarks", collect_remarks), &
+         new_testsuite("follower_samples", collect_follower_samples), &
          new_testsuite("train", collect_train), &
          new_testsuite("traction", collect_traction), &
          new_testsuite("load_share", collect_load_share), &

@@ -457,7 +457,7 @@ contains
       case default
          do i = 1, size(pressure)
             base = 1.0_wp + pressure(i)/roelands_pressure
-            power = base**oil%roelands_index
+            power = exp(oil%roelands_index*log(base))
             ratio(i) = exp(min(oil%roelands_exponent*(power - 1.0_wp), largest_exponent))
             log_slope(i) = oil%roelands_exponent*oil%roelands_index*power*(1.0_wp - 1.0_wp/base)
          end do

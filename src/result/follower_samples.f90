@@ -24,7 +24,7 @@ module camroller_follower_samples
    private
 
    public :: shares_t, add_shares, follower_samples_t, start_samples, sampled_values, entrainment_t, entrainment_of, &
-      & extremes_t, widen
+      & extremes_t, widen, trail_t, contact_ahead, extend_trail
 
    !> Fractions of a cycle without contact and outside the film law's range
    type :: shares_t
@@ -59,6 +59,14 @@ module camroller_follower_samples
       real(wp) :: film_min = huge(1.0_wp)
    end type extremes_t
 
+   !> Contacts that were solved last, one behind the other, from which the next one is looked for
+   type :: trail_t
+      !> How many of them there are, none without contact
+      integer :: count = 0
+      !> Their cam angles, rising [rad]; tangential force [N], torque of the bearing [N m] and film ratio [-], shape (3, point)
+      real(wp) :: angles(3), values(3, 3)
+   end type trail_t
+
    !> A follower on its cycle
    type, extends(sampled_t) :: follower_samples_t
       !> The case; without it, torques are sampled and no series
@@ -71,6 +79,8 @@ module camroller_follower_samples
       integer :: series = 0, first_torque = 1
       !> State at the point that was sampled last
       type(state_t) :: state
+      !> Contacts up to there
+      type(trail_t) :: trail
       !> Series of the follower at the points evaluated
       type(samples_t) :: rows
       !> Largest magnitude of the sliding speed evaluated [m/s]
@@ -152,12 +162,13 @@ contains
       !> Convergence error
       type(error_t), allocatable, intent(out) :: error
 
-      type(contact_t) :: before
+      type(contact_t) :: nearby
 
       call follow_ramp(self%model, x)
-      before = self%state%contact
-      call state_at(self%cycle, self%model, x, self%hint, self%state, error, before)
+      nearby = contact_ahead(self%trail, x, self%state%contact)
+      call state_at(self%cycle, self%model, x, self%hint, self%state, error, nearby)
       if (allocated(error)) return
+      call extend_trail(self%trail, x, self%state%contact)
       self%largest_sliding = max(self%largest_sliding, abs(self%state%contact%sliding_speed))
       call sampled_values(self, self%state, values)
       if (associated(self%case)) then
@@ -166,6 +177,59 @@ contains
          call widen(self%extremes, self%model, self%state)
       end if
    end subroutine sample
+
+   !> Contact to start from at an angle: the last one, with what is not known before it is solved on the parabola through three.
+   pure function contact_ahead(trail, angle, last) result(nearby)
+      !> Contacts that were solved last
+      type(trail_t), intent(in) :: trail
+      !> Cam angle from full lift [rad]
+      real(wp), intent(in) :: angle
+      !> The last of them
+      type(contact_t), intent(in) :: last
+      !> What to start from
+      type(contact_t) :: nearby
+
+      ! Values at the angle [unit of each]; distances of the angle from those of the trail [rad]
+      real(wp) :: values(3), ahead(3)
+
+      nearby = last
+      if (trail%count < 2) return
+      associate (x => trail%angles, y => trail%values, n => trail%count)
+         ahead(:n) = angle - x(:n)
+         ! No further than the trail is long
+         if (.not. (ahead(n) > 0.0_wp .and. ahead(n) <= x(n) - x(1))) return
+         values = y(:, n) + (y(:, n) - y(:, n - 1))*(ahead(n)/(x(n) - x(n - 1)))
+         if (n == 3) values = values + ahead(3)*ahead(2)/(x(3) - x(1)) &
+            & *((y(:, 3) - y(:, 2))/(x(3) - x(2)) - (y(:, 2) - y(:, 1))/(x(2) - x(1)))
+      end associate
+      nearby%tangential_force = values(1)
+      nearby%bearing_torque = values(2)
+      nearby%film_ratio = values(3)
+   end function contact_ahead
+
+   !> Take a contact into the trail; one behind the last, or none, begins anew.
+   pure subroutine extend_trail(trail, angle, contact)
+      !> The trail
+      type(trail_t), intent(inout) :: trail
+      !> Cam angle from full lift [rad]
+      real(wp), intent(in) :: angle
+      !> The contact there
+      type(contact_t), intent(in) :: contact
+
+      if (trail%count > 0) then
+         if (angle <= trail%angles(trail%count)) trail%count = 0
+      end if
+      if (.not. contact%is_touching) trail%count = 0
+      if (.not. contact%is_touching) return
+      if (trail%count == 3) then
+         trail%angles(:2) = trail%angles(2:)
+         trail%values(:, :2) = trail%values(:, 2:)
+         trail%count = 2
+      end if
+      trail%count = trail%count + 1
+      trail%angles(trail%count) = angle
+      trail%values(:, trail%count) = [contact%tangential_force, contact%bearing_torque, contact%film_ratio]
+   end subroutine extend_trail
 
    !> Values of a state of the follower, in the order of `sample`.
    pure subroutine sampled_values(samples, state, values)

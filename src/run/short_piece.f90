@@ -13,7 +13,8 @@ module camroller_short_piece
    use camroller_ramp, only : follow_ramp
    use camroller_state, only : state_t, evaluate_state
    use camroller_cycle, only : cycle_t
-   use camroller_follower_samples, only : follower_samples_t, start_samples, sampled_values, extremes_t, widen
+   use camroller_follower_samples, only : follower_samples_t, start_samples, sampled_values, extremes_t, widen, contact_ahead, &
+      & extend_trail
    use camroller_means, only : mean_tolerance, stored_torques
    use camroller_stored_work, only : stored_work_t, follow_contact
    use camroller_torque_list, only : torque_count, is_loss, is_torque
@@ -98,7 +99,7 @@ contains
       extremes = samples%extremes
    end subroutine integrate_short
 
-   !> Sample a place of the piece, from the contact at the place before.
+   !> Sample a place of the piece.
    subroutine sample_place(samples, angle, is_last, values, status)
       !> The samples
       type(follower_samples_t), intent(inout) :: samples
@@ -117,9 +118,11 @@ contains
 
       call follow_ramp(samples%model, angle)
       call interpolate_state(samples%cycle%trajectory, angle, samples%hint, sliding_speed)
-      call evaluate_state(samples%model, angle, sliding_speed(1), state, status, start=samples%state%contact, &
+      call evaluate_state(samples%model, angle, sliding_speed(1), state, status, &
+         & start=contact_ahead(samples%trail, angle, samples%state%contact), &
          & accuracy=merge(0.0_wp, contact_part*samples%cycle%tolerance, is_last))
       if (status /= 0) return
+      call extend_trail(samples%trail, angle, state%contact)
       samples%state = state
       call sampled_values(samples, state, values)
       call widen(samples%extremes, samples%model, state)
