@@ -341,7 +341,8 @@ contains
       if (trouble /= "") then
          call count_ending(tally, "deck refused")
          trouble = " a deck within all ranges is refused: "//trouble
-         if (with_ends) trouble = ""
+         ! A contour that is drawn may have a hollow narrower than the roller
+         if (with_ends .or. index(trouble, "does not touch the contour") > 0) trouble = ""
          return
       end if
       call build_models(case, models, error)
