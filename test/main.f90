@@ -17,6 +17,7 @@ program main
    use test_needle_drag, only : collect_needle_drag
    use test_joints, only : collect_joints
    use test_heat, only : collect_heat
+   use test_friction_modifier, only : collect_friction_modifier
    use test_heat_laws, only : collect_heat_laws
    use test_spline, only : collect_spline
    use test_lift_segments, only : collect_lift_segments
@@ -192,6 +193,7 @@ contains
          new_testsuite("needle_drag", collect_needle_drag), &
          new_testsuite("joints", collect_joints), &
          new_testsuite("heat", collect_heat), &
+         new_testsuite("friction_modifier", collect_friction_modifier), &
          new_testsuite("heat_laws", collect_heat_laws), &
          new_testsuite("spline", collect_spline), &
          new_testsuite("lift", collect_lift), &

@@ -62,6 +62,7 @@ module camroller_units
       unit_t("per_GPa", "1/GPa", 1.0_wp, 1.0e9_wp, 0.0_wp), &
       unit_t("per_K", "1/K", 1.0_wp, 1.0_wp, 0.0_wp), &
       unit_t("W_m_K", "W/(m K)", 1.0_wp, 1.0_wp, 0.0_wp), &
+      unit_t("kJ_mol", "kJ/mol", 1.0e3_wp, 1.0_wp, 0.0_wp), &
       unit_t("J_kg_K", "J/(kg K)", 1.0_wp, 1.0_wp, 0.0_wp)]
 
 contains

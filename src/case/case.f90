@@ -13,7 +13,7 @@ module camroller_case
    use camroller_lubricant, only : lubricant_t
    use camroller_ehl_table, only : ehl_t
    use camroller_film, only : film_t
-   use camroller_asperity, only : asperity_t
+   use camroller_asperity, only : asperity_t, friction_modifier_t
    use camroller_traction, only : traction_t
    use camroller_heat, only : heat_t
    use camroller_needle, only : needle_bearing_t
@@ -121,6 +121,8 @@ module camroller_case
       !> Heat in inlet and contact
       type(heat_t), allocatable :: heat
       type(asperity_t), allocatable :: asperity
+      !> Additive of the oil; of no effect without asperities
+      type(friction_modifier_t), allocatable :: friction_modifier
       type(needle_bearing_t), allocatable :: needle_bearing
       type(needle_drag_t), allocatable :: needle_drag
       !> Numerical film in place of the film law

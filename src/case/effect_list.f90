@@ -20,19 +20,20 @@ module camroller_effect_list
    public :: effect_asperity, effect_needle, effect_guide, effect_bearings, effect_gas, effect_rolling, effect_film, &
       & effect_pressure, effect_shear, effect_spin, effect_ehl, effect_tip, effect_seal, effect_side, effect_pivot, &
       & effect_drag, effect_inlet_heat, effect_contact_heat, effect_dynamics, effect_surge, effect_adjuster, is_part_of_train, &
-      & effect_bearing_asperity, effect_belt_pull, needs_bearings
+      & effect_bearing_asperity, effect_belt_pull, effect_modifier, needs_bearings
 
    !> Effects: groups of the deck, and laws that have a simpler one beside them
    character(len=*), parameter :: effect_names(*) = [character(len=name_length) :: "asperity", "needle_bearing", "valve_guide", &
       & "cam_bearings", "gas_force", "rolling_resistance", "film_law", "pressure_law", "shear_law", "roller_equation", &
       & "ehl", "valve_tip", "stem_seal", "guide_side_load", "finger_pivot", "needle_drag", "inlet_heat", "contact_heat", &
-      & "dynamics", "spring_surge", "lash_adjuster", "bearing_asperity", "belt_pull"]
+      & "dynamics", "spring_surge", "lash_adjuster", "bearing_asperity", "belt_pull", &
+      & "friction_modifier"]
    !> Positions in it
    integer, parameter :: effect_asperity = 1, effect_needle = 2, effect_guide = 3, effect_bearings = 4, effect_gas = 5, &
       & effect_rolling = 6, effect_film = 7, effect_pressure = 8, effect_shear = 9, effect_spin = 10, effect_ehl = 11, &
       & effect_tip = 12, effect_seal = 13, effect_side = 14, effect_pivot = 15, effect_drag = 16, &
       & effect_inlet_heat = 17, effect_contact_heat = 18, effect_dynamics = 19, effect_surge = 20, effect_adjuster = 21, &
-      & effect_bearing_asperity = 22, effect_belt_pull = 23
+      & effect_bearing_asperity = 22, effect_belt_pull = 23, effect_modifier = 24
    !> Effects of the camshaft bearings: nothing else depends on them, and without these bearings they are of no effect
    integer, parameter :: needs_bearings(*) = [effect_bearing_asperity, effect_belt_pull]
    !> Their number
@@ -89,15 +90,13 @@ contains
       select case (effect)
       case (effect_asperity)
          if (allocated(variant%asperity)) deallocate (variant%asperity)
+         if (allocated(variant%friction_modifier)) deallocate (variant%friction_modifier)
       case (effect_needle)
          if (allocated(variant%needle_bearing)) deallocate (variant%needle_bearing)
       case (effect_guide)
          if (allocated(variant%valve_guide)) deallocate (variant%valve_guide)
       case (effect_bearings)
-         if (allocated(variant%cam_bearings)) deallocate (variant%cam_bearings)
-         if (allocated(variant%second_lift)) deallocate (variant%second_lift)
-         if (allocated(variant%bearing_asperity)) deallocate (variant%bearing_asperity)
-         if (allocated(variant%belt_pull)) deallocate (variant%belt_pull)
+         call leave_bearings_out(variant)
       case (effect_gas)
          if (allocated(variant%gas_force)) deallocate (variant%gas_force)
       case (effect_rolling)
@@ -125,6 +124,8 @@ contains
          if (allocated(variant%needle_drag)) deallocate (variant%needle_drag)
       case (effect_bearing_asperity)
          if (allocated(variant%bearing_asperity)) deallocate (variant%bearing_asperity)
+      case (effect_modifier)
+         if (allocated(variant%friction_modifier)) deallocate (variant%friction_modifier)
       case (effect_belt_pull)
          if (allocated(variant%belt_pull)) deallocate (variant%belt_pull)
       case (effect_inlet_heat)
@@ -160,6 +161,17 @@ contains
       end if
       deallocate (variant%lash_adjuster)
    end subroutine fix_pivot
+
+   !> Leave the camshaft bearings out, with what needs them.
+   pure subroutine leave_bearings_out(variant)
+      !> In: a case; out: with one cam of the first lobe shape
+      type(case_t), intent(inout) :: variant
+
+      if (allocated(variant%cam_bearings)) deallocate (variant%cam_bearings)
+      if (allocated(variant%second_lift)) deallocate (variant%second_lift)
+      if (allocated(variant%bearing_asperity)) deallocate (variant%bearing_asperity)
+      if (allocated(variant%belt_pull)) deallocate (variant%belt_pull)
+   end subroutine leave_bearings_out
 
    !> Has a case a rough film that a smooth one may stand for? Not where its asperities come with it.
    pure function has_rough_film(case) result(has)
@@ -233,6 +245,8 @@ contains
          has = allocated(case%needle_drag)
       case (effect_bearing_asperity)
          has = allocated(case%bearing_asperity)
+      case (effect_modifier)
+         has = allocated(case%friction_modifier) .and. allocated(case%asperity)
       case (effect_belt_pull)
          has = allocated(case%belt_pull)
       case (effect_inlet_heat)

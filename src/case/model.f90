@@ -22,7 +22,7 @@ module camroller_model
    use camroller_film_table, only : film_table_t
    use camroller_ehl_problem, only : largest_pressure, speed_range, load_range
    use camroller_ehl_table, only : ehl_t, build_film_table
-   use camroller_asperity, only : boundary_part_t, boundary_names, new_boundary_part
+   use camroller_asperity, only : boundary_part_t, boundary_names, new_boundary_part, set_boundary_temperature
    use camroller_number_text, only : number_text
    use camroller_traction, only : shear_law_names, cap_names, rolling_law_names
    use camroller_heat, only : heat_part_t, new_heat_part, set_heat_oil
@@ -205,6 +205,7 @@ contains
       call set_speed(model, speed)
       call get_oil(model%lubricant, oil_temperature, model%oil, error)
       if (allocated(error)) return
+      if (allocated(model%boundary)) call set_boundary_temperature(model%boundary, oil_temperature)
       if (allocated(model%guide_drag)) model%guide_drag = model%guide_factor*model%oil%viscosity
       if (allocated(model%joints)) call set_joint_oil(model%joints, model%oil%viscosity)
       if (allocated(model%flexible)) call set_oil(model%flexible, model%oil%viscosity)
@@ -446,7 +447,7 @@ contains
       if (allocated(case%asperity)) then
          allocate (model%boundary)
          call new_boundary_part(model%boundary, case%asperity, model%modulus, model%hardness, &
-            & model%film_law == law_masjedi_khonsari_rough, error)
+            & model%film_law == law_masjedi_khonsari_rough, error, case%friction_modifier)
          if (allocated(error)) return
       end if
       if (allocated(case%heat)) then

@@ -14,7 +14,7 @@ module camroller_asperity
    private
 
    public :: asperity_t, asperity_constants_t, asperity_law_names, boundary_names, mobilisation_names, largest_film_ratio
-   public :: boundary_part_t, new_boundary_part
+   public :: boundary_part_t, new_boundary_part, friction_modifier_t, coverage, set_boundary_temperature
    public :: law_greenwood_tripp, law_zhao_maietta_chang, law_masjedi_khonsari, smallest_product
    public :: new_asperity_constants, asperity_load_function, asperity_area_function
    public :: asperity_load, asperity_area, load_factor
@@ -50,6 +50,21 @@ module camroller_asperity
       character(len=name_length) :: law = "greenwood_tripp"
    end type asperity_t
 
+   !> Additive that lays itself on the surfaces and lowers boundary friction
+   type :: friction_modifier_t
+      !> Friction coefficient of asperities that it covers [-]
+      real(wp) :: coefficient = 0.0_wp
+      !> Part of the surfaces that it covers at a temperature [-], [K]
+      real(wp) :: reference_coverage = 0.0_wp, reference_temperature = 0.0_wp
+      !> Heat that it gives off as it is adsorbed [J/mol]
+      real(wp) :: adsorption_heat = 0.0_wp
+      !> Its concentration over that at which the coverage is known [-]
+      real(wp) :: concentration_ratio = 1.0_wp
+   end type friction_modifier_t
+
+   !> Gas constant [J/(mol K)]
+   real(wp), parameter :: gas_constant = 8.314462618_wp
+
    !> What a contact needs of the asperities
    type :: asperity_constants_t
       !> One of the laws
@@ -68,8 +83,12 @@ module camroller_asperity
    type :: boundary_part_t
       !> Constants of load and area
       type(asperity_constants_t) :: constants
-      !> mu_B [-]
+      !> mu_B; with a friction modifier at the temperature set last [-]
       real(wp) :: coefficient
+      !> mu_B of bare surfaces [-]
+      real(wp) :: bare_coefficient
+      !> Allocated where the oil has one
+      type(friction_modifier_t), allocatable :: modifier
       !> tau_0 [Pa]
       real(wp) :: film_shear_strength
       !> v_b [m/s]
@@ -83,7 +102,7 @@ module camroller_asperity
 contains
 
    !> Prepare asperities and their friction.
-   subroutine new_boundary_part(part, asperity, modulus, hardness, has_rough_film, error)
+   subroutine new_boundary_part(part, asperity, modulus, hardness, has_rough_film, error, modifier)
       !> Ready for evaluation
       type(boundary_part_t), intent(out) :: part
       !> Asperities
@@ -96,6 +115,8 @@ contains
       logical, intent(in) :: has_rough_film
       !> Deck error for an unknown name, or where the law lacks something
       type(error_t), allocatable, intent(out) :: error
+      !> Friction modifier of the oil, where it has one
+      type(friction_modifier_t), intent(in), optional :: modifier
 
       integer :: choice
 
@@ -106,6 +127,17 @@ contains
       if (allocated(error)) return
       part%is_set_valued = choice == 2
       part%coefficient = asperity%boundary_coefficient
+      part%bare_coefficient = asperity%boundary_coefficient
+      if (present(modifier)) then
+         part%modifier = modifier
+         if (.not. (modifier%coefficient >= 0.0_wp .and. modifier%reference_coverage > 0.0_wp .and. &
+            & modifier%reference_coverage < 1.0_wp .and. modifier%adsorption_heat >= 0.0_wp .and. &
+            & min(modifier%reference_temperature, modifier%concentration_ratio) > 0.0_wp)) then
+            call raise(error, kind_deck, "friction modifier: the coverage lies between 0 and 1, temperature and concentration "// &
+               & "are positive, coefficient and heat are not negative")
+            return
+         end if
+      end if
       part%film_shear_strength = asperity%film_shear_strength
       part%mobilising_speed = asperity%mobilising_speed
       call find_name("asperity law", asperity%law, asperity_law_names, choice, error)
@@ -122,6 +154,37 @@ contains
       if (allocated(error)) return
       call new_asperity_constants(part%constants, asperity, modulus, hardness)
    end subroutine new_boundary_part
+
+   !> Boundary friction at a temperature of the surfaces: that of bare and of covered parts in proportion,
+   !> `mu_B = mu_0 + theta (mu_fm - mu_0)`; Jahanmir and Beltzer (1986), ASLE Transactions 29, 423, who have another isotherm.
+   pure subroutine set_boundary_temperature(part, temperature)
+      !> Gets the coefficient
+      type(boundary_part_t), intent(inout) :: part
+      !> The temperature [K]
+      real(wp), intent(in) :: temperature
+
+      if (allocated(part%modifier)) part%coefficient = part%bare_coefficient &
+         & + coverage(part%modifier, temperature)*(part%modifier%coefficient - part%bare_coefficient)
+   end subroutine set_boundary_temperature
+
+   !> Part of the surfaces that a friction modifier covers: `theta = K c/(1 + K c)` by Langmuir (1918), J. American Chemical Society
+   !> 40, 1361, with `K = K_0 exp(-dH/(R T))`, whose K_0 follows from the coverage that is known.
+   pure function coverage(modifier, temperature) result(part)
+      !> The friction modifier
+      type(friction_modifier_t), intent(in) :: modifier
+      !> Temperature of the surfaces [K]
+      real(wp), intent(in) :: temperature
+      !> The part [-]
+      real(wp) :: part
+
+      !> Logarithm of bare over covered part, -ln(K c) [-]
+      real(wp) :: bare
+
+      bare = log((1.0_wp - modifier%reference_coverage)/(modifier%reference_coverage*modifier%concentration_ratio)) &
+         & + modifier%adsorption_heat/gas_constant*(1.0_wp/modifier%reference_temperature - 1.0_wp/temperature)
+      part = 0.0_wp
+      if (bare < 700.0_wp) part = 1.0_wp/(1.0_wp + exp(bare))
+   end function coverage
 
    !> Derive the constants of a pair of surfaces.
    pure subroutine new_asperity_constants(constants, asperity, modulus, hardness)

@@ -20,6 +20,7 @@ module camroller_deck_keys
    use camroller_needle, only : needle_bearing_t, roller_bearing_names
    use camroller_journal, only : cam_bearings_t, journal_law_names
    use camroller_roller, only : spin_names
+   use camroller_deck_asperity, only : add_modifier_keys
    use camroller_deck_cam_bearings, only : add_bearing_part_keys
    use camroller_deck_engine, only : add_engine_keys
    use camroller_deck_sweep_keys, only : add_sweep_keys
@@ -60,6 +61,7 @@ contains
       call add_contact_keys(schema, standard)
       call add_heat_keys(schema)
       call add_asperity_keys(schema)
+      call add_modifier_keys(schema)
       call add_needle_keys(schema)
       call add_cam_bearing_keys(schema)
       call add_bearing_part_keys(schema)

@@ -10,7 +10,7 @@ module camroller_deck_relations
    use camroller_number_text, only : integer_text
    use camroller_mistakes, only : mistakes_t
    use camroller_settings, only : settings_t, take, find_value, is_known, is_wrong, get_word, has_group
-   use camroller_deck_asperity, only : check_asperities
+   use camroller_deck_asperity, only : check_asperities, check_modifier
    use camroller_deck_dynamics, only : check_dynamics
    use camroller_deck_heat, only : check_heat
    use camroller_deck_joints, only : check_joints
@@ -48,6 +48,7 @@ contains
       call stick_slip_has_a_method(settings, mistakes)
       call check_joints(settings, mistakes)
       call check_heat(settings, mistakes)
+      call check_modifier(settings, mistakes)
       call check_dynamics(settings, mistakes)
    end subroutine check_relations
 

@@ -76,6 +76,11 @@ module camroller_usual_values
       usual_t("asperity.boundary_coefficient", 0.0_wp, 0.5_wp), &
       usual_t("asperity.film_shear_strength_MPa", 0.0_wp, 100.0_wp), &
       usual_t("asperity.mobilising_speed_m_s", 1.0e-6_wp, 0.05_wp), &
+      usual_t("friction_modifier.coefficient", 0.02_wp, 0.2_wp), &
+      usual_t("friction_modifier.coverage", 0.01_wp, 0.999_wp), &
+      usual_t("friction_modifier.reference_temperature_degC", -40.0_wp, 200.0_wp), &
+      usual_t("friction_modifier.adsorption_heat_kJ_mol", 5.0_wp, 150.0_wp), &
+      usual_t("friction_modifier.concentration_ratio", 0.001_wp, 1000.0_wp), &
       usual_t("needle_bearing.friction_coefficient", 0.0_wp, 0.3_wp), &
       usual_t("needle_bearing.needle_radius_mm", 0.3_wp, 5.0_wp), &
       usual_t("cam_bearings.diameter_mm", 12.0_wp, 120.0_wp), &

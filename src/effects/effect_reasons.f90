@@ -9,7 +9,7 @@ module camroller_effect_reasons
    use camroller_effect_list, only : effect_names, effect_asperity, effect_needle, effect_guide, effect_bearings, effect_gas, &
       & effect_rolling, effect_film, effect_pressure, effect_shear, effect_spin, effect_ehl, effect_tip, effect_seal, effect_side, &
       & effect_pivot, effect_drag, effect_inlet_heat, effect_contact_heat, effect_dynamics, effect_surge, effect_adjuster, &
-      & needs_bearings
+      & effect_modifier, needs_bearings
    use camroller_effect_grid, only : points, mean_over
    use camroller_effect_survey, only : survey_t
    use camroller_effect_train, only : train_change_t, train_load_t
@@ -56,6 +56,9 @@ contains
          case (effect_asperity)
             reason = "film ratio from "//trim(text(minval(contact%film_ratio)))//" to "//trim(text(maxval(contact%film_ratio))) &
                & //", asperities carry up to "//trim(percent(maxval(contact%asperity_load/contact%load)))//" of the load"
+         case (effect_modifier)
+            reason = "changes the boundary coefficient from "//trim(text(model%boundary%bare_coefficient))//" to "// &
+               & trim(text(model%boundary%coefficient))
          case (effect_needle, effect_guide, effect_tip, effect_seal, effect_side, effect_pivot, effect_drag)
             losses = states%torques(findloc(torque_list%source, effect_names(effect), 1))
             lost = mean_over(survey%grid, losses)

@@ -144,6 +144,7 @@ contains
       if (any(group == joint_groups)) may_have = .not. (has_source(text) .or. draft%has_dynamics)
       if (group == "heat") may_have = index(text, "&ehl") == 0
       if (group == "bearing_asperity" .or. group == "belt_pull") may_have = draft%has_cams
+      if (group == "friction_modifier") may_have = index(text, "&asperity") > 0
       if (group == "needle_drag") may_have = .not. draft%has_dynamics
       if (group == "finger_pivot") may_have = may_have .and. deck_word(text, "masses", "finger_kg") /= ""
    end function may_have

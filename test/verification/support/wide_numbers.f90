@@ -84,6 +84,11 @@ module wide_numbers
       & usual_t("asperity.boundary_coefficient", 0.0_wp, 0.3_wp), &
       & usual_t("asperity.film_shear_strength_MPa", 0.0_wp, 20.0_wp), &
       & usual_t("asperity.mobilising_speed_m_s", 1.0e-6_wp, 1.0e-2_wp, .true.), &
+      & usual_t("friction_modifier.coefficient", 0.0_wp, 0.15_wp), &
+      & usual_t("friction_modifier.coverage", 0.01_wp, 0.99_wp), &
+      & usual_t("friction_modifier.reference_temperature_degC", -20.0_wp, 140.0_wp), &
+      & usual_t("friction_modifier.adsorption_heat_kJ_mol", 0.0_wp, 150.0_wp), &
+      & usual_t("friction_modifier.concentration_ratio", 0.01_wp, 100.0_wp, .true.), &
       & usual_t("needle_bearing.friction_coefficient", 1.0e-4_wp, 0.1_wp, .true.), &
       & usual_t("needle_bearing.needle_radius_mm", 0.5_wp, 2.0_wp), &
       & usual_t("needle_bearing.reversal_ratio", 1.0e-4_wp, 0.5_wp, .true.), &
