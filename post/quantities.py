@@ -40,6 +40,9 @@ CURVES = {
     "boundary_share": Curve("boundary part of friction", "asperity_friction_share", "%", touching=True, least_top=100.0),
     "rolling": Curve("rolling friction", "friction_rolling", "N", whole_cycle=True),
     "slip": Curve("slip ratio", "slip_ratio", "%", whole_cycle=True, scale="log"),
+    "subsurface_stress": Curve("largest shear stress below the surface", "subsurface_shear_stress", "MPa"),
+    "sliding_distance": Curve("sliding distance of a place on the cam", "sliding_distance", "um", touching=True),
+    "wear": Curve("wear depth of a turn over specific wear rate", "wear_product", "N/m", touching=True),
     "friction_torque": Curve("friction torque", "torque_friction", "N m"),
     "total_torque": Curve("drive torque", "torque_drive", "N m"),
 }
@@ -78,8 +81,11 @@ TORQUES = [("torque_geometric", "geometric", ("#7cc0ea", "#8fd19e", "#c9b3e6"), 
            ("torque_drive", "drive: all together", ("#08306b", "#1b7837", "#54278f"), "-", 1.1)]
 
 
+LARGEST_SHEAR = 0.300283  # below a line contact over its peak pressure, at 0.78615 half widths (Hertz; Johnson 1985, section 4.4)
+
+
 def add_derived(result):
-    """Add to a result what follows from its series: friction coefficient, load share of asperities, valve acceleration."""
+    """Add to a result what follows from its series: friction coefficient, load share of asperities, valve acceleration, wear."""
     series = result.series
     if "contact_load" not in series:
         return
@@ -90,6 +96,7 @@ def add_derived(result):
                                                   "friction of the contact relative to its load")
     if "asperity_load" in series:
         series["asperity_load_share"] = Quantity(series["asperity_load"].values / touching, "1", "part of the load on asperities")
+    _add_wear(series)
     power, torque = (result.summary.get(name) for name in ("power_friction", "mean_torque_friction"))
     if "valve_velocity" in series and power is not None and np.shape(power.values) == (result.cases,):
         with np.errstate(invalid="ignore", divide="ignore"):
@@ -97,6 +104,28 @@ def add_derived(result):
         values = series["valve_velocity"].values
         slope = (np.roll(values, -1, axis=1) - np.roll(values, 1, axis=1)) / np.radians(2.0 * 360.0 / values.shape[1])
         series["valve_acceleration"] = Quantity(slope * speed[:, None], "m/s2", "acceleration of the valve")
+
+
+def _add_wear(series):
+    """Shear stress below the surface; how far each place on the cam slides on the roller in a passage, and how much it is worn.
+
+    The contact, 2 b wide, passes a place at the speed V_c of the contact over the cam, while the surfaces slide by V_s: the distance is
+    2 b |V_s|/V_c. Archard (1953) has a depth of wear k p s for a pressure p over a distance s, with the specific wear rate k [m2/N]; over
+    the width of the contact p s adds up to (W_a/L) |V_s|/V_c, the load per length that asperities carry times V_s/V_c. Times k that is the
+    depth of a turn. W/L is 2 b times the mean pressure, pi/4 of the peak.
+    """
+    peak, half, slide, speed = (series.get(name) for name in ("hertz_pressure", "hertz_half_width", "sliding_speed", "cam_surface_speed"))
+    if peak is None:
+        return
+    series["subsurface_shear_stress"] = Quantity(LARGEST_SHEAR * peak.values, "Pa", "largest shear stress below the surface, without traction")
+    if half is None or slide is None or speed is None:
+        return
+    with np.errstate(invalid="ignore", divide="ignore"):
+        turns = np.abs(slide.values) / np.abs(speed.values)
+    series["sliding_distance"] = Quantity(2.0 * half.values * turns, "m", "sliding distance of a place on the cam in a passage")
+    if "asperity_load_share" in series:
+        series["wear_product"] = Quantity(0.5 * np.pi * peak.values * half.values * turns * series["asperity_load_share"].values, "N/m",
+                                          "depth of wear of a place on the cam in a turn over the specific wear rate")
 
 
 def values_of(layout, entry, name, unit):

@@ -15,7 +15,7 @@ from figures import FIGURES, draw
 from layout import Layout, chosen_cases, thin_out
 from parts import closed, event_window, set_values_axis
 from plot import main
-from quantities import CURVES, SOURCES, Missing, values_of
+from quantities import CURVES, LARGEST_SHEAR, SOURCES, Missing, values_of
 from read import ResultError, read_result
 from table import COLUMNS
 
@@ -46,6 +46,7 @@ def made_up_series(angle, speed, oil):
     total = sum(losses.values())
     series = {"valve_lift": lift, "valve_velocity": slope * omega, "film_ratio": film / 2e-7, "asperity_load": 0.1 * share * load,
               "contact_load": load, "hertz_pressure": 2.1e7 * np.sqrt(load), "slip_ratio": slip,
+              "sliding_speed": slip * entrainment, "cam_surface_speed": entrainment, "hertz_half_width": 2e-6 * np.sqrt(load),
               "entrainment_speed": entrainment, "film_thickness_min": film, "friction_rolling": rolling,
               "asperity_friction_share": share, "friction_contact": friction, "torque_geometric": geometric,
               "torque_friction": total, "torque_drive": geometric + total,
@@ -54,9 +55,38 @@ def made_up_series(angle, speed, oil):
 
 
 SERIES_UNITS = {"valve_lift": "m", "valve_velocity": "m/s", "film_ratio": "1", "asperity_load": "N",
-                "contact_load": "N", "hertz_pressure": "Pa", "slip_ratio": "1",
+                "contact_load": "N", "hertz_pressure": "Pa", "slip_ratio": "1", "sliding_speed": "m/s", "cam_surface_speed": "m/s", "hertz_half_width": "m",
                 "entrainment_speed": "m/s", "film_thickness_min": "m", "friction_rolling": "N",
                 "asperity_friction_share": "1", "friction_contact": "N", "load_ratio": "1", "lift_error": "m"}
+
+
+def test_wear_of_a_contact_is_archards(tmp_path):
+    """By hand: 1000 N over 13.7 mm, half of it on asperities, sliding by 2 % of the speed over the cam, half width 50 um."""
+    path = write_result(tmp_path / "one.h5", swept=(), speeds=(600.0,), oils=(60.0,))
+    length, half, load = 13.7e-3, 50e-6, 1000.0
+    steady = {"contact_load": load, "asperity_load": load / 2, "sliding_speed": -0.03, "cam_surface_speed": 1.5, "hertz_half_width": half,
+              "hertz_pressure": 2 * load / (np.pi * half * length)}
+    with h5py.File(path, "a") as file:
+        for name, value in steady.items():
+            file[f"series/{name}"][...] = value
+    layout = Layout([read_result(path)])
+    entry = layout.entries[0]
+    # time of passage 2 b/V_c, distance in it, depth over the wear rate: mean pressure of the asperities times that distance
+    passage = 2 * half / 1.5
+    assert np.allclose(values_of(layout, entry, "sliding_distance", "um"), 1e6 * 0.03 * passage, rtol=1e-12)
+    assert np.allclose(values_of(layout, entry, "wear_product", "N/m"), load / 2 / (2 * half * length) * 0.03 * passage, rtol=1e-12)
+
+
+def test_the_largest_shear_below_a_line_contact_is_that_of_its_stresses(tmp_path):
+    """Along the middle of a Hertzian line contact, depth z in half widths: McEwen (1949), Johnson (1985), equations 4.45."""
+    depth = np.linspace(0.5, 1.2, 700001)
+    root = np.sqrt(1 + depth**2)
+    across, along = -((1 + 2 * depth**2) / root - 2 * depth), -1 / root
+    shear = 0.5 * np.abs(along - across)
+    assert abs(shear.max() - LARGEST_SHEAR) < 1e-6 and abs(depth[shear.argmax()] - 0.78615) < 1e-5
+    layout = Layout([read_result(write_result(tmp_path / "one.h5", swept=(), speeds=(600.0,), oils=(60.0,)))])
+    stress, peak = (values_of(layout, layout.entries[0], name, "MPa") for name in ("subsurface_shear_stress", "hertz_pressure"))
+    assert np.allclose(stress / peak, LARGEST_SHEAR)
 
 
 def test_a_flexible_train_is_a_page_of_what_its_file_has(tmp_path):
