@@ -44,6 +44,9 @@ RANGES = [
     ("needle_drag.viscous_factor", 3.0, 16.0, False, "little oil to a flooded bearing"),
     ("asperity.boundary_coefficient", 0.05, 0.2, False, "friction modifiers to base oil"),
     ("surface.cam_roughness_um", 0.07, 0.5, True, "polished to ground; the roller has 0.14"),
+    ("bearing_asperity.roughness_um", 0.2, 1.0, True, "run-in to turned journals and bearings, both together"),
+    ("bearing_asperity.boundary_coefficient", 0.05, 0.15, False, "friction modifiers to base oil"),
+    ("cam_bearings.radial_clearance_um", 20.0, 50.0, False, "new to worn"),
 ]
 BAIR = (0.32, 0.70)  # J per turn
 TICKS = (50, 100, 200, 500, 1000)  # N mm
@@ -70,7 +73,8 @@ def write_cases(folder):
     folder.mkdir(parents=True, exist_ok=True)
     base = BASE.read_text(encoding="utf-8")
     deck = base[base.index("&case"):base.index("&sweep")]
-    deck = deck.replace("'dowson_higginson'", "'moes'")
+    deck = deck.replace("'dowson_higginson'", "'moes'").replace("'long_full_sommerfeld'", "'finite'")
+    deck += "&bearing_asperity\n   roughness_um = 0.5\n   modulus_GPa = 110\n   boundary_coefficient = 0.1\n/\n\n"
     deck += "&needle_drag\n   pitch_diameter_mm = 10.22\n/\n\n&output\n   series = .false.\n/\n\n"
     deck += "&sweep\n   kind = 'table'\n   table = 'cases.txt'\n/\n"
     (folder / "trends.nml").write_text("! Made by post/trends.py from decks/sliding_joints.nml.\n\n" + deck, encoding="utf-8")
@@ -184,7 +188,8 @@ def page(data):
              "compared and not numbers, because the rigs differ from the train computed here. Nothing is fitted. `make trends` (`post/trends.py`) makes",
              "this page.", "",
              f"There are {SAMPLES} sets of coefficients, distributed uniformly over the ranges below. Each is computed at nine points: 300, 600 and 900 rev/min of the",
-             "camshaft, oil at 25, 60 and 95 °C. All other values are those of `decks/sliding_joints.nml`, with the film law `moes` and drag of the needles.", "",
+             "camshaft, oil at 25, 60 and 95 °C. All other values are those of `decks/sliding_joints.nml`, with the film law `moes`, drag of the needles,",
+             "and camshaft bearings of finite width in mixed friction.", "",
              "| coefficient | from | to | range |", "|---|---|---|---|"]
     for key, low, high, is_ratio, why in RANGES:
         lines.append(f"| {label(key)} | {low:g} | {high:g} | {why}{'; logarithmic' if is_ratio else ''} |")
