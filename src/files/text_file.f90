@@ -15,10 +15,17 @@ module camroller_text_file
       & [char(255)//char(254), char(254)//char(255)]
    !> Larger files are no decks and no tables [bytes]
    integer(int64), parameter :: largest_size = 64_int64*1024_int64*1024_int64
-   !> What `fseek` takes for the start and the end of a file
-   integer(c_int), parameter :: from_start = 0_c_int, from_end = 2_c_int
+   !> What `fseek` takes for the start and the end of a file, and `access` to ask whether there is one
+   integer(c_int), parameter :: from_start = 0_c_int, from_end = 2_c_int, is_it_there = 0_c_int
 
    interface
+      function c_access(path, mode) bind(C, name="access") result(status)
+         import :: c_char, c_int
+         character(kind=c_char), intent(in) :: path(*)
+         integer(c_int), value :: mode
+         integer(c_int) :: status
+      end function c_access
+
       function c_fopen(path, mode) bind(C, name="fopen") result(stream)
          import :: c_char, c_ptr
          character(kind=c_char), intent(in) :: path(*), mode(*)
@@ -109,8 +116,9 @@ contains
       end if
    end subroutine read_text_file
 
-   !> Read a file of any content into a string, by the C library: a program of Fortran has a file open once only, and threads may
-   !> read the same one.
+   !> Read a file of any content into a string, by the C library: a Fortran program can open a file only once, and threads may
+   !> read the same one. `inquire` would look at all units of the program, also at those by which other threads make numbers
+   !> into text.
    subroutine read_bytes(path, most, text, error)
       !> Path of the file
       character(len=*), intent(in) :: path
@@ -123,10 +131,9 @@ contains
 
       type(c_ptr) :: stream
       integer(int64) :: bytes, found
-      logical :: is_there, is_fine
+      logical :: is_fine
 
-      inquire (file=path, exist=is_there)
-      if (.not. is_there) then
+      if (c_access(path//c_null_char, is_it_there) /= 0) then
          call raise(error, kind_file, "there is no file '"//path//"'")
          return
       end if
