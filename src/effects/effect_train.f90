@@ -146,8 +146,8 @@ contains
       type(balance_t) :: balance
       type(error_t), allocatable :: error
       ! Oil at rest [m^3]; time of a step [s]; works in a turn: seat, damping of the approach, leak [J]; load and force at the pad
-      ! before [N]; rigid lift [m]
-      real(wp) :: full, step, seat, approach, leak, before(2), rigid
+      ! before [N]; rigid lift, lift before [m]
+      real(wp) :: full, step, seat, approach, leak, before(2), rigid, lift_before
       integer :: i
 
       call find_rest(model%flexible, model%linkage, model%train, model%base_circle_load, rest, error)
@@ -167,6 +167,7 @@ contains
          balance%oil = full
       end if
       before = [model%base_circle_load, rest%tip_force]
+      lift_before = 0.0_wp
       do i = 1, fine
          call start_balance(model, angle_of(i), balance)
          rigid = lift(i)
@@ -191,8 +192,8 @@ contains
                & + flexible%pad_damping*balance%tip*((balance%tip - before(2))/flexible%pad_stiffness)**2)/step
          end associate
          before = [balance%load, balance%tip]
-         if (i == 1) cycle
-         if (lift(i)*lift(i - 1) < 0.0_wp) seat = seat + 0.5_wp*model%train%valve_mass*((lift(i) - lift(i - 1))/step)**2
+         if (lift(i)*lift_before < 0.0_wp) seat = seat + 0.5_wp*model%train%valve_mass*((lift(i) - lift_before)/step)**2
+         lift_before = lift(i)
       end do
       train%other_loss = (seat + approach + leak)/two_pi
    end subroutine bend
