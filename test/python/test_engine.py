@@ -43,6 +43,21 @@ def test_camshafts_add_up_to_the_engine(result):
         assert parts == pytest.approx(summary[f"mean_torque_{kind}"], rel=ROUND_OFF)
 
 
+def test_a_camshaft_bears_its_own_cams_alone(camroller, tmp_path):
+    """Another lift of the exhaust valves changes nothing on the intake camshaft, not in a bit, and each bearing of the other one."""
+    series = []
+    for lift in (8.6, 7.6):
+        path = tmp_path / f"{lift}.h5"
+        run(camroller, "run", DECK, "-o", path, "--quiet", "--no-sweep", "--set", f"second_lift.max_lift_mm={lift}",
+            "--set", "cam_bearings.bearing_series=.true.", "--set", "output.angle_step_deg=10", "--set", "numerics.accuracy=1e-3")
+        with h5py.File(path) as file:
+            series.append({name: data[0] for name, data in file["series"].items() if name.startswith("camshaft_")})
+    for name, before in series[0].items():
+        same = np.array_equal(before, series[1][name])
+        assert same == name.startswith("camshaft_1"), name
+    assert sum("bearing_" in name for name in series[0]) >= 2 * 5 * 4
+
+
 def test_fmep_is_work_over_displacement(result):
     summary = result["summary"]
     parts = [summary[f"fmep_{source}"] for source in ("contact", "needle", "guide", "bearings")]
