@@ -133,8 +133,8 @@ sanitize: commit ## all decks and Fortran tests with address and undefined-behav
 	  { cat build/sanitize-build.log; exit 1; }
 	@DECKS="$(DECKS)" SUITES="$(SUITES)" $(PYTHON) tools/sanitize.py
 
-faults: commit ## faults planted one at a time, each of which a named test must see, half an hour: ONLY=words in the name
-	@$(PYTHON) tools/planted_faults.py $(ONLY)
+faults: commit ## faults planted one at a time, each of which a named test must see, half an hour: ONLY='pattern of the name'
+	@$(PYTHON) tools/planted_faults.py $(if $(ONLY),'$(ONLY)')
 
 rough-rows: commit ## comparison with rough contacts of Masjedi and Khonsari: bench/tables/ehl_rough.txt, for doc/notes/numerical_film.md
 	@ROUGH_TABLE=bench/tables/ehl_rough.txt $(FPM) test --flag "$(RELEASE_FLAGS)" -- ehl_rough

@@ -92,6 +92,7 @@ program main
    use test_roller_problem, only : collect_roller_problem
    use test_spin_slopes, only : collect_spin_slopes
    use test_simulation, only : collect_simulation
+   use test_saved_simulation, only : collect_saved_simulation
    use test_simulation_faults, only : collect_simulation_faults
    use test_shaft_simulation, only : collect_shaft_simulation
    use test_simulation_inputs, only : collect_simulation_inputs
@@ -258,6 +259,7 @@ contains
          new_testsuite("roller_problem", collect_roller_problem), &
          new_testsuite("shaft_simulation", collect_shaft_simulation), &
          new_testsuite("simulation", collect_simulation), &
+         new_testsuite("saved_simulation", collect_saved_simulation), &
          new_testsuite("simulation_faults", collect_simulation_faults), &
          new_testsuite("simulation_inputs", collect_simulation_inputs), &
          new_testsuite("quasi_static", collect_quasi_static) &

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Plant faults into a copy of the sources, one at a time: the test that is named for each of them has to fail.
 
-Usage: make faults [ONLY=words in the name]      a minute or two each; ends with one line of counts
+Usage: make faults [ONLY=pattern of the name]      a minute or two each; ends with one line of counts
 
 The list is tools/planted_faults.toml. The copy is built with run-time checks, and stands in a temporary folder. First the tests that
 are named run without a fault: they have to pass.
@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -67,8 +68,8 @@ def passes(folder: pathlib.Path, fault: dict) -> bool:
 
 
 def main(only: str) -> int:
-    """Plant all faults of which the name has these words; the exit code."""
-    chosen = [fault for fault in faults() if only in fault["name"]]
+    """Plant all faults whose name has the regular expression; the exit code."""
+    chosen = [fault for fault in faults() if re.search(only, fault["name"])]
     seen = missed = 0
     with tempfile.TemporaryDirectory(prefix="camroller-faults-") as name:
         folder = pathlib.Path(name)

@@ -6,7 +6,6 @@ module test_ehl_law
    use camroller_case, only : case_t
    use camroller_model, only : model_t
    use camroller_state, only : state_t, evaluate_state
-   use camroller_deck, only : deck_t, override_t, read_deck, make_case
    use camroller_lubricant, only : law_barus, mean_relative_viscosity
    use camroller_hertz, only : half_width, peak_pressure
    use camroller_film, only : groups_t, film_shape_t, film_line_t, new_film_line, film_at_load, film_shape, law_table, law_moes
@@ -20,6 +19,7 @@ module test_ehl_law
    use camroller_ehl_table, only : ehl_t, build_film_table
    use camroller_torque_list, only : of_residual
    use closeness, only : check_close, check_scaled, expect_success, expect_error
+   use deck_cases, only : get_deck_case
    use ehl_contacts, only : contact_of_groups
    use reference_cases, only : thesis_case, make_model, set_point, point_speeds, point_viscosities
    implicit none
@@ -146,8 +146,6 @@ contains
       character(len=*), parameter :: decks(*) = [character(len=36) :: "thesis", "hard/cold_start_minus_20", "hard/hot_thin_film", &
          & "hard/contact_loss_5000_rpm", "hard/cranking_1_rpm", "hard/pressure_1500_MPa_barus", "hard/soft_spring"]
       real(wp), parameter :: accuracy = 3.0e-2_wp
-      type(deck_t) :: deck
-      type(override_t) :: none(0)
       type(case_t) :: case
       type(model_t) :: model
       type(ehl_contact_t) :: contact
@@ -161,8 +159,7 @@ contains
 
       call random_seed(size=seed_size)
       do i = 1, size(decks)
-         call read_deck(deck, "decks/"//trim(decks(i))//".nml", none, failure)
-         if (.not. allocated(failure)) call make_case(deck, none, case, failure)
+         call get_deck_case("decks/"//trim(decks(i))//".nml", case, failure)
          call expect_success(error, failure)
          if (allocated(error)) return
          case%ehl = ehl_t(accuracy=accuracy)

@@ -4,7 +4,6 @@ module test_error_estimate
    use camroller_kinds, only : wp, degree
    use camroller_accuracy, only : is_checked, refine_tolerance, resolve_numerics, way_out
    use camroller_case, only : case_t, numerics_t
-   use camroller_deck, only : deck_t, override_t, read_deck, make_case
    use camroller_error, only : error_t
    use camroller_remarks, only : loose_tolerance, missed_accuracy, remark_lines
    use camroller_result, only : result_t, get_series, get_summary
@@ -12,6 +11,7 @@ module test_error_estimate
    use camroller_panels, only : gauss_points, panel_places, panel_points
    use camroller_error_estimate, only : estimate_t, add_defect, end_interval, estimated_error
    use camroller_study_trial, only : trial_t, errors_against, largest_deviation, run_trial
+   use deck_cases, only : get_deck_case
    use reference_cases, only : thesis_case, source_case, skewed_case, set_point, point_speeds, point_viscosities
    implicit none
    private
@@ -265,12 +265,9 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(case_t) :: the_case
       type(result_t) :: result
-      type(deck_t) :: deck
-      type(override_t) :: none(0)
       type(error_t), allocatable :: failure
 
-      call read_deck(deck, "decks/hard/sharp_cap.nml", none, failure)
-      if (.not. allocated(failure)) call make_case(deck, none, the_case, failure)
+      call get_deck_case("decks/hard/sharp_cap.nml", the_case, failure)
       the_case%numerics%method = "hermite"
       the_case%numerics%tolerance = 1.0e-9_wp
       if (.not. allocated(failure)) call run_case(the_case, result, failure)

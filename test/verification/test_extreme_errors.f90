@@ -7,7 +7,6 @@ module test_extreme_errors
    use camroller_cycle, only : cycle_t, integrate_cycle, state_at
    use camroller_catalogue, only : follower_count, follower_values
    use camroller_accuracy, only : resolve_numerics
-   use camroller_deck, only : deck_t, override_t, read_deck, make_case
    use camroller_error, only : error_t
    use camroller_model, only : model_t
    use camroller_remarks, only : film_without_limit, lost_contact, remark_lines
@@ -16,6 +15,7 @@ module test_extreme_errors
    use camroller_settled_slip, only : settle
    use camroller_spin, only : rolling_speed_slope
    use camroller_state, only : state_t, evaluate_state
+   use deck_cases, only : get_deck_case
    use reference_cases, only : thesis_case, source_case, skewed_case, make_model, set_point, point_speeds, point_viscosities
    use result_checks, only : scalar_of
    implicit none
@@ -114,16 +114,13 @@ contains
       type(cycle_t) :: cycle
       type(state_t) :: state
       type(result_t) :: result
-      type(deck_t) :: deck
-      type(override_t) :: none(0)
       type(error_t), allocatable :: failure
       ! Series on both sides of a stop, shape (series, side), and the range of one [unit of the series]
       real(wp), allocatable :: values(:, :)
       real(wp) :: range
       integer :: side, stop, i, hint, jumps
 
-      call read_deck(deck, "decks/hard/stick_slip_true.nml", none, failure)
-      if (.not. allocated(failure)) call make_case(deck, none, case, failure)
+      call get_deck_case("decks/hard/stick_slip_true.nml", case, failure)
       if (.not. allocated(failure)) call run_case(case, result, failure)
       if (.not. allocated(failure)) call build_models(case, models, failure)
       if (.not. allocated(failure)) call integrate_cycle(cycle, models(1), resolve_numerics(case%numerics), failure)

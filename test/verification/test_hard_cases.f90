@@ -8,7 +8,6 @@ module test_hard_cases
    use camroller_remarks, only : remark_lines, unresolved_slip
    use camroller_run, only : build_models, run_case
    use camroller_result, only : result_t
-   use camroller_deck, only : deck_t, override_t, read_deck, make_case
    use camroller_mistakes, only : line_t
    use camroller_raw_file, only : find_files
    use camroller_cycle, only : cycle_t, integrate_cycle, integrate_between
@@ -17,6 +16,7 @@ module test_hard_cases
    use camroller_ode_methods, only : method_facts
    use camroller_trajectory, only : interpolate_state
    use cycle_checks, only : sample_t, take_sample, compare_samples, difference
+   use deck_cases, only : get_deck_case
    implicit none
    private
 
@@ -88,21 +88,9 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(error_t), allocatable :: failure
 
-      call read_case(name, case, failure)
+      call get_deck_case("decks/hard/"//trim(name)//".nml", case, failure)
       if (allocated(failure)) call test_failed(error, failure%message)
    end subroutine get_case
-
-   !> The same, with an error of the library.
-   subroutine read_case(name, case, failure)
-      character(len=*), intent(in) :: name
-      type(case_t), intent(out) :: case
-      type(error_t), allocatable, intent(out) :: failure
-      type(deck_t) :: deck
-      type(override_t) :: none(0)
-
-      call read_deck(deck, "decks/hard/"//trim(name)//".nml", none, failure)
-      if (.not. allocated(failure)) call make_case(deck, none, case, failure)
-   end subroutine read_case
 
    !> On the way from one tolerance of the ladder to the next, a tenth of it, errors fall to a tenth where a cycle is right
    !> to the order of its steps, and to the root of a tenth where each step is of first order. The mean over all decks must
@@ -144,7 +132,7 @@ contains
       type(sample_t) :: reference
       integer :: i
 
-      call read_case(name, case, failure)
+      call get_deck_case("decks/hard/"//trim(name)//".nml", case, failure)
       if (.not. allocated(failure)) call build_models(case, models, failure)
       if (allocated(failure)) then
          trouble = failure%message

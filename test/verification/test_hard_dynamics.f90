@@ -6,10 +6,10 @@ module test_hard_dynamics
    use camroller_case, only : case_t
    use camroller_model, only : model_t
    use camroller_run, only : build_models
-   use camroller_deck, only : deck_t, override_t, read_deck, make_case
    use camroller_flexible_cycle, only : flexible_cycle_t, turn_t, start_turns, find_periodic, rest_of_train
    use camroller_flexible_measures, only : measure_count, measure_turn, largest_load, loss_torque, residual_work
    use closeness, only : check_close, check_scaled
+   use deck_cases, only : get_deck_case
    implicit none
    private
 
@@ -47,8 +47,6 @@ contains
       real(wp), allocatable, intent(out) :: values(:)
       integer, intent(out) :: period
       type(error_type), allocatable, intent(out) :: error
-      type(deck_t) :: deck
-      type(override_t) :: none(0)
       type(case_t) :: case
       type(model_t), allocatable, target :: models(:)
       type(turn_t) :: turn
@@ -58,8 +56,7 @@ contains
       real(wp), allocatable :: state(:)
 
       period = 0
-      call read_deck(deck, "decks/hard/dynamics/"//trim(deck_name)//".nml", none, failure)
-      if (.not. allocated(failure)) call make_case(deck, none, case, failure)
+      call get_deck_case("decks/hard/dynamics/"//trim(deck_name)//".nml", case, failure)
       if (.not. allocated(failure)) call build_models(case, models, failure)
       if (.not. allocated(failure)) call start_turns(turn, models(1), method, tolerance, failure)
       if (.not. allocated(failure)) call rest_of_train(models(1), state, failure)

@@ -5,13 +5,13 @@ module test_hard_ehl
    use camroller_kinds, only : wp
    use camroller_error, only : error_t
    use camroller_case, only : case_t
-   use camroller_deck, only : deck_t, override_t, read_deck, make_case
    use camroller_ehl_cycle, only : ehl_cycle_t, ehl_cycle_options_t, integrate_ehl_cycle
    use camroller_ehl_profiles, only : plain_model
    use camroller_ehl_table, only : ehl_t
    use camroller_model, only : model_t
    use camroller_run, only : build_models
    use cycle_checks, only : sample_t, take_sample, compare_samples
+   use deck_cases, only : get_deck_case
    use ehl_checks, only : cycle_facts_t, solve_and_check
    implicit none
    private
@@ -85,11 +85,8 @@ contains
       character(len=*), intent(in) :: name
       type(case_t), intent(out) :: case
       type(error_t), allocatable, intent(out) :: failure
-      type(deck_t) :: deck
-      type(override_t) :: none(0)
 
-      call read_deck(deck, "decks/hard/"//trim(name)//".nml", none, failure)
-      if (.not. allocated(failure)) call make_case(deck, none, case, failure)
+      call get_deck_case("decks/hard/"//trim(name)//".nml", case, failure)
       if (.not. allocated(failure)) case%ehl = ehl_t(accuracy=film_accuracy)
    end subroutine get_case
 

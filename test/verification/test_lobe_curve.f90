@@ -6,7 +6,6 @@ module test_lobe_curve
    use camroller_case, only : case_t
    use camroller_catalogue, only : camshaft_count, follower_count
    use camroller_cycle, only : cycle_t, integrate_cycle, state_at
-   use camroller_deck, only : deck_t, override_t, read_deck, make_sweep_case
    use camroller_lobe_curve, only : add_piece, cam_values, close_curve, curve_at, curve_values, halve_pieces, keep_state, &
       & lobe_curve_t, start_curve
    use camroller_means, only : integrate_lobe, statistics_t
@@ -15,6 +14,7 @@ module test_lobe_curve
    use camroller_run, only : build_models
    use camroller_state, only : state_t
    use camroller_torque_list, only : of_residual, torque_count
+   use deck_cases, only : get_deck_case
    implicit none
    private
 
@@ -110,20 +110,17 @@ contains
       integer, intent(in) :: number
       real(wp), intent(out) :: worst, known
       type(error_type), allocatable, intent(out) :: error
-      type(deck_t) :: deck
       type(case_t), target :: the_case
       type(model_t), allocatable, target :: models(:)
       type(cycle_t), target :: cycle
       type(statistics_t) :: statistics
       type(error_t), allocatable :: failure
-      type(override_t) :: none(0)
       type(state_t) :: state
       real(wp) :: exact(curve_values, angles), curve(curve_values, angles), difference
       logical :: is_known(angles)
       integer :: i, hint
 
-      call read_deck(deck, path, none, failure)
-      if (.not. allocated(failure)) call make_sweep_case(deck, number, the_case, failure)
+      call get_deck_case(path, the_case, failure, number=number)
       if (.not. allocated(failure)) call build_models(the_case, models, failure)
       if (.not. allocated(failure)) call integrate_cycle(cycle, models(1), the_case%numerics, failure)
       if (.not. allocated(failure)) call integrate_lobe(the_case, models(1), cycle, follower_count(the_case) &

@@ -8,7 +8,7 @@ module test_means
    use camroller_case, only : case_t, numerics_t
    use camroller_catalogue, only : list_series
    use camroller_cycle, only : cycle_t, integrate_cycle, state_at
-   use camroller_deck, only : deck_t, override_t, read_deck, parse_deck, make_case, make_sweep_case
+   use camroller_deck, only : deck_t, override_t, parse_deck, make_case
    use camroller_means, only : statistics_t, integrate_lobe, integrate_torques
    use camroller_model, only : model_t
    use camroller_remarks, only : missed_means, remark_lines
@@ -17,6 +17,7 @@ module test_means
    use camroller_simulation, only : simulation_t, outcome_t, start_simulation, advance
    use camroller_state, only : state_t
    use camroller_torque_list, only : torque_count, is_torque, of_geometric, of_contact, of_needle, of_guide, of_roller_inertia
+   use deck_cases, only : get_deck_case
    use random_decks, only : random_t, start_random, random_deck
    use reference_cases, only : thesis_case, source_case, set_point, point_viscosities
    use run_settings, only : has_checks
@@ -55,19 +56,15 @@ contains
       integer, intent(in) :: number
       type(case_t), intent(out) :: the_case
       type(error_type), allocatable, intent(out) :: error
-      type(deck_t) :: deck
-      type(override_t) :: none(0)
       type(error_t), allocatable :: failure
 
       select case (number)
       case (1, 2)
-         call read_deck(deck, "decks/thesis_source.nml", none, failure)
-         if (.not. allocated(failure)) call make_sweep_case(deck, 6 + number, the_case, failure)
+         call get_deck_case("decks/thesis_source.nml", the_case, failure, number=6 + number)
       case (3)
          the_case = gas_case()
       case (4)
-         call read_deck(deck, "decks/hard/stuck_roller.nml", none, failure)
-         if (.not. allocated(failure)) call make_case(deck, none, the_case, failure)
+         call get_deck_case("decks/hard/stuck_roller.nml", the_case, failure)
       case default
          the_case = thesis_case()
          call set_point(the_case, 94.0_wp, point_viscosities(1))

@@ -3,13 +3,14 @@ module test_shaft_simulation
    use, intrinsic :: ieee_arithmetic, only : ieee_positive_inf, ieee_value
    use, intrinsic :: iso_fortran_env, only : int8
    use testdrive, only : unittest_type, new_unittest, error_type, check, test_failed
-   use camroller, only : wp, two_pi, error_t, deck_t, override_t, case_t, result_t, simulation_t, outcome_t, inputs_t, &
-      & shaft_simulation_t, shaft_outcome_t, kind_usage, read_deck, make_case, run_case, get_summary, start_simulation, advance, &
-      & start_shaft, advance_shaft, halt_shaft, save_shaft, restore_shaft, cam_number, cam_place, shaft_angle, shaft_values
+   use camroller, only : wp, two_pi, error_t, case_t, result_t, simulation_t, outcome_t, inputs_t, &
+      & shaft_simulation_t, shaft_outcome_t, kind_usage, run_case, get_series, get_summary, &
+      & start_simulation, advance, start_shaft, advance_shaft, halt_shaft, save_shaft, restore_shaft, cam_number, cam_place, &
+      & shaft_angle, shaft_values
    use camroller_catalogue, only : list_series, camshaft_columns
-   use camroller_deck, only : add_override
    use camroller_result, only : quantity_t, find_quantity
    use camroller_torque_list, only : of_bearings
+   use deck_cases, only : get_deck_case
    use reference_cases, only : thesis_case
    implicit none
    private
@@ -23,6 +24,7 @@ contains
 
       testsuite = [ &
          new_unittest("repeated turns of an engine's camshafts tend to the means of its run", test_periodic), &
+         new_unittest("each bearing's load, film and torque at a step's end are those of the run", test_bearings), &
          new_unittest("a shaft with one cam gives the bits of its follower", test_one_cam), &
          new_unittest("torques of bearings and followers are of second order in the host's step", test_order), &
          new_unittest("the estimated error of a step bounds its error", test_estimate), &
@@ -34,23 +36,6 @@ contains
          new_unittest("numbers of a shaft have the names of the series of a run", test_names) &
          ]
    end subroutine collect_shaft_simulation
-
-   !> Case of a deck in the folder of decks.
-   subroutine get_case(name, words, the_case, failure)
-      character(len=*), intent(in) :: name
-      !> `group.key=value`, or blank
-      character(len=*), intent(in) :: words
-      type(case_t), intent(out) :: the_case
-      type(error_t), allocatable, intent(out) :: failure
-      type(deck_t) :: deck
-      type(override_t), allocatable :: overrides(:)
-      type(override_t) :: none(0)
-
-      allocate (overrides(0))
-      if (words /= "") call add_override(overrides, words)
-      call read_deck(deck, "decks/"//name//".nml", overrides, failure)
-      if (.not. allocated(failure)) call make_case(deck, none, the_case, failure)
-   end subroutine get_case
 
    !> Inputs of an engine whose speed and oil go round with the cam.
    pure function inputs_at(the_case, angle, ripple) result(inputs)
@@ -109,7 +94,7 @@ contains
       ! Means of the turn and of the run [N m]
       real(wp) :: means(3), expected(3)
 
-      call get_case("four_cylinder", "", the_case, failure)
+      call get_deck_case("decks/four_cylinder.nml", the_case, failure)
       if (.not. allocated(failure)) call run_case(the_case, result, failure)
       if (.not. allocated(failure)) call get_summary(result, "mean_torque_drive", expected(1), failure)
       if (.not. allocated(failure)) call get_summary(result, "mean_torque_friction", expected(2), failure)
@@ -123,6 +108,54 @@ contains
       call check(error, all(abs(means - expected) < 2.0_wp*the_case%numerics%accuracy*expected), &
          & "means of a turn are not those of the run")
    end subroutine test_periodic
+
+   !> Every series of the camshaft and its single bearings, over the second turn.
+   subroutine test_bearings(error)
+      type(error_type), allocatable, intent(out) :: error
+      integer, parameter :: steps = 40
+      type(case_t) :: the_case
+      type(shaft_simulation_t) :: shaft
+      type(shaft_outcome_t) :: outcome
+      type(inputs_t) :: inputs
+      type(result_t) :: result
+      type(error_t), allocatable :: failure
+      ! Numbers of the camshaft at the ends of steps, shape (series, step); a series of the run [unit of the series]
+      real(wp), allocatable :: driven(:, :), values(:), run_values(:)
+      ! Range of the numbers of a series [unit of the series]
+      real(wp) :: range
+      integer :: columns(2), column, i, touching
+
+      ! hot oil, in which asperities touch
+      call get_deck_case("decks/mixed_bearings.nml", the_case, failure, "operating_point.oil_temperature_degC=95")
+      if (.not. allocated(failure)) call run_case(the_case, result, failure)
+      if (.not. allocated(failure)) call start_shaft(shaft, the_case, 0.0_wp, failure)
+      if (has_failed(failure, error)) return
+      inputs = inputs_at(the_case, 0.0_wp, 0.0_wp)
+      columns = camshaft_columns(the_case)
+      allocate (driven(columns(1):columns(2), steps), run_values(steps))
+      do i = 1, 2*steps
+         call advance_shaft(shaft, two_pi*i/steps, inputs, inputs, outcome, failure)
+         if (has_failed(failure, error)) return
+         call shaft_values(shaft, 0, outcome, values)
+         if (i > steps) driven(:, i - steps) = values
+      end do
+      touching = 0
+      do column = columns(1), columns(2)
+         associate (name => result%series(column)%name)
+            call get_series(result, name, values, failure)
+            if (has_failed(failure, error)) return
+            do i = 1, steps
+               run_values(i) = values(1 + modulo(i*size(values)/steps, size(values)))
+            end do
+            range = maxval(abs(run_values))
+            touching = touching + merge(1, 0, index(name, "asperity_load") > 0 .and. range > 0.0_wp)
+            if (name == "energy_residual") cycle
+            call check(error, all(abs(driven(column, :) - run_values) < 2.0_wp*the_case%numerics%accuracy*range), name)
+            if (allocated(error)) return
+         end associate
+      end do
+      call check(error, touching == 2, "asperities do not touch in both bearings")
+   end subroutine test_bearings
 
    subroutine test_one_cam(error)
       type(error_type), allocatable, intent(out) :: error
@@ -171,7 +204,7 @@ contains
       real(wp) :: means(3, size(steps))
       integer :: i
 
-      call get_case("three_cam_head", "numerics.accuracy=1e-7", the_case, failure)
+      call get_deck_case("decks/three_cam_head.nml", the_case, failure, "numerics.accuracy=1e-7")
       do i = 1, size(steps)
          if (.not. allocated(failure)) call start_shaft(shaft, the_case, 0.0_wp, failure, threads=2)
          if (.not. allocated(failure)) call turn(shaft, the_case, steps(i), 1, 0.05_wp, means(:, i), failure, outcome)
@@ -192,8 +225,8 @@ contains
       real(wp) :: met, estimated
       integer :: i
 
-      call get_case("three_cam_head", "numerics.accuracy=1e-3", the_case, failure)
-      if (.not. allocated(failure)) call get_case("three_cam_head", "numerics.accuracy=1e-8", exact_case, failure)
+      call get_deck_case("decks/three_cam_head.nml", the_case, failure, "numerics.accuracy=1e-3")
+      if (.not. allocated(failure)) call get_deck_case("decks/three_cam_head.nml", exact_case, failure, "numerics.accuracy=1e-8")
       if (.not. allocated(failure)) call start_shaft(shaft, the_case, 0.0_wp, failure)
       if (.not. allocated(failure)) call start_shaft(exact, exact_case, 0.0_wp, failure)
       met = 0.0_wp
@@ -223,7 +256,7 @@ contains
       real(wp) :: means(3), numbers(4, 2)
       integer :: i
 
-      call get_case("three_cam_head", "", the_case, failure)
+      call get_deck_case("decks/three_cam_head.nml", the_case, failure)
       do i = 1, 2
          if (.not. allocated(failure)) call start_shaft(shaft, the_case, 0.0_wp, failure, threads=2*i - 1)
          if (.not. allocated(failure)) call turn(shaft, the_case, 30, 1, 0.05_wp, means, failure, outcome)
@@ -246,7 +279,7 @@ contains
       ! Means of the turn after [N m]
       real(wp) :: means(3, 3)
 
-      call get_case("three_cam_head", "", the_case, failure)
+      call get_deck_case("decks/three_cam_head.nml", the_case, failure)
       if (.not. allocated(failure)) call start_shaft(shaft, the_case, 0.3_wp, failure)
       if (.not. allocated(failure)) call turn(shaft, the_case, 20, 1, 0.05_wp, means(:, 1), failure, outcome)
       if (.not. allocated(failure)) call save_shaft(shaft, block, failure)
@@ -283,7 +316,7 @@ contains
       ! Pressures of the cams [Pa]; means of the turn after [N m]
       real(wp) :: pressures(3, 2), means(3, 2)
 
-      call get_case("three_cam_head", "", the_case, failure)
+      call get_deck_case("decks/three_cam_head.nml", the_case, failure)
       if (.not. allocated(failure)) call start_shaft(shaft, the_case, 0.0_wp, failure)
       if (has_failed(failure, error)) return
       untouched = shaft
@@ -335,7 +368,7 @@ contains
       call check(error, outcome%followers(1)%extremes%sliding_speed(2) > 0.5_wp*outcome%followers(1)%state%contact%rolling_speed, &
          & "the roller was not at rest")
       if (allocated(error)) return
-      call get_case("dynamics", "", the_case, failure)
+      call get_deck_case("decks/dynamics.nml", the_case, failure)
       if (has_failed(failure, error)) return
       call start_shaft(shaft, the_case, 0.0_wp, failure)
       call check_refusal("dynamics")
@@ -368,7 +401,7 @@ contains
       real(wp), allocatable :: of_camshaft(:), of_cam(:)
       integer :: columns(2), lobe, camshaft
 
-      call get_case("three_cam_head", "", the_case, failure)
+      call get_deck_case("decks/three_cam_head.nml", the_case, failure)
       if (.not. allocated(failure)) call start_shaft(shaft, the_case, 0.0_wp, failure)
       if (.not. allocated(failure)) call turn(shaft, the_case, 20, 1, 0.0_wp, means, failure, outcome)
       if (has_failed(failure, error)) return

@@ -3,6 +3,7 @@ module test_simulation_inputs
    use testdrive, only : unittest_type, new_unittest, error_type, check, test_failed
    use camroller, only : wp, pi, two_pi, degree, error_t, case_t, simulation_t, outcome_t, inputs_t, start_simulation, advance, halt
    use camroller_error, only : kind_usage
+   use closeness, only : check_close
    use reference_cases, only : thesis_case, add_gas_force
    implicit none
    private
@@ -24,6 +25,7 @@ contains
 
       testsuite = [ &
          new_unittest("with a speed ripple torques and slip converge with second order in the host's step", test_order), &
+         new_unittest("a step longer than half a turn gives what its halves give, with inputs linear within", test_long_step), &
          new_unittest("a turn that ends at its initial speed gives drive work equal to losses for any speed ripple", test_energy), &
          new_unittest("the estimated error of a step is above its true error", test_estimate), &
          new_unittest("gas pressure from the host gives the results of the same table in the case", test_pressure), &
@@ -115,6 +117,54 @@ contains
       ! a straight line over one degree of a ripple with a period of 90 degrees is off by (4 degree)^2/8 of its size
       call check(error, all(errors(:, 3) < 6.0e-4_wp*abs(turns(4)%values)), "errors at one degree are large")
    end subroutine test_order
+
+   !> A step of more than half a turn is integrated in halves, each of which a host could have asked for: the same steps of the
+   !> integration, so that states have the same bits and means differ by the rounding of a sum of two.
+   subroutine test_long_step(error)
+      type(error_type), allocatable, intent(out) :: error
+      real(wp), parameter :: tolerance = 8.0_wp*epsilon(1.0_wp)
+      ! Cam angles of the start, the middle and the end [rad]: the nose is in the first half, then in the second
+      real(wp), parameter :: angles(3, 2) = reshape([2.0_wp, 4.0_wp, 6.0_wp, 0.25_wp, 2.25_wp, 4.25_wp], [3, 2])
+      type(simulation_t) :: whole, halved
+      type(outcome_t) :: once, halves(2)
+      type(inputs_t) :: ends(3)
+      type(error_t), allocatable :: failure
+      integer :: i, k
+
+      do i = 1, size(angles, dim=2)
+         ends(1) = inputs_at(angles(1, i), .true.)
+         ends(3) = inputs_at(angles(3, i), .true.)
+         ends(2) = inputs_t(speed=0.5_wp*(ends(1)%speed + ends(3)%speed), oil_temperature=0.5_wp*(ends(1)%oil_temperature &
+            & + ends(3)%oil_temperature), has_pressure=.true., gas_pressure=0.5_wp*(ends(1)%gas_pressure + ends(3)%gas_pressure))
+         call start_simulation(whole, tight_case(), angles(1, i), failure)
+         if (.not. allocated(failure)) call advance(whole, angles(3, i), ends(1), ends(3), once, failure)
+         if (.not. allocated(failure)) call start_simulation(halved, tight_case(), angles(1, i), failure)
+         do k = 1, 2
+            if (.not. allocated(failure)) call advance(halved, angles(k + 1, i), ends(k), ends(k + 1), halves(k), failure)
+         end do
+         if (allocated(failure)) then
+            call test_failed(error, failure%message)
+            return
+         end if
+         call check_close(error, once%state%contact%roller_spin, halves(2)%state%contact%roller_spin, tolerance, "spin at the end")
+         if (allocated(error)) return
+         call check_close(error, once%mean_torque_friction, 0.5_wp*sum(halves%mean_torque_friction), tolerance, "mean friction")
+         if (allocated(error)) return
+         associate (extremes => once%extremes, first => halves(1)%extremes, second => halves(2)%extremes)
+            call check_close(error, extremes%contact_load(1), min(first%contact_load(1), second%contact_load(1)), tolerance, &
+               & "smallest load")
+            if (allocated(error)) return
+            call check_close(error, extremes%contact_load(2), max(first%contact_load(2), second%contact_load(2)), tolerance, &
+               & "largest load")
+            if (allocated(error)) return
+            call check_close(error, extremes%film_min, min(first%film_min, second%film_min), tolerance, "smallest film")
+            if (allocated(error)) return
+call check(error, (first%contact_load(2) > second%contact_load(2)) .eqv. i == 1, &
+               & "the nose is in the other half")
+            if (allocated(error)) return
+         end associate
+      end do
+   end subroutine test_long_step
 
    !> Over a turn that ends with the speed it began with, spring and masses give back what they got.
    subroutine test_energy(error)

@@ -1,0 +1,148 @@
+!> A follower between two steps as a block of bytes: the one made of it continues with the same bits; other blocks are refused.
+module test_saved_simulation
+   use, intrinsic :: iso_fortran_env, only : int8, int64
+   use testdrive, only : unittest_type, new_unittest, error_type, check, test_failed
+   use camroller, only : wp, pi, case_t, error_t, inputs_t, kind_usage, outcome_t, shaft_simulation_t, simulation_t, advance, &
+      & restore_simulation, save_shaft, save_simulation, start_shaft, start_simulation
+   use deck_cases, only : get_deck_case
+   implicit none
+   private
+
+   public :: collect_saved_simulation
+
+contains
+
+   subroutine collect_saved_simulation(testsuite)
+      type(unittest_type), allocatable, intent(out) :: testsuite(:)
+
+      testsuite = [ &
+         new_unittest("a follower made of a block continues with the same bits, at another speed and with other oil", test_bits), &
+         new_unittest("with films solved beforehand at an earlier speed, too", test_films), &
+         new_unittest("a block that is damaged, short, of another case or of a shaft is refused", test_refusals) &
+         ]
+   end subroutine collect_saved_simulation
+
+   subroutine test_bits(error)
+      type(error_type), allocatable, intent(out) :: error
+
+      call compare_bits("decks/thesis.nml", [20.0_wp, 26.0_wp, 35.0_wp], [300.0_wp, 310.0_wp, 330.0_wp], error)
+      if (allocated(error)) return
+      call compare_bits("decks/hard/stick_slip_true.nml", [20.0_wp, 26.0_wp, 35.0_wp], [300.0_wp, 310.0_wp, 330.0_wp], error)
+   end subroutine test_bits
+
+   !> The films of the start serve at the speed of the block, which solving them there would change.
+   subroutine test_films(error)
+      type(error_type), allocatable, intent(out) :: error
+
+      call compare_bits("decks/numerical_film.nml", [25.0_wp, 20.0_wp, 18.0_wp], spread(333.0_wp, 1, 3), error)
+   end subroutine test_films
+
+   !> Save a follower in the middle of a turn; drive it and the one made of the block on.
+   subroutine compare_bits(path, speeds, temperatures, error)
+      !> Path of the deck
+      character(len=*), intent(in) :: path
+      !> Cam speeds [rad/s] and temperatures of the oil [K] at the start, at the block and at the end
+      real(wp), intent(in) :: speeds(3), temperatures(3)
+      type(error_type), allocatable, intent(out) :: error
+      integer, parameter :: steps = 3
+      type(case_t) :: case
+      type(simulation_t) :: saved, restored
+      type(outcome_t) :: of_saved, of_restored
+      type(inputs_t) :: ends(2)
+      integer(int8), allocatable :: block(:)
+      type(error_t), allocatable :: failure
+      integer :: i
+
+      call get_deck_case(path, case, failure)
+      case%operating_point%speed = speeds(1)
+      case%operating_point%oil_temperature = temperatures(1)
+      if (.not. allocated(failure)) call start_simulation(saved, case, 2.4_wp, failure)
+      ends = [(inputs_t(speed=speeds(i), oil_temperature=temperatures(i)), i=1, 2)]
+      if (.not. allocated(failure)) call advance(saved, 2.8_wp, ends(1), ends(2), of_saved, failure)
+      if (.not. allocated(failure)) call save_simulation(saved, block, failure)
+      if (.not. allocated(failure)) call restore_simulation(restored, case, block, failure)
+      ends = [(inputs_t(speed=speeds(i), oil_temperature=temperatures(i)), i=2, 3)]
+      do i = 1, steps
+         if (.not. allocated(failure)) call advance(saved, 2.8_wp + 0.3_wp*i, ends(1), ends(2), of_saved, failure)
+         if (.not. allocated(failure)) call advance(restored, 2.8_wp + 0.3_wp*i, ends(1), ends(2), of_restored, failure)
+         if (allocated(failure)) then
+            call test_failed(error, failure%message)
+            return
+         end if
+         call check(error, all(bits_of(of_saved) == bits_of(of_restored)), "bits differ: "//path)
+         if (allocated(error)) return
+         ends(1) = ends(2)
+      end do
+   end subroutine compare_bits
+
+   !> Bits of what a step gives.
+   pure function bits_of(outcome) result(bits)
+      type(outcome_t), intent(in) :: outcome
+      integer(int64) :: bits(7)
+
+      associate (contact => outcome%state%contact, extremes => outcome%extremes)
+         bits = transfer([outcome%mean_torque_drive, outcome%mean_torque_friction, outcome%estimated_error, contact%roller_spin, &
+            & contact%film_min, extremes%film_min, extremes%sliding_speed(2)], bits)
+      end associate
+   end function bits_of
+
+   subroutine test_refusals(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: case, other
+      type(simulation_t) :: simulation, unstarted
+      type(shaft_simulation_t) :: shaft
+      integer(int8), allocatable :: block(:), of_shaft(:), damaged(:)
+      type(error_t), allocatable :: failure
+      integer :: place
+
+      call get_deck_case("decks/thesis.nml", case, failure)
+      if (.not. allocated(failure)) call start_simulation(simulation, case, pi, failure)
+      if (.not. allocated(failure)) call save_simulation(simulation, block, failure)
+      if (.not. allocated(failure)) call start_shaft(shaft, case, pi, failure)
+      if (.not. allocated(failure)) call save_shaft(shaft, of_shaft, failure)
+      if (allocated(failure)) then
+         call test_failed(error, failure%message)
+         return
+      end if
+      ! one bit of any byte behind what says that it is a block and of which format
+      do place = 17, size(block)
+         damaged = block
+         damaged(place) = ieor(damaged(place), 1_int8)
+         call restore_simulation(simulation, case, damaged, failure)
+         call check_refusal("damaged")
+         if (allocated(error)) return
+      end do
+      call restore_simulation(simulation, case, block(:size(block) - 1), failure)
+      call check_refusal("size")
+      call restore_simulation(simulation, case, of_shaft, failure)
+      call check_refusal("block")
+      damaged = block
+      damaged(1) = not(damaged(1))
+      call restore_simulation(simulation, case, damaged, failure)
+      call check_refusal("not one that was saved")
+      damaged = block
+      damaged(9) = not(damaged(9))
+      call restore_simulation(simulation, case, damaged, failure)
+      call check_refusal("format")
+      other = case
+      other%mechanism%contact_width = 1.001_wp*case%mechanism%contact_width
+      call restore_simulation(simulation, other, block, failure)
+      call check_refusal("another case")
+      call save_simulation(unstarted, block, failure)
+      call check_refusal("start_simulation")
+
+   contains
+
+      !> The last call was refused, with words in the message.
+      subroutine check_refusal(words)
+         character(len=*), intent(in) :: words
+
+         if (allocated(error)) return
+         call check(error, allocated(failure), "something was not refused: "//words)
+         if (allocated(error)) return
+         call check(error, failure%kind == kind_usage .and. index(failure%message, words) > 0, failure%message)
+      end subroutine check_refusal
+
+   end subroutine test_refusals
+
+end module test_saved_simulation
