@@ -10,7 +10,7 @@ module camroller_commands
    use camroller_fmu_command, only : fmu_of_deck
    use camroller_hdf5_columns, only : hdf5_columns_t
    use camroller_help_pages, only : bash_completion, manual_page
-   use camroller_console, only : tell_deck_remarks
+   use camroller_console, only : add_number_remarks, tell_deck_remarks
    use camroller_deck, only : deck_t, read_deck, make_case, make_sweep_case, add_places, drop_sweep, override_t
    use camroller_case_facts, only : describe_case
    use camroller_deck_document, only : write_defaults, write_page, write_resolved
@@ -218,6 +218,7 @@ contains
       integer :: i, checked, number
 
       call read_deck(deck, config%subject, config%overrides, error, columns)
+      call add_number_remarks(deck, error)
       if (.not. allocated(error)) call check_blas_memory(1, error)
       if (allocated(error)) return
       if (config%has_no_sweep) call drop_sweep(deck)
@@ -229,6 +230,7 @@ contains
          call build_models(case, models, error)
          if (size(deck%sweep%axes) > 0) call add_context(error, case_in_words(deck%sweep, number))
          call add_places(deck, error)
+         call add_number_remarks(deck, error)
          if (allocated(error)) return
       end do
       text = "! "//config%subject//" is valid: "//cases_in_words(deck)

@@ -7,7 +7,8 @@ module camroller_console
    use, intrinsic :: iso_c_binding, only : c_int
    use, intrinsic :: iso_fortran_env, only : int64
    use camroller_deck, only : deck_t
-   use camroller_deck_remarks, only : list_deck_remarks
+   use camroller_error, only : error_t
+   use camroller_deck_remarks, only : list_deck_remarks, list_number_remarks
    use camroller_mistakes, only : line_t
    use camroller_kinds, only : wp
    use camroller_number_text, only : counted, number_text, fixed_text, integer_text
@@ -17,7 +18,7 @@ module camroller_console
    implicit none
    private
 
-   public :: console_t, start_console, seconds_since, time_in_words, tell_deck_remarks
+   public :: console_t, start_console, seconds_since, time_in_words, tell_deck_remarks, add_number_remarks
 
    !> Width of the line
    integer, parameter :: width = 72
@@ -178,6 +179,23 @@ contains
       call system_clock(now, rate)
       words = fixed_text(real(now - console%start, wp)/real(rate, wp), 2)//" s"
    end function seconds_since
+
+   !> Add to an error what may be its reason: numbers of the deck that no engine has.
+   subroutine add_number_remarks(deck, error)
+      !> The deck, as far as it could be read
+      type(deck_t), intent(in) :: deck
+      !> An error on its way up; left alone where not allocated
+      type(error_t), allocatable, intent(inout) :: error
+
+      type(line_t), allocatable :: remarks(:)
+      integer :: i
+
+      if (.not. allocated(error)) return
+      call list_number_remarks(deck, remarks)
+      do i = 1, size(remarks)
+         error%message = error%message//new_line("a")//"remark: "//remarks(i)%text
+      end do
+   end subroutine add_number_remarks
 
    !> Show remarks on the numbers of a deck.
    subroutine tell_deck_remarks(deck)

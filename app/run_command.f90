@@ -10,7 +10,7 @@ module camroller_run_command
    use camroller_case, only : case_t
    use camroller_cli, only : config_t
    use camroller_hdf5_columns, only : hdf5_columns_t
-   use camroller_console, only : console_t, seconds_since, start_console, tell_deck_remarks
+   use camroller_console, only : console_t, seconds_since, start_console, tell_deck_remarks, add_number_remarks
    use camroller_deck, only : deck_t, drop_sweep, read_deck, make_sweep_case
    use camroller_deck_files, only : list_deck_files
    use camroller_deck_sweep, only : case_in_words, sweep_size
@@ -47,6 +47,7 @@ contains
 
       call check_blas_memory(1, error)
       if (.not. allocated(error)) call read_deck(deck, config%subject, config%overrides, error, columns)
+      call add_number_remarks(deck, error)
       if (allocated(error)) return
       if (config%has_no_sweep) call drop_sweep(deck)
       if (.not. config%is_quiet) call tell_unused_values(deck)
@@ -78,6 +79,7 @@ contains
       call heed_stop_signals()
       call check_blas_memory(1, error)
       if (.not. allocated(error)) call read_deck(deck, config%subject, config%overrides, error, columns)
+      call add_number_remarks(deck, error)
       if (agreed_code(team, error) /= 0) return
       if (team%rank == 0 .and. .not. config%is_quiet) call tell_unused_values(deck)
       if (team%rank == 0 .and. .not. config%is_quiet) call tell_deck_remarks(deck)

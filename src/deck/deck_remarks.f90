@@ -1,6 +1,7 @@
 !> Remarks on a deck: numbers that no engine has, and what may have been meant.
 !>
-!> In: a deck without mistakes. Out: sentences. Nothing is refused for them: a deck may be about something unusual.
+!> In: a deck. Out: sentences. Nothing is refused for them: a deck may be about something unusual. Of a deck with mistakes only
+!> single numbers are looked at, since one in another unit may be the reason of a mistake elsewhere.
 module camroller_deck_remarks
    use camroller_kinds, only : wp
    use camroller_units, only : unit_t, find_unit, from_si, to_si
@@ -8,6 +9,7 @@ module camroller_deck_remarks
    use camroller_mistakes, only : line_t
    use camroller_text_list, only : text_at
    use camroller_deck_schema, only : key_t, type_number, type_numbers
+   use camroller_deck_meant, only : ask_kinematic, is_usual, say_meant
    use camroller_deck_sweep, only : sweep_axis_t
    use camroller_settings, only : get_word, take, find_value
    use camroller_deck_tables, only : get_lift_table
@@ -18,29 +20,34 @@ module camroller_deck_remarks
    implicit none
    private
 
-   public :: list_deck_remarks
+   public :: list_deck_remarks, list_number_remarks
 
    !> Digits of numbers in sentences
    integer, parameter :: digits = 6
    !> Above this temperature no engine oil is thicker than that [K], [Pa s]
    real(wp), parameter :: warm = 293.15_wp, thickest_warm = 2.0_wp
-   !> Kinematic viscosities that a data sheet may give [mm^2/s]
-   real(wp), parameter :: sheet_range(2) = [2.0_wp, 500.0_wp]
    !> Usual lengths of an event [deg of cam angle], and usual lifts [m]
    real(wp), parameter :: usual_event(2) = [60.0_wp, 220.0_wp], usual_lift(2) = [1.0e-3_wp, 25.0e-3_wp]
-   !> Powers of ten that a slip of units makes; nearer ones first
+   !> Powers of ten between a table's unit and another one; nearer ones first
    integer, parameter :: slips(*) = [3, -3, 6, -6, 9, -9]
-   !> Units that nobody takes for a thousand of another
-   character(len=*), parameter :: of_one_size(*) = [character(len=4) :: "rpm", "deg", "degC"]
-
-   !> A question about a number that may be a kinematic viscosity, before and behind the number
-   character(len=*), parameter :: question = "; did you mean ", kinematic_keys = " mm^2/s? That is viscosity_at_40_degC_mm2_s "// &
-      & "or viscosity_at_100_degC_mm2_s of temperature_law 'data_sheet'"
 
 contains
 
-   !> Remarks on the values of a deck, those of its sweep included.
+   !> Remarks on the values of a deck without mistakes, those of its sweep included.
    subroutine list_deck_remarks(deck, remarks)
+      !> The deck
+      type(deck_t), intent(in) :: deck
+      !> Sentences
+      type(line_t), allocatable, intent(out) :: remarks(:)
+
+      call list_number_remarks(deck, remarks)
+      call remark_viscosity(deck, remarks)
+      call remark_lift(deck, "lift", deck%tables%lift, remarks)
+      call remark_lift(deck, "second_lift", deck%tables%second_lift, remarks)
+   end subroutine list_deck_remarks
+
+   !> Remarks on the single numbers of a deck, as far as it could be read.
+   subroutine list_number_remarks(deck, remarks)
       !> The deck
       type(deck_t), intent(in) :: deck
       !> Sentences
@@ -49,6 +56,7 @@ contains
       integer :: i, k, axis
 
       allocate (remarks(0))
+      if (.not. allocated(deck%settings%values) .or. .not. allocated(deck%sweep%axes)) return
       do i = 1, deck%schema%key_count
          associate (key => deck%schema%keys(i), value => deck%settings%values(i))
             if (.not. key%has_usual .or. .not. value%is_given .or. .not. value%is_known) cycle
@@ -63,10 +71,7 @@ contains
             end if
          end associate
       end do
-      call remark_viscosity(deck, remarks)
-      call remark_lift(deck, "lift", deck%tables%lift, remarks)
-      call remark_lift(deck, "second_lift", deck%tables%second_lift, remarks)
-   end subroutine list_deck_remarks
+   end subroutine list_number_remarks
 
    !> Name of a key with its group.
    pure function name_of(deck, position) result(name)
@@ -137,29 +142,12 @@ contains
       !> Sentences so far
       type(line_t), allocatable, intent(inout) :: remarks(:)
 
-      ! Round-off of the unit's factor [-]
-      real(wp), parameter :: round_off = 1.0e-12_wp
       character(len=:), allocatable :: words, unit
-      integer :: i
 
+      if (is_usual(number, key%usual)) return
       unit = ""
       if (key%unit%symbol /= "1") unit = " "//trim(key%unit%symbol)
-      associate (low => key%usual%smallest - round_off*abs(key%usual%smallest), &
-         & high => key%usual%largest + round_off*abs(key%usual%largest))
-         if (number >= low .and. number <= high) return
-         words = ""
-         if (index(name, "viscosity_") > 0 .and. key%unit%suffix == "Pa_s" .and. number >= sheet_range(1) .and. &
-            & number <= sheet_range(2)) then
-            words = question//number_text(number, digits)//kinematic_keys
-         else if (.not. any(key%unit%suffix == of_one_size)) then
-            do i = 1, size(slips)
-               if (number*10.0_wp**slips(i) < low .or. number*10.0_wp**slips(i) > high) cycle
-               if (.not. abs(number) > 0.0_wp) cycle
-               words = question//number_text(number*10.0_wp**slips(i), digits)//unit//"?"
-               exit
-            end do
-         end if
-      end associate
+      call say_meant(key, number, words)
       call add_remark(remarks, name//" = "//number_text(number, digits)//" is unusual: engines have "// &
          & number_text(key%usual%smallest)//" to "//number_text(key%usual%largest, digits)//unit//words)
    end subroutine remark_number
@@ -176,6 +164,7 @@ contains
       logical :: is_there
       ! Temperatures [K] and viscosities [Pa s]
       real(wp), allocatable :: temperatures(:), viscosities(:)
+      character(len=:), allocatable :: words
       integer :: i
 
       allocate (temperatures(1), viscosities(1))
@@ -197,9 +186,10 @@ contains
       do i = 1, min(size(temperatures), size(viscosities))
          ! Above the usual range it has its remark already
          if (temperatures(i) < warm .or. viscosities(i) <= thickest_warm .or. viscosities(i) > 20.0_wp) cycle
+         call ask_kinematic(viscosities(i), words)
          call add_remark(remarks, "lubricant: "//number_text(viscosities(i), digits)//" Pa s at "// &
             & number_text(from_si(celsius, temperatures(i)), digits)//" degC is unusual: no engine oil is thicker than "// &
-            & number_text(thickest_warm)//" Pa s above 20 degC"//question//number_text(viscosities(i), digits)//kinematic_keys)
+            & number_text(thickest_warm)//" Pa s above 20 degC"//words)
       end do
    end subroutine remark_viscosity
 

@@ -11,6 +11,7 @@ module camroller_deck_matching
    use camroller_deck_schema, only : schema_t, key_length, find_group, group_names, key_names, group_required, &
       & group_effect, type_name, type_text
    use camroller_deck_values, only : read_value
+   use camroller_units, only : unit_t, unit_of_key
    use camroller_settings, only : settings_t, find_value, has_group, is_known, take
    use camroller_deck_complaint, only : complain_about_group
    implicit none
@@ -226,9 +227,65 @@ contains
          words = words//"; it belongs to &"//trim(schema%groups(i)%name)
          return
       end do
-      call advise(name, key_names(schema, group), "it has ", advice)
+      call advise_key(schema, group, name, advice)
       words = words//advice
    end subroutine explain_key
+
+   !> The key of a group that an unknown one was meant to be, with its unit where that is another: a value must not be taken
+   !> over as it is. Where keys of the unknown one's unit begin with the same word, these.
+   pure subroutine advise_key(schema, group, name, words)
+      !> The schema
+      type(schema_t), intent(in) :: schema
+      !> Position of the group
+      integer, intent(in) :: group
+      !> The unknown key
+      character(len=*), intent(in) :: name
+      !> What to say
+      character(len=:), allocatable, intent(out) :: words
+
+      ! Another name of a unit that data sheets have
+      character(len=*), parameter :: centistokes = "_cSt"
+      type(unit_t) :: given
+      integer :: nearest, key, first
+
+      given = unit_of_key(name)
+      if (len_trim(name) > len(centistokes)) then
+         if (index(trim(name), centistokes, back=.true.) == len_trim(name) - len(centistokes) + 1) given = unit_of_key("one_mm2_s")
+      end if
+      nearest = find_key_without_case(schema, group, nearest_name(name, key_names(schema, group)))
+      words = ""
+      if (given%suffix /= "" .and. .not. has_unit(nearest)) then
+         first = index(name, "_")
+         do key = schema%groups(group)%first, schema%groups(group)%last
+            if (index(schema%keys(key)%name, name(:first)) /= 1 .or. .not. has_unit(key)) cycle
+            if (words /= "") words = words//" or"
+            words = words//" '"//trim(schema%keys(key)%name)//"'"
+         end do
+      end if
+      if (words /= "") then
+         words = "; did you mean"//words//"?"
+         return
+      end if
+      call advise(name, key_names(schema, group), "it has ", words)
+      if (nearest == 0) return
+      associate (unit => schema%keys(nearest)%unit)
+         if (unit%suffix /= "" .and. .not. has_unit(nearest)) words = words//" Its values are in "//trim(unit%symbol)
+      end associate
+
+   contains
+
+      !> Does a key have the unit of the unknown one?
+      pure function has_unit(key) result(verdict)
+         !> Position of the key; 0 for none
+         integer, intent(in) :: key
+         !> Does it?
+         logical :: verdict
+
+         verdict = .false.
+         if (key > 0) verdict = schema%keys(key)%unit%suffix == given%suffix
+      end function has_unit
+
+   end subroutine advise_key
 
    !> Take a value that is given beside the deck.
    subroutine apply_override(schema, override, settings, mistakes)

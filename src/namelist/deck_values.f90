@@ -13,6 +13,7 @@ module camroller_deck_values
    use camroller_mistakes, only : shown
    use camroller_near_names, only : nearest_name
    use camroller_deck_bounds, only : is_bounded, say_bounds
+   use camroller_deck_meant, only : say_meant
    use camroller_deck_schema, only : key_t, range_t, key_length, say_allowed, type_number, type_integer, &
       & type_logical, type_name, type_text, type_numbers, type_integers, type_words
    implicit none
@@ -117,8 +118,8 @@ contains
       real(wp) :: list(longest_list)
       !> What marks an empty place [unit of the key]
       real(wp), parameter :: empty = -huge(1.0_wp)
-      integer :: status, n
-      character(len=:), allocatable :: buffer, allowed
+      integer :: status, n, wrong
+      character(len=:), allocatable :: buffer, allowed, question
       namelist /value_group/ list
 
       if (is_beyond_range(value%text)) then
@@ -140,14 +141,16 @@ contains
       n = count(list > empty)
       call check_count(key, n, all(list(:n) > empty), value%text, reason)
       if (allocated(reason)) return
-      if (.not. all(is_within(list(:n), key%range))) then
+      wrong = findloc(is_within(list(:n), key%range), .false., dim=1)
+      if (wrong > 0) then
          call say_allowed(key, allowed)
-         reason = "'"//trim(key%name)//"' must be "//allowed//", not "//shown(value%text)
-         return
+      else
+         wrong = findloc(is_bounded(list(:n), key%unit), .false., dim=1)
+         if (wrong > 0) call say_bounds(key%unit, is_within(0.0_wp, key%range), key%range%smallest < 0.0_wp, allowed)
       end if
-      if (.not. all(is_bounded(list(:n), key%unit))) then
-         call say_bounds(key%unit, is_within(0.0_wp, key%range), key%range%smallest < 0.0_wp, allowed)
-         reason = "'"//trim(key%name)//"' must be "//allowed//", not "//shown(value%text)
+      if (wrong > 0) then
+         call say_meant(key, list(wrong), question)
+         reason = "'"//trim(key%name)//"' must be "//allowed//", not "//shown(value%text)//question
          return
       end if
       value%numbers = to_si(key%unit, list(:n))

@@ -35,11 +35,65 @@ def test_no_remark_on_a_deck_of_an_engine(camroller, deck):
     (["cam_bearings.radial_clearance_um=0.0475"], r"radial_clearance_um = 0.0475 .*did you mean 47.5 um\?"),
     (["asperity.boundary_coefficient=1.2"], r"boundary_coefficient = 1.2 is unusual: engines have 0 to 0.5"),
     (["needle_bearing.friction_coefficient=1.5"], r"friction_coefficient = 1.5 .*did you mean 0.0015\?"),
+    (["traction.limiting_coefficient=8"], r"limiting_coefficient = 8 .*did you mean 0.08, which is 8 %\?"),
+    (["sweep.values_2=25,363.15"], r"oil_temperature_degC = 363.15 .*did you mean 90 degC, which is 363.15 K\?"),
     (["sweep.values_1=300,600,90000"], r"operating_point.speed_rpm = 90000 is unusual"),
 ], ids=str)
 def test_an_unusual_value_gives_a_remark(camroller, values, words):
     remarks = remarks_of(camroller, "decks/thesis.nml", *values)
     assert any(re.search(words, remark) for remark in remarks), remarks
+
+
+def refusal_of(camroller, *values):
+    """The words with which `check` refuses a deck."""
+    words = [camroller, "check", "decks/thesis.nml", *(word for value in values for word in ("--set", value))]
+    result = subprocess.run(words, capture_output=True, text=True, cwd=ROOT, check=False)
+    assert result.returncode in (3, 4) and result.stderr.startswith("camroller: "), result.stderr
+    return result.stderr
+
+
+@pytest.mark.parametrize(("value", "words"), [
+    ("materials.cam_modulus_GPa=170e9", "not 170e9; did you mean 170 GPa?"),
+    ("materials.cam_poisson_ratio=28", "not 28; did you mean 0.28, which is 28 %?"),
+    ("lubricant.pressure_viscosity_coefficient_per_GPa=22e-9", "not 22e-9; did you mean 22 1/GPa?"),
+    ("roller.mass_kg=8.8e6", "not 8.8e6; did you mean 0.0088 kg?"),
+    ("lubricant.viscosity_points_Pa_s=0.15, 3.05e7, 0.01", "did you mean 0.0305 Pa s?"),
+])
+def test_a_value_refused_by_its_range_asks_for_the_one_meant(camroller, value, words):
+    assert words in refusal_of(camroller, value)
+
+
+@pytest.mark.parametrize("value", ["materials.cam_modulus_GPa=-170", "materials.cam_poisson_ratio=0.7", "roller.mass_kg=0",
+                                   "surface.cam_roughness_um=1e-9"])
+def test_a_refused_value_that_no_unit_explains_asks_for_none(camroller, value):
+    assert "did you mean" not in refusal_of(camroller, value)
+
+
+@pytest.mark.parametrize(("value", "words", "meant"), [
+    ("mechanism.pivot_to_roller_mm=0.0208", "no closed triangle", "pivot_to_roller_mm = 0.0208 is unusual: engines have 8 to 60 mm; did you mean 20.8 mm?"),
+    ("roller.radius_mm=0.0085", "'wall_thickness_mm' must be below 'radius_mm'", "roller.radius_mm = 0.0085 is unusual: engines have 3 to 30 mm; did you mean 8.5 mm?"),
+    ("spring.stiffness_N_m=25", "lifts the valve off its seat", "stiffness_N_m = 25 is unusual: engines have 2000 to 200000 N/m; did you mean 25000 N/m?"),
+    ("lift.opening_half_angle_deg=1.2217", "cam undercut", "did you mean 69.9983 degree, which is 1.2217 rad?"),
+])
+def test_a_slip_of_units_is_named_behind_the_mistake_that_it_makes(camroller, value, words, meant):
+    """Geometry and rules between keys refuse the deck; the number that is to blame is named, and none in a deck without such."""
+    text = refusal_of(camroller, value)
+    assert words in text and meant in text and text.index(words) < text.index(meant)
+    assert "remark" not in refusal_of(camroller, "roller.wall_thickness_mm=9")
+
+
+@pytest.mark.parametrize(("key", "words"), [
+    ("lubricant.viscosity_mm2_s", "; did you mean 'viscosity_at_40_degC_mm2_s' or 'viscosity_at_100_degC_mm2_s'?"),
+    ("lubricant.viscosity_cSt", "; did you mean 'viscosity_at_40_degC_mm2_s' or 'viscosity_at_100_degC_mm2_s'?"),
+    ("lubricant.viscosity_at_100_C_mm2_s", "; did you mean 'viscosity_at_100_degC_mm2_s'?\n"),
+    ("lubricant.viscosity_mPa_s", "; did you mean 'viscosity_Pa_s'? Its values are in Pa s\n"),
+    ("materials.cam_modulus_MPa", "; did you mean 'cam_modulus_GPa'? Its values are in GPa\n"),
+    ("spring.stiffness_N_mm", "; did you mean 'stiffness_N_m'? Its values are in N/m\n"),
+    ("roller.mass_g", "; did you mean 'mass_kg'? Its values are in kg\n"),
+    ("roller.mas_kg", "; did you mean 'mass_kg'?\n"),
+])
+def test_the_hint_at_an_unknown_key_leads_to_no_mistake_of_units(camroller, key, words):
+    assert words in refusal_of(camroller, f"{key}=1")
 
 
 @pytest.mark.parametrize(("change", "words"), [

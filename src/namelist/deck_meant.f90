@@ -1,0 +1,99 @@
+!> What may have been meant by a number that no engine has: the same number in another unit.
+!>
+!> In: a key with its usual range, a number. Out: a question. Remarks and refusals ask it.
+module camroller_deck_meant
+   use camroller_kinds, only : wp, degree
+   use camroller_number_text, only : number_text
+   use camroller_deck_schema, only : key_t, range_t
+   implicit none
+   private
+
+   public :: is_usual, say_meant, ask_kinematic
+
+   !> Digits of numbers in sentences
+   integer, parameter :: digits = 6
+   !> Powers of ten that a slip of units makes; nearer ones first
+   integer, parameter :: slips(*) = [3, -3, 6, -6, 9, -9]
+   !> Power of ten between a number without a unit and its percentage
+   integer, parameter :: percent = -2
+   !> Units that nobody takes for a thousand of another
+   character(len=*), parameter :: of_one_size(*) = [character(len=4) :: "rpm", "deg", "degC"]
+   !> Kinematic viscosities that a data sheet may give [mm^2/s]
+   type(range_t), parameter :: sheet_range = range_t(2.0_wp, 500.0_wp)
+   !> Zero of the Celsius scale [K]
+   real(wp), parameter :: celsius_zero = 273.15_wp
+
+contains
+
+   !> Is a number within a usual range, but for round-off of the unit's factor?
+   elemental function is_usual(number, range) result(verdict)
+      !> The number [unit of the range]
+      real(wp), intent(in) :: number
+      !> The range
+      type(range_t), intent(in) :: range
+      !> Is it?
+      logical :: verdict
+
+      real(wp), parameter :: round_off = 1.0e-12_wp ! [-]
+
+      verdict = number >= range%smallest - round_off*abs(range%smallest) .and. &
+         & number <= range%largest + round_off*abs(range%largest)
+   end function is_usual
+
+   !> Ask whether the same number in another unit was meant.
+   pure subroutine say_meant(key, number, words)
+      !> The key
+      type(key_t), intent(in) :: key
+      !> The number [unit of the key]
+      real(wp), intent(in) :: number
+      !> `; did you mean ...?`; nothing where the number is usual or in no unit would be
+      character(len=:), allocatable, intent(out) :: words
+
+      integer :: i
+
+      words = ""
+      if (.not. key%has_usual .or. .not. abs(number) > 0.0_wp) return
+      if (is_usual(number, key%usual)) return
+      if (index(key%name, "viscosity_") > 0 .and. key%unit%suffix == "Pa_s" .and. is_usual(number, sheet_range)) then
+         call ask_kinematic(number, words)
+         return
+      end if
+      if (key%unit%suffix == "degC") call ask_value(key, number - celsius_zero, number_text(number, digits)//" K", words)
+      if (key%unit%suffix == "deg") call ask_value(key, number/degree, number_text(number, digits)//" rad", words)
+      if (any(key%unit%suffix == of_one_size)) return
+      do i = 1, size(slips)
+         call ask_value(key, number*10.0_wp**slips(i), "", words)
+      end do
+      if (key%unit%suffix == "") call ask_value(key, number*10.0_wp**percent, number_text(number, digits)//" %", words)
+   end subroutine say_meant
+
+   !> Ask for a value where it is usual and nothing is asked yet.
+   pure subroutine ask_value(key, value, other, words)
+      !> The key
+      type(key_t), intent(in) :: key
+      !> The value [unit of the key]
+      real(wp), intent(in) :: value
+      !> The same in another unit; blank where that is plain
+      character(len=*), intent(in) :: other
+      !> The question
+      character(len=:), allocatable, intent(inout) :: words
+
+      if (words /= "" .or. .not. is_usual(value, key%usual)) return
+      words = "; did you mean "//number_text(value, digits)
+      if (key%unit%symbol /= "1") words = words//" "//trim(key%unit%symbol)
+      if (other /= "") words = words//", which is "//other
+      words = words//"?"
+   end subroutine ask_value
+
+   !> Ask whether a kinematic viscosity was meant.
+   pure subroutine ask_kinematic(number, words)
+      !> The number [mm^2/s]
+      real(wp), intent(in) :: number
+      !> The question
+      character(len=:), allocatable, intent(out) :: words
+
+      words = "; did you mean "//number_text(number, digits)//" mm^2/s? That is viscosity_at_40_degC_mm2_s or "// &
+         & "viscosity_at_100_degC_mm2_s of temperature_law 'data_sheet'"
+   end subroutine ask_kinematic
+
+end module camroller_deck_meant
