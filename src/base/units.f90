@@ -58,6 +58,7 @@ module camroller_units
       unit_t("MPa", "MPa", 1.0e6_wp, 1.0_wp, 0.0_wp), &
       unit_t("GPa", "GPa", 1.0e9_wp, 1.0_wp, 0.0_wp), &
       unit_t("Pa_s", "Pa s", 1.0_wp, 1.0_wp, 0.0_wp), &
+      unit_t("mPa_s", "mPa s", 1.0_wp, 1.0e3_wp, 0.0_wp), &
       unit_t("mm2_s", "mm2/s", 1.0_wp, 1.0e6_wp, 0.0_wp), &
       unit_t("per_GPa", "1/GPa", 1.0_wp, 1.0e9_wp, 0.0_wp), &
       unit_t("per_K", "1/K", 1.0_wp, 1.0_wp, 0.0_wp), &

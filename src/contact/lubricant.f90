@@ -15,9 +15,8 @@ module camroller_lubricant
    private
 
    public :: lubricant_t, oil_t, temperature_law_names, pressure_law_names
-   public :: get_oil, relative_viscosity, log_relative_viscosity, mean_relative_viscosity
+   public :: get_oil, relative_viscosity, log_relative_viscosity, mean_relative_viscosity, density_at
    public :: law_barus, law_cameron, law_roelands, law_direct, pressure_limit
-   public :: density_at
 
    !> Viscosity over temperature
    character(len=*), parameter :: temperature_law_names(*) = [character(len=name_length) :: "direct", "vogel", "walther", &
@@ -58,6 +57,8 @@ module camroller_lubricant
       real(wp) :: viscosity_index = 0.0_wp
       !> One of `sae_grade_names`, in the place of viscosities; `data_sheet`
       character(len=name_length) :: sae_grade = "none"
+      !> Viscosity at 150 degC and 1e6 1/s (HTHS) of the data sheet, compared with the law; zero where not given [Pa s]
+      real(wp) :: hths_viscosity = 0.0_wp
       !> Density at 15 degC [kg/m^3]; `walther` and `data_sheet`
       real(wp) :: density = 870.0_wp
       !> Thermal expansion of the density [1/K]; `walther` and `data_sheet`

@@ -172,6 +172,7 @@ contains
          call take(settings, "lubricant", "viscosity_at_100_degC_mm2_s", oil%viscosity_at_100)
          call take(settings, "lubricant", "viscosity_index", oil%viscosity_index)
          call take(settings, "lubricant", "sae_grade", oil%sae_grade)
+         call take(settings, "lubricant", "hths_viscosity_mPa_s", oil%hths_viscosity)
          call take(settings, "lubricant", "density_kg_m3", oil%density)
          call take(settings, "lubricant", "thermal_expansion_per_K", oil%thermal_expansion)
          call take(settings, "lubricant", "pressure_law", oil%pressure_law)

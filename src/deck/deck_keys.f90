@@ -277,6 +277,9 @@ contains
       call add_name(schema, "sae_grade", sae_grade_names, standard%lubricant%sae_grade, &
          & "'data_sheet' without viscosities: at 100 degC the middle of the grade's range in SAE J300, and a viscosity index "// &
          & "that is usual for it")
+      call add_number(schema, "hths_viscosity_mPa_s", positive, &
+         & "dynamic viscosity at 150 degC and 1e6 1/s (HTHS), compared with the law of viscosity; no result follows from it", &
+         & is_optional=.true.)
       call add_number(schema, "density_kg_m3", positive, "density at 15 degC; 'walther' and 'data_sheet'", &
          & default=standard%lubricant%density)
       call add_number(schema, "thermal_expansion_per_K", not_negative, "thermal expansion of the density; 'walther' and "// &

@@ -245,6 +245,9 @@ contains
       select case (get_word(settings, "lubricant", "temperature_law"))
       case ("direct")
          call demand(settings, "lubricant", "viscosity_Pa_s", "temperature law 'direct'", mistakes)
+         if (is_known(settings, "lubricant", "hths_viscosity_mPa_s")) call complain(mistakes, settings, "lubricant", &
+            & "hths_viscosity_mPa_s", "'hths_viscosity_mPa_s' is compared with the viscosity at 150 degC, which temperature "// &
+            & "law 'direct' does not tell")
       case ("vogel")
          call demand_points(settings, "vogel", 3, mistakes)
       case ("walther")

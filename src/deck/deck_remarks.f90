@@ -16,7 +16,10 @@ module camroller_deck_remarks
    use camroller_lift, only : lift_t
    use camroller_lift_noise, only : find_lift_noise, lift_noise_t
    use camroller_table_file, only : table_t
-   use camroller_deck, only : deck_t
+   use camroller_case, only : case_t
+   use camroller_deck, only : deck_t, make_case, override_t
+   use camroller_error, only : error_t
+   use camroller_high_shear, only : compare_hths
    implicit none
    private
 
@@ -26,6 +29,9 @@ module camroller_deck_remarks
    integer, parameter :: digits = 6
    !> Above this temperature no engine oil is thicker than that [K], [Pa s]
    real(wp), parameter :: warm = 293.15_wp, thickest_warm = 2.0_wp
+   !> HTHS over the viscosity without shear by the law [-]. Smallest: SAE J300 (2021) allows 3.7 mPa s for grade 60, whose 26 mm^2/s
+   !> at 100 degC are about 8 mPa s at 150 degC. Largest: one, and room for the law beyond 100 degC
+   real(wp), parameter :: usual_thinning(2) = [0.45_wp, 1.1_wp]
    !> Usual lengths of an event [deg of cam angle], and usual lifts [m]
    real(wp), parameter :: usual_event(2) = [60.0_wp, 220.0_wp], usual_lift(2) = [1.0e-3_wp, 25.0e-3_wp]
    !> Powers of ten between a table's unit and another one; nearer ones first
@@ -42,6 +48,7 @@ contains
 
       call list_number_remarks(deck, remarks)
       call remark_viscosity(deck, remarks)
+      call remark_hths(deck, remarks)
       call remark_lift(deck, "lift", deck%tables%lift, remarks)
       call remark_lift(deck, "second_lift", deck%tables%second_lift, remarks)
    end subroutine list_deck_remarks
@@ -192,6 +199,39 @@ contains
             & number_text(thickest_warm)//" Pa s above 20 degC"//words)
       end do
    end subroutine remark_viscosity
+
+   !> Viscosity at high shear that does not go with the viscosity of the same oil without shear.
+   subroutine remark_hths(deck, remarks)
+      !> The deck
+      type(deck_t), intent(in) :: deck
+      !> Sentences so far
+      type(line_t), allocatable, intent(inout) :: remarks(:)
+
+      type(override_t) :: none(0)
+      type(case_t) :: case
+      type(error_t), allocatable :: failure
+      ! Viscosity without shear [Pa s]; HTHS over it [-]
+      real(wp) :: viscosity, ratio
+      character(len=:), allocatable :: words
+      integer :: i
+
+      do i = 1, size(deck%sweep%axes)
+         if (index(deck%sweep%axes(i)%key, "lubricant.") == 1) return
+      end do
+      call make_case(deck, none, case, failure)
+      if (allocated(failure)) return
+      call compare_hths(case%lubricant, viscosity, ratio)
+      ! A number out of its usual range has its remark already
+      associate (key => deck%schema%keys(find_value(deck%settings, "lubricant", "hths_viscosity_mPa_s")))
+         if (.not. is_usual(from_si(key%unit, case%lubricant%hths_viscosity), key%usual)) return
+      end associate
+      if (viscosity <= 0.0_wp .or. (ratio >= usual_thinning(1) .and. ratio <= usual_thinning(2))) return
+      words = "no oil gets thicker by shear"
+      if (ratio < 1.0_wp) words = "engine oils keep more than "//number_text(usual_thinning(1))//" of it"
+      call add_remark(remarks, "lubricant.hths_viscosity_mPa_s = "//number_text(1.0e3_wp*case%lubricant%hths_viscosity, digits)// &
+         & " is "//number_text(ratio, 3)//" of the "//number_text(1.0e3_wp*viscosity, 3)//" mPa s that the oil has at 150 degC "// &
+         & "without shear, by its law of viscosity; "//words//": are they of the same oil?")
+   end subroutine remark_hths
 
    !> A lift table in another unit, or over another angle.
    subroutine remark_lift(deck, group, table, remarks)

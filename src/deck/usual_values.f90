@@ -56,6 +56,7 @@ module camroller_usual_values
       usual_t("lubricant.viscosity_at_40_degC_mm2_s", 10.0_wp, 500.0_wp), &
       usual_t("lubricant.viscosity_at_100_degC_mm2_s", 2.0_wp, 40.0_wp), &
       usual_t("lubricant.viscosity_index", 50.0_wp, 250.0_wp), &
+      usual_t("lubricant.hths_viscosity_mPa_s", 1.3_wp, 8.0_wp), &
       usual_t("lubricant.density_kg_m3", 750.0_wp, 1050.0_wp), &
       usual_t("lubricant.thermal_expansion_per_K", 4.0e-4_wp, 1.0e-3_wp), &
       usual_t("lubricant.pressure_viscosity_coefficient_per_GPa", 4.0_wp, 45.0_wp), &

@@ -10,6 +10,7 @@ module camroller_case_facts
    use camroller_kinematics, only : position_t
    use camroller_lift, only : lift_t
    use camroller_lift_noise, only : find_lift_noise, lift_noise_t
+   use camroller_high_shear, only : compare_hths
    use camroller_model, only : model_t, evaluate_geometry
    use camroller_number_text, only : number_text, fixed_text
    use camroller_result, only : find_quantity, get_summary, result_t
@@ -141,6 +142,7 @@ contains
          & number_text(1.0e3_wp*model%oil%viscosity, digits)//" mPa s, pressure-viscosity coefficient "// &
          & number_text(1.0e9_wp*model%oil%pressure_viscosity, digits)//" 1/GPa"
       if (model%oil%is_estimated) text = text//" (estimated by So and Klaus 1980, since the deck gives none)"
+      call describe_hths(case, text)
       text = text//n//"composite roughness: "//number_text(1.0e6_wp*model%roughness, digits)//" um; cam speed "// &
          & number_text(case%operating_point%speed*60.0_wp/two_pi, 4)//" rev/min"
       if (allocated(case%engine)) then
@@ -157,6 +159,25 @@ contains
       end if
       text = text//n
    end subroutine describe_oil
+
+   !> What shear takes of the oil's viscosity, which no law of the model knows, where its data sheet says so.
+   subroutine describe_hths(case, text)
+      !> The case
+      type(case_t), intent(in) :: case
+      !> Lines so far
+      character(len=:), allocatable, intent(inout) :: text
+
+      ! Viscosity at 150 degC without shear [Pa s]; HTHS over it [-]; largest shear rate in the camshaft bearings [1/s]
+      real(wp) :: viscosity, ratio, rate
+
+      call compare_hths(case%lubricant, viscosity, ratio)
+      if (viscosity <= 0.0_wp) return
+      text = text//new_line("a")//"oil at 150 degC: "//number_text(1.0e3_wp*viscosity, digits)//" mPa s without shear, "// &
+         & "HTHS is "//number_text(ratio, digits)//" of it; films, guide and bearings have the viscosity without shear"
+      if (.not. allocated(case%cam_bearings)) return
+      rate = 0.5_wp*case%cam_bearings%diameter*case%operating_point%speed/case%cam_bearings%radial_clearance
+      text = text//", which centred camshaft bearings shear at "//number_text(rate, 2)//" 1/s, HTHS at 1e6"
+   end subroutine describe_hths
 
    !> Noise of a lift table and what smoothing does to it.
    subroutine describe_table(lift, text)

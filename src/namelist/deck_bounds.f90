@@ -37,7 +37,7 @@ module camroller_deck_bounds
       bounds_t("N", "force", 1.0e-9_wp, 1.0e12_wp), &
       bounds_t("N_m", "stiffness", 1.0e-6_wp, 1.0e15_wp), &
       bounds_t("Pa kPa bar MPa GPa", "pressure, stress, modulus", 1.0e-3_wp, 1.0e15_wp), &
-      bounds_t("Pa_s", "viscosity", 1.0e-9_wp, 1.0e6_wp), &
+      bounds_t("Pa_s mPa_s", "viscosity", 1.0e-9_wp, 1.0e6_wp), &
       bounds_t("mm2_s", "kinematic viscosity", 1.0e-12_wp, 1.0e3_wp), &
       bounds_t("per_GPa", "pressure-viscosity coefficient", 1.0e-15_wp, 1.0e-5_wp), &
       bounds_t("per_K", "thermal expansion", 1.0e-12_wp, 1.0_wp), &

@@ -257,6 +257,8 @@ contains
          & "5:65: the exponents must increase")
       call expect_mistake(error, "exponents = 4", "law = 'table'", "5:1: lift law 'table' needs 'table' in &lift")
       call expect_mistake(error, "viscosity_Pa_s = 0.0305", "", "10:1: temperature law 'direct' needs 'viscosity_Pa_s'")
+      call expect_mistake(error, "viscosity_Pa_s = 0.0305", "viscosity_Pa_s = 0.0305 hths_viscosity_mPa_s = 3.5", &
+         & "10:59: 'hths_viscosity_mPa_s' is compared with the viscosity at 150 degC, which temperature law 'direct'")
       call expect_mistake(error, "pressure_viscosity_coefficient_per_GPa = 22", "", &
          & "10:1: the oil, without a 'roelands_index', needs 'pressure_viscosity_coefficient_per_GPa'")
       call expect_mistake(error, "viscosity_Pa_s = 0.0305", &

@@ -1,5 +1,6 @@
 """Remarks on the numbers of a deck: each comes where a number looks like a slip, and none on the decks that are shipped."""
 
+import math
 import pathlib
 import re
 import subprocess
@@ -153,6 +154,32 @@ def test_check_prints_the_noise_of_a_table(camroller):
     found = re.search(r"lift table: noise of about ([\d.e-]+) um, smoothing_um = 0; second derivative", text)
     # rounded to 1e-6 mm
     assert float(found[1]) < 0.01
+
+
+@pytest.mark.parametrize(("given", "words"), [
+    ("3.1", None), ("2.0", None), ("3.9", None),
+    ("5", r"= 5 is 1.37 of the 3.64 mPa s .* no oil gets thicker by shear"),
+    ("1.5", r"= 1.5 is 0.412 of the 3.64 mPa s .* engine oils keep more than 0.45"),
+    ("0.0031", r"= 0.0031 is unusual: engines have 1.3 to 8 mPa s; did you mean 3.1 mPa s\?"),
+])
+def test_the_viscosity_under_shear_is_compared_with_that_of_the_law(camroller, given, words):
+    remarks = remarks_of(camroller, "decks/four_cylinder.nml", f"lubricant.hths_viscosity_mPa_s={given}")
+    assert remarks == [] if words is None else len(remarks) == 1 and re.search(words, remarks[0]), remarks
+
+
+def test_check_prints_what_shear_takes_of_the_viscosity(camroller):
+    text = subprocess.run([camroller, "check", "decks/four_cylinder.nml", "--no-sweep"], capture_output=True, text=True, cwd=ROOT,
+                          check=True).stdout
+    found = re.search(r"oil at 150 degC: ([\d.]+) mPa s without shear, HTHS is ([\d.]+) of it.* shear at (\d+) 1/s, HTHS at 1e6", text)
+    # Walther's law through 64 and 11 mm2/s at 40 and 100 degC; density falls by 6.5e-4 of that at 15 degC in each degree
+    logs = [math.log10(math.log10(value + 0.7)) for value in (64, 11)]
+    slope = (logs[0] - logs[1]) / math.log10(373.15 / 313.15)
+    hot = (10 ** 10 ** (logs[1] - slope * math.log10(423.15 / 373.15)) - 0.7) * 0.852 * (1 - 6.5e-4 * 135)
+    # three and two digits are printed; journals of 24 mm with 30 um turn a thousand times a minute
+    assert float(found[1]) == pytest.approx(hot, rel=5e-3) and float(found[2]) == pytest.approx(3.1 / hot, rel=5e-3)
+    assert float(found[3]) == pytest.approx(0.012 * 1000 * math.pi / 30 / 30e-6, rel=0.05)
+    assert "150 degC" not in subprocess.run([camroller, "check", "decks/thesis.nml", "--no-sweep"], capture_output=True, text=True, cwd=ROOT,
+                                            check=True).stdout
 
 
 @pytest.mark.parametrize("law, deck, words", [

@@ -296,6 +296,8 @@ contains
          is_given = law == "data_sheet" .and. draft%oil_by /= oil_by_grade
       case ("viscosity_index")
          is_given = law == "data_sheet" .and. (draft%oil_by == oil_by_index .or. (is_given .and. draft%oil_by == oil_by_grade))
+      case ("hths_viscosity_mPa_s")
+         is_given = is_given .and. law /= "direct"
       case ("sae_grade")
          is_given = law == "data_sheet" .and. draft%oil_by == oil_by_grade
       case ("pressure_viscosity_coefficient_per_GPa")

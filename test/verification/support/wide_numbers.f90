@@ -63,6 +63,7 @@ module wide_numbers
       & usual_t("lubricant.viscosity_at_40_degC_mm2_s", 15.0_wp, 300.0_wp, .true.), &
       & usual_t("lubricant.viscosity_at_100_degC_mm2_s", 3.0_wp, 14.0_wp, .true.), &
       & usual_t("lubricant.viscosity_index", 50.0_wp, 250.0_wp), &
+      & usual_t("lubricant.hths_viscosity_mPa_s", 1.5_wp, 6.0_wp), &
       & usual_t("lubricant.density_kg_m3", 800.0_wp, 950.0_wp), &
       & usual_t("lubricant.thermal_expansion_per_K", 1.0e-5_wp, 1.0e-3_wp), &
       & usual_t("lubricant.pressure_viscosity_coefficient_per_GPa", 8.0_wp, 30.0_wp), &
