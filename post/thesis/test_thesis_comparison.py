@@ -78,7 +78,7 @@ def test_every_statement_has_its_verdict(fresh):
         assert re.search(r"^Verdict: `thesis.nml` (agrees|partly|differs), "
                          r"`thesis_source.nml` (agrees|partly|differs)\.$", section, re.M), statement.title
         assert ("**no**" in section) == ("Why:" in section), statement.title
-    assert len(STATEMENTS) == 11
+    assert len(STATEMENTS) == 12
 
 
 def test_reasons_and_runs_name_what_exists():
@@ -142,6 +142,15 @@ def test_the_share_of_asperities_has_to_have_the_shape_that_the_source_shows(sha
     points = MadeUp(share)
     assert claims["share_shape_60"].check(points)[0] == claims["share_shape_95"].check(points)[0] == shape
     assert claims["share_60"].check(points)[0] == value
+
+
+@pytest.mark.parametrize("contact, holds", [(1.2, True), (0.8, True), (1.05, False)])
+def test_the_change_by_sliding_and_asperities_is_one_of_rolling_friction(contact, holds):
+    claims = {claim.name: claim for statement in STATEMENTS for claim in statement.claims}
+    points = MadeUp(lambda angle: angle)
+    forces = {"mean_friction_contact": numpy.full((3, 3), contact), "mean_friction_rolling": numpy.ones((3, 3))}
+    points.scalar = forces.get
+    assert claims["contact_change"].check(points)[0] == holds
 
 
 def test_trends_are_strict():

@@ -28,7 +28,7 @@ SHOWN = {"thesis": "`thesis.nml`", "thesis_source": "`thesis_source.nml`", "thes
 HEAD = """# Comparison with the source
 
 Islam (2019), *Tribological study of friction in roller follower valve train considering effects of asperity
-interaction and roller sliding*, chapter 3, makes ten statements that can be checked; its figures are pictures, so most
+interaction and roller sliding*, chapter 3, makes statements that can be checked; its figures are pictures, so most
 of them are trends. Each is split into claims with a criterion, and each claim is checked against two runs:
 `thesis.nml`, with a closed energy balance, and `thesis_source.nml`, with the bookkeeping of the source. A statement
 *agrees* if all of its claims hold, *differs* if none does, and agrees *partly* otherwise. Nothing is tuned to fit.
