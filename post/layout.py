@@ -16,7 +16,7 @@ from read import ResultError
 from units import WORDS, bare_name, distinct_texts, key_words, unit_words, with_unit
 
 # Told apart by their lightness alone too, for grey print and for colour-blind readers.
-THREE_COLOURS = ["#08306b", "#d55e00", "#7cc0ea"]
+THREE_COLOURS = ["#440154", "#21918c", "#7ad151"]  # none of them that of a source of friction beside it
 FAMILIES = ["Blues", "Oranges", "Greens", "Purples", "Greys", "Reds"]  # of the files, dark to light in each
 LINE_STYLES = ["-", "--", "-.", ":", (0, (6, 1, 1, 1, 1, 1)), (0, (1, 2.5)), (0, (8, 3))]
 MOST_COLOURS = 7

@@ -14,7 +14,7 @@ MARGIN = 30.0  # shown on each side of the event [deg]
 MOST_PANELS = 9
 LEGEND_ROW = 0.17  # height [inch]
 BUSY = 0.2  # part of a torque's range that is reached outside of the first cam's event where other cams are at work there
-ALIKE = 3.0  # panels whose largest values differ by more than this have axes of their own
+ALIKE = 10.0  # panels whose largest values differ by more than this have axes of their own
 
 
 def event_window(layout, names=()):
@@ -96,12 +96,12 @@ def seen_range(angle, values, window):
 
 
 def ranges_of(curve, limits):
-    """Range of the values for each panel: one for all where their sizes are alike, so that panels compare."""
+    """Range of the values for each panel: one for all where their sizes are alike or they are shares, so that panels compare."""
     known = [pair for pair in limits if pair]
     if not known:
         return limits
     sizes = [max(abs(low), abs(high)) for low, high in known]
-    if curve.scale == "log" or max(sizes) <= ALIKE * min(sizes):
+    if curve.scale == "log" or curve.least_top > 0.0 or max(sizes) <= ALIKE * min(sizes):
         return [(min(pair[0] for pair in known), max(pair[1] for pair in known))] * len(limits)
     return limits
 
@@ -111,6 +111,8 @@ def set_values_axis(axes, curve, limits):
     if limits is None:
         return
     low, high = limits[0], max(limits[1], curve.least_top)
+    if curve.least_top > 0.0:  # a share: from nothing to all
+        low = min(low, 0.0)
     if curve.scale == "log" and low > 0.0 and high > 3.0 * low:
         log_axis(axes, low, high)
     else:
@@ -122,7 +124,7 @@ def mark_values(axes, curve):
     low, high = axes.get_ylim()
     for value in curve.lines:
         if low < value < high:
-            axes.axhline(value, color="0.45", linewidth=0.8, linestyle=(0, (5, 3)), zorder=0.5)
+            axes.axhline(value, color="0.45", linewidth=0.8, linestyle=(0, (5, 3)), zorder=0.9)  # on a line of the grid, too
 
 
 def log_axis(axes, low, high):

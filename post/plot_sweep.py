@@ -3,11 +3,14 @@
     python post/plot_sweep.py results/sweep.h5                              the figure that suits the sweep
     python post/plot_sweep.py FILE --quantity mean_slip_ratio,max_peak_pressure --figure scatter --output doc/figures
     python post/plot_sweep.py FILE --where 'mean_slip_ratio < 0.01' --where 'speed_rpm >= 600'     only these cases
+    python post/plot_sweep.py FILE --over speed_rpm --take largest --where 'mean_slip_ratio < 0.01'  designs that hold this at every speed
 
 `map`: two swept keys as axes, the quantity as colour. `curves`: one key along the axis, the others as curves. `scatter`: every
 swept key against every quantity. `parallel`: an axis for each key and quantity, a line for each case, coloured by the last one.
-Without --figure a grid of two long keys becomes a map, other grids curves, samples and tables a scatter. Only the summary is
-read, so a file of a hundred thousand cases is drawn as well. Needs no display. Exit code 2 where the file or a name does not suit.
+Without --figure a grid of two long keys becomes a map, other grids curves, samples and tables a scatter. Quantities that are all above
+zero and differ by more than a factor of a hundred have logarithmic axes. With --over the cases that differ in these keys only, as
+operating points of one design, count as one, with the largest, smallest or mean value; conditions hold for that value. Only the summary
+is read, so a file of a hundred thousand cases is drawn as well. Needs no display. Exit code 2 where the file or a name does not suit.
 """
 
 import argparse
@@ -23,24 +26,30 @@ import matplotlib
 matplotlib.use("Agg")
 matplotlib.rcParams.update({"font.size": 9.0, "axes.spines.top": False, "axes.spines.right": False})
 
+from matplotlib.cm import ScalarMappable  # noqa: E402
+from matplotlib.colors import LogNorm, Normalize  # noqa: E402
 from matplotlib.figure import Figure  # noqa: E402
 from matplotlib.patheffects import withStroke  # noqa: E402
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter  # noqa: E402
 import numpy as np  # noqa: E402
 
 from command import DPI, run, save_figure  # noqa: E402
-from layout import thin_out  # noqa: E402
+from layout import SPEED, thin_out  # noqa: E402
 from read import ResultError, fills_grid, opened  # noqa: E402
 from units import distinct_texts, fitting_unit, key_words, number, unit_words, with_unit  # noqa: E402
 
 FIGURES = ("map", "curves", "scatter", "parallel")
 QUANTITY = "mean_torque_drive"
-MOST_CURVES = 8
+MOST_CURVES = 8  # with a legend; of numbers more have a colour bar
+MOST_COLOURS = 60
+WIDE = 100.0  # largest over smallest value of a quantity from which on its axis is logarithmic
 MOST_LINES = 2000  # of parallel coordinates; of more cases evenly spread ones are drawn
 MOST_WORDS = 24  # values of a key that the axis of a map can name
 ROUNDING = 1e-9  # part of a quantity within which its values are the same
 CONDITION = re.compile(r"^\s*([\w.]+)\s*(<=|>=|<|>)\s*([-+]?[\d.]+(?:[eE][-+]?\d+)?)\s*$")
 RELATIONS = {"<": np.less, ">": np.greater, "<=": np.less_equal, ">=": np.greater_equal}
+TAKEN = {"largest": np.max, "smallest": np.min, "mean": np.mean}
+PLAIN = FuncFormatter(lambda value, _: f"{value:g}")  # numbers of logarithmic axes
 SPREAD = 0.18  # of points of a scatter about the word they belong to
 
 
@@ -50,15 +59,27 @@ class Sweep:
     Keys whose range the deck divides by equal ratios are drawn on logarithmic axes.
     """
 
-    def __init__(self, path, quantities, conditions=()):
-        self.keys, self.quantities, self.words, self.logarithmic, self.remark = {}, {}, {}, set(), ""
+    def __init__(self, path, quantities, conditions=(), over=(), take="largest"):
+        self.keys, self.quantities, self.words, self.logarithmic, self.remarks = {}, {}, {}, set(), []
         with opened(path, "a result of a sweep") as file:
             if "sweep" not in file or "summary/status" not in file:
                 missing = "/summary/status" if "sweep" in file else "/sweep"
                 raise ResultError(f"{path} is no result of a sweep: there is no {missing}")
             self.status = file["summary/status"][()]
+            self.title = _title(file, path)
+            gone = [_matching_key(path, file, name) for name in over]
+            groups = _groups_over(file, gone) if gone else None
+            if gone:
+                count, names = len(groups), ", ".join(key.split(".")[-1] for key in gone)
+                self.remarks.append(f"{take} over {names}, {len(self.status)} cases make {count}")
             for key, data in file["sweep"].items():
+                if key in gone:
+                    continue
                 self._add(path, self.keys, key, data)
+                if key == SPEED and (shaft := _words(file, "engine.given_speed")):
+                    self.keys[key] = (self.keys[key][0], f"{shaft} {self.keys[key][1]}")
+                if gone:
+                    self.keys[key] = (self.keys[key][0][[group[0] for group in groups]], self.keys[key][1])
                 if _is_logarithmic(file, key) and (self.keys[key][0] > 0).all():
                     self.logarithmic.add(key)
             for name in quantities:
@@ -66,16 +87,24 @@ class Sweep:
                     there = list(file["summary"])
                     near = [other for other in there if name in other][:5] or difflib.get_close_matches(name, there, 5)
                     raise ResultError(f"{path} has no summary '{name}'" + (f"; there is {', '.join(near)}" if near else ""))
-                self._add(path, self.quantities, name, file["summary"][name])
-            self._keep(path, file, conditions)
+                self._add(path, self.quantities, name, file["summary"][name], groups, take)
+            kept = self._kept(path, file, conditions, groups, take)
+            if gone:
+                self.status = np.array([self.status[group].max() for group in groups])
+        for name, (values, label) in self.quantities.items():
+            values = np.where(kept, values, np.nan)
+            self.quantities[name] = (values, label)
+            known = values[np.isfinite(values)]
+            if name not in self.words and known.size and known.min() > 0 and known.max() > WIDE * known.min():
+                self.logarithmic.add(name)
         if not self.keys:
             raise ResultError(f"nothing varies in {path}; plot.py draws its curves, table.py prints its means")
         if not any(np.isfinite(values).any() for values, _ in self.quantities.values()):
             raise ResultError(f"{path}: no case has a value of {', '.join(self.quantities)}")
 
-    def _keep(self, path, file, conditions):
-        """Blank the quantities of cases that do not meet every condition, as `mean_slip_ratio < 0.01`, in the units of the file."""
-        kept = np.ones(len(self.status), dtype=bool)
+    def _kept(self, path, file, conditions, groups, take):
+        """Which cases meet every condition, as `mean_slip_ratio < 0.01`, in the units of the file."""
+        kept = np.ones(len(groups or self.status), dtype=bool)
         for condition in conditions:
             found = CONDITION.match(condition)
             if not found:
@@ -87,27 +116,28 @@ class Sweep:
                 if len(keys) != 1:
                     raise ResultError(f"{path} has no summary and no key '{name}' to choose cases by")
                 place = f"sweep/{keys[0]}"
-            kept &= RELATIONS[relation](np.asarray(file[place][()], dtype=float), float(limit))
-        if not conditions:
-            return
-        if not kept.any():
-            raise ResultError(f"{path}: no case has {' and '.join(conditions)}")
-        self.remark = f"{kept.sum()} of {len(kept)} cases have {' and '.join(conditions)}"
-        for name, (values, label) in self.quantities.items():
-            self.quantities[name] = (np.where(kept, values, np.nan), label)
+            values = np.asarray(file[place][()], dtype=float)
+            kept &= RELATIONS[relation](_taken(values, groups, take), float(limit))
+        if conditions:
+            if not kept.any():
+                raise ResultError(f"{path}: no case has {' and '.join(conditions)}")
+            self.remarks.append(f"{kept.sum()} of {len(kept)} cases have {' and '.join(conditions)}")
+        return kept
 
-    def _add(self, path, columns, name, data):
+    def _add(self, path, columns, name, data, groups=None, take=""):
         values = data[()]
         if np.shape(values) != np.shape(self.status) or np.ndim(values) != 1:
             raise ResultError(f"{path}: {name} does not have one value for each case")
         unit = data.attrs.get("units", "")
         unit = unit.decode() if isinstance(unit, bytes) else str(unit)
         if h5py.check_string_dtype(data.dtype):
+            if groups:
+                raise ResultError(f"{path}: {name} holds words, of which --over can take no {take} one")
             self.words[name], values = np.unique([text.decode() for text in values], return_inverse=True)
-        values = np.asarray(values, dtype=float)
+        values = _taken(np.asarray(values, dtype=float), groups, take)
         if columns is self.quantities and name not in self.words:
             unit, scale = fitting_unit(name, unit, values)
-            values, label = values * scale, name.replace("_", " ")
+            values, label = values * scale, (f"{take} {name}" if groups else name).replace("_", " ")
         else:
             label = key_words(name, unit)
         columns[name] = (values, with_unit(label, unit_words(unit)))
@@ -132,6 +162,39 @@ class Sweep:
             return number(value)
         values = np.unique(self.keys[key][0])
         return distinct_texts(values.tolist())[int(np.searchsorted(values, value))] if len(values) <= MOST_WORDS else f"{value:.4g}"
+
+
+def _title(file, path):
+    """Title that the deck gives, or the name of the file."""
+    return _words(file, "case.title") or Path(path).stem
+
+
+def _words(file, key):
+    """Value of a key of the deck that holds words; blank where it has none."""
+    given = file.get(f"deck/values/{key}")
+    words = given[()] if isinstance(given, h5py.Dataset) else b""
+    return words.decode() if isinstance(words, bytes) else str(words)
+
+
+def _matching_key(path, file, name):
+    """The swept key with this name or last part."""
+    found = [key for key in file["sweep"] if name in (key, key.split(".")[-1])]
+    if len(found) != 1:
+        raise ResultError(f"{path}: --over: '{name}' is not one of the swept keys: {', '.join(file['sweep'])}")
+    return found[0]
+
+
+def _groups_over(file, gone):
+    """Numbers of the cases that differ in some keys only, in the order of the first case of each group."""
+    groups = {}
+    for case, place in enumerate(zip(*(file["sweep"][key][()].tolist() for key in file["sweep"] if key not in gone))):
+        groups.setdefault(place, []).append(case)
+    return list(groups.values())
+
+
+def _taken(values, groups, take):
+    """One value for each group of cases; none where a case of it has none."""
+    return values if groups is None else np.array([TAKEN[take](values[group]) for group in groups])
 
 
 def _is_logarithmic(file, key):
@@ -167,14 +230,15 @@ def draw_map(sweep):
         table = np.full((len(rows), len(columns)), np.nan)
         table[j, i] = values[chosen]
         image = axes.pcolormesh(_edges(columns, first in sweep.logarithmic), _edges(rows, second in sweep.logarithmic),
-                                np.ma.masked_invalid(table), cmap="viridis")
+                                np.ma.masked_invalid(table), cmap="viridis", norm=_colour_scale(sweep, name))
         axes.set_facecolor("#dddddd")  # cases without a result
-        figure.colorbar(image, ax=axes, label=label)
+        figure.colorbar(image, ax=axes, label=label, format=PLAIN if name in sweep.logarithmic else None)
         if min(table.shape) > 1 and not {first, second} & set(sweep.words) and np.isfinite(table).all() and np.ptp(table) > 0:
-            lines = axes.contour(columns, rows, table, colors="white", linewidths=0.6)
+            lines = axes.contour(columns, rows, table, colors="white", linewidths=0.6,
+                                 locator=LogLocator() if name in sweep.logarithmic else None)
             shade = [withStroke(linewidth=1.4, foreground="#00000080")]
             lines.set(path_effects=shade)
-            for label in axes.clabel(lines, fontsize=7):
+            for label in axes.clabel(lines, fontsize=7, fmt="%g"):
                 label.set_path_effects(shade)
         _name_axis(sweep, axes, "x", first)
         _name_axis(sweep, axes, "y", second)
@@ -194,20 +258,26 @@ def draw_curves(sweep):
     for axes, name in zip(_row(figure, len(sweep.quantities)), sweep.quantities):
         values, label = sweep.quantities[name]
         steps = np.unique(sweep.keys[curve][0]) if curve else [None]
-        steps = thin_out(steps, MOST_CURVES)
+        is_many = len(steps) > MOST_CURVES and curve not in sweep.words
+        steps = thin_out(steps, MOST_COLOURS if is_many else MOST_CURVES)
+        scale = _colour_scale(sweep, curve) if is_many else None
         for number, step in enumerate(steps):
             here = chosen if step is None else chosen & (sweep.keys[curve][0] == step)
             order_here = np.argsort(sweep.keys[axis][0][here], kind="stable")
+            place = scale(step) if is_many else 0.9 * number / max(1, len(steps) - 1)
             axes.plot(sweep.keys[axis][0][here][order_here], values[here][order_here], marker="o", markersize=3,
-                      linewidth=0.0 if axis in sweep.words else 1.3,
-                      color=matplotlib.colormaps["viridis"](0.9 * number / max(1, len(steps) - 1)),
+                      linewidth=0.0 if axis in sweep.words else 1.3, color=matplotlib.colormaps["viridis"](place),
                       label=None if step is None else sweep.label_value(curve, step))
-        axes.set_ylabel(label)
+        _name_axis(sweep, axes, "y", name)
         _name_axis(sweep, axes, "x", axis)
-        if curve:
+        if is_many:
+            figure.colorbar(ScalarMappable(scale, "viridis"), ax=axes, label=sweep.keys[curve][1],
+                            format=PLAIN if curve in sweep.logarithmic else None)
+        elif curve:
             axes.legend(title=sweep.keys[curve][1], fontsize=7, title_fontsize=7, frameon=False)
     count = sweep.lengths()[curve] if curve else 0
-    _note(figure, sweep, order[:2], [f"{MOST_CURVES} of {count} values of {sweep.keys[curve][1]} shown"] * (count > MOST_CURVES))
+    most = MOST_COLOURS if curve and curve not in sweep.words else MOST_CURVES
+    _note(figure, sweep, order[:2], [f"{most} of {count} values of {sweep.keys[curve][1]} shown"] if count > most else [])
     return figure
 
 
@@ -225,7 +295,7 @@ def draw_scatter(sweep):
             if i == rows - 1:
                 _name_axis(sweep, axes, "x", key)
             if j == 0:
-                axes.set_ylabel(sweep.quantities[name][1])
+                _name_axis(sweep, axes, "y", name)
     _note(figure, sweep, sweep.keys)
     return figure
 
@@ -247,11 +317,15 @@ def draw_parallel(sweep):
         is_same = high - low <= ROUNDING * max(abs(low), abs(high))
         scaled.append(np.full(len(values), 0.5) if is_same else (values - low) / (high - low))
     scaled = np.array(scaled)
-    figure = Figure(figsize=(1.6 * len(names) + 1.0, 4.2), layout="constrained")
+    figure = Figure(figsize=(1.6 * len(names) + 1.0, 4.4), layout="constrained")
     axes = figure.subplots()
+    if ends[-1][0] < ends[-1][1] and names[-1] not in sweep.words:
+        is_logarithmic = names[-1] in sweep.logarithmic
+        bar = ScalarMappable((LogNorm if is_logarithmic else Normalize)(*ends[-1]), "viridis")
+        figure.colorbar(bar, ax=axes, label=sweep.column(names[-1])[1], format=PLAIN if is_logarithmic else None)
     width = float(np.clip(60.0 / len(cases), 0.5, 1.5))
     for line in np.argsort(scaled[-1], kind="stable"):
-        axes.plot(scaled[:, line], color=matplotlib.colormaps["viridis"](0.9 * scaled[-1, line]), linewidth=width,
+        axes.plot(scaled[:, line], color=matplotlib.colormaps["viridis"](scaled[-1, line]), linewidth=width,
                   alpha=min(1.0, 0.25 + 0.5 * width))
     for place, (name, (low, high)) in enumerate(zip(names, ends)):
         axes.plot([place, place], [0, 1], color="black", linewidth=0.8)
@@ -265,6 +339,14 @@ def draw_parallel(sweep):
     axes.spines[:].set_visible(False)
     _note(figure, sweep, names, [f"{len(cases)} of {count} cases shown"] * (len(cases) < count))
     return figure
+
+
+def _colour_scale(sweep, name):
+    """Colours over the values of a key or a quantity."""
+    values = sweep.column(name)[0]
+    values = values[np.isfinite(values)]
+    return (LogNorm if name in sweep.logarithmic else Normalize)(values.min(initial=np.inf), values.max(initial=-np.inf)) \
+        if values.size else None
 
 
 def _row(figure, count):
@@ -296,17 +378,18 @@ def _sideways(sweep, key):
     return SPREAD * (2 * ((np.arange(len(sweep.status)) * (5**0.5 - 1) / 2) % 1) - 1)
 
 
-def _name_axis(sweep, axes, side, key):
-    getattr(axes, f"set_{side}label")(sweep.keys[key][1])
-    if key in sweep.logarithmic:
+def _name_axis(sweep, axes, side, name):
+    values, label = sweep.column(name)
+    getattr(axes, f"set_{side}label")(label)
+    if name in sweep.logarithmic:
         getattr(axes, f"set_{side}scale")("log")
         ticks = getattr(axes, f"{side}axis")
-        few = sweep.keys[key][0].max() < 30 * sweep.keys[key][0].min()
+        few = np.nanmax(values) < 30 * np.nanmin(values)
         ticks.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0) if few else (1.0,)))
-        ticks.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+        ticks.set_major_formatter(PLAIN)
         ticks.set_minor_formatter(NullFormatter())
-    if key in sweep.words and len(sweep.words[key]) <= MOST_WORDS:
-        words = [sweep.label_value(key, place) for place in range(len(sweep.words[key]))]
+    if name in sweep.words and len(sweep.words[name]) <= MOST_WORDS:
+        words = [sweep.label_value(name, place) for place in range(len(sweep.words[name]))]
         is_long = side == "x" and sum(map(len, words)) > 24
         turn = {"rotation": 20, "ha": "right"} if is_long else {}
         getattr(axes, f"set_{side}ticks")(range(len(words)), words, fontsize=7, **turn)
@@ -314,16 +397,14 @@ def _name_axis(sweep, axes, side, key):
 
 
 def _note(figure, sweep, shown, more=()):
-    """Values of the keys that are not shown, what else is left out, and cases without a result."""
+    """Title of the deck, values of the keys that are not shown, what else is left out, and cases without a result."""
     words = [f"{label} = {sweep.label_value(key, values[0])}" for key, (values, label) in sweep.keys.items() if key not in shown]
-    words += more
-    if sweep.remark:
-        words.append(sweep.remark)
+    words += [*more, *sweep.remarks]
     failed = int(np.count_nonzero(sweep.status))
     if failed:
         words.append(f"{failed} of {len(sweep.status)} cases have no result")
-    if words:
-        figure.suptitle(textwrap.fill(", ".join(words), max(30, int(14 * figure.get_figwidth()))), fontsize=8)
+    width = max(30, int(14 * figure.get_figwidth()))
+    figure.suptitle("\n".join([textwrap.fill(sweep.title, width), *textwrap.wrap(", ".join(words), width)]), fontsize=9)
 
 
 def main(arguments=None):
@@ -335,12 +416,15 @@ def main(arguments=None):
     parser.add_argument("--where", action="append", default=[], metavar="CONDITION",
                         help="only cases with this, as 'mean_slip_ratio < 0.01' or 'speed_rpm >= 600'; a name in /summary (SI) or a "
                              "swept key (unit of the deck); given more than once, a case must meet all")
+    parser.add_argument("--over", default="", metavar="KEYS",
+                        help="swept keys, separated by commas: cases that differ in them only count as one")
+    parser.add_argument("--take", choices=TAKEN, default="largest", help="value of several cases that count as one (default: largest)")
     parser.add_argument("--output", type=Path, help="folder; that of the file where not given")
     parser.add_argument("--dpi", type=DPI, default=150)
     options = parser.parse_args(arguments)
     try:
         sweep = Sweep(options.file, list(dict.fromkeys(filter(None, options.quantity.replace(" ", "").split(",")))) or [QUANTITY],
-                      options.where)
+                      options.where, list(filter(None, options.over.replace(" ", "").split(","))), options.take)
         name = options.figure or suitable_figure(sweep)
         figure = {"map": draw_map, "curves": draw_curves, "scatter": draw_scatter, "parallel": draw_parallel}[name](sweep)
         target = (options.output or options.file.parent) / f"{options.file.stem}_{name}.png"

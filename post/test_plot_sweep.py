@@ -54,14 +54,64 @@ def test_a_map_shows_the_longest_keys(grid):
     table = axes.collections[0].get_array()
     assert table.shape == (9, 10) and np.ma.count_masked(table) == 1
     assert np.isclose(table[0, 0], 300 / 40) and np.isclose(table[8, 9], 900 / 120)
-    assert figure.get_suptitle() == "film law = moes, 1 of 180 cases have no result"
+    assert figure.get_suptitle() == "grid\nfilm law = moes, 1 of 180 cases have no result"
+    assert figure.axes[1].get_ylabel() == "mean torque drive [N m]"
 
 
 def test_curves_have_the_values_of_the_file(grid):
     axes = draw_curves(Sweep(grid, ["mean_torque_drive"])).axes[0]
-    assert len(axes.lines) == 8
+    assert len(axes.lines) == 9
     x, y = axes.lines[-1].get_data()
     assert np.allclose(x, np.linspace(300, 900, 10)) and np.allclose(y, x / 120)
+
+
+def test_many_curves_have_a_colour_bar_and_words_a_legend(grid):
+    figure = draw_curves(Sweep(grid, ["mean_torque_drive"]))
+    assert figure.axes[1].get_ylabel() == "oil temperature [°C]" and figure.axes[1].get_ylim() == (40, 120)
+    assert figure.axes[0].get_legend() is None
+
+
+def test_the_title_of_the_deck_is_on_the_figure(grid):
+    with h5py.File(grid, "r+") as file:
+        file["deck/values/case.title"], file["deck/values/engine.given_speed"] = "One rig", "crankshaft"
+    for draw in (draw_map, draw_curves, draw_scatter, draw_parallel):
+        assert draw(Sweep(grid, ["mean_torque_drive"])).get_suptitle().startswith("One rig\n")
+    assert draw_map(Sweep(grid, ["mean_torque_drive"])).axes[0].get_xlabel() == "crankshaft speed [rev/min]"
+
+
+def test_a_quantity_over_decades_has_a_logarithmic_axis(tmp_path):
+    speed, load = (a.ravel() for a in np.meshgrid(np.linspace(1, 9, 9), np.linspace(1, 9, 9), indexing="ij"))
+    keys = {"a.x": (speed, "1"), "a.y": (load, "1")}
+    wide = Sweep(write(tmp_path / "wide.h5", keys, 10.0 ** (speed / 3)), ["mean_torque_drive"])
+    near = Sweep(write(tmp_path / "near.h5", keys, 10.0 ** (speed / 9)), ["mean_torque_drive"])
+    for draw in (draw_curves, draw_scatter):
+        assert [draw(sweep).axes[0].get_yscale() for sweep in (wide, near)] == ["log", "linear"]
+    low, high = 10 ** (1 / 3), 1000
+    for draw, axes in ((draw_map, 1), (draw_parallel, 1)):
+        bar = draw(wide).axes[axes]
+        assert bar.get_yscale() == "log" and bar.get_ylim() == pytest.approx((low, high)), draw
+        assert draw(near).axes[axes].get_yscale() == "linear"
+
+
+def test_operating_points_of_a_design_count_as_one(grid, capsys):
+    """Speeds as operating points of designs, which differ in temperature and law here."""
+    whole = Sweep(grid, ["mean_torque_drive"])
+    for take, function in (("largest", np.max), ("smallest", np.min), ("mean", np.mean)):
+        worst = Sweep(grid, ["mean_torque_drive"], [], ["speed_rpm"], take)
+        assert list(worst.keys) == ["operating_point.oil_temperature_degC", "film.law"] and len(worst.status) == 18
+        values, label = worst.quantities["mean_torque_drive"]
+        assert label == f"{take} mean torque drive [N m]"
+        for value, temperature, law in zip(values, worst.keys["operating_point.oil_temperature_degC"][0], worst.keys["film.law"][0]):
+            own = (whole.keys["operating_point.oil_temperature_degC"][0] == temperature) & (whole.keys["film.law"][0] == law)
+            # a design of which one point has no result has no value
+            assert np.array_equal(value, function(whole.quantities["mean_torque_drive"][0][own]), equal_nan=True)
+        assert np.isnan(values).sum() == 1 and worst.is_grid() and worst.status.sum() == 1
+    bounded = Sweep(grid, ["mean_torque_drive"], ["mean_torque_drive < 12"], ["speed_rpm"], "largest")
+    kept = np.isfinite(bounded.quantities["mean_torque_drive"][0])
+    assert np.array_equal(kept, Sweep(grid, ["mean_torque_drive"], [], ["speed_rpm"]).quantities["mean_torque_drive"][0] < 12)
+    assert "largest over speed_rpm, 180 cases make 18" in draw_scatter(bounded).get_suptitle().replace("\n", " ")
+    assert main([str(grid), "--over", "sped_rpm"]) == 2
+    assert "'sped_rpm' is not one of the swept keys" in capsys.readouterr().err
 
 
 def test_scatter_and_parallel_show_every_case(sample):

@@ -6,6 +6,7 @@ import subprocess
 import sys
 
 import h5py
+from matplotlib.colors import to_hex
 from matplotlib.figure import Figure
 import numpy as np
 import pytest
@@ -275,6 +276,25 @@ def test_slip_and_film_have_logarithmic_axes_where_values_differ_much(limits, sc
     set_values_axis(axes, CURVES["slip"], limits)
     assert axes.get_yscale() == scale
     assert axes.get_ylim()[0] <= limits[0] and axes.get_ylim()[1] >= limits[1]
+
+
+def test_shares_have_one_scale_and_the_film_ratio_its_lines(nine):
+    layout = Layout([read_result(nine)])
+    for name in ("load_share", "boundary_share"):
+        limits = {axes.get_ylim() for axes in draw(name, layout).axes}
+        # though the shares of the panels differ by more than a factor of ten
+        assert len(limits) == 1 and limits.pop()[1] == pytest.approx(105.0)
+    for axes in draw("film_ratio", layout).axes:
+        lines = [line.get_ydata()[0] for line in axes.lines if len(set(line.get_ydata())) == 1]
+        low, high = axes.get_ylim()
+        assert lines == [value for value in (1.0, 3.0) if low < value < high]
+
+
+def test_no_swept_value_has_the_colour_of_a_source_beside_it(nine):
+    layout = Layout([read_result(nine)])
+    values = {to_hex(layout.style(entry)["color"]) for entry in layout.entries}
+    sources = [colour for *_, colour, _ in SOURCES]
+    assert len(values) == 3 and len(set(sources)) == len(sources) and not values & set(sources)
 
 
 def test_all_figures_are_drawn_beside_the_file(nine, tmp_path):
