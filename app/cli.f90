@@ -66,8 +66,8 @@ module camroller_cli
       character(len=:), allocatable :: columns
       !> Form of an exported table
       character(len=:), allocatable :: form
-      !> Drawings to write, of the mechanism and of the lift; blank for none
-      character(len=:), allocatable :: drawing, lift_drawing
+      !> Drawings to write, of the mechanism and of the lift, and table of the cam; blank for none
+      character(len=:), allocatable :: drawing, lift_drawing, cam_table
       !> Highest speed tried, step of the speeds [rev/min]
       real(wp) :: highest_speed = 6000.0_wp, speed_step = 100.0_wp
       !> Speed of seating that is too fast [m/s]
@@ -111,6 +111,7 @@ contains
       config%form = export_formats(1)
       config%drawing = ""
       config%lift_drawing = ""
+      config%cam_table = ""
       config%library = ""
       allocate (config%overrides(0))
       call list_commands(commands)
@@ -315,9 +316,10 @@ contains
          call read_positive(option, value, see(config), config%speed_step, error)
       case ("--seating")
          call read_positive(option, value, see(config), config%seating_speed, error)
-      case ("--draw", "--draw-lift")
+      case ("--draw", "--draw-lift", "--cam")
          if (option == "--draw") config%drawing = value
          if (option == "--draw-lift") config%lift_drawing = value
+         if (option == "--cam") config%cam_table = value
          if (value == "") call raise(error, kind_usage, "option '"//option//"' needs the name of a file"//see(config))
       end select
    end subroutine set_option_of_looking

@@ -30,6 +30,7 @@ module camroller_commands
    use camroller_rerun_command, only : rerun_file
    use camroller_run, only : build_models
    use camroller_selftest, only : run_selftest
+   use camroller_cam_table, only : write_cam_table
    use camroller_lift_drawing, only : draw_lift
    use camroller_sketch, only : draw_mechanism
    use camroller_run_command, only : merge_deck, run_deck, sweep_deck
@@ -249,7 +250,7 @@ contains
       if (.not. allocated(error)) call check_effects(deck, error)
    end subroutine check_deck
 
-   !> Print what the deck's own case comes to, and draw its mechanism where that is asked for.
+   !> Print what the deck's own case comes to; draw its mechanism and its lift, write its cam where that is asked for.
    subroutine show_case(config, deck, error)
       !> What to do
       type(config_t), intent(in) :: config
@@ -271,15 +272,30 @@ contains
       call list_deck_files(deck, inputs)
       if (.not. allocated(error) .and. config%drawing /= "") then
          call draw_mechanism(case, text, error)
-         if (.not. allocated(error)) call check_place(config%drawing, inputs, error)
-         if (.not. allocated(error)) call save_text(config%drawing, text, error)
+         if (.not. allocated(error)) call save_beside(inputs, config%drawing, text, error)
       end if
       if (.not. allocated(error) .and. config%lift_drawing /= "") then
          call draw_lift(case, text, error)
-         if (.not. allocated(error)) call check_place(config%lift_drawing, inputs, error)
-         if (.not. allocated(error)) call save_text(config%lift_drawing, text, error)
+         if (.not. allocated(error)) call save_beside(inputs, config%lift_drawing, text, error)
+      end if
+      if (.not. allocated(error) .and. config%cam_table /= "") then
+         call write_cam_table(case, text, error)
+         if (.not. allocated(error)) call save_beside(inputs, config%cam_table, text, error)
       end if
    end subroutine show_case
+
+   !> Write a file that replaces none of those that were read.
+   subroutine save_beside(inputs, path, text, error)
+      !> Files that were read
+      type(line_t), intent(in) :: inputs(:)
+      !> Path of the file, and what it holds
+      character(len=*), intent(in) :: path, text
+      !> File error
+      type(error_t), allocatable, intent(out) :: error
+
+      call check_place(path, inputs, error)
+      if (.not. allocated(error)) call save_text(path, text, error)
+   end subroutine save_beside
 
    !> Lines as comments of a deck.
    pure function replaced(text) result(commented)

@@ -1,6 +1,7 @@
 """A lift of the roller, or the contour of the cam, in the place of the valve's lift: tables of one cam come to the same results."""
 
 import pathlib
+import re
 import subprocess
 
 import h5py
@@ -107,3 +108,64 @@ def test_a_contour_that_no_roller_can_follow_is_refused(camroller, tmp_path, cha
     result = subprocess.run([camroller, "check", "decks/tabulated_lift.nml", "--set", f"lift.table={path}", "--set",
                              "lift.table_kind=cam_contour"], capture_output=True, text=True, cwd=ROOT, check=False)
     assert result.returncode == 3 and words in result.stderr
+
+
+def cam_table(camroller, folder, deck, *values):
+    """Columns of the table of a cam by their names."""
+    path = folder / "cam.csv"
+    words = [camroller, "check", str(deck), "--cam", str(path), *(w for v in values for w in ("--set", v))]
+    result = subprocess.run(words, capture_output=True, text=True, cwd=ROOT, check=False)
+    assert result.returncode == 0, result.stderr
+    names = path.read_text(encoding="utf-8").splitlines()[0].split(",")
+    return dict(zip(names, np.loadtxt(path, delimiter=",", skiprows=1).T, strict=True))
+
+
+@pytest.mark.parametrize("rotation, sense", [("away_from_pivot", 1), ("towards_pivot", -1)])
+def test_the_table_of_the_cam_is_the_envelope_of_the_roller_and_a_lift_again(camroller, tmp_path, rotation, sense):
+    table = cam_table(camroller, tmp_path, "decks/tabulated_lift.nml", f"mechanism.rotation={rotation}")
+    assert len(table["lobe"]) == 720 and table["valve_lift [mm]"].max() == pytest.approx(9.2, rel=1e-6)
+    polar, radius = contour(sense)
+    found = make_interp_spline(table["polar_angle [deg]"], table["cam_radius [mm]"], k=3)(polar)
+    # the envelope knows its nose to half of its step, 0.002 degrees, and rises by up to 0.15 mm a degree
+    assert found == pytest.approx(radius, abs=3e-4)
+    assert np.hypot(table["cam_x [mm]"], table["cam_y [mm]"]) == pytest.approx(table["cam_radius [mm]"], rel=1e-10)
+    # the contour taken for a lift table gives the results of the valve's lift
+    path = tmp_path / "contour.txt"
+    event = table["cam_radius [mm]"] > BASE + 1e-9
+    first, last = np.flatnonzero(event)[[0, -1]] + [-1, 1]
+    rows = np.column_stack([table["polar_angle [deg]"], table["cam_radius [mm]"]])[first:last + 1]
+    rows[[0, -1], 1] = BASE
+    np.savetxt(path, rows, fmt="%.12f")
+    before = summary(camroller, tmp_path, f"mechanism.rotation={rotation}")
+    after = summary(camroller, tmp_path, f"lift.table={path}", "lift.table_kind=cam_contour", f"mechanism.rotation={rotation}")
+    for name, share in (("max_valve_lift", 1e-5), ("max_contact_load", 1e-3), ("mean_torque_friction", 1e-3), ("max_hertz_pressure", 1e-3),
+                        ("contact_loss_speed", 3e-3)):
+        assert after[name] == pytest.approx(before[name], rel=share), name
+
+
+def test_the_table_of_the_cam_has_its_radii_of_curvature_and_pressure_angles(camroller, tmp_path):
+    table = cam_table(camroller, tmp_path, "decks/four_cylinder.nml", "lift.max_lift_mm=9.5")
+    assert list(np.unique(table["lobe"])) == [1, 2]
+    facts = subprocess.run([camroller, "check", "decks/four_cylinder.nml", "--no-sweep", "--set", "lift.max_lift_mm=9.5"], cwd=ROOT,
+                           capture_output=True, text=True, check=True).stdout
+    for lobe, name in ((1, "lobe"), (2, "second lobe")):
+        own = table["lobe"] == lobe
+        radius, pressure = table["curvature_radius [mm]"][own], table["pressure_angle [deg]"][own]
+        told = re.search(rf"^! {name}: .* smallest cam radius ([\d.]+) mm at .* largest pressure angle ([\d.]+) deg", facts, re.M)
+        # three digits are printed, of points a quarter of a degree apart
+        assert radius[radius > 0].min() == pytest.approx(float(told[1]), rel=1e-2)
+        assert pressure.max() == pytest.approx(float(told[2]), abs=0.1)
+        # the circle through three points of the contour: second order in their distance of half a degree
+        x, y = (np.column_stack([np.roll(table[f"cam_{axis} [mm]"][own], shift) for shift in (1, 0, -1)]) for axis in "xy")
+        chords = [np.hypot(x[:, i] - x[:, j], y[:, i] - y[:, j]) for i, j in ((0, 1), (1, 2), (0, 2))]
+        area = (x[:, 1] - x[:, 0]) * (y[:, 2] - y[:, 0]) - (y[:, 1] - y[:, 0]) * (x[:, 2] - x[:, 0])
+        curvature = -2 * area / np.prod(chords, axis=0)
+        inside = np.abs(np.abs(table["cam_angle [deg]"][own] - 180) - 72.5) > 2  # the curvature has a kink at the ends of the event
+        assert curvature[inside] == pytest.approx(1 / radius[inside], abs=1e-3 / 17)
+
+
+def test_the_table_of_the_cam_replaces_no_file_that_was_read(camroller, tmp_path):
+    deck = tmp_path / "mine.nml"
+    deck.write_text((ROOT / "decks/thesis.nml").read_text(encoding="utf-8"), encoding="utf-8")
+    result = subprocess.run([camroller, "check", str(deck), "--cam", str(deck)], capture_output=True, text=True, check=False)
+    assert result.returncode != 0 and deck.read_text(encoding="utf-8").startswith((ROOT / "decks/thesis.nml").read_text(encoding="utf-8")[:40])
