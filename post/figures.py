@@ -11,7 +11,7 @@ import numpy as np
 
 from bars import MOST_BARS, both_bars, shown_in_bars, slip_bars, torque_bars
 from layout import line_style, thin_out
-from parts import (MOST_PANELS, angle_axis, closed, draw_curve, event_window, file_legend, head, legend_handles,
+from parts import (MOST_PANELS, angle_axis, closed, crank_axis, draw_curve, event_window, file_legend, head, legend_handles,
                    legend_height, mark_values, ranges_of, say_no_result, seen_range, set_values_axis)
 from quantities import CURVES, OVERVIEW, PARTS, SOURCES, TORQUES, TRAIN, Missing, has_series, need_series, values_of
 from units import unit_words
@@ -90,6 +90,8 @@ def torque_figure(layout, whole_cycle, parts=TORQUES, title="drive torque and it
         if not any(drawn):
             say_no_result(axes)
         angle_axis(axes, window, labelled=number + columns >= len(places))
+        if number < columns:
+            crank_axis(axes, layout)
         names = [layout.name(layout.colour_key, colour) if len(layout.colours) > 1 else "",
                  layout.panel_name(panel) if len(layout.panels) > 1 else ""]
         axes.set_title("\n".join(textwrap.wrap(", ".join(filter(None, names)), 42)), fontsize="medium")

@@ -65,6 +65,19 @@ def angle_axis(axes, window, labelled=True):
         axes.set_xlabel("cam angle [deg]")
 
 
+def crank_axis(axes, layout):
+    """Crank angle from the firing dead centre of cylinder 1 along the upper edge, where every result is one of the same engine."""
+    known = {tuple(float(result.scalar(name).values[0]) for name in ("crank_turns", "crank_angle_at_nose"))
+             if "crank_angle_at_nose" in result.summary else None for result in layout.results}
+    if len(known) != 1 or None in known:
+        return
+    turns, nose = known.pop()
+    upper = axes.secondary_xaxis("top")
+    upper.xaxis.set_major_locator(axes.xaxis.get_major_locator())
+    upper.xaxis.set_major_formatter(FuncFormatter(lambda angle, _: f"{(nose + turns * (angle - NOSE)) % (360.0 * turns):g}"))
+    upper.set_xlabel("crank angle [deg]")
+
+
 def draw_curve(axes, layout, curve, panel, window):
     """All curves of one panel; returns lowest and highest value within the window, None if there is none."""
     low, high = np.inf, -np.inf

@@ -269,6 +269,24 @@ def test_torques_of_a_shaft_whose_other_cams_are_at_work_are_shown_for_the_whole
     assert "torques of 2 camshafts with 2 cams each" in title(draw("overview", layout))
 
 
+def test_torques_of_an_engine_are_over_the_crank_angle_too(tmp_path):
+    path = write_result(tmp_path / "engine.h5", step=5.0)
+    for is_engine in (False, True):
+        if is_engine:
+            with h5py.File(path, "a") as file:
+                cases = len(file["summary/mean_slip_ratio"])
+                file["summary/crank_turns"], file["summary/crank_angle_at_nose"] = np.full(cases, 2.0), np.full(cases, 470.0)
+        figure = draw("drive_torque", Layout([read_result(path)]), whole_cycle=True)
+        figure.draw_without_rendering()
+        upper = [child for axes in figure.axes for child in axes.child_axes]
+        assert len(upper) == (3 if is_engine else 0)
+        for axes in upper:
+            words = {round(place): text.get_text() for place, text in zip(axes.get_xticks(), axes.get_xticklabels())}
+            # nose of the first cam at 470 degrees of the crank, which turns twice
+            assert {angle: words[angle] for angle in (0, 60, 180, 300)} == {0: "110", 60: "230", 180: "470", 300: "710"}
+            assert axes.get_xlabel() == "crank angle [deg]"
+
+
 def test_where_contact_is_lost_there_is_no_film(tmp_path):
     path = write_result(tmp_path / "lost.h5", step=5.0)
     with h5py.File(path, "a") as file:
