@@ -33,8 +33,9 @@ EFFECTS = {
                                                    "load_share:complete_share", "traction:mobilised_share"]),
     "needle_bearing": (["needle"], []),
     "valve_guide": (["guide"], []),
-    "cam_bearings": (["journal", "camshaft"], ["means:mean_bearing_torque", "shaft:add_bearings", "state:cam_force",
-                                               "torque:normal_direction"]),
+    "cam_bearings": (["journal", "journal_motion", "journal_orbit", "camshaft"],
+                     ["means:mean_bearing_torque", "bearing_series:add_bearings", "state:cam_force",
+                      "torque:normal_direction"]),
     "gas_force": (["gas"], []),
 }
 #: Groups that are of no use without an effect

@@ -42,6 +42,8 @@ program main
    use test_number_text, only : collect_number_text
    use test_units, only : collect_units
    use test_journal, only : collect_journal
+   use test_journal_motion, only : collect_journal_motion
+   use test_journal_orbit, only : collect_journal_orbit
    use test_mixed_bearings, only : collect_mixed_bearings
    use test_camshaft, only : collect_camshaft
    use test_kinematics_reference, only : collect_kinematics_reference
@@ -217,6 +219,8 @@ contains
          new_testsuite("number_text", collect_number_text), &
          new_testsuite("units", collect_units), &
          new_testsuite("journal", collect_journal), &
+         new_testsuite("journal_motion", collect_journal_motion), &
+         new_testsuite("journal_orbit", collect_journal_orbit), &
          new_testsuite("mixed_bearings", collect_mixed_bearings), &
          new_testsuite("camshaft", collect_camshaft), &
          new_testsuite("kinematics_reference", collect_kinematics_reference), &

@@ -10,6 +10,7 @@ module camroller_effect_list
    use camroller_film, only : film_law_names, law_dowson_higginson, law_masjedi_khonsari, law_masjedi_khonsari_rough, law_moes
    use camroller_flexible_setup, only : base_load
    use camroller_heat, only : inlet_law_names, contact_heat_names, inlet_none, contact_heat_none
+   use camroller_journal, only : journal_motion_names, motion_orbit, motion_quasi_steady
    use camroller_kinematics, only : linkage_t, position_t, new_linkage, evaluate_position
    use camroller_lubricant, only : pressure_law_names, law_cameron
    use camroller_traction, only : rolling_law_names, rolling_none, shear_law_names, law_newtonian
@@ -20,22 +21,23 @@ module camroller_effect_list
    public :: effect_asperity, effect_needle, effect_guide, effect_bearings, effect_gas, effect_rolling, effect_film, &
       & effect_pressure, effect_shear, effect_spin, effect_ehl, effect_tip, effect_seal, effect_side, effect_pivot, &
       & effect_drag, effect_inlet_heat, effect_contact_heat, effect_dynamics, effect_surge, effect_adjuster, is_part_of_train, &
-      & effect_bearing_asperity, effect_belt_pull, effect_modifier, needs_bearings
+      & effect_bearing_asperity, effect_belt_pull, effect_modifier, effect_orbit, needs_bearings
 
    !> Effects: groups of the deck, and laws that have a simpler one beside them
    character(len=*), parameter :: effect_names(*) = [character(len=name_length) :: "asperity", "needle_bearing", "valve_guide", &
       & "cam_bearings", "gas_force", "rolling_resistance", "film_law", "pressure_law", "shear_law", "roller_equation", &
       & "ehl", "valve_tip", "stem_seal", "guide_side_load", "finger_pivot", "needle_drag", "inlet_heat", "contact_heat", &
       & "dynamics", "spring_surge", "lash_adjuster", "bearing_asperity", "belt_pull", &
-      & "friction_modifier"]
+      & "friction_modifier", "journal_orbit"]
    !> Positions in it
    integer, parameter :: effect_asperity = 1, effect_needle = 2, effect_guide = 3, effect_bearings = 4, effect_gas = 5, &
       & effect_rolling = 6, effect_film = 7, effect_pressure = 8, effect_shear = 9, effect_spin = 10, effect_ehl = 11, &
       & effect_tip = 12, effect_seal = 13, effect_side = 14, effect_pivot = 15, effect_drag = 16, &
       & effect_inlet_heat = 17, effect_contact_heat = 18, effect_dynamics = 19, effect_surge = 20, effect_adjuster = 21, &
-      & effect_bearing_asperity = 22, effect_belt_pull = 23, effect_modifier = 24
+      & effect_bearing_asperity = 22, effect_belt_pull = 23, effect_modifier = 24, &
+      & effect_orbit = 25
    !> Effects of the camshaft bearings: nothing else depends on them, and without these bearings they are of no effect
-   integer, parameter :: needs_bearings(*) = [effect_bearing_asperity, effect_belt_pull]
+   integer, parameter :: needs_bearings(*) = [effect_bearing_asperity, effect_belt_pull, effect_orbit]
    !> Their number
    integer, parameter :: effect_count = size(effect_names)
    !> Words of a reason
@@ -128,6 +130,8 @@ contains
          if (allocated(variant%friction_modifier)) deallocate (variant%friction_modifier)
       case (effect_belt_pull)
          if (allocated(variant%belt_pull)) deallocate (variant%belt_pull)
+      case (effect_orbit)
+         if (allocated(variant%cam_bearings)) variant%cam_bearings%journal_motion = journal_motion_names(motion_quasi_steady)
       case (effect_inlet_heat)
          if (allocated(variant%heat)) variant%heat%inlet_law = inlet_law_names(inlet_none)
       case (effect_contact_heat)
@@ -253,6 +257,9 @@ contains
          if (allocated(case%heat)) has = case%heat%inlet_law /= inlet_law_names(inlet_none)
       case (effect_contact_heat)
          if (allocated(case%heat)) has = case%heat%contact /= contact_heat_names(contact_heat_none)
+      case (effect_orbit)
+         has = allocated(case%cam_bearings)
+         if (has) has = case%cam_bearings%journal_motion == journal_motion_names(motion_orbit)
       case (effect_dynamics)
          has = allocated(case%dynamics)
       case (effect_surge)

@@ -253,6 +253,7 @@ contains
             call take(settings, "cam_bearings", "cam_phases_deg", bearings%cam_phases)
             call take(settings, "cam_bearings", "cam_lobes", bearings%cam_lobes)
             call take(settings, "cam_bearings", "follower_angles_deg", bearings%follower_angles)
+            call take(settings, "cam_bearings", "journal_motion", bearings%journal_motion)
             call take(settings, "cam_bearings", "bearing_series", bearings%by_bearing)
          end associate
       end if

@@ -18,7 +18,7 @@ module camroller_deck_keys
    use camroller_asperity, only : asperity_t, asperity_law_names, boundary_names, mobilisation_names
    use camroller_traction, only : shear_law_names, cap_names, rolling_law_names
    use camroller_needle, only : needle_bearing_t, roller_bearing_names
-   use camroller_journal, only : cam_bearings_t, journal_law_names
+   use camroller_journal, only : cam_bearings_t, journal_law_names, journal_motion_names
    use camroller_roller, only : spin_names
    use camroller_deck_asperity, only : add_modifier_keys
    use camroller_deck_cam_bearings, only : add_bearing_part_keys
@@ -392,6 +392,8 @@ contains
 
       call add_group(schema, "cam_bearings", group_effect, "camshaft, its bearings and its cams")
       call add_name(schema, "law", journal_law_names, standard%law, "journal bearing law")
+      call add_name(schema, "journal_motion", journal_motion_names, standard%journal_motion, &
+         & "is a journal at each instant where a steady load would hold it, or on its orbit over the turn?")
       call add_number(schema, "diameter_mm", positive, "diameter of the journals", example="23")
       call add_number(schema, "width_mm", positive, "width of a bearing", example="20")
       call add_number(schema, "radial_clearance_um", positive, "radial clearance", example="47.5")

@@ -6,7 +6,7 @@
 module camroller_deck_relations
    use camroller_kinds, only : wp
    use camroller_accuracy, only : divides_turn
-   use camroller_journal, only : law_covers_width, width_advice
+   use camroller_journal, only : law_can_orbit, law_covers_width, orbit_advice, width_advice
    use camroller_number_text, only : integer_text
    use camroller_mistakes, only : mistakes_t
    use camroller_settings, only : settings_t, take, find_value, is_known, is_wrong, get_word, has_group
@@ -39,7 +39,7 @@ contains
       call second_lift_is_used(settings, mistakes)
       call oil_has_what_its_law_needs(settings, mistakes)
       call contact_has_what_its_laws_need(settings, mistakes)
-      if (has_group(settings, "cam_bearings")) call bearings_have_the_width_of_their_law(settings, mistakes)
+      if (has_group(settings, "cam_bearings")) call bearings_suit_their_law(settings, mistakes)
       if (has_group(settings, "cam_bearings")) call cams_stand_between_bearings(settings, mistakes)
       call check_bearing_parts(settings, mistakes)
       call check_engine(settings, mistakes)
@@ -391,8 +391,8 @@ contains
       end if
    end subroutine cams_stand_between_bearings
 
-   !> The law of finite width covers some widths.
-   subroutine bearings_have_the_width_of_their_law(settings, mistakes)
+   !> The law of finite width covers some widths, a law may have no orbits.
+   subroutine bearings_suit_their_law(settings, mistakes)
       !> The settings
       type(settings_t), intent(in) :: settings
       !> Mistakes so far
@@ -401,12 +401,16 @@ contains
       !> Dimensions of a bearing [m]
       real(wp) :: width, diameter
 
+      if (.not. law_can_orbit(get_word(settings, "cam_bearings", "law"), get_word(settings, "cam_bearings", &
+         & "journal_motion"))) then
+         call complain(mistakes, settings, "cam_bearings", "journal_motion", orbit_advice)
+      end if
       if (.not. (is_known(settings, "cam_bearings", "width_mm") .and. is_known(settings, "cam_bearings", "diameter_mm"))) return
       call take(settings, "cam_bearings", "width_mm", width)
       call take(settings, "cam_bearings", "diameter_mm", diameter)
       if (law_covers_width(get_word(settings, "cam_bearings", "law"), width, diameter)) return
       call complain(mistakes, settings, "cam_bearings", "width_mm", width_advice)
-   end subroutine bearings_have_the_width_of_their_law
+   end subroutine bearings_suit_their_law
 
    !> One entry for every cam.
    subroutine check_length(settings, key, cams, mistakes)

@@ -60,6 +60,8 @@ module camroller_bearing_asperity
    type :: bearing_state_t
       !> Force of the shaft on it, in the frame of the first follower [N]
       real(wp) :: load(2) = 0.0_wp
+      !> Place of the journal on its orbit in that frame; zero where it has none [clearance]
+      real(wp) :: place(2) = 0.0_wp
       !> Eccentricity over clearance [-], smallest film [m]
       real(wp) :: eccentricity = 0.0_wp, film = 0.0_wp
       !> Torque against the rotation, and the part of it that is boundary friction [N m]
@@ -244,6 +246,8 @@ contains
       clearance = clearance_of(journal)
       eccentricity = t/sqrt(1.0_wp + t**2)
       gap = 1.0_wp/(sqrt(1.0_wp + t**2)*(sqrt(1.0_wp + t**2) + t))
+      ! Before the quotient: a journal on its orbit may be in the middle
+      if (.not. largest_film_ratio*touch%roughness/clearance > gap) return
       sine = (largest_film_ratio*touch%roughness/clearance - gap)/(2.0_wp*eccentricity)
       if (.not. sine > 0.0_wp) return
       last = 2.0_wp*asin(sqrt(min(sine, 1.0_wp)))

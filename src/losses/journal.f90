@@ -17,12 +17,21 @@ module camroller_journal
    public :: cam_bearings_t, journal_t, journal_law_names
    public :: new_journal, journal_torque, journal_at_speed, journal_friction, law_covers_width, width_advice
    public :: journal_solved, journal_without_film, find_tangent, load_at, film_friction, film_direction
+   public :: journal_motion_names, motion_quasi_steady, motion_orbit, law_can_orbit, orbit_advice, moves_like_finite
 
    !> Journal bearing laws
    character(len=*), parameter :: journal_law_names(*) = [character(len=name_length) :: &
       "long_full_sommerfeld", "short_ocvirk", "finite"]
    !> Places in `journal_law_names`
    integer, parameter :: law_long = 1, law_short = 2, law_finite = 3
+
+   !> How journals move: at each instant as under a steady load, or on their orbit
+   character(len=*), parameter :: journal_motion_names(*) = [character(len=name_length) :: "quasi_steady", "orbit"]
+   !> Places in `journal_motion_names`
+   integer, parameter :: motion_quasi_steady = 1, motion_orbit = 2
+   !> What to say where a law has no orbit
+   character(len=*), parameter :: orbit_advice = "journal_motion = 'orbit' needs the law 'short_ocvirk' or 'finite': the "// &
+      & "full film of 'long_full_sommerfeld' pulls the journal as hard as it pushes"
 
    !> Friction and eccentricity are known
    integer, parameter :: journal_solved = 0
@@ -57,6 +66,8 @@ module camroller_journal
       integer, allocatable :: cam_shafts(:)
       !> Angle about the shaft at which each follower stands from the first, positive the way a finger turns as it opens [rad]
       real(wp), allocatable :: follower_angles(:)
+      !> One of `journal_motion_names`
+      character(len=name_length) :: journal_motion = journal_motion_names(motion_quasi_steady)
       !> Does each bearing have series of its own?
       logical :: by_bearing = .false.
    end type cam_bearings_t
@@ -94,17 +105,40 @@ contains
       !> What is wrong
       type(error_t), allocatable, intent(out) :: error
 
-      integer :: law
+      integer :: law, motion
 
       call find_name("journal bearing law", bearings%law, journal_law_names, law, error)
+      if (.not. allocated(error)) call find_name("journal motion", bearings%journal_motion, journal_motion_names, motion, error)
       if (allocated(error)) return
       journal = journal_at_speed(law, bearings%diameter, bearings%width, bearings%radial_clearance, viscosity, speed)
       if (.not. journal%unit_load > 0.0_wp) then
          call raise(error, kind_domain, "journal bearings need viscosity, speed and dimensions above zero")
       else if (.not. law_covers_width(bearings%law, bearings%width, bearings%diameter)) then
          call raise(error, kind_deck, width_advice)
+      else if (.not. law_can_orbit(bearings%law, bearings%journal_motion)) then
+         call raise(error, kind_deck, orbit_advice)
       end if
    end subroutine new_journal
+
+   !> Can journals of a law move as they are asked to?
+   pure function law_can_orbit(law, motion) result(answer)
+      !> One of `journal_law_names`, one of `journal_motion_names`
+      character(len=*), intent(in) :: law, motion
+      !> Can they?
+      logical :: answer
+
+      answer = motion /= journal_motion_names(motion_orbit) .or. law /= journal_law_names(law_long)
+   end function law_can_orbit
+
+   !> Does a journal that moves feel the width of its bearing?
+   pure function moves_like_finite(journal) result(answer)
+      !> The bearing
+      type(journal_t), intent(in) :: journal
+      !> Does it?
+      logical :: answer
+
+      answer = journal%law == law_finite
+   end function moves_like_finite
 
    !> Is a bearing as wide as its law asks for?
    pure function law_covers_width(law, width, diameter) result(answer)

@@ -7,12 +7,12 @@ module camroller_mean_bearings
    use camroller_error, only : error_t
    use camroller_bearing_asperity, only : bearing_state_t
    use camroller_catalogue, only : camshaft_columns, camshaft_count, camshaft_values
-   use camroller_events, only : cycle_stops
    use camroller_extremes, only : samples_t, start_samples, add_sample
    use camroller_means, only : mean_tolerance, most_halvings
    use camroller_panels, only : sampled_t, panels_t, start_panels, sample_panel, refine_panels
    use camroller_result, only : quantity_t
-   use camroller_shaft, only : bearing_count, solved_t, shaft_torques
+   use camroller_bearing_series, only : bearing_count
+   use camroller_shaft, only : shaft_stops, solved_t, shaft_torques
    use camroller_torque_list, only : torque_count, torque_series, of_bearings
    implicit none
    private
@@ -64,7 +64,7 @@ contains
       real(wp) :: length
       ! Error estimates allowed [unit of each times rad], errors relative to the mean magnitudes [-]
       real(wp), dimension(size(mean) + size(single)) :: allowed, errors
-      integer :: cam, segment, count, panel, halvings, columns(2), place
+      integer :: segment, count, panel, halvings, columns(2), place
 
       mean = 0.0_wp
       mean_error = 0.0_wp
@@ -72,11 +72,7 @@ contains
       samples%series = camshaft_count(solved%case)
       samples%of_bearings = size(single)
       call start_samples(samples%rows, samples%series)
-      allocate (stops(0))
-      do cam = 1, size(solved%shaft%lobes)
-         stops = [stops, solved%cycles(solved%shaft%lobes(cam))%stops + solved%shaft%phases(cam)]
-      end do
-      stops = cycle_stops(stops, solved%cycles(solved%shaft%lobes(1))%start)
+      stops = shaft_stops(solved, spread(.true., 1, size(solved%shaft%lobes)))
       call start_panels(panels, size(allowed), 2*size(stops) + ceiling(two_pi/longest_panel))
       do segment = 1, size(stops) - 1
          count = ceiling((stops(segment + 1) - stops(segment))/longest_panel)

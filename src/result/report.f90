@@ -17,7 +17,8 @@ module camroller_report
    use camroller_margins, only : margins_t, find_margins
    use camroller_names, only : name_length
    use camroller_result, only : result_t, check_numbers, find_quantity
-   use camroller_shaft, only : bearing_count, bearing_series_count, solved_t, new_shaft, refine_curves, shaft_torques
+   use camroller_bearing_series, only : bearing_count, bearing_series_count
+   use camroller_shaft, only : complete_shaft, new_shaft, shaft_torques, solved_t
    use camroller_mean_bearings, only : mean_bearing_torque
    use camroller_means, only : statistics_t, integrate_lobe
    use camroller_flexible_report, only : flexible_means_t, integrate_turns
@@ -104,7 +105,7 @@ contains
       !> Convergence or domain error; domain error where a law is used outside its range and the case forbids it
       type(error_t), allocatable, intent(out) :: error
 
-      type(solved_t) :: solved
+      type(solved_t), target :: solved
       type(margins_t) :: margins(size(models))
       type(extremes_t) :: extremes
       type(samples_t) :: torque_rows
@@ -123,7 +124,7 @@ contains
       solved%curves => statistics%curve
       call new_shaft(solved%shaft, case, models(1)%oil%viscosity, models(1)%speed, error)
       if (allocated(error)) return
-      call refine_curves(solved, error)
+      call complete_shaft(solved, error)
       if (allocated(error)) return
       result%angle = output_angles(case%numerics%output_step)
       allocate (result%series_values(merge(size(result%angle), 0, with_series .or. allocated(case%engine)), &

@@ -13,7 +13,8 @@ module camroller_series_extremes
    use camroller_means, only : statistics_t
    use camroller_model, only : model_t
    use camroller_result, only : result_t, quantity_t, find_quantity
-   use camroller_shaft, only : bearing_count, solved_t, shaft_torques
+   use camroller_bearing_series, only : bearing_count
+   use camroller_shaft, only : solved_t, shaft_torques
    use camroller_slip_errors, only : error_of_extreme
    use camroller_state, only : state_t
    use camroller_torque_list, only : torque_count, torque_series, of_residual

@@ -16,7 +16,8 @@ module camroller_shaft_simulation
    use camroller_catalogue, only : camshaft_count, camshaft_values, follower_count
    use camroller_lubricant, only : oil_t, get_oil
    use camroller_follower_step, only : point_t, inputs_t, outcome_t, piece_number, inputs_between
-   use camroller_shaft, only : bearing_count, shaft_t, new_shaft, set_journal, in_common_frame, bearing_torques
+   use camroller_bearing_series, only : bearing_count
+   use camroller_shaft, only : has_orbits, shaft_t, new_shaft, set_journal, in_common_frame, bearing_torques
    use camroller_simulation, only : simulation_t, advance, halt, check_step, prepare_simulation, place_simulation, &
       & check_angle, has_films, put_back, get_mark, get_point, set_point, get_values
    use camroller_model_mark, only : mixed
@@ -91,6 +92,11 @@ contains
       if (present(threads)) started%threads = threads
       if (started%threads < 1) then
          call raise(error, kind_usage, "start_shaft: the number of threads must be 1 or more")
+         return
+      end if
+      if (has_orbits(case)) then
+         call raise(error, kind_usage, "start_shaft: journals are not followed on their orbits step by step; set "// &
+            & "journal_motion = 'quasi_steady' in &cam_bearings")
          return
       end if
       call check_angle("start_shaft", cam_angle, error)

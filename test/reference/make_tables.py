@@ -7,6 +7,7 @@ import numpy as np
 import bearing_reference
 import heat_reference
 import joint_reference
+import journal_reference
 import kinematics_reference
 import roller_problem_reference
 from cycle_reference import DEGREE, TORQUES, Point, Train, integrate
@@ -75,6 +76,7 @@ if __name__ == '__main__':
     for task in (lambda: kinematics_reference.write(DATA / 'kinematics_reference.csv'),
                  lambda: joint_reference.write(DATA / 'joint_reference.csv'),
                  lambda: bearing_reference.write(DATA / 'bearing_reference.csv'),
+                 lambda: journal_reference.write(DATA / 'journal_orbit_reference.csv'),
                  lambda: heat_reference.write(DATA / 'heat_reference.csv'),
                  lambda: roller_problem_reference.write(DATA / 'roller_problem_reference.csv'), write_cycles):
         task()

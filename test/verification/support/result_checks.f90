@@ -132,6 +132,8 @@ contains
             if (.not. allocated(case%bearing_asperity)) cycle
             if (any(series_of(result, name//"torque_boundary") > series_of(result, name//"torque"))) trouble = trouble//" "//name &
                & //"torque is less than its part;"
+            ! A journal that moves away from its bearing is held back by the film
+            if (case%cam_bearings%journal_motion == "orbit") cycle
             if (any(series_of(result, name//"asperity_load") > series_of(result, name//"load")*(1.0_wp + rounding))) trouble = &
                & trouble//" "//name//"asperity_load is more than the load;"
          end do

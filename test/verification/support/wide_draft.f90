@@ -334,6 +334,8 @@ contains
          if (words == "'euler'" .or. words == "'quasi_static'") is_allowed = deck_word(text, "asperity", "mobilisation") &
             & /= "stick_slip" .and. .not. draft%has_dynamics
          if (words == "'hermite'") is_allowed = .not. draft%has_dynamics
+      case ("journal_motion")
+         is_allowed = words == key%default .or. index(text, "'short_ocvirk'") + index(text, "'finite'") > 0
       case ("energy", "mobilisation")
          is_allowed = .not. draft%has_dynamics .or. words == key%default
       end select

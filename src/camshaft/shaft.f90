@@ -1,7 +1,7 @@
 !> The camshaft: all followers together, and the bearings that carry them.
 !>
-!> In: case, models and cycles of the lobe shapes. Out: torques of the followers and bearings of each camshaft at a cam angle; the
-!> series of single bearings, where a case asks for them.
+!> In: case, models and cycles of the lobe shapes. Out: torques of the followers and bearings of each camshaft at a cam angle, with
+!> the orbits of the journals where a case asks for them.
 !> Each cam sees the cycle of its lobe shape at its own phase, by the shape's curve where that is good enough; without camshaft
 !> bearings in the case there is one cam.
 module camroller_shaft
@@ -13,18 +13,20 @@ module camroller_shaft
    use camroller_cycle, only : cycle_t, state_at
    use camroller_lobe_curve, only : lobe_curve_t, close_curve, curve_at, curve_values, cam_values, halve_pieces, &
       & keep_state, piece_angle
-   use camroller_number_text, only : integer_text
+   use camroller_effect_list, only : effect_orbit, has_effect
+   use camroller_events, only : cycle_stops
+   use camroller_journal_orbit, only : bearing_load_t, find_orbit, orbit_t, place_at
    use camroller_panels, only : panel_points
-   use camroller_result, only : quantity_list_t, add => append_quantity, scope_camshaft
    use camroller_torque_list, only : torque_count, of_bearings
    use camroller_journal, only : cam_bearings_t, journal_t, new_journal, journal_solved
+   use camroller_journal_motion, only : moving_state
    use camroller_bearing_asperity, only : touch_t, bearing_state_t, new_touch, carry_load
    use camroller_camshaft, only : belt_pull_t, share_force, share_pull
    implicit none
    private
 
-   public :: shaft_t, solved_t, new_shaft, set_journal, refine_curves, shaft_torques, in_common_frame, bearing_torques
-   public :: add_bearings, bearing_count, bearing_series_count
+   public :: shaft_t, solved_t, new_shaft, set_journal, complete_shaft, shaft_torques, in_common_frame, bearing_torques
+   public :: has_orbits, shaft_stops
 
    !> Cams of a shaft
    type :: shaft_t
@@ -45,6 +47,8 @@ module camroller_shaft
       !> Their surfaces, and the pull of belt or chain; allocated where the case has them
       type(touch_t), allocatable :: touch
       type(belt_pull_t), allocatable :: pull
+      !> Orbits of the journals, shape (bearing, camshaft); allocated once they are found
+      type(orbit_t), allocatable :: orbits(:, :)
    end type shaft_t
 
    !> A case that is solved: model and cycle of each lobe shape, and the camshafts that carry them
@@ -56,6 +60,16 @@ module camroller_shaft
       type(lobe_curve_t), pointer :: curves(:) => null()
       type(shaft_t) :: shaft
    end type solved_t
+
+   !> Load on one bearing of a solved case
+   type, extends(bearing_load_t) :: cams_load_t
+      type(solved_t), pointer :: solved => null()
+      !> Part of each cam's force that the bearing takes [-], and of the pull [N]
+      real(wp), allocatable :: shares(:)
+      real(wp) :: pull(2) = 0.0_wp
+   contains
+      procedure :: get_load => load_of_cams
+   end type cams_load_t
 
 contains
 
@@ -114,7 +128,112 @@ contains
       if (allocated(shaft%journal)) call new_journal(shaft%journal, shaft%bearings, viscosity, speed, error)
    end subroutine set_journal
 
-   !> Make the curves better of shapes that several cams have, so that it pays.
+   !> Make what follows from the cycles ready: curves of the lobe shapes, orbits of the journals.
+   subroutine complete_shaft(solved, error)
+      !> The solved case
+      type(solved_t), intent(inout), target :: solved
+      !> Convergence error
+      type(error_t), allocatable, intent(out) :: error
+
+      call refine_curves(solved, error)
+      if (.not. allocated(error) .and. has_orbits(solved%case)) call find_orbits(solved, error)
+   end subroutine complete_shaft
+
+   !> Do the journals of a case move on orbits?
+   pure function has_orbits(case) result(has)
+      !> The case
+      type(case_t), intent(in) :: case
+      !> Do they?
+      logical :: has
+
+      has = has_effect(case, effect_orbit)
+   end function has_orbits
+
+   !> Find the orbits of all journals.
+   subroutine find_orbits(solved, error)
+      !> The solved case, with its curves; out: with orbits
+      type(solved_t), intent(inout), target :: solved
+      !> Convergence error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(cams_load_t) :: load
+      type(orbit_t), allocatable :: orbits(:, :)
+      ! What the bearings take of a force [N]
+      real(wp) :: loads(2, bearing_number(solved%shaft))
+      integer :: cam, bearing, k
+
+      load%solved => solved
+      allocate (orbits(bearing_number(solved%shaft), solved%shaft%count), load%shares(size(solved%shaft%lobes)))
+      do k = 1, size(orbits, 2)
+         do bearing = 1, size(orbits, 1)
+            associate (shaft => solved%shaft, places => solved%shaft%bearings%bearing_positions)
+               do cam = 1, size(shaft%lobes)
+                  loads = 0.0_wp
+                  if (shaft%shafts(cam) == k) call share_force(places, shaft%bearings%cam_positions(cam), [1.0_wp, 0.0_wp], loads)
+                  load%shares(cam) = loads(1, bearing)
+               end do
+               loads = 0.0_wp
+               if (allocated(shaft%pull)) call share_pull(places, shaft%pull, loads)
+               load%pull = loads(:, bearing)
+               ! A cam turns against the sense in which the finger's frame counts where its surface moves away from the pivot
+               call find_orbit(shaft%journal, -solved%models(1)%linkage%sense, load, &
+                  & shaft_stops(solved, abs(load%shares) > 0.0_wp), maxval(solved%cycles%tolerance), orbits(bearing, k), error, &
+                  & shaft%touch)
+            end associate
+            if (allocated(error)) return
+         end do
+      end do
+      call move_alloc(orbits, solved%shaft%orbits)
+   end subroutine find_orbits
+
+   !> Force of the shaft on one bearing.
+   subroutine load_of_cams(self, angle, load, status)
+      !> What loads it
+      class(cams_load_t), intent(in) :: self
+      !> Cam angle of the first cam from full lift [rad]
+      real(wp), intent(in) :: angle
+      !> The force [N]
+      real(wp), intent(out) :: load(2)
+      !> 0 fine, other: it cannot be found
+      integer, intent(out) :: status
+
+      type(error_t), allocatable :: error
+      ! Torques and force of a cam [N m, N]
+      real(wp) :: values(curve_values)
+      integer :: cam
+
+      status = 0
+      load = self%pull
+      do cam = 1, size(self%shares)
+         if (.not. abs(self%shares(cam)) > 0.0_wp) cycle
+         call cam_at(self%solved, cam, angle, .true., values, error)
+         if (allocated(error)) then
+            status = 1
+            return
+         end if
+         load = load + self%shares(cam)*in_common_frame(self%solved%shaft, cam, values(torque_count + 1:))
+      end do
+   end subroutine load_of_cams
+
+   !> Start, stops and end of a turn of the first cam, with the stops of cams.
+   pure function shaft_stops(solved, is_wanted) result(stops)
+      !> The solved case
+      type(solved_t), intent(in) :: solved
+      !> Which cams
+      logical, intent(in) :: is_wanted(:)
+      !> The stops [rad]
+      real(wp), allocatable :: stops(:)
+
+      integer :: cam
+
+      allocate (stops(0))
+      do cam = 1, size(solved%shaft%lobes)
+         if (is_wanted(cam)) stops = [stops, solved%cycles(solved%shaft%lobes(cam))%stops + solved%shaft%phases(cam)]
+      end do
+      stops = cycle_stops(stops, solved%cycles(solved%shaft%lobes(1))%start)
+   end function shaft_stops
+
+   !> Make the curves better of shapes that several cams have, so that it pays, and where orbits ask for them often.
    subroutine refine_curves(solved, error)
       !> The solved case
       type(solved_t), intent(inout) :: solved
@@ -124,7 +243,7 @@ contains
       integer :: lobe
 
       do lobe = 1, size(solved%models)
-         if (count(solved%shaft%lobes == lobe) < 2) cycle
+         if (count(solved%shaft%lobes == lobe) < 2 .and. .not. has_orbits(solved%case)) cycle
          call refine_curve(solved%models(lobe), solved%cycles(lobe), solved%curves(lobe), error)
          if (allocated(error)) return
       end do
@@ -177,34 +296,54 @@ contains
       !> States of the bearings, shape (bearing, camshaft)
       type(bearing_state_t), intent(out), optional :: bearings(:, :)
 
-      type(state_t) :: state
       ! Torques and force of a cam [N m, N]; force on each cam in the frame of the first follower [N]
       real(wp) :: values(curve_values), forces(2, size(solved%shaft%lobes))
       integer :: cam
-      logical :: is_known
 
       torques = 0.0_wp
       associate (shaft => solved%shaft)
          do cam = 1, size(shaft%lobes)
-            associate (model => solved%models(shaft%lobes(cam)), place => angle - shaft%phases(cam))
-               is_known = cam == 1 .and. present(first_state)
-               if (is_known) then
-                  values = cam_values(model, first_state)
-               else if (.not. present(first_state)) then
-                  call curve_at(solved%curves(shaft%lobes(cam)), place, values, is_known)
-               end if
-               if (.not. is_known) then
-                  call state_at(solved%cycles(shaft%lobes(cam)), model, place, shaft%hints(cam), state, error)
-                  if (allocated(error)) return
-                  values = cam_values(model, state)
-               end if
-            end associate
+            if (cam == 1 .and. present(first_state)) then
+               values = cam_values(solved%models(shaft%lobes(cam)), first_state)
+            else
+               call cam_at(solved, cam, angle, .not. present(first_state), values, error)
+               if (allocated(error)) return
+            end if
             torques(:, shaft%shafts(cam)) = torques(:, shaft%shafts(cam)) + values(:torque_count)
             forces(:, cam) = in_common_frame(shaft, cam, values(torque_count + 1:))
          end do
-         call bearing_torques(shaft, forces, torques(of_bearings, :), error, bearings)
+         call bearing_torques(shaft, forces, torques(of_bearings, :), error, bearings, angle)
       end associate
    end subroutine shaft_torques
+
+   !> Torques and force of one cam at an angle of the first one.
+   subroutine cam_at(solved, cam, angle, by_curve, values, error)
+      !> The solved case; its search hints move
+      type(solved_t), intent(inout) :: solved
+      !> The cam
+      integer, intent(in) :: cam
+      !> Cam angle of the first cam from full lift [rad]
+      real(wp), intent(in) :: angle
+      !> May they come from the curve of the lobe shape, where that is good enough?
+      logical, intent(in) :: by_curve
+      !> Torques [N m], last the energy residual [W], and force in the frame of the cam's own follower [N]
+      real(wp), intent(out) :: values(curve_values)
+      !> Convergence error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(state_t) :: state
+      logical :: is_known
+
+      associate (shaft => solved%shaft)
+         associate (lobe => shaft%lobes(cam), place => angle - shaft%phases(cam))
+            is_known = .false.
+            if (by_curve) call curve_at(solved%curves(lobe), place, values, is_known)
+            if (is_known) return
+            call state_at(solved%cycles(lobe), solved%models(lobe), place, shaft%hints(cam), state, error)
+            if (.not. allocated(error)) values = cam_values(solved%models(lobe), state)
+         end associate
+      end associate
+   end subroutine cam_at
 
    !> Force on a cam in the frame of the first follower.
    pure function in_common_frame(shaft, cam, force) result(turned)
@@ -223,7 +362,7 @@ contains
    end function in_common_frame
 
    !> Torque of all bearings of each camshaft; zero where the case has none.
-   subroutine bearing_torques(shaft, forces, torques, error, bearings)
+   subroutine bearing_torques(shaft, forces, torques, error, bearings, angle)
       !> The shaft
       type(shaft_t), intent(in) :: shaft
       !> Force on each cam in the frame of the first follower, shape (2, cam) [N]
@@ -234,11 +373,17 @@ contains
       type(error_t), allocatable, intent(out) :: error
       !> States of the bearings, shape (bearing, camshaft)
       type(bearing_state_t), intent(out), optional :: bearings(:, :)
+      !> Cam angle of the first cam from full lift, for journals on their orbits; without it journals are quasi-steady [rad]
+      real(wp), intent(in), optional :: angle
 
-      ! Load vector of each bearing [N]
-      real(wp) :: loads(2, bearing_number(shaft))
+      ! Load vector of each bearing [N]; place of its journal [clearance]
+      real(wp) :: loads(2, bearing_number(shaft)), place(2)
       type(bearing_state_t) :: state
-      integer :: cam, k, bearing, status
+      integer :: cam, k, bearing, status, hint
+      logical :: moves
+
+      moves = present(angle) .and. allocated(shaft%orbits)
+      hint = 1
 
       torques = 0.0_wp
       if (.not. allocated(shaft%journal)) return
@@ -250,7 +395,13 @@ contains
             end do
             if (allocated(shaft%pull)) call share_pull(places, shaft%pull, loads)
             do bearing = 1, size(places)
-               call carry_load(shaft%journal, loads(:, bearing), state, status, shaft%touch)
+               status = journal_solved
+               if (moves) then
+                  call place_at(shaft%orbits(bearing, k), angle, hint, place)
+                  call moving_state(shaft%journal, place, loads(:, bearing), state, shaft%touch)
+               else
+                  call carry_load(shaft%journal, loads(:, bearing), state, status, shaft%touch)
+               end if
                if (status /= journal_solved) then
                   call raise(error, kind_domain, "camshaft bearings: the bearing law has no solution for this load")
                   return
@@ -272,116 +423,5 @@ contains
       number = 0
       if (allocated(shaft%journal)) number = size(shaft%bearings%bearing_positions)
    end function bearing_number
-
-   !> Number of bearings of each camshaft that have series of their own.
-   pure function bearing_count(case) result(count)
-      !> The case
-      type(case_t), intent(in) :: case
-      !> The number
-      integer :: count
-
-      count = 0
-      if (.not. allocated(case%cam_bearings)) return
-      if (case%cam_bearings%by_bearing) count = size(case%cam_bearings%bearing_positions)
-   end function bearing_count
-
-   !> Number of series of single bearings: the last ones of the camshafts.
-   pure function bearing_series_count(case) result(count)
-      !> The case
-      type(case_t), intent(in) :: case
-      !> The number
-      integer :: count
-
-      type(quantity_list_t) :: list
-
-      allocate (list%values(0))
-      call add_bearings(list, case)
-      count = list%count
-   end function bearing_series_count
-
-   !> Series of all bearings, one camshaft after the other.
-   pure subroutine add_bearings(list, case, states)
-      !> List to extend
-      type(quantity_list_t), intent(inout) :: list
-      !> The case
-      type(case_t), intent(in) :: case
-      !> State of each, shape (bearing, camshaft); zero all over where it is not given
-      type(bearing_state_t), intent(in), optional :: states(:, :)
-
-      type(bearing_state_t) :: state
-      integer :: bearing, shaft
-
-      do shaft = 1, camshaft_number(case)
-         do bearing = 1, bearing_count(case)
-            if (present(states)) state = states(bearing, shaft)
-            if (camshaft_number(case) > 1) then
-               call add_bearing(list, case, state, bearing, shaft)
-            else
-               call add_bearing(list, case, state, bearing)
-            end if
-         end do
-      end do
-   end subroutine add_bearings
-
-   !> Series of one bearing.
-   pure subroutine add_bearing(list, case, state, bearing, shaft)
-      !> List to extend
-      type(quantity_list_t), intent(inout) :: list
-      !> The case
-      type(case_t), intent(in) :: case
-      !> State of the bearing
-      type(bearing_state_t), intent(in) :: state
-      !> Its number on the shaft, from 1
-      integer, intent(in) :: bearing
-      !> Camshaft, where there are several
-      integer, intent(in), optional :: shaft
-
-      character(len=:), allocatable :: name, words, scope
-
-      name = ""
-      words = ""
-      scope = ""
-      if (allocated(list%items)) then
-         scope = "bearing "//integer_text(bearing)
-         name = "bearing_"//integer_text(bearing)//"_"
-         words = ", bearing "//integer_text(bearing)
-         if (present(shaft)) then
-            scope = scope_camshaft//" "//integer_text(shaft)//" "//scope
-            name = "camshaft_"//integer_text(shaft)//"_"//name
-            words = words//" of camshaft "//integer_text(shaft)
-         end if
-      end if
-      call append(list, "load", "N", "force of the shaft", "cam_bearings", norm2(state%load))
-      call append(list, "load_x", "N", "part of the force along the line from the first follower's pivot to the cam's centre", &
-         & "cam_bearings", state%load(1))
-      call append(list, "load_y", "N", "part of the force across that, positive the way a finger turns as it opens its valve", &
-         & "cam_bearings", state%load(2))
-      call append(list, "eccentricity", "1", "eccentricity of the journal relative to the radial clearance", "cam_bearings", &
-         & state%eccentricity)
-      call append(list, "film_min", "m", "smallest film", "cam_bearings", state%film)
-      call append(list, "torque", "N m", "friction torque", "cam_bearings", state%torque)
-      if (.not. allocated(case%bearing_asperity)) return
-      call append(list, "film_ratio", "1", "smallest film relative to roughness", "bearing_asperity", &
-         & state%film/case%bearing_asperity%roughness)
-      call append(list, "asperity_load", "N", "part of the load carried by asperities along the line of centres", &
-         & "bearing_asperity", state%asperity_load)
-      call append(list, "torque_boundary", "N m", "part of the friction torque due to asperities", "bearing_asperity", &
-         & state%boundary_torque)
-
-   contains
-
-      !> Append a series.
-      pure subroutine append(list, quantity, unit, meaning, source, value)
-         !> List to extend
-         type(quantity_list_t), intent(inout) :: list
-         !> What it is of the bearing, its unit, meaning, part of the model
-         character(len=*), intent(in) :: quantity, unit, meaning, source
-         !> Value [unit of the series]
-         real(wp), intent(in) :: value
-
-         call add(list, name//quantity, unit, meaning//words, source, value, scope)
-      end subroutine append
-
-   end subroutine add_bearing
 
 end module camroller_shaft
