@@ -11,6 +11,7 @@ import base64
 import html
 import io
 from pathlib import Path
+import re
 import sys
 
 import matplotlib
@@ -25,13 +26,16 @@ from layout import Layout  # noqa: E402
 from quantities import Missing  # noqa: E402
 from read import ResultError, opened, read_result, text_of  # noqa: E402
 from table import COLUMNS, column_of, plain  # noqa: E402
+from units import key_words, unit_words, with_unit  # noqa: E402
 
 SHOWN = ["mean_torque", "mean_slip", "pressure", "film_ratio", "friction_sources", "drive_torque", "slip"]
 MOST_ROWS = 60
+NUMBER = re.compile(r"\b(?<!lobe )[-+]?\d[\d.]*(?:e[-+]?\d+)?")  # the number of a lobe tells remarks apart
 STYLE = """body { font-family: sans-serif; max-width: 60em; margin: 2em auto; padding: 0 1em; color: #222; }
-table { border-collapse: collapse; font-size: 0.9em; } th, td { padding: 0.2em 0.7em; text-align: right; border-bottom: 1px solid #ddd; }
+table { border-collapse: collapse; font-size: 0.9em; } th, td { padding: 0.2em 0.5em; text-align: right; border-bottom: 1px solid #ddd; }
 th { vertical-align: bottom; } img { max-width: 100%; } pre { background: #f6f6f6; padding: 1em; overflow-x: auto; font-size: 0.85em; }
-td.word, th.word { text-align: left; } figure { margin: 1.5em 0; }"""
+td.word, th.word { text-align: left; } figure { margin: 1.5em 0; break-inside: avoid; }
+@media print { body { font-size: 0.75em; margin: 0; } }"""
 
 
 def main(arguments=None):
@@ -80,18 +84,26 @@ def table_of(result):
     cases = list(range(min(result.cases, MOST_ROWS)))
     failed = {case for case, _ in result.failed_cases()}
     cases = [case for case in cases if case not in failed]
-    columns = [[key.split(".")[-1], *(plain(result.value_of(key, case)) for case in cases)] for key in result.sweep]
+    columns = [[with_unit(key_words(key, quantity.units), unit_words(quantity.units)), *(plain(result.value_of(key, case)) for case in cases)]
+               for key, quantity in result.sweep.items()]
     columns += [column_of(result, name, [[case] for case in cases], '', words, unit) for name, words, unit in COLUMNS if name in result.summary]
     text = rows_to_html([column[0] for column in columns], list(zip(*(column[1:] for column in columns))))
     return text + (f"<p>and {result.cases - MOST_ROWS} more cases</p>" if result.cases > MOST_ROWS else "")
 
 
 def remarks_of(result):
-    """Remarks and failures, each once with the cases that have it first."""
+    """Remarks, those that differ in their numbers only once with the cases that have them, and failures."""
     with opened(result.path) as file:
         texts = [text_of(text) for text in file["run/warnings"][()]] if "run/warnings" in file else []
-    lines = [f"<li>case {case}: {html.escape(line)}</li>" for case, text in enumerate(texts[:MOST_ROWS])
-             for line in text.splitlines() if line.strip()]
+    kinds = {}
+    for case, text in enumerate(texts):
+        for line in filter(None, map(str.strip, text.splitlines())):
+            kinds.setdefault(NUMBER.sub("#", line), {}).setdefault(case, line)
+    lines = []
+    for found in list(kinds.values())[:MOST_ROWS]:
+        case, line = next(iter(found.items()))
+        where = "" if result.cases == 1 else f"case {case}: " if len(found) == 1 else f"{len(found)} of {result.cases} cases, first case {case}: "
+        lines.append(f"<li>{where}{html.escape(line)}</li>")
     lines += [f"<li>case {case} has no result: {html.escape(reason)}</li>" for case, reason in result.failed_cases()[:MOST_ROWS]]
     return f"<ul>\n{chr(10).join(lines)}\n</ul>" if lines else "<p>None.</p>"
 
@@ -117,8 +129,20 @@ def defaults_of(result):
         group = file["deck/values"] if "deck/values" in file else {}
         rows = [(key, text_of(data[()]), "" if text_of(data.attrs.get("units", "")) == "1" else text_of(data.attrs["units"]))
                 for key, data in group.items() if text_of(data.attrs.get("given", "")) == "default"]
-    return "<p>Values that the deck does not give and that were taken by default:</p>\n" + rows_to_html(
-        ["key", "value", "unit"], rows, words=3) if rows else ""
+    return estimates_of(result) + ("<p>Values that the deck does not give and that were taken by default:</p>\n" + rows_to_html(
+        ["key", "value", "unit"], rows, words=3) if rows else "")
+
+
+def estimates_of(result):
+    """What follows from the kind of oil, and not from its data."""
+    words = {key.removeprefix("lubricant."): str(quantity.values) for key, quantity in result.deck.items() if key.startswith("lubricant.")}
+    lines = []
+    if words.get("sae_grade", "none") != "none" and words.get("temperature_law") == "data_sheet":
+        lines.append(f"Viscosity: the middle of the range of SAE grade {words['sae_grade']}, no data of one oil.")
+    if words.get("temperature_law") in ("walther", "data_sheet") and not words.keys() & {"pressure_viscosity_coefficient_per_GPa",
+                                                                                          "roelands_index"}:
+        lines.append("Pressure-viscosity coefficient: estimated by So and Klaus (1980) from viscosity and density.")
+    return "".join(f"<p>{html.escape(line)}</p>\n" for line in lines)
 
 
 def facts_of(result):

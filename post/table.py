@@ -36,6 +36,7 @@ COLUMNS = [
     ('mean_torque_pivot', 'pivot', 'N mm'),
     ('mean_torque_needle_drag', 'needle drag', 'N mm'),
     ('mean_torque_friction', 'all friction', 'N mm'),
+    ('fmep_friction', 'friction mean effective pressure', 'kPa'),
     ('mean_slip_ratio', 'mean slip', '%'),
     ('max_hertz_pressure', 'peak pressure', 'GPa'),
     ('min_film_thickness_min', 'smallest film', 'um'),

@@ -6,9 +6,11 @@ import shutil
 import subprocess
 import sys
 
+import h5py
 import pytest
 
-from report import main
+from read import read_result
+from report import main, page_of
 from test_post import write_result
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
@@ -42,6 +44,29 @@ def test_page_is_written_beside_the_file_and_errors_are_one_line(tmp_path, capsy
         result = subprocess.run([sys.executable, ROOT / "post/report.py", tmp_path / name], capture_output=True, text=True, check=False)
         assert result.returncode == 2 and result.stderr.count("\n") == 1 and name in result.stderr
     assert not (tmp_path / "none.html").exists() and "report:" in capsys.readouterr().out
+
+
+def test_remarks_of_a_kind_are_one_line_and_estimates_are_told(tmp_path):
+    source = write_result(tmp_path / "nine.h5")
+    with h5py.File(source, "a") as file:
+        texts = [f"lobe 1: the joint lacks {force} N\nlobe 2: the joint lacks {force} N" if force > 5 else "" for force in range(9)]
+        texts[8] += "\nthe film is thin"
+        if "run/warnings" in file:
+            del file["run/warnings"]
+        file["run/warnings"] = texts
+        for key, words in (("temperature_law", "data_sheet"), ("sae_grade", "5W-30")):
+            file.require_group("deck/values")[f"lubricant.{key}"] = words
+    page = page_of(read_result(source))
+    remarks = re.findall(r"<li>(.*)</li>", page)
+    assert remarks == ["3 of 9 cases, first case 6: lobe 1: the joint lacks 6 N", "3 of 9 cases, first case 6: lobe 2: the joint lacks 6 N",
+                       "case 8: the film is thin"]
+    estimate = "Pressure-viscosity coefficient: estimated by So and Klaus"
+    assert estimate in page and "range of SAE grade 5W-30" in page
+    with h5py.File(source, "a") as file:
+        file["deck/values/lubricant.pressure_viscosity_coefficient_per_GPa"] = 22.0
+        file["deck/values/lubricant.sae_grade"][...] = "none"
+    page = page_of(read_result(source))
+    assert estimate not in page and "SAE grade" not in page
 
 
 @pytest.mark.skipif(BROWSER is None, reason="no browser on this machine")
