@@ -57,8 +57,8 @@ contains
       call set_contacts(flexible, case%dynamics, modulus, case%mechanism%contact_width)
       flexible%finger_mass = pivot%mass
       flexible%finger_centre = pivot%centre
-      flexible%axis_angle = pivot%axis_angle
-      flexible%tilt = pivot%tilt
+      flexible%axis = exp(cmplx(0.0_wp, -pivot%axis_angle, wp))
+      flexible%tilt_cosine = cos(pivot%tilt)
       call set_spring(flexible, case, error)
       if (allocated(error)) return
       call set_rest(flexible, case, linkage, train, load, error)
@@ -230,21 +230,21 @@ contains
       distance = closed%rolling_travel + linkage%roller_radius - flexible%compliance*load**0.9_wp - load/flexible%finger_stiffness
       rest%finger = linkage%base_angle
       rest%pivot = 0.0_wp
-      axis = exp(cmplx(0.0_wp, -flexible%axis_angle, wp))
+      axis = flexible%axis
       do i = 1, 50
          arm = linkage%a*exp(cmplx(0.0_wp, rest%finger + linkage%arm_offset + linkage%valve_axis_angle, wp))
          centre = rest%pivot*axis + arm - linkage%d
          normal = centre/abs(centre)
          associate (sine => sin(rest%finger + linkage%valve_axis_angle), cosine => cos(rest%finger + linkage%valve_axis_angle))
             rest%tip_force = load*aimag(conjg(arm)*normal)/(linkage%b*sine)
-            rest%axial_force = -load*real(conjg(axis)*normal, wp) - cos(flexible%tilt)*rest%tip_force
+            rest%axial_force = -load*real(conjg(axis)*normal, wp) - flexible%tilt_cosine*rest%tip_force
             rest%lift = (rest%tip_force - train%stiffness*train%precompression)/(flexible%seat_stiffness + train%stiffness)
             excess = abs(centre) - distance
-            gap = linkage%b*(linkage%base_cosine - cosine) - rest%pivot*cos(flexible%tilt) - rest%lift &
+            gap = linkage%b*(linkage%base_cosine - cosine) - rest%pivot*flexible%tilt_cosine - rest%lift &
                & - rest%tip_force/flexible%pad_stiffness
             by_finger = [-aimag(conjg(normal)*arm), linkage%b*sine]
          end associate
-         by_pivot = [real(conjg(normal)*axis, wp), -cos(flexible%tilt)]
+         by_pivot = [real(conjg(normal)*axis, wp), -flexible%tilt_cosine]
          determinant = by_finger(1)*by_pivot(2) - by_finger(2)*by_pivot(1)
          change = [gap*by_pivot(1) - excess*by_pivot(2), excess*by_finger(2) - gap*by_finger(1)]/determinant
          rest%finger = rest%finger + change(1)

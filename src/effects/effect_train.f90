@@ -240,8 +240,8 @@ contains
          balance%finger = moments%finger
          call normal_direction(position%normal_arm, position%tangent_arm, model%linkage%a, position%arm_angle, &
             & model%linkage%sense, balance%normal, tangent)
-         balance%lever = position%valve_arm/position%normal_arm*(balance%normal(1)*cos(flexible%axis_angle) &
-            & - balance%normal(2)*sin(flexible%axis_angle)) + cos(flexible%tilt)
+         balance%lever = position%valve_arm/position%normal_arm*(balance%normal(1)*real(flexible%axis, wp) &
+            & + balance%normal(2)*aimag(flexible%axis)) + flexible%tilt_cosine
          balance%rest_approach = approach_of(flexible, model%base_circle_load)
       end associate
    end subroutine start_balance

@@ -52,10 +52,10 @@ module camroller_flexible_parts
       real(wp) :: finger_mass
       !> Distance of its centre of mass from the pivot, on the roller arm, r_G [m]
       real(wp) :: finger_centre
-      !> Angle between the adjuster's axis and the line from pivot to cam centre, chi_h [rad]
-      real(wp) :: axis_angle
-      !> Angle from the valve's axis to the adjuster's, chi_h - chi [rad]
-      real(wp) :: tilt
+      !> Direction of the adjuster's axis towards the cam, exp(-i chi_h) [-]
+      complex(wp) :: axis
+      !> Cosine of the angle from the valve's axis to the adjuster's, chi_h - chi [-]
+      real(wp) :: tilt_cosine
       !> Modes of the spring; without any it has no mass of its own
       type(spring_modes_t) :: modes
       !> Lash adjuster; the pivot is fixed without one

@@ -67,28 +67,32 @@ contains
       !> 0 fine, positive where there is no unique nearest point, negative where the rigid train is impossible
       integer, intent(out) :: status
 
-      ! Direction of the adjuster's axis [-], turn from theta to phi [-], direction of the rigid roller arm [-]
-      complex(wp) :: axis, turn, direction
-      ! Speed of the rigid train over the cam, M [m]; way left along the tangent [m]; change of phi [rad]
-      real(wp) :: speed, way, change
+      ! Turn from theta to phi [-], rigid roller arm A exp(i s) [m], its place from the cam's centre, turned to where it is [m]
+      complex(wp) :: turn, rigid_arm, place
+      ! Angle of the roller arm [rad]; speed of the rigid train over the cam, M [m]; 1 + eps gamma' [-]; way left along the tangent
+      ! [m]; change of phi [rad]
+      real(wp) :: arm_angle, speed, factor, way, change
       integer :: i
 
       associate (linkage => model%linkage, eps => model%linkage%sense, position => touch%position)
-         axis = exp(-imaginary*model%flexible%axis_angle)
-         touch%arm = linkage%a*exp(imaginary*(finger + linkage%arm_offset + linkage%valve_axis_angle))
-         touch%centre = pivot*axis + touch%arm - linkage%d
-         touch%velocity = pivot_rate*axis + imaginary*finger_rate*touch%arm
+         arm_angle = finger + linkage%arm_offset + linkage%valve_axis_angle
+         touch%arm = linkage%a*cmplx(cos(arm_angle), sin(arm_angle), wp)
+         touch%centre = pivot*model%flexible%axis + touch%arm - linkage%d
+         touch%velocity = pivot_rate*model%flexible%axis + imaginary*finger_rate*touch%arm
          touch%angle = angle
+         turn = 1.0_wp
          do i = 1, most_steps
             call evaluate_geometry(model, touch%angle, position, status)
             if (status /= 0) return
-            direction = exp(imaginary*position%arm_angle)
-            turn = exp(imaginary*eps*(touch%angle - angle))
             speed = position%rolling_travel + linkage%roller_radius
-            touch%normal = turn*(linkage%a*(1.0_wp + eps*position%finger_slope)*direction - linkage%d)/speed
+            factor = 1.0_wp + eps*position%finger_slope
+            ! its arms about the pivot hold the angle s
+            rigid_arm = cmplx(position%tangent_arm*speed + linkage%a**2*factor, position%normal_arm*speed, wp)/linkage%d
+            place = turn*(rigid_arm - linkage%d)
+            touch%normal = turn*(factor*rigid_arm - linkage%d)/speed
             touch%forward = imaginary*eps*touch%normal
-            way = dot(touch%forward, touch%centre - turn*(linkage%a*direction - linkage%d))
-            touch%approach = -dot(touch%normal, touch%centre - turn*(linkage%a*direction - linkage%d))
+            way = dot(touch%forward, touch%centre - place)
+            touch%approach = -dot(touch%normal, touch%centre - place)
             touch%uniqueness = 1.0_wp - position%pitch_curvature*touch%approach
             status = 1
             if (.not. touch%uniqueness > 0.0_wp) return
@@ -97,6 +101,7 @@ contains
             if (abs(change) <= angle_tolerance) exit
             if (i == most_steps) status = 1
             touch%angle = touch%angle + sign(min(abs(change), largest_step), change)
+            turn = cmplx(cos(touch%angle - angle), eps*sin(touch%angle - angle), wp)
          end do
          touch%relative = touch%velocity + imaginary*eps*model%speed*touch%centre
          touch%approach_rate = -dot(touch%normal, touch%relative)

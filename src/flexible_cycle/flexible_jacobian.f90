@@ -71,7 +71,7 @@ contains
 
       call finger_slopes(model, state, now, follow, inverse, finger, pivot)
       ! What the pad's force and the plunger's do to the accelerations: of finger, of pivot, of the sliding speed
-      by_pad(:2) = matmul(inverse, [-model%linkage%b*now%pad_sine, cos(model%flexible%tilt)])
+      by_pad(:2) = matmul(inverse, [-model%linkage%b*now%pad_sine, model%flexible%tilt_cosine])
       finger(:4) = finger(:4) + by_pad(1)*pad(:4)
       pivot(:4) = pivot(:4) + by_pad(2)*pad(:4)
       sliding = sliding_slopes(model, state, now, turns, follow, finger, pivot)
@@ -105,7 +105,7 @@ contains
       integer :: i
 
       associate (touch => now%touch, eps => model%linkage%sense)
-         axis = exp(-imaginary*model%flexible%axis_angle)
+         axis = model%flexible%axis
          turns%centre = (0.0_wp, 0.0_wp)
          turns%velocity = (0.0_wp, 0.0_wp)
          turns%centre(by_finger) = imaginary*touch%arm
@@ -148,7 +148,7 @@ contains
       associate (touch => now%touch, contact => now%contact)
          follow%load = now%cam%by_approach*turns%approach + now%cam%by_rate*turns%approach_rate
          call follow_friction(model, now, turns, follow, traction, rolling)
-         axis = exp(-imaginary*model%flexible%axis_angle)
+         axis = model%flexible%axis
          do i = 1, variables
             follow%moment(i) = follow%load(i)*cross(touch%arm, touch%normal) - follow%tangential(i)*cross(touch%arm, &
                & touch%forward) + turns%normal(i)*(contact%load*cross(touch%arm, touch%forward) &
@@ -244,7 +244,7 @@ contains
       !> The slopes [N over the unit of the variable]
       real(wp) :: slopes(6)
 
-      associate (pad => now%pad, b => model%linkage%b, tilt => cos(model%flexible%tilt))
+      associate (pad => now%pad, b => model%linkage%b, tilt => model%flexible%tilt_cosine)
          slopes(by_finger) = pad%by_approach*b*now%pad_sine + pad%by_rate*b*now%pad_cosine*state(at_finger_rate)
          slopes(by_finger_rate) = pad%by_rate*b*now%pad_sine
          slopes(by_pivot) = -pad%by_approach*tilt
@@ -313,7 +313,7 @@ contains
       integer :: i
 
       associate (touch => now%touch, eps => model%linkage%sense, speed => model%speed, rate => state(at_finger_rate))
-         axis = exp(-imaginary*model%flexible%axis_angle)
+         axis = model%flexible%axis
          acceleration = now%pivot_acceleration*axis + (imaginary*now%finger_acceleration - rate**2)*touch%arm &
             & + 2.0_wp*imaginary*eps*speed*touch%velocity - speed**2*touch%centre
          bend = touch%position%pitch_curvature/touch%uniqueness
@@ -343,7 +343,7 @@ contains
       !> The rate [m/s^2]
       real(wp) :: rate
 
-      rate = dot(now%touch%forward, pivot*exp(-imaginary*model%flexible%axis_angle) + imaginary*finger*now%touch%arm)
+      rate = dot(now%touch%forward, pivot*model%flexible%axis + imaginary*finger*now%touch%arm)
    end function sliding_force
 
    !> Put slopes over the six variables and over the valve's lift and speed into their places.

@@ -273,8 +273,8 @@ contains
             force = now%hydraulic_force + now%stops(1)%force - now%stops(2)%force &
                & - flexible%adjuster%given%plunger_mass*now%pivot_acceleration
          else
-            force = -dot(exp(-imaginary*flexible%axis_angle), now%contact%load*touch%normal &
-               & - now%contact%tangential_force*touch%forward) - cos(flexible%tilt)*now%pad%force &
+            force = -dot(flexible%axis, now%contact%load*touch%normal &
+               & - now%contact%tangential_force*touch%forward) - flexible%tilt_cosine*now%pad%force &
                & + flexible%finger_mass*(now%centre_slope*now%finger_acceleration + now%centre_curvature*state(at_finger_rate)**2)
          end if
       end associate

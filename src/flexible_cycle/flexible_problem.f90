@@ -4,13 +4,14 @@
 module camroller_flexible_problem
    use camroller_cam_angle, only : cam_angle_text
    use camroller_kinds, only : wp
-   use camroller_ode_problem, only : linear_t, counters_t, words_length
+   use camroller_ode_problem, only : linear_t, counters_t, factors_t, words_length
    use camroller_ode_switching, only : switching_problem_t
    use camroller_model, only : model_t
    use camroller_flexible_train, only : flexible_state_t, resolution_t, evaluate_train, rates_of, state_size, first_mode, &
-      & pad_approach, at_finger, at_finger_rate, at_lift, at_plunger, at_plunger_rate
+      & pad_approach, pad_direction, at_finger, at_finger_rate, at_lift, at_plunger, at_plunger_rate
    use camroller_flexible_geometry, only : touch_t, find_touch
    use camroller_flexible_jacobian, only : slopes_of
+   use camroller_flexible_equations, only : factorise_train, solve_train
    implicit none
    private
 
@@ -29,6 +30,8 @@ module camroller_flexible_problem
       procedure :: get_rate
       procedure :: get_decay_rate
       procedure :: linearise
+      procedure :: factorise
+      procedure :: solve
       procedure :: name_time
       procedure :: get_switches
    end type flexible_problem_t
@@ -126,6 +129,40 @@ contains
       call slopes_of(self%model, time, state, now, linear%jacobian, linear%time_slope)
    end subroutine linearise
 
+   !> Factors of the matrix of a step, by the structure of the train.
+   subroutine factorise(self, linear, shift, factors, status)
+      !> The problem
+      class(flexible_problem_t), intent(in) :: self
+      !> Rate and derivatives
+      type(linear_t), intent(in) :: linear
+      !> The shift [1/rad]
+      real(wp), intent(in) :: shift
+      !> Factors; have their room
+      type(factors_t), intent(inout) :: factors
+      !> 0 fine, positive where the matrix is singular
+      integer, intent(out) :: status
+
+      associate (flexible => self%model%flexible)
+         call factorise_train(flexible%modes, allocated(flexible%adjuster), linear%jacobian, shift, factors, status)
+      end associate
+   end subroutine factorise
+
+   !> Solve with these factors.
+   subroutine solve(self, linear, factors, right_side)
+      !> The problem
+      class(flexible_problem_t), intent(in) :: self
+      !> Rate and derivatives of which the factors are
+      type(linear_t), intent(in) :: linear
+      !> The factors
+      type(factors_t), intent(in) :: factors
+      !> In: right-hand side [state/rad]; out: solution [state]
+      real(wp), intent(inout) :: right_side(:)
+
+      associate (flexible => self%model%flexible)
+         call solve_train(flexible%modes, allocated(flexible%adjuster), linear%jacobian, factors, right_side)
+      end associate
+   end subroutine solve
+
    !> Approach of cam and roller, of the pad, of the seat: contact is lost or returns where one passes through zero.
    subroutine get_switches(self, time, state, switches, status)
       !> The problem
@@ -151,7 +188,8 @@ contains
             pivot_rate = state(at_plunger_rate)
          end if
          call find_touch(model, time, state(at_finger), state(at_finger_rate), pivot, pivot_rate, touch, status)
-         switches = [touch%approach, pad_approach(model, state, pivot), -state(at_lift)]
+         switches = [touch%approach, pad_approach(model, state, pivot, real(pad_direction(model%linkage, touch%arm), wp)), &
+            & -state(at_lift)]
       end associate
    end subroutine get_switches
 

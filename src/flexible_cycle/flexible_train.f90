@@ -8,6 +8,7 @@
 module camroller_flexible_train
    use camroller_kinds, only : wp
    use camroller_model, only : model_t
+   use camroller_kinematics, only : linkage_t
    use camroller_gas, only : gas_force
    use camroller_roller, only : spin_acceleration
    use camroller_contact_compliance, only : series_load, damping_factor, one_sided_force
@@ -20,7 +21,8 @@ module camroller_flexible_train
    implicit none
    private
 
-   public :: flexible_state_t, resolution_t, push_t, state_size, first_mode, evaluate_train, rates_of, pad_approach
+   public :: flexible_state_t, resolution_t, push_t, state_size, first_mode, evaluate_train, rates_of, pad_approach, &
+      & pad_direction
    public :: at_finger, at_finger_rate, at_lift, at_speed, at_sliding, at_plunger, at_plunger_rate, at_pressure
 
    !> Places in the state
@@ -271,15 +273,17 @@ contains
       !> In: pivot; out: with the forces at the valve
       type(flexible_state_t), intent(inout) :: now
 
-      ! Approach of the pad [m], its rate [m/s]
+      ! Approach of the pad [m], its rate [m/s]; direction of the pad's arm [-]
       real(wp) :: approach, rate
+      complex(wp) :: pad
       integer :: first
 
       associate (linkage => model%linkage, flexible => model%flexible)
-         now%pad_cosine = cos(state(at_finger) + linkage%valve_axis_angle)
-         now%pad_sine = sin(state(at_finger) + linkage%valve_axis_angle)
-         approach = pad_approach(model, state, now%pivot)
-         rate = linkage%b*now%pad_sine*state(at_finger_rate) - now%pivot_rate*cos(flexible%tilt) - state(at_speed)
+         pad = pad_direction(linkage, now%touch%arm)
+         now%pad_cosine = real(pad, wp)
+         now%pad_sine = aimag(pad)
+         approach = pad_approach(model, state, now%pivot, now%pad_cosine)
+         rate = linkage%b*now%pad_sine*state(at_finger_rate) - now%pivot_rate*flexible%tilt_cosine - state(at_speed)
          call push(now%pad, flexible%pad_stiffness, flexible%pad_damping, approach, rate)
          call push(now%seat, flexible%seat_stiffness, flexible%seat_damping, -state(at_lift), -state(at_speed))
          if (allocated(model%gas)) now%gas_force = gas_force(model%gas, angle)
@@ -289,19 +293,33 @@ contains
       end associate
    end subroutine set_valve_forces
 
+   !> Direction of the arm from the pivot to the pad, seen from the valve's axis: exp(i (gamma + chi)).
+   pure function pad_direction(linkage, arm) result(direction)
+      !> Constants of the mechanism
+      type(linkage_t), intent(in) :: linkage
+      !> Arm from the pivot to the roller's centre [m]
+      complex(wp), intent(in) :: arm
+      !> The direction [-]
+      complex(wp) :: direction
+
+      direction = arm*cmplx(linkage%offset_cosine, -linkage%offset_sine, wp)/linkage%a
+   end function pad_direction
+
    !> Approach of the pad; negative where there is a gap.
-   pure function pad_approach(model, state, pivot) result(approach)
+   pure function pad_approach(model, state, pivot, pad_cosine) result(approach)
       !> The model
       type(model_t), intent(in) :: model
       !> The state [state]
       real(wp), intent(in) :: state(:)
       !> Place of the pivot [m]
       real(wp), intent(in) :: pivot
+      !> Cosine of gamma + chi [-]
+      real(wp), intent(in) :: pad_cosine
       !> Approach [m]
       real(wp) :: approach
 
-      approach = model%linkage%b*(model%linkage%base_cosine - cos(state(at_finger) + model%linkage%valve_axis_angle)) &
-         & - pivot*cos(model%flexible%tilt) - state(at_lift) - model%flexible%lash
+      approach = model%linkage%b*(model%linkage%base_cosine - pad_cosine) - pivot*model%flexible%tilt_cosine - state(at_lift) &
+         & - model%flexible%lash
    end function pad_approach
 
    !> Accelerations of valve, finger and pivot, roller.
@@ -313,8 +331,9 @@ contains
       !> In: forces; out: with accelerations
       type(flexible_state_t), intent(inout) :: now
 
-      ! Force of the cam on the roller [N], acceleration of the roller's centre [m/s^2]
-      complex(wp) :: force, acceleration
+      ! Force of the cam on the roller [N], acceleration of the roller's centre [m/s^2]; finger's centre of mass seen from the
+      ! adjuster's axis [m]
+      complex(wp) :: force, acceleration, centre
       ! Moment on the finger [N m], force on it along the adjuster's axis [N], inertia by it [kg m]
       real(wp) :: moment, axial, coupling
 
@@ -325,13 +344,12 @@ contains
 
          force = contact%load*touch%normal - contact%tangential_force*touch%forward
          moment = cross(touch%arm, force) + eps*contact%bearing_torque - now%pad%force*model%linkage%b*now%pad_sine
-         now%centre_slope = -flexible%finger_centre*sin(state(at_finger) + model%linkage%arm_offset &
-            & + model%linkage%valve_axis_angle + flexible%axis_angle)
-         now%centre_curvature = -flexible%finger_centre*cos(state(at_finger) + model%linkage%arm_offset &
-            & + model%linkage%valve_axis_angle + flexible%axis_angle)
+         centre = touch%arm*conjg(flexible%axis)*(flexible%finger_centre/model%linkage%a)
+         now%centre_slope = -aimag(centre)
+         now%centre_curvature = -real(centre, wp)
          if (allocated(flexible%adjuster)) then
             coupling = flexible%finger_mass*now%centre_slope
-            axial = dot(exp(-imaginary*flexible%axis_angle), force) + cos(flexible%tilt)*now%pad%force + now%hydraulic_force &
+            axial = dot(flexible%axis, force) + flexible%tilt_cosine*now%pad%force + now%hydraulic_force &
                & + now%stops(1)%force - now%stops(2)%force - flexible%finger_mass*now%centre_curvature*rate**2
             call solve_finger(model, coupling, axial, moment, now%pivot_acceleration, now%finger_acceleration)
          else
@@ -340,7 +358,7 @@ contains
 
          now%spin_acceleration = spin_acceleration(contact%traction, contact%rolling_resistance, model%roller_radius, &
             & contact%bearing_torque, model%roller_inertia)
-         acceleration = now%pivot_acceleration*exp(-imaginary*flexible%axis_angle) &
+         acceleration = now%pivot_acceleration*flexible%axis &
             & + (imaginary*now%finger_acceleration - rate**2)*touch%arm
          now%sliding_rate = dot(touch%forward, acceleration + 2.0_wp*imaginary*eps*model%speed*touch%velocity &
             & - model%speed**2*touch%centre) + touch%position%pitch_curvature*touch%travel_speed*touch%approach_rate &

@@ -2,16 +2,17 @@
 !>
 !> In: nothing. Out: `problem_t`, which problems extend, `linear_t` and `counters_t`. By default the Jacobian is a difference
 !> quotient. A problem with an exact Jacobian overrides `get_jacobian`, or `linearise` where rate and Jacobian are computed
-!> together.
+!> together. A problem whose Jacobian has a structure overrides `factorise` and `solve`.
 !>
 !> Status of a rate: 0 valid; positive "the trial state is not admissible, try a smaller step"; negative "the problem cannot be
 !> evaluated, end".
 module camroller_ode_problem
    use camroller_kinds, only : wp
+   use camroller_lapack, only : dgetrf, dgetrs
    implicit none
    private
 
-   public :: problem_t, linear_t, counters_t, new_linear, copy_linear, linearise_in_two, time_increment
+   public :: problem_t, linear_t, counters_t, factors_t, new_linear, copy_linear, new_factors, linearise_in_two, time_increment
    public :: words_length
 
    !> Length of a time in words
@@ -33,6 +34,8 @@ module camroller_ode_problem
       procedure :: get_jacobian => difference_jacobian
       procedure :: linearise => linearise_in_two
       procedure :: get_clearance => clearance_of_line
+      procedure :: factorise => factorise_dense
+      procedure :: solve => solve_dense
    end type problem_t
 
    !> Rate at a point with its first derivatives
@@ -52,6 +55,18 @@ module camroller_ode_problem
       !> From the first component to the barrier, see `get_clearance` [state]
       real(wp) :: clearance = huge(1.0_wp)
    end type linear_t
+
+   !> Factors of the matrix `shift I - jacobian`
+   type :: factors_t
+      !> The shift [1/time]
+      real(wp) :: shift = 0.0_wp
+      !> Factors of the matrix, or of what is left of it where some components are eliminated beforehand [1/time]
+      real(wp), allocatable :: matrix(:, :)
+      !> Pivots of the factors
+      integer, allocatable :: pivots(:)
+      !> Pivots of components that are eliminated beforehand [1/time]
+      real(wp), allocatable :: eliminated(:)
+   end type factors_t
 
    !> Work done, comparable between machines
    type :: counters_t
@@ -125,6 +140,16 @@ contains
       linear%time_slope = 0.0_wp
    end subroutine new_linear
 
+   !> Room for factors.
+   pure subroutine new_factors(factors, components)
+      !> The factors
+      type(factors_t), intent(out) :: factors
+      !> Number of components of the state
+      integer, intent(in) :: components
+
+      allocate (factors%matrix(components, components), factors%pivots(components), factors%eliminated(components))
+   end subroutine new_factors
+
    !> Copy a rate and its derivatives, the clearance alone where there are none.
    pure subroutine copy_linear(source, target)
       !> From here
@@ -166,6 +191,56 @@ contains
       if (status /= 0) return
       call self%get_jacobian(time, state, linear%rate, horizon, linear%jacobian, linear%time_slope, counters, status)
    end subroutine linearise_in_two
+
+   !> Factors of the matrix `shift I - jacobian`; a single component needs none.
+   subroutine factorise_dense(self, linear, shift, factors, status)
+      !> The problem; read only
+      class(problem_t), intent(in) :: self
+      !> Rate and derivatives
+      type(linear_t), intent(in) :: linear
+      !> The shift [1/time]
+      real(wp), intent(in) :: shift
+      !> Factors; have their room
+      type(factors_t), intent(inout) :: factors
+      !> 0 fine, positive where the matrix is singular
+      integer, intent(out) :: status
+
+      integer :: i, n
+
+      n = size(factors%pivots)
+      factors%shift = shift
+      factors%matrix(:, :) = -linear%jacobian
+      do i = 1, n
+         factors%matrix(i, i) = factors%matrix(i, i) + shift
+      end do
+      status = 0
+      if (n == 1) then
+         if (.not. abs(factors%matrix(1, 1)) > 0.0_wp) status = 1
+      else
+         call dgetrf(n, n, factors%matrix, n, factors%pivots, status)
+      end if
+   end subroutine factorise_dense
+
+   !> Solve with the factors.
+   subroutine solve_dense(self, linear, factors, right_side)
+      !> The problem; read only
+      class(problem_t), intent(in) :: self
+      !> Rate and derivatives of which the factors are
+      type(linear_t), intent(in) :: linear
+      !> The factors
+      type(factors_t), intent(in) :: factors
+      !> In: right-hand side [state/time]; out: solution [state]
+      real(wp), intent(inout) :: right_side(:)
+
+      integer :: info, n
+
+      n = size(factors%pivots)
+      if (n == 1) then
+         right_side = right_side/factors%matrix(1, 1)
+      else
+         call dgetrs("N", n, 1, factors%matrix, n, factors%pivots, right_side, n, info)
+      end if
+   end subroutine solve_dense
 
    !> From the first component to its barrier: a place about which the rate may differ so much within so narrow a range that the
    !> state is held there, and that a step may cross without an evaluation there.

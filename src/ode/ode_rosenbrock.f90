@@ -16,7 +16,7 @@
 module camroller_ode_rosenbrock
    use camroller_kinds, only : wp
    use camroller_ode, only : problem_t, method_t, step_t, counters_t
-   use camroller_lapack, only : dgetrf, dgetrs
+   use camroller_ode_problem, only : factors_t, new_factors
    implicit none
    private
 
@@ -40,12 +40,10 @@ module camroller_ode_rosenbrock
       real(wp), allocatable :: bend_weights(:, :)
       !> Increments of the stages, shape (component, stage) [state]
       real(wp), allocatable :: increments(:, :)
-      !> The matrix of the stages or its factors [1/time]
-      real(wp), allocatable :: matrix(:, :)
+      !> Factors of the matrix of the stages
+      type(factors_t) :: factors
       !> Rate at a trial state and right-hand side of a stage [state/time]
       real(wp), allocatable :: stage_rate(:), right_side(:)
-      !> Pivots of the factors
-      integer, allocatable :: pivots(:)
    contains
       procedure :: try_step => try_rosenbrock_step
    end type rosenbrock_method_t
@@ -66,8 +64,8 @@ contains
       method%integral = 0.0_wp
       method%has_curve = .true.
       allocate (method%increments(components, method%stages), method%bends(components, 3))
-      allocate (method%matrix(components, components), method%stage_rate(components), method%right_side(components))
-      allocate (method%pivots(components))
+      allocate (method%stage_rate(components), method%right_side(components))
+      call new_factors(method%factors, components)
    end subroutine new_rosenbrock_method
 
    !> Room for a table, filled with zeros.
@@ -143,29 +141,31 @@ contains
       !> 0 fine, positive: try a smaller step, negative: give up
       integer, intent(out) :: status
 
-      integer :: stage, i
+      integer :: stage, i, n
 
+      n = size(step%state)
       associate (new_state => step%new_state, length => step%length)
          new_state(:) = step%state
          step%new_rate(:) = 0.0_wp
          step%estimate(:) = 0.0_wp
-         self%stage_rate = step%rate
-         call factorise(self, length, counters, status)
+         self%stage_rate(:) = step%rate
+         call problem%factorise(self%here, 1.0_wp/(self%diagonal*length), self%factors, status)
+         counters%factorisations = counters%factorisations + 1
          if (status /= 0) return
          do stage = 1, self%stages
-            self%right_side = length*self%slope_weights(stage)*self%here%time_slope
+            self%right_side(:) = length*self%slope_weights(stage)*self%here%time_slope
             new_state(:) = step%state
             do i = 1, stage - 1
-               new_state(:) = new_state + self%weights(i, stage)*self%increments(:, i)
-               self%right_side = self%right_side + (self%couplings(i, stage)/length)*self%increments(:, i)
+               call add_multiple(n, self%weights(i, stage), self%increments(:, i), new_state)
+               call add_multiple(n, self%couplings(i, stage)/length, self%increments(:, i), self%right_side)
             end do
             if (stage > 1) then
                call problem%get_rate(step%time + length*self%nodes(stage), new_state, self%stage_rate, status)
                counters%evaluations = counters%evaluations + 1
                if (status /= 0) return
             end if
-            self%right_side = self%right_side + self%stage_rate
-            call solve(self)
+            call add_multiple(n, 1.0_wp, self%stage_rate, self%right_side)
+            call problem%solve(self%here, self%factors, self%right_side)
             self%increments(:, stage) = self%right_side
          end do
          step%estimate(:) = self%increments(:, self%stages)
@@ -174,51 +174,23 @@ contains
       do i = 1, 3
          self%bends(:, i) = 0.0_wp
          do stage = 1, self%stages
-            self%bends(:, i) = self%bends(:, i) + self%bend_weights(stage, i)*self%increments(:, stage)
+            call add_multiple(n, self%bend_weights(stage, i), self%increments(:, stage), self%bends(:, i))
          end do
       end do
    end subroutine try_rosenbrock_step
 
-   !> Factors of the matrix of the stages; a single component needs none.
-   subroutine factorise(self, step, counters, status)
-      !> The method with its work space
-      type(rosenbrock_method_t), intent(inout) :: self
-      !> Size of the step [time]
-      real(wp), intent(in) :: step
-      !> Work done so far
-      type(counters_t), intent(inout) :: counters
-      !> 0 fine, positive where the matrix is singular
-      integer, intent(out) :: status
+   !> Add a multiple of a vector to another.
+   pure subroutine add_multiple(components, factor, addend, total)
+      !> Number of components
+      integer, intent(in) :: components
+      !> Factor [any]
+      real(wp), intent(in) :: factor
+      !> What is added [any]
+      real(wp), intent(in) :: addend(components)
+      !> In: vector; out: with the addend times the factor [any]
+      real(wp), intent(inout) :: total(components)
 
-      integer :: i, n
-
-      n = size(self%pivots)
-      self%matrix = -self%here%jacobian
-      do i = 1, n
-         self%matrix(i, i) = self%matrix(i, i) + 1.0_wp/(self%diagonal*step)
-      end do
-      status = 0
-      if (n == 1) then
-         if (.not. abs(self%matrix(1, 1)) > 0.0_wp) status = 1
-      else
-         call dgetrf(n, n, self%matrix, n, self%pivots, status)
-      end if
-      counters%factorisations = counters%factorisations + 1
-   end subroutine factorise
-
-   !> Solve the system of a stage: from its right-hand side to the increment.
-   subroutine solve(self)
-      !> The method with its work space
-      type(rosenbrock_method_t), intent(inout) :: self
-
-      integer :: info
-
-      if (size(self%pivots) == 1) then
-         self%right_side = self%right_side/self%matrix(1, 1)
-      else
-         call dgetrs("N", size(self%pivots), 1, self%matrix, size(self%pivots), self%pivots, self%right_side, &
-            & size(self%pivots), info)
-      end if
-   end subroutine solve
+      total = total + factor*addend
+   end subroutine add_multiple
 
 end module camroller_ode_rosenbrock

@@ -12,7 +12,8 @@ module test_flexible_train
    use camroller_torque_list, only : of_contact, of_damping
    use camroller_flexible_energy, only : powers_t, evaluate_powers, stored_energy
    use camroller_flexible_problem, only : flexible_problem_t, state_scales
-   use camroller_ode_problem, only : linear_t, counters_t, new_linear
+   use camroller_ode_problem, only : linear_t, counters_t, factors_t, new_linear, new_factors
+   use camroller_samples, only : sample_independent
    use camroller_traction, only : shear_law_names, rolling_law_names
    use reference_cases, only : thesis_case, skewed_case, add_gas_force, add_heat, make_model, set_point, point_speeds, &
       & point_viscosities
@@ -35,7 +36,8 @@ contains
          new_unittest("approach and speed are right at positions off the rigid train's path", test_motion), &
          new_unittest("energy closes at random states, for both senses of rotation and every part of the train", test_energy), &
          new_unittest("the rate of the stored energy agrees with a difference quotient", test_stored_rate), &
-         new_unittest("the Jacobian agrees with difference quotients of the rates", test_jacobian) &
+         new_unittest("the Jacobian agrees with difference quotients of the rates", test_jacobian), &
+         new_unittest("the reduced equations of a step have the solution of all of them", test_equations) &
          ]
    end subroutine collect_flexible_train
 
@@ -303,6 +305,50 @@ contains
          end do
       end do
    end subroutine test_stored_rate
+
+   subroutine test_equations(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(model_t), target :: model
+      type(flexible_problem_t) :: problem
+      type(linear_t) :: linear
+      type(factors_t) :: factors
+      type(counters_t) :: counters
+      ! State, solution [state]; right-hand side, what is left of it, largest terms of it [state/rad]
+      real(wp), allocatable :: state(:), solution(:), right_side(:), left(:), terms(:)
+      ! Angle [rad], shift [1/rad]
+      real(wp) :: angle, shift
+      integer :: number, i, j, power, status
+
+      do number = 0, 31
+         call make_train(number, model, error)
+         if (allocated(error)) return
+         problem%model => model
+         call new_linear(linear, state_size(model))
+         call new_factors(factors, state_size(model))
+         if (allocated(state)) deallocate (state)
+         allocate (state(state_size(model)))
+         do i = 1, 30, 7
+            call random_state(model, i, angle, state)
+            call problem%linearise(angle, state, angle + 1.0_wp, linear, counters, status)
+            call check(error, status, 0)
+            if (allocated(error)) return
+            right_side = state_scales(model)*[(2.0_wp*sample_independent(i, j, 11) - 1.0_wp, j=1, size(state))]
+            do power = 0, 6, 2
+               shift = 10.0_wp**power
+               call problem%factorise(linear, shift, factors, status)
+               call check(error, status, 0)
+               if (allocated(error)) return
+               solution = right_side
+               call problem%solve(linear, factors, solution)
+               left = shift*solution - matmul(linear%jacobian, solution) - right_side
+               terms = shift*abs(solution) + matmul(abs(linear%jacobian), abs(solution)) + abs(right_side)
+               ! Rounding: 2e-10 in the plunger's equation, beside whose speed the pressure's numbers are a million times as large
+               call check(error, all(abs(left) <= 1.0e-9_wp*terms), "equations of a step")
+               if (allocated(error)) return
+            end do
+         end do
+      end do
+   end subroutine test_equations
 
    subroutine test_jacobian(error)
       type(error_type), allocatable, intent(out) :: error
