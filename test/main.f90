@@ -42,6 +42,7 @@ program main
    use test_number_text, only : collect_number_text
    use test_units, only : collect_units
    use test_journal, only : collect_journal
+   use test_bearing_heat, only : collect_bearing_heat
    use test_journal_motion, only : collect_journal_motion
    use test_journal_orbit, only : collect_journal_orbit
    use test_mixed_bearings, only : collect_mixed_bearings
@@ -219,6 +220,7 @@ contains
          new_testsuite("number_text", collect_number_text), &
          new_testsuite("units", collect_units), &
          new_testsuite("journal", collect_journal), &
+         new_testsuite("bearing_heat", collect_bearing_heat), &
          new_testsuite("journal_motion", collect_journal_motion), &
          new_testsuite("journal_orbit", collect_journal_orbit), &
          new_testsuite("mixed_bearings", collect_mixed_bearings), &

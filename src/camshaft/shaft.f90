@@ -13,20 +13,21 @@ module camroller_shaft
    use camroller_cycle, only : cycle_t, state_at
    use camroller_lobe_curve, only : lobe_curve_t, close_curve, curve_at, curve_values, cam_values, halve_pieces, &
       & keep_state, piece_angle
-   use camroller_effect_list, only : effect_orbit, has_effect
+   use camroller_effect_list, only : effect_bearing_heat, effect_orbit, has_effect
    use camroller_events, only : cycle_stops
-   use camroller_journal_orbit, only : bearing_load_t, find_orbit, orbit_t, place_at
+   use camroller_journal_orbit, only : orbit_t, place_at
    use camroller_panels, only : panel_points
    use camroller_torque_list, only : torque_count, of_bearings
    use camroller_journal, only : cam_bearings_t, journal_t, new_journal, journal_solved
    use camroller_journal_motion, only : moving_state
    use camroller_bearing_asperity, only : touch_t, bearing_state_t, new_touch, carry_load
+   use camroller_bearing_heat, only : oil_flow
    use camroller_camshaft, only : belt_pull_t, share_force, share_pull
    implicit none
    private
 
-   public :: shaft_t, solved_t, new_shaft, set_journal, complete_shaft, shaft_torques, in_common_frame, bearing_torques
-   public :: has_orbits, shaft_stops
+   public :: shaft_t, solved_t, new_shaft, set_journal, refine_curves, shaft_torques, in_common_frame, bearing_torques
+   public :: bearing_number, cam_at, has_orbits, needs_turn, shaft_stops
 
    !> Cams of a shaft
    type :: shaft_t
@@ -47,8 +48,14 @@ module camroller_shaft
       !> Their surfaces, and the pull of belt or chain; allocated where the case has them
       type(touch_t), allocatable :: touch
       type(belt_pull_t), allocatable :: pull
-      !> Orbits of the journals, shape (bearing, camshaft); allocated once they are found
+      !> Cam speed [rad/s]
+      real(wp) :: speed = 0.0_wp
+      !> What follows from a whole turn, shape (bearing, camshaft), allocated once it is found: bearings with their own oil,
+      !> orbits of the journals
+      type(journal_t), allocatable :: warm(:, :)
       type(orbit_t), allocatable :: orbits(:, :)
+      !> Rise of the temperature of that oil, where it is found [K]
+      real(wp), allocatable :: rises(:, :)
    end type shaft_t
 
    !> A case that is solved: model and cycle of each lobe shape, and the camshafts that carry them
@@ -60,16 +67,6 @@ module camroller_shaft
       type(lobe_curve_t), pointer :: curves(:) => null()
       type(shaft_t) :: shaft
    end type solved_t
-
-   !> Load on one bearing of a solved case
-   type, extends(bearing_load_t) :: cams_load_t
-      type(solved_t), pointer :: solved => null()
-      !> Part of each cam's force that the bearing takes [-], and of the pull [N]
-      real(wp), allocatable :: shares(:)
-      real(wp) :: pull(2) = 0.0_wp
-   contains
-      procedure :: get_load => load_of_cams
-   end type cams_load_t
 
 contains
 
@@ -125,19 +122,9 @@ contains
       !> Deck or domain error of the bearings
       type(error_t), allocatable, intent(out) :: error
 
+      shaft%speed = speed
       if (allocated(shaft%journal)) call new_journal(shaft%journal, shaft%bearings, viscosity, speed, error)
    end subroutine set_journal
-
-   !> Make what follows from the cycles ready: curves of the lobe shapes, orbits of the journals.
-   subroutine complete_shaft(solved, error)
-      !> The solved case
-      type(solved_t), intent(inout), target :: solved
-      !> Convergence error
-      type(error_t), allocatable, intent(out) :: error
-
-      call refine_curves(solved, error)
-      if (.not. allocated(error) .and. has_orbits(solved%case)) call find_orbits(solved, error)
-   end subroutine complete_shaft
 
    !> Do the journals of a case move on orbits?
    pure function has_orbits(case) result(has)
@@ -149,71 +136,15 @@ contains
       has = has_effect(case, effect_orbit)
    end function has_orbits
 
-   !> Find the orbits of all journals.
-   subroutine find_orbits(solved, error)
-      !> The solved case, with its curves; out: with orbits
-      type(solved_t), intent(inout), target :: solved
-      !> Convergence error
-      type(error_t), allocatable, intent(out) :: error
+   !> Do the bearings of a case follow from a whole turn, and not from the load of an instant?
+   pure function needs_turn(case)
+      !> The case
+      type(case_t), intent(in) :: case
+      !> Do they?
+      logical :: needs_turn
 
-      type(cams_load_t) :: load
-      type(orbit_t), allocatable :: orbits(:, :)
-      ! What the bearings take of a force [N]
-      real(wp) :: loads(2, bearing_number(solved%shaft))
-      integer :: cam, bearing, k
-
-      load%solved => solved
-      allocate (orbits(bearing_number(solved%shaft), solved%shaft%count), load%shares(size(solved%shaft%lobes)))
-      do k = 1, size(orbits, 2)
-         do bearing = 1, size(orbits, 1)
-            associate (shaft => solved%shaft, places => solved%shaft%bearings%bearing_positions)
-               do cam = 1, size(shaft%lobes)
-                  loads = 0.0_wp
-                  if (shaft%shafts(cam) == k) call share_force(places, shaft%bearings%cam_positions(cam), [1.0_wp, 0.0_wp], loads)
-                  load%shares(cam) = loads(1, bearing)
-               end do
-               loads = 0.0_wp
-               if (allocated(shaft%pull)) call share_pull(places, shaft%pull, loads)
-               load%pull = loads(:, bearing)
-               ! A cam turns against the sense in which the finger's frame counts where its surface moves away from the pivot
-               call find_orbit(shaft%journal, -solved%models(1)%linkage%sense, load, &
-                  & shaft_stops(solved, abs(load%shares) > 0.0_wp), maxval(solved%cycles%tolerance), orbits(bearing, k), error, &
-                  & shaft%touch)
-            end associate
-            if (allocated(error)) return
-         end do
-      end do
-      call move_alloc(orbits, solved%shaft%orbits)
-   end subroutine find_orbits
-
-   !> Force of the shaft on one bearing.
-   subroutine load_of_cams(self, angle, load, status)
-      !> What loads it
-      class(cams_load_t), intent(in) :: self
-      !> Cam angle of the first cam from full lift [rad]
-      real(wp), intent(in) :: angle
-      !> The force [N]
-      real(wp), intent(out) :: load(2)
-      !> 0 fine, other: it cannot be found
-      integer, intent(out) :: status
-
-      type(error_t), allocatable :: error
-      ! Torques and force of a cam [N m, N]
-      real(wp) :: values(curve_values)
-      integer :: cam
-
-      status = 0
-      load = self%pull
-      do cam = 1, size(self%shares)
-         if (.not. abs(self%shares(cam)) > 0.0_wp) cycle
-         call cam_at(self%solved, cam, angle, .true., values, error)
-         if (allocated(error)) then
-            status = 1
-            return
-         end if
-         load = load + self%shares(cam)*in_common_frame(self%solved%shaft, cam, values(torque_count + 1:))
-      end do
-   end subroutine load_of_cams
+      needs_turn = has_orbits(case) .or. has_effect(case, effect_bearing_heat)
+   end function needs_turn
 
    !> Start, stops and end of a turn of the first cam, with the stops of cams.
    pure function shaft_stops(solved, is_wanted) result(stops)
@@ -233,7 +164,8 @@ contains
       stops = cycle_stops(stops, solved%cycles(solved%shaft%lobes(1))%start)
    end function shaft_stops
 
-   !> Make the curves better of shapes that several cams have, so that it pays, and where orbits ask for them often.
+   !> Make the curves better of shapes that several cams have, so that it pays, and where bearings ask for them over the
+   !> whole turn.
    subroutine refine_curves(solved, error)
       !> The solved case
       type(solved_t), intent(inout) :: solved
@@ -243,7 +175,7 @@ contains
       integer :: lobe
 
       do lobe = 1, size(solved%models)
-         if (count(solved%shaft%lobes == lobe) < 2 .and. .not. has_orbits(solved%case)) cycle
+         if (count(solved%shaft%lobes == lobe) < 2 .and. .not. needs_turn(solved%case)) cycle
          call refine_curve(solved%models(lobe), solved%cycles(lobe), solved%curves(lobe), error)
          if (allocated(error)) return
       end do
@@ -373,17 +305,13 @@ contains
       type(error_t), allocatable, intent(out) :: error
       !> States of the bearings, shape (bearing, camshaft)
       type(bearing_state_t), intent(out), optional :: bearings(:, :)
-      !> Cam angle of the first cam from full lift, for journals on their orbits; without it journals are quasi-steady [rad]
+      !> Cam angle of the first cam from full lift; without it bearings follow from the loads of the instant [rad]
       real(wp), intent(in), optional :: angle
 
-      ! Load vector of each bearing [N]; place of its journal [clearance]
-      real(wp) :: loads(2, bearing_number(shaft)), place(2)
+      ! Load vector of each bearing [N]
+      real(wp) :: loads(2, bearing_number(shaft))
       type(bearing_state_t) :: state
-      integer :: cam, k, bearing, status, hint
-      logical :: moves
-
-      moves = present(angle) .and. allocated(shaft%orbits)
-      hint = 1
+      integer :: cam, k, bearing, status
 
       torques = 0.0_wp
       if (.not. allocated(shaft%journal)) return
@@ -395,10 +323,8 @@ contains
             end do
             if (allocated(shaft%pull)) call share_pull(places, shaft%pull, loads)
             do bearing = 1, size(places)
-               status = journal_solved
-               if (moves) then
-                  call place_at(shaft%orbits(bearing, k), angle, hint, place)
-                  call moving_state(shaft%journal, place, loads(:, bearing), state, shaft%touch)
+               if (present(angle) .and. (allocated(shaft%warm) .or. allocated(shaft%orbits))) then
+                  call state_of_turn(shaft, bearing, k, angle, loads(:, bearing), state, status)
                else
                   call carry_load(shaft%journal, loads(:, bearing), state, status, shaft%touch)
                end if
@@ -412,6 +338,41 @@ contains
          end do
       end associate
    end subroutine bearing_torques
+
+   !> State of a bearing by what follows from the whole turn: its own oil, the orbit of its journal.
+   pure subroutine state_of_turn(shaft, bearing, k, angle, load, state, status)
+      !> The shaft
+      type(shaft_t), intent(in) :: shaft
+      !> Bearing and camshaft
+      integer, intent(in) :: bearing, k
+      !> Cam angle of the first cam from full lift [rad]
+      real(wp), intent(in) :: angle
+      !> Force of the shaft on the bearing [N]
+      real(wp), intent(in) :: load(2)
+      !> Its state
+      type(bearing_state_t), intent(out) :: state
+      !> `journal_solved` or `journal_without_film`
+      integer, intent(out) :: status
+
+      type(journal_t) :: journal
+      ! Place of the journal [clearance]
+      real(wp) :: place(2)
+      integer :: hint
+
+      journal = shaft%journal
+      if (allocated(shaft%warm)) journal = shaft%warm(bearing, k)
+      status = journal_solved
+      hint = 1
+      if (allocated(shaft%orbits)) then
+         call place_at(shaft%orbits(bearing, k), angle, hint, place)
+         call moving_state(journal, place, load, state, shaft%touch)
+      else
+         call carry_load(journal, load, state, status, shaft%touch)
+      end if
+      if (.not. allocated(shaft%warm)) return
+      state%temperature_rise = shaft%rises(bearing, k)
+      state%oil_flow = oil_flow(journal, shaft%speed, state%eccentricity)
+   end subroutine state_of_turn
 
    !> Number of bearings of a camshaft; none where the case has no such bearings.
    pure function bearing_number(shaft) result(number)

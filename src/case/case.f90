@@ -24,6 +24,7 @@ module camroller_case
    use camroller_roller, only : roller_t
    use camroller_journal, only : cam_bearings_t
    use camroller_bearing_asperity, only : bearing_asperity_t
+   use camroller_bearing_heat, only : bearing_heat_t
    use camroller_camshaft, only : belt_pull_t
    use camroller_engine, only : engine_t
    use camroller_flexible_parts, only : dynamics_t
@@ -134,9 +135,10 @@ module camroller_case
       type(guide_side_load_t), allocatable :: guide_side_load
       type(finger_pivot_t), allocatable :: finger_pivot
       type(cam_bearings_t), allocatable :: cam_bearings
-      !> Mixed friction in these bearings, and the pull of the belt or chain on each camshaft; of no effect without bearings
+      !> Mixed friction in these bearings, pull of the belt or chain on each camshaft, heat balance; of no effect without bearings
       type(bearing_asperity_t), allocatable :: bearing_asperity
       type(belt_pull_t), allocatable :: belt_pull
+      type(bearing_heat_t), allocatable :: bearing_heat
       !> Engine that the camshafts belong to; of no effect without their bearings
       type(engine_t), allocatable :: engine
       !> A train that bends and leaves contact; with it, a spring that surges and a hydraulic lash adjuster

@@ -21,23 +21,25 @@ module camroller_effect_list
    public :: effect_asperity, effect_needle, effect_guide, effect_bearings, effect_gas, effect_rolling, effect_film, &
       & effect_pressure, effect_shear, effect_spin, effect_ehl, effect_tip, effect_seal, effect_side, effect_pivot, &
       & effect_drag, effect_inlet_heat, effect_contact_heat, effect_dynamics, effect_surge, effect_adjuster, is_part_of_train, &
-      & effect_bearing_asperity, effect_belt_pull, effect_modifier, effect_orbit, needs_bearings
+      & effect_bearing_asperity, effect_belt_pull, effect_modifier, effect_orbit, effect_bearing_heat, &
+      & needs_bearings
 
    !> Effects: groups of the deck, and laws that have a simpler one beside them
    character(len=*), parameter :: effect_names(*) = [character(len=name_length) :: "asperity", "needle_bearing", "valve_guide", &
       & "cam_bearings", "gas_force", "rolling_resistance", "film_law", "pressure_law", "shear_law", "roller_equation", &
       & "ehl", "valve_tip", "stem_seal", "guide_side_load", "finger_pivot", "needle_drag", "inlet_heat", "contact_heat", &
       & "dynamics", "spring_surge", "lash_adjuster", "bearing_asperity", "belt_pull", &
-      & "friction_modifier", "journal_orbit"]
+      & "friction_modifier", "journal_orbit", "bearing_heat"]
    !> Positions in it
    integer, parameter :: effect_asperity = 1, effect_needle = 2, effect_guide = 3, effect_bearings = 4, effect_gas = 5, &
       & effect_rolling = 6, effect_film = 7, effect_pressure = 8, effect_shear = 9, effect_spin = 10, effect_ehl = 11, &
       & effect_tip = 12, effect_seal = 13, effect_side = 14, effect_pivot = 15, effect_drag = 16, &
       & effect_inlet_heat = 17, effect_contact_heat = 18, effect_dynamics = 19, effect_surge = 20, effect_adjuster = 21, &
       & effect_bearing_asperity = 22, effect_belt_pull = 23, effect_modifier = 24, &
-      & effect_orbit = 25
-   !> Effects of the camshaft bearings: nothing else depends on them, and without these bearings they are of no effect
-   integer, parameter :: needs_bearings(*) = [effect_bearing_asperity, effect_belt_pull, effect_orbit]
+      & effect_orbit = 25, effect_bearing_heat = 26
+   !> Effects of the camshaft bearings, two and two side by side: nothing else depends on them, and without these bearings they are
+   !> of no effect
+   integer, parameter :: needs_bearings(*) = [effect_bearing_asperity, effect_belt_pull, effect_orbit, effect_bearing_heat]
    !> Their number
    integer, parameter :: effect_count = size(effect_names)
    !> Words of a reason
@@ -124,14 +126,10 @@ contains
          if (allocated(variant%finger_pivot)) deallocate (variant%finger_pivot)
       case (effect_drag)
          if (allocated(variant%needle_drag)) deallocate (variant%needle_drag)
-      case (effect_bearing_asperity)
-         if (allocated(variant%bearing_asperity)) deallocate (variant%bearing_asperity)
+      case (needs_bearings(1):needs_bearings(2), needs_bearings(3):needs_bearings(4))
+         call leave_bearing_part_out(variant, effect)
       case (effect_modifier)
          if (allocated(variant%friction_modifier)) deallocate (variant%friction_modifier)
-      case (effect_belt_pull)
-         if (allocated(variant%belt_pull)) deallocate (variant%belt_pull)
-      case (effect_orbit)
-         if (allocated(variant%cam_bearings)) variant%cam_bearings%journal_motion = journal_motion_names(motion_quasi_steady)
       case (effect_inlet_heat)
          if (allocated(variant%heat)) variant%heat%inlet_law = inlet_law_names(inlet_none)
       case (effect_contact_heat)
@@ -166,6 +164,25 @@ contains
       deallocate (variant%lash_adjuster)
    end subroutine fix_pivot
 
+   !> Leave out what comes on top of the camshaft bearings.
+   pure subroutine leave_bearing_part_out(variant, effect)
+      !> In: a case; out: without it
+      type(case_t), intent(inout) :: variant
+      !> One of `needs_bearings`
+      integer, intent(in) :: effect
+
+      select case (effect)
+      case (effect_bearing_asperity)
+         if (allocated(variant%bearing_asperity)) deallocate (variant%bearing_asperity)
+      case (effect_belt_pull)
+         if (allocated(variant%belt_pull)) deallocate (variant%belt_pull)
+      case (effect_orbit)
+         if (allocated(variant%cam_bearings)) variant%cam_bearings%journal_motion = journal_motion_names(motion_quasi_steady)
+      case (effect_bearing_heat)
+         if (allocated(variant%bearing_heat)) deallocate (variant%bearing_heat)
+      end select
+   end subroutine leave_bearing_part_out
+
    !> Leave the camshaft bearings out, with what needs them.
    pure subroutine leave_bearings_out(variant)
       !> In: a case; out: with one cam of the first lobe shape
@@ -175,6 +192,7 @@ contains
       if (allocated(variant%second_lift)) deallocate (variant%second_lift)
       if (allocated(variant%bearing_asperity)) deallocate (variant%bearing_asperity)
       if (allocated(variant%belt_pull)) deallocate (variant%belt_pull)
+      if (allocated(variant%bearing_heat)) deallocate (variant%bearing_heat)
    end subroutine leave_bearings_out
 
    !> Has a case a rough film that a smooth one may stand for? Not where its asperities come with it.
@@ -247,19 +265,14 @@ contains
          has = allocated(case%finger_pivot)
       case (effect_drag)
          has = allocated(case%needle_drag)
-      case (effect_bearing_asperity)
-         has = allocated(case%bearing_asperity)
+      case (needs_bearings(1):needs_bearings(2), needs_bearings(3):needs_bearings(4))
+         has = has_bearing_part(case, effect)
       case (effect_modifier)
          has = allocated(case%friction_modifier) .and. allocated(case%asperity)
-      case (effect_belt_pull)
-         has = allocated(case%belt_pull)
       case (effect_inlet_heat)
          if (allocated(case%heat)) has = case%heat%inlet_law /= inlet_law_names(inlet_none)
       case (effect_contact_heat)
          if (allocated(case%heat)) has = case%heat%contact /= contact_heat_names(contact_heat_none)
-      case (effect_orbit)
-         has = allocated(case%cam_bearings)
-         if (has) has = case%cam_bearings%journal_motion == journal_motion_names(motion_orbit)
       case (effect_dynamics)
          has = allocated(case%dynamics)
       case (effect_surge)
@@ -268,5 +281,26 @@ contains
          has = allocated(case%dynamics) .and. allocated(case%lash_adjuster)
       end select
    end function has_effect
+
+   !> Does a case have what comes on top of the camshaft bearings?
+   pure function has_bearing_part(case, effect) result(has)
+      !> The case
+      type(case_t), intent(in) :: case
+      !> One of `needs_bearings`
+      integer, intent(in) :: effect
+      logical :: has
+
+      has = .false.
+      select case (effect)
+      case (effect_bearing_asperity)
+         has = allocated(case%bearing_asperity)
+      case (effect_belt_pull)
+         has = allocated(case%belt_pull)
+      case (effect_orbit)
+         if (allocated(case%cam_bearings)) has = case%cam_bearings%journal_motion == journal_motion_names(motion_orbit)
+      case (effect_bearing_heat)
+         has = allocated(case%bearing_heat)
+      end select
+   end function has_bearing_part
 
 end module camroller_effect_list

@@ -1,20 +1,22 @@
-!> Decks: what comes on top of the camshaft bearings, mixed friction and the pull of the belt or chain.
+!> Decks: what comes on top of the camshaft bearings, mixed friction, the pull of the belt or chain, heat.
 !>
 !> In: schema, settings. Out: groups and keys, the components of a case, and the rules that tie their keys to others.
 module camroller_deck_cam_bearings
    use camroller_bearing_asperity, only : bearing_asperity_t, clearance_advice, clearance_is_enough
+   use camroller_bearing_heat, only : bearing_heat_t, direct_advice
    use camroller_case, only : case_t
    use camroller_deck_complaint, only : complain, complain_about_group
    use camroller_deck_schema, only : schema_t, add_group, add_number, anything, from_to, group_effect, not_negative, positive
    use camroller_kinds, only : wp
    use camroller_mistakes, only : mistakes_t
-   use camroller_settings, only : settings_t, has_group, is_known, take
+   use camroller_settings, only : settings_t, get_word, has_group, is_known, take
    implicit none
    private
 
    public :: add_bearing_part_keys, fill_bearing_parts, check_bearing_parts
 
-   character(len=*), parameter :: bearings = "cam_bearings", mixed = "bearing_asperity", pull = "belt_pull"
+   character(len=*), parameter :: bearings = "cam_bearings", mixed = "bearing_asperity", pull = "belt_pull", &
+      & warm = "bearing_heat"
 
 contains
 
@@ -24,6 +26,7 @@ contains
       type(schema_t), intent(inout) :: schema
 
       type(bearing_asperity_t) :: standard
+      type(bearing_heat_t) :: usual_heat
 
       call add_group(schema, "bearing_asperity", group_effect, &
          & "asperities that share the load of the camshaft bearings where their film is thin")
@@ -43,6 +46,11 @@ contains
          & "follower's pivot to the cam's centre, positive the way a finger turns as it opens its valve", example="-90")
       call add_number(schema, "position_mm", anything, "place of its wheel along the shaft, which may overhang the bearings", &
          & example="-30")
+      call add_group(schema, "bearing_heat", group_effect, &
+         & "heat balance of each camshaft bearing: viscosity at the mean temperature of its oil")
+      call add_number(schema, "heat_capacity_J_kg_K", positive, "heat capacity of the oil", default=usual_heat%heat_capacity)
+      call add_number(schema, "oil_share", from_to(0.0_wp, 1.0_wp), &
+         & "part of the friction's heat that the oil carries away; the rest goes into the metal", default=usual_heat%oil_share)
    end subroutine add_bearing_part_keys
 
    !> Fill the components of a case.
@@ -66,9 +74,15 @@ contains
          call take(settings, pull, "angle_deg", case%belt_pull%angle)
          call take(settings, pull, "position_mm", case%belt_pull%position)
       end if
+      if (has_group(settings, warm)) then
+         allocate (case%bearing_heat)
+         call take(settings, warm, "heat_capacity_J_kg_K", case%bearing_heat%heat_capacity)
+         call take(settings, warm, "oil_share", case%bearing_heat%oil_share)
+      end if
    end subroutine fill_bearing_parts
 
-   !> Rules: both need bearings, and mixed friction surfaces that are apart where the journal is in the middle.
+   !> Rules: all need bearings, mixed friction surfaces that are apart where the journal is in the middle, heat an oil that thins
+   !> with it.
    subroutine check_bearing_parts(settings, mistakes)
       !> The settings
       type(settings_t), intent(in) :: settings
@@ -83,7 +97,13 @@ contains
             & "&"//mixed//" needs the group &"//bearings)
          if (has_group(settings, pull)) call complain_about_group(mistakes, settings, pull, &
             & "&"//pull//" needs the group &"//bearings)
+         if (has_group(settings, warm)) call complain_about_group(mistakes, settings, warm, &
+            & "&"//warm//" needs the group &"//bearings)
          return
+      end if
+      if (has_group(settings, warm)) then
+         if (get_word(settings, "lubricant", "temperature_law") == "direct") call complain_about_group(mistakes, settings, warm, &
+            & direct_advice)
       end if
       if (.not. has_group(settings, mixed)) return
       if (.not. (is_known(settings, mixed, "roughness_um") .and. is_known(settings, bearings, "radial_clearance_um"))) return

@@ -18,7 +18,7 @@ module camroller_effect_choice
    use camroller_effect_survey, only : survey_t, response_t, make_survey, respond
    use camroller_effect_train, only : compare_trains, estimate_train, train_change_t, train_load_t
    use camroller_model, only : model_t, revise_model
-   use camroller_shaft, only : shaft_t, bearing_torques, has_orbits, in_common_frame, new_shaft
+   use camroller_shaft, only : shaft_t, bearing_torques, needs_turn, in_common_frame, new_shaft
    use camroller_state, only : cam_force
    implicit none
    private
@@ -32,9 +32,9 @@ module camroller_effect_choice
    !> Changes beyond this are too large to be estimated from small ones [-]
    real(wp), parameter :: largest_estimate = 1.0_wp
 
-   !> Why parts of the camshaft bearings are not weighed where journals move on their orbits
-   character(len=*), parameter :: orbit_reason = "acts on the camshaft bearings alone; their torque on orbits of the "// &
-      & "journals is not estimated"
+   !> Why parts of the camshaft bearings are not weighed where their state follows from the whole turn
+   character(len=*), parameter :: turn_reason = "acts on the camshaft bearings alone; torque that follows from orbits or heat "// &
+      & "of the whole turn is not estimated"
 
    !> Mean torque for losses
    type :: mean_torque_t
@@ -137,8 +137,8 @@ contains
          torque%followers = torque%followers + followers_of(case, lobe)*surveys(lobe)%torque
          torque%error = torque%error + followers_of(case, lobe)*surveys(lobe)%torque_error
       end do
-      ! Friction on orbits is not surveyed: it stands in no denominator
-      if (has_single_bearings(case) .and. .not. has_orbits(case) .and. .not. allocated(surveys(1)%trouble)) then
+      ! Friction that follows from the whole turn is not surveyed: it stands in no denominator
+      if (has_single_bearings(case) .and. .not. needs_turn(case) .and. .not. allocated(surveys(1)%trouble)) then
          call mean_bearing_torque(case, models(1), surveys(1), torque%bearings, error)
          if (allocated(error)) return
       end if
@@ -353,8 +353,8 @@ contains
          return
       end if
       decision%estimates([quantity_film, quantity_slip]) = 0.0_wp
-      if (has_orbits(case)) then
-         decision%reason = orbit_reason
+      if (needs_turn(case)) then
+         decision%reason = turn_reason
          return
       end if
       if (.not. allocated(surveys(1)%trouble)) then
@@ -384,8 +384,8 @@ contains
       decision%estimates([quantity_film, quantity_slip]) = 0.0_wp
       if (.not. has_single_bearings(case)) then
          decision%reason = "not estimated for several cams, or one that is not of the first lobe shape at phase 0"
-      else if (has_orbits(case)) then
-         decision%reason = orbit_reason
+      else if (needs_turn(case)) then
+         decision%reason = turn_reason
       else if (.not. allocated(surveys(1)%trouble)) then
          variant = case
          call leave_out(variant, decision%effect)

@@ -68,6 +68,9 @@ module camroller_bearing_asperity
       real(wp) :: torque = 0.0_wp, boundary_torque = 0.0_wp
       !> Part of the load that asperities carry along the line of centres [N]
       real(wp) :: asperity_load = 0.0_wp
+      !> Oil that leaves it at its sides [m^3/s], mean temperature of its oil above that of the oil supplied [K]; zero without a
+      !> balance of its heat
+      real(wp) :: oil_flow = 0.0_wp, temperature_rise = 0.0_wp
    end type bearing_state_t
 
    !> What to say where asperities would touch all round

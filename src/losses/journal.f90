@@ -17,7 +17,8 @@ module camroller_journal
    public :: cam_bearings_t, journal_t, journal_law_names
    public :: new_journal, journal_torque, journal_at_speed, journal_friction, law_covers_width, width_advice
    public :: journal_solved, journal_without_film, find_tangent, load_at, film_friction, film_direction
-   public :: journal_motion_names, motion_quasi_steady, motion_orbit, law_can_orbit, orbit_advice, moves_like_finite
+   public :: journal_motion_names, motion_quasi_steady, motion_orbit, law_can_orbit, orbit_advice, moves_like_finite, &
+      & is_short
 
    !> Journal bearing laws
    character(len=*), parameter :: journal_law_names(*) = [character(len=name_length) :: &
@@ -129,6 +130,16 @@ contains
 
       answer = motion /= journal_motion_names(motion_orbit) .or. law /= journal_law_names(law_long)
    end function law_can_orbit
+
+   !> Is a bearing taken for a short one?
+   pure function is_short(journal) result(answer)
+      !> The bearing
+      type(journal_t), intent(in) :: journal
+      !> Is it?
+      logical :: answer
+
+      answer = journal%law == law_short
+   end function is_short
 
    !> Does a journal that moves feel the width of its bearing?
    pure function moves_like_finite(journal) result(answer)

@@ -108,6 +108,11 @@ contains
       end if
       call append(list, "film_min", "m", "smallest film", "cam_bearings", state%film)
       call append(list, "torque", "N m", "friction torque", "cam_bearings", state%torque)
+      if (allocated(case%bearing_heat)) then
+         call append(list, "temperature_rise", "K", "mean temperature of the oil above that supplied", "bearing_heat", &
+            & state%temperature_rise)
+         call append(list, "oil_flow", "m3 s-1", "oil that leaves at the sides", "bearing_heat", state%oil_flow)
+      end if
       if (.not. allocated(case%bearing_asperity)) return
       call append(list, "film_ratio", "1", "smallest film relative to roughness", "bearing_asperity", &
          & state%film/case%bearing_asperity%roughness)

@@ -18,7 +18,8 @@ module camroller_report
    use camroller_names, only : name_length
    use camroller_result, only : result_t, check_numbers, find_quantity
    use camroller_bearing_series, only : bearing_count, bearing_series_count
-   use camroller_shaft, only : complete_shaft, new_shaft, shaft_torques, solved_t
+   use camroller_bearing_turn, only : complete_shaft
+   use camroller_shaft, only : new_shaft, shaft_torques, solved_t
    use camroller_mean_bearings, only : mean_bearing_torque
    use camroller_means, only : statistics_t, integrate_lobe
    use camroller_flexible_report, only : flexible_means_t, integrate_turns

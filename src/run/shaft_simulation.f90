@@ -17,7 +17,7 @@ module camroller_shaft_simulation
    use camroller_lubricant, only : oil_t, get_oil
    use camroller_follower_step, only : point_t, inputs_t, outcome_t, piece_number, inputs_between
    use camroller_bearing_series, only : bearing_count
-   use camroller_shaft, only : has_orbits, shaft_t, new_shaft, set_journal, in_common_frame, bearing_torques
+   use camroller_shaft, only : needs_turn, shaft_t, new_shaft, set_journal, in_common_frame, bearing_torques
    use camroller_simulation, only : simulation_t, advance, halt, check_step, prepare_simulation, place_simulation, &
       & check_angle, has_films, put_back, get_mark, get_point, set_point, get_values
    use camroller_model_mark, only : mixed
@@ -94,9 +94,9 @@ contains
          call raise(error, kind_usage, "start_shaft: the number of threads must be 1 or more")
          return
       end if
-      if (has_orbits(case)) then
-         call raise(error, kind_usage, "start_shaft: journals are not followed on their orbits step by step; set "// &
-            & "journal_motion = 'quasi_steady' in &cam_bearings")
+      if (needs_turn(case)) then
+         call raise(error, kind_usage, "start_shaft: orbits of journals and heat of camshaft bearings follow from a "// &
+            & "whole turn, not step by step; set journal_motion = 'quasi_steady' in &cam_bearings and leave &bearing_heat out")
          return
       end if
       call check_angle("start_shaft", cam_angle, error)

@@ -144,6 +144,8 @@ contains
       if (any(group == joint_groups)) may_have = .not. (has_source(text) .or. draft%has_dynamics)
       if (group == "heat") may_have = index(text, "&ehl") == 0
       if (group == "bearing_asperity" .or. group == "belt_pull") may_have = draft%has_cams
+      if (group == "bearing_heat") may_have = draft%has_cams .and. any(deck_word(text, "lubricant", &
+         & "temperature_law") == [character(len=10) :: "vogel", "walther", "data_sheet"])
       if (group == "friction_modifier") may_have = index(text, "&asperity") > 0
       if (group == "needle_drag") may_have = .not. draft%has_dynamics
       if (group == "finger_pivot") may_have = may_have .and. deck_word(text, "masses", "finger_kg") /= ""

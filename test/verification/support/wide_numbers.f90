@@ -101,6 +101,8 @@ module wide_numbers
       & usual_t("bearing_asperity.boundary_coefficient", 0.0_wp, 0.3_wp), &
       & usual_t("bearing_asperity.roughness_product", 0.02_wp, 0.1_wp), &
       & usual_t("bearing_asperity.roughness_over_tip_radius", 1.0e-4_wp, 0.05_wp, .true.), &
+      & usual_t("bearing_heat.heat_capacity_J_kg_K", 1700.0_wp, 2300.0_wp), &
+      & usual_t("bearing_heat.oil_share", 0.2_wp, 1.0_wp), &
       & usual_t("belt_pull.force_N", 0.0_wp, 2000.0_wp), &
       & usual_t("belt_pull.angle_deg", -180.0_wp, 180.0_wp), &
       & usual_t("belt_pull.position_mm", -60.0_wp, 60.0_wp), &

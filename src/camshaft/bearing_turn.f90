@@ -1,0 +1,314 @@
+!> What bearings of a camshaft take from a whole turn: the temperature of their oil, the orbits of their journals.
+!>
+!> In: a solved case. Out: the same with these in its shaft, where the case asks for them.
+!> The temperature of a bearing's oil is the root of `T = T_supply + rise(T)`: friction falls and the flow of oil rises with the
+!> temperature, so that there is one, between that of the supply and the rise that would follow there.
+module camroller_bearing_turn
+   use camroller_kinds, only : wp, degree, two_pi
+   use camroller_bearing_asperity, only : bearing_state_t, carry_load
+   use camroller_bearing_heat, only : bearing_heat_t, check_bearing_heat, direct_advice, oil_flow, temperature_rise
+   use camroller_camshaft, only : share_force, share_pull
+   use camroller_error, only : error_t, raise, kind_deck, kind_domain
+   use camroller_journal, only : journal_solved, journal_t, new_journal
+   use camroller_journal_motion, only : moving_state
+   use camroller_journal_orbit, only : bearing_load_t, find_orbit, orbit_t, place_at
+   use camroller_lobe_curve, only : curve_values
+   use camroller_lubricant, only : density_at, get_oil, law_direct, oil_t, temperature_law_names
+   use camroller_quadrature, only : gauss_legendre
+   use camroller_roots, only : bracket_t, narrow_bracket, root_found, root_wanted, start_bracket
+   use camroller_shaft, only : bearing_number, cam_at, has_orbits, in_common_frame, needs_turn, refine_curves, shaft_stops, solved_t
+   use camroller_torque_list, only : torque_count
+   implicit none
+   private
+
+   public :: complete_shaft
+
+   !> Load on one bearing of a solved case
+   type, extends(bearing_load_t) :: cams_load_t
+      type(solved_t), pointer :: solved => null()
+      !> Part of each cam's force that the bearing takes [-], and of the pull [N]
+      real(wp), allocatable :: shares(:)
+      real(wp) :: pull(2) = 0.0_wp
+   contains
+      procedure :: get_load => load_of_cams
+   end type cams_load_t
+
+   !> One bearing over the turn
+   type :: turn_t
+      !> Angles [rad] and their weights in a mean [-], load there, shape (2, angle) [N]
+      real(wp), allocatable :: angles(:), weights(:), loads(:, :)
+      !> Start, stops and end of the turn [rad]
+      real(wp), allocatable :: stops(:)
+      !> The bearing with its oil
+      type(journal_t) :: journal
+      !> Rise of the oil's temperature [K]
+      real(wp) :: rise = 0.0_wp
+      type(orbit_t) :: orbit
+   end type turn_t
+
+   !> Places of a mean in each piece of the turn
+   integer, parameter :: places_of_piece = 4
+   !> The longest piece [rad]
+   real(wp), parameter :: longest_piece = 5.0_wp*degree
+   !> Largest rise of temperature that is looked for, and what it may be off [K]
+   real(wp), parameter :: largest_rise = 200.0_wp, rise_tolerance = 1.0e-7_wp
+
+contains
+
+   !> Make what follows from the cycles ready: curves of the lobe shapes, and where the case asks for them temperatures and orbits.
+   subroutine complete_shaft(solved, error)
+      !> The solved case
+      type(solved_t), intent(inout), target :: solved
+      !> Convergence error; deck or domain error where a bearing has no temperature
+      type(error_t), allocatable, intent(out) :: error
+
+      type(turn_t), allocatable :: turns(:, :)
+      integer :: bearing, k
+
+      call refine_curves(solved, error)
+      if (allocated(error) .or. .not. needs_turn(solved%case)) return
+      allocate (turns(bearing_number(solved%shaft), solved%shaft%count))
+      do k = 1, size(turns, 2)
+         do bearing = 1, size(turns, 1)
+            call find_turn(solved, bearing, k, turns(bearing, k), error)
+            if (allocated(error)) return
+         end do
+      end do
+      if (has_orbits(solved%case)) solved%shaft%orbits = turns%orbit
+      if (.not. allocated(solved%case%bearing_heat)) return
+      solved%shaft%warm = turns%journal
+      solved%shaft%rises = turns%rise
+   end subroutine complete_shaft
+
+   !> Find temperature and orbit of one bearing.
+   subroutine find_turn(solved, bearing, k, turn, error)
+      !> The solved case
+      type(solved_t), intent(inout), target :: solved
+      !> Bearing and camshaft
+      integer, intent(in) :: bearing, k
+      !> The turn
+      type(turn_t), intent(out) :: turn
+      !> Convergence, deck or domain error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(cams_load_t) :: load
+
+      call set_load(solved, bearing, k, load)
+      turn%stops = shaft_stops(solved, abs(load%shares) > 0.0_wp)
+      turn%journal = solved%shaft%journal
+      if (allocated(solved%case%bearing_heat)) then
+         call sample_load(load, turn, error)
+         if (.not. allocated(error)) call find_temperature(solved, solved%case%bearing_heat, load, turn, error)
+      else
+         call follow_journal(solved, load, turn, error)
+      end if
+   end subroutine find_turn
+
+   !> What loads a bearing.
+   subroutine set_load(solved, bearing, k, load)
+      !> The solved case
+      type(solved_t), intent(in), target :: solved
+      !> Bearing and camshaft
+      integer, intent(in) :: bearing, k
+      !> The load
+      type(cams_load_t), intent(out) :: load
+
+      ! What the bearings take of a force [N]
+      real(wp) :: loads(2, bearing_number(solved%shaft))
+      integer :: cam
+
+      load%solved => solved
+      associate (shaft => solved%shaft, places => solved%shaft%bearings%bearing_positions)
+         allocate (load%shares(size(shaft%lobes)))
+         do cam = 1, size(shaft%lobes)
+            loads = 0.0_wp
+            if (shaft%shafts(cam) == k) call share_force(places, shaft%bearings%cam_positions(cam), [1.0_wp, 0.0_wp], loads)
+            load%shares(cam) = loads(1, bearing)
+         end do
+         loads = 0.0_wp
+         if (allocated(shaft%pull)) call share_pull(places, shaft%pull, loads)
+         load%pull = loads(:, bearing)
+      end associate
+   end subroutine set_load
+
+   !> Force of the shaft on one bearing.
+   subroutine load_of_cams(self, angle, load, status)
+      !> What loads it
+      class(cams_load_t), intent(in) :: self
+      !> Cam angle of the first cam from full lift [rad]
+      real(wp), intent(in) :: angle
+      !> The force [N]
+      real(wp), intent(out) :: load(2)
+      !> 0 fine, other: it cannot be found
+      integer, intent(out) :: status
+
+      type(error_t), allocatable :: error
+      ! Torques and force of a cam [N m, N]
+      real(wp) :: values(curve_values)
+      integer :: cam
+
+      status = 0
+      load = self%pull
+      do cam = 1, size(self%shares)
+         if (.not. abs(self%shares(cam)) > 0.0_wp) cycle
+         call cam_at(self%solved, cam, angle, .true., values, error)
+         if (allocated(error)) then
+            status = 1
+            return
+         end if
+         load = load + self%shares(cam)*in_common_frame(self%solved%shaft, cam, values(torque_count + 1:))
+      end do
+   end subroutine load_of_cams
+
+   !> Orbit of a bearing's journal, where the case has such.
+   subroutine follow_journal(solved, load, turn, error)
+      !> The solved case
+      type(solved_t), intent(in) :: solved
+      !> What loads the bearing
+      type(cams_load_t), intent(in) :: load
+      !> In: the bearing with its oil; out: with the orbit
+      type(turn_t), intent(inout) :: turn
+      !> Convergence error
+      type(error_t), allocatable, intent(out) :: error
+
+      ! A cam turns against the sense in which the finger's frame counts where its surface moves away from the pivot
+      if (has_orbits(solved%case)) call find_orbit(turn%journal, -solved%models(1)%linkage%sense, load, turn%stops, &
+         & maxval(solved%cycles%tolerance), turn%orbit, error, solved%shaft%touch)
+   end subroutine follow_journal
+
+   !> Take the load at the angles of a mean: Gauss' rule in pieces between the stops.
+   subroutine sample_load(load, turn, error)
+      !> What loads the bearing
+      type(cams_load_t), intent(in) :: load
+      !> In: stops; out: with angles, weights and loads
+      type(turn_t), intent(inout) :: turn
+      !> Domain error
+      type(error_t), allocatable, intent(out) :: error
+
+      ! Places and weights in a piece, from -1 to 1 [-]; half the length of a piece [rad]
+      real(wp) :: places(places_of_piece), weights(places_of_piece), half
+      integer :: i, n, pieces, status
+
+      call gauss_legendre(places, weights)
+      allocate (turn%angles(0), turn%weights(0))
+      do i = 1, size(turn%stops) - 1
+         pieces = ceiling((turn%stops(i + 1) - turn%stops(i))/longest_piece)
+         if (pieces == 0) cycle
+         half = 0.5_wp*(turn%stops(i + 1) - turn%stops(i))/pieces
+         do n = 1, pieces
+            turn%angles = [turn%angles, turn%stops(i) + half*(2*n - 1 + places)]
+            turn%weights = [turn%weights, half/two_pi*weights]
+         end do
+      end do
+      allocate (turn%loads(2, size(turn%angles)))
+      do i = 1, size(turn%angles)
+         call load%get_load(turn%angles(i), turn%loads(:, i), status)
+         if (status /= 0) then
+            call raise(error, kind_domain, "camshaft bearings: the load has no value at some angle of the turn")
+            return
+         end if
+      end do
+   end subroutine sample_load
+
+   !> Temperature of a bearing's oil.
+   subroutine find_temperature(solved, heat, load, turn, error)
+      !> The solved case
+      type(solved_t), intent(in) :: solved
+      !> What is given about heat
+      type(bearing_heat_t), intent(in) :: heat
+      !> What loads the bearing
+      type(cams_load_t), intent(in) :: load
+      !> In: loads; out: with the rise of temperature, the bearing with its oil, the orbit
+      type(turn_t), intent(inout) :: turn
+      !> Convergence, deck or domain error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(bracket_t) :: bracket
+      ! Rise less the one that follows from it, at both ends and between; the higher end [K]
+      real(wp) :: low, high, miss, last
+
+      call check_bearing_heat(heat, error)
+      if (.not. allocated(error) .and. solved%case%lubricant%temperature_law == temperature_law_names(law_direct)) &
+         & call raise(error, kind_deck, direct_advice)
+      if (allocated(error)) return
+      call try_rise(0.0_wp, low)
+      if (allocated(error)) return
+      last = min(-low, largest_rise)
+      call try_rise(last, high)
+      if (allocated(error)) return
+      call start_bracket(bracket, 0.0_wp, last, low, max(high, merge(0.0_wp, high, last < largest_rise)), rise_tolerance)
+      do while (bracket%status == root_wanted)
+         call try_rise(bracket%trial, miss)
+         if (allocated(error)) return
+         call narrow_bracket(bracket, miss)
+      end do
+      if (bracket%status /= root_found) then
+         call raise(error, kind_domain, "the oil of a camshaft bearing would be more than 200 K warmer than its supply: "// &
+            & "hardly any leaves a bearing that bears so little; lower bearing_heat.oil_share, or leave &bearing_heat out")
+         return
+      end if
+      call try_rise(bracket%trial, miss)
+      turn%rise = bracket%trial
+
+   contains
+
+      !> A rise of temperature less the one that follows from it.
+      subroutine try_rise(rise, miss)
+         !> The rise, the difference [K]
+         real(wp), intent(in) :: rise
+         real(wp), intent(out) :: miss
+
+         type(oil_t) :: oil
+         ! Mean torque [N m], mean flow [m^3/s]
+         real(wp) :: torque, flow
+
+         miss = 0.0_wp
+         associate (case => solved%case, shaft => solved%shaft, supply => solved%case%operating_point%oil_temperature)
+            call get_oil(case%lubricant, supply + rise, oil, error)
+            if (.not. allocated(error)) call new_journal(turn%journal, shaft%bearings, oil%viscosity, shaft%speed, error)
+            if (.not. allocated(error)) call follow_journal(solved, load, turn, error)
+            if (.not. allocated(error)) call average(solved, turn, torque, flow, error)
+            if (allocated(error)) return
+            miss = rise - temperature_rise(heat, density_at(case%lubricant, supply), torque*shaft%speed, flow)
+         end associate
+      end subroutine try_rise
+
+   end subroutine find_temperature
+
+   !> Means of a bearing over the turn.
+   subroutine average(solved, turn, torque, flow, error)
+      !> The solved case
+      type(solved_t), intent(in) :: solved
+      !> The bearing with its loads and orbit
+      type(turn_t), intent(in) :: turn
+      !> Mean torque [N m], mean flow of oil [m^3/s]
+      real(wp), intent(out) :: torque, flow
+      !> Domain error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(bearing_state_t) :: state
+      ! Place of the journal [clearance]
+      real(wp) :: place(2)
+      integer :: i, status, hint
+
+      torque = 0.0_wp
+      flow = 0.0_wp
+      hint = 1
+      status = journal_solved
+      do i = 1, size(turn%angles)
+         if (has_orbits(solved%case)) then
+            call place_at(turn%orbit, turn%angles(i), hint, place)
+            call moving_state(turn%journal, place, turn%loads(:, i), state, solved%shaft%touch)
+         else
+            call carry_load(turn%journal, turn%loads(:, i), state, status, solved%shaft%touch)
+         end if
+         if (status /= journal_solved) then
+            call raise(error, kind_domain, "camshaft bearings: the bearing law has no solution for a load of the turn")
+            return
+         end if
+         torque = torque + turn%weights(i)*state%torque
+         flow = flow + turn%weights(i)*oil_flow(turn%journal, solved%shaft%speed, state%eccentricity)
+      end do
+   end subroutine average
+
+end module camroller_bearing_turn

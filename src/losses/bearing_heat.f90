@@ -1,0 +1,83 @@
+!> Heat balance of a journal bearing: how warm its oil is.
+!>
+!> In: dimensions, mean friction and mean eccentricity of a turn, what is given about heat. Out: flow of oil through the bearing,
+!> rise of its mean temperature above that of the oil supplied.
+!>
+!> Oil enters at the temperature of the supply, and what leaves at the sides carries friction's heat with it. The viscosity that
+!> counts is that at the mean of both temperatures (ISO 7902-1):
+!>
+!>     Q  = omega r c L (1 - 0.223 (L/D)^2) e      side flow; the bracket is 1 for the short bearing, whose closed form it is
+!>     dT = 1/2 share P/(rho c_p Q)                with the mean power of friction P and the mean of e over the turn
+!>
+!> The bearing and its oil are too slow to follow a turn. Left out: oil that is pressed through by the pressure of the supply.
+module camroller_bearing_heat
+   use camroller_kinds, only : wp
+   use camroller_error, only : error_t, raise, kind_deck
+   use camroller_journal, only : is_short, journal_t
+   implicit none
+   private
+
+   public :: bearing_heat_t, check_bearing_heat, oil_flow, temperature_rise, direct_advice
+
+   !> What a case says about heat of its camshaft bearings
+   type :: bearing_heat_t
+      !> Heat capacity of the oil [J/(kg K)]
+      real(wp) :: heat_capacity = 2000.0_wp
+      !> Part of the friction's heat that the oil carries away; the rest goes into the metal [-]
+      real(wp) :: oil_share = 1.0_wp
+   end type bearing_heat_t
+
+   !> What to say where the viscosity does not depend on the temperature
+   character(len=*), parameter :: direct_advice = "the heat balance of camshaft bearings needs a viscosity that depends on the "// &
+      & "temperature: another temperature_law than 'direct' in &lubricant"
+
+contains
+
+   !> Refuse numbers that cannot be.
+   subroutine check_bearing_heat(heat, error)
+      !> What is given
+      type(bearing_heat_t), intent(in) :: heat
+      !> Deck error
+      type(error_t), allocatable, intent(out) :: error
+
+      if (heat%heat_capacity > 0.0_wp .and. heat%oil_share >= 0.0_wp .and. heat%oil_share <= 1.0_wp) return
+      call raise(error, kind_deck, "the heat balance of camshaft bearings needs a heat capacity above zero, and a share of "// &
+         & "the oil from 0 to 1")
+   end subroutine check_bearing_heat
+
+   !> Oil that leaves a bearing at its sides. Source: ISO 7902-1; Ocvirk (1952) for the short bearing.
+   pure function oil_flow(journal, speed, eccentricity) result(flow)
+      !> The bearing
+      type(journal_t), intent(in) :: journal
+      !> Speed of the shaft [rad/s], eccentricity over clearance [-]
+      real(wp), intent(in) :: speed, eccentricity
+      !> The flow [m^3/s]
+      real(wp) :: flow
+
+      ! Fit of finite width [-]
+      real(wp), parameter :: width_part = 0.223_wp
+
+      flow = 2.0_wp*abs(speed)*journal%radius**3*journal%clearance_ratio*journal%width_ratio*eccentricity
+      if (.not. is_short(journal)) flow = flow*(1.0_wp - width_part*journal%width_ratio**2)
+   end function oil_flow
+
+   !> Rise of the oil's mean temperature; huge where no oil leaves.
+   pure function temperature_rise(heat, density, power, flow) result(rise)
+      !> What is given
+      type(bearing_heat_t), intent(in) :: heat
+      !> Density of the oil [kg/m^3], mean power of friction [W], mean flow [m^3/s]
+      real(wp), intent(in) :: density, power, flow
+      !> The rise [K]
+      real(wp) :: rise
+
+      ! Power for each kelvin [W/K]
+      real(wp) :: carried
+
+      rise = 0.0_wp
+      if (.not. heat%oil_share*power > 0.0_wp) return
+      carried = 2.0_wp*density*heat%heat_capacity*flow
+      rise = huge(1.0_wp)
+      if (carried > heat%oil_share*power/1.0e6_wp) rise = heat%oil_share*power/carried
+   end function temperature_rise
+
+end module camroller_bearing_heat
