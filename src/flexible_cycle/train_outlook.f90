@@ -13,6 +13,7 @@ module camroller_train_outlook
    use camroller_kinematics, only : position_t
    use camroller_lapack, only : dsygv
    use camroller_lash_adjuster, only : bulk_modulus, chamber_volume
+   use camroller_lift, only : is_at_rest
    use camroller_model, only : evaluate_geometry, model_t
    use camroller_state, only : evaluate_loading
    use camroller_torque, only : normal_direction
@@ -59,14 +60,20 @@ contains
       ! Load of the rigid train [N] and second derivative of its lift over time [m/s^2], at even angles; gas force [N]
       real(wp) :: load(points), lift(points), force
       integer :: i, n, status
+      ! Does the valve rest here, and did it at the angle before? Without gas force nothing changes then
+      logical :: rests, rested
 
       allocate (outlook%frequencies(0), outlook%surge(0))
       outlook%is_known = allocated(model%pivot) .and. model%train%valve_mass > 0.0_wp
       if (.not. outlook%is_known) return
       call find_modes(model, outlook)
       if (.not. minval(outlook%frequencies) > 0.0_wp) return
+      rests = .false.
       do i = 1, points
-         call evaluate_loading(model, two_pi*real(i - 1, wp)/points - pi, position, force, moments, status)
+         rested = rests
+         rests = is_at_rest(model%lift_law, two_pi*real(i - 1, wp)/points - pi) .and. .not. allocated(model%gas)
+         if (.not. (rests .and. rested)) call evaluate_loading(model, two_pi*real(i - 1, wp)/points - pi, position, force, &
+            & moments, status)
          if (status /= 0) return
          load(i) = moments%total/position%normal_arm
          lift(i) = model%speed**2*position%lift_curvature

@@ -154,7 +154,7 @@ contains
             if ((before(kind) > 0.0_wp) .neqv. (after(kind) > 0.0_wp)) then
                angles = [angles, switch_angle(model, kind, scan(i - 1), scan(i), before(kind), after(kind), switches)]
             else if (i - 2 >= first) then
-               angles = [angles, short_change(model, kind, scan(i - 2:i), [earlier(kind), before(kind), after(kind)])]
+               call add_short_change(model, kind, scan(i - 2:i), [earlier(kind), before(kind), after(kind)], angles)
             end if
          end do
          earlier = before
@@ -162,9 +162,9 @@ contains
       end do
    end function switch_angles
 
-   !> Angles at which a switch changes its sign and changes it back between three angles of the scan: where the one in the middle is
-   !> so close to zero that the next values rise by more than itself, its extreme is looked for.
-   function short_change(model, kind, places, values) result(angles)
+   !> Add the angles at which a switch changes its sign and changes it back between three angles of the scan, if there are any:
+   !> where the one in the middle is so close to zero that the next values rise by more than itself, its extreme is looked for.
+   subroutine add_short_change(model, kind, places, values, angles)
       !> The model
       type(model_t), intent(in) :: model
       !> Which of the switches
@@ -173,14 +173,13 @@ contains
       real(wp), intent(in) :: places(3)
       !> Values of the switch there [unit of the switch]
       real(wp), intent(in) :: values(3)
-      !> Two angles or none [rad]
-      real(wp), allocatable :: angles(:)
+      !> Angles so far [rad]
+      real(wp), allocatable, intent(inout) :: angles(:)
 
       type(extremum_t) :: search
       ! Distances from zero; switches at the extreme [unit of the switch]
       real(wp) :: heights(3), found(2)
 
-      allocate (angles(0))
       heights = abs(values)
       if (any((values > 0.0_wp) .neqv. (values(2) > 0.0_wp))) return
       if (heights(2) >= min(heights(1), heights(3)) .or. 2.0_wp*heights(2) >= maxval(heights)) return
@@ -188,13 +187,13 @@ contains
       do while (search%is_wanted)
          found = switches(model, search%trial)
          if ((found(kind) > 0.0_wp) .neqv. (values(2) > 0.0_wp)) then
-            angles = [switch_angle(model, kind, places(1), search%trial, values(1), found(kind), switches), &
+            angles = [angles, switch_angle(model, kind, places(1), search%trial, values(1), found(kind), switches), &
                & switch_angle(model, kind, search%trial, places(3), found(kind), values(3), switches)]
             return
          end if
          call narrow_extremum(search, abs(found(kind)))
       end do
-   end function short_change
+   end subroutine add_short_change
 
    !> Angles between two others at which friction of a sliding joint jumps: where the valve turns round, sets off or comes to rest,
    !> and where the pad's contact with the tip passes the pivot's height. There is a stop on each side, so that no step has the
