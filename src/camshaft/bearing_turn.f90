@@ -151,7 +151,7 @@ contains
       load = self%pull
       do cam = 1, size(self%shares)
          if (.not. abs(self%shares(cam)) > 0.0_wp) cycle
-         call cam_at(self%solved, cam, angle, .true., values, error)
+         call cam_at(self%solved, cam, angle, values, error)
          if (allocated(error)) then
             status = 1
             return

@@ -214,7 +214,7 @@ contains
    end subroutine refine_curve
 
    !> Torques at a cam angle.
-   subroutine shaft_torques(solved, angle, torques, error, first_state, bearings)
+   subroutine shaft_torques(solved, angle, torques, error, cams, bearings)
       !> The solved case; its search hints move
       type(solved_t), intent(inout) :: solved
       !> Cam angle of the first cam from full lift [rad]
@@ -223,8 +223,8 @@ contains
       real(wp), intent(out) :: torques(:, :)
       !> Convergence or domain error
       type(error_t), allocatable, intent(out) :: error
-      !> State of the first cam's follower there; with it all others are solved as well, and no curve is taken for them
-      type(state_t), intent(in), optional :: first_state
+      !> What each cam takes from its follower there, shape (value, cam) [N m, N]; without it the curves say so
+      real(wp), intent(in), optional :: cams(:, :)
       !> States of the bearings, shape (bearing, camshaft)
       type(bearing_state_t), intent(out), optional :: bearings(:, :)
 
@@ -235,10 +235,10 @@ contains
       torques = 0.0_wp
       associate (shaft => solved%shaft)
          do cam = 1, size(shaft%lobes)
-            if (cam == 1 .and. present(first_state)) then
-               values = cam_values(solved%models(shaft%lobes(cam)), first_state)
+            if (present(cams)) then
+               values = cams(:, cam)
             else
-               call cam_at(solved, cam, angle, .not. present(first_state), values, error)
+               call cam_at(solved, cam, angle, values, error)
                if (allocated(error)) return
             end if
             torques(:, shaft%shafts(cam)) = torques(:, shaft%shafts(cam)) + values(:torque_count)
@@ -248,16 +248,14 @@ contains
       end associate
    end subroutine shaft_torques
 
-   !> Torques and force of one cam at an angle of the first one.
-   subroutine cam_at(solved, cam, angle, by_curve, values, error)
+   !> Torques and force of one cam at an angle of the first one: from the curve of the lobe shape where that is good enough.
+   subroutine cam_at(solved, cam, angle, values, error)
       !> The solved case; its search hints move
       type(solved_t), intent(inout) :: solved
       !> The cam
       integer, intent(in) :: cam
       !> Cam angle of the first cam from full lift [rad]
       real(wp), intent(in) :: angle
-      !> May they come from the curve of the lobe shape, where that is good enough?
-      logical, intent(in) :: by_curve
       !> Torques [N m], last the energy residual [W], and force in the frame of the cam's own follower [N]
       real(wp), intent(out) :: values(curve_values)
       !> Convergence error
@@ -268,8 +266,7 @@ contains
 
       associate (shaft => solved%shaft)
          associate (lobe => shaft%lobes(cam), place => angle - shaft%phases(cam))
-            is_known = .false.
-            if (by_curve) call curve_at(solved%curves(lobe), place, values, is_known)
+            call curve_at(solved%curves(lobe), place, values, is_known)
             if (is_known) return
             call state_at(solved%cycles(lobe), solved%models(lobe), place, shaft%hints(cam), state, error)
             if (.not. allocated(error)) values = cam_values(solved%models(lobe), state)

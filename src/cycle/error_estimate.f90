@@ -65,7 +65,7 @@ contains
       estimate%rates(estimate%rated) = decay_rate
    end subroutine add_defect
 
-   !> Carry the error over an interval.
+   !> Carry the error over an interval, or over two of the solution as one.
    !>
    !> The defect is taken as the polynomial through its points, the decay rate as changing by the same factor over the same length
    !> between them, since it may span decades, and as constant over a part.
@@ -77,13 +77,42 @@ contains
       !> Defects at its start and at its end [m/s/rad], where the points are inside and these are known
       real(wp), intent(in), optional :: ends(2)
 
-      ! Places [-] and defects [m/s/rad] that are known
-      real(wp) :: places(panel_points + 2), values(panel_points + 2)
-      ! Weights of the polynomial through them [-]
-      real(wp) :: weights(panel_points + 2)
-      ! Defect at start, middle and end of a part [m/s/rad]; its length over the interval [-]; decay over it, what it leaves [-]
-      real(wp) :: defects(3), part, decay, left
-      integer :: i, j, known
+      ! Defects at the cuts and in the middle of the parts [m/s/rad]
+      real(wp) :: at_cuts(size(cuts)), at_middles(size(cuts) - 1)
+      ! Length of a part over that of the interval [-]; decay over it, what it leaves [-]
+      real(wp) :: part, decay, left
+      integer :: i
+
+      call interpolate_defects(estimate, at_cuts, at_middles, ends)
+      associate (nodes => estimate%rate_places(:estimate%rated), rates => estimate%rates(:estimate%rated))
+         call keep_error(estimate, cuts(1))
+         do i = 1, size(cuts) - 1
+            part = cuts(i + 1) - cuts(i)
+            decay = max(rate_at(nodes, rates, cuts(i) + 0.5_wp*part)*length*part, -largest_growth)
+            left = exp(-decay)
+            estimate%error = left*estimate%error + length*part*decayed_integral([at_cuts(i), at_middles(i), at_cuts(i + 1)], decay)
+            estimate%error = sign(min(abs(estimate%error), lost), estimate%error)
+            estimate%contraction = min(estimate%contraction*left, lost)
+            estimate%largest = max(estimate%largest, abs(estimate%error))
+            call keep_error(estimate, cuts(i + 1))
+         end do
+      end associate
+      estimate%points = 0
+      estimate%rated = 0
+   end subroutine end_interval
+
+   !> Defects at the cuts of an interval and in the middle between them, by the polynomial through all that are known.
+   pure subroutine interpolate_defects(estimate, at_cuts, at_middles, ends)
+      !> The estimate with the points of the interval
+      type(estimate_t), intent(in) :: estimate
+      !> The defects [m/s/rad]
+      real(wp), intent(out) :: at_cuts(:), at_middles(:)
+      !> Defects at the ends [m/s/rad], where they are known besides
+      real(wp), intent(in), optional :: ends(2)
+
+      ! Places [-] and defects [m/s/rad] that are known; weights of the polynomial through them [-]
+      real(wp) :: places(panel_points + 2), values(panel_points + 2), weights(panel_points + 2)
+      integer :: i, known
 
       known = estimate%points
       places(:known) = estimate%places(:known)
@@ -94,25 +123,13 @@ contains
          known = known + 2
       end if
       weights(:known) = node_weights(places(:known))
-      associate (nodes => estimate%rate_places(:estimate%rated), rates => estimate%rates(:estimate%rated))
-         call keep_error(estimate, cuts(1))
-         do i = 1, size(cuts) - 1
-            part = cuts(i + 1) - cuts(i)
-            do j = 0, 2
-               defects(j + 1) = value_at(places(:known), weights(:known), values(:known), cuts(i) + 0.5_wp*j*part)
-            end do
-            decay = max(rate_at(nodes, rates, cuts(i) + 0.5_wp*part)*length*part, -largest_growth)
-            left = exp(-decay)
-            estimate%error = left*estimate%error + length*part*decayed_integral(defects, decay)
-            estimate%error = sign(min(abs(estimate%error), lost), estimate%error)
-            estimate%contraction = min(estimate%contraction*left, lost)
-            estimate%largest = max(estimate%largest, abs(estimate%error))
-            call keep_error(estimate, cuts(i + 1))
-         end do
-      end associate
-      estimate%points = 0
-      estimate%rated = 0
-   end subroutine end_interval
+      do i = 1, size(cuts)
+         at_cuts(i) = value_at(places(:known), weights(:known), values(:known), cuts(i))
+      end do
+      do i = 1, size(cuts) - 1
+         at_middles(i) = value_at(places(:known), weights(:known), values(:known), cuts(i) + 0.5_wp*(cuts(i + 1) - cuts(i)))
+      end do
+   end subroutine interpolate_defects
 
    !> Keep error and contraction for the point of the interval that stands at a place, if there is one.
    pure subroutine keep_error(estimate, place)

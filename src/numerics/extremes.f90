@@ -17,7 +17,7 @@ module camroller_extremes
    implicit none
    private
 
-   public :: samples_t, search_t, start_samples, add_sample, start_search, narrow_search
+   public :: samples_t, search_t, start_samples, add_sample, move_samples, start_search, narrow_search
 
    !> Rows of series over one turn
    type :: samples_t
@@ -99,6 +99,20 @@ contains
       samples%values(:, samples%count) = values
       samples%is_kink(samples%count) = is_kink
    end subroutine add_sample
+
+   !> Hand rows over without a copy.
+   pure subroutine move_samples(from, to)
+      !> The rows; out: none, and no room for any
+      type(samples_t), intent(inout) :: from
+      !> The same rows
+      type(samples_t), intent(out) :: to
+
+      to%count = from%count
+      from%count = 0
+      call move_alloc(from%angle, to%angle)
+      call move_alloc(from%values, to%values)
+      call move_alloc(from%is_kink, to%is_kink)
+   end subroutine move_samples
 
    !> Double the room for rows.
    pure subroutine make_room(samples)
@@ -223,22 +237,49 @@ contains
       !> Is the extreme itself what a gain is small against, where it is less than the extent?
       logical, intent(in), optional :: by_itself
 
-      ! Values by angle, round the turn [unit of the series]
-      real(wp) :: values(0:samples%count + 1)
+      ! Sign that makes the extreme the smallest value [-]; largest value [unit of the series]
+      real(wp) :: sign, largest
+      integer :: extreme
 
       if (samples%sorted < samples%count) call find_neighbours(samples)
       search%series = series
       search%sense = sense
       search%coarse = max(worth, tolerance)
-      values = sense*samples%by_angle(:, series)
-      search%value = minval(values)
-      search%extent = maxval(values) - search%value
+      sign = real(sense, wp)
+      call find_ends(samples%by_angle(1:samples%count, series), sign, extreme, search%value, largest)
+      search%extent = largest - search%value
       if (present(by_itself)) then
          if (by_itself) search%extent = min(search%extent, abs(search%value))
       end if
-      call list_rows(samples, values, search)
+      call list_rows(samples, samples%by_angle(:, series), sign, extreme, search)
       call enter_row(samples, search)
    end subroutine start_search
+
+   !> Smallest and largest of some values.
+   pure subroutine find_ends(values, sign, extreme, smallest, largest)
+      !> The values [unit of the series]
+      real(wp), intent(in) :: values(:)
+      !> Sign that they get [-]
+      real(wp), intent(in) :: sign
+      !> Place of the first of the smallest
+      integer, intent(out) :: extreme
+      !> Both [unit of the series]
+      real(wp), intent(out) :: smallest, largest
+
+      real(wp) :: value ! [unit of the series]
+      integer :: place
+
+      extreme = 1
+      smallest = sign*values(1)
+      largest = smallest
+      do place = 2, size(values)
+         value = sign*values(place)
+         if (value > largest) largest = value
+         if (value >= smallest) cycle
+         smallest = value
+         extreme = place
+      end do
+   end subroutine find_ends
 
    !> Take the value of the series at the trial angle.
    pure subroutine narrow_search(samples, search, value)
@@ -260,25 +301,35 @@ contains
 
    !> Rows near which there may be an extreme: the extreme one, then those that may hide a value beyond it, the most promising
    !> first.
-   pure subroutine list_rows(samples, values, search)
+   pure subroutine list_rows(samples, values, sign, extreme, search)
       !> The rows
       type(samples_t), intent(in) :: samples
-      !> Values by angle, round the turn [unit of the series]
+      !> Values by angle, one row beyond the turn at both ends [unit of the series]
       real(wp), intent(in) :: values(0:)
+      !> Sign that makes the extreme the smallest of them [-]
+      real(wp), intent(in) :: sign
+      !> Place of the extreme one among them by angle
+      integer, intent(in) :: extreme
       !> The search
       type(search_t), intent(inout) :: search
 
       integer :: rows(samples%count)
       ! The lowest value that each of these rows may hide [unit of the series]
       real(wp) :: bounds(samples%count), bound
-      integer :: found, place, extreme, best
+      ! Values of the rows before and after, and of this one [unit of the series]
+      real(wp) :: before, here, after
+      integer :: found, place, best
 
-      extreme = minloc(values(1:samples%count), 1)
       search%bound = search%value
       search%point = samples%angle(samples%order(extreme))
       found = 0
+      here = sign*values(0)
+      after = sign*values(1)
       do place = 1, samples%count
-         if (values(place) > values(place - 1) .or. values(place) > values(place + 1)) cycle
+         before = here
+         here = after
+         after = sign*values(place + 1)
+         if (here > before .or. here > after) cycle
          if (place == extreme .or. samples%is_kink(samples%order(place))) cycle
          bound = lowest_hidden(samples, search, samples%order(place))
          if (bound >= search%value - worth*search%extent) cycle

@@ -7,8 +7,8 @@ module camroller_mean_bearings
    use camroller_error, only : error_t
    use camroller_bearing_asperity, only : bearing_state_t
    use camroller_catalogue, only : camshaft_columns, camshaft_count, camshaft_values
-   use camroller_extremes, only : samples_t, start_samples, add_sample
-   use camroller_means, only : mean_tolerance, most_halvings
+   use camroller_extremes, only : samples_t, start_samples, add_sample, move_samples
+   use camroller_means, only : mean_tolerance, most_halvings, quadrature_part
    use camroller_panels, only : sampled_t, panels_t, start_panels, sample_panel, refine_panels
    use camroller_result, only : quantity_t
    use camroller_bearing_series, only : bearing_count
@@ -30,6 +30,7 @@ module camroller_mean_bearings
       integer :: series = 0
       !> Those of them that are of single bearings, the last ones
       integer :: of_bearings = 0
+      logical :: keeps_rows = .true.
    contains
       procedure :: sample => sample_bearings
    end type bearing_samples_t
@@ -84,9 +85,11 @@ contains
          end do
       end do
       ! Not those of halved panels: what bearings ask for changes nothing but their own torque
-      rows = samples%rows
+      call move_samples(samples%rows, rows)
+      samples%keeps_rows = .false.
       halvings = most_halvings
-      allowed = max(mean_tolerance(maxval(solved%cycles%tolerance))*sum(panels%sizes(:, :panels%count), 2), tiny(1.0_wp))
+      allowed = max(quadrature_part*mean_tolerance(maxval(solved%cycles%tolerance))*sum(panels%sizes(:, :panels%count), 2), &
+         & tiny(1.0_wp))
       ! First for the torque alone, which is the same whether or not single bearings have series
       call refine_panels(panels, samples, [allowed(:size(mean)), spread(huge(1.0_wp), 1, size(single))], halvings, error)
       if (allocated(error)) return
@@ -126,9 +129,13 @@ contains
       if (self%of_bearings > 0) allocate (bearings(bearing_count(self%solved%case), self%solved%shaft%count))
       call shaft_torques(self%solved, x, torques, error, bearings=bearings)
       if (allocated(error)) return
+      if (self%of_bearings == 0 .and. .not. self%keeps_rows) then
+         values = torques(of_bearings, :)
+         return
+      end if
       call camshaft_values(self%solved%case, torques, series, bearings)
       values = [torques(of_bearings, :), series(self%series - self%of_bearings + 1:)]
-      call add_sample(self%rows, x, series, .false.)
+      if (self%keeps_rows) call add_sample(self%rows, x, series, .false.)
    end subroutine sample_bearings
 
 end module camroller_mean_bearings

@@ -17,7 +17,7 @@ module camroller_means
    use camroller_torque_list, only : torque_count, is_loss, is_torque, of_geometric, of_roller_inertia, of_residual, torque_series
    use camroller_cycle_walk, only : walk_t, walk_round, trapezoid
    use camroller_error_estimate, only : estimated_error
-   use camroller_extremes, only : samples_t
+   use camroller_extremes, only : samples_t, move_samples
    use camroller_follower_samples, only : follower_samples_t, start_samples, extremes_t, shares_t
    use camroller_slip_errors, only : slip_errors_t, find_slip_errors
    use camroller_lobe_curve, only : lobe_curve_t
@@ -53,6 +53,10 @@ module camroller_means
       type(lobe_curve_t) :: curve
       !> Errors caused by the error of the sliding speed
       type(slip_errors_t) :: slip_errors
+      !> Smallest and largest value of each series of the follower [unit of the series]
+      real(wp), allocatable :: lowest(:), highest(:)
+      !> Smallest contact load with the valve off its seat [N]
+      real(wp) :: event_load = 0.0_wp
       !> Errors of the smallest and the largest value of each series [unit of the series]
       real(wp), allocatable :: extreme_errors(:, :)
       !> Estimate of the largest error of a smallest or largest value relative to the range of its series [-], and the series that
@@ -71,6 +75,8 @@ module camroller_means
    integer, parameter, public :: most_halvings = 1000
    !> Times that what is allowed is taken anew from means that have become better
    integer, parameter :: most_passes = 5
+   !> Error of a mean over the tolerance of its cycle, for a whole cycle [-]: a twentieth of the accuracy
+   real(wp), parameter, public :: quadrature_part = 5.0_wp
    !> Least tolerance of a mean: below it rounding counts [-]
    real(wp), parameter :: least_tolerance = 1.0e-10_wp
 
@@ -109,7 +115,7 @@ contains
       films = [1, 0]
       if (statistics%lost_share > 0.0_wp) films = [find_quantity(series, "film_thickness_min"), find_quantity(series, "film_ratio")]
       if (.not. cycle%is_linear) then
-         call refine_means(walk%panels, samples, cycle%tolerance, series_count, films, error)
+         call refine_means(walk%panels, samples, quadrature_part*mean_tolerance(cycle%tolerance), series_count, films, error)
          if (.not. allocated(error)) call add_standstills(samples, walk%speeds(:walk%count), statistics%standstills, &
             & statistics%first_standstill, error)
          if (allocated(error)) return
@@ -122,7 +128,7 @@ contains
       ! The difference between start and end is repeated in each cycle until the periodic one is reached
       statistics%error = cycle%closure/max(1.0_wp - walk%estimate%contraction, epsilon(1.0_wp)) &
          & + estimated_error(walk%estimate)/max(statistics%largest_sliding, cycle%scale, tiny(1.0_wp))
-      statistics%rows = samples%rows
+      call move_samples(samples%rows, statistics%rows)
    end subroutine integrate_lobe
 
    !> Halve panels until the means are within the tolerance.
@@ -146,7 +152,7 @@ contains
 
       halvings = most_halvings
       do pass = 1, most_passes
-         allowed = mean_tolerance(tolerance)*mean_sizes(panels, series, films)
+         allowed = tolerance*mean_sizes(panels, series, films)
          if (all(sum(panels%errors(:, :panels%count), 2) <= allowed)) return
          call refine_panels(panels, samples, allowed, halvings, error)
          if (allocated(error) .or. halvings == 0) return
@@ -285,7 +291,8 @@ contains
       torques = 0.0_wp
       call start_samples(samples, model, cycle)
       call walk_along(samples, panels, work, error)
-      if (.not. (allocated(error) .or. cycle%is_linear)) call refine_means(panels, samples, cycle%tolerance, 0, [1, 0], error)
+      if (.not. (allocated(error) .or. cycle%is_linear)) call refine_means(panels, samples, mean_tolerance(cycle%tolerance), 0, &
+         & [1, 0], error)
       if (allocated(error)) return
       span = cycle%trajectory%time(cycle%trajectory%count) - cycle%trajectory%time(1)
       torques = sum(panels%integrals(:, :panels%count), 2)/span + stored_torques(samples, work, span)

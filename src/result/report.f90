@@ -2,33 +2,48 @@
 !>
 !> In: case, models, cycles. Out: `result_t`.
 module camroller_report
-   use camroller_kinds, only : wp, two_pi, degree
+   use camroller_kinds, only : wp, pi, two_pi, degree
    use camroller_error, only : error_t
    use camroller_bearing_asperity, only : bearing_state_t
    use camroller_case, only : case_t
    use camroller_model, only : model_t
-   use camroller_state, only : state_t
+   use camroller_contact_forces, only : contact_t
    use camroller_cycle, only : cycle_t, state_at
    use camroller_cycle_remarks, only : judge_films, judge_lobe, judge_pressure
-   use camroller_catalogue, only : list_series, follower_values, camshaft_values, follower_count, camshaft_count, lobe_columns, &
-      & lobe_prefix, camshaft_columns
+   use camroller_catalogue, only : list_series, follower_count, follower_values, camshaft_columns, camshaft_count, &
+      & camshaft_values, lobe_columns, lobe_prefix
    use camroller_extremes, only : samples_t
-   use camroller_series_extremes, only : extremes_t, find_extremes
+   use camroller_follower_samples, only : contact_ahead, extend_trail, trail_t
+   use camroller_lobe_curve, only : cam_values, curve_values
+   use camroller_series_extremes, only : extremes_t, find_extremes, find_lobe_extremes
    use camroller_margins, only : margins_t, find_margins
    use camroller_names, only : name_length
-   use camroller_result, only : result_t, check_numbers, find_quantity
+   use camroller_result, only : result_t, quantity_t, check_numbers, find_quantity
    use camroller_bearing_series, only : bearing_count, bearing_series_count
    use camroller_bearing_turn, only : complete_shaft
    use camroller_shaft, only : new_shaft, shaft_torques, solved_t
    use camroller_mean_bearings, only : mean_bearing_torque
    use camroller_means, only : statistics_t, integrate_lobe
    use camroller_flexible_report, only : flexible_means_t, integrate_turns
-   use camroller_torque_list, only : torque_count
+   use camroller_state, only : state_t
    use camroller_summary, only : make_summary
+   use camroller_torque_list, only : torque_count
    implicit none
    private
 
-   public :: take_statistics, make_result, output_angles
+   public :: take_statistics, search_extremes, make_result, output_angles
+
+   !> What followers of one lobe shape give their cams at the output angles less a phase
+   type :: lobe_turn_t
+      integer :: lobe = 1
+      !> The phase [rad]
+      real(wp) :: phase = 0.0_wp
+      !> Torques [N m], last the energy residual [W], and force on the cam [N], shape (value, angle)
+      real(wp), allocatable :: values(:, :)
+   end type lobe_turn_t
+
+   !> Difference of two cam angles that is rounding [rad]
+   real(wp), parameter :: rounding = 1.0e-13_wp
 
 contains
 
@@ -89,15 +104,48 @@ contains
       statistics%worst_mean = "torque_friction"
    end subroutine integrate_flexible
 
-   !> Series and summary of a case.
-   subroutine make_result(case, models, cycles, statistics, with_series, result, error)
+   !> Margins of each lobe shape, and extremes of its followers with their errors.
+   subroutine search_extremes(case, models, cycles, statistics, margins, error)
       !> The case
       type(case_t), intent(in), target :: case
       !> Model of each lobe shape
       type(model_t), intent(in), target :: models(:)
       !> Cycle of each lobe shape
       type(cycle_t), intent(in), target :: cycles(:)
-      !> Means of each lobe shape; out: with the rows of the extremes
+      !> Means of each lobe shape; out: with the extremes
+      type(statistics_t), intent(inout) :: statistics(:)
+      !> Margins of each lobe shape
+      type(margins_t), allocatable, intent(out) :: margins(:)
+      !> Convergence error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(solved_t) :: solved
+      type(quantity_t), allocatable :: series(:)
+      integer :: lobe
+
+      solved%case => case
+      solved%models => models
+      solved%cycles => cycles
+      call list_series(case, series)
+      allocate (margins(size(models)))
+      do lobe = 1, size(models)
+         call find_margins(models(lobe), cycles(lobe)%stops, margins(lobe))
+         call find_lobe_extremes(solved, lobe, series, margins(lobe), statistics(lobe), error)
+         if (allocated(error)) return
+      end do
+   end subroutine search_extremes
+
+   !> Series and summary of a case.
+   subroutine make_result(case, models, cycles, margins, statistics, with_series, result, error)
+      !> The case
+      type(case_t), intent(in), target :: case
+      !> Model of each lobe shape
+      type(model_t), intent(in), target :: models(:)
+      !> Cycle of each lobe shape
+      type(cycle_t), intent(in), target :: cycles(:)
+      !> Margins of each lobe shape
+      type(margins_t), intent(in) :: margins(:)
+      !> Means and extremes of each lobe shape; out: with the error of the mean torque of the bearings
       type(statistics_t), intent(inout), target :: statistics(:)
       !> Does the result hold series at the output angles, or the summary alone, which is the same?
       logical, intent(in) :: with_series
@@ -107,7 +155,6 @@ contains
       type(error_t), allocatable, intent(out) :: error
 
       type(solved_t), target :: solved
-      type(margins_t) :: margins(size(models))
       type(extremes_t) :: extremes
       type(samples_t) :: torque_rows
       ! Mean torque of the bearings of each camshaft [N m], means of series of single bearings [unit of each]; their error [-]
@@ -130,11 +177,10 @@ contains
       result%angle = output_angles(case%numerics%output_step)
       allocate (result%series_values(merge(size(result%angle), 0, with_series .or. allocated(case%engine)), &
          & size(result%series)))
-      call sample_series(solved, with_series, result, error)
+      call sample_output(solved, with_series, result, error)
       if (allocated(error)) return
 
       do lobe = 1, size(models)
-         call find_margins(models(lobe), cycles(lobe)%stops, margins(lobe))
          call judge_lobe(models(lobe), cycles(lobe), statistics(lobe), margins(lobe), merge(lobe, 0, size(models) > 1), &
             & result%remarks, error)
          if (allocated(error)) return
@@ -148,7 +194,7 @@ contains
          statistics%worst_mean = worst
       end if
       result%worst_mean = statistics(maxloc(statistics%mean_error, 1))%worst_mean
-      call find_extremes(solved, margins, statistics, torque_rows, result, extremes, error)
+      call find_extremes(solved, statistics, torque_rows, result%series, extremes, error)
       if (allocated(error)) return
       result%worst_extreme = statistics(maxloc(statistics%extreme_error, 1))%worst_extreme
       call make_summary(solved, statistics, bearing_torque, of_bearings, margins, extremes, result)
@@ -177,7 +223,8 @@ contains
    end function output_angles
 
    !> Series at the output angles: each lobe's follower over the angle from its own nose, torques over that from the first cam's.
-   subroutine sample_series(solved, with_followers, result, error)
+   !> The states of a follower are solved once for all cams of the shape whose phases differ by whole output steps.
+   subroutine sample_output(solved, with_followers, result, error)
       !> The solved case; its search hints move
       type(solved_t), intent(inout) :: solved
       !> Are the series of followers wanted, or those of the camshafts alone?
@@ -187,40 +234,96 @@ contains
       !> Convergence or domain error
       type(error_t), allocatable, intent(out) :: error
 
-      type(state_t) :: state
-      ! Torques on each camshaft [N m]; values of the series; cam angle from full lift [rad]
-      real(wp) :: torques(torque_count, solved%shaft%count), values(size(result%series)), angle
+      type(lobe_turn_t), allocatable :: turns(:)
+      ! Turn that each cam takes part in, and by how many output steps it is behind
+      integer :: turn_of(size(solved%shaft%lobes)), behind(size(solved%shaft%lobes))
+      ! Torques on each camshaft [N m]; what each cam takes [N m, N]
+      real(wp) :: torques(torque_count, solved%shaft%count), cams(curve_values, size(solved%shaft%lobes))
       ! States of the bearings; allocated where they have series
       type(bearing_state_t), allocatable :: bearings(:, :)
-      integer :: hints(size(solved%models)), columns(2, size(solved%models)), of_camshaft(2), i, lobe
-      ! Is there one follower, at the angle of the camshaft?
-      logical :: is_alone
+      integer :: columns(2), i, k, cam, angles
 
-      hints = 1
-      values = 0.0_wp
-      of_camshaft = camshaft_columns(solved%case)
-      if (bearing_count(solved%case) > 0) allocate (bearings(bearing_count(solved%case), solved%shaft%count))
-      do lobe = 1, size(solved%models)
-         columns(:, lobe) = lobe_columns(solved%case, lobe)
+      angles = size(result%series_values, 1)
+      if (angles == 0) return
+      result%series_values = 0.0_wp
+      allocate (turns(0))
+      do k = 1, merge(size(solved%models), 0, with_followers)
+         turns = [turns, lobe_turn_t(lobe=k)]
       end do
-      is_alone = size(solved%shaft%lobes) == 1 .and. size(solved%models) == 1 .and. abs(solved%shaft%phases(1)) <= 0.0_wp
-      do i = 1, size(result%series_values, 1)
-         angle = (result%angle(i) - 180.0_wp)*degree
-         associate (first => solved%shaft%lobes(1))
-            call state_at(solved%cycles(first), solved%models(first), angle - solved%shaft%phases(1), solved%shaft%hints(1), &
-               & state, error)
-         end associate
-         if (.not. allocated(error)) call shaft_torques(solved, angle, torques, error, state, bearings)
+      do cam = 1, size(turn_of)
+         call join_turn(turns, solved%shaft%lobes(cam), solved%shaft%phases(cam), two_pi/angles, turn_of(cam), behind(cam))
+      end do
+      do k = 1, size(turns)
+         call solve_turn(solved, turns(k), with_followers .and. k <= size(solved%models), result, error)
          if (allocated(error)) return
-         call camshaft_values(solved%case, torques, values(of_camshaft(1):of_camshaft(2)), bearings)
-         do lobe = 1, merge(size(solved%models), 0, with_followers)
-            if (.not. is_alone) call state_at(solved%cycles(lobe), solved%models(lobe), angle, hints(lobe), state, error)
-            if (allocated(error)) return
-            call follower_values(solved%case, solved%models(lobe), state, &
-               & values(columns(1, lobe):columns(2, lobe)))
-         end do
-         result%series_values(i, :) = values
       end do
-   end subroutine sample_series
+      if (bearing_count(solved%case) > 0) allocate (bearings(bearing_count(solved%case), solved%shaft%count))
+      columns = camshaft_columns(solved%case)
+      do i = 1, angles
+         do cam = 1, size(turn_of)
+            cams(:, cam) = turns(turn_of(cam))%values(:, 1 + modulo(i - 1 - behind(cam), angles))
+         end do
+         call shaft_torques(solved, result%angle(i)*degree - pi, torques, error, cams, bearings)
+         if (allocated(error)) return
+         call camshaft_values(solved%case, torques, result%series_values(i, columns(1):columns(2)), bearings)
+      end do
+   end subroutine sample_output
+
+   !> Turn for a cam: one that is there and whose phase differs by whole output steps, or a new one.
+   subroutine join_turn(turns, lobe, phase, step, number, behind)
+      !> The turns
+      type(lobe_turn_t), allocatable, intent(inout) :: turns(:)
+      !> Lobe shape of the cam
+      integer, intent(in) :: lobe
+      !> Its phase, output step [rad]
+      real(wp), intent(in) :: phase, step
+      !> Number of the turn, and by how many steps the cam is behind it
+      integer, intent(out) :: number, behind
+
+      do number = 1, size(turns)
+         associate (difference => phase - turns(number)%phase)
+            behind = nint(difference/step)
+            if (turns(number)%lobe == lobe .and. abs(difference - behind*step) <= rounding) return
+         end associate
+      end do
+      behind = 0
+      turns = [turns, lobe_turn_t(lobe=lobe, phase=phase)]
+   end subroutine join_turn
+
+   !> Solve the states of a turn.
+   subroutine solve_turn(solved, turn, is_wanted, result, error)
+      !> The solved case
+      type(solved_t), intent(in) :: solved
+      !> The turn; out: with its values
+      type(lobe_turn_t), intent(inout) :: turn
+      !> Are the series of the follower wanted?
+      logical, intent(in) :: is_wanted
+      !> Output angles; out: with the series of the follower
+      type(result_t), intent(inout) :: result
+      !> Convergence error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(state_t) :: state
+      type(contact_t) :: nearby
+      type(trail_t) :: trail
+      real(wp) :: angle ! [rad]
+      integer :: columns(2), i, hint
+
+      hint = 1
+      columns = lobe_columns(solved%case, turn%lobe)
+      state%contact%is_touching = .false.
+      allocate (turn%values(curve_values, size(result%series_values, 1)))
+      associate (model => solved%models(turn%lobe), cycle => solved%cycles(turn%lobe))
+         do i = 1, size(turn%values, 2)
+            angle = result%angle(i)*degree - pi - turn%phase
+            nearby = contact_ahead(trail, angle, state%contact)
+            call state_at(cycle, model, angle, hint, state, error, nearby)
+            if (allocated(error)) return
+            call extend_trail(trail, angle, state%contact)
+            turn%values(:, i) = cam_values(model, state)
+            if (is_wanted) call follower_values(solved%case, model, state, result%series_values(i, columns(1):columns(2)))
+         end do
+      end associate
+   end subroutine solve_turn
 
 end module camroller_report

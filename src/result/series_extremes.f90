@@ -12,7 +12,7 @@ module camroller_series_extremes
    use camroller_margins, only : margins_t
    use camroller_means, only : statistics_t
    use camroller_model, only : model_t
-   use camroller_result, only : result_t, quantity_t, find_quantity
+   use camroller_result, only : quantity_t, find_quantity
    use camroller_bearing_series, only : bearing_count
    use camroller_shaft, only : solved_t, shaft_torques
    use camroller_slip_errors, only : error_of_extreme
@@ -21,7 +21,7 @@ module camroller_series_extremes
    implicit none
    private
 
-   public :: extremes_t, find_extremes
+   public :: extremes_t, find_extremes, find_lobe_extremes
 
    !> Smallest and largest values
    type :: extremes_t
@@ -51,18 +51,51 @@ module camroller_series_extremes
 
 contains
 
-   !> Smallest and largest value of every series, at the stops and between the angles met as well.
-   subroutine find_extremes(solved, margins, statistics, torque_rows, result, extremes, error)
+   !> Smallest and largest value of every series of the followers of a lobe shape, with their errors: at the stops and between the
+   !> angles met as well.
+   subroutine find_lobe_extremes(solved, lobe, series, margins, statistics, error)
+      !> The solved case, with models and cycles
+      type(solved_t), intent(in) :: solved
+      !> The lobe shape, from 1
+      integer, intent(in) :: lobe
+      !> All series of the case
+      type(quantity_t), intent(in) :: series(:)
+      !> Margins of the lobe shape
+      type(margins_t), intent(in) :: margins
+      !> Its statistics; rows are added; out: with the extremes
+      type(statistics_t), intent(inout) :: statistics
+      !> Convergence error
+      type(error_t), allocatable, intent(out) :: error
+
+      integer :: columns(2)
+
+      columns = lobe_columns(solved%case, lobe)
+      associate (list => series(columns(1):columns(2)))
+         call add_stops(solved, lobe, margins, statistics%rows, error)
+         if (allocated(error)) return
+         call find_thickest_film(series, statistics)
+         allocate (statistics%lowest(size(list)), statistics%highest(size(list)))
+         call search_lobe(solved, lobe, list, statistics, statistics%lowest, statistics%highest, error)
+         if (allocated(error)) return
+         call judge_extremes(list, statistics%lowest, statistics%highest, statistics)
+      end associate
+      if (allocated(solved%cycles(lobe)%flexible)) then
+         statistics%extreme_error = solved%cycles(lobe)%flexible%error
+         statistics%worst_extreme = "contact_load"
+      end if
+      statistics%event_load = smallest_event_load(solved%models(lobe), series, statistics%rows)
+   end subroutine find_lobe_extremes
+
+   !> Smallest and largest value of every series: those of the followers as they were found, and those of the camshafts.
+   subroutine find_extremes(solved, statistics, torque_rows, series, extremes, error)
       !> The solved case; its search hints move
       type(solved_t), intent(inout) :: solved
-      !> Margins of each lobe shape
-      type(margins_t), intent(in) :: margins(:)
-      !> Rows of each lobe shape; more are added
-      type(statistics_t), intent(inout) :: statistics(:)
+      !> Statistics of each lobe shape, with the extremes
+      type(statistics_t), intent(in) :: statistics(:)
       !> Rows of the camshaft; more are added
       type(samples_t), intent(inout) :: torque_rows
-      !> List of series
-      type(result_t), intent(in) :: result
+      !> All series of the case
+      type(quantity_t), intent(in) :: series(:)
       !> The extremes
       type(extremes_t), intent(out) :: extremes
       !> Convergence or domain error
@@ -70,29 +103,16 @@ contains
 
       integer :: columns(2), lobe
 
-      allocate (extremes%lowest(size(result%series)), extremes%highest(size(result%series)), &
-         & extremes%event_load(size(solved%models)))
-      do lobe = 1, size(solved%models)
+      allocate (extremes%lowest(size(series)), extremes%highest(size(series)), extremes%event_load(size(statistics)))
+      extremes%event_load = statistics%event_load
+      do lobe = 1, size(statistics)
          columns = lobe_columns(solved%case, lobe)
-         associate (samples => statistics(lobe)%rows)
-            call add_stops(solved, lobe, margins(lobe), samples, error)
-            call find_thickest_film(result%series, statistics(lobe))
-            if (.not. allocated(error)) call search_lobe(solved, lobe, result%series(columns(1):columns(2)), statistics(lobe), &
-               & extremes%lowest(columns(1):columns(2)), extremes%highest(columns(1):columns(2)), error)
-            if (.not. allocated(error)) call judge_extremes(result%series(columns(1):columns(2)), &
-               & extremes%lowest(columns(1):columns(2)), extremes%highest(columns(1):columns(2)), statistics(lobe))
-            if (allocated(error)) return
-            if (allocated(solved%cycles(lobe)%flexible)) then
-               statistics(lobe)%extreme_error = solved%cycles(lobe)%flexible%error
-               statistics(lobe)%worst_extreme = "contact_load"
-            end if
-            extremes%event_load(lobe) = smallest_event_load(solved%models(lobe), result, samples)
-         end associate
+         extremes%lowest(columns(1):columns(2)) = statistics(lobe)%lowest
+         extremes%highest(columns(1):columns(2)) = statistics(lobe)%highest
       end do
       columns = camshaft_columns(solved%case)
-      call search_camshaft(solved, torque_rows, find_quantity(result%series(columns(1):columns(2)), &
-         & trim(torque_series(of_residual))), extremes%lowest(columns(1):columns(2)), &
-         & extremes%highest(columns(1):columns(2)), error)
+      call search_camshaft(solved, torque_rows, find_quantity(series(columns(1):columns(2)), trim(torque_series(of_residual))), &
+         & extremes%lowest(columns(1):columns(2)), extremes%highest(columns(1):columns(2)), error)
    end subroutine find_extremes
 
    !> Rows of a lobe's follower at the stops, and at the smallest load of the event without friction.
@@ -318,11 +338,11 @@ contains
    end subroutine camshaft_row
 
    !> Smallest contact load with the valve off its seat; over the whole cycle where it never leaves it.
-   pure function smallest_event_load(model, result, samples) result(load)
+   pure function smallest_event_load(model, series, samples) result(load)
       !> Model of the lobe
       type(model_t), intent(in) :: model
-      !> Series
-      type(result_t), intent(in) :: result
+      !> Series of the case
+      type(quantity_t), intent(in) :: series(:)
       !> Rows of the lobe
       type(samples_t), intent(in) :: samples
       !> The load [N]
@@ -332,8 +352,8 @@ contains
       real(wp), parameter :: nearly = 1.0_wp - 1.0e-9_wp
       logical :: in_event(samples%count)
 
-      associate (lift => samples%values(find_quantity(result%series, "valve_lift"), :samples%count), &
-         & loads => samples%values(find_quantity(result%series, "contact_load"), :samples%count))
+      associate (lift => samples%values(find_quantity(series, "valve_lift"), :samples%count), &
+         & loads => samples%values(find_quantity(series, "contact_load"), :samples%count))
          in_event = lift > 0.0_wp .and. lift >= nearly*model%train%seat_lift
          if (.not. any(in_event)) in_event = .true.
          load = minval(loads, in_event)

@@ -25,10 +25,12 @@ module camroller_slip_errors
    !> Fraction of what cancels within an interval that is counted all the same: the estimate at a point is of first order [-]
    real(wp), parameter :: distrust = 0.02_wp
 
-   !> Points of a cycle, as many to an interval as its rule has
+   !> Points of a cycle
    type :: slip_points_t
-      !> Number of points so far, number in each interval
-      integer :: count = 0, stride = 0
+      !> Number of points so far
+      integer :: count = 0
+      !> Interval of the trajectory that holds each
+      integer, allocatable :: interval(:)
       !> Cam angle [rad], length that a point represents [rad]
       real(wp), allocatable :: angle(:), weight(:)
       type(state_t), allocatable :: states(:)
@@ -51,45 +53,49 @@ module camroller_slip_errors
 contains
 
    !> Begin without points.
-   pure subroutine start_points(points, quantities, intervals, stride)
+   pure subroutine start_points(points, quantities, room)
       !> The points
       type(slip_points_t), intent(out) :: points
-      !> Number of quantities that are sampled, of intervals, of points in an interval
-      integer, intent(in) :: quantities, intervals, stride
+      !> Number of quantities that are sampled, of points at most
+      integer, intent(in) :: quantities, room
 
-      points%stride = stride
-      allocate (points%angle(intervals*stride), points%weight(intervals*stride), points%states(intervals*stride), &
-         & points%values(quantities, intervals*stride), points%errors(intervals*stride), points%shares(intervals*stride))
+      allocate (points%interval(room), points%angle(room), points%weight(room), points%states(room), &
+         & points%values(quantities, room), points%errors(room), points%shares(room))
    end subroutine start_points
 
    !> Keep the point that was sampled last.
-   pure subroutine keep_point(points, samples, angle, weight, values)
+   pure subroutine keep_point(points, samples, interval, angle, weight, values)
       !> The points
       type(slip_points_t), intent(inout) :: points
       !> The samples
       type(follower_samples_t), intent(in) :: samples
+      !> Interval of the trajectory that holds the point
+      integer, intent(in) :: interval
       !> Cam angle from full lift, length that the point represents [rad]
       real(wp), intent(in) :: angle, weight
       !> What was sampled there [unit of each]
       real(wp), intent(in) :: values(:)
 
       points%count = points%count + 1
+      points%interval(points%count) = interval
       points%angle(points%count) = angle
       points%weight(points%count) = weight
       points%states(points%count) = samples%state
       points%values(:, points%count) = values
    end subroutine keep_point
 
-   !> Take the errors at the points of the interval that has just ended.
-   pure subroutine set_errors(points, estimate)
+   !> Take the errors at the last points, those of the panel that has just ended.
+   pure subroutine set_errors(points, number, estimate)
       !> The points
       type(slip_points_t), intent(inout) :: points
+      !> Number of them in the panel
+      integer, intent(in) :: number
       !> The estimate at the end of the interval
       type(estimate_t), intent(in) :: estimate
 
-      associate (first => points%count - points%stride + 1, last => points%count)
-         points%errors(first:last) = estimate%errors(:points%stride)
-         points%shares(first:last) = estimate%shares(:points%stride)
+      associate (first => points%count - number + 1, last => points%count)
+         points%errors(first:last) = estimate%errors(:number)
+         points%shares(first:last) = estimate%shares(:number)
       end associate
    end subroutine set_errors
 
@@ -110,6 +116,8 @@ contains
       ! Error at the start of the periodic cycle [m/s]
       real(wp) :: first
       integer :: i
+      ! Is the point the first, or the last, of its interval?
+      logical :: is_first, is_last
 
       associate (path => samples%cycle%trajectory)
          first = error_at_start(estimate, path%state(1, path%count) - path%state(1, 1))
@@ -119,8 +127,12 @@ contains
       allocate (errors%highest(size(signed)), source=-huge(1.0_wp))
       errors%angle = points%angle(:points%count)
       errors%error = points%errors(:points%count) + first*points%shares(:points%count)
+      is_last = .true.
       do i = 1, points%count
-         if (modulo(i - 1, points%stride) == 0) then
+         is_first = is_last
+         is_last = i == points%count
+         if (.not. is_last) is_last = points%interval(i + 1) /= points%interval(i)
+         if (is_first) then
             signed = 0.0_wp
             sizes = 0.0_wp
          end if
@@ -129,7 +141,7 @@ contains
          sizes = sizes + points%weight(i)*abs(differences)
          errors%lowest = min(errors%lowest, points%values(:, i) - differences)
          errors%highest = max(errors%highest, points%values(:, i) - differences)
-         if (modulo(i, points%stride) == 0) errors%integrals = errors%integrals + margin*max(abs(signed), distrust*sizes)
+         if (is_last) errors%integrals = errors%integrals + margin*max(abs(signed), distrust*sizes)
       end do
    end subroutine find_slip_errors
 

@@ -15,8 +15,9 @@ module camroller_run
    use camroller_events, only : check_geometry
    use camroller_cycle, only : cycle_t, integrate_cycle
    use camroller_number_text, only : number_text, fixed_text
+   use camroller_margins, only : margins_t
    use camroller_means, only : statistics_t
-   use camroller_report, only : make_result, take_statistics
+   use camroller_report, only : make_result, search_extremes, take_statistics
    use camroller_remarks, only : add_remark, loose_tolerance, missed_accuracy, missed_extremes, missed_means
    use camroller_result, only : result_t, get_summary
    implicit none
@@ -26,9 +27,12 @@ module camroller_run
 
    !> One try to integrate the cycles of a case
    type :: try_t
-      !> Cycle of each lobe shape, its means and extremes
+      !> Cycle of each lobe shape, its means and extremes, its margins
       type(cycle_t), allocatable :: cycles(:)
       type(statistics_t), allocatable :: statistics(:)
+      type(margins_t), allocatable :: margins(:)
+      !> Are the extremes there, and the margins?
+      logical :: has_extremes = .false.
       !> Largest estimated error of a sliding speed or a mean [-]
       real(wp) :: error = 0.0_wp
    end type try_t
@@ -130,7 +134,6 @@ contains
 
       type(numerics_t) :: numerics
       type(try_t) :: latest, earlier
-      type(result_t) :: new_result
       ! Smallest tolerance that may work [-]
       real(wp) :: least
       integer :: attempt
@@ -144,21 +147,23 @@ contains
          call integrate_models(case, models, numerics, latest, error)
          if (.not. allocated(error)) then
             call refine(case%numerics, attempt, latest%error, least, numerics, is_finer)
+            ! Before the rest of the result is made
+            if (.not. is_finer) then
+               call search_extremes(case, models, latest%cycles, latest%statistics, latest%margins, error)
+               if (.not. allocated(error)) call refine(case%numerics, attempt, maxval(latest%statistics%extreme_error), least, &
+                  & numerics, is_finer)
+               latest%has_extremes = .not. allocated(error)
+            end if
             if (is_finer) then
-               call move_alloc(latest%cycles, earlier%cycles)
-               call move_alloc(latest%statistics, earlier%statistics)
+               call move_try(latest, earlier)
                cycle
             end if
-            call make_result(case, models, latest%cycles, latest%statistics, with_series, new_result, error)
-            if (.not. allocated(error)) then
-               result = new_result
-               has_result = .true.
-               call refine(case%numerics, attempt, maxval(latest%statistics%extreme_error), least, numerics, is_finer)
-               if (is_finer) cycle
-               exit
-            end if
+            if (.not. allocated(error)) call make_result(case, models, latest%cycles, latest%margins, latest%statistics, &
+               & with_series, result, error)
+            has_result = .not. allocated(error)
+            if (has_result) exit
          end if
-         if (has_result .or. allocated(earlier%cycles) .or. has_way_out .or. error%kind /= kind_convergence .or. &
+         if (allocated(earlier%cycles) .or. has_way_out .or. error%kind /= kind_convergence .or. &
             & .not. is_checked(case%numerics)) exit
          call take_way_out(case%numerics, numerics, least, has_way_out)
          if (has_way_out .and. error%cause == cause_several_balances) exit
@@ -166,11 +171,27 @@ contains
       if (.not. has_result) then
          if (.not. allocated(earlier%cycles)) return
          deallocate (error)
-         call make_result(case, models, earlier%cycles, earlier%statistics, with_series, result, error)
+         if (.not. earlier%has_extremes) call search_extremes(case, models, earlier%cycles, earlier%statistics, earlier%margins, &
+            & error)
+         if (.not. allocated(error)) call make_result(case, models, earlier%cycles, earlier%margins, earlier%statistics, &
+            & with_series, result, error)
          if (allocated(error)) return
       end if
       call judge(case%numerics, result, error)
    end subroutine run_listed
+
+   !> Keep a try for the case that later ones fail.
+   pure subroutine move_try(latest, earlier)
+      !> The try; out: empty
+      type(try_t), intent(inout) :: latest
+      !> The same try
+      type(try_t), intent(out) :: earlier
+
+      call move_alloc(latest%cycles, earlier%cycles)
+      call move_alloc(latest%statistics, earlier%statistics)
+      call move_alloc(latest%margins, earlier%margins)
+      earlier%has_extremes = latest%has_extremes
+   end subroutine move_try
 
    !> Smaller tolerance for another try, where errors are above the accuracy and a smaller one is left.
    pure subroutine refine(given, attempt, estimate, least, numerics, is_finer)

@@ -34,6 +34,7 @@ contains
          new_unittest("under fast decay the error is the defect over the decay rate", test_stiff), &
          new_unittest("a defect that vanishes at the Gauss nodes is seen between them", test_between), &
          new_unittest("a defect at the ends of an interval enters the estimate", test_ends), &
+         new_unittest("over two intervals as one, the defect of each counts", test_joined), &
          new_unittest("a cycle without decay has no finite error", test_no_decay), &
          new_unittest("where disturbances grow, the estimate grows with them", test_growth), &
          new_unittest("the estimate bounds the error against the reference for every kind of method", test_methods), &
@@ -131,6 +132,27 @@ contains
       ! Simpson's rule over a part of 0.39 at most, for a power of four: 0.39**5/120 of each
       call check(error, estimate%error, 0.2_wp, thr=3.0e-4_wp)
    end subroutine test_ends
+
+   !> The defect of each of two intervals is a hump: the points of a panel over both show the integral of them.
+   subroutine test_joined(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(estimate_t) :: estimate
+      ! Place within an interval [-]
+      real(wp) :: place
+      integer :: i
+
+      do i = 1, panel_points
+         place = modulo(2.0_wp*panel_places(i), 1.0_wp)
+         if (any([3, 5] == i)) then
+            call add_defect(estimate, panel_places(i), 16.0_wp*place**2*(1.0_wp - place)**2, 0.0_wp)
+         else
+            call add_defect(estimate, panel_places(i), 16.0_wp*place**2*(1.0_wp - place)**2)
+         end if
+      end do
+      call end_interval(estimate, 1.0_wp, [0.0_wp, 0.0_wp])
+      ! The integral of a hump is 16/30; that of the polynomial of degree 8 through seven points in both and the ends is 0.521
+      call check(error, estimate%error, 16.0_wp/30.0_wp, thr=0.05_wp, rel=.true.)
+   end subroutine test_joined
 
    subroutine test_no_decay(error)
       type(error_type), allocatable, intent(out) :: error
