@@ -43,7 +43,7 @@ CURVES = {
     "subsurface_stress": Curve("largest shear stress below the surface", "subsurface_shear_stress", "MPa"),
     "sliding_distance": Curve("sliding distance of a place on the cam", "sliding_distance", "um", touching=True),
     "wear": Curve("wear depth of a turn over specific wear rate", "wear_product", "N/m", touching=True),
-    "friction_torque": Curve("friction torque", "torque_friction", "N m"),
+    "friction_torque": Curve("friction torque", "torque_friction", "N mm"),  # friction in N mm, drive torque in N m, in every figure
     "total_torque": Curve("drive torque", "torque_drive", "N m"),
 }
 OVERVIEW = {name: CURVES[name] for name in ("load", "entrainment", "film", "friction", "boundary_share", "rolling", "slip",
