@@ -22,6 +22,7 @@ PARTS = {
     "deck to case": ["deck_MOD_make_sweep_case"],
     "integration": ["cycle_MOD_integrate_cycle"],
     "means, errors": ["report_MOD_take_statistics"],
+    "extremes": ["report_MOD_search_extremes"],
     "result": ["report_MOD_make_result"],
     ". camshaft": ["mean_bearings_MOD_mean_bearing_torque", "report_MOD_search_camshaft"],
     ". margins": ["margins_MOD_find_margins"],
