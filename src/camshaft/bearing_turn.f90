@@ -228,9 +228,11 @@ contains
       real(wp) :: low, high, miss, last
 
       call check_bearing_heat(heat, error)
-      if (.not. allocated(error) .and. solved%case%lubricant%temperature_law == temperature_law_names(law_direct)) &
-         & call raise(error, kind_deck, direct_advice)
       if (allocated(error)) return
+      if (solved%case%lubricant%temperature_law == temperature_law_names(law_direct)) then
+         call raise(error, kind_deck, direct_advice)
+         return
+      end if
       call try_rise(0.0_wp, low)
       if (allocated(error)) return
       last = min(-low, largest_rise)
