@@ -28,8 +28,8 @@ module camroller_cycle
    use camroller_ode_methods, only : new_method
    use camroller_trajectory, only : trajectory_t, interpolate_state, curve_slope
    use camroller_flexible_solution, only : flexible_solution_t, solve_flexible
-   use camroller_flexible_follower, only : evaluate_follower
-   use camroller_flexible_train, only : state_size, at_sliding
+   use camroller_flexible_follower, only : follower_on_path
+   use camroller_flexible_train, only : at_sliding
    implicit none
    private
 
@@ -438,11 +438,11 @@ contains
       integer :: status
       logical :: is_moved, rests
 
-      inside = cycle%start + modulo(angle - cycle%start, two_pi)
       if (allocated(cycle%flexible)) then
-         call flexible_state_at(cycle, model, inside, hint, state, error)
+         call follower_on_path(model, cycle%flexible%cycle%trajectory, cycle%flexible%cycle%resolution, angle, hint, state, error)
          return
       end if
+      inside = cycle%start + modulo(angle - cycle%start, two_pi)
       call interpolate_state(cycle%trajectory, inside, hint, value)
       if (cycle%has_surface_speed) then
          call evaluate_loading(model, inside, position, force, moments, status)
@@ -470,31 +470,5 @@ contains
       if (status /= 0) call raise(error, kind_convergence, "no load satisfies the equilibrium of the contact at "// &
          & cam_angle_text(angle, 3))
    end subroutine state_at
-
-   !> State of a follower with a flexible train.
-   subroutine flexible_state_at(cycle, model, angle, hint, state, error)
-      !> The cycle
-      type(cycle_t), intent(in) :: cycle
-      !> Its model
-      type(model_t), intent(in) :: model
-      !> Cam angle from full lift, within the cycle [rad]
-      real(wp), intent(in) :: angle
-      !> Interval of the trajectory where the search starts
-      integer, intent(inout) :: hint
-      !> State
-      type(state_t), intent(out) :: state
-      !> Convergence error where the train cannot be in that state
-      type(error_t), allocatable, intent(out) :: error
-
-      ! State of the train [state]
-      real(wp) :: train(state_size(model))
-      integer :: status
-
-      associate (path => cycle%trajectory)
-         call interpolate_state(path, min(max(angle, path%time(1)), path%time(path%count)), hint, train)
-      end associate
-      call evaluate_follower(model, angle, train, cycle%flexible%cycle%resolution, state, status)
-      if (status /= 0) call raise(error, kind_convergence, "the flexible train has no state at "//cam_angle_text(angle, 3))
-   end subroutine flexible_state_at
 
 end module camroller_cycle

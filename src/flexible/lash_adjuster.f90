@@ -10,7 +10,8 @@ module camroller_lash_adjuster
    private
 
    public :: lash_adjuster_t, adjuster_t, flows_t, leak_end_names, ambient_pressure, new_adjuster, set_adjuster_oil, &
-      & relative_volume, bulk_modulus, pressure_work, evaluate_flows, chamber_volume, adjuster_force, oil_energy, leak_down_time
+      & relative_volume, bulk_modulus, pressure_work, evaluate_flows, opening_pressure, chamber_volume, adjuster_force, &
+      & oil_energy, leak_down_time
 
    !> Where the leak ends: inside, in the feed, or outside, where there is no pressure
    character(len=*), parameter :: leak_end_names(*) = [character(len=name_length) :: "feed", "ambient"]
@@ -207,6 +208,16 @@ contains
             & *place_slope*speed
       end associate
    end subroutine evaluate_flows
+
+   !> Pressure below which the check valve opens.
+   elemental function opening_pressure(adjuster) result(pressure)
+      !> The adjuster
+      type(adjuster_t), intent(in) :: adjuster
+      !> Gauge pressure [Pa]
+      real(wp) :: pressure
+
+      pressure = adjuster%given%supply_pressure - adjuster%given%crack_pressure
+   end function opening_pressure
 
    !> Volume of the chamber at a place of the plunger.
    elemental function chamber_volume(adjuster, travel) result(volume)

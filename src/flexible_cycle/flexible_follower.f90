@@ -2,21 +2,24 @@
 !>
 !> In: model, cam angle, state of the train. Out: `state_t`: contact, torques, energy residual, what a flexible train has beside.
 module camroller_flexible_follower
-   use camroller_kinds, only : wp
+   use camroller_kinds, only : two_pi, wp
+   use camroller_cam_angle, only : cam_angle_text
+   use camroller_error, only : error_t, kind_convergence, raise
+   use camroller_trajectory, only : interpolate_state, trajectory_t
    use camroller_model, only : model_t, evaluate_geometry
    use camroller_kinematics, only : position_t
    use camroller_dynamics, only : moments_t, evaluate_moments
    use camroller_state, only : state_t, add_sums
    use camroller_flexible_geometry, only : dot, cross
-   use camroller_flexible_train, only : flexible_state_t, resolution_t, evaluate_train, first_mode, at_finger, at_finger_rate, &
-      & at_lift, at_speed
+   use camroller_flexible_train, only : flexible_state_t, resolution_t, evaluate_train, first_mode, state_size, at_finger, &
+      & at_finger_rate, at_lift, at_speed
    use camroller_flexible_energy, only : powers_t, evaluate_powers, stored_energy
    use camroller_torque_list, only : of_geometric, of_roller_inertia, of_residual
    use camroller_flexible_measures, only : pivot_force
    implicit none
    private
 
-   public :: evaluate_follower
+   public :: evaluate_follower, follower_on_path
 
 contains
 
@@ -55,6 +58,34 @@ contains
       call add_sums(state)
       call take_values(model, angle, train, now, state, status)
    end subroutine evaluate_follower
+
+   !> Everything at one angle of a turn that was integrated.
+   subroutine follower_on_path(model, path, resolution, angle, hint, state, error)
+      !> The model, with a flexible train
+      type(model_t), intent(in) :: model
+      !> The turn
+      type(trajectory_t), intent(in) :: path
+      !> What its integration did not tell apart
+      type(resolution_t), intent(in) :: resolution
+      !> Cam angle from full lift, of any turn [rad]
+      real(wp), intent(in) :: angle
+      !> Interval of the turn where the search starts
+      integer, intent(inout) :: hint
+      !> State of the follower
+      type(state_t), intent(out) :: state
+      !> Convergence error where the train cannot be in that state
+      type(error_t), allocatable, intent(out) :: error
+
+      ! State of the train [state]
+      real(wp) :: train(state_size(model))
+      integer :: status
+
+      associate (inside => path%time(1) + modulo(angle - path%time(1), two_pi))
+         call interpolate_state(path, min(max(inside, path%time(1)), path%time(path%count)), hint, train)
+         call evaluate_follower(model, inside, train, resolution, state, status)
+      end associate
+      if (status /= 0) call raise(error, kind_convergence, "the flexible train has no state at "//cam_angle_text(angle, 3))
+   end subroutine follower_on_path
 
    !> Geometry of the follower where it is: the cam's at the place of contact, lift and arms as they are.
    pure subroutine place_finger(model, train, now, position)

@@ -1,7 +1,8 @@
 !> What a turn of a flexible train is judged by: largest and smallest values, means, impacts, losses.
 !>
 !> In: the steps of a turn. Out: measures by number; a name, a unit and a meaning for each. Integrals are taken over each step with
-!> the state on the step's own curve, extremes from the points of that rule and the ends of steps.
+!> the state on the step's own curve, extremes from the points of that rule and the ends of steps. Joint and check valve open and
+!> close between such points, where straight lines between them pass through zero.
 module camroller_flexible_measures
    use camroller_kinds, only : wp, two_pi, pi, degree
    use camroller_names, only : name_length
@@ -9,6 +10,7 @@ module camroller_flexible_measures
    use camroller_model, only : model_t, evaluate_geometry
    use camroller_kinematics, only : position_t
    use camroller_trajectory, only : trajectory_t, interpolate_state
+   use camroller_lash_adjuster, only : opening_pressure
    use camroller_quadrature, only : gauss_legendre
    use camroller_flexible_geometry, only : dot, imaginary
    use camroller_flexible_train, only : flexible_state_t, resolution_t, evaluate_train, first_mode, at_finger_rate, at_lift, &
@@ -30,6 +32,16 @@ module camroller_flexible_measures
       character(len=12) :: unit
       character(len=100) :: meaning
    end type measure_t
+
+   !> What is kept of a point for the interval to the next one
+   type :: sample_t
+      !> Cam angle [rad]; a point comes before the first one where it is huge
+      real(wp) :: angle = huge(1.0_wp)
+      !> Rigid lift less that above which a load counts as one of the event [m], contact load [N]
+      real(wp) :: height, load
+      !> Force in the joint [N]; pressure above that at which the check valve opens [Pa]
+      real(wp) :: joint, shut
+   end type sample_t
 
    !> Places in the list
    integer, parameter :: largest_load = 1, largest_load_angle = 2, smallest_event_load = 3, least_lift_error = 4, &
@@ -90,6 +102,7 @@ contains
 
       ! Places and weights of the rule on [-1, 1] [-]; length of a step and angle [rad], state [state]; largest rigid lift [m]
       real(wp) :: places(points), weights(points), length, angle, state(size(trajectory%state, 1)), top
+      type(sample_t) :: last
       integer :: step, i, hint
       logical :: has_met, touches, has_touched
 
@@ -111,11 +124,11 @@ contains
             angle = trajectory%time(step) + 0.5_wp*length*(1.0_wp + places(i))
             hint = step
             call interpolate_state(trajectory, angle, hint, state)
-            call add_point(model, angle, state, resolution, 0.5_wp*length*weights(i)/two_pi, top, values, touches, error)
+            call add_point(model, angle, state, resolution, 0.5_wp*length*weights(i)/two_pi, top, values, last, touches, error)
             if (allocated(error)) return
          end do
-         call add_point(model, trajectory%time(step + 1), trajectory%state(:, step + 1), resolution, 0.0_wp, top, values, touches, &
-            & error)
+         call add_point(model, trajectory%time(step + 1), trajectory%state(:, step + 1), resolution, 0.0_wp, top, values, last, &
+            & touches, error)
          if (allocated(error)) return
          if (has_touched .and. .not. touches) values(losses_of_contact) = values(losses_of_contact) + 1.0_wp
          has_touched = touches
@@ -144,7 +157,7 @@ contains
    end function largest_lift
 
    !> Take a point into the measures.
-   subroutine add_point(model, angle, state, resolution, weight, top, values, touches, error)
+   subroutine add_point(model, angle, state, resolution, weight, top, values, last, touches, error)
       !> The model
       type(model_t), intent(in) :: model
       !> Cam angle [rad]
@@ -159,6 +172,8 @@ contains
       real(wp), intent(in) :: top
       !> The measures [unit of the measure]
       real(wp), intent(inout) :: values(:)
+      !> In: the point before; out: this one
+      type(sample_t), intent(inout) :: last
       !> Do cam and roller touch there?
       logical, intent(out) :: touches
       !> Convergence error where the state cannot be evaluated
@@ -167,8 +182,9 @@ contains
       type(flexible_state_t) :: now
       type(powers_t) :: powers
       type(position_t) :: position
-      ! Force in the joint [N], lift less that of a rigid train [m]
-      real(wp) :: joint, lift_error
+      type(sample_t) :: sample
+      ! Lift less that of a rigid train [m]
+      real(wp) :: lift_error
       integer :: status
 
       touches = .false.
@@ -184,14 +200,15 @@ contains
          values(largest_load) = now%contact%load
          values(largest_load_angle) = angle
       end if
-      if (position%lift >= event_part*top) values(smallest_event_load) = min(values(smallest_event_load), now%contact%load)
       if (position%lift > 0.0_wp .and. .not. now%contact%load > 0.0_wp) values(float_share) = values(float_share) + weight
       lift_error = state(at_lift) - position%lift
       values(least_lift_error) = min(values(least_lift_error), lift_error)
       values(most_lift_error) = max(values(most_lift_error), lift_error)
-      joint = pivot_force(model, state, now)
-      values(smallest_pivot_force) = min(values(smallest_pivot_force), joint)
-      if (joint < 0.0_wp) values(tension_share) = values(tension_share) + weight
+      sample = sample_t(angle, position%lift - event_part*top, now%contact%load, pivot_force(model, state, now), 0.0_wp)
+      if (allocated(model%flexible%adjuster)) sample%shut = now%pressure - opening_pressure(model%flexible%adjuster)
+      call add_interval(last, sample, values)
+      last = sample
+      values(smallest_pivot_force) = min(values(smallest_pivot_force), sample%joint)
       values(drive_torque) = values(drive_torque) + weight*powers%drive/model%speed
       values(loss_torque) = values(loss_torque) + weight*sum(powers%losses)/model%speed
       values(damping_torque) = values(damping_torque) + weight*powers%losses(of_damping)/model%speed
@@ -202,12 +219,43 @@ contains
       values(highest_plunger) = max(values(highest_plunger), now%pivot)
       values(largest_pressure) = max(values(largest_pressure), now%pressure)
       values(leak_volume) = values(leak_volume) + weight*now%flows%leak/model%speed
-      if (now%flows%opening > 0.0_wp) then
-         values(check_share) = values(check_share) + weight
-         if (position%lift >= event_part*top) values(event_check_share) = values(event_check_share) + weight
-      end if
       values(gallery_torque) = values(gallery_torque) + weight*powers%gallery/model%speed
    end subroutine add_point
+
+   !> Take the interval between two points into the measures: where the event begins or ends in it, and what opens or closes.
+   pure subroutine add_interval(last, sample, values)
+      !> Its two points
+      type(sample_t), intent(in) :: last, sample
+      !> The measures [unit of the measure]
+      real(wp), intent(inout) :: values(:)
+
+      ! Length over the turn [-], part of it with the check valve open [-], place of the event's edge [-]
+      real(wp) :: length, open, place
+
+      if (sample%height >= 0.0_wp) values(smallest_event_load) = min(values(smallest_event_load), sample%load)
+      if (last%angle > sample%angle) return
+      if ((last%height < 0.0_wp) .neqv. (sample%height < 0.0_wp)) then
+         place = last%height/(last%height - sample%height)
+         values(smallest_event_load) = min(values(smallest_event_load), last%load + place*(sample%load - last%load))
+      end if
+      length = (sample%angle - last%angle)/two_pi
+      values(tension_share) = values(tension_share) + length*negative_part(last%joint, sample%joint)
+      if (size(values) == residual_work) return
+      open = negative_part(last%shut, sample%shut)
+      values(check_share) = values(check_share) + length*open
+      if (min(last%height, sample%height) >= 0.0_wp) values(event_check_share) = values(event_check_share) + length*open
+   end subroutine add_interval
+
+   !> Part of a straight line below zero.
+   pure function negative_part(first, last) result(part)
+      !> Its ends [any]
+      real(wp), intent(in) :: first, last
+      !> The part [-]
+      real(wp) :: part
+
+      part = merge(1.0_wp, 0.0_wp, max(first, last) < 0.0_wp)
+      if (min(first, last) < 0.0_wp .and. max(first, last) >= 0.0_wp) part = min(first, last)/(min(first, last) - max(first, last))
+   end function negative_part
 
    !> Take the spring's modes into the measures.
    pure subroutine add_spring(model, state, values)

@@ -14,11 +14,11 @@ module camroller_flexible_solution
    use camroller_flexible_train, only : flexible_state_t, resolution_t, evaluate_train, at_sliding
    use camroller_flexible_cycle, only : flexible_cycle_t, turn_t, start_turns, set_tolerance, integrate_turn, find_periodic, &
       & rest_of_train
-   use camroller_flexible_measures, only : measure_count, measure_turn, loss_torque
+   use camroller_flexible_measures, only : measure_count, measure_turn
    implicit none
    private
 
-   public :: flexible_solution_t, solve_flexible, statistical_turns
+   public :: flexible_solution_t, solve_flexible, statistical_turns, error_share
 
    !> Turns that make statistics where there is no period
    integer, parameter :: statistical_turns = 40
@@ -35,6 +35,8 @@ module camroller_flexible_solution
    !> Tolerance of the turn that the error is estimated with, over the tolerance, and how much more it errs at least [-]: a method
    !> of order 5 errs by 3 to 4 times as much, as its tolerance to the power 4/5 or 1
    real(wp), parameter :: coarser = 4.0_wp, worse = 3.0_wp
+   !> Error over the difference of both turns [-]
+   real(wp), parameter :: error_share = 1.0_wp/(worse - 1.0_wp)
 
    !> Periodic state or turns without a period
    type :: flexible_solution_t
@@ -43,8 +45,11 @@ module camroller_flexible_solution
       type(trajectory_t), allocatable :: turns(:)
       !> Means of the measures over the turns, their standard deviations, smallest and largest [unit of the measure]
       real(wp), allocatable :: mean(:), deviation(:), lowest(:), highest(:)
-      !> Estimated error of load and sliding speed over the largest, and of the mean loss over itself [-]
-      real(wp) :: error = 0.0_wp, mean_error = 0.0_wp
+      !> The last turn again, with a coarser tolerance, and what its integration did not tell apart
+      type(trajectory_t) :: coarse
+      type(resolution_t) :: coarse_resolution
+      !> Estimated error of load and sliding speed over the largest [-]
+      real(wp) :: error = 0.0_wp
       !> Cam angle where that error is largest [rad]
       real(wp) :: error_angle = 0.0_wp
    end type flexible_solution_t
@@ -132,18 +137,17 @@ contains
       !> Convergence error
       type(error_t), allocatable, intent(out) :: error
 
-      type(trajectory_t) :: other
       type(counters_t) :: counters
       type(flexible_state_t) :: now
-      type(resolution_t) :: coarse
       ! State of the other turn [state]; loads [N], sliding speeds [m/s]: of both turns
       real(wp) :: state(size(turn%scales)), loads(2), speeds(2)
-      ! Largest load [N] and sliding speed [m/s], largest differences [N], [m/s], measures of the last turn [unit of the measure]
-      real(wp) :: largest(2), differences(2), values(size(solution%mean)), others(size(solution%mean))
+      ! Largest load [N] and sliding speed [m/s], largest differences [N], [m/s]
+      real(wp) :: largest(2), differences(2)
       integer :: i, hint, status
 
       call set_tolerance(turn, coarser*turn%options%tolerance)
-      associate (path => solution%cycle%trajectory, model => turn%problem%model, fine => solution%cycle%resolution)
+      associate (path => solution%cycle%trajectory, model => turn%problem%model, other => solution%coarse, &
+         & fine => solution%cycle%resolution, coarse => solution%coarse_resolution)
          coarse = resolution_t(sliding_speed=turn%problem%resolution%sliding_speed)
          state = path%state(:, 1)
          call integrate_turn(turn, state, other, counters, error)
@@ -163,11 +167,7 @@ contains
             if (abs(loads(1) - loads(2)) > differences(1)) solution%error_angle = path%time(i)
             differences = max(differences, abs([loads(1) - loads(2), speeds(1) - speeds(2)]))
          end do
-         solution%error = maxval(differences/largest)/(worse - 1.0_wp)
-         call measure_turn(model, path, fine, values, error)
-         if (.not. allocated(error)) call measure_turn(model, other, coarse, others, error)
-         if (allocated(error)) return
-         solution%mean_error = abs(values(loss_torque) - others(loss_torque))/max(abs(values(loss_torque)), tiny(1.0_wp))
+         solution%error = maxval(differences/largest)*error_share
       end associate
    end subroutine estimate_error
 

@@ -10,26 +10,28 @@ module camroller_flexible_report
    use camroller_error, only : error_t, kind_convergence, kind_domain, raise
    use camroller_extremes, only : add_sample, samples_t, start_samples
    use camroller_flexible_follower, only : evaluate_follower
-   use camroller_flexible_measures, only : bounces, coil_ratio, largest_load_angle, losses_of_contact, measures, seating_speed, &
-      & smallest_pivot_force, tension_share
-   use camroller_flexible_solution, only : flexible_solution_t
+   use camroller_flexible_measures, only : bounce_height, bounces, coil_ratio, event_check_share, highest_plunger, &
+      & largest_load_angle, losses_of_contact, lowest_plunger, measures, seating_speed, smallest_pivot_force, tension_share
+   use camroller_flexible_solution, only : error_share, flexible_solution_t
    use camroller_flexible_train, only : resolution_t
    use camroller_cam_angle, only : file_angle
    use camroller_follower_samples, only : add_shares, shares_t
    use camroller_kinds, only : two_pi, wp
+   use camroller_lash_adjuster, only : lash_adjuster_t
    use camroller_model, only : model_t
    use camroller_number_text, only : integer_text, number_text
    use camroller_quadrature, only : gauss_legendre
-   use camroller_remarks, only : add_remark, clashing_coils, long_period, lost_contact, no_period, open_pivot, remark_t
-   use camroller_result, only : quantity_list_t, append_quantity
+   use camroller_remarks, only : add_remark, bouncing_valve, clashing_coils, long_period, lost_contact, no_period, open_pivot, &
+      & remark_t, rising_plunger, stopped_plunger
+   use camroller_result, only : append_quantity, find_quantity, quantity_list_t, quantity_t
    use camroller_state, only : state_t
-   use camroller_torque_list, only : torque_count
+   use camroller_torque_list, only : is_loss, of_residual, torque_count, torque_series
    use camroller_train_outlook, only : find_outlook, outlook_t
    use camroller_trajectory, only : interpolate_state, trajectory_t
    implicit none
    private
 
-   public :: flexible_means_t, integrate_turns, add_outlook, add_train_scalars, judge_train
+   public :: flexible_means_t, integrate_turns, compare_turns, add_outlook, add_train_scalars, judge_train
 
    !> Points of the rule for a step
    integer, parameter :: points = 3
@@ -46,6 +48,8 @@ module camroller_flexible_report
       type(samples_t) :: rows
       !> Series of the camshaft there, without its bearings
       type(samples_t) :: torque_rows
+      !> Of the magnitude of each series [unit of the series]
+      real(wp), allocatable :: size(:)
       !> Largest magnitude of the sliding speed evaluated [m/s]
       real(wp) :: largest_sliding = 0.0_wp
    end type flexible_means_t
@@ -72,10 +76,7 @@ contains
       real(wp) :: values(series_count)
       integer :: turn
 
-      allocate (means%mean(series_count))
-      means%mean = 0.0_wp
-      call start_samples(means%rows, first_torque - 1)
-      call start_samples(means%torque_rows, series_count - first_torque + 1)
+      call start_means(means, series_count, first_torque)
       do turn = 1, size(solution%turns)
          call add_turn(case, model, solution%turns(turn), solution%cycle%resolution, 1.0_wp/size(solution%turns), &
             & turn > size(solution%turns) - most_searched, state, means, error)
@@ -84,6 +85,56 @@ contains
       call series_values(case, model, state, means%torques, values)
       means%mean(first_torque:) = values(first_torque:)
    end subroutine integrate_turns
+
+   !> Means of nothing so far.
+   subroutine start_means(means, series_count, first_torque)
+      !> The means
+      type(flexible_means_t), intent(out) :: means
+      !> Number of series of follower and camshaft, and the first of them that is a torque
+      integer, intent(in) :: series_count, first_torque
+
+      allocate (means%mean(series_count), means%size(series_count), source=0.0_wp)
+      call start_samples(means%rows, first_torque - 1)
+      call start_samples(means%torque_rows, series_count - first_torque + 1)
+   end subroutine start_means
+
+   !> Errors of the means of a turn: from the last turn and the one with a coarser tolerance, each with points of its own. They are
+   !> relative to the mean magnitude of their series, those of torques to the mean of all losses at least.
+   subroutine compare_turns(case, model, solution, series, first_torque, mean_errors, error)
+      !> The case
+      type(case_t), intent(in) :: case
+      !> The model of the lobe
+      type(model_t), intent(in) :: model
+      !> Its solution
+      type(flexible_solution_t), intent(in) :: solution
+      !> Series of follower and camshaft, and the first of them that is a torque
+      type(quantity_t), intent(in) :: series(:)
+      integer, intent(in) :: first_torque
+      !> Errors of the means [-]
+      real(wp), intent(out) :: mean_errors(:)
+      !> Convergence error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(flexible_means_t) :: fine, coarse
+      type(state_t) :: state
+      integer :: residual
+
+      call start_means(fine, size(series), first_torque)
+      call add_turn(case, model, solution%cycle%trajectory, solution%cycle%resolution, 1.0_wp, .false., state, fine, error)
+      if (allocated(error)) return
+      call start_means(coarse, size(series), first_torque)
+      call add_turn(case, model, solution%coarse, solution%coarse_resolution, 1.0_wp, .false., state, coarse, error)
+      if (allocated(error)) return
+      associate (torques => fine%size(first_torque:))
+         torques = max(torques, sum(fine%torques, mask=is_loss))
+      end associate
+      mean_errors = 0.0_wp
+      where (fine%size > 0.0_wp) mean_errors = error_share*abs(fine%mean - coarse%mean)/fine%size
+      residual = find_quantity(series, trim(torque_series(of_residual)))
+      if (residual > 0) mean_errors(residual) = 0.0_wp
+      if (fine%lost_share > 0.0_wp) mean_errors(find_quantity(series, "film_thickness_min"):find_quantity(series, "film_ratio")) &
+         & = 0.0_wp
+   end subroutine compare_turns
 
    !> Take a turn into the means.
    subroutine add_turn(case, model, path, resolution, share, is_kept, state, means, error)
@@ -128,6 +179,7 @@ contains
             end if
             call series_values(case, model, state, state%torques, values)
             means%mean = means%mean + weight*values
+            means%size = means%size + weight*abs(values)
             means%torques = means%torques + weight*state%torques
             means%largest_sliding = max(means%largest_sliding, abs(state%contact%sliding_speed))
             if (is_kept) then
@@ -249,12 +301,46 @@ contains
             & number_text(-solution%lowest(smallest_pivot_force), 3)//" N at "//speed// &
             & "; the model keeps it closed, a real one opens", -solution%lowest(smallest_pivot_force))
       end if
+      if (solution%highest(bounces) > 0.0_wp) then
+         call add_remark(remarks, bouncing_valve, "the valve bounces "//number_text(solution%mean(bounces), 3)// &
+            & " times per cycle, by up to "//number_text(1.0e6_wp*solution%highest(bounce_height), 3)//" um, after meeting its "// &
+            & "seat at up to "//number_text(solution%highest(seating_speed), 3)//" m/s, at "//speed, &
+            & solution%highest(seating_speed))
+      end if
+      if (allocated(model%flexible%adjuster)) call judge_plunger(model%flexible%adjuster%given, solution, speed, remarks)
       if (solution%highest(coil_ratio) > 1.0_wp) then
          call add_remark(remarks, clashing_coils, "coils of the spring may clash: its modes move them by up to "// &
             & number_text(solution%highest(coil_ratio), 3)//" times what the spring is compressed by, which is not computed", &
             & solution%highest(coil_ratio))
       end if
    end subroutine judge_train
+
+   !> Remarks on the plunger of a lash adjuster.
+   subroutine judge_plunger(adjuster, solution, speed, remarks)
+      !> The adjuster
+      type(lash_adjuster_t), intent(in) :: adjuster
+      !> Solution of the train of a lobe
+      type(flexible_solution_t), intent(in) :: solution
+      !> Its speed in words
+      character(len=*), intent(in) :: speed
+      !> Remarks so far
+      type(remark_t), allocatable, intent(inout) :: remarks(:)
+
+      ! Way beyond the nearer stop [m]
+      real(wp) :: beyond
+
+      if (solution%highest(event_check_share) > 0.0_wp) then
+         call add_remark(remarks, rising_plunger, "the lash adjuster pumps up: its check valve opens for "// &
+            & number_text(100.0_wp*solution%mean(event_check_share), 3)//" % of the cycle while the valve is open, and the "// &
+            & "plunger stands up to "//number_text(1.0e3_wp*solution%highest(highest_plunger), 3)//" mm above its middle, at "// &
+            & speed, 100.0_wp*solution%mean(event_check_share))
+      end if
+      beyond = max(solution%highest(highest_plunger) - adjuster%highest, adjuster%lowest - solution%lowest(lowest_plunger))
+      if (beyond > 0.0_wp) then
+         call add_remark(remarks, stopped_plunger, "the plunger of the lash adjuster reaches its "//merge("upper", "lower", &
+            & solution%highest(highest_plunger) > adjuster%highest)//" stop at "//speed//": it no longer takes up the lash", beyond)
+      end if
+   end subroutine judge_plunger
 
    !> Remark on a cycle that does not repeat itself, or only after several turns.
    subroutine judge_period(solution, speed, remarks)
@@ -274,9 +360,7 @@ contains
          call add_remark(remarks, no_period, "the motion of the train is not periodic at "// &
             & speed//": the summary covers "//integer_text(size(solution%turns))// &
             & " cycles after the first "//integer_text(solution%cycle%cycles)//", and the series show the last of them as an "// &
-            & "example; the valve meets its seat at "//number_text(solution%lowest(seating_speed), 3)//" to "// &
-            & number_text(solution%highest(seating_speed), 3)//" m/s and bounces "//number_text(solution%mean(bounces), 3)// &
-            & " times per cycle", solution%cycle%closure)
+            & "example", solution%cycle%closure)
       end if
    end subroutine judge_period
 

@@ -24,7 +24,7 @@ module camroller_report
    use camroller_shaft, only : new_shaft, shaft_torques, solved_t
    use camroller_mean_bearings, only : mean_bearing_torque
    use camroller_means, only : statistics_t, integrate_lobe
-   use camroller_flexible_report, only : flexible_means_t, integrate_turns
+   use camroller_flexible_report, only : compare_turns, flexible_means_t, integrate_turns
    use camroller_state, only : state_t
    use camroller_summary, only : make_summary
    use camroller_torque_list, only : torque_count
@@ -88,6 +88,11 @@ contains
       type(error_t), allocatable, intent(out) :: error
 
       type(flexible_means_t) :: means
+      ! Series: the first lobe's follower, which stands for any, and the camshaft come first
+      type(quantity_t), allocatable :: series(:)
+      ! Errors of their means [-]
+      real(wp), allocatable :: mean_errors(:)
+      integer :: worst
 
       call integrate_turns(case, model, cycle%flexible, follower_count(case) + camshaft_count(case), follower_count(case) + 1, &
          & means, error)
@@ -100,8 +105,13 @@ contains
       statistics%largest_sliding = means%largest_sliding
       statistics%error = cycle%flexible%error
       statistics%error_angle = cycle%flexible%error_angle
-      statistics%mean_error = cycle%flexible%mean_error
-      statistics%worst_mean = "torque_friction"
+      call list_series(case, series)
+      allocate (mean_errors(follower_count(case) + camshaft_count(case)))
+      call compare_turns(case, model, cycle%flexible, series(:size(mean_errors)), follower_count(case) + 1, mean_errors, error)
+      if (allocated(error)) return
+      worst = maxloc(mean_errors, 1)
+      statistics%mean_error = mean_errors(worst)
+      statistics%worst_mean = series(worst)%name
    end subroutine integrate_flexible
 
    !> Margins of each lobe shape, and extremes of its followers with their errors.

@@ -8,6 +8,8 @@ module camroller_series_extremes
    use camroller_catalogue, only : follower_values, camshaft_values, lobe_columns, camshaft_columns
    use camroller_cycle, only : state_at
    use camroller_cycle_remarks, only : has_film_limit
+   use camroller_flexible_follower, only : follower_on_path
+   use camroller_flexible_solution, only : error_share
    use camroller_extremes, only : samples_t, search_t, add_sample, narrow_search, start_search
    use camroller_margins, only : margins_t
    use camroller_means, only : statistics_t
@@ -43,10 +45,11 @@ module camroller_series_extremes
       !> Their cam angles from full lift [rad]
       real(wp) :: angles(most_kept) = 0.0_wp
       type(state_t) :: states(most_kept)
-      !> Series of the follower, shape (series, state) [unit of the series]
-      real(wp), allocatable :: values(:, :)
-      !> Interval of the cycle where the next search starts
-      integer :: hint = 1
+      !> Series of the follower, shape (series, state); of a flexible train also those of the turn with a coarser tolerance
+      !> [unit of the series]
+      real(wp), allocatable :: values(:, :), coarse(:, :)
+      !> Interval of the cycle where the next search starts, and of that turn
+      integer :: hint = 1, coarse_hint = 1
    end type kept_states_t
 
 contains
@@ -79,10 +82,6 @@ contains
          if (allocated(error)) return
          call judge_extremes(list, statistics%lowest, statistics%highest, statistics)
       end associate
-      if (allocated(solved%cycles(lobe)%flexible)) then
-         statistics%extreme_error = solved%cycles(lobe)%flexible%error
-         statistics%worst_extreme = "contact_load"
-      end if
       statistics%event_load = smallest_event_load(solved%models(lobe), series, statistics%rows)
    end subroutine find_lobe_extremes
 
@@ -198,14 +197,17 @@ contains
                end do
                if (sense > 0) lowest(series) = search%value
                if (sense < 0) highest(series) = -search%value
-               ! Errors of a flexible train are those of its load and sliding speed
-               if (allocated(cycle%flexible)) cycle
                call keep_state(kept, solved, lobe, search%point, size(lowest), place, error)
                if (allocated(error)) return
                associate (of_value => statistics%extreme_errors(merge(1, 2, sense > 0), series))
-                  call error_of_extreme(statistics%slip_errors, solved, lobe, kept%states(place), kept%values(:, place), &
-                     & search%point, series, sense, sense*search%value, of_value)
-                  of_value = of_value + search%left
+                  if (allocated(cycle%flexible)) then
+                     ! What the search leaves is unknown: slopes jump where contacts part, which rows do not mark
+                     of_value = abs(kept%values(series, place) - kept%coarse(series, place))*error_share
+                  else
+                     call error_of_extreme(statistics%slip_errors, solved, lobe, kept%states(place), kept%values(:, place), &
+                        & search%point, series, sense, sense*search%value, of_value)
+                     of_value = of_value + search%left
+                  end if
                end associate
             end do
          end do
@@ -229,7 +231,9 @@ contains
       !> Convergence error
       type(error_t), allocatable, intent(out) :: error
 
-      if (.not. allocated(kept%values)) allocate (kept%values(series, most_kept))
+      type(state_t) :: state
+
+      if (.not. allocated(kept%values)) allocate (kept%values(series, most_kept), kept%coarse(series, most_kept))
       do place = 1, min(kept%count, most_kept)
          if (.not. abs(kept%angles(place) - angle) > 0.0_wp) return
       end do
@@ -239,6 +243,12 @@ contains
       call state_at(solved%cycles(lobe), solved%models(lobe), angle, kept%hint, kept%states(place), error)
       if (allocated(error)) return
       call follower_values(solved%case, solved%models(lobe), kept%states(place), kept%values(:, place))
+      if (.not. allocated(solved%cycles(lobe)%flexible)) return
+      associate (flexible => solved%cycles(lobe)%flexible)
+         call follower_on_path(solved%models(lobe), flexible%coarse, flexible%coarse_resolution, angle, kept%coarse_hint, &
+            & state, error)
+      end associate
+      if (.not. allocated(error)) call follower_values(solved%case, solved%models(lobe), state, kept%coarse(:, place))
    end subroutine keep_state
 
    !> Largest error of a smallest or largest value, relative to the range of its series; the smallest film counts by itself, and so

@@ -118,8 +118,9 @@ contains
    !> Run a case with all its effects.
    !>
    !> Where the estimated error of the sliding speed, of a mean or of an extreme is above the accuracy asked for, the cycles are
-   !> integrated again with a smaller tolerance; so they are with another method and another tolerance where they could not be. What
-   !> a later try cannot do leaves the result of an earlier one, with a remark; without any figure that is right there is no result.
+   !> integrated again with a smaller tolerance; with a flexible train, whose turns are many, only where that of load and sliding
+   !> speed is. So they are with another method and another tolerance where they could not be. What a later try cannot do leaves the
+   !> result of an earlier one, with a remark; without any figure that is right there is no result.
    subroutine run_listed(case, models, with_series, result, error)
       !> The case
       type(case_t), intent(in) :: case
@@ -150,8 +151,8 @@ contains
             ! Before the rest of the result is made
             if (.not. is_finer) then
                call search_extremes(case, models, latest%cycles, latest%statistics, latest%margins, error)
-               if (.not. allocated(error)) call refine(case%numerics, attempt, maxval(latest%statistics%extreme_error), least, &
-                  & numerics, is_finer)
+               if (.not. (allocated(error) .or. allocated(case%dynamics))) call refine(case%numerics, attempt, &
+                  & maxval(latest%statistics%extreme_error), least, numerics, is_finer)
                latest%has_extremes = .not. allocated(error)
             end if
             if (is_finer) then
@@ -278,7 +279,8 @@ contains
       end do
       call take_statistics(case, models, try%cycles, try%statistics, error)
       if (allocated(error)) return
-      try%error = max(maxval(try%statistics%error), maxval(try%statistics%mean_error))
+      try%error = maxval(try%statistics%error)
+      if (.not. allocated(case%dynamics)) try%error = max(try%error, maxval(try%statistics%mean_error))
    end subroutine integrate_models
 
    !> Remarks on errors that are too large.

@@ -105,3 +105,26 @@ def test_results_have_estimates_beside_computed_values(tmp_path, camroller):
     # Forced by the lift of a rigid train, and by that of a train that bends: 3.76 N to 4 digits in the latter
     assert summary["surge_estimate_1"] == pytest.approx(summary["surge_force"], rel=0.2)
     assert summary["load_factor"] == pytest.approx(1.0, abs=0.01) and 1900 < summary["train_frequency"] < 2100
+
+
+# Deck and speed, words of its remarks, words that must not be there
+EVENTS = [
+    (DECK, 900, [], ["bounces", "pumps up", "stop at"]),
+    (DECK, 2900, ["the valve bounces 1 times per cycle"], ["pumps up", "stop at"]),
+    (ADJUSTER, 900, [], ["bounces", "pumps up", "stop at"]),
+    (ADJUSTER, 2500, ["the lash adjuster pumps up", "reaches its upper stop at 2500 rev/min"], ["bounces", "lower stop"]),
+]
+
+
+@pytest.mark.parametrize("deck, speed, there, absent", EVENTS, ids=[f"{deck.stem}-{speed}" for deck, speed, _, _ in EVENTS])
+def test_bounces_pump_up_and_stops_have_remarks_where_they_happen(deck, speed, there, absent, tmp_path, camroller):
+    summary, warnings = run(camroller, deck, tmp_path / "run.h5", f"sweep.values_1={speed}")
+    assert all(words in warnings for words in there) and not any(words in warnings for words in absent)
+    assert (summary["bounces"] > 0) == ("bounces" in warnings)
+    assert (summary.get("pump_up_share", 0) > 0) == ("pumps up" in warnings)
+
+
+def test_a_valve_that_no_longer_closes_does_not_bounce(tmp_path, camroller):
+    """Seating speed zero and no bounce where a pumped-up adjuster holds the valve open."""
+    summary, _ = run(camroller, ADJUSTER, tmp_path / "run.h5", "sweep.values_1=2500")
+    assert summary["seating_speed"] == 0 and summary["bounces"] == 0 and summary["lift_error_min"] > 0
