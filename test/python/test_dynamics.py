@@ -128,3 +128,18 @@ def test_a_valve_that_no_longer_closes_does_not_bounce(tmp_path, camroller):
     """Seating speed zero and no bounce where a pumped-up adjuster holds the valve open."""
     summary, _ = run(camroller, ADJUSTER, tmp_path / "run.h5", "sweep.values_1=2500")
     assert summary["seating_speed"] == 0 and summary["bounces"] == 0 and summary["lift_error_min"] > 0
+
+
+@pytest.mark.parametrize("deck, speed", [(DECK, 900), (DECK, 2900), (ADJUSTER, 300)], ids=["900", "2900", "adjuster-300"])
+def test_errors_of_means_and_extremes_are_as_estimated(deck, speed, tmp_path, camroller):
+    rough, _ = run(camroller, deck, tmp_path / "rough.h5", f"sweep.values_1={speed}", "numerics.tolerance=1e-3")
+    fine, _ = run(camroller, deck, tmp_path / "fine.h5", f"sweep.values_1={speed}", "numerics.tolerance=1e-6")
+    ends = [name[4:] for name in fine if name.startswith("max_") and "min_" + name[4:] in fine and "film" not in name and "residual" not in name]
+    errors = [abs(rough[end + name] - fine[end + name]) / (fine["max_" + name] - fine["min_" + name])
+              for name in ends if fine["max_" + name] > fine["min_" + name] for end in ("min_", "max_")]
+    assert len(errors) > 60
+    # An estimate by half the difference of two tolerances; 0.5 to 0.9 of it were found
+    assert 0.1 * rough["estimated_error_of_extremes"] < max(errors) < 2 * rough["estimated_error_of_extremes"]
+    torques = [abs(rough[name] - fine[name]) / fine["mean_torque_friction"] for name in fine if name.startswith("mean_torque_")
+               and "residual" not in name]
+    assert max(torques) < 2 * rough["estimated_error_of_means"]
