@@ -134,7 +134,8 @@ def test_a_valve_that_no_longer_closes_does_not_bounce(tmp_path, camroller):
 def test_errors_of_means_and_extremes_are_as_estimated(deck, speed, tmp_path, camroller):
     rough, _ = run(camroller, deck, tmp_path / "rough.h5", f"sweep.values_1={speed}", "numerics.tolerance=1e-3")
     fine, _ = run(camroller, deck, tmp_path / "fine.h5", f"sweep.values_1={speed}", "numerics.tolerance=1e-6")
-    ends = [name[4:] for name in fine if name.startswith("max_") and "min_" + name[4:] in fine and "film" not in name and "residual" not in name]
+    ends = [name[4:] for name in fine if name.startswith("max_") and "min_" + name[4:] in fine and "film" not in name
+            and "residual" not in name]
     errors = [abs(rough[end + name] - fine[end + name]) / (fine["max_" + name] - fine["min_" + name])
               for name in ends if fine["max_" + name] > fine["min_" + name] for end in ("min_", "max_")]
     assert len(errors) > 60
@@ -143,3 +144,28 @@ def test_errors_of_means_and_extremes_are_as_estimated(deck, speed, tmp_path, ca
     torques = [abs(rough[name] - fine[name]) / fine["mean_torque_friction"] for name in fine if name.startswith("mean_torque_")
                and "residual" not in name]
     assert max(torques) < 2 * rough["estimated_error_of_means"]
+
+
+REFERENCE = [line for line in (ROOT / "test/data/train_reference.csv").read_text().splitlines() if not line.startswith("#")]
+# Columns of the reference, names here, difference allowed, over the value or a size in SI units where one is given. The program's default
+# accuracy is 1e-4 of the largest load; extremes of the reference are the largest of 30 000 points, and shares integrals of jumps there.
+COMPARED = [("load_max", "dynamic_load_max", 1e-4, 0), ("lift_error_min", "lift_error_min", 1e-4, 0),
+            ("lift_error_max", "lift_error_max", 1e-3, 1e-6), ("seating", "seating_speed", 2e-4, 1e-3),
+            ("joint_min", "joint_force_min", 1e-3, 10),
+            ("tension_share", "joint_tension_share", 4e-3, 0), ("float_share", "float_share", 4e-3, 0),
+            ("losses_of_contact", "losses_of_contact", 0, 1), ("surge", "surge_force", 1e-4, 0), ("coils", "coil_ratio", 6e-4, 0),
+            ("mean_drive", "mean_torque_drive", 1e-5, 0), ("loss", "mean_torque_friction", 1e-5, 0),
+            ("mean_damping", "damping_torque", 1e-4, 0), ("y_min", "plunger_lowest", 1e-4, 0), ("y_max", "plunger_highest", 3e-4, 0),
+            ("p_max", "chamber_pressure_max", 1e-4, 0), ("leak_volume", "leak_volume", 1e-4, 0)]
+
+
+@pytest.mark.parametrize("row", REFERENCE[1:], ids=[row.split(",")[0] for row in REFERENCE[1:]])
+def test_periodic_states_agree_with_an_independent_integration(row, tmp_path, camroller):
+    name, *values = row.split(",")
+    reference = dict(zip(REFERENCE[0].split(",")[1:], map(float, values)))
+    kind, speed = name.split("_")
+    summary, _ = run(camroller, DECK if kind == "fixed" else ADJUSTER, tmp_path / "run.h5", f"sweep.values_1={speed}",
+                     "numerics.tolerance=1e-6")
+    wrong = [f"{ours}: {summary[ours]:.6g}, not {reference[theirs]:.6g}" for theirs, ours, allowed, size in COMPARED if ours in summary
+             and not abs(summary[ours] - reference[theirs]) <= allowed * max(size, abs(reference[theirs]))]
+    assert not wrong

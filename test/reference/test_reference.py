@@ -17,6 +17,8 @@ from cycle_reference import Point, Train, integrate
 from kinematics_reference import DIGITS, Construction, exact
 from mechanism import closed_form, skewed_geometry, thesis_geometry
 from roller_problem_reference import loss
+from train_reference import Adjuster, Flexible
+from train_reference import Point as TrainPoint
 
 EVERY = [(maker, sense) for maker in (thesis_geometry, skewed_geometry) for sense in (1, -1)]
 
@@ -214,3 +216,15 @@ def test_a_short_film_at_rest_is_that_of_ocvirk():
     e = 0.7
     force = journal_reference.short_force((e, 0.0), (0.0, -0.5 * e), 0.5)
     assert math.isclose(math.hypot(*force), 0.25 * e * math.sqrt(16 * e**2 + math.pi**2 * (1 - e**2)) / (1 - e**2)**2, rel_tol=1e-12)
+
+
+@pytest.mark.parametrize('adjuster', [None, Adjuster()])
+def test_a_flexible_train_at_rest_stays_and_carries_the_base_circle_load(adjuster):
+    point = TrainPoint(1e-3, 0.01, Flexible(adjuster=adjuster))
+    state = point.initial()
+    rates, everything = point.evaluate(math.pi, state.tolist())
+    # Without speed there is no film, so friction alone turns the finger: that of the needles, 1e-4 of the load's moment
+    assert abs(everything.W / 64 - 1) < 1e-6 and abs(rates[3]) < 1e-3
+    assert abs(state[2] + 3.44813551e-6) < 1e-13
+    # Found with the arms of the rigid train, from which the finger is 1e-4 rad away
+    assert abs(point.y0 + 0.193165e-6) < 1e-10
