@@ -3,7 +3,7 @@
 SHELL := /bin/bash
 .DEFAULT_GOAL := help
 .PHONY: help setup commit build debug mpi install run dynamics comparison test quick bless random random-ehl random-flexible random-wide needed needed-flexible rough-rows fuzz sanitize faults study study-film study-dynamics audit trends check check-layers \
-  check-style check-format check-lint check-warnings second-compiler format docs recipes bench bench-ehl range-ehl bench-batch bench-cases bench-effects bench-hosts clean distclean
+  check-style check-format check-lint check-warnings second-compiler format docs recipes bench bench-dynamics bench-ehl range-ehl bench-batch bench-cases bench-effects bench-hosts clean distclean
 
 FPM := .venv/bin/fpm
 PYTHON := .venv/bin/python
@@ -177,6 +177,9 @@ recipes: setup ## recipes for container, Spack and conda: read by their tools, t
 
 bench: commit ## time cycles, compared with SUNDIALS and scipy: tables and plots in bench/tables (five minutes)
 	@bench/run.sh
+
+bench-dynamics: commit ## a cycle of flexible trains, compared with SUNDIALS and scipy: bench/tables/dynamics_*.txt (ten minutes)
+	@bench/run.sh dynamics
 
 bench-ehl: commit ## cost of the numerical film against the number of nodes: bench/tables/ehl_cost.txt and a figure (three minutes)
 	@bench/run.sh ehl

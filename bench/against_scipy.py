@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 """Error and time of scipy's solve_ivp on the compiled right-hand sides: LSODA, BDF and Radau.
 
-Usage: against_scipy.py LIBRARY FOLDER_OF_DECKS [TASK...]       lines of a table on the output
+Usage: against_scipy.py LIBRARY FOLDER_OF_DECKS SET [TASK...]       lines of a table on the output; SET is roller or trains
 
 Same right-hand side, stops, largest step, allowed error and output angles as in `against_cvode`. Each segment between stops
-is one call of solve_ivp, since it knows no stop times. BDF and Radau get the compiled slope as Jacobian where there is one
-component; LSODA is faster without.
+is one call of solve_ivp, since it knows no stop times. BDF and Radau get the compiled Jacobian of one component and of trains; LSODA is
+faster without.
 """
 
 from __future__ import annotations
@@ -22,14 +22,15 @@ import numpy as np
 import scipy
 from scipy.integrate import solve_ivp
 
-METHODS = ("LSODA", "BDF", "Radau")
+SETS = ("roller", "trains")
+METHODS = {"roller": ("LSODA", "BDF", "Radau"), "trains": ("LSODA", "Radau")}
 TOLERANCES = [10.0**-k for k in range(1, 10)]
 RUNS = 3
 LARGEST_STEP = math.radians(10.0)
 # Processor time of a run beyond which it is not repeated [s]
 LONG = 0.03
 # Processor time of a run beyond which a method gets no tighter tolerance [s], error below which it gets none either [-]
-PATIENCE = 0.5
+PATIENCE = {"roller": 0.5, "trains": 5.0}
 ENOUGH = 1.0e-8
 
 Reals = ctypes.POINTER(ctypes.c_double)
@@ -76,9 +77,19 @@ class Task:
         return several
 
     def slope(self):
-        """Jacobian for one component."""
-        compiled, number = self.library.bench_slope, self.number
-        return lambda angle, state: np.array([[compiled(number, angle, state[0])]])
+        """Jacobian."""
+        number = self.number
+        if self.components == 1:
+            compiled = self.library.bench_slope
+            return lambda angle, state: np.array([[compiled(number, angle, state[0])]])
+
+        matrix = np.empty((self.components, self.components))
+
+        def several(angle, state):
+            self.library.bench_jacobian(ctypes.c_int(number), ctypes.c_double(angle),
+                                        np.ascontiguousarray(state).ctypes.data_as(Reals), matrix.ctypes.data_as(Reals))
+            return matrix.T.copy()
+        return several
 
     def errors(self, states: np.ndarray) -> tuple[float, float]:
         """Errors of sliding speed and mean loss."""
@@ -88,13 +99,13 @@ class Task:
         return slip.value, loss.value
 
 
-def load(path: str, decks: str) -> list[Task]:
+def load(path: str, decks: str, kind: str) -> list[Task]:
     """Tasks of the library."""
     library = ctypes.CDLL(path)
     library.bench_rate_1.restype = library.bench_slope.restype = ctypes.c_double
     library.bench_rate_1.argtypes = library.bench_slope.argtypes = [ctypes.c_int, ctypes.c_double, ctypes.c_double]
     library.bench_rate.argtypes = [ctypes.c_int, ctypes.c_double, Reals, Reals]
-    number = library.bench_open(decks.encode(), ctypes.c_int(len(decks)))
+    number = library.bench_open(decks.encode(), ctypes.c_int(len(decks)), ctypes.c_int(SETS.index(kind)))
     if number < 0:
         sys.exit("against_scipy: the tasks cannot be made")
     return [Task(library, i) for i in range(number)]
@@ -105,7 +116,7 @@ def solve(task: Task, method: str, tolerance: float) -> tuple[np.ndarray, int]:
     task.library.bench_accuracy(ctypes.c_int(task.number), ctypes.c_double(tolerance))
     states = np.empty((task.components, task.angles.size))
     state, rate = task.first_state, task.rate()
-    options = {"jac": task.slope()} if method != "LSODA" and task.components == 1 else {}
+    options = {"jac": task.slope()} if method != "LSODA" and task.components != 2 else {}
     jacobians = begin = 0
     for start, stop in zip(task.stops[:-1], task.stops[1:]):
         end = int(np.searchsorted(task.angles, stop, side="right"))
@@ -122,7 +133,7 @@ def solve(task: Task, method: str, tolerance: float) -> tuple[np.ndarray, int]:
     return states, jacobians
 
 
-def climb(task: Task, method: str) -> None:
+def climb(task: Task, method: str, patience: float) -> None:
     """A line for each tolerance."""
     for tolerance in TOLERANCES:
         times = []
@@ -140,22 +151,22 @@ def climb(task: Task, method: str) -> None:
         slip, loss = task.errors(states)
         print(f"{task.name:24s} {method:16s}{tolerance:10.2e}{slip:10.2e}{loss:10.2e}{task.calls:9d}{jacobians:7d}{0:8d}{0:8d}"
               f"{1e6 * statistics.median(times):12.2f}{1e6 * min(times):12.2f}", flush=True)
-        if times[-1] > PATIENCE or max(slip, loss) < ENOUGH:
+        if times[-1] > patience or max(slip, loss) < ENOUGH:
             break
 
 
 def main() -> None:
     """Measure all tasks, or those named."""
-    library, decks, *names = sys.argv[1:]
+    library, decks, kind, *names = sys.argv[1:]
     warnings.filterwarnings("ignore", message="At least one element of `rtol`")
     print("# One cycle and its sliding speed at 720 angles by scipy's solve_ivp: error and time over tolerance")
     print(f"# scipy {scipy.__version__}, Python {platform.python_version()}; the right-hand side is compiled")
     print("# task, solver, tolerance [-], error of sliding speed [-], error of mean loss [-], evaluations, Jacobians, -, -, "
           "median time [us], smallest time [us]")
-    for task in load(library, decks):
+    for task in load(library, decks, kind):
         if not names or any(task.name.startswith(name) for name in names):
-            for method in METHODS:
-                climb(task, method)
+            for method in METHODS[kind]:
+                climb(task, method, PATIENCE[kind])
 
 
 if __name__ == "__main__":

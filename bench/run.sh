@@ -3,6 +3,7 @@
 #
 # Usage: make bench          five minutes on an idle machine
 #        make bench-ehl      the numerical film alone: cost over nodes
+#        make bench-dynamics   a cycle of flexible trains beside CVODE and scipy
 #        make range-ehl      its whole range: NODES=1025 FIRST=1 STRIDE=1
 # Times are processor times of one core, medians of repeated runs, solvers taking turns; only ratios carry over to other machines.
 # Needs SUNDIALS, which nothing else here does: installed as root on a machine with apt-get, otherwise named.
@@ -58,12 +59,19 @@ done
 gfortran -shared -o "$target/librhs.so" -Wl,-u,bench_open "$target/lib/libbench.a" $folder "${hdf5[@]}" \
     -lsundials_cvode -lsundials_nvecserial -lopenblas
 
+if [ "${1:-all}" = dynamics ]; then
+    measure dynamics_cvode.txt "$target/bin/against_cvode" decks trains
+    measure dynamics_scipy.txt "$python" bench/against_scipy.py "$target/librhs.so" decks trains
+    "$python" bench/summarise.py "$tables/dynamics_cvode.txt" "$tables/dynamics_scipy.txt" > "$tables/dynamics_summary.txt"
+    cat "$tables/dynamics_summary.txt"
+    exit 0
+fi
 measure cycle_speed.txt "$target/bin/cycle_speed" decks
 measure ehl_speed.txt "$target/bin/ehl_speed"
 measure ehl_map.txt "$target/bin/ehl_map"
 "$python" post/ehl_map.py "$tables/ehl_map.txt" doc/figures/ehl_map.png
-measure against_cvode.txt "$target/bin/against_cvode" decks
-measure against_scipy.txt "$python" bench/against_scipy.py "$target/librhs.so" decks
+measure against_cvode.txt "$target/bin/against_cvode" decks roller
+measure against_scipy.txt "$python" bench/against_scipy.py "$target/librhs.so" decks roller
 "$python" bench/summarise.py "$tables/against_cvode.txt" "$tables/against_scipy.txt" > "$tables/summary.txt"
 "$python" bench/plot.py "$tables" "$tables/against_cvode.txt" "$tables/against_scipy.txt"
 cat "$tables/summary.txt"

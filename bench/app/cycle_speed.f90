@@ -14,7 +14,7 @@ contains
       use camroller_error, only : error_t
       use camroller_spin, only : spin_problem_t
       use bench_circumstances, only : print_circumstances
-      use bench_tasks, only : task_t, make_tasks
+      use bench_tasks, only : task_t, task_sets, make_tasks
       use bench_parts, only : part_names, part_units, measure_parts
       use camroller_kinds, only : wp
 
@@ -26,7 +26,7 @@ contains
       integer :: i, evaluations(2)
 
       call get_command_argument(1, folder)
-      call make_tasks(tasks, trim(folder), error)
+      call make_tasks(tasks, trim(folder), task_sets(1), error)
       if (allocated(error)) then
          write (error_unit, "(2a)") "cycle_speed: ", error%message
          error stop 1

@@ -45,8 +45,8 @@ module bench_ladder
    !> Rounds of measurement; those for runs longer than `long` [s]
    integer, parameter :: rounds = 5, few_rounds = 2
    real(wp), parameter :: long = 5.0e-3_wp
-   !> Time of a measurement; time of a run beyond which a solver gets no tighter tolerance [s]
-   real(wp), parameter :: measurement = 1.0e-3_wp, patience = 0.02_wp
+   !> Time of a measurement [s]
+   real(wp), parameter :: measurement = 1.0e-3_wp
    !> Error below which it gets none either [-]
    real(wp), parameter :: enough = 1.0e-9_wp
 
@@ -138,7 +138,7 @@ contains
          allocate (rung%seconds(rung%rounds), source=0.0_wp)
          contestant%count = contestant%count + 1
          contestant%rungs(contestant%count) = rung
-         if (seconds > patience .or. max(rung%slip_error, rung%loss_error) < enough) exit
+         if (seconds > task%patience .or. max(rung%slip_error, rung%loss_error) < enough) exit
       end do
    end subroutine enter
 

@@ -4,6 +4,7 @@ module bench_own
    use camroller_error, only : error_t
    use camroller_ode, only : method_t, options_t, integrate
    use camroller_ode_problem, only : problem_t, counters_t
+   use camroller_ode_switching, only : switching_problem_t, integrate_switching
    use camroller_ode_methods, only : new_method
    use camroller_trajectory, only : trajectory_t, interpolate_state
    implicit none
@@ -69,7 +70,12 @@ contains
       options%max_step = largest_step
       solver%counters = counters_t()
       state = first_state
-      call integrate(problem, solver%method, options, stops, state, solver%trajectory, solver%counters, error)
+      select type (problem)
+      class is (switching_problem_t)
+         call integrate_switching(problem, solver%method, options, stops, state, solver%trajectory, solver%counters, error)
+      class default
+         call integrate(problem, solver%method, options, stops, state, solver%trajectory, solver%counters, error)
+      end select
       if (allocated(error)) return
       hint = 1
       do i = 1, size(angles)

@@ -5,23 +5,27 @@ module bench_rhs_library
    use, intrinsic :: iso_c_binding, only : c_int, c_char, c_double, c_null_char
    use camroller_kinds, only : wp
    use camroller_error, only : error_t
-   use bench_tasks, only : task_t, make_tasks, set_accuracy, measure_errors
+   use camroller_ode_problem, only : counters_t, linear_t, new_linear
+   use bench_tasks, only : task_t, make_tasks, task_sets, set_accuracy, measure_errors
    implicit none
    private
 
-   public :: bench_open, bench_name, bench_sizes, bench_data, bench_rate, bench_rate_1, bench_slope, bench_accuracy, bench_errors
+   public :: bench_open, bench_name, bench_sizes, bench_data, bench_rate, bench_rate_1, bench_slope, bench_jacobian, &
+      & bench_accuracy, bench_errors
 
    !> The tasks
    type(task_t), allocatable, save :: tasks(:)
 
 contains
 
-   !> Make the tasks; returns their number, negative where that failed.
-   function bench_open(folder, length) bind(c) result(number)
+   !> Make the tasks of a set, from 0; returns their number, negative where that failed.
+   function bench_open(folder, length, set) bind(c) result(number)
       !> Folder of the decks
       character(kind=c_char), intent(in) :: folder(*)
       !> Its length
       integer(c_int), value :: length
+      !> The set
+      integer(c_int), value :: set
       !> Number of tasks
       integer(c_int) :: number
 
@@ -32,7 +36,7 @@ contains
       do i = 1, length
          path(i:i) = folder(i)
       end do
-      call make_tasks(tasks, path, error)
+      call make_tasks(tasks, path, task_sets(set + 1), error)
       number = -1_c_int
       if (.not. allocated(error)) number = int(size(tasks), c_int)
    end function bench_open
@@ -115,6 +119,27 @@ contains
       call tasks(task + 1)%problem%get_rate(time, [state], rates, status)
       rate = rates(1)
    end function bench_rate_1
+
+   !> Jacobian, the rows of a column side by side.
+   subroutine bench_jacobian(task, time, state, jacobian) bind(c)
+      !> Which task
+      integer(c_int), value :: task
+      !> Cam angle [rad]
+      real(c_double), value :: time
+      !> State [state]
+      real(c_double), intent(in) :: state(*)
+      !> The derivatives [1/rad]
+      real(c_double), intent(out) :: jacobian(*)
+
+      type(linear_t) :: linear
+      type(counters_t) :: counters
+      integer :: n, status
+
+      n = size(tasks(task + 1)%first_state)
+      call new_linear(linear, n)
+      call tasks(task + 1)%problem%linearise(time, state(:n), time, linear, counters, status)
+      jacobian(:n*n) = reshape(linear%jacobian, [n*n])
+   end subroutine bench_jacobian
 
    !> Derivative of the first rate with respect to the first component, friction's other dependencies left out.
    function bench_slope(task, time, state) bind(c) result(slope)

@@ -1,4 +1,5 @@
-!> What is timed: one cycle of each operating point of the thesis, closed balance and source's bookkeeping, and the roller problem.
+!> What is timed: one cycle of each operating point of the thesis, closed balance and source's bookkeeping, and the roller problem;
+!> or one of flexible trains.
 !>
 !> A task begins at its periodic state (the roller problem: where its statement begins) and asks for the state at given angles.
 !> Every solver gets the same compiled right-hand side, stops, largest step, error allowed per component and output angles.
@@ -11,6 +12,9 @@ module bench_tasks
    use camroller_state, only : state_t, evaluate_state
    use camroller_spin, only : spin_problem_t
    use camroller_cycle, only : cycle_t, integrate_cycle
+   use camroller_flexible_cycle, only : flexible_cycle_t, find_periodic, rest_of_train, start_turns, turn_t
+   use camroller_flexible_problem, only : flexible_problem_t, state_scales
+   use camroller_flexible_train, only : at_sliding, evaluate_train, flexible_state_t
    use camroller_ode_problem, only : problem_t
    use bench_own, only : own_t, new_own, run_own
    use bench_cvode, only : cvode_t, new_cvode, run_cvode, free_cvode
@@ -18,11 +22,15 @@ module bench_tasks
    implicit none
    private
 
-   public :: task_t, make_tasks, set_accuracy, measure_errors
+   public :: task_t, make_tasks, task_sets, set_accuracy, measure_errors
+
+   !> Sets of tasks
+   character(len=*), parameter :: task_sets(*) = [character(len=6) :: "roller", "trains"]
 
    !> One cycle to be computed
    type :: task_t
-      !> `consistent_300_25`: bookkeeping, rev/min, degrees Celsius; `roller_a` to `roller_c`
+      !> `consistent_300_25`: bookkeeping, rev/min, degrees Celsius; `roller_a` to `roller_c`; `fixed_900`, `adjuster_900`: pivot,
+      !> rev/min
       character(len=24) :: name = ""
       !> Model; the roller problem takes its kinematics from it
       type(model_t), pointer :: model => null()
@@ -32,10 +40,12 @@ module bench_tasks
       real(wp), allocatable :: stops(:), angles(:)
       !> State at the start, size that a component's error is measured against [state]
       real(wp), allocatable :: first_state(:), scale(:)
-      !> Sliding speed at the output angles [m/s]
+      !> Sliding speed [m/s], of a train the contact load [N], at the output angles
       real(wp), allocatable :: sliding_speed(:)
-      !> Mean torque of all losses [N m]; roller problem: loss [J]
+      !> Mean torque of all losses [N m]; roller problem: loss [J]; train: mean of the load [N]
       real(wp) :: loss = 0.0_wp
+      !> Processor time of a run beyond which a solver gets no tighter tolerance [s]
+      real(wp) :: patience = 0.02_wp
       !> Difference between two unrelated methods: sliding speed over its largest value, loss over itself [-]
       real(wp) :: doubt = 0.0_wp
    end type task_t
@@ -46,6 +56,9 @@ module bench_tasks
    character(len=*), parameter :: reference_method = "rodas5p"
    !> Tolerance of it and of the second opinion; where the state is the spin, of which slip is a small difference [-]
    real(wp), parameter :: reference_tolerance = 1.0e-12_wp, spin_tolerance = 1.0e-10_wp
+   !> The same of flexible trains, and the sliding speeds that they need not tell apart over the error of a step, as
+   !> `flexible_cycle` has it [-]
+   real(wp), parameter :: train_tolerance = 1.0e-8_wp, unresolved = 2.0_wp
    !> Tolerance of the periodic state that tasks begin at [-]
    real(wp), parameter :: start_tolerance = 1.0e-9_wp
    !> Part of a tolerance to which the contact is solved, as `integrate_cycle` has it [-]
@@ -55,18 +68,22 @@ module bench_tasks
 
 contains
 
-   !> Make all tasks.
-   subroutine make_tasks(tasks, folder, error)
+   !> Make all tasks of a set.
+   subroutine make_tasks(tasks, folder, set, error)
       !> Tasks
       type(task_t), allocatable, intent(out) :: tasks(:)
-      !> Folder of the decks
-      character(len=*), intent(in) :: folder
+      !> Folder of the decks, one of the sets
+      character(len=*), intent(in) :: folder, set
       !> Error of any kind
       type(error_t), allocatable, intent(out) :: error
 
       integer, parameter :: points = 9
       integer :: i
 
+      if (set == task_sets(2)) then
+         call make_trains(tasks, folder, error)
+         return
+      end if
       allocate (tasks(2*points + size(viscosities)))
       call add_points(tasks(:points), folder//"/thesis.nml", "consistent", error)
       if (allocated(error)) return
@@ -77,6 +94,70 @@ contains
          if (allocated(error)) return
       end do
    end subroutine make_tasks
+
+   !> Tasks of flexible trains: the slow vibration of a fixed pivot, resonance, contacts that open, an adjuster.
+   subroutine make_trains(tasks, folder, error)
+      !> Tasks
+      type(task_t), allocatable, intent(out) :: tasks(:)
+      !> Folder of the decks
+      character(len=*), intent(in) :: folder
+      !> Error of any kind
+      type(error_t), allocatable, intent(out) :: error
+
+      ! Decks, what their trains are called, speeds [rev/min]
+      character(len=*), parameter :: paths(*) = [character(len=18) :: "/dynamics.nml", "/dynamics.nml", "/dynamics.nml", &
+         & "/lash_adjuster.nml"]
+      character(len=*), parameter :: names(*) = [character(len=13) :: "fixed_900", "fixed_2500", "fixed_3000", "adjuster_900"]
+      real(wp), parameter :: train_speeds(*) = [900.0_wp, 2500.0_wp, 3000.0_wp, 900.0_wp]
+      type(deck_t) :: deck
+      type(case_t) :: case
+      type(override_t), allocatable :: none(:)
+      integer :: i
+
+      allocate (tasks(size(names)), none(0))
+      do i = 1, size(names)
+         call read_deck(deck, folder//trim(paths(i)), none, error)
+         if (.not. allocated(error)) call make_sweep_case(deck, 1, case, error)
+         if (allocated(error)) return
+         case%operating_point%speed = train_speeds(i)*two_pi/60.0_wp
+         tasks(i)%name = names(i)
+         call add_train(tasks(i), case, error)
+         call add_context(error, trim(names(i)))
+         if (allocated(error)) return
+      end do
+   end subroutine make_trains
+
+   !> Task for a flexible train.
+   subroutine add_train(task, case, error)
+      !> Task
+      type(task_t), intent(inout) :: task
+      !> Case
+      type(case_t), intent(in) :: case
+      !> Error of any kind
+      type(error_t), allocatable, intent(out) :: error
+
+      ! Tolerance of the periodic state, distance from it [-]
+      real(wp), parameter :: tolerance = 1.0e-5_wp, closure = 1.0e-4_wp
+      type(flexible_problem_t), pointer :: problem
+      type(turn_t) :: turn
+      type(flexible_cycle_t) :: cycle
+      ! State [state]
+      real(wp), allocatable :: state(:)
+
+      allocate (task%model, problem)
+      call new_model(task%model, case, case%lift, error)
+      if (.not. allocated(error)) call start_turns(turn, task%model, reference_method, tolerance, error)
+      if (.not. allocated(error)) call rest_of_train(task%model, state, error)
+      if (.not. allocated(error)) call find_periodic(cycle, turn, state, closure, 40, error)
+      if (allocated(error)) return
+      task%stops = turn%stops
+      task%first_state = state
+      task%scale = turn%scales
+      task%patience = 0.3_wp
+      problem = turn%problem
+      task%problem => problem
+      call add_reference(task, 1, error)
+   end subroutine add_train
 
    !> Tasks for the sweep of a deck.
    subroutine add_points(tasks, path, prefix, error)
@@ -189,6 +270,7 @@ contains
       task%angles(turns*outputs) = task%stops(size(task%stops))
       allocate (states(size(task%first_state), turns*outputs))
       tolerance = merge(reference_tolerance, spin_tolerance, turns == 1)
+      if (allocated(task%model%flexible)) tolerance = train_tolerance
       call set_accuracy(task, 0.0_wp)
       call new_own(solver, reference_method, size(task%first_state), task%problem%integrals, error)
       if (allocated(error)) return
@@ -213,6 +295,9 @@ contains
       select type (problem => task%problem)
       type is (spin_problem_t)
          problem%accuracy = contact_accuracy*tolerance
+      type is (flexible_problem_t)
+         problem%resolution%forces = contact_accuracy*tolerance
+         problem%resolution%sliding_speed = unresolved*tolerance*task%scale(at_sliding)
       end select
    end subroutine set_accuracy
 
@@ -229,19 +314,25 @@ contains
       loss_error = abs(loss_of(task, states) - task%loss)/task%loss
    end subroutine measure_errors
 
-   !> Sliding speed at the output angles [m/s].
+   !> Sliding speed at the output angles [m/s]; of a train the contact load [N].
    function sliding_speeds(task, states) result(speeds)
       !> Task
       type(task_t), intent(in) :: task
       !> State at the output angles [state]
       real(wp), intent(in) :: states(:, :)
-      !> Sliding speeds [m/s]
+      !> Sliding speeds [m/s]; of a train the loads [N]
       real(wp) :: speeds(size(states, 2))
 
-      integer :: i
+      type(flexible_state_t) :: train
+      integer :: i, status
 
       speeds = states(1, :)
       select type (problem => task%problem)
+      type is (flexible_problem_t)
+         do i = 1, size(speeds)
+            call evaluate_train(task%model, task%angles(i), states(:, i), problem%resolution, train, status)
+            speeds(i) = train%contact%load
+         end do
       type is (roller_problem_t)
          do i = 1, size(speeds)
             speeds(i) = sliding_speed_at(problem, task%angles(i), states(1, i))
@@ -255,12 +346,16 @@ contains
       type(task_t), intent(in) :: task
       !> State at the output angles [state]
       real(wp), intent(in) :: states(:, :)
-      !> Mean torque [N m] or loss [J]
+      !> Mean torque [N m] or loss [J], of a train the mean load [N]
       real(wp) :: loss
 
       type(state_t) :: state
       integer :: i, status
 
+      if (allocated(task%model%flexible)) then
+         loss = sum(sliding_speeds(task, states))/size(states, 2)
+         return
+      end if
       if (size(states, 1) > 1) then
          loss = states(2, size(states, 2))
          return
