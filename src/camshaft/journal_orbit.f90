@@ -1,10 +1,8 @@
 !> The orbit of a journal in its bearing over a turn of the shaft, periodic.
 !>
 !> In: a bearing, the load on it at any angle. Out: the path of the journal. Turns are integrated one after the other until one ends
-!> where
-!> it began; where turns approach that slowly, as a lightly loaded journal does, which whirls at half the shaft's speed, the next
-!> one
-!> starts at the zero of the line through the last three starts and ends (secant method in two unknowns).
+!> where it began. Where turns approach it slowly, as those of a lightly loaded journal do, which whirls at half the shaft's speed,
+!> the next one starts at the zero of the line through the last three starts and ends (secant method in two unknowns).
 module camroller_journal_orbit
    use camroller_kinds, only : wp, two_pi
    use camroller_bearing_asperity, only : bearing_state_t, carry_load, touch_t
