@@ -1,8 +1,7 @@
 !> A deck: read, checked, and turned into cases.
 !>
-!> In: a file or a text, and overrides `group.key=value`. Out: `deck_t`, from which a case is made for the
-!> deck as
-!> it stands, for other overrides, or for each place of its sweep. All mistakes are reported at once.
+!> In: a file or a text, and overrides `group.key=value`. Out: `deck_t`, from which a case is made for the deck as it stands, for
+!> other overrides, or for each place of its sweep. All mistakes are reported at once.
 module camroller_deck
    use camroller_error, only : error_t, raise, add_context, kind_usage
    use camroller_case, only : case_t

@@ -1,8 +1,7 @@
 !> The table of everything that a deck may hold.
 !>
-!> In: defaults and names from the types of the sub-models. Out: the schema. A key whose value is not in SI
-!> has its
-!> unit as its last word. Defaults are those of the types, so that a library user and a deck get the same.
+!> In: defaults and names from the types of the sub-models. Out: the schema. A key whose value is not in SI has its unit as its last
+!> word. Defaults are those of the types, so that a library user and a deck get the same.
 module camroller_deck_keys
    use camroller_kinds, only : wp, pi
    use camroller_units, only : length_unit_names, pressure_unit_names

@@ -1,8 +1,7 @@
 !> Rules that tie the values of several keys together.
 !>
-!> In: settings whose values are each in range. Out: a mistake for each broken rule, at the key that breaks
-!> it. A
-!> rule is silent where one of its values is wrong already. What needs the geometry worked out is checked by the model.
+!> In: settings whose values are each in range. Out: a mistake for each broken rule, at the key that breaks it. A rule is silent
+!> where one of its values is wrong already. What needs the geometry worked out is checked by the model.
 module camroller_deck_relations
    use camroller_kinds, only : wp
    use camroller_accuracy, only : divides_turn

@@ -82,9 +82,8 @@ contains
       call h5pclose_f(access, ignored)
    end subroutine create_file
 
-   !> Make sure that there is disk space for what comes next. The library does not survive a failed write: it
-   !> goes
-   !> astray when it closes the file or when the program ends. So space is set aside before it is used.
+   !> Make sure that there is disk space for what comes next. The library does not survive a failed write: it goes astray when it
+   !> closes the file or when the program ends. So space is set aside before it is used.
    subroutine reserve_file(file, bytes, error)
       !> An open file
       type(hdf5_object_t), intent(inout) :: file

@@ -3,29 +3,21 @@
 !> In: a bearing at a speed, place of the journal, load vector. Out: velocity of the journal, state of the bearing.
 !>
 !> Of a journal of negligible mass the load and the film's force are equal and opposite at each instant. Seen from a frame that
-!> turns with
-!> the mean angular velocity of journal and bearing, half the shaft's, the film is squeezed only, with the velocity `v`, and the
-!> force
-!> depends on v alone (Booker 1965). Places are in clearances, velocities in clearances per radian of the shaft, loads in
-!> `journal_t%unit_load`.
+!> turns with the mean angular velocity of journal and bearing, half the shaft's, the film is squeezed only, with the velocity `v`,
+!> and the force depends on v alone (Booker 1965). Places are in clearances, velocities in clearances per radian of the shaft, loads
+!> in `journal_t%unit_load`.
 !>
 !> Short bearing: the force is `4 (L/D)^2 A v` with `A = int n n^T/h^3` over the half of the bearing where the film is squeezed,
 !> `n . v > 0`, n the normal at an angle and `h = 1 - place . n`. It is the gradient of a convex function of v (half the
-!> dissipation), and A
-!> is its second derivative: the velocity under a given force is unique, and `v <- A^-1 force` is Newton's method. In closed form by
-!> the
-!> variable of Sommerfeld (1904); the same as Capone (1986), who writes the force over place and velocity. With the journal at rest
-!> it is
-!> the bearing of Ocvirk (1952).
+!> dissipation), and A is its second derivative: the velocity under a given force is unique, and `v <- A^-1 force` is Newton's method. In closed
+!> form by the variable of Sommerfeld (1904); the same as Capone (1986), who writes the force over place and velocity. With the
+!> journal at rest it is the bearing of Ocvirk (1952).
 !>
 !> Finite width: the velocity of the short bearing times `1 + k (L/D)^2/(1 - xi)`, with k of its own along the load and across it,
-!> the form of
-!> the mobilities of Moes (Childs, Moes and van Leeuwen 1977), whose k are constant, 0.472 and 0.278. Here they follow the place of
-!> the journal,
-!> `xi` along the load and `eta` across it, and L/D: fits to 630 solutions of Reynolds' equation with Reynolds' boundary condition,
-!> L/D
-!> from 0.1 to 1 and eccentricities to 0.98, which they meet within 11 % in size and 2 degrees in direction
-!> (`test/reference/journal_reference.py`).
+!> the form of the mobilities of Moes (Childs, Moes and van Leeuwen 1977), whose k are constant, 0.472 and 0.278. Here they follow
+!> the place of the journal, `xi` along the load and `eta` across it, and L/D: fits to 630 solutions of Reynolds' equation with
+!> Reynolds' boundary condition, L/D from 0.1 to 1 and eccentricities to 0.98, which they meet within 12 % in size and 4 degrees in
+!> direction (`test/reference/journal_reference.py`).
 module camroller_journal_motion
    use camroller_kinds, only : wp, pi
    use camroller_bearing_asperity, only : asperity_forces, bearing_state_t, touch_t
@@ -106,8 +98,7 @@ contains
    end function width_factors
 
    !> Velocity of a short bearing's journal under a force: Newton's method on its direction, in a bracket, since the direction of
-   !> the
-   !> force turns the same way as that of the velocity and is never a right angle away.
+   !> the force turns the same way as that of the velocity and is never a right angle away.
    pure subroutine solve_short(e, vector)
       !> Eccentricity, below one [clearance]
       real(wp), intent(in) :: e
@@ -158,8 +149,7 @@ contains
    end function turn
 
    !> Integrals of `cos^2`, `sin cos` and `sin^2` over `h^3`, `h = 1 - e cos`, over half a turn about a direction, times the fifth,
-   !> fourth
-   !> and third power of s: polynomials of Sommerfeld's angle psi, `cos psi = (cos - e)/h`, `sin psi = s sin/h`.
+   !> fourth and third power of s: polynomials of Sommerfeld's angle psi, `cos psi = (cos - e)/h`, `sin psi = s sin/h`.
    pure function half_integrals(e, s, angle) result(integrals)
       !> Eccentricity, below one; sqrt(1 - e^2) [-]
       real(wp), intent(in) :: e, s

@@ -194,7 +194,7 @@ contains
 
    !> Factors of the matrix `shift I - jacobian`; a single component needs none.
    subroutine factorise_dense(self, linear, shift, factors, status)
-      !> The problem; read only
+      !> The problem, of whose structure nothing is known here
       class(problem_t), intent(in) :: self
       !> Rate and derivatives
       type(linear_t), intent(in) :: linear
@@ -207,7 +207,9 @@ contains
 
       integer :: i, n
 
-      n = size(factors%pivots)
+      associate (without_structure => self)
+         n = size(linear%rate)
+      end associate
       factors%shift = shift
       factors%matrix(:, :) = -linear%jacobian
       do i = 1, n
@@ -223,7 +225,7 @@ contains
 
    !> Solve with the factors.
    subroutine solve_dense(self, linear, factors, right_side)
-      !> The problem; read only
+      !> The problem, of whose structure nothing is known here
       class(problem_t), intent(in) :: self
       !> Rate and derivatives of which the factors are
       type(linear_t), intent(in) :: linear
@@ -234,7 +236,9 @@ contains
 
       integer :: info, n
 
-      n = size(factors%pivots)
+      associate (without_structure => self)
+         n = size(linear%rate)
+      end associate
       if (n == 1) then
          right_side = right_side/factors%matrix(1, 1)
       else
