@@ -9,9 +9,9 @@
 !>
 !> Short bearing: the force is `4 (L/D)^2 A v` with `A = int n n^T/h^3` over the half of the bearing where the film is squeezed,
 !> `n . v > 0`, n the normal at an angle and `h = 1 - place . n`. It is the gradient of a convex function of v (half the
-!> dissipation), and A is its second derivative: the velocity under a given force is unique, and `v <- A^-1 force` is Newton's method. In closed
-!> form by the variable of Sommerfeld (1904); the same as Capone (1986), who writes the force over place and velocity. With the
-!> journal at rest it is the bearing of Ocvirk (1952).
+!> dissipation), and A is its second derivative: the velocity under a given force is unique, and `v <- A^-1 force` is Newton's
+!> method. In closed form by the variable of Sommerfeld (1904); the same as Capone (1986), who writes the force over place and
+!> velocity. With the journal at rest it is the bearing of Ocvirk (1952).
 !>
 !> Finite width: the velocity of the short bearing times `1 + k (L/D)^2/(1 - xi)`, with k of its own along the load and across it,
 !> the form of the mobilities of Moes (Childs, Moes and van Leeuwen 1977), whose k are constant, 0.472 and 0.278. Here they follow
