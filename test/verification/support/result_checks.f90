@@ -333,6 +333,8 @@ contains
                values(:, 2) = 0.0_wp
             end if
             least = rounding*maxval(abs(values))
+            ! A series of one value for the whole turn is its mean, which is compared as such
+            if (maxval(values(:, 2) - values(:, 1)) <= least) cycle
             do k = 1, 2
                difference = max(0.0_wp, abs(values(1, k) - values(2, k)) - least)
                if (difference > allowed*range) trouble = trouble//" "//merge("min_", "max_", k == 1)//name// &
