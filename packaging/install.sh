@@ -10,8 +10,9 @@ prefix=$(mkdir -p "$1" && cd "$1" && pwd)
 fpm=$(command -v "${FPM:-fpm}") || { echo "fpm is not there: install it, or name it in FPM" >&2; exit 1; }
 fpm=$(realpath -s "$fpm")
 
+# All of it anew: the archive of an earlier build keeps the objects of sources that have moved
+rm -rf build/package
 mkdir -p build/package
-rm -rf build/package/src build/package/app build/package/include
 cp -r src app include build/package
 sed -e '/^\[dev-dependencies\]/,/^$/d' -e '/^\[\[test\]\]/,/^$/d' -e '/^\[\[example\]\]/,/^$/d' fpm.toml > build/package/fpm.toml
 cd build/package

@@ -363,11 +363,15 @@ contains
       !> Their difference [-]; huge where one of them is no finite number
       real(wp) :: difference
 
+      real(wp) :: larger ! [any unit]
+
       difference = 0.0_wp
       if (ieee_is_nan(some) .and. ieee_is_nan(other)) return
       difference = huge(1.0_wp)
       if (.not. (ieee_is_finite(some) .and. ieee_is_finite(other))) return
-      difference = abs(some - other)/max(abs(some), abs(other), tiny(1.0_wp))
+      ! Divided first: a damaged file may hold numbers whose difference overflows
+      larger = max(abs(some), abs(other), tiny(1.0_wp))
+      difference = abs(some/larger - other/larger)
    end function relative_difference
 
 end module camroller_comparison_sink

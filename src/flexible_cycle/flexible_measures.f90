@@ -41,6 +41,8 @@ module camroller_flexible_measures
       real(wp) :: height, load
       !> Force in the joint [N]; pressure above that at which the check valve opens [Pa]
       real(wp) :: joint, shut
+      !> Cam angle of the point before [rad], force in the joint there [N]
+      real(wp) :: angle_before = huge(1.0_wp), joint_before = 0.0_wp
    end type sample_t
 
    !> Places in the list
@@ -207,8 +209,10 @@ contains
       sample = sample_t(angle, position%lift - event_part*top, now%contact%load, pivot_force(model, state, now), 0.0_wp)
       if (allocated(model%flexible%adjuster)) sample%shut = now%pressure - opening_pressure(model%flexible%adjuster)
       call add_interval(last, sample, values)
+      values(smallest_pivot_force) = min(values(smallest_pivot_force), sample%joint, least_joint_force(last, sample))
+      sample%angle_before = last%angle
+      sample%joint_before = last%joint
       last = sample
-      values(smallest_pivot_force) = min(values(smallest_pivot_force), sample%joint)
       values(drive_torque) = values(drive_torque) + weight*powers%drive/model%speed
       values(loss_torque) = values(loss_torque) + weight*sum(powers%losses)/model%speed
       values(damping_torque) = values(damping_torque) + weight*powers%losses(of_damping)/model%speed
@@ -245,6 +249,26 @@ contains
       values(check_share) = values(check_share) + length*open
       if (min(last%height, sample%height) >= 0.0_wp) values(event_check_share) = values(event_check_share) + length*open
    end subroutine add_interval
+
+   !> Smallest force in the joint between points, by the parabola through three in a row of which the middle one is the lowest.
+   pure function least_joint_force(last, sample) result(force)
+      !> The second of the three, with what it knows of the first; the third
+      type(sample_t), intent(in) :: last, sample
+      !> The force; huge where another one is lower [N]
+      real(wp) :: force
+
+      ! Slopes of both intervals, that of the parabola at the second point [N/rad], its bend [N/rad^2]
+      real(wp) :: slopes(2), slope, bend
+
+      force = huge(1.0_wp)
+      if (last%angle_before >= last%angle .or. last%angle >= sample%angle) return
+      if (last%joint >= min(last%joint_before, sample%joint)) return
+      slopes(1) = (last%joint - last%joint_before)/(last%angle - last%angle_before)
+      slopes(2) = (sample%joint - last%joint)/(sample%angle - last%angle)
+      bend = (slopes(2) - slopes(1))/(sample%angle - last%angle_before)
+      slope = slopes(1) + bend*(last%angle - last%angle_before)
+      force = last%joint - slope**2/(4.0_wp*bend)
+   end function least_joint_force
 
    !> Part of a straight line below zero.
    pure function negative_part(first, last) result(part)

@@ -49,10 +49,12 @@ contains
       !> `; did you mean ...?`; nothing where the number is usual or in no unit would be
       character(len=:), allocatable, intent(out) :: words
 
+      ! Beyond it the number in another unit could overflow [unit of the key]
+      real(wp), parameter :: largest = 1.0e-20_wp*huge(1.0_wp)
       integer :: i
 
       words = ""
-      if (.not. key%has_usual .or. .not. abs(number) > 0.0_wp) return
+      if (.not. key%has_usual .or. .not. abs(number) > 0.0_wp .or. abs(number) > largest) return
       if (is_usual(number, key%usual)) return
       if (index(key%name, "viscosity_") > 0 .and. key%unit%suffix == "Pa_s" .and. is_usual(number, sheet_range)) then
          call ask_kinematic(number, words)

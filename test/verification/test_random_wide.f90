@@ -227,7 +227,9 @@ contains
          call compare_units(case, allowed, is_tested, trouble)
          if (is_tested) tested = tested + 1
          write (buffer, "(i0)") seed
-         if (trouble /= "") list = list//new_line("a")//"WIDE_SEED="//trim(buffer)//":"//trouble
+         if (trouble == "") cycle
+         list = list//new_line("a")//"WIDE_SEED="//trim(buffer)//":"//trouble
+         call save_wide_deck(deck, "units-"//trim(buffer), trouble)
       end do
       if (tested < wanted) list = list//new_line("a")//"too few decks have a result"
       if (list /= "") call test_failed(error, list)

@@ -3,7 +3,7 @@ module case_twins
    use camroller_kinds, only : wp
    use camroller_case, only : case_t
    use camroller_lift, only : lift_t
-   use camroller_result, only : result_t
+   use camroller_result, only : find_quantity, result_t
    use camroller_sliding_friction, only : sliding_t
    use unit_systems, only : units_t, dimension_t, scaled, number, angular_speed, area, drag, force, inertia, length, mass, &
       & per_pressure, per_speed, pressure, speed, stiffness, viscosity, conductivity, density, heat_capacity, &
@@ -214,17 +214,20 @@ contains
       real(wp), intent(in) :: allowed
       !> What is wrong; blank where all is well
       character(len=:), allocatable :: trouble
-      ! Difference, largest value [unit of the series]
-      real(wp) :: found, largest
+      ! Difference, largest value, largest friction torque [unit of the series]
+      real(wp) :: found, largest, friction
       character(len=12) :: buffer
       integer :: i
 
       trouble = ""
       if (size(one%series) /= size(other%series) .or. size(one%summary) /= size(other%summary)) trouble = "other quantities"
       if (trouble /= "") return
+      friction = maxval(abs(one%series_values(:, find_quantity(one%series, "torque_friction"))))
       do i = 1, size(one%series)
          if (one%series(i)%name == "energy_residual") cycle
          largest = maxval(abs(one%series_values(:, i)))
+         ! What spins the roller up is the difference of the torques on it, which at low speed are far larger
+         if (index(one%series(i)%name, "torque_roller_inertia") > 0) largest = max(largest, friction)
          found = maxval(abs(scaled(units, one%series_values(:, i), dimension_of_unit(one%series(i)%unit)) &
             & - other%series_values(:, i)))/max(scaled(units, largest, dimension_of_unit(one%series(i)%unit)), tiny(1.0_wp))
          write (buffer, "(es9.2)") found
