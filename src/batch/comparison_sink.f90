@@ -2,7 +2,7 @@
 !>
 !> In: records, a result file. Out: which quantities differ, in how many cases, by how much.
 module camroller_comparison_sink
-   use, intrinsic :: ieee_arithmetic, only : ieee_is_finite, ieee_is_nan, ieee_quiet_nan, ieee_value
+   use, intrinsic :: ieee_arithmetic, only : ieee_quiet_nan, ieee_value
    use, intrinsic :: iso_fortran_env, only : int64
    use camroller_kinds, only : wp
    use camroller_error, only : error_t, raise, kind_usage
@@ -363,13 +363,19 @@ contains
       !> Their difference [-]; huge where one of them is no finite number
       real(wp) :: difference
 
+      ! Bits of the exponent, all of which are set where a number is not finite, and those of the fraction, which tell not-a-number
+      ! from infinity
+      integer(int64), parameter :: of_exponent = shiftl(2047_int64, 52), of_fraction = not(shiftl(4095_int64, 52))
+      integer(int64) :: bits(2)
       real(wp) :: larger ! [any unit]
 
+      ! A damaged file may hold a signalling not-a-number, which even `ieee_is_nan` of gfortran compares and thereby traps
+      bits = transfer([some, other], bits)
       difference = 0.0_wp
-      if (ieee_is_nan(some) .and. ieee_is_nan(other)) return
+      if (all(iand(bits, of_exponent) == of_exponent .and. iand(bits, of_fraction) /= 0_int64)) return
       difference = huge(1.0_wp)
-      if (.not. (ieee_is_finite(some) .and. ieee_is_finite(other))) return
-      ! Divided first: a damaged file may hold numbers whose difference overflows
+      if (any(iand(bits, of_exponent) == of_exponent)) return
+      ! Divided first, since the difference may overflow
       larger = max(abs(some), abs(other), tiny(1.0_wp))
       difference = abs(some/larger - other/larger)
    end function relative_difference
