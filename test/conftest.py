@@ -1,5 +1,7 @@
 """Shared by all Python tests: the program under test, the installed library."""
 
+import contextlib
+import fcntl
 import os
 import pathlib
 import shutil
@@ -28,12 +30,27 @@ def cmake_prefix(tmp_path_factory) -> pathlib.Path:
     build = ROOT / "build" / "cmake"
     # the one that builds the wheel: another version would compile everything again
     cmake = shutil.which("cmake", path=f"{pathlib.Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}")
+    with alone_in_cmake():
+        _install(cmake, build, place)
+    return place
+
+
+@contextlib.contextmanager
+def alone_in_cmake():
+    """Hold off other runs of the tests, such as that of the other build, which share build/cmake: each sets a prefix of its own."""
+    (ROOT / "build").mkdir(exist_ok=True)
+    with open(ROOT / "build" / "cmake.lock", "w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        yield
+
+
+def _install(cmake: str, build: pathlib.Path, place: pathlib.Path) -> None:
+    """Configure, build and install the core."""
     for command in ([cmake, "-G", "Unix Makefiles", "-S", ROOT, "-B", build, "-DCAMROLLER_IO=OFF", "-DCMAKE_INSTALL_LIBDIR=lib",
                      "-DCAMROLLER_BUNDLE_DIR=lib/camroller", f"-DCMAKE_INSTALL_PREFIX={place}"],
                     [cmake, "--build", build, "-j2"], [cmake, "--install", build]):
         done = subprocess.run([str(word) for word in command], capture_output=True, text=True, check=False)
         assert done.returncode == 0, done.stdout + done.stderr
-    return place
 
 
 @pytest.fixture(scope="session")

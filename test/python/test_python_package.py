@@ -13,6 +13,8 @@ import h5py
 import numpy as np
 import pytest
 
+from conftest import alone_in_cmake
+
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 DECK = ROOT / "decks" / "thesis.nml"
 
@@ -90,7 +92,8 @@ def run(*command, **options):
 def installed(cmake_prefix, tmp_path_factory):
     """An environment with the wheel and nothing else: its Python, and the folder of its packages."""
     place = tmp_path_factory.mktemp("wheel")
-    run(sys.executable, "-m", "pip", "wheel", "--no-build-isolation", "--no-deps", "--no-index", "-w", place, ROOT / "python")
+    with alone_in_cmake():
+        run(sys.executable, "-m", "pip", "wheel", "--no-build-isolation", "--no-deps", "--no-index", "-w", place, ROOT / "python")
     (wheel,) = place.glob("*.whl")
     assert wheel.name.startswith("camroller-") and "-py3-none-linux_" in wheel.name
     venv.create(place / "empty", with_pip=True)
