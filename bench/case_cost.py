@@ -65,6 +65,9 @@ def count(program: pathlib.Path, command: str, deck: str, settings: list[str], w
     options = [word for setting in settings for word in ("--set", setting)]
     if command == "sweep":
         options += ["--threads", "1"]
+    # of a measurement that was stopped
+    for left in work.glob("case_cost.h5.part-*"):
+        left.unlink()
     done = subprocess.run(
         ["valgrind", "--tool=callgrind", f"--callgrind-out-file={profile}", program, command, ROOT / "decks" / deck, *options, "--quiet",
          "-o", work / "case_cost.h5"], capture_output=True, text=True, check=False, env=os.environ | {"OPENBLAS_NUM_THREADS": "1"})
