@@ -20,6 +20,7 @@ module camroller_sweep
    use camroller_part_file, only : close_part, find_parts, open_part, part_beginning, part_name, sync_part
    use camroller_part_scan, only : index_t, study_facts_t
    use camroller_part_sink, only : part_sink_t
+   use camroller_result_claim, only : remove_left_lock
    use camroller_run_facts, only : study_facts
    use camroller_settings, only : take
    use camroller_sweep_file, only : conclude, make_result, open_result, scan_all, series_choice, study_t, sweep_made, &
@@ -249,6 +250,7 @@ contains
             & new_line("a")//"--resume does not replace it; move it away, name another file by -o, or leave --resume out")
          return
       else if (options%is_resumed .and. earlier%state == complete_there .and. size(paths) == 0) then
+         call remove_left_lock(study%path)
          report%ending = sweep_was_complete
          call move_alloc(earlier%failure, failure)
          return

@@ -15,7 +15,7 @@ module camroller_result_claim
    implicit none
    private
 
-   public :: claim_t, claim_result, give_up_claim, remove_unfinished
+   public :: claim_t, claim_result, give_up_claim, remove_left_lock, remove_unfinished
 
    !> What a lock holds: letters that say what it is, and those behind them once it is given up
    integer(int64), parameter :: lock_mark = int(z'436C6F636B727400', int64), end_mark = int(z'43656E6465647200', int64)
@@ -89,6 +89,22 @@ contains
       call append_words(claim%file, [end_mark], ignored)
       call close_raw(claim%file)
    end subroutine give_up_claim
+
+   !> Remove the lock of a process that ended between the last part file and its lock. One that a process holds stays, as does a
+   !> file that is no lock.
+   subroutine remove_left_lock(path)
+      !> Path of the result file
+      character(len=*), intent(in) :: path
+
+      type(claim_t) :: claim
+      type(error_t), allocatable :: ignored
+      logical :: is_there, is_mine
+
+      inquire (file=part_beginning(path)//"lock", exist=is_there)
+      if (.not. is_there) return
+      call claim_result(claim, path, .false., is_mine, ignored)
+      if (is_mine) call give_up_claim(claim)
+   end subroutine remove_left_lock
 
    !> Remove unfinished results of processes that are gone: those with the exact name that this program gives them,
    !> which no process writes and which are empty, not finished, or hold a result of this program.

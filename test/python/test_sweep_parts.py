@@ -180,6 +180,19 @@ def test_a_lock_of_an_ended_process_is_ignored(camroller, deck, whole, parts):
     assert same(whole, parts / "deck.h5")
 
 
+@pytest.mark.parametrize("content, is_left", [(b"", False), (struct.pack("q", 0x436C6F636B727400), False),
+                                              (b"what somebody else has written here\n", True)])
+def test_a_lock_left_beside_a_complete_result_is_removed(camroller, deck, whole, tmp_path, content, is_left):
+    """A process that is killed between the removal of the last part file and that of its lock leaves both files."""
+    shutil.copy(whole, tmp_path)
+    (tmp_path / "deck.h5.part-lock").write_bytes(content)
+    done(camroller, "sweep", deck, "--resume", "--quiet", folder=tmp_path)
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["deck.h5"] + is_left * ["deck.h5.part-lock"]
+    if is_left:
+        assert (tmp_path / "deck.h5.part-lock").read_bytes() == content
+    assert same(whole, tmp_path / "deck.h5")
+
+
 @pytest.mark.parametrize("record", ["layout", "first cases", "last cases"])
 @pytest.mark.parametrize("where", ["mark", "length", "checksum", "words"])
 def test_a_flipped_bit_loses_one_record_only(camroller, deck, whole, parts, record, where):
