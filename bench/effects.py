@@ -8,12 +8,12 @@ instruction that the program executes. Two claims are checked for each effect:
 
 absent    no procedure of the effect's modules is called, nor any other procedure that belongs to it alone
 balance   instructions with the effect less those without it = the effect's inclusive cost + what it changes in the number of calls
-          of everything else, within one per cent
+          of everything else, within two and a half per cent
 
 The inclusive cost is what callgrind counts below the calls into the effect's procedures, less what is counted below the calls that
 they replace. The number of calls of everything else follows the number of steps, of evaluations and of iterations; each call
-counts as much as one costs without the effect. What is left is the price of asking for the effect in shared procedures, and of
-the same procedure taking another path.
+counts as much as one costs without the effect. What is left is the price of asking for the effect in shared procedures, of
+carrying the effect's series and cams through them, and of the same procedure taking another path.
 
 Counted is the computation (`run_next_case`); reading the deck and writing the file are counted apart, and for the first claim too.
 """
@@ -34,16 +34,16 @@ EFFECTS = {
     "needle_bearing": (["needle"], []),
     "valve_guide": (["guide"], []),
     "cam_bearings": (["journal", "journal_motion", "journal_orbit", "camshaft"],
-                     ["means:mean_bearing_torque", "bearing_series:add_bearings", "state:cam_force",
-                      "torque:normal_direction"]),
+                     ["bearing_series:add_bearings", "state:cam_force"]),
     "gas_force": (["gas"], []),
 }
 #: Groups that are of no use without an effect
 USELESS_WITHOUT = {"cam_bearings": ["second_lift"]}
 #: The computation
 ROOT = "__camroller_run_MOD_run_next_case"
-#: Part of the instructions that may be unaccounted for
-ALLOWED = 0.01
+#: Part of the instructions that may be unaccounted for. What samples, integrates and searches all series is dearer with the series of an
+#: effect (asperities: 1.2 % of a run), and what loops over cams with every cam that bearings add (three cams: 2.0 %)
+ALLOWED = 0.025
 
 CALLS = re.compile(r"calls=(\d+)")
 GROUP = re.compile(r"^\s*&(\w+)", re.MULTILINE)

@@ -256,20 +256,26 @@ contains
       integer, intent(in) :: cam
       !> Cam angle of the first cam from full lift [rad]
       real(wp), intent(in) :: angle
-      !> Torques [N m], last the energy residual [W], and force in the frame of the cam's own follower [N]
+      !> Torques [N m], last the energy residual [W], and force in the frame of the cam's own follower, zero without bearings [N]
       real(wp), intent(out) :: values(curve_values)
       !> Convergence error
       type(error_t), allocatable, intent(out) :: error
 
       type(state_t) :: state
-      logical :: is_known
+      ! Torques and force of a state that is solved [N m, N]
+      real(wp) :: solved_values(curve_values)
+      ! Does the curve know the torques, the force?
+      logical :: is_known(2)
 
       associate (shaft => solved%shaft)
          associate (lobe => shaft%lobes(cam), place => angle - shaft%phases(cam))
             call curve_at(solved%curves(lobe), place, values, is_known)
-            if (is_known) return
+            if (all(is_known)) return
             call state_at(solved%cycles(lobe), solved%models(lobe), place, shaft%hints(cam), state, error)
-            if (.not. allocated(error)) values = cam_values(solved%models(lobe), state)
+            if (allocated(error)) return
+            solved_values = cam_values(solved%models(lobe), state, allocated(shaft%bearings))
+            if (.not. is_known(1)) values(:torque_count) = solved_values(:torque_count)
+            if (.not. is_known(2)) values(torque_count + 1:) = solved_values(torque_count + 1:)
          end associate
       end associate
    end subroutine cam_at

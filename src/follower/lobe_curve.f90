@@ -2,7 +2,8 @@
 !>
 !> In: the states at the points from which the means of a lobe shape are made. Out: the same quantities at any angle, by the
 !> polynomial through the seven points of a panel, for every cam of the shape at its own phase. Where the two highest terms of a
-!> polynomial are beyond five tolerances of the cycle the curve is not known, and the state has to be solved.
+!> polynomial are beyond five tolerances of the cycle the curve is not known, and the state has to be solved. Torques and force are
+!> judged apart, and a camshaft without bearings asks for no force, so that bearings change no torque of a follower.
 module camroller_lobe_curve
    use camroller_kinds, only : wp, two_pi
    use camroller_model, only : model_t
@@ -15,19 +16,21 @@ module camroller_lobe_curve
    public :: lobe_curve_t, curve_values, start_curve, keep_state, add_piece, close_curve, halve_pieces, piece_angle, curve_at, &
       & cam_values
 
-   !> Numbers of a state that a camshaft takes: torques, force on the cam
+   !> Numbers of a state that a camshaft takes: torques, force on the cam, which is zero where no bearing asks for it
    integer, parameter :: curve_values = torque_count + 2
 
    !> The curve, in pieces without gaps
    type :: lobe_curve_t
       private
       integer :: count = 0
+      !> Does a bearing ask for the force?
+      logical :: has_force = .false.
       !> Ends of the pieces, one more than there are [rad]
       real(wp), allocatable :: ends(:)
       !> Torques [N m], last the energy residual [W], and force [N] at the points of each piece, shape (quantity, point, piece)
       real(wp), allocatable :: values(:, :, :)
-      !> Is the polynomial of the piece good enough?
-      logical, allocatable :: is_smooth(:)
+      !> Are the polynomials of the piece good enough: those of the torques, those of the force? Shape (2, piece)
+      logical, allocatable :: is_smooth(:, :)
    end type lobe_curve_t
 
    !> Part of the sum of magnitudes of all torques below which one is rounding [-]
@@ -38,16 +41,19 @@ module camroller_lobe_curve
 contains
 
    !> No pieces yet.
-   pure subroutine start_curve(curve, start, pieces)
+   pure subroutine start_curve(curve, start, pieces, has_force)
       !> The curve
       type(lobe_curve_t), intent(out) :: curve
       !> Cam angle from full lift where it starts [rad]
       real(wp), intent(in) :: start
       !> Number of pieces at most
       integer, intent(in) :: pieces
+      !> Does a bearing ask for the force?
+      logical, intent(in) :: has_force
 
-      allocate (curve%ends(pieces + 1), curve%values(curve_values, panel_points, pieces), curve%is_smooth(pieces))
+      allocate (curve%ends(pieces + 1), curve%values(curve_values, panel_points, pieces), curve%is_smooth(2, pieces))
       curve%ends(1) = start
+      curve%has_force = has_force
    end subroutine start_curve
 
    !> Keep the state at a point of a piece: of the one that is added next, unless another is named.
@@ -64,9 +70,9 @@ contains
       integer, intent(in), optional :: piece
 
       if (present(piece)) then
-         curve%values(:, point, piece) = cam_values(model, state)
+         curve%values(:, point, piece) = cam_values(model, state, curve%has_force)
       else
-         curve%values(:, point, curve%count + 1) = cam_values(model, state)
+         curve%values(:, point, curve%count + 1) = cam_values(model, state, curve%has_force)
       end if
    end subroutine keep_state
 
@@ -104,7 +110,9 @@ contains
          allowed(torque_count + 1:) = terms_over_error*tolerance*allowed(torque_count + 1:)
          allowed(of_residual) = huge(1.0_wp)
          do piece = 1, curve%count
-            curve%is_smooth(piece) = all(highest_terms(values(:, :, piece)) <= allowed)
+            associate (within => highest_terms(values(:, :, piece)) <= allowed)
+               curve%is_smooth(:, piece) = [all(within(:torque_count)), all(within(torque_count + 1:))]
+            end associate
          end do
       end associate
    end subroutine close_curve
@@ -121,10 +129,12 @@ contains
 
       allocate (halves(0))
       if (curve%count == 0) return
-      if (all(curve%is_smooth(:curve%count))) return
-      call start_curve(halved, curve%ends(1), curve%count + count(.not. curve%is_smooth(:curve%count)))
+      associate (is_good => all(curve%is_smooth(:, :curve%count), 1))
+         if (all(is_good)) return
+         call start_curve(halved, curve%ends(1), curve%count + count(.not. is_good), curve%has_force)
+      end associate
       do piece = 1, curve%count
-         if (curve%is_smooth(piece)) then
+         if (all(curve%is_smooth(:, piece))) then
             halved%values(:, :, halved%count + 1) = curve%values(:, :, piece)
          else
             halves = [halves, halved%count + 1, halved%count + 2]
@@ -155,8 +165,8 @@ contains
       real(wp), intent(in) :: angle
       !> Torques [N m], last the energy residual [W], and force on the cam [N]
       real(wp), intent(out) :: values(curve_values)
-      !> Are they known?
-      logical, intent(out) :: is_known
+      !> Are they known: the torques, the force? A force that no bearing asks for is
+      logical, intent(out) :: is_known(2)
 
       ! Angle within the curve [rad], distances from the points [-], shares of the points [-]
       real(wp) :: inside, distances(panel_points), shares(panel_points)
@@ -176,8 +186,8 @@ contains
             last = middle
          end if
       end do
-      is_known = curve%is_smooth(piece) .and. inside <= curve%ends(piece + 1)
-      if (.not. is_known) return
+      is_known = curve%is_smooth(:, piece) .and. inside <= curve%ends(piece + 1)
+      if (.not. any(is_known)) return
       distances = (inside - curve%ends(piece))/(curve%ends(piece + 1) - curve%ends(piece)) - panel_places
       point = minloc(abs(distances), 1)
       if (abs(distances(point)) <= epsilon(1.0_wp)) then
@@ -192,16 +202,19 @@ contains
    end subroutine curve_at
 
    !> What a camshaft takes from a state.
-   pure function cam_values(model, state) result(values)
+   pure function cam_values(model, state, has_force) result(values)
       !> Model of the lobe
       type(model_t), intent(in) :: model
       !> The state
       type(state_t), intent(in) :: state
-      !> Torques [N m], last the energy residual [W], and force on the cam [N]
+      !> Does a bearing ask for the force?
+      logical, intent(in) :: has_force
+      !> Torques [N m], last the energy residual [W], and force on the cam, zero where no bearing asks for it [N]
       real(wp) :: values(curve_values)
 
       values(:torque_count) = state%torques
-      values(torque_count + 1:) = cam_force(model, state)
+      values(torque_count + 1:) = 0.0_wp
+      if (has_force) values(torque_count + 1:) = cam_force(model, state)
    end function cam_values
 
 end module camroller_lobe_curve

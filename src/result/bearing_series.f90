@@ -36,6 +36,8 @@ contains
 
       type(quantity_list_t) :: list
 
+      count = 0
+      if (bearing_count(case) == 0) return
       allocate (list%values(0))
       call add_bearings(list, case)
       count = list%count

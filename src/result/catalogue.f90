@@ -12,7 +12,7 @@ module camroller_catalogue
    use camroller_effect_list, only : effect_names, has_effect, effect_inlet_heat, effect_contact_heat
    use camroller_result, only : quantity_t, quantity_list_t, append_quantity, lobe_scope, scope_camshaft, scope_case, &
       & scope_engine, scope_length
-   use camroller_bearing_series, only : add_bearings
+   use camroller_bearing_series, only : add_bearings, bearing_count
    use camroller_state, only : state_t, flexible_values_t
    use camroller_torque_list, only : torque_list, torque_count, is_loss, is_torque, of_residual, torque_series
    use camroller_hertz, only : peak_pressure
@@ -353,7 +353,7 @@ contains
          call add(list, camshaft_prefix//integer_text(k)//"_torque_drive", "N m", "torque that drives camshaft "// &
             & integer_text(k), "torque", sum(torques(:, k), mask=is_torque))
       end do
-      call add_bearings(list, case, bearings)
+      if (bearing_count(case) > 0) call add_bearings(list, case, bearings)
    end subroutine add_camshafts
 
    !> Give series their scope: that of all camshafts, or of one of several. Those of bearings have theirs.

@@ -61,7 +61,8 @@ contains
          call start_panels(walk%panels, samples%series + torque_count, 2*size(times))
          call start_points(walk%slips, samples%series + torque_count, size(gauss_points)*size(times))
          allocate (walk%speeds(panel_points*size(times)))
-         if (.not. samples%cycle%is_linear) call start_curve(walk%curve, times(1), size(times) - 1)
+         if (.not. samples%cycle%is_linear) call start_curve(walk%curve, times(1), size(times) - 1, &
+            & allocated(samples%case%cam_bearings))
          first = 1
          do while (first < size(times))
             last = first + merge(1, 0, are_joined(samples, first))

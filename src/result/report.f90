@@ -38,7 +38,7 @@ module camroller_report
       integer :: lobe = 1
       !> The phase [rad]
       real(wp) :: phase = 0.0_wp
-      !> Torques [N m], last the energy residual [W], and force on the cam [N], shape (value, angle)
+      !> Torques [N m], last the energy residual [W], and force on the cam, zero without bearings [N], shape (value, angle)
       real(wp), allocatable :: values(:, :)
    end type lobe_turn_t
 
@@ -330,7 +330,7 @@ contains
             call state_at(cycle, model, angle, hint, state, error, nearby)
             if (allocated(error)) return
             call extend_trail(trail, angle, state%contact)
-            turn%values(:, i) = cam_values(model, state)
+            turn%values(:, i) = cam_values(model, state, allocated(solved%shaft%bearings))
             if (is_wanted) call follower_values(solved%case, model, state, result%series_values(i, columns(1):columns(2)))
          end do
       end associate

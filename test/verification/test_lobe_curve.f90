@@ -33,7 +33,8 @@ contains
       testsuite = [ &
          new_unittest("the fitted curve covers nearly the whole turn and agrees with the states", test_known), &
          new_unittest("intervals with a kink of the states have no fitted curve", test_bends), &
-         new_unittest("a curve without an interval to halve is returned unchanged", test_nothing_to_halve) &
+         new_unittest("a curve without an interval to halve is returned unchanged", test_nothing_to_halve), &
+         new_unittest("without camshaft bearings there is no force, and torques are known where they are with them", test_absent) &
          ]
    end subroutine collect_lobe_curve
 
@@ -75,7 +76,7 @@ contains
       real(wp) :: values(curve_values)
       integer, allocatable :: halves(:)
       integer :: piece, point
-      logical :: is_known
+      logical :: is_known(2)
 
       model%linkage%a = 1.0_wp
       model%linkage%sense = 1.0_wp
@@ -85,7 +86,7 @@ contains
       state%contact%load = 1.0_wp
       state%contact%tangential_force = 0.0_wp
       state%torques = 1.0_wp
-      call start_curve(curve, 0.0_wp, 8)
+      call start_curve(curve, 0.0_wp, 8, .true.)
       do piece = 1, 8
          do point = 1, panel_points
             call keep_state(curve, model, state, point)
@@ -98,10 +99,61 @@ contains
       if (allocated(error)) return
       do piece = 1, 8
          call curve_at(curve, two_pi*(piece - 0.5_wp)/8, values, is_known)
-         call check(error, is_known, "a smooth piece is no longer known")
+         call check(error, all(is_known), "a smooth piece is no longer known")
          if (allocated(error)) return
       end do
    end subroutine test_nothing_to_halve
+
+   !> Bearings ask for the force and change neither the torques of the curve nor where they are known.
+   subroutine test_absent(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t), target :: the_case
+      type(lobe_curve_t) :: with, without
+      type(error_t), allocatable :: failure
+      real(wp) :: values(curve_values), others(curve_values)
+      logical :: is_known(2), are_known(2), has_force
+      integer :: i
+
+      call get_deck_case("decks/thesis.nml", the_case, failure, number=1)
+      if (.not. allocated(failure)) call get_curve(the_case, with, failure)
+      deallocate (the_case%cam_bearings)
+      if (.not. allocated(failure)) call get_curve(the_case, without, failure)
+      if (allocated(failure)) then
+         call test_failed(error, failure%message)
+         return
+      end if
+      has_force = .false.
+      do i = 1, angles
+         call curve_at(with, two_pi*i/angles, values, is_known)
+         call curve_at(without, two_pi*i/angles, others, are_known)
+         has_force = has_force .or. any(abs(values(torque_count + 1:)) > 0.0_wp)
+         call check(error, all(abs(others(torque_count + 1:)) <= 0.0_wp), "there is a force without bearings")
+         if (allocated(error)) return
+         call check(error, (is_known(1) .eqv. are_known(1)) .and. (are_known(2) .or. .not. are_known(1)), &
+            "the torques are not known at the same angles")
+         if (allocated(error)) return
+         if (.not. is_known(1)) cycle
+         call check(error, all(abs(values(:torque_count) - others(:torque_count)) <= 0.0_wp), "a torque has changed")
+         if (allocated(error)) return
+      end do
+      call check(error, has_force, "there is no force with bearings")
+   end subroutine test_absent
+
+   !> Curve of the first lobe shape of a case.
+   subroutine get_curve(the_case, curve, failure)
+      type(case_t), intent(in), target :: the_case
+      type(lobe_curve_t), intent(out) :: curve
+      type(error_t), allocatable, intent(out) :: failure
+      type(model_t), allocatable, target :: models(:)
+      type(cycle_t), target :: cycle
+      type(statistics_t) :: statistics
+
+      call build_models(the_case, models, failure)
+      if (.not. allocated(failure)) call integrate_cycle(cycle, models(1), the_case%numerics, failure)
+      if (.not. allocated(failure)) call integrate_lobe(the_case, models(1), cycle, follower_count(the_case) &
+         & + camshaft_count(the_case), statistics, failure)
+      if (.not. allocated(failure)) curve = statistics%curve
+   end subroutine get_curve
 
    !> Largest difference between curve and states where the curve is known, over the tolerance of the cycle times the largest
    !> magnitude of the quantity; part of the turn where it is known.
@@ -117,7 +169,7 @@ contains
       type(error_t), allocatable :: failure
       type(state_t) :: state
       real(wp) :: exact(curve_values, angles), curve(curve_values, angles), difference
-      logical :: is_known(angles)
+      logical :: is_known(2, angles)
       integer :: i, hint
 
       call get_deck_case(path, the_case, failure, number=number)
@@ -129,18 +181,18 @@ contains
       do i = 1, angles
          if (.not. allocated(failure)) call state_at(cycle, models(1), two_pi*i/angles, hint, state, failure)
          if (allocated(failure)) exit
-         exact(:, i) = cam_values(models(1), state)
-         call curve_at(statistics%curve, two_pi*i/angles, curve(:, i), is_known(i))
+         exact(:, i) = cam_values(models(1), state, allocated(the_case%cam_bearings))
+         call curve_at(statistics%curve, two_pi*i/angles, curve(:, i), is_known(:, i))
       end do
       if (allocated(failure)) then
          call test_failed(error, failure%message)
          return
       end if
-      known = real(count(is_known), wp)/angles
+      known = real(count(all(is_known, 1)), wp)/angles
       worst = 0.0_wp
       do i = 1, curve_values
          if (i == of_residual) cycle
-         difference = maxval(abs(curve(i, :) - exact(i, :)), is_known)
+         difference = maxval(abs(curve(i, :) - exact(i, :)), is_known(merge(1, 2, i <= torque_count), :))
          if (difference > 1.0e-12_wp*sum(maxval(abs(exact(:torque_count, :)), 2))) worst = max(worst, &
             & difference/(cycle%tolerance*maxval(abs(exact(i, :)))))
       end do
