@@ -16,7 +16,7 @@ module camroller_cycle
    use camroller_state, only : state_t, evaluate_state, evaluate_loading
    use camroller_events, only : find_stops, cycle_stops
    use camroller_fold, only : explain_end
-   use camroller_spin, only : spin_problem_t, rolling_speed_at
+   use camroller_spin, only : spin_problem_t, nearby_t, rolling_speed_at
    use camroller_cycle_start, only : choose_start, run_up_stops, rolling_speed_at_angle
    use camroller_settled_slip, only : settle
    use camroller_quasi_static, only : quasi_static_cycle
@@ -258,7 +258,7 @@ contains
    end function is_periodic
 
    !> Integrate from one angle to another, less than a turn ahead, with the roller's spin given at the first.
-   subroutine integrate_between(piece, model, numerics, stops, scale, roller_spin, error)
+   subroutine integrate_between(piece, model, numerics, stops, scale, roller_spin, error, nearby)
       !> The piece of a cycle
       type(cycle_t), intent(out) :: piece
       !> The model
@@ -273,6 +273,8 @@ contains
       real(wp), intent(inout) :: roller_spin
       !> Deck error for an unknown method, convergence error
       type(error_t), allocatable, intent(out) :: error
+      !> In: with the contact to start from; out: with the first and the last one of the piece
+      type(nearby_t), intent(inout), target, optional :: nearby
 
       type(spin_problem_t) :: problem
       class(method_t), allocatable :: method
@@ -285,6 +287,7 @@ contains
       piece%start = stops(1)
       call choose_method(piece, model, numerics, scale, problem, method, options, error)
       if (allocated(error)) return
+      if (present(nearby)) problem%nearby => nearby
       options%fewest_steps = ceiling(options%fewest_steps*(stops(last) - stops(1))/two_pi)
       if (.not. piece%is_linear) options%step = min(stops(last) - stops(1), first_step_of_piece)
       state = roller_spin*model%roller_radius

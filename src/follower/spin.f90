@@ -19,8 +19,15 @@ module camroller_spin
    implicit none
    private
 
-   public :: spin_problem_t, sliding_speed_of, rolling_speed_slope, rolling_speed_at, slip_rate, surface_rate, film_decay_rate, &
-      & decay_rate_of, full_decay_rate
+   public :: spin_problem_t, nearby_t, sliding_speed_of, rolling_speed_slope, rolling_speed_at, slip_rate, surface_rate, &
+      & film_decay_rate, decay_rate_of, full_decay_rate
+
+   !> Contacts that an integration has solved: the first of it and the last, from which the next one is looked for
+   type :: nearby_t
+      type(contact_t) :: first, last
+      !> Is there a first one yet?
+      logical :: has_first = .false.
+   end type nearby_t
 
    !> The roller's spin over the cam angle
    type, extends(problem_t) :: spin_problem_t
@@ -32,6 +39,8 @@ module camroller_spin
       real(wp) :: accuracy = 0.0_wp
       !> Mobilised part of the boundary friction; not allocated: as the sliding speed has it [-]
       real(wp), allocatable :: mobilised
+      !> Contacts solved before; not associated: each is looked for from nothing
+      type(nearby_t), pointer :: nearby => null()
    contains
       procedure :: get_rate
       procedure :: get_decay_rate
@@ -214,8 +223,11 @@ contains
       type(spin_slopes_t) :: slopes
       ! Gas force [N]
       real(wp) :: force
-      ! Surface of the roller per turn of the cam [m/rad over rad/s]; relative error of load and forces that is good enough [-]
-      real(wp) :: factor, accuracy
+      ! Surface of the roller per turn of the cam [m/rad over rad/s]; relative error of load and forces that is good enough [-];
+      ! change of the cam's speed with the cam angle [rad/s/rad]
+      real(wp) :: factor, accuracy, gain
+      type(contact_t), pointer :: start
+      logical :: has_difference
 
       if (self%has_surface_speed) then
          call linearise_in_two(self, time, state, horizon, linear, counters, status)
@@ -223,25 +235,57 @@ contains
       end if
       counters%evaluations = counters%evaluations + 1
       counters%jacobians = counters%jacobians + 1
-      ! What inputs add to the derivative is a difference of two solutions
+      has_difference = needs_difference(self%model)
       accuracy = self%accuracy
-      if (self%model%ramp%is_moving) accuracy = min(accuracy, difference_accuracy)
+      if (has_difference) accuracy = min(accuracy, difference_accuracy)
+      gain = 0.0_wp
+      if (self%model%ramp%is_moving .and. .not. has_difference) gain = self%model%speed_slope
+      start => null()
+      if (associated(self%nearby)) start => self%nearby%last
       call follow_ramp(self%model, time)
       call evaluate_loading(self%model, time, position, force, moments, status)
       if (status /= 0) return
-      call evaluate_spin_slopes(self%model, time, position, moments, state(1), slopes, status, accuracy, self%mobilised)
+      call evaluate_spin_slopes(self%model, time, position, moments, state(1), slopes, status, accuracy, self%mobilised, &
+         & start, gain)
       if (status /= 0) return
+      if (associated(self%nearby)) call remember(self%nearby, slopes%contact)
       factor = self%model%roller_radius/self%model%speed
       linear%rate(1) = rolling_speed_slope(self%model, position) - factor*slopes%acceleration
       linear%jacobian(1, 1) = -factor*slopes%speed_slope
       linear%time_slope(1) = rolling_speed_curvature(self%model, position, time, horizon) - factor*slopes%angle_slope
+      if (abs(gain) > 0.0_wp) linear%time_slope(1) = linear%time_slope(1) + gain*(merge(position%rolling_travel_slope, &
+         & position%surface_travel_slope, self%model%has_exact_spin) + factor*slopes%acceleration/self%model%speed)
       linear%span = largest_traction(self%model, position, moments)*self%model%roller_radius*factor/self%model%roller_inertia
       linear%resolution = max(min(coarsest_resolution, accuracy_ratio*self%accuracy), finest_resolution)
       linear%clearance = huge(1.0_wp)
       if (slopes%contact%is_touching) linear%clearance = 2.0_wp*slopes%contact%entrainment_speed
-      if (self%model%ramp%is_moving) call add_inputs(self, time, state(1), position, slopes%contact, &
+      if (has_difference) call add_inputs(self, time, state(1), position, slopes%contact, &
          & linear, counters, status)
    end subroutine linearise
+
+   !> Does what changing inputs add to the derivative take a difference of two solutions? That of the speed alone has a closed form
+   !> where the roller's bearing has no drag and no joint has friction.
+   pure function needs_difference(model) result(needs)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> Does it?
+      logical :: needs
+
+      needs = model%ramp%is_moving .and. (abs(model%ramp%temperature_slope) > 0.0_wp .or. allocated(model%drag) &
+         & .or. allocated(model%joints))
+   end function needs_difference
+
+   !> Keep a contact that has been solved.
+   pure subroutine remember(nearby, contact)
+      !> The contacts
+      type(nearby_t), intent(inout) :: nearby
+      !> The one that comes last
+      type(contact_t), intent(in) :: contact
+
+      if (.not. nearby%has_first) nearby%first = contact
+      nearby%has_first = .true.
+      nearby%last = contact
+   end subroutine remember
 
    !> Add what changing inputs do to the derivative over the cam angle: a difference at one position.
    subroutine add_inputs(self, time, sliding_speed, position, nearby, linear, counters, status)

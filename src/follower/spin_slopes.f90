@@ -7,7 +7,7 @@ module camroller_spin_slopes
    use camroller_kinds, only : wp
    use camroller_model, only : model_t
    use camroller_kinematics, only : position_t
-   use camroller_dynamics, only : moments_t, moment_slope, acceleration_slope
+   use camroller_dynamics, only : moments_t, moment_slope, acceleration_slope, speed_slope_of_moments
    use camroller_gas, only : gas_force, gas_force_slope
    use camroller_contact, only : contact_basis_t, solve_at_speeds
    use camroller_dual, only : dual_t
@@ -45,7 +45,8 @@ module camroller_spin_slopes
 contains
 
    !> Contact and angular acceleration with its derivatives.
-   pure subroutine evaluate_spin_slopes(model, angle, position, moments, sliding_speed, slopes, status, accuracy, mobilised)
+   pure subroutine evaluate_spin_slopes(model, angle, position, moments, sliding_speed, slopes, status, accuracy, mobilised, &
+      & start, cam_gain)
       !> The model
       type(model_t), intent(in) :: model
       !> Cam angle from full lift [rad]
@@ -64,20 +65,28 @@ contains
       real(wp), intent(in), optional :: accuracy
       !> Mobilised part of the boundary friction; absent: as the sliding speed has it [-]
       real(wp), intent(in), optional :: mobilised
+      !> A contact nearby to start from, where it touches
+      type(contact_t), intent(in), optional :: start
+      !> Change of the cam's speed with the cam angle; absent: none [rad/s/rad]
+      real(wp), intent(in), optional :: cam_gain
 
       type(contact_basis_t) :: basis
       type(changes_t) :: changes
-      ! Derivative of the moments' sum over the cam angle [N m/rad]; gas force [N], its derivative over the angle [N/rad]
-      real(wp) :: slope, force, gas_slope
+      ! Derivative of the moments' sum over the cam angle [N m/rad]
+      real(wp) :: slope
       ! Change of the load, its logarithm, over the sliding speed [s/m] and over the cam angle [1/rad]
       real(wp) :: load_by_speed, load_by_angle
+      ! Change of the cam's speed [rad/s/rad]
+      real(wp) :: gain
 
+      gain = 0.0_wp
+      if (present(cam_gain)) gain = cam_gain
       associate (contact => slopes%contact, speed_slope => slopes%speed_slope, angle_slope => slopes%angle_slope)
          speed_slope = 0.0_wp
          angle_slope = 0.0_wp
          slopes%acceleration = 0.0_wp
          call set_speeds(model, position, sliding_speed, contact)
-         call solve_at_speeds(model, position, moments, contact, basis, status, accuracy, mobilised)
+         call solve_at_speeds(model, position, moments, contact, basis, status, accuracy, mobilised, start)
          if (status /= 0) return
          slopes%acceleration = acceleration_of(model, contact%traction, contact%rolling_resistance, contact%bearing_torque)
          if (.not. contact%is_touching) then
@@ -87,17 +96,9 @@ contains
 
          changes%by_load = follow_contact(model, basis%setting, contact, basis%parts, motion_t(load=1.0_wp))
          changes%by_speed = follow_contact(model, basis%setting, contact, basis%parts, speed_motion(model, contact))
-         changes%by_angle = follow_contact(model, basis%setting, contact, basis%parts, angle_motion(model, position, contact))
-         force = 0.0_wp
-         gas_slope = 0.0_wp
-         if (allocated(model%gas)) then
-            force = gas_force(model%gas, angle)
-            gas_slope = gas_force_slope(model%gas, angle)
-         end if
-         slope = moment_slope(model%train, position, model%speed, force, gas_slope)
-         if (abs(model%speed_slope) > 0.0_wp) then
-            slope = slope + acceleration_slope(model%train, position, model%speed*model%speed_slope)
-         end if
+         changes%by_angle = follow_contact(model, basis%setting, contact, basis%parts, angle_motion(model, position, contact, &
+            & gain))
+         slope = slope_of_moments(model, angle, position, gain)
          if (model%is_consistent) then
             call follow_balance(model, position, moments, contact, slope, changes, load_by_speed, load_by_angle)
          else
@@ -132,7 +133,7 @@ contains
 
       slope = drag_torque_slope(model%drag, contact%relative_spin)
       by_speed = speed_motion(model, contact)
-      by_angle = angle_motion(model, position, contact)
+      by_angle = angle_motion(model, position, contact, 0.0_wp)
       speed_slope = acceleration_of(model, 0.0_wp, 0.0_wp, slope*by_speed%relative_spin)
       angle_slope = acceleration_of(model, 0.0_wp, 0.0_wp, slope*by_angle%relative_spin)
    end subroutine follow_drag
@@ -151,14 +152,49 @@ contains
       if (abs(contact%entrainment_speed) > 0.0_wp) motion%entrainment = -0.5_wp/contact%entrainment_speed
    end function speed_motion
 
+   !> Derivative of the sum of the moments over the cam angle. A cam that gains speed adds that of the masses, and where the
+   !> bookkeeping is closed that of the drag of the guide.
+   pure function slope_of_moments(model, angle, position, gain) result(slope)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> Cam angle from full lift [rad]
+      real(wp), intent(in) :: angle
+      !> Geometry at this angle
+      type(position_t), intent(in) :: position
+      !> Change of the cam's speed with the cam angle [rad/s/rad]
+      real(wp), intent(in) :: gain
+      !> Derivative [N m/rad]
+      real(wp) :: slope
+
+      ! Gas force [N], its derivative over the angle [N/rad]
+      real(wp) :: force, gas_slope
+
+      force = 0.0_wp
+      gas_slope = 0.0_wp
+      if (allocated(model%gas)) then
+         force = gas_force(model%gas, angle)
+         gas_slope = gas_force_slope(model%gas, angle)
+      end if
+      slope = moment_slope(model%train, position, model%speed, force, gas_slope)
+      if (abs(model%speed_slope) > 0.0_wp) then
+         slope = slope + acceleration_slope(model%train, position, model%speed*model%speed_slope)
+      end if
+      if (.not. abs(gain) > 0.0_wp) return
+      slope = slope + gain*speed_slope_of_moments(model%train, position, model%speed, model%speed_slope)
+      if (allocated(model%guide_drag) .and. model%is_consistent) slope = slope &
+         & + gain*model%guide_drag*position%lift_slope*position%valve_arm
+   end function slope_of_moments
+
    !> What a change of the cam angle moves at constant load and sliding speed.
-   pure function angle_motion(model, position, contact) result(motion)
+   pure function angle_motion(model, position, contact, gain) result(motion)
       !> The model
       type(model_t), intent(in) :: model
       !> Geometry at this angle
       type(position_t), intent(in) :: position
       !> State of the contact
       type(contact_t), intent(in) :: contact
+      !> Change of the cam's speed with the cam angle [rad/s/rad]
+      real(wp), intent(in) :: gain
       !> Motion for a change of one radian
       type(motion_t) :: motion
 
@@ -168,6 +204,14 @@ contains
       end if
       motion%relative_spin = model%speed*(merge(position%rolling_travel_slope, position%surface_travel_slope, &
          & model%has_exact_spin)/model%roller_radius - model%linkage%sense*position%finger_curvature)
+      if (.not. abs(gain) > 0.0_wp) return
+      if (abs(contact%entrainment_speed) > 0.0_wp) then
+         motion%entrainment = motion%entrainment + gain*position%surface_travel/contact%entrainment_speed
+      end if
+      ! The spin over which the bearing's torque reverses goes with the cam's speed
+      motion%relative_spin = motion%relative_spin + gain*(merge(position%rolling_travel, position%surface_travel, &
+         & model%has_exact_spin)/model%roller_radius - model%linkage%sense*position%finger_slope &
+         & - contact%relative_spin/model%speed)
    end function angle_motion
 
    !> How the load follows through `W h_W + sense (T' h_t + T_B) = moment + M_pivot`.

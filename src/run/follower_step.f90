@@ -19,7 +19,7 @@ module camroller_follower_step
    use camroller_torque_list, only : torque_count, is_loss, is_torque
    use camroller_events, only : find_stops_between
    use camroller_follower_samples, only : extremes_t
-   use camroller_spin, only : rolling_speed_at
+   use camroller_spin, only : nearby_t, rolling_speed_at
    use camroller_stick, only : share_at_rest
    use camroller_stick_slip, only : direction_at
    use camroller_cycle, only : cycle_t, integrate_between, state_at
@@ -55,6 +55,9 @@ module camroller_follower_step
       real(wp) :: oil_temperature = 0.0_wp, film_temperature = 0.0_wp
       !> Cam speed of the films solved beforehand [rad/s]
       real(wp) :: film_speed = 0.0_wp
+      !> Contact from which the next one is looked for: tangential force [N], torque of the bearing [N m] and film ratio [-], which
+      !> is zero for none
+      real(wp) :: contact(3) = 0.0_wp
    end type point_t
 
    !> A follower between two steps
@@ -147,6 +150,10 @@ contains
       if (.not. (allocated(error) .or. has_state)) call state_with_spin(follower, direction, outcome%state, error)
       if (allocated(error)) return
       call fill_outcome(follower%model, outcome)
+      associate (contact => outcome%state%contact)
+         follower%point%contact = 0.0_wp
+         if (contact%is_touching) follower%point%contact = [contact%tangential_force, contact%bearing_torque, contact%film_ratio]
+      end associate
       call add_slip_error(follower, cam_angle - first, outcome)
       if (present(nodes)) nodes(:, ubound(nodes, 2)) = [outcome%cam_force, outcome%torque_drive]
       if (.not. all(ieee_is_finite([outcome%mean_torque_drive, outcome%torque_drive, follower%point%roller_spin]))) then
@@ -308,6 +315,7 @@ contains
       type(cycle_t) :: piece
       type(inputs_t) :: middle
       type(extremes_t) :: met
+      type(nearby_t) :: nearby
       ! States at the ends and in the middle of a short piece
       type(state_t) :: states(3)
       ! Mean torques [N m], last the energy residual [W]; error of the mean torque that drives, by its integration [N m]
@@ -326,10 +334,10 @@ contains
             if (start%has_pressure) call give_pressure(model%gas, [point%angle, to] - pi, [start%gas_pressure, finish%gas_pressure])
          end if
          call find_stops_between(model, point%angle - pi, to - pi, stops)
-         call integrate_piece(follower, stops, piece, error)
+         call integrate_piece(follower, stops, piece, nearby, error)
          has_state = .false.
-         if (size(stops) == 2 .and. .not. allocated(error)) call integrate_short(model, piece, states, torques, torque_error, &
-            & met, has_state, error)
+         if (size(stops) == 2 .and. .not. allocated(error)) call integrate_short(model, piece, nearby, states, torques, &
+            & torque_error, met, has_state, error)
          if (.not. (allocated(error) .or. has_state)) call integrate_torques(model, piece, torques, error, met, torque_error)
          if (present(nodes) .and. .not. allocated(error)) then
             if (has_state .and. size(nodes, 2) == 2) then
@@ -401,13 +409,15 @@ contains
    end subroutine set_ramp
 
    !> Integrate a piece; where that fails, once more with the method and the tolerances that `run_case` falls back on.
-   subroutine integrate_piece(follower, stops, piece, error)
+   subroutine integrate_piece(follower, stops, piece, nearby, error)
       !> The follower; its roller's spin is moved
       type(follower_t), intent(inout) :: follower
       !> First angle, stops between, last angle [rad]
       real(wp), intent(in) :: stops(:)
       !> The piece
       type(cycle_t), intent(out) :: piece
+      !> First and last contact that the integration has solved
+      type(nearby_t), intent(out) :: nearby
       !> Convergence error
       type(error_t), allocatable, intent(out) :: error
 
@@ -422,7 +432,14 @@ contains
       has_way_out = .false.
       do try = 1, most_tries
          spin = follower%point%roller_spin
-         call integrate_between(piece, follower%model, numerics, stops, follower%point%scale, spin, error)
+         nearby%has_first = .false.
+         associate (start => nearby%last, kept => follower%point%contact)
+            start%is_touching = kept(3) > 0.0_wp
+            start%tangential_force = kept(1)
+            start%bearing_torque = kept(2)
+            start%film_ratio = kept(3)
+         end associate
+         call integrate_between(piece, follower%model, numerics, stops, follower%point%scale, spin, error, nearby)
          if (.not. allocated(error)) exit
          if (has_way_out .or. error%kind /= kind_convergence .or. try == most_tries) return
          call take_way_out(follower%given, numerics, least, has_way_out)

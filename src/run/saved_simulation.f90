@@ -7,6 +7,7 @@ module camroller_saved_simulation
    use camroller_kinds, only : wp
    use camroller_error, only : error_t, raise, kind_usage
    use camroller_case, only : case_t
+   use camroller_number_text, only : integer_text
    use camroller_follower_step, only : point_t
    use camroller_model_mark, only : beginning, mixed
    use camroller_shaft_simulation, only : shaft_simulation_t, start_shaft, cam_number, cam_point, get_shaft_mark, set_shaft, &
@@ -18,7 +19,7 @@ module camroller_saved_simulation
    public :: save_simulation, restore_simulation, block_size, save_shaft, restore_shaft, shaft_block_size
 
    !> Numbers of a point
-   integer, parameter :: point_words = 6
+   integer, parameter :: point_words = 9
    !> Words of a follower's block: beginning, format, mark of the case, lobe shape, point, checksum
    integer, parameter :: words = point_words + 5
    !> Words of a shaft's block without points: beginning, format, mark of the case, number of cams, cam angle, checksum
@@ -28,7 +29,7 @@ module camroller_saved_simulation
    !> Added to what a block begins with where it is that of a shaft
    integer(int64), parameter :: of_shaft = 1_int64
    !> The format that this version writes and reads
-   integer(int64), parameter :: format_number = 1_int64
+   integer(int64), parameter :: format_number = 2_int64
 
 contains
 
@@ -50,7 +51,7 @@ contains
       block(1:2) = [beginning, format_number]
       block(3) = get_mark(simulation)
       block(4) = get_lobe(simulation)
-      block(5:10) = words_of(get_point(simulation))
+      block(5:4 + point_words) = words_of(get_point(simulation))
       block(words) = mixed(block(:words - 1))
       bytes = transfer(block, bytes)
    end subroutine save_simulation
@@ -71,7 +72,7 @@ contains
 
       call take_block(bytes, "restore_simulation", words, 0_int64, block, error)
       if (allocated(error)) return
-      point = point_of(block(5:10))
+      point = point_of(block(5:4 + point_words))
       call start_simulation(simulation, case, point%angle, error, int(block(4)))
       if (.not. allocated(error)) call compare_marks("restore_simulation", get_mark(simulation), block(3), error)
       if (.not. allocated(error)) call set_point(simulation, point, error)
@@ -110,7 +111,7 @@ contains
       block(4) = cam_number(shaft)
       block(5) = transfer(shaft_angle(shaft), block(5))
       do cam = 1, cam_number(shaft)
-         block(point_words*cam:point_words*cam + point_words - 1) = words_of(cam_point(shaft, cam))
+         block(point_place(cam):point_place(cam + 1) - 1) = words_of(cam_point(shaft, cam))
       end do
       block(last) = mixed(block(:last - 1))
       bytes = transfer(block, bytes)
@@ -146,10 +147,20 @@ contains
       if (allocated(error)) return
       allocate (points(cam_number(shaft)))
       do cam = 1, size(points)
-         points(cam) = point_of(block(point_words*cam:point_words*cam + point_words - 1))
+         points(cam) = point_of(block(point_place(cam):point_place(cam + 1) - 1))
       end do
       call set_shaft(shaft, angle, points, error)
    end subroutine restore_shaft
+
+   !> Place of a cam's point in the block of a shaft.
+   pure function point_place(cam) result(place)
+      !> The cam
+      integer, intent(in) :: cam
+      !> Place of its first word
+      integer :: place
+
+      place = shaft_words + point_words*(cam - 1)
+   end function point_place
 
    !> Words of a block, which is refused where it is none.
    subroutine take_block(bytes, caller, count, kind, block, error)
@@ -174,7 +185,8 @@ contains
       if (block(1) /= beginning + kind) then
          call raise(error, kind_usage, caller//": the block is not one that was saved for this on a machine of this kind")
       else if (block(2) /= format_number) then
-         call raise(error, kind_usage, caller//": the block is of another format; this version reads format 1")
+         call raise(error, kind_usage, caller//": the block is of another format; this version reads format "// &
+            & integer_text(int(format_number)))
       else if (block(count) /= mixed(block(:count - 1))) then
          call raise(error, kind_usage, caller//": the block is damaged")
       end if
@@ -201,7 +213,7 @@ contains
       integer(int64) :: block(point_words)
 
       block = transfer([point%angle, point%roller_spin, point%scale, point%film_temperature, point%film_speed, &
-         & point%oil_temperature], block)
+         & point%oil_temperature, point%contact], block)
    end function words_of
 
    !> What a follower remembers, from words.
@@ -211,7 +223,7 @@ contains
       !> The point
       type(point_t) :: point
 
-      ! Its numbers [rad, rad/s, m/s, K, rad/s, K]
+      ! Its numbers [rad, rad/s, m/s, K, rad/s, K, N, N m, -]
       real(wp) :: numbers(point_words)
 
       numbers = transfer(block, numbers)
@@ -221,6 +233,7 @@ contains
       point%film_temperature = numbers(4)
       point%film_speed = numbers(5)
       point%oil_temperature = numbers(6)
+      point%contact = numbers(7:9)
    end function point_of
 
 end module camroller_saved_simulation

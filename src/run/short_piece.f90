@@ -1,6 +1,7 @@
 !> Torques of a short piece of a host's step, one without stops: means from five angles, the ends among them.
 !>
-!> In: model that follows the inputs, piece. Out: mean torques with their error, extremes, states at the ends and in the middle.
+!> In: model that follows the inputs, piece, the contacts that the integration has solved at its ends. Out: mean torques with
+!> their error, extremes, states at the ends and in the middle.
 !>
 !> The rule is that of Lobatto with five points, exact for polynomials of degree 7, which holds Simpson's with three. The error
 !> estimate is the root of the sum of squares of two terms: the difference of both rules, and the part of degree 3 that a parabola
@@ -13,8 +14,9 @@ module camroller_short_piece
    use camroller_ramp, only : follow_ramp
    use camroller_state, only : state_t, evaluate_state
    use camroller_cycle, only : cycle_t
-   use camroller_follower_samples, only : follower_samples_t, start_samples, sampled_values, extremes_t, widen, contact_ahead, &
-      & extend_trail
+   use camroller_contact_forces, only : contact_t
+   use camroller_follower_samples, only : follower_samples_t, start_samples, sampled_values, extremes_t, widen
+   use camroller_spin, only : nearby_t
    use camroller_means, only : mean_tolerance, stored_torques
    use camroller_stored_work, only : stored_work_t, follow_contact
    use camroller_torque_list, only : torque_count, is_loss, is_torque
@@ -41,15 +43,27 @@ module camroller_short_piece
    real(wp), parameter :: largest_error = 10.0_wp
    !> Error of load and forces over the tolerance, to which a state is solved that is no part of what a step returns [-]
    real(wp), parameter :: contact_part = 1.0e-3_wp
+   !> The same of the state that a step returns [-]: what is left after it is round-off
+   real(wp), parameter :: round_off = 4.0_wp*epsilon(1.0_wp)
+
+   !> Contacts known at places of the piece, from which those between are looked for
+   type :: known_t
+      !> Are they known there?
+      logical :: is_known(places) = .false.
+      !> Tangential force [N], torque of the bearing [N m] and film ratio [-]
+      real(wp) :: values(3, places) = 0.0_wp
+   end type known_t
 
 contains
 
    !> Mean torques of a follower over a piece without stops that the integration has covered in a few steps.
-   subroutine integrate_short(model, piece, states, torques, drive_error, extremes, is_enough, error)
+   subroutine integrate_short(model, piece, nearby, states, torques, drive_error, extremes, is_enough, error)
       !> Model of the lobe, which follows the inputs
       type(model_t), intent(inout), target :: model
       !> The piece, without stops
       type(cycle_t), intent(in), target :: piece
+      !> First and last contact that the integration has solved
+      type(nearby_t), intent(in) :: nearby
       !> States at its start, in its middle and at its end
       type(state_t), intent(out) :: states(3)
       !> Mean torques [N m], last the energy residual [W]
@@ -65,6 +79,7 @@ contains
 
       type(follower_samples_t) :: samples
       type(stored_work_t) :: work
+      type(known_t) :: known
       ! Values at the places; mean magnitudes, error estimates [N m]; length of the piece [rad]
       real(wp) :: values(torque_count, places), sizes(torque_count), errors(torque_count), length
       ! Mean magnitude of all losses [N m]
@@ -76,12 +91,18 @@ contains
          if (.not. is_enough) return
          call start_samples(samples, model, piece)
          length = path%time(path%count) - path%time(1)
+         if (nearby%has_first) then
+            call keep_contact(known, 1, nearby%first)
+            call keep_contact(known, places, nearby%last)
+         end if
          do i = 1, places
-            call sample_place(samples, path%time(1) + lobatto_places(i)*length, i == places, values(:, i), status)
+            call sample_place(samples, path%time(1) + lobatto_places(i)*length, contact_at(known, i), i == places, values(:, i), &
+               & status)
             ! Where contact is lost or comes back on the way, the angle of that is for panels to find
             is_enough = status == 0
             if (is_enough .and. i > 1) is_enough = samples%state%contact%is_touching .eqv. states(1)%contact%is_touching
             if (.not. is_enough) return
+            call keep_contact(known, i, samples%state%contact)
             call follow_contact(work, samples, path%time(1) + lobatto_places(i)*length, path%time(1), error)
             if (any(simpson_places == i)) states((i + 1)/2) = samples%state
          end do
@@ -100,11 +121,13 @@ contains
    end subroutine integrate_short
 
    !> Sample a place of the piece.
-   subroutine sample_place(samples, angle, is_last, values, status)
+   subroutine sample_place(samples, angle, start, is_last, values, status)
       !> The samples
       type(follower_samples_t), intent(inout) :: samples
       !> Cam angle from full lift [rad]
       real(wp), intent(in) :: angle
+      !> Contact to start from, where it touches
+      type(contact_t), intent(in) :: start
       !> Is it the end, whose state a step returns?
       logical, intent(in) :: is_last
       !> Torques [N m], last the energy residual [W]
@@ -118,14 +141,54 @@ contains
 
       call follow_ramp(samples%model, angle)
       call interpolate_state(samples%cycle%trajectory, angle, samples%hint, sliding_speed)
-      call evaluate_state(samples%model, angle, sliding_speed(1), state, status, &
-         & start=contact_ahead(samples%trail, angle, samples%state%contact), &
-         & accuracy=merge(0.0_wp, contact_part*samples%cycle%tolerance, is_last))
+      call evaluate_state(samples%model, angle, sliding_speed(1), state, status, start=start, &
+         & accuracy=merge(round_off, contact_part*samples%cycle%tolerance, is_last))
       if (status /= 0) return
-      call extend_trail(samples%trail, angle, state%contact)
       samples%state = state
       call sampled_values(samples, state, values)
       call widen(samples%extremes, samples%model, state)
    end subroutine sample_place
+
+   !> Keep a contact that is known at a place; one that does not touch is none to start from.
+   pure subroutine keep_contact(known, place, contact)
+      !> The contacts
+      type(known_t), intent(inout) :: known
+      !> The place
+      integer, intent(in) :: place
+      !> The contact there
+      type(contact_t), intent(in) :: contact
+
+      known%is_known(place) = contact%is_touching
+      known%values(:, place) = [contact%tangential_force, contact%bearing_torque, contact%film_ratio]
+   end subroutine keep_contact
+
+   !> Contact to start from at a place: on the polynomial through all that are known.
+   pure function contact_at(known, place) result(contact)
+      !> The contacts
+      type(known_t), intent(in) :: known
+      !> The place
+      integer, intent(in) :: place
+      !> The contact
+      type(contact_t) :: contact
+
+      ! Values [N, N m, -]; share of a known one in them [-]
+      real(wp) :: values(3), share
+      integer :: i, k
+
+      contact%is_touching = any(known%is_known)
+      values = 0.0_wp
+      do i = 1, places
+         if (.not. known%is_known(i)) cycle
+         share = 1.0_wp
+         do k = 1, places
+            if (k /= i .and. known%is_known(k)) share = share*(lobatto_places(place) - lobatto_places(k)) &
+               & /(lobatto_places(i) - lobatto_places(k))
+         end do
+         values = values + share*known%values(:, i)
+      end do
+      contact%tangential_force = values(1)
+      contact%bearing_torque = values(2)
+      contact%film_ratio = values(3)
+   end function contact_at
 
 end module camroller_short_piece

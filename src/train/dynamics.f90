@@ -11,7 +11,7 @@ module camroller_dynamics
 
    public :: masses_t, spring_t, gas_force_t, train_t, moments_t, seating_names, load_arm_names
    public :: seat_force, unseated_share, evaluate_moments, moment_slope, stored_energy, stored_power
-   public :: add_acceleration, acceleration_slope, kinetic_energy
+   public :: add_acceleration, acceleration_slope, speed_slope_of_moments, kinetic_energy
 
    !> How the contact load passes from the base circle to the event
    character(len=*), parameter :: seating_names(*) = [character(len=name_length) :: "continuous", "maximum"]
@@ -184,6 +184,21 @@ contains
       slope = acceleration*(train%valve_mass*(position%lift_curvature*position%valve_arm &
          & + position%lift_slope*position%valve_arm_slope) + train%finger_inertia*position%finger_curvature)
    end function acceleration_slope
+
+   !> Derivative of the moments of the masses over the cam speed, with the acceleration `omega omega'` that goes with it.
+   pure function speed_slope_of_moments(train, position, speed, speed_slope) result(slope)
+      !> Masses and stiffnesses
+      type(train_t), intent(in) :: train
+      !> Geometry at this angle
+      type(position_t), intent(in) :: position
+      !> Cam speed [rad/s], its change with the cam angle, omega' [rad/s/rad]
+      real(wp), intent(in) :: speed, speed_slope
+      !> Derivative [N m s]
+      real(wp) :: slope
+
+      slope = train%valve_mass*position%valve_arm*(2.0_wp*speed*position%lift_curvature + speed_slope*position%lift_slope) &
+         & + train%finger_inertia*(2.0_wp*speed*position%finger_curvature + speed_slope*position%finger_slope)
+   end function speed_slope_of_moments
 
    !> Energy of the moving masses without the roller's spin, `m omega^2 l'^2/2 + I_f omega^2 gamma'^2/2`.
    elemental function kinetic_energy(train, position, speed) result(energy)

@@ -43,8 +43,26 @@ contains
          ]
    end subroutine collect_spin_slopes
 
-   !> Compare at angles of dwell, ramp and event and all slips.
+   !> Compare at a steady speed, and at one that changes by a tenth over a radian.
    subroutine compare(error, model, words, share)
+      type(error_type), allocatable, intent(out) :: error
+      type(model_t), intent(in) :: model
+      character(len=*), intent(in) :: words
+      !> Mobilised part of the boundary friction, where given [-]
+      real(wp), intent(in), optional :: share
+      type(model_t), target :: moving
+
+      moving = model
+      call compare_all(error, moving, words, share)
+      if (allocated(error)) return
+      moving%ramp%is_moving = .true.
+      moving%ramp%speed = model%speed
+      moving%speed_slope = 0.1_wp*model%speed
+      call compare_all(error, moving, words//", speed that changes", share)
+   end subroutine compare
+
+   !> Compare at angles of dwell, ramp and event and all slips.
+   subroutine compare_all(error, model, words, share)
       type(error_type), allocatable, intent(out) :: error
       type(model_t), intent(in), target :: model
       character(len=*), intent(in) :: words
@@ -86,7 +104,7 @@ contains
             if (allocated(error)) return
          end do
       end do
-   end subroutine compare
+   end subroutine compare_all
 
    subroutine test_film_laws(error)
       type(error_type), allocatable, intent(out) :: error
