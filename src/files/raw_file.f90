@@ -4,14 +4,16 @@
 !> survives the end of the process, however it ends, and what was flushed to disk survives a power failure. Every file that this
 !> program writes passes `settle_raw` before it counts as written.
 module camroller_raw_file
-   use, intrinsic :: iso_c_binding, only : c_associated, c_char, c_f_pointer, c_int, c_int64_t, c_intptr_t, c_loc, c_null_char, &
-      & c_null_ptr, c_ptr, c_size_t
+   use, intrinsic :: iso_c_binding, only : c_associated, c_f_pointer, c_int, c_intptr_t, c_loc, c_null_char, c_null_ptr, &
+      & c_ptr, c_size_t, c_int64_t
    use, intrinsic :: iso_fortran_env, only : int64
+   use camroller_c_library, only : c_fclose, c_fileno, c_flock, c_fopen, c_glob, c_globfree, c_lseek, c_pread, c_write, &
+      & glob_t
    use camroller_error, only : error_t, raise, kind_file
    use camroller_file_facts, only : facts_of_descriptor, file_facts_t
    use camroller_mistakes, only : line_t
-   use camroller_system_file, only : ignore_size_signal, restore_size_signal, set_file_size, sync_descriptor, system_words, &
-      & text_at_address
+   use camroller_system_file, only : error_number, ignore_size_signal, restore_size_signal, set_file_size, sync_descriptor, &
+      & system_words, text_at_address
    implicit none
    private
 
@@ -36,82 +38,6 @@ module camroller_raw_file
       !> Bytes that are in it
       integer(int64) :: bytes = 0
    end type raw_file_t
-
-   !> Result of `glob`, as C libraries lay it out, with room for what follows
-   type, bind(C) :: glob_t
-      integer(c_size_t) :: count
-      type(c_ptr) :: paths
-      integer(c_size_t) :: rest(32)
-   end type glob_t
-
-   interface
-      function c_fopen(path, mode) bind(C, name="fopen") result(stream)
-         import :: c_char, c_ptr
-         character(kind=c_char), intent(in) :: path(*), mode(*)
-         type(c_ptr) :: stream
-      end function c_fopen
-
-      function c_fclose(stream) bind(C, name="fclose") result(status)
-         import :: c_int, c_ptr
-         type(c_ptr), value :: stream
-         integer(c_int) :: status
-      end function c_fclose
-
-      function c_fileno(stream) bind(C, name="fileno") result(descriptor)
-         import :: c_int, c_ptr
-         type(c_ptr), value :: stream
-         integer(c_int) :: descriptor
-      end function c_fileno
-
-      function c_write(descriptor, bytes, count) bind(C, name="write") result(written)
-         import :: c_int, c_int64_t, c_ptr, c_size_t
-         integer(c_int), value :: descriptor
-         type(c_ptr), value :: bytes
-         integer(c_size_t), value :: count
-         integer(c_int64_t) :: written
-      end function c_write
-
-      function c_pread(descriptor, bytes, count, offset) bind(C, name="pread") result(found)
-         import :: c_int, c_int64_t, c_ptr, c_size_t
-         integer(c_int), value :: descriptor
-         type(c_ptr), value :: bytes
-         integer(c_size_t), value :: count
-         integer(c_int64_t), value :: offset
-         integer(c_int64_t) :: found
-      end function c_pread
-
-      function c_lseek(descriptor, offset, whence) bind(C, name="lseek") result(position)
-         import :: c_int, c_int64_t
-         integer(c_int), value :: descriptor, whence
-         integer(c_int64_t), value :: offset
-         integer(c_int64_t) :: position
-      end function c_lseek
-
-      function c_flock(descriptor, operation) bind(C, name="flock") result(status)
-         import :: c_int
-         integer(c_int), value :: descriptor, operation
-         integer(c_int) :: status
-      end function c_flock
-
-      function c_errno() bind(C, name="__errno_location") result(address)
-         import :: c_ptr
-         type(c_ptr) :: address
-      end function c_errno
-
-      function c_glob(pattern, flags, on_error, found) bind(C, name="glob") result(status)
-         import :: c_char, c_int, c_ptr, glob_t
-         character(kind=c_char), intent(in) :: pattern(*)
-         integer(c_int), value :: flags
-         type(c_ptr), value :: on_error
-         type(glob_t), intent(inout) :: found
-         integer(c_int) :: status
-      end function c_glob
-
-      subroutine c_globfree(found) bind(C, name="globfree")
-         import :: glob_t
-         type(glob_t), intent(inout) :: found
-      end subroutine c_globfree
-   end interface
 
 contains
 
@@ -145,7 +71,7 @@ contains
       file%descriptor = c_fileno(file%stream)
       if (is_alone) then
          if (c_flock(file%descriptor, lock_at_once) /= 0) then
-            if (last_number() == would_block) then
+            if (error_number() == would_block) then
                call raise(error, kind_file, "another process is writing '"//path//"'")
             else
                call raise(error, kind_file, "cannot lock '"//path//"': "//last_words())
@@ -181,7 +107,7 @@ contains
       integer(c_int) :: ignored
 
       verdict = c_flock(file%descriptor, lock_at_once) /= 0
-      if (verdict) verdict = last_number() == would_block
+      if (verdict) verdict = error_number() == would_block
       if (.not. verdict) ignored = c_flock(file%descriptor, unlock)
    end function is_locked
 
@@ -247,9 +173,9 @@ contains
             done = done + written
          else if (written == 0) then
             reason = "only a part of it was written"
-         else if (last_number() /= interrupted) then
+         else if (error_number() /= interrupted) then
             reason = last_words()
-            is_unread = last_number() == broken_pipe
+            is_unread = error_number() == broken_pipe
          end if
          if (reason /= "") exit
       end do
@@ -405,7 +331,7 @@ contains
       if (size(paths) == 0) return
       call c_f_pointer(found%paths, addresses, [found%count])
       do i = 1, size(paths)
-         paths(i)%text = text_at_address(addresses(i))
+         call text_at_address(addresses(i), paths(i)%text)
       end do
       call c_globfree(found)
    end subroutine find_files
@@ -416,18 +342,7 @@ contains
       ! style: text because files are written by one thread at a time
       character(len=:), allocatable :: words
 
-      words = system_words(last_number())
+      call system_words(error_number(), words)
    end function last_words
-
-   !> The system's number for what went wrong last.
-   function last_number() result(number)
-      !> The number
-      integer(c_int) :: number
-
-      integer(c_int), pointer :: place
-
-      call c_f_pointer(c_errno(), place)
-      number = place
-   end function last_number
 
 end module camroller_raw_file

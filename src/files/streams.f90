@@ -4,7 +4,8 @@
 !> written here and none by Fortran's units, whose buffers may be lost without an error where the disk is full. A closed pipe
 !> (`camroller help | head -1`) is not an error.
 module camroller_streams
-   use, intrinsic :: iso_c_binding, only : c_char, c_int, c_intptr_t, c_null_char
+   use, intrinsic :: iso_c_binding, only : c_int, c_intptr_t, c_null_char
+   use camroller_c_library, only : c_close, c_open, c_signal
    use camroller_error, only : error_t, raise, kind_file
    use camroller_raw_file, only : write_letters
    implicit none
@@ -16,28 +17,6 @@ module camroller_streams
    integer(c_int), parameter :: output_descriptor = 1_c_int, error_descriptor = 2_c_int, signal_pipe = 13_c_int
    integer(c_intptr_t), parameter :: ignore_signal = 1_c_intptr_t
    integer(c_int), parameter :: read_only = 0_c_int
-
-   interface
-      function c_open(path, flags) bind(C, name="open") result(descriptor)
-         import :: c_char, c_int
-         character(kind=c_char), intent(in) :: path(*)
-         integer(c_int), value :: flags
-         integer(c_int) :: descriptor
-      end function c_open
-
-      function c_close(descriptor) bind(C, name="close") result(status)
-         import :: c_int
-         integer(c_int), value :: descriptor
-         integer(c_int) :: status
-      end function c_close
-
-      function c_signal(number, handler) bind(C, name="signal") result(former)
-         import :: c_int, c_intptr_t
-         integer(c_int), value :: number
-         integer(c_intptr_t), value :: handler
-         integer(c_intptr_t) :: former
-      end function c_signal
-   end interface
 
 contains
 

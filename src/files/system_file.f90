@@ -1,15 +1,17 @@
-!> System calls for replacing files: process number, free space, rename, sync, remove, resolve links, date.
+!> System calls for replacing files: process number, free space, rename, sync, remove, resolve links, date, words for errors.
 !>
-!> In: paths. Out: interfaces to the C library of POSIX systems, with logical results instead of numbers.
+!> In: paths. Out: what the C library does, with logical results instead of numbers.
 module camroller_system_file
-   use, intrinsic :: iso_c_binding, only : c_associated, c_char, c_f_pointer, c_int, c_int64_t, c_intptr_t, c_long, &
-      & c_null_char, c_null_ptr, c_ptr, c_size_t
+   use, intrinsic :: iso_c_binding, only : c_associated, c_char, c_f_pointer, c_int, c_int64_t, c_intptr_t, c_null_char, &
+      & c_null_ptr, c_ptr, c_size_t
+   use camroller_c_library, only : c_closedir, c_errno, c_fallocate, c_fsync, c_ftruncate, c_getpid, c_gmtime, c_opendir, &
+      & c_realpath, c_remove, c_rename, c_signal, c_strerror, c_strftime, c_strlen, c_time
    implicit none
    private
 
    public :: process_number, is_folder, rename_file, remove_file, resolve_path
    public :: reserve_space, set_file_size, sync_descriptor, utc_date
-   public :: ignore_size_signal, restore_size_signal, system_words, text_at_address
+   public :: ignore_size_signal, restore_size_signal, error_number, system_words, text_at_address
 
    !> Longest path that the system resolves, with the null character that ends it
    integer, parameter :: longest_path = 4096
@@ -19,104 +21,6 @@ module camroller_system_file
    integer(c_intptr_t), parameter :: signal_error = -1_c_intptr_t
    !> Error numbers that say that the file system does not reserve space: ENODEV, EINVAL, ESPIPE, ENOSYS, EOPNOTSUPP
    integer(c_int), parameter :: cannot_tell(*) = [19_c_int, 22_c_int, 29_c_int, 38_c_int, 95_c_int]
-
-   interface
-      function c_getpid() bind(C, name="getpid") result(number)
-         import :: c_int
-         integer(c_int) :: number
-      end function c_getpid
-
-      function c_rename(old, new) bind(C, name="rename") result(status)
-         import :: c_char, c_int
-         character(kind=c_char), intent(in) :: old(*), new(*)
-         integer(c_int) :: status
-      end function c_rename
-
-      function c_remove(path) bind(C, name="remove") result(status)
-         import :: c_char, c_int
-         character(kind=c_char), intent(in) :: path(*)
-         integer(c_int) :: status
-      end function c_remove
-
-      function c_realpath(path, resolved) bind(C, name="realpath") result(address)
-         import :: c_char, c_ptr
-         character(kind=c_char), intent(in) :: path(*)
-         character(kind=c_char), intent(out) :: resolved(*)
-         type(c_ptr) :: address
-      end function c_realpath
-
-      function c_opendir(path) bind(C, name="opendir") result(folder)
-         import :: c_char, c_ptr
-         character(kind=c_char), intent(in) :: path(*)
-         type(c_ptr) :: folder
-      end function c_opendir
-
-      function c_closedir(folder) bind(C, name="closedir") result(status)
-         import :: c_int, c_ptr
-         type(c_ptr), value :: folder
-         integer(c_int) :: status
-      end function c_closedir
-
-      function c_fallocate(descriptor, first, length) bind(C, name="posix_fallocate") result(status)
-         import :: c_int, c_int64_t
-         integer(c_int), value :: descriptor
-         integer(c_int64_t), value :: first, length
-         integer(c_int) :: status
-      end function c_fallocate
-
-      function c_ftruncate(descriptor, length) bind(C, name="ftruncate") result(status)
-         import :: c_int, c_int64_t
-         integer(c_int), value :: descriptor
-         integer(c_int64_t), value :: length
-         integer(c_int) :: status
-      end function c_ftruncate
-
-      function c_signal(number, handler) bind(C, name="signal") result(former)
-         import :: c_int, c_intptr_t
-         integer(c_int), value :: number
-         integer(c_intptr_t), value :: handler
-         integer(c_intptr_t) :: former
-      end function c_signal
-
-      function c_strerror(number) bind(C, name="strerror") result(text)
-         import :: c_int, c_ptr
-         integer(c_int), value :: number
-         type(c_ptr) :: text
-      end function c_strerror
-
-      function c_strlen(text) bind(C, name="strlen") result(length)
-         import :: c_ptr, c_size_t
-         type(c_ptr), value :: text
-         integer(c_size_t) :: length
-      end function c_strlen
-
-      function c_fsync(descriptor) bind(C, name="fsync") result(status)
-         import :: c_int
-         integer(c_int), value :: descriptor
-         integer(c_int) :: status
-      end function c_fsync
-
-      function c_time(store) bind(C, name="time") result(seconds)
-         import :: c_long, c_ptr
-         type(c_ptr), value :: store
-         integer(c_long) :: seconds
-      end function c_time
-
-      function c_gmtime(seconds) bind(C, name="gmtime") result(moment)
-         import :: c_long, c_ptr
-         integer(c_long), intent(in) :: seconds
-         type(c_ptr) :: moment
-      end function c_gmtime
-
-      function c_strftime(text, length, form, moment) bind(C, name="strftime") result(written)
-         import :: c_char, c_ptr, c_size_t
-         character(kind=c_char), intent(out) :: text(*)
-         integer(c_size_t), value :: length
-         character(kind=c_char), intent(in) :: form(*)
-         type(c_ptr), value :: moment
-         integer(c_size_t) :: written
-      end function c_strftime
-   end interface
 
 contains
 
@@ -203,7 +107,7 @@ contains
       call ignore_size_signal(former)
       status = c_fallocate(descriptor, first, length)
       call restore_size_signal(former)
-      if (status /= 0 .and. all(status /= cannot_tell)) reason = system_words(status)
+      if (status /= 0 .and. all(status /= cannot_tell)) call system_words(status, reason)
    end subroutine reserve_space
 
    !> Let a file that outgrows the limit on the size of files be an error like others, not the end of the program.
@@ -236,24 +140,33 @@ contains
       done = c_ftruncate(descriptor, length) == 0
    end subroutine set_file_size
 
+   !> The system's number for what went wrong last in this thread.
+   function error_number() result(number)
+      !> The number
+      integer(c_int) :: number
+
+      integer(c_int), pointer :: place
+
+      call c_f_pointer(c_errno(), place)
+      number = place
+   end function error_number
+
    !> The system's message for an error number.
-   function system_words(number) result(words)
+   subroutine system_words(number, words)
       !> The number
       integer(c_int), intent(in) :: number
       !> The words
-      ! style: text because files are written by one thread at a time
-      character(len=:), allocatable :: words
+      character(len=:), allocatable, intent(out) :: words
 
-      words = text_at_address(c_strerror(number))
-   end function system_words
+      call text_at_address(c_strerror(number), words)
+   end subroutine system_words
 
    !> A text of the C library as one of Fortran.
-   function text_at_address(address) result(text)
+   subroutine text_at_address(address, text)
       !> Where it starts
       type(c_ptr), intent(in) :: address
       !> The text, as long as it is there
-      ! style: text because files are written by one thread at a time
-      character(len=:), allocatable :: text
+      character(len=:), allocatable, intent(out) :: text
 
       character(kind=c_char), pointer :: letters(:)
       integer :: i
@@ -263,7 +176,7 @@ contains
       do i = 1, size(letters)
          text(i:i) = letters(i)
       end do
-   end function text_at_address
+   end subroutine text_at_address
 
    !> Remove a file; nothing happens where there is none.
    subroutine remove_file(path)

@@ -2,9 +2,11 @@
 !>
 !> In: a path. Out: the text, or an error that says why there is none.
 module camroller_text_file
-   use, intrinsic :: iso_c_binding, only : c_associated, c_char, c_int, c_loc, c_long, c_null_char, c_ptr, c_size_t
+   use, intrinsic :: iso_c_binding, only : c_associated, c_int, c_loc, c_long, c_null_char, c_ptr, c_size_t
    use, intrinsic :: iso_fortran_env, only : int64
+   use camroller_c_library, only : c_access, c_fclose, c_fopen, c_fread, c_fseek, c_ftell
    use camroller_error, only : error_t, raise, kind_file
+   use camroller_system_file, only : error_number, is_folder, system_words
    implicit none
    private
 
@@ -17,48 +19,8 @@ module camroller_text_file
    integer(int64), parameter :: largest_size = 64_int64*1024_int64*1024_int64
    !> What `fseek` takes for the start and the end of a file, and `access` to ask whether there is one
    integer(c_int), parameter :: from_start = 0_c_int, from_end = 2_c_int, is_it_there = 0_c_int
-
-   interface
-      function c_access(path, mode) bind(C, name="access") result(status)
-         import :: c_char, c_int
-         character(kind=c_char), intent(in) :: path(*)
-         integer(c_int), value :: mode
-         integer(c_int) :: status
-      end function c_access
-
-      function c_fopen(path, mode) bind(C, name="fopen") result(stream)
-         import :: c_char, c_ptr
-         character(kind=c_char), intent(in) :: path(*), mode(*)
-         type(c_ptr) :: stream
-      end function c_fopen
-
-      function c_fclose(stream) bind(C, name="fclose") result(status)
-         import :: c_int, c_ptr
-         type(c_ptr), value :: stream
-         integer(c_int) :: status
-      end function c_fclose
-
-      function c_fseek(stream, offset, whence) bind(C, name="fseek") result(status)
-         import :: c_int, c_long, c_ptr
-         type(c_ptr), value :: stream
-         integer(c_long), value :: offset
-         integer(c_int), value :: whence
-         integer(c_int) :: status
-      end function c_fseek
-
-      function c_ftell(stream) bind(C, name="ftell") result(position)
-         import :: c_long, c_ptr
-         type(c_ptr), value :: stream
-         integer(c_long) :: position
-      end function c_ftell
-
-      function c_fread(buffer, size, count, stream) bind(C, name="fread") result(found)
-         import :: c_ptr, c_size_t
-         type(c_ptr), value :: buffer, stream
-         integer(c_size_t), value :: size, count
-         integer(c_size_t) :: found
-      end function c_fread
-   end interface
+   !> Error number of a folder that is taken for a file (EISDIR): opening one is no error
+   integer(c_int), parameter :: is_a_folder = 21_c_int
 
 contains
 
@@ -139,7 +101,7 @@ contains
       end if
       stream = c_fopen(path//c_null_char, "rb"//c_null_char)
       if (.not. c_associated(stream)) then
-         call say_why(path, "it cannot be opened", error)
+         call say_why(path, error_number(), error)
          return
       end if
       bytes = -1
@@ -153,25 +115,23 @@ contains
          is_fine = is_fine .and. found == bytes
       end if
       if (c_fclose(stream) /= 0) is_fine = .false.
-      if (.not. is_fine) call say_why(path, "it is too large for what it is read for, or has changed meanwhile", error)
+      if (.not. is_fine) call say_why(path, merge(is_a_folder, 0_c_int, is_folder(path)), error)
    end subroutine read_bytes
 
-   !> Say why a file cannot be read: in the words of the system where it can say so.
-   subroutine say_why(path, otherwise, error)
+   !> Say why a file cannot be read: in the words of the system where it sees something wrong.
+   subroutine say_why(path, number, error)
       !> Path of the file
       character(len=*), intent(in) :: path
-      !> What to say where the system sees nothing wrong
-      character(len=*), intent(in) :: otherwise
+      !> The system's number; zero where it sees nothing wrong
+      integer(c_int), intent(in) :: number
       !> File error
       type(error_t), allocatable, intent(out) :: error
 
-      character(len=256) :: message
-      integer :: unit, status
+      character(len=:), allocatable :: words
 
-      message = otherwise
-      open (newunit=unit, file=path, access="stream", form="unformatted", action="read", status="old", iostat=status, iomsg=message)
-      if (status == 0) close (unit)
-      call raise(error, kind_file, "cannot read '"//path//"': "//trim(message))
+      words = "it is too large for what it is read for, or has changed meanwhile"
+      if (number /= 0) call system_words(number, words)
+      call raise(error, kind_file, "cannot read '"//path//"': "//words)
    end subroutine say_why
 
    !> Are there no control characters but tabulators and those between lines and pages?

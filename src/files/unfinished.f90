@@ -5,6 +5,7 @@
 !> the process is ended by a signal.
 module camroller_unfinished
    use, intrinsic :: iso_c_binding, only : c_char, c_int, c_null_char
+   use camroller_c_library, only : c_unlink
    implicit none
    private
 
@@ -14,14 +15,6 @@ module camroller_unfinished
    integer, parameter :: places = 8, path_length = 4096
    !> Operations on the entries
    integer, parameter :: add = 1, drop = 2, clear = 3
-
-   interface
-      function c_unlink(path) bind(C, name="unlink") result(status)
-         import :: c_char, c_int
-         character(kind=c_char), intent(in) :: path(*)
-         integer(c_int) :: status
-      end function c_unlink
-   end interface
 
 contains
 

@@ -474,7 +474,7 @@ contains
 
       text = ""
       if (.not. c_associated(address(1))) return
-      text = text_at_address(address(1))
+      call text_at_address(address(1), text)
       call open_space([1], space, ignored)
       buffer = c_loc(address)
       call h5dvlen_reclaim_f(text_type, space, h5p_default_f, buffer, ignored)

@@ -2,6 +2,7 @@
 
 import pathlib
 import re
+import socket
 import subprocess
 
 import pytest
@@ -112,7 +113,13 @@ def test_missing_deck_is_a_file_error(camroller):
 
 
 def test_a_folder_in_place_of_a_deck_is_refused(camroller):
-    assert "cannot read 'decks'" in refused(run(camroller, "check", "decks"), FILE)
+    assert "cannot read 'decks': Is a directory" in refused(run(camroller, "check", "decks"), FILE)
+
+
+def test_what_cannot_be_opened_is_refused_in_the_words_of_the_system(camroller, tmp_path):
+    with socket.socket(socket.AF_UNIX) as listener:
+        listener.bind(str(tmp_path / "socket"))
+        assert "cannot read 'socket': No such device or address" in refused(run(camroller, "check", "socket", folder=tmp_path), FILE)
 
 
 def test_mistakes_are_deck_errors(camroller, tmp_path):
