@@ -1,4 +1,4 @@
-!> Quintic B-splines on given points: basis functions with all their derivatives, and conversion to Taylor coefficients.
+!> Quintic B-splines on given points: basis functions, also with all their derivatives, and conversion to Taylor coefficients.
 !>
 !> In: points, coefficients. Out: what a fit needs to set up its equations. Function number j is one of
 !> the six, j = m ... m + 5, that do not vanish between points m and m + 1. Source: de Boor (1978), A Practical Guide to
@@ -8,7 +8,7 @@ module camroller_quintic_basis
    implicit none
    private
 
-   public :: spline_degree, make_knots, basis_derivatives, taylor_coefficients
+   public :: spline_degree, make_knots, basis_values, basis_derivatives, taylor_coefficients
 
    !> Degree of the pieces
    integer, parameter :: spline_degree = 5
@@ -42,6 +42,22 @@ contains
       end do
       knots(n) = points(n)
    end subroutine make_knots
+
+   !> Values of the six functions that do not vanish in an interval.
+   pure function basis_values(knots, x) result(values)
+      !> Ten knots; the interval lies between the fifth and the sixth [x]
+      real(wp), intent(in) :: knots(-4:5)
+      !> Point in the interval, ends included [x]
+      real(wp), intent(in) :: x
+      !> Value of each function [-]
+      real(wp) :: values(spline_degree + 1)
+
+      !> Functions of each lower degree, too [-]
+      real(wp) :: lower(spline_degree + 1, 0:spline_degree)
+
+      call basis_of_all_degrees(knots, x, lower)
+      values = lower(:, spline_degree)
+   end function basis_values
 
    !> Values and derivatives of the six functions that do not vanish in an interval.
    pure subroutine basis_derivatives(knots, x, derivatives)
@@ -96,7 +112,8 @@ contains
       end do
    end subroutine basis_of_all_degrees
 
-   !> Taylor coefficients of each piece about its left end.
+   !> Taylor coefficients of each piece about its left end: the coefficients of each derivative in the functions of its own degree
+   !> follow from those of the one before.
    pure subroutine taylor_coefficients(knots, coefficients, pieces)
       !> Knots as of `make_knots` [x]
       real(wp), intent(in) :: knots(1 - spline_degree:)
@@ -105,19 +122,22 @@ contains
       !> Coefficient of power k in piece m [y/x^k]
       real(wp), allocatable, intent(out) :: pieces(:, :)
 
-      !> Values and derivatives of the functions [1/x^k]
-      real(wp) :: basis(0:spline_degree, spline_degree + 1)
-      !> k! [-]
-      real(wp) :: factorial
-      integer :: k, m
+      !> Functions of each degree [-]
+      real(wp) :: lower(spline_degree + 1, 0:spline_degree)
+      !> Coefficients of the derivative of order k over k! [y/x^k]
+      real(wp) :: c(spline_degree + 1)
+      integer :: b, d, k, m
 
       allocate (pieces(0:spline_degree, size(coefficients) - spline_degree))
       do m = 1, size(pieces, 2)
-         call basis_derivatives(knots(m - 4:m + 5), knots(m), basis)
-         factorial = 1.0_wp
+         call basis_of_all_degrees(knots(m - 4:m + 5), knots(m), lower)
+         c = coefficients(m:m + spline_degree)
          do k = 0, spline_degree
-            if (k > 1) factorial = factorial*real(k, wp)
-            pieces(k, m) = dot_product(basis(k, :), coefficients(m:m + spline_degree))/factorial
+            d = spline_degree - k
+            pieces(k, m) = dot_product(c(:d + 1), lower(:d + 1, d))
+            do b = 1, d
+               c(b) = real(d, wp)/real(k + 1, wp)*(c(b + 1) - c(b))/(knots(m + b) - knots(m + b - d))
+            end do
          end do
       end do
    end subroutine taylor_coefficients

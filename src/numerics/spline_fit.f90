@@ -7,7 +7,7 @@ module camroller_spline_fit
    use camroller_kinds, only : wp
    use camroller_error, only : error_t, raise, kind_domain, kind_internal
    use camroller_lapack, only : dgbsv, dpbsv
-   use camroller_quintic_basis, only : spline_degree, make_knots, basis_derivatives
+   use camroller_quintic_basis, only : spline_degree, make_knots, basis_values, basis_derivatives
    use camroller_roots, only : bracket_t, start_bracket, narrow_bracket, root_wanted, root_found
    implicit none
    private
@@ -31,6 +31,14 @@ module camroller_spline_fit
       !> Widest distance of two unknowns in one piece
       integer :: penalty_band
    end type fit_t
+
+   !> Normal equations of a fit with a penalty: of the distances, and of the penalty for a weight of one
+   type :: normal_t
+      !> Functions at the point of each equation, shape (6, equation) [-]
+      real(wp), allocatable :: functions(:, :)
+      !> Upper triangles in LAPACK's band storage [-], right-hand sides [y]
+      real(wp), allocatable :: squares(:, :), penalty(:, :), squares_rhs(:, :), penalty_rhs(:, :)
+   end type normal_t
 
 contains
 
@@ -161,8 +169,8 @@ contains
 
       !> Matrix in LAPACK's band storage [-], right-hand side [y]
       real(wp) :: band(3*fit%half_band + 1, size(fit%equation_point)), rhs(size(fit%equation_point), 1)
-      !> Functions and their derivatives [1/x^k]
-      real(wp) :: basis(0:spline_degree, spline_degree + 1)
+      !> Functions [-]
+      real(wp) :: functions(spline_degree + 1)
       integer :: pivots(size(fit%equation_point)), a, e, column, i, row
 
       band = 0.0_wp
@@ -170,14 +178,14 @@ contains
          i = fit%equation_point(e)
          row = fit%equation_unknown(e)
          rhs(row, 1) = fit%values(i)
-         call basis_derivatives(fit%knots(i - 4:i + 5), fit%knots(i), basis)
+         functions = basis_values(fit%knots(i - 4:i + 5), fit%knots(i))
          do a = 1, spline_degree
             column = fit%unknown(i + a - 1)
             if (column == 0) then
-               rhs(row, 1) = rhs(row, 1) - basis(0, a)*fit%coefficients(i + a - 1)
+               rhs(row, 1) = rhs(row, 1) - functions(a)*fit%coefficients(i + a - 1)
             else
                associate (entry => band(2*fit%half_band + 1 + row - column, column))
-                  entry = entry + basis(0, a)
+                  entry = entry + functions(a)
                end associate
             end if
          end do
@@ -199,6 +207,7 @@ contains
       type(error_t), allocatable, intent(out) :: error
 
       type(bracket_t) :: bracket
+      type(normal_t) :: normal
       !> Weight of the penalty in a unit of the spacing, decades [-]
       real(wp) :: weight, weight_below
       !> Distance at these weights, less the wanted one [y]
@@ -207,15 +216,16 @@ contains
       !> Weights searched, width of the first bracket, tolerance of the weight [decades]
       real(wp), parameter :: smallest = -10.0_wp, largest = 14.0_wp, width = 2.0_wp, tolerance = 1.0e-10_wp
 
+      call set_normal(fit, normal)
       weight = smallest
-      call smooth_with_weight(fit, weight, smoothing, excess, info)
+      call smooth_with_weight(fit, normal, weight, smoothing, excess, info)
       excess_below = -smoothing
       weight_below = weight - width
       do while (excess < 0.0_wp .and. info == 0 .and. weight < largest)
          excess_below = excess
          weight_below = weight
          weight = weight + width
-         call smooth_with_weight(fit, weight, smoothing, excess, info)
+         call smooth_with_weight(fit, normal, weight, smoothing, excess, info)
       end do
       if (excess < 0.0_wp .or. info /= 0) then
          call raise(error, kind_domain, "smoothing is as large as the table's own variation")
@@ -223,20 +233,57 @@ contains
       end if
       call start_bracket(bracket, weight_below, weight, excess_below, excess, tolerance)
       do while (bracket%status == root_wanted)
-         call smooth_with_weight(fit, bracket%trial, smoothing, excess, info)
+         call smooth_with_weight(fit, normal, bracket%trial, smoothing, excess, info)
          if (info /= 0) exit
          call narrow_bracket(bracket, excess)
       end do
-      if (bracket%status == root_found) call smooth_with_weight(fit, bracket%trial, smoothing, excess, info)
+      if (bracket%status == root_found) call smooth_with_weight(fit, normal, bracket%trial, smoothing, excess, info)
       if (bracket%status /= root_found .or. info /= 0) then
          call raise(error, kind_internal, "no weight gives the smoothing of a spline")
       end if
    end subroutine smooth
 
-   !> Least squares with a penalty on the third derivative: coefficients for one weight.
-   pure subroutine smooth_with_weight(fit, weight, smoothing, excess, info)
+   !> Least squares with a penalty on the third derivative: what does not depend on the weight.
+   pure subroutine set_normal(fit, normal)
+      !> The fit
+      type(fit_t), intent(in) :: fit
+      !> Its equations
+      type(normal_t), intent(out) :: normal
+
+      !> Functions and their derivatives [1/x^k], width of a piece, mean spacing [x]
+      real(wp) :: basis(0:spline_degree, spline_degree + 1), width, spacing
+      integer :: e, i, n, n_pieces, q
+      !> Gauss-Legendre rule of three points on (0, 1), exact for the square of a parabola: nodes [-]
+      real(wp), parameter :: places(3) = 0.5_wp + [-1.0_wp, 0.0_wp, 1.0_wp]*sqrt(0.15_wp)
+      !> Its weights [-]
+      real(wp), parameter :: weights(3) = [5.0_wp, 8.0_wp, 5.0_wp]/18.0_wp
+
+      n = size(fit%equation_point)
+      allocate (normal%functions(spline_degree + 1, n))
+      allocate (normal%squares(fit%penalty_band + 1, n), normal%penalty(fit%penalty_band + 1, n), normal%squares_rhs(n, 1), &
+         & normal%penalty_rhs(n, 1), source=0.0_wp)
+      do e = 1, n
+         i = fit%equation_point(e)
+         normal%functions(:, e) = basis_values(fit%knots(i - 4:i + 5), fit%knots(i))
+         call add_square(fit, i, normal%functions(:, e), fit%values(i), 1.0_wp, normal%squares, normal%squares_rhs)
+      end do
+      n_pieces = size(fit%coefficients) - spline_degree
+      spacing = (fit%knots(n_pieces + 1) - fit%knots(1))/real(n_pieces, wp)
+      do i = 1, n_pieces
+         width = fit%knots(i + 1) - fit%knots(i)
+         do q = 1, size(places)
+            call basis_derivatives(fit%knots(i - 4:i + 5), fit%knots(i) + places(q)*width, basis)
+            call add_square(fit, i, basis(3, :), 0.0_wp, weights(q)*width*spacing**5, normal%penalty, normal%penalty_rhs)
+         end do
+      end do
+   end subroutine set_normal
+
+   !> Coefficients for one weight.
+   pure subroutine smooth_with_weight(fit, normal, weight, smoothing, excess, info)
       !> The fit
       type(fit_t), intent(inout) :: fit
+      !> Its equations
+      type(normal_t), intent(in) :: normal
       !> Common logarithm of the weight of the penalty in a unit of the spacing [-]
       real(wp), intent(in) :: weight
       !> Root mean square distance wanted [y]
@@ -248,36 +295,14 @@ contains
 
       !> Upper triangle in LAPACK's band storage [-], right-hand side [y]
       real(wp) :: band(fit%penalty_band + 1, size(fit%equation_point)), rhs(size(fit%equation_point), 1)
-      !> Functions and their derivatives [1/x^k], width of a piece, mean spacing [x], weight of a Gauss point [x^6]
-      real(wp) :: basis(0:spline_degree, spline_degree + 1), width, spacing, gauss_weight
-      integer :: e, i, n_pieces, q
-      !> Gauss-Legendre rule of three points on (0, 1), exact for the square of a parabola: nodes [-]
-      real(wp), parameter :: places(3) = 0.5_wp + [-1.0_wp, 0.0_wp, 1.0_wp]*sqrt(0.15_wp)
-      !> Its weights [-]
-      real(wp), parameter :: weights(3) = [5.0_wp, 8.0_wp, 5.0_wp]/18.0_wp
 
-      band = 0.0_wp
-      rhs = 0.0_wp
-      do e = 1, size(fit%equation_point)
-         i = fit%equation_point(e)
-         call basis_derivatives(fit%knots(i - 4:i + 5), fit%knots(i), basis)
-         call add_square(fit, i, basis(0, :), fit%values(i), 1.0_wp, band, rhs)
-      end do
-      n_pieces = size(fit%coefficients) - spline_degree
-      spacing = (fit%knots(n_pieces + 1) - fit%knots(1))/real(n_pieces, wp)
-      do i = 1, n_pieces
-         width = fit%knots(i + 1) - fit%knots(i)
-         do q = 1, size(places)
-            call basis_derivatives(fit%knots(i - 4:i + 5), fit%knots(i) + places(q)*width, basis)
-            gauss_weight = 10.0_wp**weight*weights(q)*width*spacing**5
-            call add_square(fit, i, basis(3, :), 0.0_wp, gauss_weight, band, rhs)
-         end do
-      end do
+      band = normal%squares + 10.0_wp**weight*normal%penalty
+      rhs = normal%squares_rhs + 10.0_wp**weight*normal%penalty_rhs
       call dpbsv("U", size(band, 2), fit%penalty_band, 1, band, size(band, 1), rhs, size(rhs, 1), info)
       excess = 0.0_wp
       if (info /= 0) return
       where (fit%unknown > 0) fit%coefficients = rhs(max(fit%unknown, 1), 1)
-      excess = distance_to_table(fit) - smoothing
+      excess = distance_to_table(fit, normal%functions) - smoothing
    end subroutine smooth_with_weight
 
    !> Add `weight (sum of v c - target)^2` to the normal equations.
@@ -320,21 +345,20 @@ contains
    end subroutine add_square
 
    !> Root mean square distance of a fit from its table.
-   pure function distance_to_table(fit) result(distance)
+   pure function distance_to_table(fit, functions) result(distance)
       !> The fit
       type(fit_t), intent(in) :: fit
+      !> Functions at the point of each equation [-]
+      real(wp), intent(in) :: functions(:, :)
       !> The distance [y]
       real(wp) :: distance
 
-      !> Functions and their derivatives [1/x^k]
-      real(wp) :: basis(0:spline_degree, spline_degree + 1)
       integer :: e, i
 
       distance = 0.0_wp
       do e = 1, size(fit%equation_point)
          i = fit%equation_point(e)
-         call basis_derivatives(fit%knots(i - 4:i + 5), fit%knots(i), basis)
-         distance = distance + (fit%values(i) - dot_product(basis(0, :), fit%coefficients(i:i + spline_degree)))**2
+         distance = distance + (fit%values(i) - dot_product(functions(:, e), fit%coefficients(i:i + spline_degree)))**2
       end do
       distance = sqrt(distance/real(size(fit%values), wp))
    end function distance_to_table
