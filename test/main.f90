@@ -107,6 +107,8 @@ program main
    use test_hard_cases, only : collect_hard_cases
    use test_ode_switching, only : collect_ode_switching
    use test_flexible_cycle, only : collect_flexible_cycle
+   use test_flexible_host, only : collect_flexible_host
+   use test_flexible_simulation, only : collect_flexible_simulation
    use test_flexible_invariance, only : collect_flexible_invariance
    use test_flexible_parts, only : collect_flexible_parts
    use test_flexible_train, only : collect_flexible_train
@@ -162,6 +164,8 @@ contains
          new_testsuite("hard_cases", collect_hard_cases), &
          new_testsuite("ode_switching", collect_ode_switching), &
          new_testsuite("flexible_cycle", collect_flexible_cycle), &
+         new_testsuite("flexible_simulation", collect_flexible_simulation), &
+         new_testsuite("flexible_host", collect_flexible_host), &
          new_testsuite("flexible_parts", collect_flexible_parts), &
          new_testsuite("flexible_invariance", collect_flexible_invariance), &
          new_testsuite("flexible_train", collect_flexible_train), &

@@ -1,4 +1,4 @@
-!> Speed and oil of a model over a step of a host program.
+!> Speed, oil and supply pressure of a model over a step of a host program.
 !>
 !> In: model, cam angles. Out: the speed at an angle; the model set to what it is there; the model at another speed and oil
 !> temperature with the films that were solved beforehand.
@@ -6,6 +6,7 @@ module camroller_ramp
    use camroller_kinds, only : wp
    use camroller_error, only : error_t
    use camroller_ehl_table, only : ehl_t
+   use camroller_lash_adjuster, only : set_supply
    use camroller_model, only : model_t, set_operating_point, set_speed
    implicit none
    private
@@ -28,22 +29,30 @@ contains
    end function speed_on_ramp
 
    !> Set a model to the inputs at an angle of the step.
-   subroutine follow_ramp(model, angle)
+   subroutine follow_ramp(model, angle, oil_angle)
       !> The model; left alone where nothing changes
       type(model_t), intent(inout) :: model
       !> Cam angle from full lift [rad]
       real(wp), intent(in) :: angle
+      !> Angle whose oil temperature and supply pressure are taken; absent: the same [rad]
+      real(wp), intent(in), optional :: oil_angle
 
+      ! Way from the middle of the step [rad]
+      real(wp) :: way
       ! What cannot go wrong between two temperatures at which it did not
       type(error_t), allocatable :: error
 
       if (.not. model%ramp%is_moving) return
+      way = angle - model%ramp%angle
+      if (present(oil_angle)) way = oil_angle - model%ramp%angle
       if (abs(model%ramp%temperature_slope) > 0.0_wp) then
          call keep_films(model, speed_on_ramp(model, angle), model%ramp%temperature + model%ramp%temperature_slope &
-            & *(angle - model%ramp%angle), error)
+            & *way, error)
       else
          call set_speed(model, speed_on_ramp(model, angle))
       end if
+      if (abs(model%ramp%supply_slope) > 0.0_wp) call set_supply(model%flexible%adjuster, model%ramp%supply &
+         & + model%ramp%supply_slope*way)
    end subroutine follow_ramp
 
    !> Set speed and oil temperature without solving films again.

@@ -9,7 +9,7 @@ module camroller_lash_adjuster
    implicit none
    private
 
-   public :: lash_adjuster_t, adjuster_t, flows_t, leak_end_names, ambient_pressure, new_adjuster, set_adjuster_oil, &
+   public :: lash_adjuster_t, adjuster_t, flows_t, leak_end_names, ambient_pressure, new_adjuster, set_supply, set_adjuster_oil, &
       & relative_volume, bulk_modulus, pressure_work, evaluate_flows, opening_pressure, chamber_volume, adjuster_force, &
       & oil_energy, leak_down_time
 
@@ -68,8 +68,8 @@ module camroller_lash_adjuster
       real(wp) :: area = 0.0_wp
       !> Force of the plunger's spring in the middle place, F_s0 [N]
       real(wp) :: spring_force = 0.0_wp
-      !> Pressure where the leak ends, p_e [Pa]
-      real(wp) :: end_pressure = 0.0_wp
+      !> Supply pressure as it is now, which a host program may change, and pressure where the leak ends, p_e [Pa]
+      real(wp) :: supply_pressure = 0.0_wp, end_pressure = 0.0_wp
       !> Leak per pressure, G [m^3/(s Pa)]
       real(wp) :: conductance = 0.0_wp
       !> Drag of the plunger per speed, c_pl [N s/m]
@@ -98,8 +98,19 @@ contains
       adjuster%given = given
       adjuster%area = 0.25_wp*pi*given%diameter**2
       adjuster%spring_force = given%spring_force
-      adjuster%end_pressure = merge(given%supply_pressure, 0.0_wp, given%leak_end == leak_end_names(1))
+      call set_supply(adjuster, given%supply_pressure)
    end subroutine new_adjuster
+
+   !> Set the supply pressure; a leak that ends in the feed ends at it.
+   pure subroutine set_supply(adjuster, pressure)
+      !> The adjuster
+      type(adjuster_t), intent(inout) :: adjuster
+      !> Gauge pressure of the supply [Pa]
+      real(wp), intent(in) :: pressure
+
+      adjuster%supply_pressure = pressure
+      adjuster%end_pressure = merge(pressure, 0.0_wp, adjuster%given%leak_end == leak_end_names(1))
+   end subroutine set_supply
 
    !> What depends on the oil's viscosity: leak `pi d h^3 (1 + 1.5 e^2)/(12 eta L)`, drag `eta pi d L/h`.
    pure subroutine set_adjuster_oil(adjuster, viscosity)
@@ -187,7 +198,7 @@ contains
       associate (given => adjuster%given)
          flows%leak = adjuster%conductance*(pressure - adjuster%end_pressure)
          flows%leak_slope = adjuster%conductance
-         difference = given%supply_pressure - pressure
+         difference = adjuster%supply_pressure - pressure
          place = (difference - given%crack_pressure)/given%full_pressure
          if (.not. place > 0.0_wp) return
          place_slope = -1.0_wp/given%full_pressure
@@ -216,7 +227,7 @@ contains
       !> Gauge pressure [Pa]
       real(wp) :: pressure
 
-      pressure = adjuster%given%supply_pressure - adjuster%given%crack_pressure
+      pressure = adjuster%supply_pressure - adjuster%given%crack_pressure
    end function opening_pressure
 
    !> Volume of the chamber at a place of the plunger.

@@ -37,6 +37,8 @@ module camroller_flexible_cycle
    !> Difference of sliding speeds that is not resolved, over the error allowed in a step: from 1 on the sliding speed sticks
    !> where a film is as good as solid; at 0.5 it takes four times the steps [-]
    real(wp), parameter :: unresolved = 2.0_wp
+   !> Smallest size of the sliding speed to which its error is relative [m/s]
+   real(wp), parameter, public :: least_sliding_scale = 1.0e-4_wp
    !> Steps of a cycle after which it is given up
    integer, parameter :: most_steps = 400000
 
@@ -226,8 +228,8 @@ contains
       !> Has the scale changed?
       logical, intent(out) :: is_scaled
 
-      ! Smallest scale [m/s], change that is worth one [-]
-      real(wp), parameter :: least = 1.0e-4_wp, worth = 2.0_wp
+      ! Change that is worth a change of the scale [-]
+      real(wp), parameter :: worth = 2.0_wp
       ! The scale as it should be and as it is [m/s]
       real(wp) :: scale, present
       ! Errors allowed in a step [state]
@@ -235,7 +237,7 @@ contains
 
       present = turn%scales(at_sliding)
       scale = maxval(abs(trajectory%state(at_sliding, :trajectory%count)))
-      scale = max(least, min(scale, largest_sliding_scale))
+      scale = max(least_sliding_scale, min(scale, largest_sliding_scale))
       is_scaled = max(scale, present) > worth*min(scale, present)
       if (.not. is_scaled) return
       tolerance = turn%options%tolerance

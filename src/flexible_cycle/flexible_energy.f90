@@ -10,11 +10,13 @@ module camroller_flexible_energy
    use camroller_contact_compliance, only : series_energy
    use camroller_spring_modes, only : mode_energy
    use camroller_lash_adjuster, only : relative_volume, bulk_modulus, pressure_work, chamber_volume, oil_energy
-   use camroller_flexible_train, only : flexible_state_t, first_mode, at_finger_rate, at_lift, at_speed
+   use camroller_flexible_geometry, only : dot, imaginary
+   use camroller_flexible_train, only : flexible_state_t, first_mode, at_finger, at_finger_rate, at_lift, at_speed, at_sliding, &
+      & at_plunger, at_plunger_rate, at_pressure
    implicit none
    private
 
-   public :: powers_t, evaluate_powers, stored_energy
+   public :: powers_t, evaluate_powers, stored_energy, energy_slopes
 
    !> Powers at a state [W]
    type :: powers_t
@@ -93,7 +95,7 @@ contains
       associate (adjuster => model%flexible%adjuster, flows => now%flows)
          density = 1.0_wp/relative_volume(adjuster%given, now%pressure)
          work = pressure_work(adjuster%given, now%pressure)
-         supply_work = pressure_work(adjuster%given, adjuster%given%supply_pressure)
+         supply_work = pressure_work(adjuster%given, adjuster%supply_pressure)
          end_work = pressure_work(adjuster%given, adjuster%end_pressure)
          powers%gallery = density*(flows%check*supply_work - flows%leak*end_work)
          powers%leak = density*flows%leak*(work - end_work)
@@ -174,5 +176,68 @@ contains
          end associate
       end associate
    end function stored_energy
+
+   !> Derivatives of the stored energy over the state, the cam's turn and speed as they are.
+   pure function energy_slopes(model, state, now) result(slopes)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> The state [state]
+      real(wp), intent(in) :: state(:)
+      !> Everything there
+      type(flexible_state_t), intent(in) :: now
+      !> The derivatives [J over the unit of the component]
+      real(wp) :: slopes(size(state))
+
+      ! Angular momentum of the roller over its radius [kg m/s]; bulk modulus [Pa], its slope [-], work over volume [Pa]
+      real(wp) :: spin, modulus, slope, work
+      integer :: first
+
+      first = first_mode(model)
+      associate (flexible => model%flexible, modes => model%flexible%modes, touch => now%touch, coils => state(first::2), &
+         & rates => state(first + 1::2))
+         spin = model%roller_inertia*now%contact%roller_spin/model%roller_radius
+         slopes(at_finger) = -now%cam%elastic*dot(touch%normal, imaginary*touch%arm) &
+            & + now%pad%elastic*model%linkage%b*now%pad_sine + spin*travel(imaginary*touch%arm, -state(at_finger_rate)*touch%arm)
+         slopes(at_finger_rate) = model%train%finger_inertia*state(at_finger_rate) + spin*dot(touch%forward, imaginary*touch%arm)
+         slopes(at_lift) = model%train%stiffness*(state(at_lift) + model%train%precompression) - now%pad%elastic - now%seat%elastic
+         slopes(at_speed) = model%train%valve_mass*state(at_speed)
+         slopes(at_sliding) = -spin
+         if (modes%count > 0) then
+            slopes(at_speed) = slopes(at_speed) + modes%mass*sum(modes%share*rates)
+            slopes(first::2) = 0.5_wp*modes%mass*modes%frequency**2*coils
+            slopes(first + 1::2) = modes%mass*(modes%share*state(at_speed) + 0.5_wp*rates)
+         end if
+         if (.not. allocated(flexible%adjuster)) return
+         associate (given => flexible%adjuster%given)
+            slopes(at_finger) = slopes(at_finger) + flexible%finger_mass*now%centre_curvature*now%pivot_rate*state(at_finger_rate)
+            slopes(at_finger_rate) = slopes(at_finger_rate) + flexible%finger_mass*now%centre_slope*now%pivot_rate
+            call bulk_modulus(given, now%pressure, modulus, slope)
+            work = pressure_work(given, now%pressure)/relative_volume(given, now%pressure)
+            slopes(at_plunger) = -now%cam%elastic*dot(touch%normal, flexible%axis) - now%pad%elastic*flexible%tilt_cosine &
+               & - flexible%adjuster%spring_force + given%spring_stiffness*now%pivot - now%stops(1)%elastic &
+               & + now%stops(2)%elastic + flexible%adjuster%area*(work - now%pressure) &
+               & + spin*travel(flexible%axis, (0.0_wp, 0.0_wp))
+            slopes(at_plunger_rate) = (flexible%finger_mass + given%plunger_mass)*now%pivot_rate &
+               & + flexible%finger_mass*now%centre_slope*state(at_finger_rate) + spin*dot(touch%forward, flexible%axis)
+            slopes(at_pressure) = chamber_volume(flexible%adjuster, now%pivot)*work/modulus
+         end associate
+      end associate
+
+   contains
+
+      !> Change of the speed of the roller's centre over the cam [m/s] with its place and its velocity.
+      pure function travel(way, velocity) result(change)
+         !> Changes of place [m] and velocity [m/s]
+         complex(wp), intent(in) :: way, velocity
+         !> The change [m/s]
+         real(wp) :: change
+
+         associate (touch => now%touch)
+            change = touch%position%pitch_curvature/touch%uniqueness*dot(touch%forward, way)*touch%approach_rate &
+               & + dot(touch%forward, velocity + imaginary*model%linkage%sense*model%speed*way)
+         end associate
+      end function travel
+
+   end function energy_slopes
 
 end module camroller_flexible_energy

@@ -8,7 +8,7 @@ module camroller_flexible_follower
    use camroller_trajectory, only : interpolate_state, trajectory_t
    use camroller_model, only : model_t, evaluate_geometry
    use camroller_kinematics, only : position_t
-   use camroller_dynamics, only : moments_t, evaluate_moments
+   use camroller_dynamics, only : moments_t, evaluate_moments, add_acceleration
    use camroller_state, only : state_t, add_sums
    use camroller_flexible_geometry, only : dot, cross
    use camroller_flexible_train, only : flexible_state_t, resolution_t, evaluate_train, first_mode, state_size, at_finger, &
@@ -24,7 +24,7 @@ module camroller_flexible_follower
 contains
 
    !> Everything at one angle.
-   pure subroutine evaluate_follower(model, angle, train, resolution, state, status)
+   pure subroutine evaluate_follower(model, angle, train, resolution, state, status, work)
       !> The model, with a flexible train
       type(model_t), intent(in) :: model
       !> Cam angle from full lift [rad]
@@ -37,6 +37,8 @@ contains
       type(state_t), intent(out) :: state
       !> 0 fine, else the train cannot be in this state
       integer, intent(out) :: status
+      !> Power on the gas less that of the oil gallery [W]
+      real(wp), intent(out), optional :: work
 
       type(flexible_state_t) :: now
       type(powers_t) :: powers
@@ -55,6 +57,7 @@ contains
       state%torques(of_geometric) = (powers%stored + powers%gas - powers%gallery)/model%speed
       state%torques(of_roller_inertia) = powers%spin/model%speed
       state%torques(of_residual) = powers%residual
+      if (present(work)) work = powers%gas - powers%gallery
       call add_sums(state)
       call take_values(model, angle, train, now, state, status)
    end subroutine evaluate_follower
@@ -129,6 +132,7 @@ contains
       call evaluate_geometry(model, angle, rigid, status)
       if (status /= 0) return
       call evaluate_moments(model%train, rigid, model%speed, now%gas_force, moments)
+      if (abs(model%speed_slope) > 0.0_wp) call add_acceleration(model%train, rigid, model%speed*model%speed_slope, moments)
       associate (values => state%flexible)
          values%lift_error = train(at_lift) - rigid%lift
          values%gap = max(0.0_wp, -now%cam%approach)

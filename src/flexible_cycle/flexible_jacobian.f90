@@ -116,6 +116,7 @@ contains
          way = turns%centre
          way(by_angle) = imaginary*eps*touch%centre
          relative = turns%velocity + imaginary*eps*model%speed*turns%centre
+         relative(by_angle) = imaginary*eps*model%speed_slope*touch%centre
          do i = 1, variables
             turns%nearest(i) = dot(touch%forward, way(i))/((touch%position%rolling_travel + model%linkage%roller_radius) &
                & *touch%uniqueness)
@@ -193,6 +194,8 @@ contains
          end if
          spin = (turns%travel_speed - speed)/r
          spin(by_finger_rate) = spin(by_finger_rate) - model%linkage%sense
+         ! The bearing's law has the spin over the cam's speed
+         spin(by_angle) = spin(by_angle) - model%speed_slope*(1.0_wp + contact%relative_spin/model%speed)
          slopes(1) = follow_contact(model, now%setting, contact, now%parts, motion_t(load=1.0_wp))
          slopes(2) = follow_contact(model, now%setting, contact, now%parts, motion_t(entrainment=1.0_wp))
          slopes(3) = follow_contact(model, now%setting, contact, now%parts, motion_t(radius=1.0_wp))
@@ -324,11 +327,14 @@ contains
                & - speed**2*turns%centre(i)
             if (i == by_finger) change = change + (imaginary*now%finger_acceleration - rate**2)*imaginary*touch%arm
             if (i == by_finger_rate) change = change - 2.0_wp*rate*touch%arm
+            if (i == by_angle) change = change + 2.0_wp*model%speed_slope*(imaginary*eps*touch%velocity - speed*touch%centre)
             slopes(i) = dot(touch%forward, change) - turns%normal(i)*dot(touch%normal, acceleration) &
                & + bend*(turns%travel_speed(i)*touch%approach_rate + touch%travel_speed*turns%approach_rate(i)) &
                & + (by_nearest*turns%nearest(i) + by_approach*turns%approach(i))*touch%travel_speed*touch%approach_rate &
-               & - model%roller_radius*follow%spin(i)
+               & - model%roller_radius*follow%spin(i) + speed*model%speed_slope*(turns%normal(i)*dot(touch%forward, touch%centre) &
+               & + dot(touch%normal, turns%centre(i)))
          end do
+         slopes(by_angle) = slopes(by_angle) + model%speed_slope**2*touch%tangent_arm
       end associate
    end function sliding_slopes
 

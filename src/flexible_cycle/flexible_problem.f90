@@ -7,6 +7,7 @@ module camroller_flexible_problem
    use camroller_ode_problem, only : linear_t, counters_t, factors_t, words_length
    use camroller_ode_switching, only : switching_problem_t
    use camroller_model, only : model_t
+   use camroller_ramp, only : follow_ramp
    use camroller_flexible_train, only : flexible_state_t, resolution_t, evaluate_train, rates_of, state_size, first_mode, &
       & pad_approach, pad_direction, at_finger, at_finger_rate, at_lift, at_plunger, at_plunger_rate
    use camroller_flexible_geometry, only : touch_t, find_touch
@@ -72,6 +73,7 @@ contains
       type(flexible_state_t) :: now
 
       rate = 0.0_wp
+      call follow_ramp(self%model, time)
       call evaluate_train(self%model, time, state, self%resolution, now, status)
       if (status == 0) call rates_of(self%model, state, now, rate)
    end subroutine get_rate
@@ -93,6 +95,7 @@ contains
       integer :: i, status
 
       decay_rate = 0.0_wp
+      call follow_ramp(self%model, time)
       call evaluate_train(self%model, time, state, self%resolution, now, status)
       if (status /= 0) return
       call slopes_of(self%model, time, state, now, jacobian, slope)
@@ -120,14 +123,56 @@ contains
       integer, intent(out) :: status
 
       type(flexible_state_t) :: now
+      type(resolution_t) :: resolution
+      logical :: has_moving_oil
+
+      associate (model => self%model, ramp => self%model%ramp)
+         counters%evaluations = counters%evaluations + 1
+         counters%jacobians = counters%jacobians + 1
+         call follow_ramp(model, time)
+         has_moving_oil = ramp%is_moving .and. (abs(ramp%temperature_slope) > 0.0_wp .or. abs(ramp%supply_slope) > 0.0_wp)
+         resolution = self%resolution
+         ! What the oil adds to the derivative is a difference of two evaluations
+         if (has_moving_oil) resolution%forces = 0.0_wp
+         call evaluate_train(model, min(time, horizon), state, resolution, now, status)
+         if (status /= 0) return
+         call rates_of(model, state, now, linear%rate)
+         call slopes_of(model, time, state, now, linear%jacobian, linear%time_slope)
+         if (abs(model%speed_slope) > 0.0_wp) linear%time_slope = linear%time_slope - (model%speed_slope/model%speed)*linear%rate
+      end associate
+      if (has_moving_oil) call add_oil(self, time, min(time, horizon), state, linear, counters, status)
+   end subroutine linearise
+
+   !> Add what oil temperature and supply pressure that change do to the derivative over the cam angle: a difference at one state.
+   subroutine add_oil(self, time, angle, state, linear, counters, status)
+      !> The problem, with its model at the inputs of the angle
+      class(flexible_problem_t), intent(in) :: self
+      !> Cam angle of the inputs, and that of the state [rad]
+      real(wp), intent(in) :: time, angle
+      !> State [state]
+      real(wp), intent(in) :: state(:)
+      !> Rate with its derivatives; out: with the oil's
+      type(linear_t), intent(inout) :: linear
+      !> Work done
+      type(counters_t), intent(inout) :: counters
+      !> 0 fine, positive: try a smaller step, negative: give up
+      integer, intent(out) :: status
+
+      ! Angle over which the oil changes for the difference [rad]: its part in the rate is smooth, and evaluations hold round-off
+      real(wp), parameter :: increment = 1.0e-4_wp
+      type(flexible_state_t) :: now
+      ! Rate with the oil further on [state/rad]
+      real(wp) :: rate(size(state))
 
       counters%evaluations = counters%evaluations + 1
-      counters%jacobians = counters%jacobians + 1
-      call evaluate_train(self%model, min(time, horizon), state, self%resolution, now, status)
-      if (status /= 0) return
-      call rates_of(self%model, state, now, linear%rate)
-      call slopes_of(self%model, time, state, now, linear%jacobian, linear%time_slope)
-   end subroutine linearise
+      call follow_ramp(self%model, time, time + increment)
+      call evaluate_train(self%model, angle, state, resolution_t(sliding_speed=self%resolution%sliding_speed), now, status)
+      if (status == 0) then
+         call rates_of(self%model, state, now, rate)
+         linear%time_slope = linear%time_slope + (rate - linear%rate)/increment
+      end if
+      call follow_ramp(self%model, time)
+   end subroutine add_oil
 
    !> Factors of the matrix of a step, by the structure of the train.
    subroutine factorise(self, linear, shift, factors, status)

@@ -18,7 +18,7 @@ module camroller_flexible_solution
    implicit none
    private
 
-   public :: flexible_solution_t, solve_flexible, statistical_turns, error_share
+   public :: flexible_solution_t, solve_flexible, train_method, statistical_turns, error_share
 
    !> Turns that make statistics where there is no period
    integer, parameter :: statistical_turns = 40
@@ -29,7 +29,7 @@ module camroller_flexible_solution
    character(len=*), parameter :: chosen_method = "rodas5p"
    !> Tolerance of a step over that of the roller's equation for the same accuracy: with it estimates of the error of load and slip
    !> stay near the accuracy [-]
-   real(wp), parameter :: tolerance_ratio = 0.4_wp
+   real(wp), parameter, public :: tolerance_ratio = 0.4_wp
    !> Distance from the periodic state that is near enough, over the tolerance [-]
    real(wp), parameter :: closure_ratio = 10.0_wp
    !> Tolerance of the turn that the error is estimated with, over the tolerance, and how much more it errs at least [-]: a method
@@ -73,8 +73,7 @@ contains
       character(len=name_length) :: method
       integer :: i, count
 
-      method = numerics%method
-      if (method == single_method) method = chosen_method
+      method = train_method(numerics)
       if (.not. has_error_control(numerics)) then
          call raise(error, kind_deck, "numerics.method = '"//trim(method)//"' controls no error, which a flexible train needs; "// &
             & "take '"//chosen_method//"' or 'radau5'")
@@ -102,6 +101,17 @@ contains
       call take_measures(solution, model, error)
       if (.not. allocated(error)) call estimate_error(solution, turn, error)
    end subroutine solve_flexible
+
+   !> Method that integrates a flexible train: the one given, or another in the place of that for a single unknown.
+   pure function train_method(numerics) result(method)
+      !> Numerics with a method
+      type(numerics_t), intent(in) :: numerics
+      !> Its name
+      character(len=name_length) :: method
+
+      method = numerics%method
+      if (method == single_method) method = chosen_method
+   end function train_method
 
    !> Measures of all turns.
    subroutine take_measures(solution, model, error)

@@ -12,7 +12,7 @@ module camroller_flexible_train
    use camroller_gas, only : gas_force
    use camroller_roller, only : spin_acceleration
    use camroller_contact_compliance, only : series_load, damping_factor, one_sided_force
-   use camroller_spring_modes, only : valve_pull
+   use camroller_spring_modes, only : most_modes, valve_pull
    use camroller_lash_adjuster, only : flows_t, ambient_pressure, evaluate_flows, adjuster_force, bulk_modulus, &
       & chamber_volume
    use camroller_contact_forces, only : contact_t, setting_t, parts_t, start_heat, prepare_contact, evaluate_contact, &
@@ -23,11 +23,13 @@ module camroller_flexible_train
 
    public :: flexible_state_t, resolution_t, push_t, state_size, first_mode, evaluate_train, rates_of, pad_approach, &
       & pad_direction
-   public :: at_finger, at_finger_rate, at_lift, at_speed, at_sliding, at_plunger, at_plunger_rate, at_pressure
+   public :: at_finger, at_finger_rate, at_lift, at_speed, at_sliding, at_plunger, at_plunger_rate, at_pressure, largest_state
 
    !> Places in the state
    integer, parameter :: at_finger = 1, at_finger_rate = 2, at_lift = 3, at_speed = 4, at_sliding = 5, at_plunger = 6, &
       & at_plunger_rate = 7, at_pressure = 8
+   !> Number of components at most
+   integer, parameter :: largest_state = at_pressure + 2*most_modes
 
    !> What an evaluation need not tell apart; zero: round-off
    type :: resolution_t
@@ -363,6 +365,8 @@ contains
          now%sliding_rate = dot(touch%forward, acceleration + 2.0_wp*imaginary*eps*model%speed*touch%velocity &
             & - model%speed**2*touch%centre) + touch%position%pitch_curvature*touch%travel_speed*touch%approach_rate &
             & /touch%uniqueness - model%roller_radius*now%spin_acceleration
+         ! A cam that speeds up takes S - omega r_R with it, which is omega h_F and a part that has no omega
+         if (abs(model%speed_slope) > 0.0_wp) now%sliding_rate = now%sliding_rate + model%speed*model%speed_slope*touch%tangent_arm
       end associate
    end subroutine accelerate
 

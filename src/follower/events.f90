@@ -19,7 +19,7 @@ module camroller_events
    implicit none
    private
 
-   public :: find_stops, find_stops_between, cycle_stops, contact_losses, check_geometry
+   public :: find_stops, find_stops_between, lift_stops_between, cycle_stops, contact_losses, check_geometry
 
    !> Longest step of a scan [rad]
    real(wp), parameter :: longest_step = 0.25_wp*degree

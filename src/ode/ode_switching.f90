@@ -62,7 +62,7 @@ module camroller_ode_switching
 contains
 
    !> Integrate from the first to the last of the stop times; each of them ends a step, and so does each kink.
-   subroutine integrate_switching(problem, method, options, stops, state, trajectory, counters, error)
+   subroutine integrate_switching(problem, method, options, stops, state, trajectory, counters, error, proposed)
       !> The problem
       class(switching_problem_t), intent(in) :: problem
       !> The method, one with an error estimate
@@ -79,6 +79,8 @@ contains
       type(counters_t), intent(inout) :: counters
       !> Convergence error where a step would vanish or the number of steps is used up
       type(error_t), allocatable, intent(out) :: error
+      !> Step to begin with where the integration goes on from here [time]
+      real(wp), intent(out), optional :: proposed
 
       type(walk_t) :: walk
       ! A few roundings [time]
@@ -111,6 +113,7 @@ contains
          end do
          state = step%state
       end associate
+      if (present(proposed)) proposed = walk%proposed
    end subroutine integrate_switching
 
    !> Integrate to the end of a segment.

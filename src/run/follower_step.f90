@@ -13,6 +13,7 @@ module camroller_follower_step
    use camroller_case, only : numerics_t
    use camroller_model, only : model_t, set_operating_point, set_speed, evaluate_geometry
    use camroller_ramp, only : follow_ramp, keep_films
+   use camroller_flexible_train, only : largest_state
    use camroller_gas, only : give_pressure
    use camroller_kinematics, only : position_t
    use camroller_state, only : state_t, evaluate_state, cam_force
@@ -30,6 +31,7 @@ module camroller_follower_step
    private
 
    public :: follower_t, point_t, inputs_t, outcome_t, step_follower, piece_number, inputs_between
+   public :: set_model, set_ramp, fill_outcome, joined, most_tries
 
    !> What a host program gives at an end of a step
    type :: inputs_t
@@ -41,6 +43,10 @@ module camroller_follower_step
       logical :: has_pressure = .false.
       !> Gauge pressure that presses the valve shut [Pa]
       real(wp) :: gas_pressure = 0.0_wp
+      !> Does the host give the supply pressure of the lash adjuster? As for the gas pressure
+      logical :: has_supply = .false.
+      !> Gauge pressure of the oil at the adjuster [Pa]
+      real(wp) :: supply_pressure = 0.0_wp
    end type inputs_t
 
    !> What is remembered between steps
@@ -58,6 +64,10 @@ module camroller_follower_step
       !> Contact from which the next one is looked for: tangential force [N], torque of the bearing [N m] and film ratio [-], which
       !> is zero for none
       real(wp) :: contact(3) = 0.0_wp
+      !> Step that the integration of a flexible train begins with; zero before its first [rad]
+      real(wp) :: train_step = 0.0_wp
+      !> State of a flexible train, the rest zero [state]; the roller's spin stands for its sliding speed
+      real(wp) :: train(largest_state) = 0.0_wp
    end type point_t
 
    !> A follower between two steps
@@ -227,6 +237,7 @@ contains
       inputs%speed = start%speed + (finish%speed - start%speed)*part
       inputs%oil_temperature = start%oil_temperature + (finish%oil_temperature - start%oil_temperature)*part
       inputs%gas_pressure = start%gas_pressure + (finish%gas_pressure - start%gas_pressure)*part
+      inputs%supply_pressure = start%supply_pressure + (finish%supply_pressure - start%supply_pressure)*part
    end function inputs_between
 
    !> Extremes over two pieces.

@@ -5,6 +5,7 @@ module camroller_model_mark
    use, intrinsic :: iso_fortran_env, only : int64
    use camroller_kinds, only : wp, pi, two_pi
    use camroller_case, only : numerics_t
+   use camroller_flexible_parts, only : flexible_t
    use camroller_model, only : model_t
    use camroller_state, only : state_t, evaluate_state
    implicit none
@@ -44,7 +45,30 @@ contains
             & state%torque_friction, state%torque_drive], parts)
       end do
       mark = mixed([parts, transfer([numerics%accuracy, numerics%tolerance], parts), transfer(numerics%method, parts)])
+      if (allocated(model%flexible)) call mark_train(model%flexible, mark)
    end subroutine mark_model
+
+   !> Take a flexible train into a mark.
+   subroutine mark_train(flexible, mark)
+      !> The train
+      type(flexible_t), intent(in) :: flexible
+      !> The mark
+      integer(int64), intent(inout) :: mark
+
+      integer(int64), allocatable :: parts(:)
+
+      allocate (parts(0))
+      associate (modes => flexible%modes)
+         parts = transfer([flexible%compliance, flexible%finger_stiffness, flexible%contact_damping, flexible%pad_stiffness, &
+            & flexible%pad_damping, flexible%seat_stiffness, flexible%seat_damping, flexible%lash, flexible%pivot_place, &
+            & flexible%effective_mass, flexible%finger_mass, flexible%finger_centre, real(flexible%axis, wp), &
+            & aimag(flexible%axis), flexible%tilt_cosine, modes%mass, modes%stiffness, modes%damping_ratio, &
+            & real(modes%count, wp)], parts)
+      end associate
+      if (allocated(flexible%adjuster)) parts = [parts, transfer(flexible%adjuster%given, parts), &
+         & transfer([flexible%adjuster%spring_force, flexible%adjuster%conductance], parts)]
+      mark = mixed([mark, parts])
+   end subroutine mark_train
 
    !> A number that changes with every bit of others and with their order.
    pure function mixed(list) result(mix)

@@ -7,6 +7,7 @@ module camroller_saved_simulation
    use camroller_kinds, only : wp
    use camroller_error, only : error_t, raise, kind_usage
    use camroller_case, only : case_t
+   use camroller_flexible_train, only : largest_state
    use camroller_number_text, only : integer_text
    use camroller_follower_step, only : point_t
    use camroller_model_mark, only : beginning, mixed
@@ -19,7 +20,7 @@ module camroller_saved_simulation
    public :: save_simulation, restore_simulation, block_size, save_shaft, restore_shaft, shaft_block_size
 
    !> Numbers of a point
-   integer, parameter :: point_words = 9
+   integer, parameter :: point_words = 10 + largest_state
    !> Words of a follower's block: beginning, format, mark of the case, lobe shape, point, checksum
    integer, parameter :: words = point_words + 5
    !> Words of a shaft's block without points: beginning, format, mark of the case, number of cams, cam angle, checksum
@@ -29,7 +30,7 @@ module camroller_saved_simulation
    !> Added to what a block begins with where it is that of a shaft
    integer(int64), parameter :: of_shaft = 1_int64
    !> The format that this version writes and reads
-   integer(int64), parameter :: format_number = 2_int64
+   integer(int64), parameter :: format_number = 3_int64
 
 contains
 
@@ -73,7 +74,8 @@ contains
       call take_block(bytes, "restore_simulation", words, 0_int64, block, error)
       if (allocated(error)) return
       point = point_of(block(5:4 + point_words))
-      call start_simulation(simulation, case, point%angle, error, int(block(4)))
+      ! Its start is of no account: opposite full lift it takes no time
+      call start_simulation(simulation, case, 0.0_wp, error, int(block(4)))
       if (.not. allocated(error)) call compare_marks("restore_simulation", get_mark(simulation), block(3), error)
       if (.not. allocated(error)) call set_point(simulation, point, error)
    end subroutine restore_simulation
@@ -104,7 +106,7 @@ contains
          call raise(error, kind_usage, "save_shaft: the shaft has not been started; call start_shaft first")
          return
       end if
-      last = shaft_words + point_words*cam_number(shaft)
+      last = shaft_block_size(shaft)/8
       allocate (block(last))
       block(1:2) = [beginning + of_shaft, format_number]
       call get_shaft_mark(shaft, block(3))
@@ -213,7 +215,7 @@ contains
       integer(int64) :: block(point_words)
 
       block = transfer([point%angle, point%roller_spin, point%scale, point%film_temperature, point%film_speed, &
-         & point%oil_temperature, point%contact], block)
+         & point%oil_temperature, point%contact, point%train_step, point%train], block)
    end function words_of
 
    !> What a follower remembers, from words.
@@ -223,7 +225,7 @@ contains
       !> The point
       type(point_t) :: point
 
-      ! Its numbers [rad, rad/s, m/s, K, rad/s, K, N, N m, -]
+      ! Its numbers [rad, rad/s, m/s, K, rad/s, K, N, N m, -, rad, state]
       real(wp) :: numbers(point_words)
 
       numbers = transfer(block, numbers)
@@ -234,6 +236,8 @@ contains
       point%film_speed = numbers(5)
       point%oil_temperature = numbers(6)
       point%contact = numbers(7:9)
+      point%train_step = numbers(10)
+      point%train = numbers(11:)
    end function point_of
 
 end module camroller_saved_simulation

@@ -111,7 +111,8 @@ contains
       started%angle = cam_angle
       started%followers = prepared(started%shaft%lobes)
       do cam = 1, size(started%followers)
-         call place_simulation(started%followers(cam), cam_angle - started%shaft%phases(cam))
+         call place_simulation(started%followers(cam), cam_angle - started%shaft%phases(cam), error)
+         if (allocated(error)) return
       end do
       shaft = started
    end subroutine start_shaft

@@ -24,7 +24,7 @@ module camroller_short_piece
    implicit none
    private
 
-   public :: integrate_short, contact_part
+   public :: integrate_short, contact_part, places, lobatto_places, lobatto_weights, simpson_weights, odd_weights
 
    !> Number of places, and those of Simpson's rule among them
    integer, parameter :: places = 5, simpson_places(3) = [1, 3, 5]

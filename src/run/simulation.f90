@@ -12,11 +12,12 @@ module camroller_simulation
    use camroller_number_text, only : number_text, integer_text
    use camroller_accuracy, only : resolve_numerics, has_error_control, is_within, above_zero
    use camroller_case, only : case_t
-   use camroller_model, only : set_operating_point
+   use camroller_model, only : model_t, set_operating_point
    use camroller_catalogue, only : follower_values
    use camroller_kinematics, only : position_t
    use camroller_state, only : state_t
    use camroller_balance, only : find_balance
+   use camroller_flexible_step, only : step_train, place_train, halt_train
    use camroller_follower_step, only : follower_t, point_t, inputs_t, outcome_t, step_follower
    use camroller_spin, only : rolling_speed_at
    use camroller_cycle_start, only : choose_start
@@ -71,8 +72,8 @@ contains
       call check_start(case, cam_angle, used_lobe, error)
       if (.not. allocated(error)) call prepare_simulation(started, case, used_lobe, error)
       if (allocated(error)) return
-      call place_simulation(started, cam_angle)
-      simulation = started
+      call place_simulation(started, cam_angle, error)
+      if (.not. allocated(error)) simulation = started
    end subroutine start_simulation
 
    !> Make the model of a follower, and what its steps are measured by.
@@ -92,11 +93,6 @@ contains
 
       call build_model(case, used_lobe, started%follower%model, error)
       if (allocated(error)) return
-      if (allocated(started%follower%model%flexible)) then
-         call raise(error, kind_usage, "start_simulation: a follower that is driven step by step has a rigid train; leave the "// &
-            & "groups of dynamics out of the case")
-         return
-      end if
       if (.not. has_error_control(case%numerics)) then
          call raise(error, kind_usage, "start_simulation: the method '"//trim(case%numerics%method)//"' has no error "// &
             & "control; choose 'automatic' or another method with error control")
@@ -113,18 +109,25 @@ contains
       call mark_model(started%follower%model, case%numerics, started%follower%mark)
    end subroutine prepare_simulation
 
-   !> Put a follower that is prepared at a cam angle, with the roller in its quasi-static balance there.
-   subroutine place_simulation(simulation, cam_angle)
+   !> Put a follower that is prepared at a cam angle, with the roller in its quasi-static balance there; a flexible train as
+   !> `place_train` does.
+   subroutine place_simulation(simulation, cam_angle, error)
       !> The follower
       type(simulation_t), intent(inout) :: simulation
       !> Cam angle [rad]
       real(wp), intent(in) :: cam_angle
+      !> Convergence error of a flexible train
+      type(error_t), allocatable, intent(out) :: error
 
       type(position_t) :: position
       ! Sliding speed [m/s]; decay rate [1/rad]
       real(wp) :: sliding_speed, decay_rate
       logical :: is_found
 
+      if (allocated(simulation%follower%model%flexible)) then
+         call place_train(simulation%follower, cam_angle, error)
+         return
+      end if
       associate (model => simulation%follower%model, point => simulation%follower%point)
          call find_balance(model, cam_angle - pi, balance_tolerance, position, sliding_speed, decay_rate, is_found)
          point%angle = cam_angle
@@ -221,7 +224,11 @@ contains
       before = simulation%follower%point
       ! Films solved beforehand may be replaced on the way
       if (has_films(simulation)) allocate (kept, source=simulation)
-      call step_follower(simulation%follower, cam_angle, start, finish, outcome, error, nodes)
+      if (allocated(simulation%follower%model%flexible)) then
+         call step_train(simulation%follower, cam_angle, start, finish, outcome, error, nodes)
+      else
+         call step_follower(simulation%follower, cam_angle, start, finish, outcome, error, nodes)
+      end if
       if (.not. allocated(error)) return
       call put_back(simulation, before)
       if (allocated(kept)) simulation = kept
@@ -249,12 +256,14 @@ contains
       simulation%follower%point%oil_temperature = -1.0_wp
    end subroutine put_back
 
-   !> Bring the roller to rest, as in an engine that has stopped: the next step starts without spin.
+   !> Bring the roller to rest, as in an engine that has stopped: the next step starts without spin. In a flexible train all other
+   !> motion ends too.
    pure subroutine halt(simulation)
       !> The follower
       type(simulation_t), intent(inout) :: simulation
 
       simulation%follower%point%roller_spin = 0.0_wp
+      if (allocated(simulation%follower%model%flexible)) call halt_train(simulation%follower)
    end subroutine halt
 
    !> Has a follower been started?
@@ -385,7 +394,33 @@ contains
             & "the group &gas_force")
       else if (start%has_pressure .and. .not. all(ieee_is_finite([start%gas_pressure, finish%gas_pressure]))) then
          call raise(error, kind_usage, "advance: the gas pressure must be finite at both ends of a step")
+      else if (start%has_supply .or. finish%has_supply) then
+         call check_supply(simulation%follower%model, start, finish, error)
       end if
    end subroutine check_inputs
+
+   !> Refuse supply pressures that cannot be.
+   subroutine check_supply(model, start, finish, error)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> Inputs at both ends of a step, a supply pressure in one of them at least
+      type(inputs_t), intent(in) :: start, finish
+      !> Usage error
+      type(error_t), allocatable, intent(out) :: error
+
+      logical :: has_adjuster
+
+      has_adjuster = .false.
+      if (allocated(model%flexible)) has_adjuster = allocated(model%flexible%adjuster)
+      if (start%has_supply .neqv. finish%has_supply) then
+         call raise(error, kind_usage, "advance: the supply pressure must be given at both ends of a step or at none")
+      else if (.not. has_adjuster) then
+         call raise(error, kind_usage, "advance: a supply pressure needs a hydraulic lash adjuster; give the case one, in a "// &
+            & "deck the groups &dynamics and &lash_adjuster")
+      else if (.not. all(is_within([start%supply_pressure, finish%supply_pressure], 0.0_wp, huge(1.0_wp)))) then
+         call raise(error, kind_usage, "advance: the supply pressure, above ambient, must be 0 or more and finite at both ends "// &
+            & "of a step")
+      end if
+   end subroutine check_supply
 
 end module camroller_simulation

@@ -6,7 +6,7 @@ module camroller_input_ramp
 
    public :: ramp_t
 
-   !> Speed and oil temperature over a step
+   !> Speed, oil temperature and supply pressure over a step
    type :: ramp_t
       !> Does anything change? Without it the model stands at one speed and one temperature
       logical :: is_moving = .false.
@@ -16,6 +16,8 @@ module camroller_input_ramp
       real(wp) :: speed = 0.0_wp
       !> Temperature of the oil there [K], and its change with the cam angle [K/rad]
       real(wp) :: temperature = 0.0_wp, temperature_slope = 0.0_wp
+      !> Supply pressure of a lash adjuster there [Pa], and its change with the cam angle [Pa/rad]
+      real(wp) :: supply = 0.0_wp, supply_slope = 0.0_wp
    end type ramp_t
 
 end module camroller_input_ramp

@@ -5,12 +5,13 @@ module test_flexible_train
    use camroller_error, only : error_t
    use camroller_case, only : case_t
    use camroller_model, only : model_t, evaluate_geometry
+   use camroller_ramp, only : follow_ramp
    use camroller_kinematics, only : position_t, rotation_names
    use camroller_flexible_setup, only : rest_t, find_rest
    use camroller_flexible_geometry, only : touch_t, find_touch
    use camroller_flexible_train, only : flexible_state_t, resolution_t, state_size, evaluate_train, at_sliding
    use camroller_torque_list, only : of_contact, of_damping
-   use camroller_flexible_energy, only : powers_t, evaluate_powers, stored_energy
+   use camroller_flexible_energy, only : powers_t, evaluate_powers, stored_energy, energy_slopes
    use camroller_flexible_problem, only : flexible_problem_t, state_scales
    use camroller_ode_problem, only : linear_t, counters_t, factors_t, new_linear, new_factors
    use camroller_samples, only : sample_independent
@@ -36,6 +37,7 @@ contains
          new_unittest("approach and speed are right at positions off the rigid train's path", test_motion), &
          new_unittest("energy closes at random states, for both senses of rotation and every part of the train", test_energy), &
          new_unittest("the rate of the stored energy agrees with a difference quotient", test_stored_rate), &
+         new_unittest("slopes of the stored energy over the state agree with difference quotients", test_energy_slopes), &
          new_unittest("the Jacobian agrees with difference quotients of the rates", test_jacobian), &
          new_unittest("the reduced equations of a step have the solution of all of them", test_equations) &
          ]
@@ -269,7 +271,24 @@ contains
       call check(error, minval(met) > 300, "few states in contact or out of it")
    end subroutine test_energy
 
-   !> The stored energy a little way along the motion.
+   !> Let the inputs of a host change.
+   subroutine move_inputs(model)
+      type(model_t), intent(inout) :: model
+
+      associate (ramp => model%ramp)
+         ramp%is_moving = .true.
+         ramp%speed = model%speed
+         ramp%temperature = 360.0_wp
+         ramp%temperature_slope = 3.0_wp
+         model%speed_slope = 0.2_wp*model%speed
+         if (allocated(model%flexible%adjuster)) then
+            ramp%supply = model%flexible%adjuster%given%supply_pressure
+            ramp%supply_slope = 0.05e6_wp
+         end if
+      end associate
+   end subroutine move_inputs
+
+   !> The stored energy a little way along the motion, for every other pair of trains at a speed that rises.
    subroutine test_stored_rate(error)
       type(error_type), allocatable, intent(out) :: error
       ! Step of the difference [rad]
@@ -289,13 +308,16 @@ contains
          problem%model => model
          if (allocated(state)) deallocate (state, rate)
          allocate (state(state_size(model)), rate(state_size(model)))
+         if (modulo(number, 4) > 1) call move_inputs(model)
          do i = 2, 49, 5
             call random_state(model, i, angle, state)
             call problem%get_rate(angle, state, rate, status)
             do k = -1, 1, 2
+               call follow_ramp(model, angle + k*h)
                call evaluate_train(model, angle + k*h, state + k*h*rate, resolution_t(), now, status)
                energies(k) = stored_energy(model, state + k*h*rate, now)
             end do
+            call follow_ramp(model, angle)
             call evaluate_train(model, angle, state, resolution_t(), now, status)
             call evaluate_powers(model, state, now, powers)
             ! Accelerations change by themselves in a time of 1e-5 s or a turn of 1e-3
@@ -305,6 +327,45 @@ contains
          end do
       end do
    end subroutine test_stored_rate
+
+   !> The stored energy a little way along each component.
+   subroutine test_energy_slopes(error)
+      type(error_type), allocatable, intent(out) :: error
+      ! Step of the difference over the size of the component [-]
+      real(wp), parameter :: h = 1.0e-5_wp
+      type(model_t) :: model
+      type(flexible_state_t) :: now
+      real(wp), allocatable :: state(:), moved(:), scales(:), slopes(:)
+      ! Angle [rad], energies [J], the largest slope [J over a scale]
+      real(wp) :: angle, energies(-1:1), size_of_slopes
+      integer :: number, i, k, component, status
+
+      do number = 0, 15
+         call make_train(number, model, error)
+         if (allocated(error)) return
+         scales = state_scales(model)
+         do i = 2, 49, 5
+            if (allocated(state)) deallocate (state)
+            allocate (state(state_size(model)))
+            call random_state(model, i, angle, state)
+            call evaluate_train(model, angle, state, resolution_t(), now, status)
+            slopes = energy_slopes(model, state, now)
+            size_of_slopes = maxval(abs(slopes)*scales)
+            do component = 1, size(state)
+               do k = -1, 1, 2
+                  moved = state
+                  moved(component) = state(component) + k*h*scales(component)
+                  call evaluate_train(model, angle, moved, resolution_t(), now, status)
+                  energies(k) = stored_energy(model, moved, now)
+               end do
+               ! Differences hold the round-off of an energy of a joule, 1e-16/1e-5, beside slopes of 1e-3 J
+               call check_scaled(error, (energies(1) - energies(-1))/(2.0_wp*h), slopes(component)*scales(component), &
+                  & size_of_slopes, 1.0e-5_wp, "slope of the energy")
+               if (allocated(error)) return
+            end do
+         end do
+      end do
+   end subroutine test_energy_slopes
 
    subroutine test_equations(error)
       type(error_type), allocatable, intent(out) :: error
@@ -367,6 +428,7 @@ contains
          problem%model => model
          ! Every other train does not tell sliding speeds apart that differ by less than 1 cm/s
          problem%resolution%sliding_speed = merge(0.0_wp, 1.0e-2_wp, modulo(number, 2) == 0)
+         if (modulo(number, 4) > 1) call move_inputs(model)
          call new_linear(linear, state_size(model))
          if (allocated(state)) deallocate (state, low, high)
          allocate (state(state_size(model)), low(state_size(model)), high(state_size(model)))

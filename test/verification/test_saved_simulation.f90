@@ -18,6 +18,7 @@ contains
       testsuite = [ &
          new_unittest("a follower made of a block continues with the same bits, at another speed and with other oil", test_bits), &
          new_unittest("with films solved beforehand at an earlier speed, too", test_films), &
+         new_unittest("with a flexible train, too", test_trains), &
          new_unittest("a block that is damaged, short, of another case or of a shaft is refused", test_refusals) &
          ]
    end subroutine collect_saved_simulation
@@ -29,6 +30,14 @@ contains
       if (allocated(error)) return
       call compare_bits("decks/hard/stick_slip_true.nml", [20.0_wp, 26.0_wp, 35.0_wp], [300.0_wp, 310.0_wp, 330.0_wp], error)
    end subroutine test_bits
+
+   subroutine test_trains(error)
+      type(error_type), allocatable, intent(out) :: error
+
+      call compare_bits("decks/dynamics.nml", [200.0_wp, 260.0_wp, 350.0_wp], [360.0_wp, 361.0_wp, 363.0_wp], error)
+      if (allocated(error)) return
+      call compare_bits("decks/lash_adjuster.nml", [50.0_wp, 60.0_wp, 65.0_wp], [360.0_wp, 361.0_wp, 363.0_wp], error)
+   end subroutine test_trains
 
    !> The films of the start serve at the speed of the block, which solving them there would change.
    subroutine test_films(error)

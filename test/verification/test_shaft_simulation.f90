@@ -31,7 +31,7 @@ contains
          new_unittest("the number of threads changes no bit", test_threads), &
          new_unittest("a saved and restored shaft continues with the same bits", test_saved), &
          new_unittest("a step that fails for one cam leaves all followers unchanged", test_failure), &
-         new_unittest("backward turns, standstill and flexible trains are refused with a message that says what to do", &
+         new_unittest("backward turns and standstill are refused with a message that says what to do", &
             & test_refusals), &
          new_unittest("numbers of a shaft have the names of the series of a run", test_names) &
          ]
@@ -338,7 +338,6 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(case_t) :: the_case
       type(shaft_simulation_t) :: shaft, unstarted
-      type(simulation_t) :: follower
       type(shaft_outcome_t) :: outcome
       type(inputs_t) :: inputs, still
       type(error_t), allocatable :: failure
@@ -367,13 +366,6 @@ contains
       if (has_failed(failure, error)) return
       call check(error, outcome%followers(1)%extremes%sliding_speed(2) > 0.5_wp*outcome%followers(1)%state%contact%rolling_speed, &
          & "the roller was not at rest")
-      if (allocated(error)) return
-      call get_deck_case("decks/dynamics.nml", the_case, failure)
-      if (has_failed(failure, error)) return
-      call start_shaft(shaft, the_case, 0.0_wp, failure)
-      call check_refusal("dynamics")
-      call start_simulation(follower, the_case, 0.0_wp, failure)
-      call check_refusal("dynamics")
 
    contains
 

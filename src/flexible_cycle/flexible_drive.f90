@@ -1,0 +1,104 @@
+!> A flexible train from one cam angle to another, and what a host program does to it between.
+!>
+!> In: model, state at the first angle, stops. Out: path and state at the last angle; the sliding speed that a spin of the roller
+!> makes, and back; the train where an engine stands.
+module camroller_flexible_drive
+   use camroller_kinds, only : wp
+   use camroller_error, only : error_t
+   use camroller_case, only : numerics_t
+   use camroller_model, only : model_t
+   use camroller_ode_problem, only : counters_t
+   use camroller_ode_switching, only : integrate_switching
+   use camroller_trajectory, only : trajectory_t
+   use camroller_flexible_train, only : flexible_state_t, resolution_t, evaluate_train, first_mode, at_finger_rate, at_speed, &
+      & at_sliding, at_plunger_rate
+   use camroller_flexible_cycle, only : turn_t, start_turns, set_tolerance, least_sliding_scale
+   use camroller_flexible_problem, only : largest_sliding_scale
+   use camroller_flexible_solution, only : train_method, tolerance_ratio
+   implicit none
+   private
+
+   public :: drive_train, errors_of_state, take_spin, bring_to_rest
+
+contains
+
+   !> Integrate between stops.
+   subroutine drive_train(model, numerics, sliding_scale, stops, state, step, path, resolution, error)
+      !> The model, with a flexible train, which follows the inputs of a host
+      type(model_t), intent(in), target :: model
+      !> Method and tolerance
+      type(numerics_t), intent(in) :: numerics
+      !> Size of the sliding speed [m/s]
+      real(wp), intent(in) :: sliding_scale
+      !> First angle, kinks of the lift between, last angle [rad]
+      real(wp), intent(in) :: stops(:)
+      !> State, from first to last angle [state]
+      real(wp), intent(inout) :: state(:)
+      !> Step to begin with, zero where none is known; out: to go on with [rad]
+      real(wp), intent(inout) :: step
+      !> Accepted points
+      type(trajectory_t), intent(inout) :: path
+      !> What was not told apart
+      type(resolution_t), intent(out) :: resolution
+      !> Deck error for an unknown method, convergence error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(turn_t) :: turn
+      type(counters_t) :: counters
+
+      call start_turns(turn, model, trim(train_method(numerics)), tolerance_ratio*numerics%tolerance, error)
+      if (allocated(error)) return
+      call set_tolerance(turn, errors_of_state(turn%scales, numerics, sliding_scale))
+      if (step > 0.0_wp) turn%options%step = step
+      resolution = turn%problem%resolution
+      call integrate_switching(turn%problem, turn%method, turn%options, stops, state, path, counters, error, step)
+   end subroutine drive_train
+
+   !> Errors allowed in a step.
+   pure function errors_of_state(scales, numerics, sliding_scale) result(errors)
+      !> Sizes of the components [state]
+      real(wp), intent(in) :: scales(:)
+      !> Numerics with the tolerance
+      type(numerics_t), intent(in) :: numerics
+      !> Size of the sliding speed [m/s]
+      real(wp), intent(in) :: sliding_scale
+      !> The errors [state]
+      real(wp) :: errors(size(scales))
+
+      errors = scales
+      errors(at_sliding) = max(least_sliding_scale, min(sliding_scale, largest_sliding_scale))
+      errors = tolerance_ratio*numerics%tolerance*errors
+   end function errors_of_state
+
+   !> Give a state the sliding speed that belongs to a spin of the roller.
+   pure subroutine take_spin(model, angle, spin, state, status)
+      !> The model at the inputs of the angle
+      type(model_t), intent(in) :: model
+      !> Cam angle from full lift [rad]
+      real(wp), intent(in) :: angle
+      !> Spin of the roller [rad/s]
+      real(wp), intent(in) :: spin
+      !> State; out: with its sliding speed [state]
+      real(wp), intent(inout) :: state(:)
+      !> 0 fine, else the train cannot be in this state
+      integer, intent(out) :: status
+
+      type(flexible_state_t) :: now
+
+      call evaluate_train(model, angle, state, resolution_t(), now, status)
+      if (status == 0) state(at_sliding) = now%contact%rolling_speed - model%roller_radius*spin
+   end subroutine take_spin
+
+   !> End all motion: speeds and waves in the spring. Places stay, and the pressure.
+   pure subroutine bring_to_rest(model, state)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> The state [state]
+      real(wp), intent(inout) :: state(:)
+
+      state([at_finger_rate, at_speed]) = 0.0_wp
+      if (allocated(model%flexible%adjuster)) state(at_plunger_rate) = 0.0_wp
+      state(first_mode(model):) = 0.0_wp
+   end subroutine bring_to_rest
+
+end module camroller_flexible_drive

@@ -1,0 +1,425 @@
+!> One step of a follower with a flexible train driven from outside.
+!>
+!> In: a follower, the cam angle and the inputs at both ends of a step. Out: torques, extremes, state. What is remembered is the
+!> state of the train, with the roller's spin in the place of its sliding speed, so that a cam whose speed jumps meets a train that
+!> moves as before.
+!>
+!> Losses, gas and oil gallery are integrated over each accepted step by the rule of `short_piece`; the torque against spring,
+!> masses and oil is the change of the stored energy.
+module camroller_flexible_step
+   use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
+   use camroller_cam_angle, only : cam_angle_text
+   use camroller_kinds, only : wp, pi, two_pi
+   use camroller_error, only : error_t, add_context, raise, kind_convergence
+   use camroller_case, only : numerics_t
+   use camroller_model, only : model_t
+   use camroller_ramp, only : follow_ramp
+   use camroller_gas, only : give_pressure
+   use camroller_lash_adjuster, only : set_supply
+   use camroller_state, only : state_t, cam_force
+   use camroller_torque_list, only : torque_count, is_torque, of_geometric, of_roller_inertia
+   use camroller_events, only : lift_stops_between
+   use camroller_follower_samples, only : extremes_t, widen
+   use camroller_trajectory, only : trajectory_t, interpolate_state
+   use camroller_flexible_train, only : flexible_state_t, resolution_t, evaluate_train, state_size, at_sliding
+   use camroller_flexible_energy, only : energy_slopes
+   use camroller_flexible_problem, only : state_scales
+   use camroller_flexible_cycle, only : rest_of_train
+   use camroller_flexible_follower, only : evaluate_follower
+   use camroller_flexible_drive, only : drive_train, errors_of_state, take_spin, bring_to_rest
+   use camroller_run, only : take_way_out
+   use camroller_short_piece, only : places, lobatto_places, lobatto_weights, simpson_weights, odd_weights
+   use camroller_follower_step, only : follower_t, inputs_t, outcome_t, piece_number, inputs_between, set_model, set_ramp, &
+      & fill_outcome, joined, most_tries
+   implicit none
+   private
+
+   public :: step_train, place_train, halt_train
+
+   !> A piece of a step that has been integrated
+   type :: piece_t
+      type(trajectory_t) :: path
+      !> What was not told apart
+      type(resolution_t) :: resolution
+   end type piece_t
+
+   !> A point of it
+   type :: sample_t
+      type(state_t) :: state
+      !> Torques that are integrated [N m], last the energy residual [W]
+      real(wp) :: torques(torque_count)
+      !> Energy that is stored without the roller's spin, and that of the spin [J]
+      real(wp) :: stored, spin
+   end type sample_t
+
+contains
+
+   !> Put a follower at a cam angle: at rest on the base circle, opposite full lift, and driven from there at the speed of its case.
+   subroutine place_train(follower, cam_angle, error)
+      !> The follower, set to the operating point of its case
+      type(follower_t), intent(inout), target :: follower
+      !> Cam angle [rad]
+      real(wp), intent(in) :: cam_angle
+      !> Convergence error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(piece_t) :: piece
+      ! State [state]
+      real(wp), allocatable :: rest(:)
+
+      associate (point => follower%point)
+         call rest_of_train(follower%model, rest, error)
+         if (allocated(error)) return
+         point%train(:size(rest)) = rest
+         point%angle = cam_angle - modulo(cam_angle, two_pi)
+         call keep_spin(follower, piece%resolution, error)
+         if (cam_angle > point%angle .and. .not. allocated(error)) call integrate_piece(follower, cam_angle, piece, error)
+      end associate
+   end subroutine place_train
+
+   !> Bring a train to rest.
+   pure subroutine halt_train(follower)
+      !> The follower
+      type(follower_t), intent(inout) :: follower
+
+      associate (n => state_size(follower%model))
+         call bring_to_rest(follower%model, follower%point%train(:n))
+      end associate
+   end subroutine halt_train
+
+   !> Advance a follower in pieces of half a turn at most.
+   subroutine step_train(follower, cam_angle, start, finish, outcome, error, nodes)
+      !> The follower; of no use where there is an error
+      type(follower_t), intent(inout), target :: follower
+      !> Cam angle at the end of the step [rad]
+      real(wp), intent(in) :: cam_angle
+      !> Inputs at the start and at the end of the step
+      type(inputs_t), intent(in) :: start, finish
+      !> Torques and state
+      type(outcome_t), intent(inout) :: outcome
+      !> Deck, domain or convergence error
+      type(error_t), allocatable, intent(out) :: error
+      !> Force on the cam [N] and torque that drives it [N m] at equally spaced angles of the step, the same number in each piece,
+      !> shape (3, angles)
+      real(wp), intent(out), optional :: nodes(:, 0:)
+
+      type(inputs_t) :: here, there
+      type(piece_t) :: piece
+      ! First angle of the step and of a piece, end of a piece [rad]
+      real(wp) :: first, left, right
+      integer :: i, pieces, each
+
+      first = follower%point%angle
+      pieces = piece_number(cam_angle - first)
+      each = 0
+      if (present(nodes)) each = ubound(nodes, 2)/pieces
+      there = start
+      do i = 1, pieces
+         left = follower%point%angle
+         right = cam_angle
+         here = there
+         there = finish
+         if (i < pieces) then
+            right = first + (cam_angle - first)*i/pieces
+            there = inputs_between(start, finish, real(i, wp)/pieces)
+         end if
+         call set_inputs(follower, right, here, there, error)
+         if (.not. allocated(error)) call integrate_piece(follower, right, piece, error)
+         if (.not. allocated(error)) call add_means(follower%model, piece, 1.0_wp/pieces, outcome, error)
+         if (each > 0 .and. .not. allocated(error)) call sample_nodes(follower%model, piece, [left, right] - pi, &
+            & nodes(:, (i - 1)*each:i*each - 1), error)
+         ! On the way the model has followed the inputs
+         if (abs(follower%model%ramp%temperature_slope) > 0.0_wp) follower%point%oil_temperature = -1.0_wp
+         follower%model%ramp%is_moving = .false.
+         if (allocated(error)) return
+      end do
+      call set_model(follower, finish%speed, finish%oil_temperature, .false., error)
+      if (allocated(error)) return
+      if (allocated(follower%model%flexible%adjuster)) call set_supply(follower%model%flexible%adjuster, &
+         & supply_of(follower%model, finish))
+      call fill_outcome(follower%model, outcome)
+      call add_state_error(follower, cam_angle - first, piece%resolution, outcome)
+      if (present(nodes)) nodes(:, ubound(nodes, 2)) = [outcome%cam_force, outcome%torque_drive]
+      if (.not. all(ieee_is_finite([outcome%mean_torque_drive, outcome%torque_drive, follower%point%roller_spin]))) then
+         call raise(error, kind_convergence, "advance: torques or spin are not finite")
+      end if
+   end subroutine step_train
+
+   !> Let the model follow the inputs over a piece.
+   subroutine set_inputs(follower, to, start, finish, error)
+      !> The follower
+      type(follower_t), intent(inout) :: follower
+      !> Cam angle at the end of the piece [rad]
+      real(wp), intent(in) :: to
+      !> Inputs at both ends of it
+      type(inputs_t), intent(in) :: start, finish
+      !> Deck, domain or convergence error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(inputs_t) :: middle
+      ! Cam angles from full lift [rad]; supply pressure at both ends [Pa]
+      real(wp) :: ends(2), supply(2)
+
+      middle = inputs_between(start, finish, 0.5_wp)
+      call set_model(follower, middle%speed, middle%oil_temperature, .true., error)
+      if (allocated(error)) return
+      ends = [follower%point%angle, to] - pi
+      associate (model => follower%model)
+         call set_ramp(model, ends, start, finish)
+         if (allocated(model%gas)) then
+            model%gas%is_given = .false.
+            if (start%has_pressure) call give_pressure(model%gas, ends, [start%gas_pressure, finish%gas_pressure])
+         end if
+         if (.not. allocated(model%flexible%adjuster)) return
+         supply = [supply_of(model, start), supply_of(model, finish)]
+         model%ramp%supply = 0.5_wp*(supply(1) + supply(2))
+         model%ramp%supply_slope = (supply(2) - supply(1))/(ends(2) - ends(1))
+         model%ramp%is_moving = model%ramp%is_moving .or. abs(model%ramp%supply_slope) > 0.0_wp
+         call set_supply(model%flexible%adjuster, model%ramp%supply)
+      end associate
+   end subroutine set_inputs
+
+   !> Supply pressure of a lash adjuster: that of the host or of the case.
+   pure function supply_of(model, inputs) result(pressure)
+      !> The model, with an adjuster
+      type(model_t), intent(in) :: model
+      !> What the host gives
+      type(inputs_t), intent(in) :: inputs
+      !> Gauge pressure [Pa]
+      real(wp) :: pressure
+
+      pressure = model%flexible%adjuster%given%supply_pressure
+      if (inputs%has_supply) pressure = inputs%supply_pressure
+   end function supply_of
+
+   !> Integrate a piece; where that fails, once more with the method and the tolerances that `run_case` falls back on.
+   subroutine integrate_piece(follower, to, piece, error)
+      !> The follower, whose train is moved
+      type(follower_t), intent(inout), target :: follower
+      !> Cam angle at the end [rad]
+      real(wp), intent(in) :: to
+      !> The piece
+      type(piece_t), intent(inout) :: piece
+      !> Convergence error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(numerics_t) :: numerics
+      ! State [state]; first angle, kinks of the lift, last angle [rad]
+      real(wp) :: state(state_size(follower%model))
+      real(wp), allocatable :: stops(:)
+      ! Step of the integration [rad], smallest tolerance that may work [-]
+      real(wp) :: step, least
+      integer :: try, status
+      logical :: has_way_out
+
+      numerics = follower%numerics
+      least = 0.0_wp
+      has_way_out = .false.
+      associate (point => follower%point, model => follower%model, first => follower%point%angle - pi)
+         stops = lift_stops_between(model, first, to - pi)
+         stops = [first, pack(stops, stops > first), to - pi]
+         do try = 1, most_tries
+            state = point%train(:size(state))
+            step = point%train_step
+            call follow_ramp(model, first)
+            call take_spin(model, first, point%roller_spin, state, status)
+            if (status /= 0) then
+               call refuse(first, error)
+               return
+            end if
+            call drive_train(model, numerics, point%scale, stops, state, step, piece%path, piece%resolution, error)
+            if (.not. allocated(error)) exit
+            if (has_way_out .or. error%kind /= kind_convergence .or. try == most_tries) then
+               call add_context(error, "integrating the flexible train")
+               return
+            end if
+            call take_way_out(follower%given, numerics, least, has_way_out)
+         end do
+         point%train(:size(state)) = state
+         point%train_step = step
+         point%angle = to
+         call follow_ramp(model, to - pi)
+         call keep_spin(follower, piece%resolution, error)
+      end associate
+   end subroutine integrate_piece
+
+   !> Keep the spin that the roller has.
+   subroutine keep_spin(follower, resolution, error)
+      !> The follower, whose model is set to the inputs
+      type(follower_t), intent(inout) :: follower
+      !> What was not told apart
+      type(resolution_t), intent(in) :: resolution
+      !> Convergence error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(flexible_state_t) :: now
+      integer :: status
+
+      associate (point => follower%point, n => state_size(follower%model))
+         call evaluate_train(follower%model, point%angle - pi, point%train(:n), resolution, now, status)
+         if (status /= 0) call refuse(point%angle - pi, error)
+         point%roller_spin = now%contact%roller_spin
+      end associate
+   end subroutine keep_spin
+
+   !> Refuse a state that a train cannot be in.
+   subroutine refuse(angle, error)
+      !> Cam angle from full lift [rad]
+      real(wp), intent(in) :: angle
+      !> Convergence error
+      type(error_t), allocatable, intent(out) :: error
+
+      call raise(error, kind_convergence, "the flexible train has no state at "//cam_angle_text(angle, 3))
+   end subroutine refuse
+
+   !> Means and extremes of a piece.
+   subroutine add_means(model, piece, part, outcome, error)
+      !> The model, which follows the inputs
+      type(model_t), intent(inout) :: model
+      !> The piece
+      type(piece_t), intent(in) :: piece
+      !> Part of the step that the piece is [-]
+      real(wp), intent(in) :: part
+      !> What the step gives; out: with means and extremes of the piece, and the state at its end
+      type(outcome_t), intent(inout) :: outcome
+      !> Convergence error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(sample_t) :: sample, first
+      type(extremes_t) :: met
+      ! Values at the places of an interval, integrals and errors of them [N m, W]; length of the interval and of all [rad]
+      real(wp) :: values(torque_count, places), integrals(torque_count), errors(torque_count), length, span
+      integer :: interval, i
+      ! Is a point that whose state a step returns?
+      logical :: is_end
+
+      integrals = 0.0_wp
+      errors = 0.0_wp
+      associate (path => piece%path)
+         span = path%time(path%count) - path%time(1)
+         call take_sample(model, piece, path%time(1), 1, piece%resolution%forces, met, first, error)
+         values(:, places) = first%torques
+         do interval = 1, path%count - 1
+            length = path%time(interval + 1) - path%time(interval)
+            values(:, 1) = values(:, places)
+            do i = 2, places
+               is_end = i == places .and. interval == path%count - 1
+               if (.not. allocated(error)) call take_sample(model, piece, path%time(interval) + lobatto_places(i)*length, &
+                  & interval, merge(0.0_wp, piece%resolution%forces, is_end), met, sample, error)
+               values(:, i) = sample%torques
+            end do
+            if (allocated(error)) return
+            do i = 1, torque_count
+               integrals(i) = integrals(i) + length*sum(lobatto_weights*values(i, :))
+               errors(i) = errors(i) + length*sqrt(sum((lobatto_weights - simpson_weights)*values(i, :))**2 &
+                  & + sum(odd_weights*values(i, :))**2)
+            end do
+         end do
+      end associate
+      integrals(of_geometric) = integrals(of_geometric) + sample%stored - first%stored
+      integrals(of_roller_inertia) = sample%spin - first%spin
+      outcome%mean_torques = outcome%mean_torques + part/span*integrals
+      outcome%estimated_error = outcome%estimated_error + part/span*sum(errors, mask=is_torque)
+      outcome%extremes = joined(outcome%extremes, met)
+      outcome%state = sample%state
+   end subroutine add_means
+
+   !> A point of a piece.
+   subroutine take_sample(model, piece, angle, interval, forces, met, sample, error)
+      !> The model, which follows the inputs
+      type(model_t), intent(inout) :: model
+      !> The piece
+      type(piece_t), intent(in) :: piece
+      !> Cam angle from full lift [rad]
+      real(wp), intent(in) :: angle
+      !> Interval of the path that holds it
+      integer, intent(in) :: interval
+      !> Relative error of the contact's forces that is good enough [-]
+      real(wp), intent(in) :: forces
+      !> Extremes that the point is taken into
+      type(extremes_t), intent(inout) :: met
+      !> The point
+      type(sample_t), intent(out) :: sample
+      !> Convergence error
+      type(error_t), allocatable, intent(out) :: error
+
+      ! State [state]; power on gas less that of the gallery [W]
+      real(wp) :: train(state_size(model)), work
+      integer :: hint, status
+
+      hint = interval
+      call follow_ramp(model, angle)
+      call interpolate_state(piece%path, angle, hint, train)
+      call evaluate_follower(model, angle, train, resolution_t(forces, piece%resolution%sliding_speed), sample%state, status, &
+         & work)
+      if (status /= 0) then
+         call refuse(angle, error)
+         return
+      end if
+      sample%torques = sample%state%torques
+      sample%torques(of_geometric) = work/model%speed
+      sample%torques(of_roller_inertia) = 0.0_wp
+      sample%spin = 0.5_wp*model%roller_inertia*sample%state%contact%roller_spin**2
+      sample%stored = sample%state%flexible%stored_energy - sample%spin
+      call widen(met, model, sample%state)
+   end subroutine take_sample
+
+   !> Force on the cam and torque at equally spaced angles of a piece, without its end.
+   subroutine sample_nodes(model, piece, ends, nodes, error)
+      !> The model, which follows the inputs
+      type(model_t), intent(inout) :: model
+      !> The piece
+      type(piece_t), intent(in) :: piece
+      !> Its first and last angle from full lift [rad]
+      real(wp), intent(in) :: ends(2)
+      !> Force [N] and torque [N m]
+      real(wp), intent(out) :: nodes(:, :)
+      !> Convergence error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(sample_t) :: sample
+      type(extremes_t) :: met
+      ! Cam angle from full lift [rad]
+      real(wp) :: angle
+      integer :: i
+
+      do i = 1, size(nodes, 2)
+         angle = max(ends(1) + (ends(2) - ends(1))*(i - 1)/size(nodes, 2), piece%path%time(1))
+         call take_sample(model, piece, angle, 1, 0.0_wp, met, sample, error)
+         if (allocated(error)) return
+         nodes(:, i) = [cam_force(model, sample%state), sample%state%torque_drive]
+      end do
+   end subroutine sample_nodes
+
+   !> Add to the error of the mean torque what the errors of the state make of it: those allowed in a step of the integration, times
+   !> the slopes of the stored energy at both ends, and of the losses over the sliding speed.
+   subroutine add_state_error(follower, span, resolution, outcome)
+      !> The follower, at the end of the step
+      type(follower_t), intent(in) :: follower
+      !> Cam angle of the step [rad]
+      real(wp), intent(in) :: span
+      !> What was not told apart
+      type(resolution_t), intent(in) :: resolution
+      !> Outcome with the state there
+      type(outcome_t), intent(inout) :: outcome
+
+      type(flexible_state_t) :: now
+      type(state_t) :: beside
+      ! State and its errors [state]
+      real(wp), dimension(state_size(follower%model)) :: state, errors
+      integer :: status
+
+      associate (point => follower%point, model => follower%model)
+         errors = errors_of_state(state_scales(model), follower%numerics, point%scale)
+         state = point%train(:size(state))
+         call evaluate_train(model, point%angle - pi, state, resolution, now, status)
+         if (status == 0) outcome%estimated_error = outcome%estimated_error &
+            & + 2.0_wp*norm2(energy_slopes(model, state, now)*errors)/span
+         state(at_sliding) = state(at_sliding) + errors(at_sliding)
+         call evaluate_follower(model, point%angle - pi, state, resolution, beside, status)
+         if (status == 0) outcome%estimated_error = outcome%estimated_error + abs(beside%torque_friction &
+            & - outcome%state%torque_friction)
+      end associate
+   end subroutine add_state_error
+
+end module camroller_flexible_step
