@@ -179,9 +179,10 @@ contains
 
       call add(commands, "fmu", "DECK", "write an FMU for co-simulation", &
          & "Write the valve trains of a deck as a Functional Mock-up Unit for co-simulation: the deck's name with .fmu in"//n// &
-         & "the present folder, or FILE. Inputs are speed, oil temperature and gas pressure; parameters the numbers that the"//n// &
-         & "deck gives; outputs torques, loads, films and slip of all cams. It holds the library and what that needs, which"//n// &
-         & "are taken from ../lib/camroller of the program's folder, where cmake --install puts them.")
+         & "the present folder, or FILE. Inputs are speed, oil temperature, gas pressure and the supply pressure of lash"//n// &
+         & "adjusters; parameters the numbers that the deck gives; outputs torques, loads, films and slip of all cams. It"//n// &
+         & "holds the library and what that needs, which are taken from ../lib/camroller of the program's folder, where"//n// &
+         & "cmake --install puts them.")
       call add_option(commands, "--output", "-o", "FILE", "file to write")
       call add_option(commands, "--fmi", "", "N", "version of FMI, 2 or 3; 3 where not given")
       call add_option(commands, "--library", "", "FOLDER", "folder of the library")

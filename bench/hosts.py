@@ -15,7 +15,7 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 TABLE = ROOT / "bench" / "tables" / "hosts.txt"
-DECKS = ("decks/thesis.nml", "decks/three_cam_head.nml", "decks/four_cylinder.nml")
+DECKS = ("decks/thesis.nml", "decks/three_cam_head.nml", "decks/four_cylinder.nml", "decks/dynamics.nml", "decks/lash_adjuster.nml")
 STEPS = (20, 60)
 CYCLE = 720
 
@@ -58,7 +58,7 @@ def main():
         few, many = (count(program, deck, steps, work) for steps in STEPS)
         pairs = (STEPS[1] - STEPS[0]) * few[2]
         times = sorted(float(run(program, deck, CYCLE).split()[1]) for _ in range(3))
-        print(f"{deck:26}{few[2]:5d}{before[deck]:14d}{(many[0] - few[0]) / pairs:14.0f}{(many[1] - few[1]) / pairs:13.1f}"
+        print(f"{deck:26}{few[2]:5d}{before.get(deck, '-'):>14}{(many[0] - few[0]) / pairs:14.0f}{(many[1] - few[1]) / pairs:13.1f}"
               f"{times[1]:13.3f}")
 
 

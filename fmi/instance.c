@@ -9,12 +9,13 @@
 
 /* Kinds of variables, by the first word of their line */
 enum kind {
-   TIME, SPEED, SPEED_SLOPE, TEMPERATURE, TEMPERATURE_SLOPE, START_ANGLE, HAS_PRESSURE, PRESSURE, PRESSURE_SLOPE, KEY,
+   TIME, SPEED, SPEED_SLOPE, TEMPERATURE, TEMPERATURE_SLOPE, START_ANGLE, HAS_PRESSURE, PRESSURE, PRESSURE_SLOPE,
+   HAS_SUPPLY, SUPPLY, SUPPLY_SLOPE, KEY,
    CAM_ANGLE, MEAN_DRIVE, MEAN_FRICTION, MEAN_BEARINGS, SMALLEST_DRIVE, LARGEST_DRIVE, ESTIMATED_ERROR, SERIES, KINDS
 };
 static const char *const words[KINDS] = {
    "time", "speed", "speed_slope", "oil_temperature", "oil_temperature_slope", "start_angle", "has_pressure", "gas_pressure",
-   "gas_pressure_slope", "key", "cam_angle", "mean_torque_drive", "mean_torque_friction", "mean_torque_bearings",
+   "gas_pressure_slope", "has_supply", "supply_pressure", "supply_pressure_slope", "key", "cam_angle", "mean_torque_drive", "mean_torque_friction", "mean_torque_bearings",
    "smallest_torque_drive", "largest_torque_drive", "estimated_error", "series"
 };
 
@@ -136,9 +137,10 @@ int instance_get(instance *self, unsigned number, double *value) {
 int instance_set(instance *self, unsigned number, double value) {
    if (number >= self->count) return instance_refuse(self, "there is no variable of that number");
    switch (self->variables[number].kind) {
-   case SPEED: case SPEED_SLOPE: case TEMPERATURE: case TEMPERATURE_SLOPE: case PRESSURE: case PRESSURE_SLOPE:
+   case SPEED: case SPEED_SLOPE: case TEMPERATURE: case TEMPERATURE_SLOPE: case PRESSURE: case PRESSURE_SLOPE: case SUPPLY:
+   case SUPPLY_SLOPE:
       break;
-   case START_ANGLE: case HAS_PRESSURE: case KEY:
+   case START_ANGLE: case HAS_PRESSURE: case HAS_SUPPLY: case KEY:
       if (self->now.shaft != NULL) return instance_refuse(self, "parameters can be set before the end of the initialisation only");
       break;
    default:
@@ -224,6 +226,9 @@ int instance_step(instance *self, double time, double length) {
                                    "that stands makes no steps");
    start.oil_temperature = value_of(self, TEMPERATURE, 0);
    end.oil_temperature = start.oil_temperature + value_of(self, TEMPERATURE_SLOPE, 0) * length;
+   start.has_supply = end.has_supply = value_of(self, HAS_SUPPLY, 0) != 0.0;
+   start.supply_pressure = value_of(self, SUPPLY, 0);
+   end.supply_pressure = start.supply_pressure + value_of(self, SUPPLY_SLOPE, 0) * length;
    int has_pressure = value_of(self, HAS_PRESSURE, 0) != 0.0;
    for (int cam = 1; cam <= self->cams && has_pressure; cam++) {
       self->pressures[cam - 1] = value_of(self, PRESSURE, cam);

@@ -91,6 +91,9 @@ typedef struct {
    double oil_temperature; /* [K] */
    double gas_pressure;    /* gauge, pressing the valve shut [Pa] */
    int has_pressure;       /* 1: in the place of the case's table, whose group &gas_force gives the valve's area; 0: the table */
+   /* Programs built for a header without the following still work: `size` tells. */
+   int has_supply;         /* 1: supply pressure in the place of that of the case, which needs a lash adjuster; 0: that of the case */
+   double supply_pressure; /* gauge, of the oil at the lash adjuster, 0 or more [Pa] */
 } camroller_inputs;
 
 /* What a step gives. Set `size` to sizeof(camroller_outcome). */
@@ -111,7 +114,8 @@ typedef struct {
    double estimated_error;
 } camroller_outcome;
 
-/* A follower at a cam angle; lobe 1 is the case's lift, 2 its second lift. */
+/* A follower at a cam angle; lobe 1 is the case's lift, 2 its second lift. A flexible train (&dynamics) starts at rest on the base
+ * circle, opposite full lift, and is driven to the angle at the operating point of the case, which takes the time of a turn. */
 int camroller_simulation_new(const camroller_case *self, int lobe, double cam_angle, camroller_simulation **out,
                              camroller_error *error);
 /* Advance to a cam angle beyond the present one. A step that fails leaves the follower as it was, to the last bit. */
@@ -120,11 +124,11 @@ int camroller_simulation_step(camroller_simulation *self, double cam_angle, cons
 /* Number at the end of the last step, by the name of a follower's series */
 int camroller_simulation_value(const camroller_simulation *self, const char *name, double *value, camroller_error *error);
 double camroller_simulation_angle(const camroller_simulation *self);
-/* The engine has stopped: the roller comes to rest, and the next step starts without spin. */
+/* The engine has stopped: the roller comes to rest, and the next step starts without spin; a flexible train comes to rest. */
 int camroller_simulation_halt(camroller_simulation *self, camroller_error *error);
 /* A copy, e.g. to go back to; a block of bytes, from which the same case makes the same follower in another process. */
 int camroller_simulation_copy(const camroller_simulation *self, camroller_simulation **out, camroller_error *error);
-size_t camroller_simulation_save_size(void);
+size_t camroller_simulation_save_size(void); /* the same for every case */
 int camroller_simulation_save(const camroller_simulation *self, void *buffer, size_t room, camroller_error *error);
 int camroller_simulation_restore(const camroller_case *self, const void *buffer, size_t bytes, camroller_simulation **out,
                                  camroller_error *error);

@@ -80,15 +80,16 @@ class ErrorStruct(Struct):
 
 
 class Inputs(Struct):
-    """What a host gives at an end of a step: cam speed above zero [rad/s], oil temperature [K], and, where `has_pressure`, the gauge
-    pressure that presses the valve shut [Pa]."""
+    """What a host gives at an end of a step: cam speed above zero [rad/s], oil temperature [K], where `has_pressure` the gauge
+    pressure that presses the valve shut [Pa], and where `has_supply` that of the oil at the lash adjuster [Pa]."""
 
     _fields_ = [("size", c_size_t), ("speed", c_double), ("oil_temperature", c_double), ("gas_pressure", c_double),
-                ("has_pressure", c_int)]
+                ("has_pressure", c_int), ("has_supply", c_int), ("supply_pressure", c_double)]
 
-    def __init__(self, speed, oil_temperature, gas_pressure=None):
+    def __init__(self, speed, oil_temperature, gas_pressure=None, supply_pressure=None):
         super().__init__(speed=speed, oil_temperature=oil_temperature, gas_pressure=gas_pressure or 0.0,
-                         has_pressure=gas_pressure is not None)
+                         has_pressure=gas_pressure is not None, supply_pressure=supply_pressure or 0.0,
+                         has_supply=supply_pressure is not None)
 
 
 class Outcome(Struct):

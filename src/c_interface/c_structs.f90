@@ -24,7 +24,14 @@ module camroller_c_structs
       !> Cam speed [rad/s], oil temperature [K], gauge pressure [Pa]
       real(c_double) :: speed, oil_temperature, gas_pressure
       integer(c_int) :: has_pressure
+      !> Is there a supply pressure? In a struct without one, the padding at the end
+      integer(c_int) :: has_supply
+      !> Gauge pressure at the lash adjuster [Pa]
+      real(c_double) :: supply_pressure
    end type c_inputs_t
+
+   !> Size of the inputs before they had a supply pressure
+   integer, parameter :: size_without_supply = 40
 
    !> What a step gives, as the header has it
    type, bind(C) :: c_outcome_t
@@ -68,7 +75,7 @@ contains
       type(c_inputs_t), pointer :: given
 
       call c_f_pointer(address, given)
-      if (given%size /= storage_size(given)/8) then
+      if (given%size /= storage_size(given)/8 .and. given%size /= size_without_supply) then
          call refuse_size("camroller_inputs", error)
          return
       end if
@@ -76,6 +83,9 @@ contains
       inputs%oil_temperature = given%oil_temperature
       inputs%has_pressure = given%has_pressure /= 0
       inputs%gas_pressure = given%gas_pressure
+      if (given%size == size_without_supply) return
+      inputs%has_supply = given%has_supply /= 0
+      inputs%supply_pressure = given%supply_pressure
    end subroutine take_inputs
 
    !> Refuse a struct for the outcome that is not one of this version.
