@@ -286,7 +286,7 @@ contains
       do i = 1, size(rule_heights)
          by_rise = change_slope - pressure_fall*log_slopes(i)
          ! Roelands: ln(eta/eta_r) is the exponent times a power of the pressure, so both grow by the same factor
-         if (warm%pressure_law == law_roelands .and. warm%roelands_exponent > 0.0_wp) then
+         if (warm%pressure_law == law_roelands .and. log_slopes(i) > 0.0_wp) then
             by_rise = change_slope*(1.0_wp + log(ratios(i))/warm%roelands_exponent)
          end if
          rate = unit*ratios(i)

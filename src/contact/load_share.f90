@@ -293,7 +293,8 @@ contains
          change%real_area_ratio = share%area_stiffness*film_ratio
          change%film_central = own_central + shape%central_load_slope*change%film_load
       end associate
-      if (takes_whole_load(line%law)) change%film_load = (load*q - change%asperity_load)/max(share%film_load, tiny(load))
+      if (takes_whole_load(line%law)) change%film_load = (load*q - change%asperity_load)/max(share%film_load, &
+         & epsilon(load)*load)
       if (share%has_own_central) return
       change%film_central = 0.0_wp
       if (share%film_central > smallest_film) change%film_central = change%film_min

@@ -14,9 +14,8 @@ module camroller_lubricant
    implicit none
    private
 
-   public :: lubricant_t, oil_t, temperature_law_names, pressure_law_names
-   public :: get_oil, relative_viscosity, log_relative_viscosity, mean_relative_viscosity, density_at
-   public :: law_barus, law_cameron, law_roelands, law_direct, pressure_limit
+   public :: lubricant_t, oil_t, temperature_law_names, pressure_law_names, law_barus, law_cameron, law_roelands, law_direct
+   public :: get_oil, relative_viscosity, log_relative_viscosity, mean_relative_viscosity, density_at, pressure_limit
 
    !> Viscosity over temperature
    character(len=*), parameter :: temperature_law_names(*) = [character(len=name_length) :: "direct", "vogel", "walther", &
@@ -438,7 +437,7 @@ contains
       real(wp), contiguous, intent(in) :: pressure(:)
       !> Viscosity ratios [-]
       real(wp), contiguous, intent(out) :: ratio(:)
-      !> d ln(ratio)/d ln(pressure) [-]
+      !> d ln(ratio)/d ln(pressure), zero where the ratio is held [-]
       real(wp), contiguous, intent(out) :: log_slope(:)
 
       ! Base of the power in Cameron's and in Roelands' law; the latter's power [-]
@@ -447,8 +446,8 @@ contains
 
       select case (oil%pressure_law)
       case (law_barus)
-         log_slope = oil%pressure_viscosity*pressure
-         ratio = exp(min(log_slope, largest_exponent))
+         log_slope = merge(oil%pressure_viscosity*pressure, 0.0_wp, oil%pressure_viscosity*pressure <= largest_exponent)
+         ratio = exp(min(oil%pressure_viscosity*pressure, largest_exponent))
       case (law_cameron)
          do i = 1, size(pressure)
             base = 1.0_wp + oil%pressure_viscosity*pressure(i)/cameron_power
@@ -461,6 +460,7 @@ contains
             power = exp(oil%roelands_index*log(base))
             ratio(i) = exp(min(oil%roelands_exponent*(power - 1.0_wp), largest_exponent))
             log_slope(i) = oil%roelands_exponent*oil%roelands_index*power*(1.0_wp - 1.0_wp/base)
+            if (oil%roelands_exponent*(power - 1.0_wp) > largest_exponent) log_slope(i) = 0.0_wp
          end do
       end select
    end subroutine relative_viscosity

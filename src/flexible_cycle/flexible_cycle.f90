@@ -5,7 +5,8 @@
 !> last few. Source: Walker and Ni, SIAM J. Numer. Anal. 49 (2011) 1715.
 module camroller_flexible_cycle
    use camroller_kinds, only : wp, pi, degree
-   use camroller_error, only : error_t
+   use camroller_cam_angle, only : cam_angle_text
+   use camroller_error, only : error_t, raise, kind_domain
    use camroller_model, only : model_t
    use camroller_events, only : cycle_stops
    use camroller_ode_method, only : method_t, options_t
@@ -14,7 +15,9 @@ module camroller_flexible_cycle
    use camroller_ode_switching, only : integrate_switching
    use camroller_trajectory, only : trajectory_t
    use camroller_flexible_setup, only : rest_t, find_rest
-   use camroller_flexible_train, only : resolution_t, state_size, at_finger, at_lift, at_plunger, at_pressure, at_sliding
+   use camroller_flexible_train, only : flexible_state_t, resolution_t, evaluate_train, state_size, at_finger, at_lift, &
+      & at_plunger, at_pressure, at_sliding
+   use camroller_number_text, only : millimetres_text, number_text
    use camroller_flexible_problem, only : flexible_problem_t, state_scales, largest_sliding_scale
    use camroller_lapack, only : dgesv
    implicit none
@@ -148,7 +151,7 @@ contains
       type(trajectory_t), intent(inout) :: trajectory
       !> Work done
       type(counters_t), intent(inout) :: counters
-      !> Convergence error
+      !> Convergence error; domain error where the finger is thrown off
       type(error_t), allocatable, intent(out) :: error
 
       type(options_t) :: options
@@ -156,7 +159,41 @@ contains
       options = turn%options
       options%max_steps = options%max_steps + counters%accepted + counters%rejected
       call integrate_switching(turn%problem, turn%method, options, turn%stops, state, trajectory, counters, error)
+      if (allocated(error)) call explain_end(turn, trajectory, error)
    end subroutine integrate_turn
+
+   !> Say so where an integration ended because the roller has left the cam and no state follows: the finger has turned over, or no
+   !> point of the cam is nearest.
+   subroutine explain_end(turn, trajectory, error)
+      !> What integrates
+      type(turn_t), intent(in) :: turn
+      !> The turn up to its end
+      type(trajectory_t), intent(in) :: trajectory
+      !> In: what the integration says; out: a domain error where the finger is thrown off
+      type(error_t), allocatable, intent(inout) :: error
+
+      ! A step beyond the end [rad]
+      real(wp), parameter :: beyond = 1.0e-9_wp
+      type(flexible_state_t) :: now, next
+      ! Rate at the end [state/rad]
+      real(wp) :: rate(size(turn%scales))
+      integer :: status
+
+      if (trajectory%count == 0) return
+      associate (angle => trajectory%time(trajectory%count), state => trajectory%state(:, trajectory%count), &
+         & problem => turn%problem)
+         call evaluate_train(problem%model, angle, state, problem%resolution, now, status)
+         if (status /= 0 .or. now%cam%approach >= 0.0_wp) return
+         call problem%get_rate(angle, state, rate, status)
+         call evaluate_train(problem%model, angle, state + beyond*rate, problem%resolution, next, status)
+         if (status <= 0) return
+         deallocate (error)
+         call raise(error, kind_domain, "the finger is thrown off: at "//cam_angle_text(angle, 3)//" the roller is "// &
+            & millimetres_text(-now%cam%approach)//" mm from the cam and the finger has turned by "// &
+            & number_text((state(at_finger) - problem%model%linkage%base_angle)/degree, 3)//" deg from its place on the base "// &
+            & "circle; check base circle load, masses and speed")
+      end associate
+   end subroutine explain_end
 
    !> Integrate turns until they repeat themselves, or as many as are allowed.
    subroutine find_periodic(cycle, turn, state, closure, max_cycles, error)

@@ -21,10 +21,10 @@ module camroller_flexible_measures
    private
 
    public :: measure_t, measures, measure_count, measure_turn, pivot_force, largest_load, largest_load_angle, smallest_event_load, &
-      & least_lift_error, most_lift_error, seating_speed, bounce_height, bounces, float_share, losses_of_contact, drive_torque, &
-      & loss_torque, damping_torque, smallest_pivot_force, tension_share, surge_force, coil_ratio, lowest_plunger, &
-      & highest_plunger, largest_pressure, leak_volume, check_share, residual_work, gallery_torque, &
-      & event_check_share
+      & event_pivot_force, least_lift_error, most_lift_error, seating_speed, bounce_height, bounces, float_share, &
+      & losses_of_contact, drive_torque, loss_torque, damping_torque, smallest_pivot_force, tension_share, surge_force, &
+      & coil_ratio, lowest_plunger, highest_plunger, largest_pressure, leak_volume, check_share, residual_work, &
+      & gallery_torque, event_check_share
 
    !> A measure: its name, unit and meaning
    type :: measure_t
@@ -38,7 +38,7 @@ module camroller_flexible_measures
       !> Cam angle [rad]; a point comes before the first one where it is huge
       real(wp) :: angle = huge(1.0_wp)
       !> Rigid lift less that above which a load counts as one of the event [m], contact load [N]
-      real(wp) :: height, load
+      real(wp) :: height = -1.0_wp, load = 0.0_wp
       !> Force in the joint [N]; pressure above that at which the check valve opens [Pa]
       real(wp) :: joint, shut
       !> Cam angle of the point before [rad], force in the joint there [N]
@@ -49,8 +49,8 @@ module camroller_flexible_measures
    integer, parameter :: largest_load = 1, largest_load_angle = 2, smallest_event_load = 3, least_lift_error = 4, &
       & most_lift_error = 5, seating_speed = 6, bounce_height = 7, bounces = 8, float_share = 9, losses_of_contact = 10, &
       & drive_torque = 11, loss_torque = 12, damping_torque = 13, smallest_pivot_force = 14, tension_share = 15, &
-      & surge_force = 16, coil_ratio = 17, residual_work = 18, lowest_plunger = 19, highest_plunger = 20, &
-      & largest_pressure = 21, leak_volume = 22, check_share = 23, gallery_torque = 24, event_check_share = 25
+      & surge_force = 16, coil_ratio = 17, event_pivot_force = 18, residual_work = 19, lowest_plunger = 20, highest_plunger = 21, &
+      & largest_pressure = 22, leak_volume = 23, check_share = 24, gallery_torque = 25, event_check_share = 26
 
    !> The measures; those of the adjuster last
    type(measure_t), parameter :: measures(*) = [ &
@@ -71,6 +71,7 @@ module camroller_flexible_measures
       & measure_t("joint_tension_share", "1", "part of the cycle with tension in that joint"), &
       & measure_t("surge_force", "N", "largest force of the spring's first mode"), &
       & measure_t("coil_ratio", "1", "largest travel of coils by the modes over that of the whole spring; above 1 coils clash"), &
+      & measure_t("joint_force_min_event", "N", "smallest force in that joint in the upper three quarters of the lift"), &
       & measure_t("energy_residual_work", "J", "drive less losses less stored energy over the turn, and gallery"), &
       & measure_t("plunger_lowest", "m", "lowest place of the plunger"), &
       & measure_t("plunger_highest", "m", "highest place of the plunger"), &
@@ -110,7 +111,7 @@ contains
 
       call gauss_legendre(places, weights)
       values = 0.0_wp
-      values([smallest_event_load, least_lift_error, smallest_pivot_force]) = huge(1.0_wp)
+      values([smallest_event_load, least_lift_error, smallest_pivot_force, event_pivot_force]) = huge(1.0_wp)
       values(most_lift_error) = -huge(1.0_wp)
       if (size(values) > residual_work) then
          values(lowest_plunger) = huge(1.0_wp)
@@ -134,8 +135,10 @@ contains
          if (allocated(error)) return
          if (has_touched .and. .not. touches) values(losses_of_contact) = values(losses_of_contact) + 1.0_wp
          has_touched = touches
-         call follow_seat(trajectory%state([at_lift, at_speed], step), trajectory%state([at_lift, at_speed], step + 1), top, &
-            & has_met, values)
+         ! What the valve does before it opens is no bounce, be it the rattle of a finger with lash
+         if (last%angle < 0.0_wp .and. last%height > -event_part*top) has_met = .false.
+         call follow_seat(trajectory%state([at_lift, at_speed], step), trajectory%state([at_lift, at_speed], step + 1), has_met, &
+            & values)
       end do
       values(residual_work) = values(residual_work)*two_pi
       if (size(values) > residual_work) values(leak_volume) = values(leak_volume)*two_pi
@@ -185,8 +188,8 @@ contains
       type(powers_t) :: powers
       type(position_t) :: position
       type(sample_t) :: sample
-      ! Lift less that of a rigid train [m]
-      real(wp) :: lift_error
+      ! Lift less that of a rigid train [m], smallest force in the joint between the last points [N]
+      real(wp) :: lift_error, least
       integer :: status
 
       touches = .false.
@@ -209,7 +212,9 @@ contains
       sample = sample_t(angle, position%lift - event_part*top, now%contact%load, pivot_force(model, state, now), 0.0_wp)
       if (allocated(model%flexible%adjuster)) sample%shut = now%pressure - opening_pressure(model%flexible%adjuster)
       call add_interval(last, sample, values)
-      values(smallest_pivot_force) = min(values(smallest_pivot_force), sample%joint, least_joint_force(last, sample))
+      least = least_joint_force(last, sample)
+      values(smallest_pivot_force) = min(values(smallest_pivot_force), sample%joint, least)
+      if (last%height >= 0.0_wp) values(event_pivot_force) = min(values(event_pivot_force), least)
       sample%angle_before = last%angle
       sample%joint_before = last%joint
       last = sample
@@ -235,12 +240,15 @@ contains
 
       ! Length over the turn [-], part of it with the check valve open [-], place of the event's edge [-]
       real(wp) :: length, open, place
+      integer :: places(2)
 
-      if (sample%height >= 0.0_wp) values(smallest_event_load) = min(values(smallest_event_load), sample%load)
+      places = [smallest_event_load, event_pivot_force]
+      if (sample%height >= 0.0_wp) values(places) = min(values(places), [sample%load, sample%joint])
       if (last%angle > sample%angle) return
       if ((last%height < 0.0_wp) .neqv. (sample%height < 0.0_wp)) then
          place = last%height/(last%height - sample%height)
-         values(smallest_event_load) = min(values(smallest_event_load), last%load + place*(sample%load - last%load))
+         values(places) = min(values(places), [last%load + place*(sample%load - last%load), last%joint + place*(sample%joint &
+            & - last%joint)])
       end if
       length = (sample%angle - last%angle)/two_pi
       values(tension_share) = values(tension_share) + length*negative_part(last%joint, sample%joint)
@@ -257,14 +265,17 @@ contains
       !> The force; huge where another one is lower [N]
       real(wp) :: force
 
-      ! Slopes of both intervals, that of the parabola at the second point [N/rad], its bend [N/rad^2]
-      real(wp) :: slopes(2), slope, bend
+      ! Longer over shorter interval above which a parabola goes far below its points where the force has a kink [-]
+      real(wp), parameter :: longest_ratio = 4.0_wp
+      ! Lengths of both intervals [rad], their slopes, that of the parabola at the second point [N/rad], its bend [N/rad^2]
+      real(wp) :: lengths(2), slopes(2), slope, bend
 
       force = huge(1.0_wp)
       if (last%angle_before >= last%angle .or. last%angle >= sample%angle) return
       if (last%joint >= min(last%joint_before, sample%joint)) return
-      slopes(1) = (last%joint - last%joint_before)/(last%angle - last%angle_before)
-      slopes(2) = (sample%joint - last%joint)/(sample%angle - last%angle)
+      lengths = [last%angle - last%angle_before, sample%angle - last%angle]
+      if (maxval(lengths) > longest_ratio*minval(lengths)) return
+      slopes = [last%joint - last%joint_before, sample%joint - last%joint]/lengths
       bend = (slopes(2) - slopes(1))/(sample%angle - last%angle_before)
       slope = slopes(1) + bend*(last%angle - last%angle_before)
       force = last%joint - slope**2/(4.0_wp*bend)
@@ -305,11 +316,9 @@ contains
    end subroutine add_spring
 
    !> Take a step at the seat into the measures: the valve meets its seat where its lift passes zero.
-   pure subroutine follow_seat(start, end, top, has_met, values)
+   pure subroutine follow_seat(start, end, has_met, values)
       !> Lift [m] and speed [m/s] of the valve at both ends of the step
       real(wp), intent(in) :: start(2), end(2)
-      !> Largest lift of the rigid train [m]
-      real(wp), intent(in) :: top
       !> Has it met its seat after the event?
       logical, intent(inout) :: has_met
       !> The measures [unit of the measure]
@@ -318,7 +327,6 @@ contains
       ! Place of the meeting in the step [-]
       real(wp) :: place
 
-      if (start(1) > event_part*top) has_met = .false.
       if (has_met) values(bounce_height) = max(values(bounce_height), end(1))
       if (start(1) > 0.0_wp .and. end(1) <= 0.0_wp) then
          place = start(1)/(start(1) - end(1))

@@ -118,7 +118,8 @@ contains
       type(resolution_t), intent(in) :: resolution
       !> Everything there
       type(flexible_state_t), intent(out) :: now
-      !> 0 fine, positive: an impossible state, negative: the rigid train is impossible
+      !> 0 fine, positive: an impossible state, as a finger that has turned so far that its pad would close the valve; negative:
+      !> the rigid train is impossible
       integer, intent(out) :: status
 
       now%pivot = model%flexible%pivot_place
@@ -133,6 +134,7 @@ contains
       if (status /= 0) return
       call set_contact(model, state, resolution, now)
       call set_valve_forces(model, angle, state, now)
+      if (.not. now%pad_sine > 0.0_wp) status = 1
       call accelerate(model, state, now)
    end subroutine evaluate_train
 

@@ -39,6 +39,9 @@ module camroller_ode_switching
    real(wp), parameter :: least_error = 1.0e-3_wp, impossible = 1.0e3_wp
    !> Kinks this near to either end of a step are at that end, over the step [-]
    real(wp), parameter :: near_end = 1.0e-3_wp
+   !> Error over tolerance of a step in which a kink makes no difference: a contact that rests at zero but for rounding would end
+   !> every step [-]
+   real(wp), parameter :: least_kink = 1.0e-6_wp
    !> Halvings of the part of a step that holds a kink
    integer, parameter :: halvings = 14
 
@@ -226,7 +229,8 @@ contains
          call problem%get_switches(step%end_time, step%new_state, walk%new_switches, status)
          if (status /= 0) return
          step%scaled_error = maxval(abs(step%estimate)/method%tolerance)
-         if (any(walk%new_switches*walk%switches < 0.0_wp)) walk%kink = first_kink(problem, method, walk)
+         if (step%scaled_error > least_kink .and. any(walk%new_switches*walk%switches < 0.0_wp)) walk%kink = &
+            & first_kink(problem, method, walk)
          if (step%scaled_error > 1.0_wp .or. walk%kink <= 0.5_wp) return
          if (method%needs_jacobian) then
             call problem%linearise(step%end_time, step%new_state, method%horizon, method%there, counters, status)

@@ -3,7 +3,7 @@
 !> In: a search that has ended. Out: text.
 module camroller_limits_page
    use camroller_kinds, only : wp, pi
-   use camroller_limit_speeds, only : adjuster_limit, limit_names, limits_t, seating_limit
+   use camroller_limit_speeds, only : adjuster_limit, joint_limit, limit_names, limits_t, seating_limit
    use camroller_number_text, only : integer_text, number_text, right_text
    implicit none
    private
@@ -33,6 +33,7 @@ contains
       if (search%is_flexible) text = text//right_text("flexible train", speed_width)
       do limit = 1, size(search%rigid)
          name = limit_names(limit)
+         if (limit == joint_limit .and. search%has_lash) name = trim(name)//" in the event"
          if (limit == seating_limit) name = trim(name)//" "//number_text(search%seating, 3)//" m/s"
          call rigid_text(search, limit, words)
          line = name//right_text(words, speed_width)

@@ -10,7 +10,8 @@ module camroller_limit_speeds
    use camroller_case, only : case_t
    use camroller_error, only : error_t, add_context
    use camroller_events, only : cycle_stops, find_stops
-   use camroller_flexible_measures, only : event_check_share, seating_speed, smallest_event_load, smallest_pivot_force
+   use camroller_flexible_measures, only : event_check_share, event_pivot_force, seating_speed, smallest_event_load, &
+      & smallest_pivot_force
    use camroller_flexible_solution, only : flexible_solution_t, solve_flexible
    use camroller_margins, only : find_margins, margins_t
    use camroller_model, only : model_t
@@ -38,8 +39,9 @@ module camroller_limit_speeds
       real(wp) :: seating = 0.0_wp, highest = 0.0_wp, step = 0.0_wp
       !> Limits of the rigid train: infinite where it has none, negative where it is not known [rad/s]
       real(wp) :: rigid(limit_count) = -1.0_wp
-      !> Is the train flexible, with an adjuster?
-      logical :: is_flexible = .false., has_adjuster = .false.
+      !> Is the train flexible, with an adjuster, with lash? Lash unloads the joint in each turn, at every speed: its limit is then
+      !> that of the event
+      logical :: is_flexible = .false., has_adjuster = .false., has_lash = .false.
       !> Highest speed that was tried and lies below a limit, lowest that lies above it, as far as there is one [rad/s]
       real(wp) :: below(limit_count) = 0.0_wp, above(limit_count) = huge(1.0_wp)
       !> Cycles of the period at the latter; 0 where there is none
@@ -80,6 +82,7 @@ contains
       call build_models(case, models, error)
       if (allocated(error)) return
       search%is_flexible = allocated(case%dynamics)
+      if (search%is_flexible) search%has_lash = case%dynamics%lash > 0.0_wp
       search%has_adjuster = allocated(case%lash_adjuster)
       do lobe = 1, size(models)
          call find_stops(models(lobe), stops)
@@ -198,7 +201,8 @@ contains
          call solve_flexible(solution, models(lobe), resolve_numerics(case%numerics), error)
          if (lobe > 1) call add_context(error, "second lift")
          if (allocated(error)) return
-         is_passed(joint_limit) = is_passed(joint_limit) .or. solution%lowest(smallest_pivot_force) < 0.0_wp
+         is_passed(joint_limit) = is_passed(joint_limit) .or. solution%lowest(merge(event_pivot_force, smallest_pivot_force, &
+            & search%has_lash)) < 0.0_wp
          is_passed(contact_limit) = is_passed(contact_limit) .or. .not. solution%lowest(smallest_event_load) > 0.0_wp
          is_passed(seating_limit) = is_passed(seating_limit) .or. solution%highest(seating_speed) > search%seating
          if (search%has_adjuster) is_passed(adjuster_limit) = is_passed(adjuster_limit) .or. &

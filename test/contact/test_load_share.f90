@@ -3,10 +3,10 @@ module test_load_share
    use testdrive, only : unittest_type, new_unittest, error_type, check
    use camroller_kinds, only : wp
    use camroller_film, only : groups_t, film_shape_t, film_line_t, film_law_names, film_shape, new_film_line, film_at_load, &
-      takes_whole_load, law_dowson_higginson, law_moes
+      takes_whole_load, law_dowson_higginson, law_masjedi_khonsari_rough, law_moes
    use camroller_asperity, only : asperity_t, asperity_constants_t, new_asperity_constants, asperity_load_function, &
       asperity_area_function, asperity_law_names, law_greenwood_tripp, law_zhao_maietta_chang
-   use camroller_load_share, only : share_t, share_load, improve_share
+   use camroller_load_share, only : share_t, share_change_t, share_load, share_change, improve_share
    implicit none
    private
 
@@ -33,6 +33,7 @@ contains
          new_unittest("slow motion tends to standstill", test_slow), &
          new_unittest("a huge load leaves the asperities a vanishing part", test_huge_load), &
          new_unittest("more load: thinner film, more on the asperities", test_monotonic), &
+         new_unittest("a film that carries no load has changes of the size of the load's rounding", test_idle_film), &
          new_unittest("one step from nearby is as good as the square of its change", test_improve) &
          ]
    end subroutine collect_load_share
@@ -295,6 +296,25 @@ contains
          before = share
       end do
    end subroutine test_monotonic
+
+   subroutine test_idle_film(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(film_line_t) :: line
+      type(asperity_constants_t) :: constants
+      type(share_t) :: share
+      type(share_change_t) :: change
+      ! Load over E' R L [-], apparent area over E' R L [1/Pa]
+      real(wp), parameter :: load = 1.0e-4_wp
+      real(wp) :: area
+
+      call make_contact(law_masjedi_khonsari_rough, 1.0e-11_wp, load, line, constants, area)
+      call share_load(line, load, share, constants, area)
+      share%asperity_load = load
+      share%film_load = 0.0_wp
+      change = share_change(line, load, share, 1.0_wp, 1.0_wp, 1.0_wp)
+      ! Its logarithm times the film's load, at most the rounding of the load, is what forces follow
+      call check(error, abs(change%film_load)*epsilon(load) <= 10.0_wp, "the change of an idle film has no bound")
+   end subroutine test_idle_film
 
    subroutine test_improve(error)
       type(error_type), allocatable, intent(out) :: error

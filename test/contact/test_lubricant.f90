@@ -37,6 +37,7 @@ contains
          new_unittest("Vogel's law is found again from points on it", test_vogel_constants), &
          new_unittest("Walther's law passes through its two points and is the straight line of ASTM D341", test_walther), &
          new_unittest("pressure laws have their closed forms", test_pressure_laws), &
+         new_unittest("a viscosity that is held below overflow has no slope over the pressure", test_held), &
          new_unittest("every pressure law begins with the same slope", test_initial_slope), &
          new_unittest("Roelands' index and the coefficient give each other", test_roelands_index), &
          new_unittest("mean over the contact agrees with adaptive quadrature", test_mean), &
@@ -277,6 +278,28 @@ contains
       if (allocated(error)) return
       call check(error, log(ratio(1)), (log(0.0305_wp) + 9.67_wp)*(3.55_wp**oil%roelands_index - 1.0_wp), thr=roundings, rel=.true.)
    end subroutine test_pressure_laws
+
+   subroutine test_held(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(oil_t) :: oil
+      ! Pressures [Pa]: below and above alpha p = 600, where Barus' law is held; Roelands' at 140 GPa
+      real(wp), parameter :: pressures(2) = [2.0e10_wp, 1.0e12_wp]
+      real(wp) :: ratios(2), slopes(2), further(2), unused(2)
+      integer :: law
+
+      do law = law_barus, law_roelands, law_roelands - law_barus
+         call make_oil(law, oil)
+         call relative_viscosity(oil, pressures, ratios, slopes)
+         call relative_viscosity(oil, pressures*(1.0_wp + 1.0e-6_wp), further, unused)
+         ! The second derivative of the logarithm times half the step is below a thousandth of the slope
+         call check(error, all(abs(log(further/ratios)/1.0e-6_wp - slopes) <= 1.0e-3_wp*slopes), &
+            & "the slope is not that of the ratio: "//pressure_law_names(law))
+         if (allocated(error)) return
+         call check(error, slopes(1) > 0.0_wp .and. .not. slopes(2) > 0.0_wp, "held where it should not be, or not held: "// &
+            & pressure_law_names(law))
+         if (allocated(error)) return
+      end do
+   end subroutine test_held
 
    subroutine test_initial_slope(error)
       type(error_type), allocatable, intent(out) :: error

@@ -20,6 +20,8 @@ module test_ode_switching
       real(wp) :: rise = 0.0_wp
       !> Mass [kg], stiffness [N/m], damping of the seat [s/m], force of the spring [N], its stiffness [N/m]
       real(wp) :: mass = 1.0_wp, stiffness = two_pi**2, damping = 0.0_wp, force = 0.0_wp, spring = 25.0e3_wp
+      !> Is there another contact that rests at zero, but for rounding?
+      logical :: hovers = .false.
    contains
       procedure :: get_rate
       procedure :: get_decay_rate
@@ -38,7 +40,8 @@ contains
       testsuite = [ &
          new_unittest("what a cycloidal rise leaves an oscillator with", test_rise), &
          new_unittest("a valve bounces under its spring", test_bounce), &
-         new_unittest("steps end where contacts are lost and return", test_kinks) &
+         new_unittest("steps end where contacts are lost and return", test_kinks), &
+         new_unittest("a contact that rests at zero but for rounding ends few steps", test_hovering) &
          ]
    end subroutine collect_ode_switching
 
@@ -87,8 +90,9 @@ contains
 
    subroutine test_bounce(error)
       type(error_type), allocatable, intent(out) :: error
-      ! Stiffness of the seat [N/m], height after a meeting at 0.3 m/s [m]: D 0.3, 210 N, 43.2 g
-      real(wp), parameter :: stiffness(2) = [5.0e9_wp, 5.0e7_wp], heights(2) = [6.1402e-6_wp, 2.2372e-6_wp]
+      ! Stiffness of the seat [N/m], height after a meeting at 0.3 m/s [m]: D 0.3, 210 N, 43.2 g; that of a rigid seat follows
+      ! from the speed after the meeting, 0.832869792 times that before, and the energy in force and spring
+      real(wp), parameter :: stiffness(2) = [5.0e9_wp, 5.0e7_wp], heights(2) = [6.1402e-6_wp, 2.2372e-6_wp], rigid = 6.4190e-6_wp
       type(body_t) :: body
       type(trajectory_t) :: trajectory
       real(wp) :: state(2)
@@ -103,6 +107,9 @@ contains
          call check(error, top(trajectory), heights(i), thr=3.0e-5_wp*heights(i))
          if (allocated(error)) return
       end do
+      associate (energy => 0.5_wp*0.0432_wp*(0.832869792_wp*0.3_wp)**2)
+         call check(error, (sqrt(210.0_wp**2 + 2.0_wp*25.0e3_wp*energy) - 210.0_wp)/25.0e3_wp, rigid, thr=1.0e-5_wp*rigid)
+      end associate
    end subroutine test_bounce
 
    !> Largest place of a body of 43.2 g that flies under a spring of 210 N and 25 kN/m, from the first free point: its energy there.
@@ -138,6 +145,26 @@ contains
       end do
       call check(error, found >= 2, "no step ends where the body meets or leaves its seat")
    end subroutine test_kinks
+
+   subroutine test_hovering(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(body_t) :: body
+      type(trajectory_t) :: trajectory
+      real(wp) :: state(2)
+      integer :: i
+
+      do i = 1, size(methods)
+         ! Behind the rise nothing moves
+         body = body_t(rise=1.0_wp, stiffness=0.0_wp, hovers=.true.)
+         body%switches = 1
+         state = 0.0_wp
+         call run(body, methods(i), [0.0_wp, 2.0_wp], [1.0e-10_wp, 1.0e-9_wp], state, trajectory, error)
+         if (allocated(error)) return
+         ! 15; 20 000 where every change of the sign ends a step
+         call check(error, trajectory%count < 100, "steps of a body at rest: "//methods(i))
+         if (allocated(error)) return
+      end do
+   end subroutine test_hovering
 
    !> Rate of place and speed.
    subroutine get_rate(self, time, state, rate, status)
@@ -183,6 +210,7 @@ contains
       status = 0
       switches = 1.0_wp
       if (self%rise <= 0.0_wp .and. time > -pi) switches = -state(1)
+      if (self%hovers) switches = 1.0e-18_wp*sin(1.0e4_wp*time)
    end subroutine get_switches
 
    function name_time(self, time) result(text)

@@ -32,6 +32,12 @@ def test_a_flexible_train_by_runs(camroller):
     assert re.match(r"speeds in rev/min; the flexible train was tried at \d+ speeds, in steps of 400 and then to 1$", notes[0])
 
 
+def test_with_lash_the_joint_counts_in_the_event(camroller):
+    """On the base circle lash leaves the joint free at every speed."""
+    rows, _ = limits(camroller, "hard/dynamics/mechanical_lash.nml", "--to", "800", "--step", "400")
+    assert rows[0] == ["2470.9", "above 800"]
+
+
 def test_invalid_speeds_are_usage_errors(camroller):
     for option, word in (("--to", "fast"), ("--step", "0"), ("--seating", "-1"), ("--to", "1e9"), ("--to", "")):
         done = subprocess.run([camroller, "limit", ROOT / "decks/thesis.nml", f"{option}={word}"], capture_output=True, text=True)

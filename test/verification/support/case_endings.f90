@@ -15,7 +15,7 @@ module case_endings
    end type tally_t
 
    !> What the message of an error of a run says, and its class
-   character(len=*), parameter :: error_phrases(2, 16) = reshape([character(len=44) :: &
+   character(len=*), parameter :: error_phrases(2, 17) = reshape([character(len=44) :: &
       & "at several loads", "several balances at once", &
       & "did not become periodic", "not periodic", &
       & "was not found", "estimate beyond the slip itself", &
@@ -31,7 +31,8 @@ module case_endings
       & "range_policy = 'stop'", "film law outside its range, which stops", &
       & "contact_policy = 'stop'", "contact lost, which stops", &
       & "bearing law has no solution", "camshaft bearing without solution", &
-      & "ehl:", "numerical film"], [2, 16])
+      & "thrown off", "finger thrown off", &
+      & "ehl:", "numerical film"], [2, 17])
 
 contains
 

@@ -228,7 +228,7 @@ contains
          trouble = trouble//" the sliding speed chatters;"
       end if
       call compare_means(one, other, promised_error(case, one, "estimated_error_of_means") + promised_error(case, other, &
-         & "estimated_error_of_means"), trouble)
+         & "estimated_error_of_means"), allocated(case%dynamics), trouble)
       call compare_extremes(one, other, promised_error(case, one, "estimated_error_of_extremes") + promised_error(case, other, &
          & "estimated_error_of_extremes"), trouble)
    end subroutine compare_results
@@ -248,12 +248,15 @@ contains
       verdict = verdict .or. any(other%remarks%kind == kind .or. other%remarks%kind == loose_tolerance) .and. worst_of_other == name
    end function is_taken_back
 
-   !> Means of all series, over the mean size of each; torques that store and give back, over the mean of all losses.
-   subroutine compare_means(one, other, allowed, trouble)
+   !> Means of all series, over the mean size of each; torques that store and give back, over the mean of all losses, and so all
+   !> torques of a flexible train.
+   subroutine compare_means(one, other, allowed, is_flexible, trouble)
       !> The results
       type(result_t), intent(in) :: one, other
       !> Sum of what both promise of their means [-]
       real(wp), intent(in) :: allowed
+      !> Is the train flexible?
+      logical, intent(in) :: is_flexible
       !> What is wrong so far
       character(len=:), allocatable, intent(inout) :: trouble
       ! Difference of the means, their scale, what rounding leaves [unit of the series]; difference over scale
@@ -269,7 +272,8 @@ contains
             ! Between the reported angles there may be more
             scale = max(sum(abs(one%series_values(:, i)))/size(one%angle), abs(scalar_of(one, "mean_"//name)), &
                & abs(scalar_of(other, "mean_"//name)))
-            if (any(drives == name)) scale = abs(scalar_of(one, "mean_torque_friction"))
+            if (any(drives == name) .or. (is_flexible .and. index(name, "torque_") == 1)) scale = abs(scalar_of(one, &
+               & "mean_torque_friction"))
             scale = max(scale, least_scale(one, name))
             found = max(0.0_wp, difference - least)/max(scale, tiny(1.0_wp))
             if (found > allowed) trouble = trouble//" mean_"//name//words_of_difference(found, allowed)

@@ -338,6 +338,8 @@ contains
          if (words == "'hermite'") is_allowed = .not. draft%has_dynamics
       case ("journal_motion")
          is_allowed = words == key%default .or. index(text, "'short_ocvirk'") + index(text, "'finite'") > 0
+      case ("sae_grade")
+         is_allowed = words /= key%default
       case ("energy", "mobilisation")
          is_allowed = .not. draft%has_dynamics .or. words == key%default
       end select
