@@ -74,15 +74,10 @@ module camroller_cycle
    !> Steps after which a method that stiffness does not slow down is given up: several times what a lift table of thousands of rows
    !> takes
    integer, parameter :: most_implicit_steps = 100000
-   !> Scale over the largest sliding speed of a cycle, above which the cycle is integrated again with that as its scale: a balance
-   !> that the roller's inertia keeps it from may be far away [-]
-   real(wp), parameter :: scale_excess = 10.0_wp
    !> Turns after which one that does not halve the closure is followed by one with a finer tolerance
    integer, parameter :: patience = 4
    !> The finer tolerance over the other; the finest [-]
    real(wp), parameter :: finer = 0.1_wp, finest_tolerance = 1.0e-10_wp
-   !> Largest step [rad]
-   real(wp), parameter :: largest_step = 30.0_wp*degree
 
 contains
 
@@ -160,10 +155,7 @@ contains
          if (.not. cycle%has_surface_speed) largest = max(least, maxval(abs(cycle%trajectory%state(1, :cycle%trajectory%count))))
          cycle%scale = largest
          cycle%closure = abs(state(1) - first(1))/largest
-         if (scale > scale_excess*largest .and. turn < resolved%max_cycles) then
-            scale = largest
-            call take_scale(scale, resolved%tolerance, problem, options)
-         else if (is_periodic(cycle, problem, resolved%periodicity)) then
+         if (is_periodic(cycle, problem, resolved%periodicity)) then
             if (allocated(cycle%phases)) cycle%stops = cycle_stops([cycle%stops, cycle%phases%start], cycle%start)
             if (.not. cycle%is_linear) cycle%step_error = options%tolerance(1)
             return
@@ -334,7 +326,6 @@ contains
       call take_scale(scale, resolved%tolerance, problem, options)
       options%step = numerics%step
       if (.not. cycle%is_linear) options%step = min(numerics%step, first_step)
-      options%max_step = largest_step
       if (method%needs_jacobian) then
          options%max_steps = most_implicit_steps
          options%max_evaluations = evaluations_allowed(resolved%tolerance)

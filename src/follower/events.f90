@@ -8,7 +8,7 @@ module camroller_events
    use camroller_error, only : error_t, raise, kind_domain
    use camroller_model, only : model_t, evaluate_geometry
    use camroller_joints, only : jumps_with_tip, jumps_with_valve
-   use camroller_lift, only : is_at_rest, finest_bend
+   use camroller_lift, only : is_at_rest
    use camroller_kinematics, only : position_t
    use camroller_dynamics, only : moments_t
    use camroller_number_text, only : in_mm => millimetres_text
@@ -26,8 +26,6 @@ module camroller_events
    !> Least number of steps of a scan of a turn, shared out evenly between the pieces of the lift: an event may be shorter than a
    !> step
    integer, parameter :: least_steps = 256
-   !> Steps of a scan in the shortest angle over which a lift bends [-]
-   real(wp), parameter :: steps_of_bend = 4.0_wp
    !> Part of the bend that a path may have from which on the scan is refined [-]
    real(wp), parameter :: nearly_too_much = 0.5_wp
    !> Accuracy of an angle [rad]: a few roundings of a turn
@@ -91,20 +89,15 @@ contains
       !> Angles, increasing, with both ends [rad]
       real(wp), allocatable :: angles(:)
 
-      ! Ends of the pieces, longest step in each [rad]
-      real(wp), allocatable :: edges(:), longest(:)
+      ! Ends of the pieces [rad]
+      real(wp), allocatable :: edges(:)
       integer, allocatable :: steps(:)
       integer :: piece, last, i, least
 
       edges = lift_stops_between(model, start, finish)
       edges = [start, pack(edges, edges > start), finish]
-      allocate (longest(size(edges) - 1), source=longest_step)
-      do piece = 1, size(longest)
-         if (is_at_rest(model%lift_law, 0.5_wp*(edges(piece) + edges(piece + 1)))) cycle
-         longest(piece) = min(longest_step, finest_bend(model%lift_law)/steps_of_bend)
-      end do
       least = ceiling(least_steps*min(1.0_wp, (finish - start)/two_pi))
-      steps = max(ceiling((edges(2:) - edges(:size(edges) - 1))/longest), 1 + least/size(edges))
+      steps = max(ceiling((edges(2:) - edges(:size(edges) - 1))/longest_step), 1 + least/size(edges))
       allocate (angles(1 + sum(steps)))
       angles(1) = start
       last = 1

@@ -216,7 +216,7 @@ contains
       was_crossed = .false.
       if (.not. may_bridge(method, options)) return
       associate (step => walk%step, footing => walk%footing)
-         call watch(footing, method%here, step%time, step%length)
+         call watch(footing, step%time, step%length)
          if (.not. is_stuck(method%here, step%time, step%length, method%tolerance, footing)) then
             footing%is_fresh = .false.
             return
@@ -238,7 +238,7 @@ contains
          step%length = bridge%next_step
          call append_curve(trajectory, step%time, step%state, step%rate, straight)
          call copy_linear(method%there, method%here)
-         call note_bridge(footing, step%time, step%rate(1))
+         call note_bridge(footing, step%time)
       end associate
    end subroutine cross
 

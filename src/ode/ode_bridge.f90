@@ -28,10 +28,8 @@ module camroller_ode_bridge
    type :: footing_t
       !> Factor on the limits below which a method makes no progress; one where it has progressed without bridges [-]
       real(wp) :: reach = 1.0_wp
-      !> How often the rate has changed its sign of late [-]
-      real(wp) :: turns = 0.0_wp
-      !> Time of the last point [time], rate there [state/time]
-      real(wp) :: time = -huge(1.0_wp), rate = 0.0_wp
+      !> Time of the last point [time]
+      real(wp) :: time = -huge(1.0_wp)
       !> Is the step to be tried much larger than the one before, or does it follow a bridge? Then the method is given a try
       logical :: is_fresh = .true.
    end type footing_t
@@ -45,10 +43,6 @@ module camroller_ode_bridge
    real(wp), parameter :: wider = 4.0_wp, closer = 0.5_wp, farthest = 1.0e4_wp
    !> Step relative to the one before from which on a method makes good progress [-]
    real(wp), parameter :: growing = 2.0_wp
-   !> Part of the count of turns that a step leaves, count from which on a solution is restless: three turns in five steps, say [-]
-   real(wp), parameter :: fading = 0.75_wp, restless = 2.0_wp
-   !> Decay exponents of a step between which a turn is a sign of it; beyond, the rate is an error of the state times the decay [-]
-   real(wp), parameter :: slow_decay = 0.5_wp, fast_decay = 10.0_wp
    !> First step over one with which a method gets nowhere; largest growth and shrinkage; part of the best step that is taken [-]
    real(wp), parameter :: start_growth = 4.0_wp, max_growth = 10.0_wp, max_shrinkage = 0.1_wp, safety = 0.9_wp
    !> Shrinkages of a step; evaluations to find one state
@@ -56,8 +50,7 @@ module camroller_ode_bridge
 
 contains
 
-   !> Does a step change the state by little more than the error allowed, whatever happens in it, or has the rate changed its sign
-   !> again and again, as it does where errors within the tolerance are thrown from one side of a solution to the other?
+   !> Does a step change the state by little more than the error allowed, whatever happens in it?
    !>
    !> Steps that grow are not stuck, however small. Where a load comes from zero, the largest rate at the start of a step is none,
    !> and without a try of the method bridges would follow each other long after there is reason to.
@@ -79,41 +72,30 @@ contains
       verdict = size(tolerance) == 1 .and. here%span < huge(1.0_wp)
       reach = merge(1.0_wp, footing%reach, footing%is_fresh)
       if (verdict) verdict = (step*(here%span + abs(here%rate(1))) <= slow*reach*tolerance(1) .and. .not. footing%is_fresh) .or. &
-         & step <= short*reach*spacing(abs(time)) .or. footing%turns >= restless
+         & step <= short*reach*spacing(abs(time))
    end function is_stuck
 
    !> Look at a point that an integration has reached by a step.
-   pure subroutine watch(footing, here, time, step)
+   pure subroutine watch(footing, time, step)
       !> Progress of the integration
       type(footing_t), intent(inout) :: footing
-      !> Rate with its derivatives at the point
-      type(linear_t), intent(in) :: here
       !> Time of the point, size of the step that is to follow [time]
       real(wp), intent(in) :: time, step
-
-      ! Decay exponent of the step [-]
-      real(wp) :: exponent
 
       if (.not. time > footing%time) return
       footing%reach = max(1.0_wp, closer*footing%reach)
       footing%is_fresh = footing%is_fresh .or. step/growing >= time - footing%time
-      footing%turns = fading*footing%turns
-      if ((here%rate(1) > 0.0_wp .and. footing%rate < 0.0_wp) .or. (here%rate(1) < 0.0_wp .and. footing%rate > 0.0_wp)) then
-         exponent = (time - footing%time)*abs(here%jacobian(1, 1))
-         if (exponent > slow_decay .and. exponent < fast_decay) footing%turns = footing%turns + 1.0_wp
-      end if
       footing%time = time
-      footing%rate = here%rate(1)
    end subroutine watch
 
    !> Take note of a bridge.
-   pure subroutine note_bridge(footing, time, rate)
+   pure subroutine note_bridge(footing, time)
       !> Progress of the integration
       type(footing_t), intent(inout) :: footing
-      !> Time at its end [time], rate there [state/time]
-      real(wp), intent(in) :: time, rate
+      !> Time at its end [time]
+      real(wp), intent(in) :: time
 
-      footing = footing_t(min(farthest, wider*footing%reach), 0.0_wp, time, rate, .true.)
+      footing = footing_t(min(farthest, wider*footing%reach), time, .true.)
    end subroutine note_bridge
 
    !> Find the largest step that is accurate enough, and make it.

@@ -1,4 +1,4 @@
-!> Exponential Hermite method of order 6, of order 4 in the first step: mostly one evaluation of the rate with derivatives a step.
+!> Exponential Hermite method of order 6, of order 4 in the first step: one evaluation of the rate with derivatives a step.
 !>
 !> In: nothing. Out: a `method_t` for problems of one component, which may be followed by integrals over it.
 !> About the start of a step h the rate is `f + J (y - y_n) + v (t - t_n) + R(t)`. The linear part is solved exactly. R, which
@@ -10,7 +10,7 @@
 !>
 !> The end is predicted by the cubic through the two points that are known, in the first step after a stop by R = 0. Rate and
 !> derivatives are evaluated there, and one step of Newton's method on the formula above, with these derivatives, corrects state
-!> and rate; where the rate saturates, up to four. The error estimate is what the formula loses without the slope at the earliest
+!> and rate. The error estimate is what the formula loses without the slope at the earliest
 !> point (in the first step: without the slope at the end), at the end or in the middle of the step, whichever is larger. No state
 !> but y_n enters, so steps may change at will.
 !>
@@ -47,10 +47,6 @@ module camroller_ode_hermite
    integer, parameter :: first_order = 4, later_order = 6
    !> Smallest denominator of Newton's step [-]; below it a smaller step is taken
    real(wp), parameter :: least_denominator = 0.1_wp
-   !> Decay exponent of a step from which on the state follows the rate at once; ratio of two decay rates that are alike [-]
-   real(wp), parameter :: fast_enough = 1.0_wp, alike = 0.5_wp
-   !> Evaluations of a step
-   integer, parameter :: most_corrections = 4
    !> Factorials of 2 to 5 [-]
    real(wp), parameter :: factorials(0:3) = [2.0_wp, 6.0_wp, 24.0_wp, 120.0_wp]
 
@@ -93,7 +89,6 @@ contains
       real(wp) :: linear, predicted, correction
       ! One minus the derivative of the formula over the state at the end [-]
       real(wp) :: denominator
-      integer :: i
 
       associate (h => step%length, new_state => step%new_state, new_rate => step%new_rate)
          new_state(:) = step%state
@@ -107,23 +102,18 @@ contains
          counters%factorisations = counters%factorisations + 1
          linear = step%state(1) + h*(phi(1)*step%rate(1) + h*phi(2)*self%start%time_slope)
          past = look_back(self%start, self%before, self%before, self%start%state, h)
-         new_state(1) = linear + h*((past%value - past%slope*past%place)*weights(0) + past%slope*weights(1))
-         do i = 1, most_corrections
-            predicted = new_state(1)
-            status = 1
-            if (.not. abs(predicted) < huge(1.0_wp)) return
-            call problem%linearise(step%time + h, new_state, self%horizon, self%there, counters, status)
-            if (status /= 0) return
-            call close_remainder(self%there, 1, self%start, self%start%state, h, predicted, past, remainder, follower)
-            denominator = 1.0_wp - h*integral_of(follower, past%place, weights)
-            status = 1
-            if (.not. denominator > least_denominator) return
-            correction = (linear + h*integral_of(remainder, past%place, weights) - predicted)/denominator
-            new_state(1) = predicted + correction
-            if (has_settled(self, h, predicted, correction)) exit
-         end do
-         if (i > most_corrections) return
+         predicted = linear + h*((past%value - past%slope*past%place)*weights(0) + past%slope*weights(1))
+         if (.not. abs(predicted) < huge(1.0_wp)) return
+         new_state(1) = predicted
+         call problem%linearise(step%time + h, new_state, self%horizon, self%there, counters, status)
+         if (status /= 0) return
+         call close_remainder(self%there, 1, self%start, self%start%state, h, predicted, past, remainder, follower)
+         denominator = 1.0_wp - h*integral_of(follower, past%place, weights)
+         status = 1
+         if (.not. denominator > least_denominator) return
          status = 0
+         correction = (linear + h*integral_of(remainder, past%place, weights) - predicted)/denominator
+         new_state(1) = predicted + correction
          call correct_remainder(remainder, follower, correction)
          new_rate(:) = self%there%rate + self%there%jacobian(:, 1)*correction
          step%estimate(1) = h*abs(loss_of(self, h, remainder, past%place, weights))
@@ -135,27 +125,6 @@ contains
          self%end%state = new_state(1)
       end associate
    end subroutine try_hermite_step
-
-   !> Is one step of Newton's method enough? Not where it changes the sign of the state, and with it of friction. Nor where the
-   !> rate saturates and the state follows it at once: derivatives then differ between start and end, and over the correction as
-   !> far as that is not small against the change of the state. No error that matters may be left, of the state or of the rate.
-   pure function has_settled(self, step, predicted, correction) result(verdict)
-      !> The method
-      type(hermite_method_t), intent(in) :: self
-      !> Size of the step [time], state predicted at its end, correction of it [state]
-      real(wp), intent(in) :: step, predicted, correction
-      !> Is it?
-      logical :: verdict
-      ! Decay rates at both ends [1/time], change of the state, no less than its correction [state], errors allowed [state/time]
-      real(wp) :: decays(2), moved, allowed(2)
-      decays = -[self%start%slope, self%there%jacobian(1, 1)]
-      allowed = [self%tolerance(1)*maxval(decays), self%there%resolution*self%there%span]
-      verdict = abs(correction) <= self%tolerance(1) .and. abs(correction*decays(2)) <= allowed(2)
-      if (verdict .or. predicted*(predicted + correction) < 0.0_wp) return
-      moved = max(abs(predicted + correction - self%start%state), abs(correction))
-      verdict = step*maxval(decays) <= fast_enough .or. (minval(decays) >= alike*maxval(decays) .and. &
-         & correction**2*(maxval(decays) - minval(decays)) <= 2.0_wp*minval(allowed)*moved)
-   end function has_settled
 
    !> Keep the start of the step, and with it the start of the one before where this one goes on from its end.
    pure subroutine remember(self, time, state, rate)

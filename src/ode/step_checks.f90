@@ -13,9 +13,6 @@ module camroller_step_checks
 
    public :: check_step
 
-   !> Departure from the linear rate over span and size of the rate, up to which a step is taken to have seen a saturation [-]
-   real(wp), parameter :: largest_departure = 0.5_wp
-
 contains
 
    !> Raise the error of a step for which one of the checks finds a reason.
@@ -37,7 +34,7 @@ contains
 
       has_derivatives = method%needs_jacobian .and. (method%gives_rate .or. step%end_time < method%horizon)
       if (method%needs_jacobian .and. method%here%span < huge(1.0_wp)) then
-         call check_saturation(method%here, method%there, method%error_order, step)
+         call check_saturation(method%here, method%there, step)
       end if
       if (is_fixed .or. step%scaled_error > 1.0_wp) return
       if (.not. has_derivatives) call problem%get_clearance(step%end_time, step%new_state, method%there%clearance)
@@ -50,34 +47,27 @@ contains
 
    !> Raise the error of a step that crosses a range of the state within which the rate saturates, without seeing it.
    !>
-   !> Two signs: an error of the state that the Jacobian turns into more than the allowed error of the rate, and a rate at
-   !> the end that is far from the linear one. Without them a step may jump from one side of a narrow range to the other,
-   !> again and again.
-   pure subroutine check_saturation(here, there, error_order, step)
+   !> Its sign is an error of the state that the Jacobian turns into more than the allowed error of the rate. Without this check a
+   !> step may jump from one side of a narrow range to the other, again and again.
+   pure subroutine check_saturation(here, there, step)
       !> Rate with its derivatives at the start and at the end
       type(linear_t), intent(in) :: here, there
-      !> Order of the error estimate plus one
-      integer, intent(in) :: error_order
       !> The step
       type(step_t), intent(inout) :: step
 
-      ! Departure from the linear rate, error of the rate, and size of the rates [state/time]
-      real(wp) :: departure, error, span
+      ! Error of the rate, largest rate [state/time]
+      real(wp) :: error, span
       integer :: i
 
       span = here%span
       if (there%span < huge(1.0_wp)) span = max(span, there%span)
-      associate (change => step%new_state - step%state)
-         do i = 1, size(change)
-            associate (row => here%jacobian(i, :), size_of_rate => span + abs(step%rate(i)) + abs(step%new_rate(i)))
-               if (.not. size_of_rate > 0.0_wp) cycle
-               departure = step%new_rate(i) - step%rate(i) - sum(row*change) - here%time_slope(i)*step%length
-               error = sum(row*step%estimate)
-               step%scaled_error = max(step%scaled_error, abs(error)/(here%resolution*size_of_rate), &
-                  & (abs(departure)/(largest_departure*size_of_rate))**error_order)
-            end associate
-         end do
-      end associate
+      do i = 1, size(step%state)
+         associate (row => here%jacobian(i, :), size_of_rate => span + abs(step%rate(i)) + abs(step%new_rate(i)))
+            if (.not. size_of_rate > 0.0_wp) cycle
+            error = sum(row*step%estimate)
+            step%scaled_error = max(step%scaled_error, abs(error)/(here%resolution*size_of_rate))
+         end associate
+      end do
    end subroutine check_saturation
 
    !> Raise the error of a step that crosses the barrier of a problem where the state would have been held.

@@ -15,7 +15,7 @@ module camroller_lift
    private
 
    public :: lift_t, lift_law_t, lift_law_names
-   public :: new_lift_law, evaluate_lift, is_at_rest, stop_angles, finest_bend, largest_exponent
+   public :: new_lift_law, evaluate_lift, is_at_rest, stop_angles, largest_exponent
 
    !> Lift laws that can be chosen by name
    character(len=*), parameter :: lift_law_names(*) = [character(len=name_length) :: &
@@ -191,25 +191,6 @@ contains
 
       angles = law%stops
    end function stop_angles
-
-   !> Shortest angle over which the lift bends: in it the largest derivatives change by a part of themselves.
-   pure function finest_bend(law) result(angle)
-      !> The law
-      type(lift_law_t), intent(in) :: law
-      !> The angle; large where the ends of the event and a scan of it say as much [rad]
-      real(wp) :: angle
-
-      select case (law%law)
-      case (law_power)
-         ! Near the nose the law is exp(-n y^2)
-         angle = minval(law%half_angle)/sqrt(2.0_wp*law%exponents(0))
-      case (law_polydyne)
-         ! Near the end of the event the last term is exp(-s (1 - y))
-         angle = minval(law%half_angle)/law%exponents(n_polydyne + 1)
-      case default
-         angle = two_pi
-      end select
-   end function finest_bend
 
    !> `(1 - y^2)^n`.
    pure subroutine power_shape(n, y, f)
