@@ -2,22 +2,24 @@
 !>
 !> In: the solved case, rows of its series, margins. Out: `extremes_t`.
 module camroller_series_extremes
-   use camroller_kinds, only : wp
+   use camroller_kinds, only : two_pi, wp
    use camroller_error, only : error_t
    use camroller_bearing_asperity, only : bearing_state_t
-   use camroller_catalogue, only : follower_values, camshaft_values, lobe_columns, camshaft_columns
+   use camroller_catalogue, only : follower_values, camshaft_values, camshaft_count, lobe_columns, camshaft_columns
    use camroller_cycle, only : state_at
    use camroller_cycle_remarks, only : has_film_limit
+   use camroller_error_estimate, only : margin
    use camroller_flexible_follower, only : follower_on_path
    use camroller_flexible_solution, only : error_share
    use camroller_extremes, only : samples_t, search_t, add_sample, narrow_search, start_search
+   use camroller_lobe_curve, only : cam_values, curve_values
    use camroller_margins, only : margins_t
    use camroller_means, only : statistics_t
    use camroller_model, only : model_t
    use camroller_result, only : quantity_t, find_quantity
    use camroller_bearing_series, only : bearing_count
    use camroller_shaft, only : solved_t, shaft_torques
-   use camroller_slip_errors, only : error_of_extreme
+   use camroller_slip_errors, only : error_at, error_of_extreme, state_without
    use camroller_state, only : state_t
    use camroller_torque_list, only : torque_count, torque_series, of_residual
    implicit none
@@ -51,6 +53,16 @@ module camroller_series_extremes
       !> Interval of the cycle where the next search starts, and of that turn
       integer :: hint = 1, coarse_hint = 1
    end type kept_states_t
+
+   !> Rows of the camshafts that were solved for the errors of extremes
+   type :: kept_rows_t
+      !> Number of rows so far, and places in use
+      integer :: count = 0, used = 0
+      !> Their cam angles from full lift [rad]
+      real(wp) :: angles(most_kept) = 0.0_wp
+      !> The rows, and what they are without the error of the sliding speed, shape (series, row) [unit of the series]
+      real(wp), allocatable :: values(:, :), without(:, :)
+   end type kept_rows_t
 
 contains
 
@@ -89,8 +101,8 @@ contains
    subroutine find_extremes(solved, statistics, torque_rows, series, extremes, error)
       !> The solved case; its search hints move
       type(solved_t), intent(inout) :: solved
-      !> Statistics of each lobe shape, with the extremes
-      type(statistics_t), intent(in) :: statistics(:)
+      !> Statistics of each lobe shape, with the extremes; out: with the largest error of those of the camshaft
+      type(statistics_t), intent(inout) :: statistics(:)
       !> Rows of the camshaft; more are added
       type(samples_t), intent(inout) :: torque_rows
       !> All series of the case
@@ -110,8 +122,8 @@ contains
          extremes%highest(columns(1):columns(2)) = statistics(lobe)%highest
       end do
       columns = camshaft_columns(solved%case)
-      call search_camshaft(solved, torque_rows, find_quantity(series(columns(1):columns(2)), trim(torque_series(of_residual))), &
-         & extremes%lowest(columns(1):columns(2)), extremes%highest(columns(1):columns(2)), error)
+      call search_camshaft(solved, statistics, series(columns(1):columns(2)), torque_rows, extremes%lowest(columns(1):columns(2)), &
+         & extremes%highest(columns(1):columns(2)), error)
    end subroutine find_extremes
 
    !> Rows of a lobe's follower at the stops, and at the smallest load of the event without friction.
@@ -285,25 +297,31 @@ contains
       statistics%worst_extreme = series(i)%name
    end subroutine judge_extremes
 
-   !> Smallest and largest values of the camshaft's series.
-   subroutine search_camshaft(solved, samples, residual, lowest, highest, error)
+   !> Smallest and largest values of the camshaft's series, with the largest of their errors.
+   subroutine search_camshaft(solved, statistics, list, samples, lowest, highest, error)
       !> The solved case; its search hints move
       type(solved_t), intent(inout) :: solved
+      !> Statistics of each lobe shape; out: with that error
+      type(statistics_t), intent(inout) :: statistics(:)
+      !> The series of the camshaft
+      type(quantity_t), intent(in) :: list(:)
       !> Rows of the camshaft; those of the stops are added
       type(samples_t), intent(inout) :: samples
-      !> Which series is the energy residual, 0 for none: it is rounding, of which the rows show enough
-      integer, intent(in) :: residual
       !> The values [unit of the series]
       real(wp), intent(out) :: lowest(:), highest(:)
       !> Convergence or domain error
       type(error_t), allocatable, intent(out) :: error
 
       type(search_t) :: search
-      ! Stops of all cams [rad]; a row [unit of the series]
+      type(kept_rows_t) :: kept
+      ! Stops of all cams [rad]; a row, larger error of smallest and largest value [unit of the series]
       real(wp), allocatable :: stops(:)
-      real(wp) :: values(size(lowest))
-      integer :: i, series, sense
+      real(wp), dimension(size(lowest)) :: values, errors
+      integer :: i, residual, series, sense
 
+      ! It is rounding, of which the rows show enough
+      residual = find_quantity(list, trim(torque_series(of_residual)))
+      errors = 0.0_wp
       stops = [(solved%cycles(solved%shaft%lobes(i))%stops + solved%shaft%phases(i), i=1, size(solved%shaft%lobes))]
       stops = [stops - beside, stops, stops + beside]
       do i = 1, size(stops)
@@ -321,12 +339,97 @@ contains
             end do
             if (sense > 0) lowest(series) = search%value
             if (sense < 0) highest(series) = -search%value
+            if (series == residual) cycle
+            call keep_row(kept, solved, statistics, search%point, i, error)
+            if (allocated(error)) return
+            associate (value => kept%values(series, i))
+               errors(series) = max(errors(series), search%left + margin*abs(kept%without(series, i) - value) &
+                  & + abs(sense*search%value - value))
+            end associate
          end do
       end do
+      call judge_camshaft(list, lowest, highest, errors, statistics)
    end subroutine search_camshaft
 
+   !> Find the row of the camshafts at a cam angle among those kept, or solve it, with what it is without the error of the sliding
+   !> speed of each follower: by the states, not by the curves.
+   subroutine keep_row(kept, solved, statistics, angle, place, error)
+      !> The rows
+      type(kept_rows_t), intent(inout) :: kept
+      !> The solved case; its search hints move
+      type(solved_t), intent(inout) :: solved
+      !> Statistics of each lobe shape
+      type(statistics_t), intent(in) :: statistics(:)
+      !> Cam angle of the first cam from full lift [rad]
+      real(wp), intent(in) :: angle
+      !> Place of the row among those kept
+      integer, intent(out) :: place
+      !> Convergence or domain error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(state_t) :: state, right
+      ! What each cam takes from its follower, and without the error of the sliding speed [N m, N]; angle within the cycle [rad]
+      real(wp), dimension(curve_values, size(solved%shaft%lobes)) :: cams, others
+      real(wp) :: inside
+      integer :: cam, series, status
+
+      series = camshaft_count(solved%case)
+      if (.not. allocated(kept%values)) allocate (kept%values(series, most_kept), kept%without(series, most_kept))
+      do place = 1, kept%used
+         if (.not. abs(kept%angles(place) - angle) > 0.0_wp) return
+      end do
+      place = modulo(kept%count, most_kept) + 1
+      kept%count = kept%count + 1
+      kept%used = max(kept%used, place)
+      kept%angles(place) = angle
+      do cam = 1, size(solved%shaft%lobes)
+         associate (shaft => solved%shaft, lobe => solved%shaft%lobes(cam))
+            associate (model => solved%models(lobe), cycle => solved%cycles(lobe))
+               inside = cycle%start + modulo(angle - shaft%phases(cam) - cycle%start, two_pi)
+               call state_at(cycle, model, inside, shaft%hints(cam), state, error)
+               if (allocated(error)) return
+               cams(:, cam) = cam_values(model, state, allocated(shaft%bearings))
+               others(:, cam) = cams(:, cam)
+               if (.not. allocated(statistics(lobe)%slip_errors%error)) cycle
+               call state_without(model, cycle, inside, state, error_at(statistics(lobe)%slip_errors, inside), right, status)
+               if (status == 0) others(:, cam) = cam_values(model, right, allocated(shaft%bearings))
+            end associate
+         end associate
+      end do
+      call camshaft_row(solved, angle, kept%values(:, place), error, cams)
+      if (.not. allocated(error)) call camshaft_row(solved, angle, kept%without(:, place), error, others)
+   end subroutine keep_row
+
+   !> Largest error of a smallest or largest value of the camshaft, relative to the range of its series; that of a torque relative
+   !> to the range of the friction torque where this is larger.
+   pure subroutine judge_camshaft(list, lowest, highest, errors, statistics)
+      !> The series of the camshaft
+      type(quantity_t), intent(in) :: list(:)
+      !> Smallest and largest values, their larger error [unit of the series]
+      real(wp), intent(in) :: lowest(:), highest(:), errors(:)
+      !> Statistics of each lobe shape; out: with that error where it is the largest
+      type(statistics_t), intent(inout) :: statistics(:)
+
+      ! Error over the magnitude of a series that is rounding [-]; range that counts as none [unit of the series]
+      real(wp), parameter :: rounding = 1.0e-12_wp, least = sqrt(tiny(1.0_wp))
+      ! Error over the range [-], ranges [unit of the series]
+      real(wp) :: relative, ranges(size(list))
+      integer :: friction, i
+
+      ranges = max(highest - lowest, least)
+      friction = find_quantity(list, "torque_friction")
+      do i = 1, size(list)
+         if (errors(i) <= rounding*max(abs(lowest(i)), abs(highest(i)))) cycle
+         relative = errors(i)/ranges(i)
+         if (list(i)%unit == "N m") relative = errors(i)/max(ranges(i), ranges(friction))
+         if (relative <= maxval(statistics%extreme_error)) cycle
+         statistics(1)%extreme_error = relative
+         statistics(1)%worst_extreme = list(i)%name
+      end do
+   end subroutine judge_camshaft
+
    !> The camshaft's series at a cam angle.
-   subroutine camshaft_row(solved, angle, values, error)
+   subroutine camshaft_row(solved, angle, values, error, cams)
       !> The solved case; its search hints move
       type(solved_t), intent(inout) :: solved
       !> Cam angle of the first cam from full lift [rad]
@@ -335,6 +438,8 @@ contains
       real(wp), intent(out) :: values(:)
       !> Convergence or domain error
       type(error_t), allocatable, intent(out) :: error
+      !> What each cam takes from its follower, shape (value, cam) [N m, N]; without it the curves say so
+      real(wp), intent(in), optional :: cams(:, :)
 
       ! Torques on each camshaft [N m]
       real(wp) :: torques(torque_count, solved%shaft%count)
@@ -342,7 +447,7 @@ contains
       type(bearing_state_t), allocatable :: bearings(:, :)
 
       if (bearing_count(solved%case) > 0) allocate (bearings(bearing_count(solved%case), solved%shaft%count))
-      call shaft_torques(solved, angle, torques, error, bearings=bearings)
+      call shaft_torques(solved, angle, torques, error, cams, bearings)
       if (allocated(error)) return
       call camshaft_values(solved%case, torques, values, bearings)
    end subroutine camshaft_row

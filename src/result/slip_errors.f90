@@ -20,7 +20,8 @@ module camroller_slip_errors
    implicit none
    private
 
-   public :: slip_points_t, slip_errors_t, start_points, keep_point, set_errors, find_slip_errors, error_of_extreme
+   public :: slip_points_t, slip_errors_t, start_points, keep_point, set_errors, find_slip_errors, error_of_extreme, error_at, &
+      & state_without
 
    !> Fraction of what cancels within an interval that is counted all the same: the estimate at a point is of first order [-]
    real(wp), parameter :: distrust = 0.02_wp

@@ -77,8 +77,9 @@ contains
          & "without films where contact is lost", "numerics", &
          & maxval(statistics%mean_error))
       call add(list, "estimated_error_of_extremes", "1", "estimate of the largest error of a smallest or "// &
-         & "largest value relative to the range of its series, of the smallest film relative to itself; without torques, and "// &
-         & "without films where contact is lost", "numerics", maxval(statistics%extreme_error))
+         & "largest value relative to the range of its series, of a torque to that of the friction torque where it is larger, "// &
+         & "of the smallest film relative to itself; without films where contact is lost", "numerics", &
+         & maxval(statistics%extreme_error))
       call add_counters(solved%cycles, list)
       result%summary = list%items(:list%count)
       result%summary_values = list%values(:list%count)

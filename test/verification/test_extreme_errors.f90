@@ -30,6 +30,8 @@ contains
 
       testsuite = [ &
          new_unittest("the estimate bounds the errors of extremes for every kind of method", test_estimate), &
+         new_unittest("the estimate bounds the error of the largest friction torque, which is beyond those of the follower", &
+            & test_torques), &
          new_unittest("extremes include both sides of a jump", test_jump), &
          new_unittest("where traction saturates, the sliding speed is corrected within the error allowed", test_settle), &
          new_unittest("where the load tends to zero a remark names the films that have no mean", test_film_remark) &
@@ -85,23 +87,50 @@ contains
       call check(error, logarithms/counted <= log(10.0_wp), "far above the errors")
    end subroutine test_estimate
 
-   !> Largest difference of a smallest or largest value over the range of its series.
+   !> With a sharp limit of the traction the largest friction torque has a larger error than any series of the follower.
+   subroutine test_torques(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: the_case
+      type(result_t) :: reference, result
+      type(error_t), allocatable :: failure
+      ! Error over range, estimate [-]
+      real(wp) :: found, estimate
+      character(len=120) :: words
+
+      call get_deck_case("decks/hard/sharp_cap.nml", the_case, failure)
+      the_case%numerics%accuracy = 1.0e-7_wp
+      if (.not. allocated(failure)) call run_case(the_case, reference, failure)
+      the_case%numerics%accuracy = 1.0e-3_wp
+      if (.not. allocated(failure)) call run_case(the_case, result, failure)
+      if (.not. allocated(failure)) call get_summary(result, "estimated_error_of_extremes", estimate, failure)
+      if (allocated(failure)) call test_failed(error, failure%message)
+      if (allocated(error)) return
+      found = largest_error(result, reference)
+      write (words, "(a, 2es10.2)") "error and estimate", found, estimate
+      call check(error, found <= estimate, words)
+   end subroutine test_torques
+
+   !> Largest difference of a smallest or largest value over the range of its series, for torques over that of the friction torque
+   !> where it is larger.
    function largest_error(result, reference) result(largest)
       type(result_t), intent(in) :: result, reference
       ! [-]
       real(wp) :: largest
       ! Of the reference [unit of the series]
-      real(wp) :: values(2)
+      real(wp) :: values(2), friction, range
       integer :: i
 
       largest = 0.0_wp
+      friction = scalar_of(reference, "max_torque_friction") - scalar_of(reference, "min_torque_friction")
       do i = 1, size(reference%series)
          associate (name => reference%series(i)%name)
-            if (index(name, "torque_") == 1 .or. name == "energy_residual") cycle
+            if (name == "energy_residual") cycle
             values = [scalar_of(reference, "min_"//name), scalar_of(reference, "max_"//name)]
             if (.not. values(2) > values(1)) cycle
+            range = values(2) - values(1)
+            if (index(name, "torque_") == 1) range = max(range, friction)
             largest = max(largest, max(abs(scalar_of(result, "min_"//name) - values(1)), abs(scalar_of(result, "max_"//name) &
-               & - values(2)))/(values(2) - values(1)))
+               & - values(2)))/range)
          end associate
       end do
    end function largest_error
