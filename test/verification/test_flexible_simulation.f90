@@ -1,10 +1,11 @@
 !> A follower with a flexible train driven from outside.
 module test_flexible_simulation
    use testdrive, only : unittest_type, new_unittest, error_type, check, test_failed
-   use camroller, only : wp, pi, two_pi, degree, error_t, case_t, simulation_t, outcome_t, inputs_t, result_t, run_case, &
-      & get_summary, start_simulation, advance
+   use camroller, only : wp, pi, two_pi, degree, error_t, case_t, numerics_t, simulation_t, outcome_t, inputs_t, result_t, &
+      & run_case, get_summary, start_simulation, advance
    use camroller_torque_list, only : of_damping, of_residual
    use closeness, only : check_close, check_scaled
+   use deck_cases, only : get_deck_case
    use driven_trains, only : train, steady, inputs_at, engine_case
    implicit none
    private
@@ -272,8 +273,10 @@ contains
       real(wp), parameter :: accuracies(2) = [1.0e-2_wp, 1.0e-4_wp]
 
       do k = 1, 2
-         call start_simulation(rough, train(900.0_wp, 2, k == 2, accuracies(k)), 0.0_wp, failure)
-         the_case = train(900.0_wp, 2, k == 2, 1.0e-3_wp)
+         call get_deck_case("decks/dynamics.nml", the_case, failure, "operating_point.speed_rpm=900")
+         if (has_failed(failure, error)) return
+         the_case%numerics = numerics_t(accuracy=accuracies(k))
+         call start_simulation(rough, the_case, 0.0_wp, failure)
          the_case%numerics%tolerance = 1.0e-8_wp
          if (.not. allocated(failure)) call start_simulation(exact, the_case, 0.0_wp, failure)
          inputs = steady(the_case)
