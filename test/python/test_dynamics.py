@@ -130,6 +130,14 @@ def test_a_valve_that_no_longer_closes_does_not_bounce(tmp_path, camroller):
     assert summary["seating_speed"] == 0 and summary["bounces"] == 0 and summary["lift_error_min"] > 0
 
 
+def test_a_rattling_finger_has_no_bounces_before_the_event_and_its_joint_a_force_that_is_there(tmp_path, camroller):
+    summary, _ = run(camroller, DECK, tmp_path / "run.h5", "sweep.values_1=900", "dynamics.lash_mm=0.1", "numerics.tolerance=1e-3")
+    # 2.4 mm, a quarter of the lift, where the opening of the valve counted
+    assert summary["bounce_height"] < 2e-5
+    # Series have the force at whole degrees, the summary the smallest of all turns
+    assert summary["min_joint_force"] - 100 < summary["joint_force_min_lowest"] < summary["joint_force_min_event"]
+
+
 @pytest.mark.parametrize("deck, speed", [(DECK, 900), (DECK, 2900), (ADJUSTER, 300)], ids=["900", "2900", "adjuster-300"])
 def test_errors_of_means_and_extremes_are_as_estimated(deck, speed, tmp_path, camroller):
     rough, _ = run(camroller, deck, tmp_path / "rough.h5", f"sweep.values_1={speed}", "numerics.tolerance=1e-3")
@@ -139,11 +147,11 @@ def test_errors_of_means_and_extremes_are_as_estimated(deck, speed, tmp_path, ca
     errors = [abs(rough[end + name] - fine[end + name]) / (fine["max_" + name] - fine["min_" + name])
               for name in ends if fine["max_" + name] > fine["min_" + name] for end in ("min_", "max_")]
     assert len(errors) > 60
-    # An estimate by half the difference of two tolerances; 0.5 to 0.9 of it were found
-    assert 0.1 * rough["estimated_error_of_extremes"] < max(errors) < 2 * rough["estimated_error_of_extremes"]
+    # An estimate by the difference of two tolerances; 0.25 to 0.45 of it were found
+    assert 0.05 * rough["estimated_error_of_extremes"] < max(errors) < rough["estimated_error_of_extremes"]
     torques = [abs(rough[name] - fine[name]) / fine["mean_torque_friction"] for name in fine if name.startswith("mean_torque_")
                and "residual" not in name]
-    assert max(torques) < 2 * rough["estimated_error_of_means"]
+    assert max(torques) < rough["estimated_error_of_means"]
 
 
 REFERENCE = [line for line in (ROOT / "test/data/train_reference.csv").read_text().splitlines() if not line.startswith("#")]
@@ -159,13 +167,19 @@ COMPARED = [("load_max", "dynamic_load_max", 1e-4, 0), ("lift_error_min", "lift_
             ("p_max", "chamber_pressure_max", 1e-4, 0), ("leak_volume", "leak_volume", 1e-4, 0)]
 
 
-@pytest.mark.parametrize("row", REFERENCE[1:], ids=[row.split(",")[0] for row in REFERENCE[1:]])
+SETTINGS = {"reversed": ["mechanism.rotation=towards_pivot"], "softseat": ["dynamics.seat_stiffness_N_m=1e6",
+                                                                          "dynamics.seat_damping_s_m=0.05"]}
+# The first turn of a train with lash is compared by `test_flexible_cycle.f90`
+PERIODIC = [row for row in REFERENCE[1:] if not row.startswith("lash")]
+
+
+@pytest.mark.parametrize("row", PERIODIC, ids=[row.split(",")[0] for row in PERIODIC])
 def test_periodic_states_agree_with_an_independent_integration(row, tmp_path, camroller):
     name, *values = row.split(",")
     reference = dict(zip(REFERENCE[0].split(",")[1:], map(float, values)))
     kind, speed = name.split("_")
-    summary, _ = run(camroller, DECK if kind == "fixed" else ADJUSTER, tmp_path / "run.h5", f"sweep.values_1={speed}",
-                     "numerics.tolerance=1e-6")
+    summary, _ = run(camroller, ADJUSTER if kind == "adjuster" else DECK, tmp_path / "run.h5", f"sweep.values_1={speed}",
+                     "numerics.tolerance=1e-6", *SETTINGS.get(kind, []))
     wrong = [f"{ours}: {summary[ours]:.6g}, not {reference[theirs]:.6g}" for theirs, ours, allowed, size in COMPARED if ours in summary
              and not abs(summary[ours] - reference[theirs]) <= allowed * max(size, abs(reference[theirs]))]
     assert not wrong

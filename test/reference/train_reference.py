@@ -18,7 +18,7 @@ from scipy.optimize import brentq, fsolve
 
 import contact_laws as laws
 from cycle_reference import DEGREE, Train
-from mechanism import base_angle, closed_form
+from mechanism import base_angle, closed_form, thesis_geometry
 
 AMBIENT, POLYTROPIC = 1e5, 1.4
 INTEGRALS = ('drive', 'contact', 'needle', 'guide', 'damping', 'gallery', 'leak', 'float', 'tension')
@@ -131,17 +131,19 @@ class Point:
     # statics of the base circle
     def rest(self):
         t, f = self.t, self.f
-        k = closed_form(self.g, math.pi)
         W = t.base_load
-        F_p = W * k.h_W / k.B_s
         delta = self.c_H * W**0.9 + W / f.finger_stiffness
-        x = -(t.stiffness * t.precompression - F_p) / (f.seat_stiffness + t.stiffness)
-        delta_p = F_p / f.pad_stiffness
+
+        def at_rest(gamma, y):
+            """Geometry, force of the pad and lift where the finger is, which a soft seat lets sink."""
+            d, _, arm, *_ = self.touch(math.pi, gamma, 0.0, y, 0.0)
+            F_p = W * cross(arm, d.n) / (self.g.B * math.sin(gamma + self.g.chi))
+            return d, F_p, -(t.stiffness * t.precompression - F_p) / (f.seat_stiffness + t.stiffness)
 
         def misfit(unknown):
             gamma, y = self.gamma_B + 1e-6 * unknown[0], 1e-6 * unknown[1]
-            d, *_ = self.touch(math.pi, gamma, 0.0, y, 0.0)
-            return [1e6 * (d.delta - delta), 1e6 * (self.pad_gap(gamma, y, x) - delta_p)]
+            d, F_p, x = at_rest(gamma, y)
+            return [1e6 * (d.delta - delta), 1e6 * (self.pad_gap(gamma, y, x) - F_p / f.pad_stiffness)]
 
         if f.lash:
             self.start = [self.gamma_B, 0.0, -t.stiffness * t.precompression / (f.seat_stiffness + t.stiffness)]
@@ -149,10 +151,9 @@ class Point:
         a, b = fsolve(misfit, [0.0, 0.0], xtol=1e-9)
         gamma, y = self.gamma_B + 1e-6 * a, 1e-6 * b
         self.y0 = y
+        d, F_p, x = at_rest(gamma, y)
         self.start = [gamma, 0.0, x]
         if f.adjuster:
-            d, *_ = self.touch(math.pi, gamma, 0.0, y, 0.0)
-            # W at the true normal
             F_A = -(W * dot(self.u_h, d.n) + F_p)
             self.F_s0 = F_A - f.adjuster.supply * self.A_p + f.adjuster.spring_stiffness * y
 
@@ -404,23 +405,32 @@ class Point:
         return m
 
 
-CASES = {'fixed_300': (300, None), 'fixed_900': (900, None), 'fixed_1500': (1500, None), 'fixed_2500': (2500, None),
-         'fixed_2900': (2900, None), 'fixed_3000': (3000, None), 'adjuster_300': (300, Adjuster()), 'adjuster_900': (900, Adjuster()),
-         'adjuster_2500': (2500, Adjuster())}
+FIXED, ADJUSTER = Flexible(), Flexible(adjuster=Adjuster())
+CASES = {'fixed_300': (300, FIXED), 'fixed_900': (900, FIXED), 'fixed_1500': (1500, FIXED), 'fixed_2500': (2500, FIXED),
+         'fixed_2900': (2900, FIXED), 'fixed_3000': (3000, FIXED), 'adjuster_300': (300, ADJUSTER), 'adjuster_900': (900, ADJUSTER),
+         'adjuster_2500': (2500, ADJUSTER), 'reversed_900': (900, Flexible(train=Train(geometry=thesis_geometry(sense=-1)))),
+         'softseat_1500': (1500, Flexible(seat_stiffness=1e6, seat_damping=0.05)), 'lash_900': (900, Flexible(lash=1e-4))}
 COLUMNS = ('load_max', 'lift_error_min', 'lift_error_max', 'seating', 'joint_min', 'tension_share', 'float_share', 'losses_of_contact',
            'surge', 'coils', 'mean_drive', 'loss', 'mean_damping', 'mean_needle', 'y_min', 'y_max', 'p_max', 'leak_volume')
+
+
+def row(name):
+    rpm, flexible = CASES[name]
+    point = Point(rpm, 0.01, flexible)
+    # A finger with lash rattles and has no periodic state: its first turn
+    start = point.initial() if flexible.lash else point.periodic(1e-6, 1e-5)[0]
+    measures = point.measure(start, 1e-6, samples=30000)
+    return ','.join([name] + [f'{float(measures[column]):.9e}' for column in COLUMNS]) + '\n'
 
 
 def write(path):
     with open(path, 'w', encoding='ascii') as file:
         file.write('# Periodic states of a flexible train (test/reference/train_reference.py), SI units: decks/dynamics.nml (fixed)\n'
                    '# and decks/lash_adjuster.nml at the speeds in rev/min that the names have, 0.01 Pa s. Means are torques.\n'
+                   '# The first turned the other way (reversed), with a soft seat, and the first turn with lash, as in decks/hard.\n'
                    '# Tolerance of a step 1e-6 of the sizes in `Point.scales`, a turn ends within 1e-5 of where it began.\n')
         file.write(','.join(['case', *COLUMNS]) + '\n')
-        for name, (rpm, adjuster) in CASES.items():
-            point = Point(rpm, 0.01, Flexible(adjuster=adjuster))
-            measures = point.measure(point.periodic(1e-6, 1e-5)[0], 1e-6, samples=30000)
-            file.write(','.join([name] + [f'{float(measures[column]):.9e}' for column in COLUMNS]) + '\n')
+        file.writelines(map(row, CASES))
 
 
 if __name__ == '__main__':

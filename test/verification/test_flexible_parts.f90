@@ -140,23 +140,28 @@ contains
       call new_spring_modes(modes, spring_surge_t(mass=0.036_wp, modes=3), 25.0e3_wp)
       call check_close(error, modes%frequency(1)/two_pi, 416.666666667_wp, 1.0e-11_wp, "first mode")
       if (allocated(error)) return
+      call check_close(error, modes%frequency(2)/two_pi, 833.333333333_wp, 1.0e-11_wp, "second mode")
+      if (allocated(error)) return
       call check_close(error, modes%frequency(3)/two_pi, 1250.0_wp, 1.0e-12_wp, "third mode")
       if (allocated(error)) return
       call check(error, effective_mass(modes, 0.0432_wp) > 0.0312_wp, "effective mass below the valve's")
       if (allocated(error)) return
       do i = 1, 4
-         call check_scaled(error, frequency_with_mass(counts(i), 0.0312_wp)/exact - 1.0_wp, high(i), 1.0_wp, digits(i), &
-            & "frequency with a mass at the end")
+         call check_scaled(error, frequency_with_mass(counts(i), 0.0312_wp, 50.0_wp, 300.0_wp)/exact - 1.0_wp, high(i), 1.0_wp, &
+            & digits(i), "frequency with a mass at the end")
          if (allocated(error)) return
       end do
+      ! What twelve modes leave of the first, 1.15e-6, times the square of the ratio of both
+      call check_close(error, frequency_with_mass(12, 0.0312_wp, 430.0_wp, 800.0_wp), 459.3211_wp, 2.0e-5_wp, "second frequency")
+      if (allocated(error)) return
       call check_close(error, sqrt(25.0e3_wp/0.0432_wp)/two_pi, 121.0733_wp, 1.0e-6_wp, "a third of the mass at the end")
    end subroutine test_modes
 
-   !> Lowest frequency of spring and mass: root of the dynamic stiffness of the modal form.
-   function frequency_with_mass(count, mass) result(frequency)
+   !> A frequency of spring and mass: root of the dynamic stiffness of the modal form.
+   function frequency_with_mass(count, mass, above, below) result(frequency)
       integer, intent(in) :: count
-      !> Mass at the end [kg]
-      real(wp), intent(in) :: mass
+      !> Mass at the end [kg], bracket [Hz]
+      real(wp), intent(in) :: mass, above, below
       !> Frequency [Hz]
       real(wp) :: frequency
       type(spring_modes_t) :: modes
@@ -165,8 +170,8 @@ contains
       integer :: i
 
       call new_spring_modes(modes, spring_surge_t(mass=0.036_wp, modes=count, damping_ratio=0.0_wp), 25.0e3_wp)
-      low = two_pi*50.0_wp
-      high = two_pi*300.0_wp
+      low = two_pi*above
+      high = two_pi*below
       do i = 1, 80
          middle = 0.5_wp*(low + high)
          associate (w => modes%frequency, share => modes%share)
@@ -266,6 +271,8 @@ contains
       given%spring_force = 10.6722_wp
       call new_adjuster(adjuster, given)
       call set_adjuster_oil(adjuster, 0.01_wp)
+      call check_close(error, adjuster%conductance, 4.090615e-15_wp, 2.0e-7_wp, "conductance of the gap")
+      if (allocated(error)) return
       call check_close(error, leak_down_time(adjuster, 222.6_wp, 1.59e-3_wp), 11.34768_wp, 1.0e-6_wp, "with the plunger's spring")
       if (allocated(error)) return
       given%spring_force = 0.0_wp
