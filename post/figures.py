@@ -13,7 +13,7 @@ from bars import MOST_BARS, both_bars, shown_in_bars, slip_bars, torque_bars
 from layout import line_style, thin_out
 from parts import (MOST_PANELS, angle_axis, closed, crank_axis, draw_curve, event_window, file_legend, head, legend_handles,
                    legend_height, mark_values, ranges_of, say_no_result, seen_range, set_values_axis)
-from quantities import CURVES, OVERVIEW, PARTS, SOURCES, TORQUES, TRAIN, Missing, has_series, need_series, values_of
+from quantities import CURVES, OVERVIEW, PARTS, SOURCES, TORQUES, TRAIN, Missing, has_series, is_nothing, need_series, values_of
 from units import unit_words
 
 MOST_COLUMNS = 4  # of the overview
@@ -131,7 +131,7 @@ def _torque_curve(axes, layout, entry, part, window, unit):
 def overview_figure(layout, wanted, parts, needed=()):
     """Several quantities on one page: a row for each and a column for each value of the second swept key, with bars below."""
     need_series(layout, *needed)
-    curves = [curve for curve in wanted.values() if has_series(layout, curve.series)]
+    curves = [curve for curve in wanted.values() if has_series(layout, curve.series) and not is_nothing(layout, curve.series)]
     bars = [part for part in parts if _has_summary(layout, part)]
     if not curves:
         raise Missing("none of its series in the file" + ("s" if len(layout.files) > 1 else ""))

@@ -53,6 +53,7 @@ TRAIN = {
     "load": CURVES["load"],
     "load_ratio": Curve("load over rigid load", "load_ratio", "1", lines=(1.0,)),
     "lift_error": Curve("lift less rigid lift", "lift_error", "um"),
+    "valve_speed": Curve("valve's speed", "valve_velocity", "m/s", lines=(0.0,)),
     "gap": Curve("gap at the cam", "contact_gap", "um"),
     "joint_force": Curve("pivot's joint", "joint_force", "N", lines=(0.0,)),
     "surge": Curve("spring's first mode", "spring_mode_1", "um"),
@@ -162,6 +163,11 @@ def _factor(quantity, name, unit):
 def has_series(layout, name):
     """Whether at least one file has the series."""
     return any(name in layout.results[number].series for number in layout.files)
+
+
+def is_nothing(layout, name):
+    """Whether a series is zero wherever there is one, as a gap where contact is never lost."""
+    return not any(np.any(series[name].values) for series in (layout.results[number].series for number in layout.files) if name in series)
 
 
 def need_series(layout, *names):

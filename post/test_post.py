@@ -93,7 +93,7 @@ def test_the_largest_shear_below_a_line_contact_is_that_of_its_stresses(tmp_path
 def test_a_flexible_train_is_a_page_of_what_its_file_has(tmp_path):
     figure = draw("train", Layout([read_result(write_result(tmp_path / "one.h5", swept=(), speeds=(600.0,), oils=(60.0,)))]))
     labels = [axes.get_ylabel().split("\n")[0] for axes in figure.axes]
-    assert labels == ["contact load", "load over rigid load", "lift less rigid lift"]
+    assert labels == ["contact load", "load over rigid load", "lift less rigid lift", "valve's speed"]
     path = write_result(tmp_path / "rigid.h5", without=("load_ratio",))
     with pytest.raises(Missing, match="load_ratio"):
         draw("train", Layout([read_result(path)]))
