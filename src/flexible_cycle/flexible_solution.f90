@@ -34,7 +34,7 @@ module camroller_flexible_solution
    real(wp), parameter :: closure_ratio = 10.0_wp
    !> Tolerance of the turn that the error is estimated with, over the tolerance, and how much more it errs at least [-]: a method
    !> of order 5 errs by 3 to 4 times as much, as its tolerance to the power 4/5 or 1, and less where contacts open; with 3, two
-   !> methods differed by up to 2.6 times what they promised in one of eight random trains
+   !> methods differed by up to 2.6 times what they promised in 8 of 31 random trains
    real(wp), parameter :: coarser = 4.0_wp, worse = 2.0_wp
    !> Error over the difference of both turns [-]
    real(wp), parameter :: error_share = 1.0_wp/(worse - 1.0_wp)
