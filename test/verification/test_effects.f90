@@ -201,7 +201,8 @@ contains
       end do
    end function has_source
 
-   !> Everything of a result without an effect is there with it, bit by bit, and so is the work; sums of losses are not compared.
+   !> Everything of a result without an effect is there with it, bit by bit, and so is the work. Sums of losses are not compared,
+   !> nor is the largest error of all extremes, which takes in what the effect adds.
    subroutine compare(without, with, added, error)
       type(result_t), intent(in) :: without, with
       character(len=*), intent(in) :: added
@@ -235,13 +236,14 @@ contains
       call check(error, maxval(abs(with%series_values(:, other))) > 0.0_wp, added//" is zero")
    end subroutine compare
 
-   !> Is a quantity a sum over all losses, or relative to one?
+   !> Is a quantity a sum over all losses, relative to one, or the largest error of all series?
    pure function is_sum(name)
       character(len=*), intent(in) :: name
       logical :: is_sum
 
       is_sum = index(name, "torque_friction") + index(name, "torque_drive") + index(name, "power_friction") &
-         + index(name, "work_friction") + index(name, "relative_energy_residual") > 0
+         + index(name, "work_friction") + index(name, "relative_energy_residual") &
+         + index(name, "estimated_error_of_extremes") > 0
    end function is_sum
 
    !> Are two numbers the same, bit by bit?
