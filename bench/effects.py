@@ -34,8 +34,12 @@ EFFECTS = {
     "needle_bearing": (["needle"], []),
     "valve_guide": (["guide"], []),
     "cam_bearings": (["journal", "journal_motion", "journal_orbit", "camshaft"],
-                     ["bearing_series:add_bearings", "state:cam_force"]),
+                     ["part_series:add_bearings", "state:cam_force"]),
     "gas_force": (["gas"], []),
+    "friction_modifier": ([], ["asperity:coverage"]),
+    "bearing_heat": (["bearing_heat"], []),
+    "roller_profile": (["roller_profile", "slices", "axial_table", "axial_film"],
+                       ["part_series:add_axial", "part_series:add_axial_film", "follower_samples:note_ends"]),
 }
 #: Groups that are of no use without an effect
 USELESS_WITHOUT = {"cam_bearings": ["second_lift"]}

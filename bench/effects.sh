@@ -17,6 +17,8 @@ count() { .venv/bin/python bench/effects.py "$program" "$@" --work "$work" --set
     count decks/thesis.nml --set operating_point.speed_rpm=300 --set operating_point.oil_temperature_degC=95
     count decks/thesis.nml --set operating_point.speed_rpm=900 --set operating_point.oil_temperature_degC=25
     count decks/three_cam_head.nml
+    count decks/logarithmic_roller.nml --set operating_point.speed_rpm=300 --set operating_point.oil_temperature_degC=95 \
+        --set roller_profile.slice_series=.false.
 } > "$work/table.part"
 mv "$work/table.part" bench/tables/effects.txt
 cat bench/tables/effects.txt

@@ -14,6 +14,7 @@ from layout import line_style, thin_out
 from parts import (MOST_PANELS, angle_axis, closed, crank_axis, draw_curve, event_window, file_legend, head, legend_handles,
                    legend_height, mark_values, ranges_of, say_no_result, seen_range, set_values_axis)
 from quantities import CURVES, OVERVIEW, PARTS, SOURCES, TORQUES, TRAIN, Missing, has_series, is_nothing, need_series, values_of
+from roller import roller_figure
 from units import unit_words
 
 MOST_COLUMNS = 4  # of the overview
@@ -205,6 +206,7 @@ FIGURES = {
     "overview": lambda layout, _: overview_figure(layout, OVERVIEW, (slip_bars, torque_bars)),
     "train": lambda layout, _: overview_figure(layout, TRAIN, (), ("load_ratio",)),
     **{name: _curve_drawer(curve) for name, curve in CURVES.items() if name != "total_torque"},
+    "roller": roller_figure,
     "drive_torque": torque_figure,
     "friction_sources": lambda layout, whole: torque_figure(layout, whole, PARTS, "friction torque by source", "N mm"),
     "mean_slip": lambda layout, _: bars_figure(slip_bars, "mean slip ratio", layout),

@@ -40,6 +40,8 @@ CURVES = {
     "boundary_share": Curve("boundary part of friction", "asperity_friction_share", "%", touching=True, least_top=100.0),
     "rolling": Curve("rolling friction", "friction_rolling", "N", whole_cycle=True),
     "slip": Curve("slip ratio", "slip_ratio", "%", whole_cycle=True, scale="log"),
+    "axial_pressure": Curve("largest pressure along the roller", "axial_pressure_max", "GPa"),
+    "edge_stress": Curve("pressure at the end over that of the mean load", "edge_stress_factor", "1", touching=True, lines=(1.0,)),
     "subsurface_stress": Curve("largest shear stress below the surface", "subsurface_shear_stress", "MPa"),
     "sliding_distance": Curve("sliding distance of a place on the cam", "sliding_distance", "um", touching=True),
     "wear": Curve("wear depth of a turn over specific wear rate", "wear_product", "N/m", touching=True),

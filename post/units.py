@@ -3,7 +3,7 @@
 import numpy as np
 
 # Other spellings of a unit
-SAME = {"m s-1": "m/s", "rad s-1": "rad/s", "-": "1", "": "1", "N*m": "N m", "N.m": "N m", "degree": "deg"}
+SAME = {"m s-1": "m/s", "N m-1": "N/m", "rad s-1": "rad/s", "-": "1", "": "1", "N*m": "N m", "N.m": "N m", "degree": "deg"}
 # Unit of a file: units that it is shown in, the small ones first, each with how many of them one of the file's is
 SHOWN = {
     "m": (("nm", 1e9), ("um", 1e6), ("mm", 1e3), ("m", 1.0)),
@@ -12,6 +12,7 @@ SHOWN = {
     "rad/s": (("rev/min", 30.0 / np.pi),),
     "rpm": (("rev/min", 1.0),),
     "N": (("mN", 1e3), ("N", 1.0)),
+    "N/m": (("N/mm", 1e-3), ("N/m", 1.0)),
     "N m": (("N mm", 1e3), ("N m", 1.0)),
     "Pa": (("kPa", 1e-3), ("MPa", 1e-6), ("GPa", 1e-9)),
     "W": (("mW", 1e3), ("W", 1.0)),

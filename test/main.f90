@@ -17,6 +17,8 @@ program main
    use test_needle_drag, only : collect_needle_drag
    use test_joints, only : collect_joints
    use test_heat, only : collect_heat
+   use test_axial, only : collect_axial
+   use test_axial_follower, only : collect_axial_follower
    use test_friction_modifier, only : collect_friction_modifier
    use test_heat_laws, only : collect_heat_laws
    use test_spline, only : collect_spline
@@ -201,6 +203,8 @@ contains
          new_testsuite("needle_drag", collect_needle_drag), &
          new_testsuite("joints", collect_joints), &
          new_testsuite("heat", collect_heat), &
+         new_testsuite("axial", collect_axial), &
+         new_testsuite("axial_follower", collect_axial_follower), &
          new_testsuite("friction_modifier", collect_friction_modifier), &
          new_testsuite("heat_laws", collect_heat_laws), &
          new_testsuite("spline", collect_spline), &

@@ -39,6 +39,7 @@ module camroller_units
       unit_t("mm", "mm", 1.0_wp, 1.0e3_wp, 0.0_wp), &
       unit_t("um", "um", 1.0_wp, 1.0e6_wp, 0.0_wp), &
       unit_t("deg", "degree", pi, 180.0_wp, 0.0_wp), &
+      unit_t("mrad", "mrad", 1.0_wp, 1.0e3_wp, 0.0_wp), &
       unit_t("rpm", "rpm", two_pi, 60.0_wp, 0.0_wp), &
       unit_t("degC", "degC", 1.0_wp, 1.0_wp, 273.15_wp), &
       unit_t("s", "s", 1.0_wp, 1.0_wp, 0.0_wp), &

@@ -22,6 +22,7 @@ module camroller_case
    use camroller_stem_friction, only : valve_tip_t, stem_seal_t, guide_side_load_t
    use camroller_pivot_friction, only : finger_pivot_t
    use camroller_roller, only : roller_t
+   use camroller_roller_profile, only : roller_profile_t
    use camroller_journal, only : cam_bearings_t
    use camroller_bearing_asperity, only : bearing_asperity_t
    use camroller_bearing_heat, only : bearing_heat_t
@@ -117,6 +118,8 @@ module camroller_case
       type(surface_t) :: surface
       type(lubricant_t) :: lubricant
       type(roller_t) :: roller
+      !> Load along the roller; without it the same everywhere
+      type(roller_profile_t), allocatable :: roller_profile
       type(film_t) :: film
       type(traction_t) :: traction
       !> Heat in inlet and contact

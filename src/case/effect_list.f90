@@ -21,7 +21,7 @@ module camroller_effect_list
    public :: effect_asperity, effect_needle, effect_guide, effect_bearings, effect_gas, effect_rolling, effect_film, &
       & effect_pressure, effect_shear, effect_spin, effect_ehl, effect_tip, effect_seal, effect_side, effect_pivot, &
       & effect_drag, effect_inlet_heat, effect_contact_heat, effect_dynamics, effect_surge, effect_adjuster, is_part_of_train, &
-      & effect_bearing_asperity, effect_belt_pull, effect_modifier, effect_orbit, effect_bearing_heat, &
+      & effect_bearing_asperity, effect_belt_pull, effect_modifier, effect_orbit, effect_bearing_heat, effect_profile, &
       & needs_bearings
 
    !> Effects: groups of the deck, and laws that have a simpler one beside them
@@ -29,14 +29,14 @@ module camroller_effect_list
       & "cam_bearings", "gas_force", "rolling_resistance", "film_law", "pressure_law", "shear_law", "roller_equation", &
       & "ehl", "valve_tip", "stem_seal", "guide_side_load", "finger_pivot", "needle_drag", "inlet_heat", "contact_heat", &
       & "dynamics", "spring_surge", "lash_adjuster", "bearing_asperity", "belt_pull", &
-      & "friction_modifier", "journal_orbit", "bearing_heat"]
+      & "friction_modifier", "journal_orbit", "bearing_heat", "roller_profile"]
    !> Positions in it
    integer, parameter :: effect_asperity = 1, effect_needle = 2, effect_guide = 3, effect_bearings = 4, effect_gas = 5, &
       & effect_rolling = 6, effect_film = 7, effect_pressure = 8, effect_shear = 9, effect_spin = 10, effect_ehl = 11, &
       & effect_tip = 12, effect_seal = 13, effect_side = 14, effect_pivot = 15, effect_drag = 16, &
       & effect_inlet_heat = 17, effect_contact_heat = 18, effect_dynamics = 19, effect_surge = 20, effect_adjuster = 21, &
       & effect_bearing_asperity = 22, effect_belt_pull = 23, effect_modifier = 24, &
-      & effect_orbit = 25, effect_bearing_heat = 26
+      & effect_orbit = 25, effect_bearing_heat = 26, effect_profile = 27
    !> Effects of the camshaft bearings, two and two side by side: nothing else depends on them, and without these bearings they are
    !> of no effect
    integer, parameter :: needs_bearings(*) = [effect_bearing_asperity, effect_belt_pull, effect_orbit, effect_bearing_heat]
@@ -128,6 +128,8 @@ contains
          if (allocated(variant%needle_drag)) deallocate (variant%needle_drag)
       case (needs_bearings(1):needs_bearings(2), needs_bearings(3):needs_bearings(4))
          call leave_bearing_part_out(variant, effect)
+      case (effect_profile)
+         if (allocated(variant%roller_profile)) deallocate (variant%roller_profile)
       case (effect_modifier)
          if (allocated(variant%friction_modifier)) deallocate (variant%friction_modifier)
       case (effect_inlet_heat)
@@ -267,6 +269,8 @@ contains
          has = allocated(case%needle_drag)
       case (needs_bearings(1):needs_bearings(2), needs_bearings(3):needs_bearings(4))
          has = has_bearing_part(case, effect)
+      case (effect_profile)
+         has = allocated(case%roller_profile)
       case (effect_modifier)
          has = allocated(case%friction_modifier) .and. allocated(case%asperity)
       case (effect_inlet_heat)

@@ -7,6 +7,8 @@ module camroller_model
    use camroller_engine, only : cam_turns
    use camroller_error, only : error_t, raise, kind_deck
    use camroller_names, only : name_length, find_name
+   use camroller_axial_setup, only : set_axial
+   use camroller_axial_table, only : axial_part_t
    use camroller_accuracy, only : check_numerics, is_within, above_zero
    use camroller_case, only : case_t, contact_policy_names, energy_names
    use camroller_lift, only : lift_t, lift_law_t, new_lift_law, evaluate_lift, stop_angles
@@ -68,6 +70,8 @@ module camroller_model
       type(oil_t) :: oil
       type(boundary_part_t), allocatable :: boundary
       type(heat_part_t), allocatable :: heat
+      !> Load along the roller
+      type(axial_part_t), allocatable :: axial
       type(bearing_part_t), allocatable :: bearing
       !> Drag of the oil in that bearing
       type(drag_part_t), allocatable :: drag
@@ -442,6 +446,9 @@ contains
       !> Deck error
       type(error_t), allocatable, intent(out) :: error
 
+      call set_axial(model%axial, case%roller_profile, allocated(case%ehl), model%linkage, model%lift_law, model%contact_width, &
+         & model%modulus, error)
+      if (allocated(error)) return
       model%crank_turns = 0.0_wp
       if (allocated(case%engine)) model%crank_turns = cam_turns(case%engine)
       if (allocated(case%asperity)) then

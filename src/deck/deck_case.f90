@@ -14,6 +14,7 @@ module camroller_deck_case
    use camroller_deck_engine, only : fill_engine
    use camroller_deck_dynamics, only : fill_dynamics
    use camroller_deck_heat, only : fill_heat
+   use camroller_deck_profile, only : fill_profile
    use camroller_deck_joints, only : fill_joints
    use camroller_deck_tables, only : deck_tables_t, get_lift_table, get_pressure_table
    implicit none
@@ -47,6 +48,7 @@ contains
       call fill_materials(settings, case)
       call fill_lubricant(settings, case)
       call fill_contact(settings, case)
+      call fill_profile(settings, case)
       call fill_heat(settings, case)
       call fill_asperity(settings, case)
       call fill_modifier(settings, case)

@@ -25,6 +25,7 @@ module camroller_deck_keys
    use camroller_deck_sweep_keys, only : add_sweep_keys
    use camroller_deck_dynamics, only : add_dynamics_keys
    use camroller_deck_heat, only : add_heat_keys
+   use camroller_deck_profile, only : add_profile_keys
    use camroller_deck_joints, only : add_joint_keys
    use camroller_usual_values, only : add_usual_ranges
    use camroller_output_options, only : output_options_t, compression_names
@@ -58,6 +59,7 @@ contains
       call add_material_keys(schema)
       call add_lubricant_keys(schema, standard)
       call add_contact_keys(schema, standard)
+      call add_profile_keys(schema)
       call add_heat_keys(schema)
       call add_asperity_keys(schema)
       call add_modifier_keys(schema)

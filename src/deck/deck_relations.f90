@@ -12,6 +12,7 @@ module camroller_deck_relations
    use camroller_deck_asperity, only : check_asperities, check_modifier
    use camroller_deck_dynamics, only : check_dynamics
    use camroller_deck_heat, only : check_heat
+   use camroller_deck_profile, only : check_profile
    use camroller_deck_joints, only : check_joints
    use camroller_deck_complaint, only : complain, complain_about_group, demand
    use camroller_deck_cam_bearings, only : check_bearing_parts
@@ -46,6 +47,7 @@ contains
       call output_step_divides_the_turn(settings, mistakes)
       call stick_slip_has_a_method(settings, mistakes)
       call check_joints(settings, mistakes)
+      call check_profile(settings, mistakes)
       call check_heat(settings, mistakes)
       call check_modifier(settings, mistakes)
       call check_dynamics(settings, mistakes)

@@ -63,6 +63,10 @@ module camroller_usual_values
       usual_t("lubricant.roelands_index", 0.2_wp, 1.2_wp), &
       usual_t("traction.eyring_stress_MPa", 0.5_wp, 30.0_wp), &
       usual_t("traction.limiting_coefficient", 0.01_wp, 0.2_wp), &
+      usual_t("roller_profile.crown_radius_mm", 100.0_wp, 1.0e5_wp), &
+      usual_t("roller_profile.design_load_N", 10.0_wp, 1.0e4_wp), &
+      usual_t("roller_profile.end_drop_um", 0.0_wp, 100.0_wp), &
+      usual_t("roller_profile.tilt_mrad", -5.0_wp, 5.0_wp), &
       usual_t("heat.oil_conductivity_W_m_K", 0.05_wp, 0.5_wp), &
       usual_t("heat.viscosity_fall_per_K", 0.01_wp, 0.12_wp), &
       usual_t("heat.limit_fall_per_K", 0.0_wp, 0.02_wp), &

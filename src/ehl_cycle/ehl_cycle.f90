@@ -258,6 +258,9 @@ contains
       real(wp) :: load, force, films(2), parabola, touching
       integer :: i, status, pass
 
+      if (allocated(model%axial)) call raise(error, kind_domain, "a numerical film over the cycle knows no roller profile; "// &
+         & "leave out &roller_profile")
+      if (allocated(error)) return
       march%is_transient = options%is_transient
       films = [huge(1.0_wp), 0.0_wp]
       touching = 0.0_wp

@@ -241,6 +241,7 @@ contains
       contact%roller_spin = (contact%rolling_speed - contact%sliding_speed)/model%roller_radius
       contact%relative_spin = contact%roller_spin - model%linkage%sense*state(at_finger_rate)
       contact%bearing_drag = 0.0_wp
+      contact%length = model%contact_width
    end subroutine set_surface_speeds
 
    !> Rolling resistance within friction: the law's root of the load has an infinite slope where contact is lost and returns.

@@ -194,6 +194,7 @@ contains
          ! A share that is not quite found narrows no bracket: what has taken so long needs all of its figures
          if (iteration > usual_iterations) in_use%coarse = 0.0_wp
          call evaluate_contact(model, position, in_use, load, contact, basis%parts, change)
+         basis%setting%scale = in_use%scale
          slopes = follow_contact(model, in_use, contact, basis%parts, motion_t(load=1.0_wp))
          excess = load*position%normal_arm - moment &
             & + model%linkage%sense*(contact%tangential_force*position%tangent_arm + contact%bearing_torque)

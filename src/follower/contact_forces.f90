@@ -3,9 +3,10 @@
 !> In: model, geometry, sliding speed, load. Out: `contact_t` and `slopes_t`. The load is found by `contact`.
 module camroller_contact_forces
    use camroller_kinds, only : wp
+   use camroller_axial_table, only : effective_length
    use camroller_model, only : model_t
    use camroller_kinematics, only : position_t
-   use camroller_contact_state, only : contact_t, setting_t, parts_t, motion_t, slopes_t, release_contact
+   use camroller_contact_state, only : contact_t, setting_t, parts_t, motion_t, slopes_t, length_change, release_contact
    use camroller_contact_traction, only : set_traction, follow_traction
    use camroller_heat, only : inlet_factor
    use camroller_hertz, only : half_width, peak_pressure
@@ -45,6 +46,7 @@ contains
       contact%roller_surface_speed = contact%cam_surface_speed - sliding_speed
       contact%entrainment_speed = contact%cam_surface_speed - 0.5_wp*sliding_speed
       contact%roller_spin = (contact%rolling_speed - sliding_speed)/model%roller_radius
+      contact%length = model%contact_width
       contact%relative_spin = contact%roller_spin - model%linkage%sense*position%finger_slope*model%speed
       if (allocated(model%heat)) call start_heat(model, contact)
       contact%bearing_drag = 0.0_wp
@@ -87,7 +89,7 @@ contains
 
       setting%resolution = 0.0_wp
       if (present(resolution)) setting%resolution = resolution
-      setting%scale = model%modulus*position%equivalent_radius*model%contact_width
+      setting%scale = model%modulus*position%equivalent_radius*contact%length
       setting%coarse = coarse_part*sqrt(enough)
       call new_film_line(setting%line, model%film_law, film_groups(model, position, contact), model%film_table)
       setting%mobilised = 0.0_wp
@@ -124,7 +126,7 @@ contains
 
       groups%speed = model%oil%viscosity*abs(contact%entrainment_speed)/(model%modulus*position%equivalent_radius)
       groups%material = model%oil%pressure_viscosity*model%modulus
-      groups%load = contact%load/(model%modulus*position%equivalent_radius*model%contact_width)
+      groups%load = contact%load/(model%modulus*position%equivalent_radius*contact%length)
       groups%roughness = model%roughness/position%equivalent_radius
       groups%hardness = model%hardness/model%modulus
    end function film_groups
@@ -151,8 +153,13 @@ contains
 
       contact%load = load
       contact%is_touching = .true.
-      contact%half_width = half_width(load, position%equivalent_radius, model%contact_width, model%modulus)
-      contact%apparent_area = 2.0_wp*contact%half_width*model%contact_width
+      if (allocated(model%axial)) then
+         call effective_length(model%axial, load, position%equivalent_radius, contact%length, parts%length_by_load, &
+            & parts%length_by_radius)
+         setting%scale = model%modulus*position%equivalent_radius*contact%length
+      end if
+      contact%half_width = half_width(load, position%equivalent_radius, contact%length, model%modulus)
+      contact%apparent_area = 2.0_wp*contact%half_width*contact%length
       parts%load_group = load/setting%scale
       change = 0.0_wp
       if (allocated(model%heat)) call set_inlet_factor(model, position, contact, setting, parts)
@@ -172,7 +179,7 @@ contains
       rolling_load = parts%load_group
       if (model%rolling_law == rolling_biboulet_houpert) rolling_load = parts%share%film_load
       call rolling_resistance(model%rolling_law, setting%line%groups%speed, rolling_load, model%modulus, &
-         & position%equivalent_radius, model%contact_width, model%oil%pressure_viscosity, contact%rolling_resistance, &
+         & position%equivalent_radius, contact%length, model%oil%pressure_viscosity, contact%rolling_resistance, &
          & parts%rolling_load_slope)
       parts%rolling_speed_slope = resistance_speed_slope(model%rolling_law, parts%rolling_load_slope)
       contact%rolling_resistance = sign(contact%rolling_resistance, contact%entrainment_speed)
@@ -195,7 +202,7 @@ contains
       type(parts_t), intent(inout) :: parts
 
       call inlet_factor(model%heat%inlet_law, model%heat%loading, contact%entrainment_speed, contact%sliding_speed, &
-         & peak_pressure(contact%load, position%equivalent_radius, model%contact_width, model%modulus)/model%modulus, &
+         & peak_pressure(contact%load, position%equivalent_radius, contact%length, model%modulus)/model%modulus, &
          & setting%line%log_factor, parts%heat%inlet_by_speed, parts%heat%inlet_by_sliding, parts%heat%inlet_by_pressure)
       contact%inlet_factor = exp(setting%line%log_factor)
    end subroutine set_inlet_factor
@@ -216,24 +223,27 @@ contains
       type(slopes_t) :: slopes
 
       type(share_change_t) :: change
-      ! Change of rolling resistance, its logarithm [-]
-      real(wp) :: rolling
+      ! Changes of load group, length and rolling resistance, their logarithms [-]
+      real(wp) :: group, length, rolling
 
+      length = length_change(parts, motion)
+      group = motion%load - motion%radius - length
       if (allocated(model%heat)) then
-         change = share_change(setting%line, parts%load_group, parts%share, motion%load - motion%radius, &
+         change = share_change(setting%line, parts%load_group, parts%share, group, &
             & motion%entrainment - motion%radius, motion%radius, parts%heat%inlet_by_speed*motion%entrainment &
             & + parts%heat%inlet_by_sliding*motion%sliding_speed &
-            & + 0.5_wp*parts%heat%inlet_by_pressure*(motion%load - motion%radius))
+            & + 0.5_wp*parts%heat%inlet_by_pressure*group)
       else
-         change = share_change(setting%line, parts%load_group, parts%share, motion%load - motion%radius, &
+         change = share_change(setting%line, parts%load_group, parts%share, group, &
             & motion%entrainment - motion%radius, motion%radius)
       end if
       slopes%film_ratio = change%film_min + motion%radius
       slopes%traction = follow_traction(model, setting, contact, parts, motion, change)
 
-      rolling = motion%load - motion%radius
+      rolling = group
       if (model%rolling_law == rolling_biboulet_houpert) rolling = change%film_load
-      rolling = motion%radius + parts%rolling_load_slope*rolling + parts%rolling_speed_slope*(motion%entrainment - motion%radius)
+      rolling = motion%radius + length + parts%rolling_load_slope*rolling &
+         & + parts%rolling_speed_slope*(motion%entrainment - motion%radius)
       slopes%rolling_resistance = contact%rolling_resistance*rolling
       slopes%tangential_force = slopes%traction + slopes%rolling_resistance*parts%rolling_part &
          & + contact%rolling_resistance*(parts%rolling_part + 1.0_wp)*motion%radius

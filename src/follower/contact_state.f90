@@ -6,7 +6,7 @@ module camroller_contact_state
    implicit none
    private
 
-   public :: contact_t, setting_t, heat_slopes_t, parts_t, motion_t, slopes_t, release_contact
+   public :: contact_t, setting_t, heat_slopes_t, parts_t, motion_t, slopes_t, length_change, release_contact
 
    !> State of the contact
    type :: contact_t
@@ -24,6 +24,8 @@ module camroller_contact_state
       real(wp) :: load
       !> Half width [m] and apparent area [m^2] of the contact
       real(wp) :: half_width, apparent_area
+      !> Length of the line contact that stands for the roller: its own, or shorter where the load is not the same along it [m]
+      real(wp) :: length
       !> Minimum and central film [m]
       real(wp) :: film_min, film_central
       !> Minimum film over composite roughness [-]
@@ -99,6 +101,8 @@ module camroller_contact_state
       type(heat_slopes_t) :: heat
       !> Logarithmic slopes of the rolling resistance over load and speed group [-]
       real(wp) :: rolling_load_slope, rolling_speed_slope
+      !> Derivatives of the logarithm of the contact's length over ln(load) and ln(radius) [-]
+      real(wp) :: length_by_load = 0.0_wp, length_by_radius = 0.0_wp
       !> 2 R/r_R - 1 [-]
       real(wp) :: rolling_part
    end type parts_t
@@ -122,6 +126,18 @@ module camroller_contact_state
    end type slopes_t
 
 contains
+
+   !> Change of the contact's length along a motion, its logarithm.
+   elemental function length_change(parts, motion) result(change)
+      !> What slopes are made of
+      type(parts_t), intent(in) :: parts
+      !> Direction of the motion
+      type(motion_t), intent(in) :: motion
+      !> The change [-]
+      real(wp) :: change
+
+      change = parts%length_by_load*motion%load + parts%length_by_radius*motion%radius
+   end function length_change
 
    !> No contact: no force but the drag of the roller's bearing; the film is reported as zero, since there is none to speak of.
    pure subroutine release_contact(contact)

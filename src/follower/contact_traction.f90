@@ -8,7 +8,7 @@
 module camroller_contact_traction
    use camroller_kinds, only : wp
    use camroller_conjunction, only : sheared_film_t, film_shear_t, flash_resistance, film_resistance, hot_shear
-   use camroller_contact_state, only : contact_t, setting_t, parts_t, motion_t
+   use camroller_contact_state, only : contact_t, setting_t, parts_t, motion_t, length_change
    use camroller_load_share, only : share_change_t
    use camroller_lubricant, only : mean_relative_viscosity
    use camroller_model, only : model_t
@@ -230,13 +230,14 @@ contains
       !> Change of the traction [N]
       real(wp) :: traction
 
-      ! Changes of apparent area, pressure in the film and central film, their logarithms [-]; of the shear, of boundary friction
-      ! with its limit, and with the part of it that slip mobilises [N]
-      real(wp) :: area, pressure, film, shear, boundary, mobilised
+      ! Changes of length, apparent area, pressure in the film and central film, their logarithms [-]; of the shear, of boundary
+      ! friction with its limit, and with the part of it that slip mobilises [N]
+      real(wp) :: length, area, pressure, film, shear, boundary, mobilised
 
-      area = 0.5_wp*(motion%load + motion%radius)
+      length = length_change(parts, motion)
+      area = 0.5_wp*(motion%load + motion%radius + length)
       film = change%film_central + motion%radius
-      pressure = change%film_load + motion%radius - area + change%real_area_ratio/(1.0_wp - parts%share%real_area_ratio)
+      pressure = change%film_load + motion%radius + length - area + change%real_area_ratio/(1.0_wp - parts%share%real_area_ratio)
       shear = parts%free_shear*area + parts%pressure_slope*pressure + parts%speed_slope*(motion%sliding_speed &
          & - contact%sliding_speed*film)
       shear = parts%by_shear*shear + parts%by_limit*model%limiting_coefficient*contact%load*motion%load*parts%limit_share &
@@ -246,7 +247,7 @@ contains
       if (allocated(model%boundary)) then
          boundary = setting%mobilised*(model%boundary%film_shear_strength &
             & *(area*contact%real_area + contact%apparent_area*change%real_area_ratio) &
-            & + model%boundary%coefficient*(change%asperity_load*setting%scale + motion%radius*contact%asperity_load))
+            & + model%boundary%coefficient*(change%asperity_load*setting%scale + (motion%radius + length)*contact%asperity_load))
          mobilised = contact%boundary_capacity*setting%mobilised_slope*motion%sliding_speed
       end if
       if (has_hot_film(model)) shear = shear + parts%heat%by_rise &
@@ -278,7 +279,7 @@ contains
       associate (heat => parts%heat, ratio => parts%share%real_area_ratio)
          flux = abs(contact%sliding_speed)/contact%apparent_area
          speeds = contact%entrainment_speed*motion%entrainment + [0.5_wp, -0.5_wp]*motion%sliding_speed
-         flash = heat%flash_by_width*area + sum(heat%flash_by_speed*speeds)
+         flash = heat%flash_by_width*(area - length_change(parts, motion)) + sum(heat%flash_by_speed*speeds)
          growth = heat%flash*flash*(abs(parts%shear)*(1.0_wp - ratio) + abs(contact%boundary_mobilised)) &
             & + abs(parts%shear)*(heat%film*film - heat%flash*real_area_ratio) &
             & + (heat%flash*(1.0_wp - ratio) + heat%film)*sign(1.0_wp, parts%shear)*shear &

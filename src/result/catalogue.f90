@@ -9,10 +9,10 @@ module camroller_catalogue
    use camroller_case, only : camshaft_number, has_engine, case_t, energy_names
    use camroller_model, only : model_t
    use camroller_number_text, only : integer_text
-   use camroller_effect_list, only : effect_names, has_effect, effect_inlet_heat, effect_contact_heat
+   use camroller_effect_list, only : effect_names, has_effect
    use camroller_result, only : quantity_t, quantity_list_t, append_quantity, lobe_scope, scope_camshaft, scope_case, &
       & scope_engine, scope_length
-   use camroller_bearing_series, only : add_bearings, bearing_count
+   use camroller_part_series, only : add_axial, add_axial_film, add_bearings, add_heat, bearing_count
    use camroller_state, only : state_t, flexible_values_t
    use camroller_torque_list, only : torque_list, torque_count, is_loss, is_torque, of_residual, torque_series
    use camroller_hertz, only : peak_pressure
@@ -228,18 +228,12 @@ contains
          & ratio(state%contact%sliding_speed, state%contact%rolling_speed))
       call add(list, "hertz_half_width", "m", "half width of the dry contact", "hertz", state%contact%half_width)
       call add(list, "hertz_pressure", "Pa", "peak pressure of the dry contact", "hertz", &
-         & peak_pressure(state%contact%load, state%position%equivalent_radius, model%contact_width, model%modulus))
+         & peak_pressure(state%contact%load, state%position%equivalent_radius, state%contact%length, model%modulus))
       call add(list, "film_thickness_min", "m", "minimum film thickness", "film", state%contact%film_min)
       call add(list, "film_thickness_central", "m", "central film thickness", "film", state%contact%film_central)
+      if (allocated(case%roller_profile)) call add_axial_film(list, model, state)
       call add(list, "film_ratio", "1", "minimum film thickness relative to composite roughness", "film", state%contact%film_ratio)
-      if (has_effect(case, effect_inlet_heat)) call add(list, "inlet_heat_factor", "1", "factor on the film by heat in its inlet", &
-         & "heat", state%contact%inlet_factor)
-      if (has_effect(case, effect_contact_heat)) then
-         call add(list, "film_temperature_rise", "K", "mean temperature of the film above that of the oil", "heat", &
-            & state%contact%film_rise)
-         call add(list, "flash_temperature_rise", "K", "mean temperature of both surfaces above that of the oil", "heat", &
-            & state%contact%flash_rise)
-      end if
+      call add_heat(list, case, state)
       if (allocated(case%asperity)) then
          call add(list, "asperity_load", "N", "load carried by asperities", "asperity", state%contact%asperity_load)
          call add(list, "real_contact_area", "m2", "contact area of the asperities", "asperity", state%contact%real_area)
@@ -260,6 +254,7 @@ contains
          call add(list, "asperity_friction_share", "1", "fraction of boundary friction in contact friction", "asperity", &
             & ratio(state%boundary_friction, state%contact_friction))
       end if
+      if (allocated(case%roller_profile)) call add_axial(list, case%roller_profile, model, state)
       call add_joints(list, case, state%joints)
       if (allocated(case%dynamics)) call add_flexible(list, case, state%flexible)
    end subroutine add_follower
@@ -460,7 +455,7 @@ contains
       state = transfer([(0_int8, i=1, storage_size(state)/storage_size(0_int8))], state)
       state%position%equivalent_radius = 1.0_wp
       model%speed = 0.0_wp
-      model%contact_width = 1.0_wp
+      state%contact%length = 1.0_wp
       model%modulus = 1.0_wp
    end subroutine set_blank
 

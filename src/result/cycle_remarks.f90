@@ -16,8 +16,9 @@ module camroller_cycle_remarks
    use camroller_model, only : model_t
    use camroller_number_text, only : number_text, fixed_text, integer_text
    use camroller_lubricant, only : pressure_limit
-   use camroller_remarks, only : remark_t, add_remark, beyond_pressure_law, film_without_limit, hot_inlet, lost_contact, &
-      & open_pivot, outside_range, pumped_adjuster, standing_entrainment, unresolved_slip
+   use camroller_remarks, only : remark_t, add_remark, beyond_pressure_law, cut_off_contact, film_without_limit, &
+      & hot_inlet, lost_contact, open_pivot, outside_range, pumped_adjuster, standing_entrainment, unloaded_end, &
+      & unresolved_slip
    use camroller_result, only : lobe_scope
    implicit none
    private
@@ -62,6 +63,7 @@ contains
       if (.not. allocated(error)) call check_range(model, statistics, remarks, error)
       call check_error(statistics, remarks)
       call check_entrainment(statistics, remarks)
+      call check_ends(statistics, remarks)
       if (.not. allocated(cycle%flexible)) call check_pivot(model, margins, remarks)
       if (lobe == 0) return
       call add_context(error, trim(lobe_scope(lobe)))
@@ -201,6 +203,22 @@ contains
          & cam_angle_text(statistics%first_standstill, 1)// &
          & "; the smallest film is that at standstill there, without a squeeze film", real(statistics%standstills, wp))
    end subroutine check_entrainment
+
+   !> Say where the end of the roller cuts the contact off, and where tilt takes the load from one end.
+   subroutine check_ends(statistics, remarks)
+      !> Means over the cycle of a lobe
+      type(statistics_t), intent(in) :: statistics
+      !> Remarks so far
+      type(remark_t), allocatable, intent(inout) :: remarks(:)
+
+      if (statistics%edge_factor > 0.0_wp) call add_remark(remarks, cut_off_contact, "the end of the roller cuts the contact "// &
+         & "off: its pressure is largest there, up to "//number_text(statistics%edge_factor, 3)//" times that of the same load "// &
+         & "all along the roller, at "//cam_angle_text(statistics%edge_angle, 1)//"; a sharp edge has more in a strip "// &
+         & "narrower than a slice", statistics%edge_factor)
+      if (statistics%one_end_share > 0.0_wp) call add_remark(remarks, unloaded_end, "tilt takes all load from one end of the "// &
+         & "roller for "//number_text(100.0_wp*statistics%one_end_share, 3)//" % of the cycle", &
+         & 100.0_wp*statistics%one_end_share)
+   end subroutine check_ends
 
    !> Say that the lash adjuster pumps up or its joint opens, which the model leaves out.
    subroutine check_pivot(model, margins, remarks)

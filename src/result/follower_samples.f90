@@ -17,6 +17,7 @@ module camroller_follower_samples
    use camroller_film, only : is_in_range
    use camroller_film_range, only : film_range_t, note_film
    use camroller_heat, only : is_inlet_in_range
+   use camroller_axial_table, only : axial_state, axial_state_t
    use camroller_hertz, only : peak_pressure
    use camroller_extremes, only : samples_t, add_sample, start_rows => start_samples
    use camroller_panels, only : sampled_t
@@ -36,6 +37,11 @@ module camroller_follower_samples
       real(wp) :: first_outside = 0.0_wp
       !> Fraction of the cycle with heat in the inlet beyond what its factor was published for [-]
       real(wp) :: inlet_share = 0.0_wp
+      !> Largest pressure at an end of the roller where there is none larger, over that of the same load all along it [-], and its
+      !> cam angle from full lift [rad]
+      real(wp) :: edge_factor = 0.0_wp, edge_angle = 0.0_wp
+      !> Fraction of the cycle in which one end of the roller alone carries load [-]
+      real(wp) :: one_end_share = 0.0_wp
    end type shares_t
 
    !> One point of a cycle, for the search of standstills
@@ -120,12 +126,38 @@ contains
          if (.not. is_inside .and. shares%film_range%share <= 0.0_wp) shares%first_outside = angle
          if (allocated(model%heat) .and. state%contact%is_touching) then
             if (.not. is_inlet_in_range(model%heat%inlet_law, model%heat%loading, state%contact%entrainment_speed, &
-               & peak_pressure(state%contact%load, state%position%equivalent_radius, model%contact_width, model%modulus) &
+               & peak_pressure(state%contact%load, state%position%equivalent_radius, state%contact%length, model%modulus) &
                & /model%modulus)) shares%inlet_share = shares%inlet_share + weight
          end if
+         if (allocated(model%axial) .and. state%contact%is_touching) call note_ends(shares, model, state, angle, weight)
          call note_film(shares%film_range, groups, is_inside, in_event, state%torque_friction, weight)
       end associate
    end subroutine add_shares
+
+   !> Note what the ends of the roller carry.
+   pure subroutine note_ends(shares, model, state, angle, weight)
+      !> The fractions
+      class(shares_t), intent(inout) :: shares
+      !> Model of the lobe, with a table of the load along the roller
+      type(model_t), intent(in) :: model
+      !> State of the follower, in contact
+      type(state_t), intent(in) :: state
+      !> Cam angle from full lift [rad]
+      real(wp), intent(in) :: angle
+      !> Fraction of the cycle that the state represents [-]
+      real(wp), intent(in) :: weight
+
+      ! Rounding of loads [-]
+      real(wp), parameter :: same = 1.0e-6_wp
+      type(axial_state_t) :: along
+
+      along = axial_state(model%axial, state%contact%load, state%position%equivalent_radius)
+      if (maxval(along%ends) >= along%peak .and. sqrt(along%peak) > max(shares%edge_factor, 1.0_wp + same)) then
+         shares%edge_factor = sqrt(along%peak)
+         shares%edge_angle = angle
+      end if
+      if (maxval(along%ends) > 0.0_wp .and. minval(along%ends) <= 0.0_wp) shares%one_end_share = shares%one_end_share + weight
+   end subroutine note_ends
 
    !> Begin with a cycle; with the case, its series are sampled too.
    subroutine start_samples(samples, model, cycle, case, series, first_torque)
@@ -268,7 +300,7 @@ contains
       call widen_range(extremes%sliding_speed, state%contact%sliding_speed)
       if (.not. state%contact%is_touching) return
       extremes%hertz_pressure = max(extremes%hertz_pressure, peak_pressure(state%contact%load, state%position%equivalent_radius, &
-         & model%contact_width, model%modulus))
+         & state%contact%length, model%modulus))
       extremes%film_min = min(extremes%film_min, state%contact%film_min)
    end subroutine widen
 

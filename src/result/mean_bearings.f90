@@ -11,7 +11,7 @@ module camroller_mean_bearings
    use camroller_means, only : mean_tolerance, most_halvings, quadrature_part
    use camroller_panels, only : sampled_t, panels_t, start_panels, sample_panel, refine_panels
    use camroller_result, only : quantity_t
-   use camroller_bearing_series, only : bearing_count
+   use camroller_part_series, only : bearing_count
    use camroller_shaft, only : shaft_stops, solved_t, shaft_torques
    use camroller_torque_list, only : torque_count, torque_series, of_bearings
    implicit none

@@ -19,7 +19,7 @@ module camroller_report
    use camroller_margins, only : margins_t, find_margins
    use camroller_names, only : name_length
    use camroller_result, only : result_t, quantity_t, check_numbers, find_quantity
-   use camroller_bearing_series, only : bearing_count, bearing_series_count
+   use camroller_part_series, only : bearing_count, bearing_series_count
    use camroller_bearing_turn, only : complete_shaft
    use camroller_shaft, only : new_shaft, shaft_torques, solved_t
    use camroller_mean_bearings, only : mean_bearing_torque

@@ -17,7 +17,7 @@ module camroller_series_extremes
    use camroller_means, only : statistics_t
    use camroller_model, only : model_t
    use camroller_result, only : quantity_t, find_quantity
-   use camroller_bearing_series, only : bearing_count
+   use camroller_part_series, only : bearing_count
    use camroller_shaft, only : solved_t, shaft_torques
    use camroller_slip_errors, only : error_at, error_of_extreme, state_without
    use camroller_state, only : state_t

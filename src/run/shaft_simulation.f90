@@ -16,7 +16,7 @@ module camroller_shaft_simulation
    use camroller_catalogue, only : camshaft_count, camshaft_values, follower_count
    use camroller_lubricant, only : oil_t, get_oil
    use camroller_follower_step, only : point_t, inputs_t, outcome_t, piece_number, inputs_between
-   use camroller_bearing_series, only : bearing_count
+   use camroller_part_series, only : bearing_count
    use camroller_shaft, only : needs_turn, shaft_t, new_shaft, set_journal, in_common_frame, bearing_torques
    use camroller_simulation, only : simulation_t, advance, halt, check_step, prepare_simulation, place_simulation, &
       & check_angle, has_films, put_back, get_mark, get_point, set_point, get_values

@@ -16,8 +16,8 @@ module test_flexible_train
    use camroller_ode_problem, only : linear_t, counters_t, factors_t, new_linear, new_factors
    use camroller_samples, only : sample_independent
    use camroller_traction, only : shear_law_names, rolling_law_names
-   use reference_cases, only : thesis_case, skewed_case, add_gas_force, add_heat, make_model, set_point, point_speeds, &
-      & point_viscosities
+   use reference_cases, only : thesis_case, skewed_case, add_gas_force, add_heat, add_profile, make_model, set_point, &
+      & point_speeds, point_viscosities
    use flexible_cases, only : add_dynamics, random_state
    use closeness, only : check_close, check_scaled
    implicit none
@@ -227,6 +227,7 @@ contains
       case%traction%shear_law = shear_law_names(1 + modulo(number/16, 2))
       case%traction%rolling_law = rolling_law_names(1 + modulo(number/3, size(rolling_law_names)))
       if (modulo(number, 5) == 2) call add_heat(case)
+      if (modulo(number, 3) == 1) call add_profile(case)
       call add_dynamics(case, merge(5, 0, modulo(number, 3) > 0), btest(number, 1))
       call make_model(case, model, error)
    end subroutine make_train

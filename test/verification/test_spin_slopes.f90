@@ -8,10 +8,12 @@ module test_spin_slopes
    use camroller_film, only : film_law_names
    use camroller_asperity, only : asperity_law_names, law_zhao_maietta_chang
    use camroller_lubricant, only : pressure_law_names
+   use camroller_traction, only : rolling_law_names
    use camroller_spin, only : spin_problem_t
+   use closeness, only : check_scaled
    use camroller_ode_problem, only : linear_t, counters_t, new_linear
    use reference_cases, only : thesis_case, source_case, skewed_case, make_model, set_point, add_gas_force, add_joints, add_heat, &
-      point_speeds, point_viscosities
+      add_profile, point_speeds, point_viscosities
    implicit none
    private
 
@@ -38,6 +40,7 @@ contains
          new_unittest("slopes with gas force, with yielding asperities, and without asperities, bearing and guide", test_effects), &
          new_unittest("slopes with friction at valve tip, seal, guide and pivot, and needle drag", test_with_joints), &
          new_unittest("slopes with heat of inlet and contact, for every film, viscosity and shear law", test_with_heat), &
+         new_unittest("slopes with a tilted crown, for every film and rolling law", test_with_profile), &
          new_unittest("slopes with a given fraction of the boundary friction, as in sliding and sticking", test_given_share), &
          new_unittest("slopes without contact are those of the kinematics", test_no_contact) &
          ]
@@ -99,8 +102,8 @@ contains
             call problem%get_rate(angle - h, state, low, status)
             call problem%get_rate(angle + h, state, high, status)
             time_slope = (high(1) - low(1))/(2.0_wp*h)
-            call check(error, abs(time_slope - linear%time_slope(1)) < 10.0_wp*tolerance*(abs(time_slope) + scale), &
-               & "over the cam angle, "//words)
+            call check_scaled(error, linear%time_slope(1), time_slope, abs(time_slope) + scale, 10.0_wp*tolerance, &
+               & "slope over the cam angle, "//words)
             if (allocated(error)) return
          end do
       end do
@@ -191,6 +194,26 @@ contains
          if (allocated(error)) return
       end do
    end subroutine test_with_heat
+
+   subroutine test_with_profile(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: case
+      type(model_t) :: model
+      integer :: law
+
+      do law = 1, size(film_law_names)
+         case = skewed_case(rotation_names(1 + mod(law, 2)))
+         case%film%law = film_law_names(law)
+         case%traction%rolling_law = rolling_law_names(1 + mod(law, size(rolling_law_names)))
+         case%asperity%film_shear_strength = 2.0e6_wp
+         call add_profile(case)
+         call set_point(case, point_speeds(1 + mod(law, 3)), point_viscosities(1 + mod(law + 1, 3)))
+         call make_model(case, model, error)
+         if (allocated(error)) return
+         call compare(error, model, "profile, "//trim(film_law_names(law)))
+         if (allocated(error)) return
+      end do
+   end subroutine test_with_profile
 
    subroutine test_source(error)
       type(error_type), allocatable, intent(out) :: error

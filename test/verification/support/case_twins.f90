@@ -79,6 +79,11 @@ contains
       call change(case%lubricant%viscosity, viscosity)
       call change(case%lubricant%pressure_viscosity, per_pressure)
       call change(case%traction%eyring_stress, pressure)
+      if (allocated(case%roller_profile)) then
+         call change(case%roller_profile%crown_radius, length)
+         call change(case%roller_profile%design_load, force)
+         call change(case%roller_profile%end_drop, length)
+      end if
       if (allocated(case%heat)) then
          call change(case%heat%oil_conductivity, conductivity)
          call change(case%heat%viscosity_fall, per_temperature)

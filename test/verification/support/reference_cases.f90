@@ -14,7 +14,7 @@ module reference_cases
    private
 
    public :: thesis_case, source_case, skewed_case, named_case, make_model, make_cycle, set_point, add_gas_force, add_joints, &
-      & add_heat
+      & add_heat, add_profile
    public :: point_speeds, point_viscosities
 
    !> Speeds of the nine operating points [rad/s]
@@ -206,6 +206,17 @@ contains
       the_case%heat%limit_fall = 2.0e-3_wp
       the_case%heat%conductivity(2) = 20.0_wp
    end subroutine add_heat
+
+   !> A crowned roller that stands askew.
+   subroutine add_profile(the_case)
+      !> The case
+      type(case_t), intent(inout) :: the_case
+
+      allocate (the_case%roller_profile)
+      the_case%roller_profile%profile = "crowned"
+      the_case%roller_profile%crown_radius = 2.0_wp
+      the_case%roller_profile%tilt = 4.0e-4_wp
+   end subroutine add_profile
 
    !> Model of a case.
    subroutine make_model(the_case, model, error)

@@ -142,7 +142,7 @@ contains
 
       may_have = .true.
       if (any(group == joint_groups)) may_have = .not. (has_source(text) .or. draft%has_dynamics)
-      if (group == "heat") may_have = index(text, "&ehl") == 0
+      if (group == "heat" .or. group == "roller_profile") may_have = index(text, "&ehl") == 0
       if (group == "bearing_asperity" .or. group == "belt_pull") may_have = draft%has_cams
       if (group == "bearing_heat") may_have = draft%has_cams .and. any(deck_word(text, "lubricant", &
          & "temperature_law") == [character(len=10) :: "vogel", "walther", "data_sheet"])
@@ -243,6 +243,8 @@ contains
          is_given = is_given .and. law /= "masjedi_khonsari"
       case ("eyring_stress_MPa")
          is_given = is_given .or. deck_word(text, group, "shear_law") == "eyring"
+      case ("crown_radius_mm", "design_load_N")
+         is_given = deck_word(text, group, "profile") == merge("crowned    ", "logarithmic", key == "crown_radius_mm")
       case ("needle_radius_mm")
          is_given = is_given .or. deck_word(text, group, "kind") == "needles"
       case ("grinding_wheel_radius_mm")

@@ -71,6 +71,11 @@ module wide_numbers
       & usual_t("ehl.accuracy", 0.03_wp, 0.2_wp, .true.), &
       & usual_t("traction.eyring_stress_MPa", 1.0_wp, 20.0_wp, .true.), &
       & usual_t("traction.limiting_coefficient", 0.02_wp, 0.12_wp), &
+      & usual_t("roller_profile.crown_radius_mm", 300.0_wp, 3.0e4_wp, .true.), &
+      & usual_t("roller_profile.design_load_N", 10.0_wp, 5000.0_wp, .true.), &
+      & usual_t("roller_profile.end_drop_um", 0.0_wp, 20.0_wp), &
+      & usual_t("roller_profile.tilt_mrad", -1.0_wp, 1.0_wp), &
+      & usual_t("roller_profile.slices", 11.0_wp, 61.0_wp), &
       & usual_t("heat.oil_conductivity_W_m_K", 0.1_wp, 0.25_wp, .true.), &
       & usual_t("heat.viscosity_fall_per_K", 0.02_wp, 0.1_wp, .true.), &
       & usual_t("heat.limit_fall_per_K", 0.0_wp, 0.01_wp), &

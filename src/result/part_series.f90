@@ -1,19 +1,123 @@
-!> Series of single camshaft bearings.
+!> Series of parts: of heat in the contact, of the contact along the roller, of single camshaft bearings.
 !>
-!> In: a case, states of its bearings. Out: how many series there are, and the series.
-module camroller_bearing_series
+!> In: a case, state of the follower, states of its bearings. Out: how many series of bearings there are, and the series.
+module camroller_part_series
    use camroller_kinds, only : wp
+   use camroller_axial_film, only : smallest_film
+   use camroller_axial_table, only : axial_state, axial_state_t, slice_loads
    use camroller_bearing_asperity, only : bearing_state_t
    use camroller_case, only : camshaft_number, case_t
+   use camroller_contact_forces, only : film_groups
+   use camroller_effect_list, only : effect_contact_heat, effect_inlet_heat, has_effect
+   use camroller_film, only : film_line_t, new_film_line
+   use camroller_hertz, only : peak_pressure
+   use camroller_model, only : model_t
    use camroller_number_text, only : integer_text
    use camroller_result, only : quantity_list_t, add => append_quantity, scope_camshaft
+   use camroller_roller_profile, only : roller_profile_t
    use camroller_shaft, only : has_orbits
+   use camroller_state, only : state_t
    implicit none
    private
 
-   public :: add_bearings, bearing_count, bearing_series_count
+   public :: add_axial, add_axial_film, add_heat, add_bearings, bearing_count, bearing_series_count
 
 contains
+
+   !> The smallest film along the roller.
+   pure subroutine add_axial_film(list, model, state)
+      !> List to extend
+      type(quantity_list_t), intent(inout) :: list
+      !> The model of its lobe
+      type(model_t), intent(in) :: model
+      !> State of the follower
+      type(state_t), intent(in) :: state
+
+      type(film_line_t) :: line
+      type(axial_state_t) :: along
+      real(wp) :: film ! [m]
+
+      film = 0.0_wp
+      if (allocated(model%axial) .and. state%contact%is_touching) then
+         along = axial_state(model%axial, state%contact%load, state%position%equivalent_radius)
+         call new_film_line(line, model%film_law, film_groups(model, state%position, state%contact), model%film_table)
+         line%log_factor = log(state%contact%inlet_factor)
+         film = smallest_film(line, along%peak*state%contact%load/model%contact_width, state%position%equivalent_radius, &
+            & model%modulus, model%boundary)
+      end if
+      call add(list, "film_thickness_axial_min", "m", "smallest minimum film along the roller", "roller_profile", film)
+   end subroutine add_axial_film
+
+   !> Series of heat in the contact.
+   pure subroutine add_heat(list, case, state)
+      !> List to extend
+      type(quantity_list_t), intent(inout) :: list
+      !> The case
+      type(case_t), intent(in) :: case
+      !> State of the follower
+      type(state_t), intent(in) :: state
+
+      if (has_effect(case, effect_inlet_heat)) call add(list, "inlet_heat_factor", "1", "factor on the film by heat in its inlet", &
+         & "heat", state%contact%inlet_factor)
+      if (has_effect(case, effect_contact_heat)) then
+         call add(list, "film_temperature_rise", "K", "mean temperature of the film above that of the oil", "heat", &
+            & state%contact%film_rise)
+         call add(list, "flash_temperature_rise", "K", "mean temperature of both surfaces above that of the oil", "heat", &
+            & state%contact%flash_rise)
+      end if
+   end subroutine add_heat
+
+   !> Series of the contact along the roller.
+   pure subroutine add_axial(list, profile, model, state)
+      !> List to extend
+      type(quantity_list_t), intent(inout) :: list
+      !> What the case says about the roller
+      type(roller_profile_t), intent(in) :: profile
+      !> The model of its lobe
+      type(model_t), intent(in) :: model
+      !> State of the follower
+      type(state_t), intent(in) :: state
+
+      type(axial_state_t) :: along
+      ! Loads per length, in the mean [N/m] and of the slices over that [-]; largest pressure [Pa]
+      real(wp) :: mean, pressure
+      real(wp), allocatable :: loads(:)
+      character(len=:), allocatable :: name, words
+      integer :: i
+
+      allocate (loads(profile%slices), source=0.0_wp)
+      along = axial_state_t(0.0_wp, 0.0_wp, [0.0_wp, 0.0_wp])
+      mean = 0.0_wp
+      pressure = 0.0_wp
+      if (allocated(model%axial) .and. state%contact%is_touching) then
+         mean = state%contact%load/model%contact_width
+         along = axial_state(model%axial, state%contact%load, state%position%equivalent_radius)
+         pressure = peak_pressure(along%peak*mean, state%position%equivalent_radius, 1.0_wp, model%modulus)
+         if (profile%slice_series) call slice_loads(model%axial, state%contact%load, &
+            & state%position%equivalent_radius, loads)
+      end if
+      call add(list, "effective_contact_length", "m", "length of the line contact that stands for the roller", "roller_profile", &
+         & state%contact%length)
+      call add(list, "axial_pressure_max", "Pa", "largest pressure along the roller, dry contact", "roller_profile", pressure)
+      call add(list, "axial_pressure_place", "m", "where along the roller the largest pressure is, from its middle", &
+         & "roller_profile", along%place)
+      call add(list, "edge_stress_factor", "1", "pressure at the end with the larger one relative to that of the same load all "// &
+         & "along the roller", "roller_profile", sqrt(maxval(along%ends)))
+      call add(list, "line_load_negative_end", "N m-1", "load per length at the end at negative places", "roller_profile", &
+         & mean*along%ends(1))
+      call add(list, "line_load_positive_end", "N m-1", "load per length at the end at positive places", "roller_profile", &
+         & mean*along%ends(2))
+      if (.not. profile%slice_series) return
+      name = ""
+      words = ""
+      do i = 1, size(loads)
+         if (allocated(list%items)) then
+            name = "line_load_"//integer_text(i)
+            words = "load per length of slice "//integer_text(i)//", from the negative end"
+         end if
+         call add(list, name, "N m-1", words, "roller_profile", mean*loads(i))
+      end do
+   end subroutine add_axial
 
    !> Number of bearings of each camshaft that have series of their own.
    pure function bearing_count(case) result(count)
@@ -139,4 +243,4 @@ contains
 
    end subroutine add_bearing
 
-end module camroller_bearing_series
+end module camroller_part_series

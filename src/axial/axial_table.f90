@@ -1,0 +1,361 @@
+!> Load along the roller for every load and radius of a cycle, tabulated, and the length that stands for it in a line contact.
+!>
+!> In: roller profile, length, modulus, range of the equivalent radius. Out: effective length with its derivatives; loads of all
+!> slices.
+!>
+!> What acts on the roller as a whole follows from one line contact of the effective length `L_e = W^2/int w^2 dy`: its load per
+!> length is the mean of w weighted with the load, so that a friction `mu(w) w` of the slices adds up to `mu(W/L_e) W` to first
+!> order in the differences of w.
+!>
+!> Loads are solved at points equally spaced in the logarithm of the load, for some radii; ln(L_e/L) between them is a cubic of
+!> that logarithm and a polynomial of ln R. Contact far narrower than the roller has few slices: where they do not resolve
+!> it, below, the effective length is a power of the load.
+module camroller_axial_table
+   use camroller_kinds, only : wp, pi
+   use camroller_error, only : error_t, raise, kind_convergence, kind_deck
+   use camroller_number_text, only : integer_text, number_text
+   use camroller_roller_profile, only : roller_profile_t, check_roller_profile, coupling_half_space, coupling_names, profile_gap
+   use camroller_slices, only : slices_t, load_slices, new_slices
+   implicit none
+   private
+
+   public :: axial_part_t, axial_state_t, new_axial_part, is_same_axial_part, effective_length, slice_loads, axial_state
+
+   !> Largest W/(E' R L), at the largest radius; steps of ln(load), their most [-]; the first is a peak
+   !> pressure of about 4.5 GPa with steel
+   real(wp), parameter :: largest_group = 2.5e-3_wp, group_step = 0.6_wp
+   integer, parameter :: most_points = 24
+   !> Fewest slices that resolve a contact
+   integer, parameter :: fewest_loaded = 7
+   !> Fewest points, for cubic polynomials
+   integer, parameter :: fewest_points = 4
+   !> Most radii
+   integer, parameter :: most_radii = 4
+   !> Logarithm of the range that each radius more covers, and of that beyond the range [-]
+   real(wp), parameter :: radius_step = 1.5_wp, radius_margin = 0.05_wp
+   !> ln(L_e/L) that is rounding [-]
+   real(wp), parameter :: rounding = 1.0e-10_wp
+
+   !> Loads along the roller, ready for use
+   type :: axial_part_t
+      !> What they were made of: profile; length L [m], modulus E' [Pa], smallest and largest radius R [m]
+      type(roller_profile_t) :: profile
+      !> The numbers [m], [Pa], [m]
+      real(wp) :: length, modulus, radii(2)
+      !> ln(W/(E' L^2)) of the first and the last point, ln(R/L) of the radii [-]
+      real(wp) :: first, last
+      real(wp), allocatable :: log_radii(:)
+      !> ln(L_e/L) and its slope over ln(W/(E' L^2)), shape (2, point, radius) [-]
+      real(wp), allocatable :: log_lengths(:, :, :)
+      !> Loads per length over their mean, shape (slice, point, radius) [-]
+      real(wp), allocatable :: loads(:, :, :)
+   end type axial_part_t
+
+   !> What matters of the loads at one state
+   type :: axial_state_t
+      !> Largest load per length over its mean [-] and where it is [m]
+      real(wp) :: peak, place
+      !> Loads per length at both ends over the mean [-]
+      real(wp) :: ends(2)
+   end type axial_state_t
+
+contains
+
+   !> Solve the table.
+   subroutine new_axial_part(part, profile, length, modulus, radii, error)
+      !> The table
+      type(axial_part_t), intent(out) :: part
+      !> What the case says
+      type(roller_profile_t), intent(in) :: profile
+      !> Length, L [m]; equivalent modulus, E' [Pa]; smallest and largest equivalent radius of the cycle [m]
+      real(wp), intent(in) :: length, modulus, radii(2)
+      !> Deck error; convergence error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(slices_t) :: slices
+      ! Middle of the ln(R/L), half of their range [-]; places of the slices [m]
+      real(wp) :: middle, reach, places(profile%slices)
+      integer :: i, count
+
+      call check_roller_profile(profile, error)
+      if (allocated(error)) return
+      part%profile = profile
+      part%length = length
+      part%modulus = modulus
+      part%radii = radii
+      places = slice_places(profile%slices, length)
+      call new_slices(slices, length, modulus, profile_gap(profile, length, modulus, places), &
+         & profile%coupling == coupling_names(coupling_half_space))
+      middle = 0.5_wp*log(radii(1)*radii(2)/length**2)
+      reach = 0.5_wp*log(radii(2)/radii(1)) + radius_margin
+      count = min(most_radii, 2 + int(2.0_wp*reach/radius_step))
+      allocate (part%log_radii(count))
+      do i = 1, count
+         part%log_radii(i) = middle + reach*cos(pi*(i - 0.5_wp)/count)/cos(0.5_wp*pi/count)
+      end do
+      call solve_loads(part, slices, error)
+      if (allocated(error)) return
+      call fit_lengths(part)
+   end subroutine new_axial_part
+
+   !> Loads at all points of the table, from the largest load on down as long as slices resolve the contact.
+   subroutine solve_loads(part, slices, error)
+      !> The table
+      type(axial_part_t), intent(inout) :: part
+      !> The contact
+      type(slices_t), intent(in) :: slices
+      !> Deck error; convergence error
+      type(error_t), allocatable, intent(out) :: error
+
+      ! Loads from the largest on, shape (slice, point, radius), of one contact [-]; load [N], radius, approach [m]
+      real(wp), allocatable :: all(:, :, :)
+      real(wp) :: loads(size(slices%gaps)), load, radius, approach
+      integer :: i, k, points, status
+
+      allocate (all(size(loads), most_points, size(part%log_radii)))
+      part%last = log(largest_group) + maxval(part%log_radii)
+      points = most_points
+      do k = 1, size(part%log_radii)
+         radius = part%length*exp(part%log_radii(k))
+         loads = 1.0_wp
+         do i = 1, points
+            load = exp(part%last - group_step*(i - 1))*part%modulus*part%length**2
+            call load_slices(slices, load, radius, loads, approach, status)
+            if (status /= 0) then
+               call raise(error, kind_convergence, "roller profile: no loads of the slices found for "//number_text(load, 4)//" N")
+               return
+            end if
+            if (count(loads > 0.0_wp) < fewest_loaded) then
+               points = i - 1
+               exit
+            end if
+            all(:, i, k) = loads
+         end do
+      end do
+      if (points < fewest_points) then
+         call raise(error, kind_deck, "roller profile: the contact is narrower than "//integer_text(fewest_loaded)// &
+            & " slices; take more slices, or less crown or tilt")
+         return
+      end if
+      part%loads = all(:, points:1:-1, :)
+      part%first = part%last - group_step*(points - 1)
+   end subroutine solve_loads
+
+   !> Effective lengths at the points, with slopes by which no cubic between two of them leaves their range.
+   !>
+   !> The slope is the harmonic mean of the slopes of both neighbouring stretches, zero where these differ in sign (Fritsch and
+   !> Butland 1984); at the ends that of the last stretch. Contacts of few slices make small steps in the values, which a curve with
+   !> more continuous derivatives would overshoot.
+   subroutine fit_lengths(part)
+      !> The table, with its loads
+      type(axial_part_t), intent(inout) :: part
+
+      ! ln(L_e/L) at the points, slopes between them [-]
+      real(wp) :: values(size(part%loads, 2)), rises(size(part%loads, 2) - 1)
+      integer :: k, n
+
+      n = size(values)
+      allocate (part%log_lengths(2, n, size(part%log_radii)))
+      do k = 1, size(part%log_radii)
+         values = -log(sum(part%loads(:, :, k)**2, 1)/size(part%loads, 1))
+         ! The same load everywhere has the length of the roller to the last digit
+         where (abs(values) < rounding) values = 0.0_wp
+         rises = (values(2:) - values(:n - 1))/group_step
+         part%log_lengths(1, :, k) = values
+         part%log_lengths(2, 1, k) = rises(1)
+         part%log_lengths(2, n, k) = rises(n - 1)
+         part%log_lengths(2, 2:n - 1, k) = 0.0_wp
+         where (rises(2:)*rises(:n - 2) > 0.0_wp) part%log_lengths(2, 2:n - 1, k) = 2.0_wp*rises(2:)*rises(:n - 2) &
+            & /(rises(2:) + rises(:n - 2))
+      end do
+   end subroutine fit_lengths
+
+   !> Value and slope between two points, beyond all of them along a straight line.
+   pure subroutine log_length(lines, place, value, slope)
+      !> Values and slopes at the points, shape (2, point) [-]
+      real(wp), intent(in) :: lines(:, :)
+      !> ln(W/(E' L^2)) from the first point on [-]
+      real(wp), intent(in) :: place
+      !> ln(L_e/L), its slope [-]
+      real(wp), intent(out) :: value, slope
+
+      ! Part of the stretch [-]
+      real(wp) :: t
+      integer :: i, n
+
+      n = size(lines, 2)
+      if (place <= 0.0_wp .or. place >= group_step*(n - 1)) then
+         i = merge(1, n, place <= 0.0_wp)
+         slope = lines(2, i)
+         value = lines(1, i) + slope*(place - group_step*(i - 1))
+         return
+      end if
+      i = min(1 + int(place/group_step), n - 1)
+      t = place/group_step - (i - 1)
+      associate (low => lines(1, i), high => lines(1, i + 1), first => group_step*lines(2, i), last => group_step*lines(2, i + 1))
+         value = low + t*(first + t*(3.0_wp*(high - low) - 2.0_wp*first - last + t*(2.0_wp*(low - high) + first + last)))
+         slope = (first + t*(2.0_wp*(3.0_wp*(high - low) - 2.0_wp*first - last) + 3.0_wp*t*(2.0_wp*(low - high) + first + last))) &
+            & /group_step
+      end associate
+   end subroutine log_length
+
+   !> Would a table made of these be the same?
+   pure function is_same_axial_part(part, profile, length, modulus, radii) result(is_same)
+      !> A table
+      type(axial_part_t), intent(in) :: part
+      !> What another one would be made of
+      type(roller_profile_t), intent(in) :: profile
+      !> The same, as for `new_axial_part` [m], [Pa], [m]
+      real(wp), intent(in) :: length, modulus, radii(2)
+      logical :: is_same
+
+      associate (own => part%profile)
+         is_same = own%profile == profile%profile .and. own%coupling == profile%coupling .and. own%slices == profile%slices
+         is_same = is_same .and. all(abs([part%length - length, part%modulus - modulus, part%radii - radii, &
+            & own%crown_radius - profile%crown_radius, own%design_load - profile%design_load, own%end_drop - profile%end_drop, &
+            & own%tilt - profile%tilt]) <= 0.0_wp)
+      end associate
+   end function is_same_axial_part
+
+   !> Middles of the slices.
+   pure function slice_places(count, length) result(places)
+      !> Their number
+      integer, intent(in) :: count
+      !> Length of the roller [m]
+      real(wp), intent(in) :: length
+      !> Places from the middle of the roller [m]
+      real(wp) :: places(count)
+
+      integer :: i
+
+      places = [(length*((i - 0.5_wp)/count - 0.5_wp), i=1, count)]
+   end function slice_places
+
+   !> Length of the line contact that stands for the roller, L_e, with its derivatives.
+   pure subroutine effective_length(part, load, radius, length, by_load, by_radius)
+      !> The table
+      type(axial_part_t), intent(in) :: part
+      !> Load, W, above zero [N]; equivalent radius, R [m]
+      real(wp), intent(in) :: load, radius
+      !> The length [m]
+      real(wp), intent(out) :: length
+      !> Derivatives of its logarithm over ln(W) and ln(R) [-]
+      real(wp), intent(out) :: by_load, by_radius
+
+      ! ln(W/(E' L^2)) from the first point on, weights of the radii and their slopes [-]
+      real(wp) :: place, weights(size(part%log_radii)), slopes(size(part%log_radii))
+      ! ln(L_e/L) of one radius and its slope over ln(W), of all, slope of that over ln(R) [-]
+      real(wp) :: value, slope, total, along
+      integer :: k
+
+      place = log(load/(part%modulus*part%length**2)) - part%first
+      call radius_weights(part, radius, weights, slopes)
+      total = 0.0_wp
+      by_load = 0.0_wp
+      along = 0.0_wp
+      do k = 1, size(weights)
+         call log_length(part%log_lengths(:, :, k), place, value, slope)
+         total = total + weights(k)*value
+         by_load = by_load + weights(k)*slope
+         along = along + slopes(k)*value
+      end do
+      length = part%length*exp(total)
+      by_radius = along
+   end subroutine effective_length
+
+   !> Lagrange's weights of the radii, and their derivatives over ln(R); beyond the radii those at their end.
+   pure subroutine radius_weights(part, radius, weights, slopes)
+      !> The table
+      type(axial_part_t), intent(in) :: part
+      !> Equivalent radius [m]
+      real(wp), intent(in) :: radius
+      !> The weights, and their derivatives [-]
+      real(wp), intent(out) :: weights(:), slopes(:)
+
+      ! ln(R/L), within the radii; quotient, its derivative [-]
+      real(wp) :: x, factor
+      integer :: i, k
+      logical :: is_inside
+
+      x = log(radius/part%length)
+      associate (points => part%log_radii)
+         is_inside = x <= points(1) .and. x >= points(size(points))
+         x = min(max(x, points(size(points))), points(1))
+         do k = 1, size(points)
+            weights(k) = 1.0_wp
+            slopes(k) = 0.0_wp
+            do i = 1, size(points)
+               if (i == k) cycle
+               factor = 1.0_wp/(points(k) - points(i))
+               slopes(k) = slopes(k)*(x - points(i))*factor + weights(k)*factor
+               weights(k) = weights(k)*(x - points(i))*factor
+            end do
+         end do
+         if (.not. is_inside) slopes = 0.0_wp
+      end associate
+   end subroutine radius_weights
+
+   !> Loads of the slices: between the points of the table along cubic polynomials, beyond them as at the last point.
+   pure subroutine slice_loads(part, load, radius, loads)
+      !> The table
+      type(axial_part_t), intent(in) :: part
+      !> Load, W [N]; equivalent radius, R [m]
+      real(wp), intent(in) :: load, radius
+      !> Loads per length over W/L; zero without a load [-]
+      real(wp), intent(out) :: loads(:)
+
+      ! Weights of the radii, of four points; place among the points [-]
+      real(wp) :: weights(size(part%log_radii)), unused(size(part%log_radii)), cubic(0:3), t
+      integer :: i, k, n, first
+
+      loads = 0.0_wp
+      if (.not. load > 0.0_wp) return
+      n = size(part%loads, 2)
+      t = (min(max(log(load/(part%modulus*part%length**2)), part%first), part%last) - part%first)/group_step
+      first = min(max(int(t), 1), n - 3)
+      t = t - (first - 1)
+      cubic = [-(t - 1.0_wp)*(t - 2.0_wp)*(t - 3.0_wp)/6.0_wp, t*(t - 2.0_wp)*(t - 3.0_wp)/2.0_wp, &
+         & -t*(t - 1.0_wp)*(t - 3.0_wp)/2.0_wp, t*(t - 1.0_wp)*(t - 2.0_wp)/6.0_wp]
+      call radius_weights(part, radius, weights, unused)
+      do k = 1, size(weights)
+         do i = 0, 3
+            loads = loads + weights(k)*cubic(i)*part%loads(:, first + i, k)
+         end do
+      end do
+      loads = max(loads, 0.0_wp)
+      loads = loads*(size(loads)/sum(loads))
+   end subroutine slice_loads
+
+   !> Largest load along the roller and at its ends.
+   pure function axial_state(part, load, radius) result(state)
+      !> The table
+      type(axial_part_t), intent(in) :: part
+      !> Load, W [N]; equivalent radius, R [m]
+      real(wp), intent(in) :: load, radius
+      !> What matters
+      type(axial_state_t) :: state
+
+      ! Loads of the slices, places [m]; largest load between three slices, as a parabola has it: its place among them [-]
+      real(wp) :: loads(size(part%loads, 1)), places(size(part%loads, 1)), bend, offset
+      integer :: n, top
+
+      n = size(loads)
+      call slice_loads(part, load, radius, loads)
+      places = slice_places(n, part%length)
+      ! Ends with the same load differ by rounding
+      top = maxloc(loads, 1)
+      if (loads(n) >= loads(top)*(1.0_wp - sqrt(epsilon(1.0_wp)))) top = n
+      state%peak = loads(top)
+      state%place = places(top)
+      if (top > 1 .and. top < n) then
+         bend = loads(top - 1) - 2.0_wp*loads(top) + loads(top + 1)
+         if (bend < 0.0_wp) then
+            offset = 0.5_wp*(loads(top - 1) - loads(top + 1))/bend
+            state%place = state%place + offset*part%length/n
+            state%peak = state%peak - 0.5_wp*bend*offset**2
+         end if
+      end if
+      state%ends = loads([1, n])
+   end function axial_state
+
+end module camroller_axial_table

@@ -1,0 +1,180 @@
+!> Load per length along a roller that is pressed on a cam: the contact in slices.
+!>
+!> In: gaps of the unloaded bodies in the middle of each slice, load. Out: load per length of each slice.
+!>
+!> A slice with the load per length w is a Hertzian line contact of half width `b = sqrt(8 w R/(pi E'))` in itself. Its pressure, a
+!> semi-ellipse across, moves the surfaces in the middle of slice i, a distance s away along the axis, by
+!>
+!>     u_i = 2/(pi E') w (asinh((s + h/2)/beta) - asinh((s - h/2)/beta)),    beta = b/(2 sqrt(e)),
+!>
+!> with the width h of a slice: the half space's `w/(pi E*) int ds/sqrt(x^2 + s^2)`, whose mean over the semi-ellipse is that of a
+!> line at the distance beta, exactly so for slices longer than b (the mean of ln|x| is ln(b/2) - 1/2) and to b^2/(8 s^2) far away.
+!> For a uniform load in the middle of a long contact it gives Lundberg's approach `2 w/(pi E') (1 + 2 ln(2 L/b))`. Slices that do
+!> not see each other have the approach of that middle each. A slice narrower than b is no line contact of its own: there b counts
+!> as h (`1/b^4 + 1/h^4` in place of `1/b^4`), without which the loads of neighbours would not be determined.
+!>
+!> Loads are where `u_i + gap_i` is the approach of the bodies, zero where the gap stays open. Newton's method with its exact
+!> derivatives (u is not linear in w, since b follows it), and slices taken out and in by the signs of load and gap.
+!>
+!> Source: Kalker (1972), J. Applied Mechanics 39, 1125 (line contact by its asymptotics); de Mul, Kalker and Fredriksson (1986),
+!> J. Tribology 108, 140 (slices with semi-elliptic pressure).
+module camroller_slices
+   use camroller_kinds, only : wp, pi
+   use camroller_lapack, only : dgesv
+   implicit none
+   private
+
+   public :: slices_t, new_slices, load_slices, thin_line
+
+   !> Half width over the distance of the line that stands for a slice [-]
+   real(wp), parameter :: thin_line = 0.5_wp*exp(-0.5_wp)
+   !> Load per length over its mean by which a slice joins, if it has to carry more: from below Newton's method does not make it
+   !> negative again; change after which joins are looked for; the last change of a solution [-]
+   real(wp), parameter :: first_load = 1.0e-4_wp, small_change = 1.0e-2_wp, last_change = 1.0e-9_wp
+   !> Steps at most
+   integer, parameter :: max_steps = 200
+
+   !> A contact in slices
+   type :: slices_t
+      !> Length, L [m]; equivalent modulus, E' [Pa]
+      real(wp) :: length, modulus
+      !> Gaps without load, in the middle of each slice [m]
+      real(wp), allocatable :: gaps(:)
+      !> Do slices move each other?
+      logical :: is_coupled
+   end type slices_t
+
+contains
+
+   !> A contact.
+   pure subroutine new_slices(slices, length, modulus, gaps, is_coupled)
+      !> The contact
+      type(slices_t), intent(out) :: slices
+      !> Length, L [m]; equivalent modulus, E' [Pa]
+      real(wp), intent(in) :: length, modulus
+      !> Gaps without load, in the middle of each slice; only their differences count [m]
+      real(wp), intent(in) :: gaps(:)
+      !> Do slices move each other?
+      logical, intent(in) :: is_coupled
+
+      slices%length = length
+      slices%modulus = modulus
+      slices%gaps = gaps - minval(gaps)
+      slices%is_coupled = is_coupled
+   end subroutine new_slices
+
+   !> Loads of the slices.
+   pure subroutine load_slices(slices, load, radius, loads, approach, status)
+      !> The contact
+      type(slices_t), intent(in) :: slices
+      !> Load, W, above zero [N]; equivalent radius, R [m]
+      real(wp), intent(in) :: load, radius
+      !> Loads per length over W/L, zero where bodies do not touch; in: those of a contact nearby [-]
+      real(wp), intent(inout) :: loads(:)
+      !> Approach of the bodies from first touch [m]
+      real(wp), intent(out) :: approach
+      !> 0 fine, positive where no loads were found
+      integer, intent(out) :: status
+
+      ! Height 2 W/(pi E' L) that lengths are relative to [m]; gaps, approach, overlap of a slice that joins [heights]; distance of
+      ! the line at the mean load [L]
+      real(wp) :: height, gaps(size(loads)), level, joining, line
+      ! Approach by all slices and their derivatives over the loads, bordered by the balance of the load; what is wrong [-]
+      real(wp) :: influence(size(loads), size(loads)), slopes(size(loads), size(loads))
+      real(wp) :: matrix(size(loads) + 1, size(loads) + 1), wrong(size(loads) + 1, 1), change
+      integer :: list(size(loads)), pivots(size(loads) + 1), n, step, j, info
+      logical :: is_loaded(size(loads)), was_loaded(size(loads))
+
+      status = 0
+      height = 2.0_wp*load/(pi*slices%modulus*slices%length)
+      gaps = slices%gaps/height
+      line = thin_line*sqrt(8.0_wp*load*radius/(pi*slices%modulus*slices%length))/slices%length
+      joining = 2.0_wp*first_load*asinh(0.5_wp/(line*sqrt(first_load)*merge(size(loads), 1, slices%is_coupled)))
+      is_loaded = loads > 0.0_wp
+      level = 0.0_wp
+      do step = 1, max_steps
+         n = count(is_loaded)
+         list(:n) = pack([(j, j=1, size(loads))], is_loaded)
+         where (.not. is_loaded) loads = 0.0_wp
+         call find_influence(slices%is_coupled, line, loads, list(:n), influence, slopes)
+         wrong(:n, 1) = -gaps(list(:n)) - matmul(influence(list(:n), list(:n)), loads(list(:n)))
+         wrong(n + 1, 1) = real(size(loads), wp) - sum(loads(list(:n)))
+         matrix(:n, :n) = slopes(list(:n), list(:n))
+         matrix(:n, n + 1) = -1.0_wp
+         matrix(n + 1, :n) = 1.0_wp
+         matrix(n + 1, n + 1) = 0.0_wp
+         call dgesv(n + 1, 1, matrix, size(matrix, 1), pivots, wrong, size(wrong, 1), info)
+         if (info /= 0) exit
+         change = maxval(abs(wrong(:n, 1)))
+         loads(list(:n)) = loads(list(:n)) + wrong(:n, 1)
+         level = wrong(n + 1, 1)
+         was_loaded = is_loaded
+         is_loaded = loads > 0.0_wp
+         if (any(is_loaded .neqv. was_loaded)) cycle
+         if (change > small_change) cycle
+         ! Where the bodies would overlap by more than the first load moves them
+         is_loaded = is_loaded .or. gaps + matmul(influence(:, list(:n)), loads(list(:n))) < level - joining
+         if (any(is_loaded .neqv. was_loaded)) then
+            where (is_loaded .and. .not. was_loaded) loads = first_load
+         else if (change <= last_change*maxval(loads)) then
+            approach = level*height
+            return
+         end if
+      end do
+      status = 1
+      approach = 0.0_wp
+   end subroutine load_slices
+
+   !> Approach of all slices by the load of some, and its derivative over that.
+   pure subroutine find_influence(is_coupled, line, loads, list, influence, slopes)
+      !> Do slices move each other?
+      logical, intent(in) :: is_coupled
+      !> Distance of the line that stands for a slice with the mean load [L]
+      real(wp), intent(in) :: line
+      !> Loads per length over their mean [-]
+      real(wp), intent(in) :: loads(:)
+      !> Slices that count
+      integer, intent(in) :: list(:)
+      !> Approach of slice i by a unit load of slice j; derivative of the approach over the load of j [-]
+      real(wp), intent(out) :: influence(:, :), slopes(:, :)
+
+      ! Distance of the line, distances along the axis [L]; asinh of their ratio, and less half its derivative over ln(load) [-]
+      real(wp) :: beta, ends(0:size(loads) - 1), angles(0:size(loads) - 1), falls(0:size(loads) - 1), roots(0:size(loads) - 1)
+      ! Derivative of ln(b) over ln(load) [-]
+      real(wp) :: part
+      integer :: i, j, k, n
+
+      n = size(loads)
+      if (.not. is_coupled) then
+         influence(:, list) = 0.0_wp
+         slopes(:, list) = 0.0_wp
+      end if
+      ends = [((k + 0.5_wp)/n, k=0, n - 1)]
+      do k = 1, size(list)
+         j = list(k)
+         beta = line*sqrt(loads(j))
+         if (is_coupled) then
+            ! A smooth limit, since Newton's method would go to and fro at a sharp one
+            part = 1.0_wp/(1.0_wp + (beta*n/thin_line)**4)
+            beta = beta*sqrt(sqrt(part))
+            part = 0.5_wp*part
+            roots = sqrt(ends**2 + beta**2)
+            angles = log((ends + roots)/beta)
+            falls = angles - part*ends/roots
+            do i = 1, n
+               if (i == j) then
+                  influence(i, j) = 2.0_wp*angles(0)
+                  slopes(i, j) = 2.0_wp*falls(0)
+               else
+                  influence(i, j) = angles(abs(i - j)) - angles(abs(i - j) - 1)
+                  slopes(i, j) = falls(abs(i - j)) - falls(abs(i - j) - 1)
+               end if
+            end do
+         else
+            influence(j, j) = 2.0_wp*asinh(0.5_wp/beta)
+            slopes(j, j) = influence(j, j) - 0.5_wp/sqrt(0.25_wp + beta**2)
+         end if
+      end do
+   end subroutine find_influence
+
+end module camroller_slices

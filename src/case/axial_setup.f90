@@ -1,0 +1,69 @@
+!> Load along the roller for a case: the table of slices over the radii of its cam.
+!>
+!> In: roller profile, linkage, lift. Out: the table; one that is there stays where it would be made of the same numbers again.
+module camroller_axial_setup
+   use camroller_kinds, only : wp, degree
+   use camroller_axial_table, only : axial_part_t, is_same_axial_part, new_axial_part
+   use camroller_error, only : error_t, raise, kind_deck
+   use camroller_kinematics, only : linkage_t, position_t, evaluate_position
+   use camroller_lift, only : lift_law_t, evaluate_lift
+   use camroller_roller_profile, only : roller_profile_t
+   implicit none
+   private
+
+   public :: set_axial
+
+   !> Largest equivalent radius over the length of the roller: beyond it the load is spread as there [-]
+   real(wp), parameter :: largest_radius = 20.0_wp
+   !> Degrees between two angles that are looked at
+   integer, parameter :: step = 2
+
+contains
+
+   !> Make the table of a case, or none.
+   subroutine set_axial(axial, profile, has_numerical_film, linkage, lift_law, length, modulus, error)
+      !> The table; in: none, or that of a case with the same cam
+      type(axial_part_t), allocatable, intent(inout) :: axial
+      !> What the case says; not allocated: no table
+      type(roller_profile_t), allocatable, intent(in) :: profile
+      !> Has the case a numerical film, which knows no length?
+      logical, intent(in) :: has_numerical_film
+      !> Finger and lift
+      type(linkage_t), intent(in) :: linkage
+      type(lift_law_t), intent(in) :: lift_law
+      !> Length of the contact [m], equivalent modulus [Pa]
+      real(wp), intent(in) :: length, modulus
+      !> Deck error; convergence error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(position_t) :: position
+      ! Lift and its first three derivatives [m/rad^n]; smallest and largest equivalent radius [m]
+      real(wp) :: lift(0:3), radii(2)
+      integer :: i, status
+
+      if (.not. allocated(profile)) then
+         if (allocated(axial)) deallocate (axial)
+         return
+      end if
+      if (has_numerical_film) then
+         call raise(error, kind_deck, "the roller profile is not part of a numerical film, whose roller is a cylinder")
+         return
+      end if
+      radii = [huge(1.0_wp), 0.0_wp]
+      do i = 1, 360/step
+         call evaluate_lift(lift_law, step*i*degree, lift)
+         call evaluate_position(linkage, lift, position, status)
+         if (status /= 0 .or. .not. position%equivalent_radius > 0.0_wp) cycle
+         radii = [min(radii(1), position%equivalent_radius), max(radii(2), position%equivalent_radius)]
+      end do
+      radii = min(radii, largest_radius*length)
+      if (.not. radii(2) > 0.0_wp) radii = length
+      if (allocated(axial)) then
+         if (is_same_axial_part(axial, profile, length, modulus, radii)) return
+         deallocate (axial)
+      end if
+      allocate (axial)
+      call new_axial_part(axial, profile, length, modulus, radii, error)
+   end subroutine set_axial
+
+end module camroller_axial_setup

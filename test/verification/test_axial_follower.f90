@@ -1,0 +1,159 @@
+!> A follower whose load is not the same along its roller.
+module test_axial_follower
+   use testdrive, only : unittest_type, new_unittest, error_type, check, test_failed
+   use camroller_case, only : case_t
+   use camroller_cycle, only : cycle_t, state_at
+   use camroller_error, only : error_t
+   use camroller_kinds, only : wp, two_pi, degree
+   use camroller_kinematics, only : rotation_names
+   use camroller_model, only : model_t
+   use camroller_remarks, only : cut_off_contact, unloaded_end
+   use camroller_result, only : result_t, find_quantity
+   use camroller_roller_profile, only : roller_profile_t
+   use camroller_run, only : run_case
+   use camroller_state, only : state_t, evaluate_state
+   use camroller_torque_list, only : of_residual
+   use case_twins, only : leave_constants_out, rescale_case
+   use closeness, only : check_scaled, expect_success
+   use reference_cases, only : thesis_case, skewed_case, make_model, make_cycle, set_point, add_gas_force, add_heat, point_speeds, &
+      & point_viscosities
+   use roller_profiles, only : profiles
+   use unit_systems, only : unit_systems_tried, scaled, compare, speed, length, force
+   implicit none
+   private
+
+   public :: collect_axial_follower
+
+contains
+
+   subroutine collect_axial_follower(testsuite)
+      type(unittest_type), allocatable, intent(out) :: testsuite(:)
+
+      testsuite = [ &
+         new_unittest("a cylinder without tilt and coupling changes no bit", test_flat), &
+         new_unittest("energy closes at 720 angles with a profile, for both senses of rotation, with heat", test_energy), &
+         new_unittest("results are the same in other units", test_units), &
+         new_unittest("remarks tell of an end that cuts the contact off, and of one without load", test_remarks) &
+         ]
+   end subroutine collect_axial_follower
+
+   subroutine test_flat(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: case
+      type(result_t) :: with, without
+      type(error_t), allocatable :: failure
+      integer :: i, k
+
+      case = thesis_case()
+      call run_case(case, without, failure)
+      allocate (case%roller_profile)
+      case%roller_profile%coupling = "none"
+      if (.not. allocated(failure)) call run_case(case, with, failure)
+      call expect_success(error, failure)
+      if (allocated(error)) return
+      do i = 1, size(without%series)
+         k = find_quantity(with%series, without%series(i)%name)
+         call check(error, k > 0, "a series is gone")
+         if (allocated(error)) return
+         call check(error, all(abs(with%series_values(:, k) - without%series_values(:, i)) <= 0.0_wp), &
+            & "a bit of "//without%series(i)%name//" is another")
+         if (allocated(error)) return
+      end do
+      k = find_quantity(with%series, "effective_contact_length")
+      call check(error, all(abs(with%series_values(:, k) - case%mechanism%contact_width) <= 0.0_wp), "length")
+   end subroutine test_flat
+
+   subroutine test_energy(error)
+      type(error_type), allocatable, intent(out) :: error
+      ! Residual over the mean power lost [-]: round-off of a stored power that is up to 1e3 times larger
+      real(wp), parameter :: tolerance = 1.0e-10_wp
+      type(case_t) :: case
+      type(model_t) :: model
+      type(cycle_t) :: cycle
+      type(state_t) :: state
+      type(error_t), allocatable :: failure
+      ! Largest residual, mean power lost [W]; shortest contact [m]
+      real(wp) :: largest, lost, shortest
+      integer :: i, sense, hint
+
+      do sense = 1, 2
+         case = skewed_case(rotation_names(sense))
+         call add_gas_force(case)
+         call add_heat(case)
+         case%roller_profile = profiles(sense)
+         call set_point(case, point_speeds(3), point_viscosities(1))
+         call make_model(case, model, error)
+         if (allocated(error)) return
+         call make_cycle(case, model, cycle, error)
+         if (allocated(error)) return
+         largest = 0.0_wp
+         lost = 0.0_wp
+         shortest = huge(1.0_wp)
+         hint = 1
+         do i = 0, 719
+            call state_at(cycle, model, i*two_pi/720, hint, state, failure)
+            if (allocated(failure)) call test_failed(error, failure%message)
+            if (allocated(error)) return
+            largest = max(largest, abs(state%torques(of_residual)))
+            lost = lost + state%torque_friction*model%speed/720
+            shortest = min(shortest, state%contact%length)
+         end do
+         call check_scaled(error, largest, 0.0_wp, lost, tolerance, "largest energy residual")
+         if (allocated(error)) return
+         call check(error, shortest < 0.9_wp*case%mechanism%contact_width, "the profile does nothing here")
+         if (allocated(error)) return
+      end do
+   end subroutine test_energy
+
+   subroutine test_units(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: case, other
+      type(model_t) :: model, twin
+      type(state_t) :: state, twin_state
+      integer :: i, k, number, status
+
+      do number = 1, 4
+         case = thesis_case()
+         call leave_constants_out(case)
+         case%roller_profile = profiles(number)
+         call set_point(case, point_speeds(3), point_viscosities(1))
+         call make_model(case, model, error)
+         if (allocated(error)) return
+         do i = 1, size(unit_systems_tried)
+            other = case
+            call rescale_case(other, unit_systems_tried(i))
+            call make_model(other, twin, error)
+            if (allocated(error)) return
+            do k = -60, 60, 20
+               call evaluate_state(model, k*degree, 2.0e-3_wp*model%speed, state, status)
+               call evaluate_state(twin, k*degree, scaled(unit_systems_tried(i), 2.0e-3_wp*model%speed, speed), twin_state, status)
+               call compare(error, "length", unit_systems_tried(i), length, [state%contact%length], [twin_state%contact%length])
+               if (allocated(error)) return
+               call compare(error, "load", unit_systems_tried(i), force, [state%contact%load], [twin_state%contact%load])
+               if (allocated(error)) return
+            end do
+         end do
+      end do
+   end subroutine test_units
+
+   subroutine test_remarks(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: case
+      type(result_t) :: result
+      type(error_t), allocatable :: failure
+
+      case = thesis_case()
+      case%roller_profile = roller_profile_t(tilt=1.0e-3_wp)
+      call run_case(case, result, failure)
+      call expect_success(error, failure)
+      if (allocated(error)) return
+      call check(error, any(result%remarks%kind == cut_off_contact) .and. any(result%remarks%kind == unloaded_end), "askew")
+      if (allocated(error)) return
+      case%roller_profile = profiles(1)
+      call run_case(case, result, failure)
+      call expect_success(error, failure)
+      if (allocated(error)) return
+      call check(error, .not. any(result%remarks%kind == cut_off_contact .or. result%remarks%kind == unloaded_end), "crowned")
+   end subroutine test_remarks
+
+end module test_axial_follower
