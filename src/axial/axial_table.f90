@@ -33,7 +33,7 @@ module camroller_axial_table
    integer, parameter :: most_radii = 4
    !> Logarithm of the range that each radius more covers, and of that beyond the range [-]
    real(wp), parameter :: radius_step = 1.5_wp, radius_margin = 0.05_wp
-   !> ln(L_e/L) that is rounding [-]
+   !> ln(L_e/L), and a load over the mean less one, that is rounding [-]
    real(wp), parameter :: rounding = 1.0e-10_wp
 
    !> Loads along the roller, ready for use
@@ -324,6 +324,8 @@ contains
       end do
       loads = max(loads, 0.0_wp)
       loads = loads*(size(loads)/sum(loads))
+      ! The same load everywhere has no rounding whose extremes could be looked for
+      where (abs(loads - 1.0_wp) < rounding) loads = 1.0_wp
    end subroutine slice_loads
 
    !> Largest load along the roller and at its ends.
