@@ -248,9 +248,9 @@ contains
       end do
    end subroutine test_beyond
 
-   !> Without any friction of the bearing the film alone damps, and only within a slip of 1e-9 of the largest. There the cycle starts,
-   !> so that a disturbance seems to decay at once; most of the one in question lies outside. If the decay over the disturbance itself
-   !> is left out, a cycle is taken for the periodic one whose mean slip has the wrong sign.
+   !> Without any friction of the bearing the film alone damps, and only within a slip of 1e-9 of the largest. There the cycle
+   !> starts, so that a disturbance seems to decay at once; most of the one in question lies outside. If the decay over the
+   !> disturbance itself is left out, a cycle is taken for the periodic one whose mean slip has the wrong sign.
    subroutine test_closed(error)
       type(error_type), allocatable, intent(out) :: error
       ! Accuracies that are compared [-]
