@@ -23,7 +23,7 @@ module camroller_flexible_cycle
    implicit none
    private
 
-   public :: flexible_cycle_t, turn_t, start_turns, set_tolerance, integrate_turn, find_periodic, rest_of_train
+   public :: flexible_cycle_t, turn_t, start_turns, set_tolerance, integrate_turn, find_periodic, find_period, rest_of_train
 
    !> Most cycles that make a period together
    integer, parameter, public :: longest_period = 8
@@ -211,16 +211,16 @@ contains
       type(error_t), allocatable, intent(out) :: error
 
       ! Ends of the last turns in units of the scales, the newest last; starts and residuals that acceleration mixes [-]
-      real(wp) :: ends(size(state), 0:longest_period), starts(size(state), depth + 1), residuals(size(state), depth + 1)
+      real(wp) :: ends(size(state), 0:2*longest_period), starts(size(state), depth + 1), residuals(size(state), depth + 1)
       ! Start of a turn [state], its distance from its end, the same of the turn before [-]
       real(wp) :: first(size(state)), distance, last_distance
-      integer :: turns, plain, kept, k
+      integer :: turns, plain, kept
       logical :: is_scaled
 
       plain = 1
       kept = 0
       last_distance = huge(1.0_wp)
-      ends(:, longest_period) = state/turn%scales
+      ends(:, 2*longest_period) = state/turn%scales
       do turns = 1, max_cycles
          first = state
          cycle%resolution%sliding_speed = turn%problem%resolution%sliding_speed
@@ -237,17 +237,11 @@ contains
             cycle%period = 1
             return
          end if
-         ends(:, :longest_period - 1) = ends(:, 1:)
-         ends(:, longest_period) = state/turn%scales
+         ends(:, :2*longest_period - 1) = ends(:, 1:)
+         ends(:, 2*longest_period) = state/turn%scales
          plain = plain + 1
-         do k = 2, min(longest_period, plain - 1)
-            ! The same again after another period tells a period from a chance
-            cycle%closure = maxval(abs(ends(:, longest_period) - ends(:, longest_period - k)))
-            if (cycle%closure > closure .or. 2*k > plain) cycle
-            if (distance < 10.0_wp*closure) cycle
-            cycle%period = k
-            return
-         end do
+         if (distance >= 10.0_wp*closure) call find_period(ends, min(longest_period, (plain - 1)/2), closure, cycle)
+         if (cycle%period > 0) return
          if (distance > last_distance) kept = 0
          call mix(turn, first, distance > slow*last_distance .and. distance < last_distance, starts, residuals, kept, state, plain)
          last_distance = distance
@@ -255,6 +249,34 @@ contains
       cycle%closure = distance
       cycle%resolution%sliding_speed = turn%problem%resolution%sliding_speed
    end subroutine find_periodic
+
+   !> Do the last turns make a period of several? The difference from one period to the next, over that between the two before, is
+   !> the part of a disturbance that a period leaves: what seems to repeat itself may approach a period slowly, or leave one.
+   pure subroutine find_period(ends, longest, closure, cycle)
+      !> Ends of the last turns in units of the scales, shape (component, turn), the newest last [-]
+      real(wp), intent(in) :: ends(:, :)
+      !> Longest period that these turns can show twice
+      integer, intent(in) :: longest
+      !> Distance from the periodic state that is near enough, in units of the scales [-]
+      real(wp), intent(in) :: closure
+      !> Gets the period, where there is one, and the difference of its end from its start
+      type(flexible_cycle_t), intent(inout) :: cycle
+
+      ! Difference of a period's end from its start, the same of the period before [-]
+      real(wp) :: distance, last_distance
+      integer :: k
+
+      associate (n => size(ends, 2))
+         do k = 2, longest
+            distance = maxval(abs(ends(:, n) - ends(:, n - k)))
+            last_distance = max(maxval(abs(ends(:, n - k) - ends(:, n - 2*k))), tiny(1.0_wp))
+            if (distance > closure*(1.0_wp - distance/last_distance)) cycle
+            cycle%closure = distance
+            cycle%period = k
+            return
+         end do
+      end associate
+   end subroutine find_period
 
    !> Make errors of the sliding speed relative to its largest value, where that is small: friction follows it.
    pure subroutine scale_sliding(turn, trajectory, is_scaled)

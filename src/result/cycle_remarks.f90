@@ -86,8 +86,8 @@ contains
       integer :: last
 
       if (has_film_limit(statistics)) return
-      call add_remark(remarks, film_without_limit, "mean and largest value of film_thickness_min, film_thickness_central and "// &
-         & "film_ratio have no limit: the load falls to next to nothing, where formulas let the film grow; at cam angle "// &
+      call add_remark(remarks, film_without_limit, "mean and largest value of film thicknesses and of film_ratio have "// &
+         & "no limit: the load falls to next to nothing, where formulas let the film grow; at cam angle "// &
          & fixed_text(file_angle(statistics%thickest_angle), 1)//" deg it is "//number_text(statistics%thickest_film, 2)// &
          & " of the equivalent radius, and formulas hold for a small part of it", statistics%thickest_film)
       if (lobe == 0) return

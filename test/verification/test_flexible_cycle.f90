@@ -5,7 +5,7 @@ module test_flexible_cycle
    use camroller_error, only : error_t, kind_domain
    use camroller_case, only : case_t
    use camroller_model, only : model_t
-   use camroller_flexible_cycle, only : flexible_cycle_t, turn_t, start_turns, find_periodic, rest_of_train
+   use camroller_flexible_cycle, only : flexible_cycle_t, turn_t, start_turns, find_periodic, find_period, rest_of_train
    use camroller_flexible_train, only : evaluate_train, flexible_state_t
    use camroller_trajectory, only : interpolate_state
    use camroller_flexible_measures, only : measure_count, measure_turn, largest_load, largest_load_angle, least_lift_error, &
@@ -45,9 +45,50 @@ contains
          new_unittest("a very stiff train has the results of a rigid train", test_rigid_limit), &
          new_unittest("impacts on a nearly solid film take few steps, and results for two tolerances agree", test_impacts), &
          new_unittest("a finger that is thrown off ends the integration with words that say so", test_thrown), &
-         new_unittest("the acceleration of the cycles never leaves the possible states of a train", test_mixture) &
+         new_unittest("the acceleration of the cycles never leaves the possible states of a train", test_mixture), &
+         new_unittest("a slow departure from one cycle is no period of two; a period is one once it is near enough", test_periods) &
          ]
    end subroutine collect_flexible_cycle
+
+   !> Ends of turns `(-1)^n (1 + b q^n)`: with b = 0 two turns make a period; otherwise they are `b q^n` away from it. Where the cycle that
+   !> alternates grows by a fiftieth a turn, each end is nearly that of two turns before, and there is no period.
+   subroutine test_periods(error)
+      type(error_type), allocatable, intent(out) :: error
+      integer, parameter :: turns = 60
+      ! Distance that is near enough [-]
+      real(wp), parameter :: closure = 1.0e-3_wp
+      ! Parts of a disturbance that a turn leaves [-]
+      real(wp), parameter :: shares(*) = [0.5_wp, 0.9_wp, 0.98_wp]
+      type(flexible_cycle_t) :: cycle
+      ! Ends of turns, shape (component, turn) [-]
+      real(wp) :: ends(1, turns)
+      integer :: i, n
+
+      do i = 1, size(shares)
+         cycle = flexible_cycle_t()
+         do n = 1, turns
+            ends(1, n) = (-1.0_wp)**n*(1.0_wp + 0.1_wp*shares(i)**n)
+            if (n > 4) call find_period(ends(:, :n), 2, closure, cycle)
+            if (cycle%period > 0) exit
+         end do
+         if (cycle%period == 0) then
+            ! 60 turns do not come near enough
+            call check(error, 0.1_wp*shares(i)**turns > closure, "a period is not seen")
+         else
+            call check(error, cycle%period, 2)
+            ! The distance from the period is known to a rounding: the ends are those of one disturbance
+            if (.not. allocated(error)) call check(error, 0.1_wp*shares(i)**n <= closure*(1.0_wp + 1.0e-9_wp), &
+               & "what is far from a period is taken for one")
+         end if
+         if (allocated(error)) return
+      end do
+      cycle = flexible_cycle_t()
+      do n = 1, turns
+         ends(1, n) = 5.0_wp*closure*(-1.02_wp)**n
+         if (n > 4) call find_period(ends(:, :n), 2, closure, cycle)
+      end do
+      call check(error, cycle%period, 0, "a slow departure is taken for a period")
+   end subroutine test_periods
 
    !> Measures of the periodic state.
    subroutine measure(the_case, method, tolerance, values, cycle, error)

@@ -78,7 +78,7 @@ contains
       call check(error, index(remark_lines(result%remarks), "lobe 1: contact is lost for "), 0, remark_lines(result%remarks))
       if (allocated(error)) return
       call check(error, any(result%remarks%kind == film_without_limit .and. result%remarks%lobe == 2) .and. &
-         & index(remark_lines(result%remarks), "lobe 2: mean and largest value of film_") > 0, remark_lines(result%remarks))
+         & index(remark_lines(result%remarks), "lobe 2: mean and largest value of film") > 0, remark_lines(result%remarks))
    end subroutine test_lobe_remark
 
    subroutine test_policy(error)

@@ -22,7 +22,8 @@ module result_checks
    real(wp), parameter :: least_slip = 1.0e-5_wp
    !> Films by formula grow without limit as the load goes to zero; where a remark says so, their means and largest values hang on
    !> how closely the loss is met
-   character(len=*), parameter :: films(*) = [character(len=22) :: "film_thickness_min", "film_thickness_central", "film_ratio"]
+   character(len=*), parameter :: films(*) = [character(len=24) :: "film_thickness_min", "film_thickness_central", &
+      & "film_thickness_axial_min", "film_ratio"]
    !> Means that are judged by the mean of all losses
    character(len=*), parameter :: drives(*) = [character(len=21) :: "torque_drive", "torque_geometric", "torque_roller_inertia"]
 
