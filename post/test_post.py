@@ -25,6 +25,9 @@ UNITS = {SPEED: "rpm", OIL: "degC"}
 HERE = Path(__file__).resolve().parent
 
 
+SLICES = 11
+
+
 def made_up_series(angle, speed, oil):
     """Curves with roughly the shapes and sizes of a roller valve train; no physics is claimed."""
     x = (angle - 180.0) / 70.0
@@ -51,14 +54,18 @@ def made_up_series(angle, speed, oil):
               "entrainment_speed": entrainment, "film_thickness_min": film, "friction_rolling": rolling,
               "asperity_friction_share": share, "friction_contact": friction, "torque_geometric": geometric,
               "torque_friction": total, "torque_drive": geometric + total,
-              "load_ratio": 1 + 1e-3 * np.sin(x * speed / 10), "lift_error": -5e-8 * load}
+              "load_ratio": 1 + 1e-3 * np.sin(x * speed / 10), "lift_error": -5e-8 * load,
+              "axial_pressure_max": 2.5e7 * np.sqrt(load), "edge_stress_factor": 0.8 + 1e-4 * load}
+    for number in range(1, SLICES + 1):  # more load at the last slice than at the first
+        series[f"line_load_{number}"] = load / 0.0137 * (1 + 0.2 * (2 * number - 1 - SLICES) / SLICES)
     return series | {f"torque_{name}": value for name, value in losses.items()}
 
 
 SERIES_UNITS = {"valve_lift": "m", "valve_velocity": "m/s", "film_ratio": "1", "asperity_load": "N",
                 "contact_load": "N", "hertz_pressure": "Pa", "slip_ratio": "1", "sliding_speed": "m/s", "cam_surface_speed": "m/s", "hertz_half_width": "m",
                 "entrainment_speed": "m/s", "film_thickness_min": "m", "friction_rolling": "N",
-                "asperity_friction_share": "1", "friction_contact": "N", "load_ratio": "1", "lift_error": "m"}
+                "asperity_friction_share": "1", "friction_contact": "N", "load_ratio": "1", "lift_error": "m", "axial_pressure_max": "Pa",
+                "edge_stress_factor": "1", **{f"line_load_{number}": "N m-1" for number in range(1, SLICES + 1)}}
 
 
 def test_wear_of_a_contact_is_archards(tmp_path):
@@ -88,6 +95,23 @@ def test_the_largest_shear_below_a_line_contact_is_that_of_its_stresses(tmp_path
     layout = Layout([read_result(write_result(tmp_path / "one.h5", swept=(), speeds=(600.0,), oils=(60.0,)))])
     stress, peak = (values_of(layout, layout.entries[0], name, "MPa") for name in ("subsurface_shear_stress", "hertz_pressure"))
     assert np.allclose(stress / peak, LARGEST_SHEAR)
+
+
+def test_load_along_the_roller_is_that_of_its_slices_in_their_order(tmp_path):
+    layout = Layout([read_result(write_result(tmp_path / "one.h5", swept=(), speeds=(600.0,), oils=(60.0,)))])
+    result = layout.results[0]
+    [axes] = draw("roller", layout).axes
+    assert axes.get_ylabel() == "load per length [N/mm]" and len(axes.lines) >= 3
+    for line in axes.lines:
+        at = list(result.cam_angle).index(float(line.get_label().rstrip("°")))
+        places, loads = line.get_xdata(), line.get_ydata()
+        assert places == pytest.approx((np.arange(SLICES) + 0.5) / SLICES - 0.5)
+        # a straight line, whose mean is the load over the length
+        assert np.diff(loads) == pytest.approx(0.4 / SLICES * loads.mean())
+        assert loads.mean() == pytest.approx(result.series["contact_load"].values[0, at] / 13.7)
+    path = write_result(tmp_path / "without.h5", without=[f"line_load_{number}" for number in range(1, SLICES + 1)])
+    with pytest.raises(Missing, match="slice_series"):
+        draw("roller", Layout([read_result(path)]))
 
 
 def test_a_flexible_train_is_a_page_of_what_its_file_has(tmp_path):

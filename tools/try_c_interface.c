@@ -39,7 +39,7 @@ static char *read_all(const char *path) {
 }
 
 static camroller_inputs inputs(double speed) {
-   camroller_inputs made = {sizeof made, speed, 333.15, 0.0, 0};
+   camroller_inputs made = {.size = sizeof made, .speed = speed, .oil_temperature = 333.15};
    return made;
 }
 
