@@ -46,12 +46,12 @@ contains
          new_unittest("impacts on a nearly solid film take few steps, and results for two tolerances agree", test_impacts), &
          new_unittest("a finger that is thrown off ends the integration with words that say so", test_thrown), &
          new_unittest("the acceleration of the cycles never leaves the possible states of a train", test_mixture), &
-         new_unittest("a slow departure from one cycle is no period of two; a period is one once it is near enough", test_periods) &
+         new_unittest("a slow departure from a cycle is no period of two, and a period is seen when it is near", test_periods) &
          ]
    end subroutine collect_flexible_cycle
 
-   !> Ends of turns `(-1)^n (1 + b q^n)`: with b = 0 two turns make a period; otherwise they are `b q^n` away from it. Where the cycle that
-   !> alternates grows by a fiftieth a turn, each end is nearly that of two turns before, and there is no period.
+   !> Ends of turns `(-1)^n (1 + b q^n)`: with b = 0 two turns make a period; otherwise they are `b q^n` away from it. Where the
+   !> cycle that alternates grows by a fiftieth a turn, each end is nearly that of two turns before, and there is no period.
    subroutine test_periods(error)
       type(error_type), allocatable, intent(out) :: error
       integer, parameter :: turns = 60
