@@ -21,8 +21,8 @@ module test_spin_slopes
 
    !> Sliding speeds over the radius of the cam times its speed [-]
    real(wp), parameter :: slips(6) = [-0.3_wp, -1.0e-2_wp, 1.0e-5_wp, 1.0e-3_wp, 3.0e-2_wp, 0.5_wp]
-   !> Step of the differences, relative [-]: the cube root of round-off
-   real(wp), parameter :: h = 6.0e-6_wp
+   !> Step of the differences, relative [-]: half the cube root of round-off; truncation with heat and profile at once: 1.4e-6
+   real(wp), parameter :: h = 3.0e-6_wp
    !> Difference allowed: truncation by third derivatives up to 1e4 times the first, h^2 1e4, and round-off epsilon/h [-]
    real(wp), parameter :: tolerance = 4.0e-7_wp
    !> Radius that speeds are measured by [m]
@@ -41,6 +41,7 @@ contains
          new_unittest("slopes with friction at valve tip, seal, guide and pivot, and needle drag", test_with_joints), &
          new_unittest("slopes with heat of inlet and contact, for every film, viscosity and shear law", test_with_heat), &
          new_unittest("slopes with a tilted crown, for every film and rolling law", test_with_profile), &
+         new_unittest("slopes with heat and a tilted crown at once, for every film law", test_with_heat_and_profile), &
          new_unittest("slopes with a given fraction of the boundary friction, as in sliding and sticking", test_given_share), &
          new_unittest("slopes without contact are those of the kinematics", test_no_contact) &
          ]
@@ -214,6 +215,29 @@ contains
          if (allocated(error)) return
       end do
    end subroutine test_with_profile
+
+   subroutine test_with_heat_and_profile(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: case
+      type(model_t) :: model
+      integer :: law
+
+      do law = 1, size(film_law_names)
+         case = skewed_case(rotation_names(1 + mod(law, 2)))
+         case%film%law = film_law_names(law)
+         case%lubricant%pressure_law = pressure_law_names(1 + mod(law, 3))
+         case%traction%shear_law = merge("newtonian", "eyring   ", law < 4)
+         case%traction%eyring_stress = 5.0e6_wp
+         case%asperity%film_shear_strength = 2.0e6_wp
+         call add_heat(case)
+         call add_profile(case)
+         call set_point(case, point_speeds(1 + mod(law, 3)), point_viscosities(1 + mod(law + 1, 3)))
+         call make_model(case, model, error)
+         if (allocated(error)) return
+         call compare(error, model, "heat and profile, "//trim(film_law_names(law)))
+         if (allocated(error)) return
+      end do
+   end subroutine test_with_heat_and_profile
 
    subroutine test_source(error)
       type(error_type), allocatable, intent(out) :: error
