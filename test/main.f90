@@ -15,6 +15,7 @@ program main
    use test_roots, only : collect_roots
    use test_dual, only : collect_dual
    use test_needle_drag, only : collect_needle_drag
+   use test_pin_film, only : collect_pin_film
    use test_joints, only : collect_joints
    use test_heat, only : collect_heat
    use test_axial, only : collect_axial
@@ -201,6 +202,7 @@ contains
          new_testsuite("roots", collect_roots), &
          new_testsuite("dual", collect_dual), &
          new_testsuite("needle_drag", collect_needle_drag), &
+         new_testsuite("pin_film", collect_pin_film), &
          new_testsuite("joints", collect_joints), &
          new_testsuite("heat", collect_heat), &
          new_testsuite("axial", collect_axial), &

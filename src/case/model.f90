@@ -28,7 +28,7 @@ module camroller_model
    use camroller_number_text, only : number_text
    use camroller_traction, only : shear_law_names, cap_names, rolling_law_names
    use camroller_heat, only : heat_part_t, new_heat_part, set_heat_oil
-   use camroller_needle, only : bearing_part_t, new_bearing_part
+   use camroller_needle, only : bearing_part_t, new_bearing_part, set_bearing_oil
    use camroller_needle_drag, only : drag_part_t, new_drag_part, set_drag_oil, set_drag_speed
    use camroller_guide, only : guide_drag_coefficient
    use camroller_joints, only : joints_t, set_joint_oil
@@ -213,6 +213,7 @@ contains
       if (allocated(model%guide_drag)) model%guide_drag = model%guide_factor*model%oil%viscosity
       if (allocated(model%joints)) call set_joint_oil(model%joints, model%oil%viscosity)
       if (allocated(model%flexible)) call set_oil(model%flexible, model%oil%viscosity)
+      if (allocated(model%bearing)) call set_bearing_oil(model%bearing, model%oil%viscosity)
       if (allocated(model%drag)) call set_drag_oil(model%drag, model%oil%viscosity/density_at(model%lubricant, oil_temperature))
       if (allocated(model%heat)) call set_heat_oil(model%heat, model%lubricant, oil_temperature, model%oil, error)
       if (allocated(error)) return
@@ -464,7 +465,8 @@ contains
       end if
       if (allocated(case%needle_bearing)) then
          allocate (model%bearing)
-         call new_bearing_part(model%bearing, case%needle_bearing, model%roller_radius - case%roller%wall_thickness, error)
+         call new_bearing_part(model%bearing, case%needle_bearing, model%roller_radius - case%roller%wall_thickness, &
+            & allocated(case%dynamics), allocated(case%ehl) .or. allocated(case%needle_drag), error)
          if (allocated(error)) return
       end if
       if (allocated(case%needle_drag)) then

@@ -15,6 +15,7 @@ module camroller_deck_case
    use camroller_deck_dynamics, only : fill_dynamics
    use camroller_deck_heat, only : fill_heat
    use camroller_deck_profile, only : fill_profile
+   use camroller_deck_roller_bearing, only : fill_roller_bearing
    use camroller_deck_joints, only : fill_joints
    use camroller_deck_tables, only : deck_tables_t, get_lift_table, get_pressure_table
    implicit none
@@ -236,13 +237,7 @@ contains
       !> The case
       type(case_t), intent(inout) :: case
 
-      if (has_group(settings, "needle_bearing")) then
-         allocate (case%needle_bearing)
-         call take(settings, "needle_bearing", "kind", case%needle_bearing%kind)
-         call take(settings, "needle_bearing", "friction_coefficient", case%needle_bearing%friction_coefficient)
-         call take(settings, "needle_bearing", "needle_radius_mm", case%needle_bearing%needle_radius)
-         call take(settings, "needle_bearing", "reversal_ratio", case%needle_bearing%reversal_ratio)
-      end if
+      call fill_roller_bearing(settings, case)
       if (has_group(settings, "cam_bearings")) then
          allocate (case%cam_bearings)
          associate (bearings => case%cam_bearings)

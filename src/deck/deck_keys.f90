@@ -16,7 +16,6 @@ module camroller_deck_keys
    use camroller_film, only : film_law_names, range_policy_names
    use camroller_asperity, only : asperity_t, asperity_law_names, boundary_names, mobilisation_names
    use camroller_traction, only : shear_law_names, cap_names, rolling_law_names
-   use camroller_needle, only : needle_bearing_t, roller_bearing_names
    use camroller_journal, only : cam_bearings_t, journal_law_names, journal_motion_names
    use camroller_roller, only : spin_names
    use camroller_deck_asperity, only : add_modifier_keys
@@ -26,6 +25,7 @@ module camroller_deck_keys
    use camroller_deck_dynamics, only : add_dynamics_keys
    use camroller_deck_heat, only : add_heat_keys
    use camroller_deck_profile, only : add_profile_keys
+   use camroller_deck_roller_bearing, only : add_roller_bearing_keys
    use camroller_deck_joints, only : add_joint_keys
    use camroller_usual_values, only : add_usual_ranges
    use camroller_output_options, only : output_options_t, compression_names
@@ -63,7 +63,7 @@ contains
       call add_heat_keys(schema)
       call add_asperity_keys(schema)
       call add_modifier_keys(schema)
-      call add_needle_keys(schema)
+      call add_roller_bearing_keys(schema)
       call add_cam_bearing_keys(schema)
       call add_bearing_part_keys(schema)
       call add_engine_keys(schema)
@@ -367,22 +367,6 @@ contains
       call add_number(schema, "mobilising_speed_m_s", positive, "sliding speed that mobilises regularised boundary friction", &
          & default=standard%mobilising_speed)
    end subroutine add_asperity_keys
-
-   !> Bearing between roller and pin.
-   subroutine add_needle_keys(schema)
-      !> Schema to add to
-      type(schema_t), intent(inout) :: schema
-
-      type(needle_bearing_t) :: standard
-
-      call add_group(schema, "needle_bearing", group_effect, "bearing between roller and pin")
-      call add_name(schema, "kind", roller_bearing_names, standard%kind, "needle bearing or plain pin")
-      call add_number(schema, "friction_coefficient", not_negative, "friction coefficient", example="0.0015")
-      call add_number(schema, "needle_radius_mm", positive, "radius of a needle; kind 'needles'", example="0.99", &
-         & is_optional=.true.)
-      call add_number(schema, "reversal_ratio", proper_fraction, &
-         & "fraction of the cam's speed within which the bearing torque changes its sign smoothly", default=standard%reversal_ratio)
-   end subroutine add_needle_keys
 
    !> Camshaft bearings.
    subroutine add_cam_bearing_keys(schema)

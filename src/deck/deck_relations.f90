@@ -13,6 +13,7 @@ module camroller_deck_relations
    use camroller_deck_dynamics, only : check_dynamics
    use camroller_deck_heat, only : check_heat
    use camroller_deck_profile, only : check_profile
+   use camroller_deck_roller_bearing, only : check_roller_bearing
    use camroller_deck_joints, only : check_joints
    use camroller_deck_complaint, only : complain, complain_about_group, demand
    use camroller_deck_cam_bearings, only : check_bearing_parts
@@ -32,7 +33,7 @@ contains
       type(mistakes_t), intent(inout) :: mistakes
 
       call energy_needs_its_bookkeeping(settings, mistakes)
-      call roller_has_a_hole(settings, mistakes)
+      call check_roller_bearing(settings, mistakes)
       call finger_has_a_mass(settings, mistakes)
       call lift_has_what_its_law_needs(settings, "lift", mistakes)
       if (has_group(settings, "second_lift")) call lift_has_what_its_law_needs(settings, "second_lift", mistakes)
@@ -95,38 +96,6 @@ contains
             & "control; choose another 'method' in &numerics")
       end select
    end subroutine stick_slip_has_a_method
-
-   !> The ring's wall is thinner than its radius, and a needle fits into the hole.
-   subroutine roller_has_a_hole(settings, mistakes)
-      !> The settings
-      type(settings_t), intent(in) :: settings
-      !> Mistakes so far
-      type(mistakes_t), intent(inout) :: mistakes
-
-      !> Outer radius, wall thickness and needle radius [m]
-      real(wp) :: radius, wall, needle
-
-      if (.not. (is_known(settings, "roller", "radius_mm") .and. is_known(settings, "roller", &
-         & "wall_thickness_mm"))) return
-      call take(settings, "roller", "radius_mm", radius)
-      call take(settings, "roller", "wall_thickness_mm", wall)
-      if (wall >= radius) then
-         call complain(mistakes, settings, "roller", "wall_thickness_mm", &
-            & "'wall_thickness_mm' must be below 'radius_mm'")
-         return
-      end if
-      if (.not. has_group(settings, "needle_bearing")) return
-      if (get_word(settings, "needle_bearing", "kind") /= "needles") return
-      if (is_wrong(settings, "needle_bearing", "needle_radius_mm")) return
-      if (.not. is_known(settings, "needle_bearing", "needle_radius_mm")) then
-         call complain(mistakes, settings, "needle_bearing", "kind", "kind 'needles' needs 'needle_radius_mm'")
-         return
-      end if
-      call take(settings, "needle_bearing", "needle_radius_mm", needle)
-      if (needle < radius - wall) return
-      call complain(mistakes, settings, "needle_bearing", "needle_radius_mm", &
-         & "'needle_radius_mm' must be below the inner radius of the roller, 'radius_mm' less 'wall_thickness_mm'")
-   end subroutine roller_has_a_hole
 
    !> The finger has a mass, a moment of inertia or both.
    subroutine finger_has_a_mass(settings, mistakes)

@@ -88,6 +88,12 @@ module camroller_usual_values
       usual_t("friction_modifier.concentration_ratio", 0.001_wp, 1000.0_wp), &
       usual_t("needle_bearing.friction_coefficient", 0.0_wp, 0.3_wp), &
       usual_t("needle_bearing.needle_radius_mm", 0.3_wp, 5.0_wp), &
+      usual_t("needle_bearing.pin_width_mm", 2.0_wp, 25.0_wp), &
+      usual_t("needle_bearing.pin_radial_clearance_um", 5.0_wp, 100.0_wp), &
+      usual_t("needle_bearing.pin_roughness_um", 0.02_wp, 3.0_wp), &
+      usual_t("needle_bearing.pin_modulus_GPa", 20.0_wp, 300.0_wp), &
+      usual_t("needle_bearing.pin_roughness_product", 0.01_wp, 0.15_wp), &
+      usual_t("needle_bearing.pin_roughness_over_tip_radius", 1.0e-5_wp, 0.1_wp), &
       usual_t("cam_bearings.diameter_mm", 12.0_wp, 120.0_wp), &
       usual_t("cam_bearings.width_mm", 4.0_wp, 80.0_wp), &
       usual_t("cam_bearings.radial_clearance_um", 5.0_wp, 150.0_wp), &

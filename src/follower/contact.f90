@@ -204,7 +204,7 @@ contains
          shift = -1.0_wp
          if (slope > 0.0_wp) shift = -excess/slope
          if (abs(shift)*step_curvature*max(abs(shift), share_tolerance) + change**2 <= enough) then
-            call shift_contact(contact, slopes, shift)
+            call shift_contact(model, contact, slopes, shift)
             return
          end if
          ! Only a converged share tells on which side of the root the load lies
@@ -269,7 +269,9 @@ contains
    end subroutine take_pivot
 
    !> Move a contact along its slopes by the last, small step.
-   pure subroutine shift_contact(contact, slopes, shift)
+   pure subroutine shift_contact(model, contact, slopes, shift)
+      !> The model
+      type(model_t), intent(in) :: model
       !> State of the contact
       type(contact_t), intent(inout) :: contact
       !> Derivatives over ln(load)
@@ -278,7 +280,14 @@ contains
       real(wp), intent(in) :: shift
 
       contact%load = contact%load*(1.0_wp + shift)
-      contact%bearing_torque = (contact%bearing_torque - contact%bearing_drag)*(1.0_wp + shift) + contact%bearing_drag
+      if (allocated(model%bearing)) then
+         ! Without a film the torque goes with the load
+         if (allocated(model%bearing%film)) then
+            contact%bearing_torque = contact%bearing_torque + slopes%bearing_torque*shift
+         else
+            contact%bearing_torque = (contact%bearing_torque - contact%bearing_drag)*(1.0_wp + shift) + contact%bearing_drag
+         end if
+      end if
       contact%traction = contact%traction + slopes%traction*shift
       contact%rolling_resistance = contact%rolling_resistance + slopes%rolling_resistance*shift
       contact%tangential_force = contact%tangential_force + slopes%tangential_force*shift

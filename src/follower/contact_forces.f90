@@ -16,11 +16,12 @@ module camroller_contact_forces
       & rolling_biboulet_houpert
    use camroller_needle, only : bearing_torque, bearing_torque_slope
    use camroller_needle_drag, only : drag_torque, drag_torque_slope
+   use camroller_pin_film, only : pin_state_t, solve_pin, unloaded_torque
    implicit none
    private
 
    public :: contact_t, setting_t, parts_t, motion_t, slopes_t, set_speeds, start_heat, prepare_contact, evaluate_contact, &
-      & follow_contact, release_contact, film_groups
+      & follow_contact, release_contact, film_groups, has_oil_drag, oil_drag_slope, bearing_slope
 
    !> Change of the film ratio that may be the last, over the root of the relative error that is good enough: its square is the
    !> error left, times a factor of a few [-]
@@ -51,7 +52,63 @@ contains
       if (allocated(model%heat)) call start_heat(model, contact)
       contact%bearing_drag = 0.0_wp
       if (allocated(model%drag)) contact%bearing_drag = drag_torque(model%drag, contact%relative_spin)
+      if (has_pin_film(model)) contact%bearing_drag = unloaded_torque(model%bearing%film)*contact%relative_spin
    end subroutine set_speeds
+
+   !> Does the roller turn on a pin with an oil film?
+   pure function has_pin_film(model) result(has)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> Does it?
+      logical :: has
+
+      has = allocated(model%bearing)
+      if (has) has = allocated(model%bearing%film)
+   end function has_pin_film
+
+   !> Does the oil in the roller's bearing hold the roller without load too?
+   pure function has_oil_drag(model) result(has)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> Does it?
+      logical :: has
+
+      has = allocated(model%drag) .or. has_pin_film(model)
+   end function has_oil_drag
+
+   !> Derivative of the torque that this oil makes, whatever the load, over the roller's spin relative to the finger.
+   pure function oil_drag_slope(model, spin) result(slope)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> Spin of the roller relative to the finger [rad/s]
+      real(wp), intent(in) :: spin
+      !> Derivative [N m s/rad]
+      real(wp) :: slope
+
+      slope = 0.0_wp
+      if (allocated(model%drag)) slope = drag_torque_slope(model%drag, spin)
+      if (has_pin_film(model)) slope = unloaded_torque(model%bearing%film)
+   end function oil_drag_slope
+
+   !> Derivative of the load's part of the bearing's torque over that spin.
+   pure function bearing_slope(model, load, spin) result(slope)
+      !> The model, with a bearing
+      type(model_t), intent(in) :: model
+      !> Load [N], spin of the roller relative to the finger [rad/s]
+      real(wp), intent(in) :: load, spin
+      !> Derivative [N m s/rad]
+      real(wp) :: slope
+
+      type(pin_state_t) :: pin
+
+      if (allocated(model%bearing%film)) then
+         call solve_pin(model%bearing%film, load, spin, model%bearing%reversal_spin, pin)
+         slope = pin%by_spin
+      else
+         slope = bearing_torque_slope(model%bearing%friction_coefficient, load, model%bearing%radius, spin, &
+            & model%bearing%reversal_spin)
+      end if
+   end function bearing_slope
 
    !> Heat of a contact without load: no temperature, and the factor that a film has there.
    pure subroutine start_heat(model, contact)
@@ -186,7 +243,25 @@ contains
       parts%rolling_part = 2.0_wp*position%equivalent_radius/model%roller_radius - 1.0_wp
       contact%tangential_force = contact%traction + contact%rolling_resistance*parts%rolling_part
       contact%bearing_torque = setting%bearing_arm*load + contact%bearing_drag
+      if (has_pin_film(model)) call load_pin(model, contact, parts)
    end subroutine evaluate_contact
+
+   !> Torque of a pin with an oil film under the load.
+   pure subroutine load_pin(model, contact, parts)
+      !> The model, with such a pin
+      type(model_t), intent(in) :: model
+      !> State of the contact
+      type(contact_t), intent(inout) :: contact
+      !> Gets the slopes
+      type(parts_t), intent(inout) :: parts
+
+      type(pin_state_t) :: pin
+
+      call solve_pin(model%bearing%film, contact%load, contact%relative_spin, model%bearing%reversal_spin, pin)
+      contact%bearing_torque = pin%torque + contact%bearing_drag
+      parts%pin_by_load = pin%by_load
+      parts%pin_by_spin = pin%by_spin
+   end subroutine load_pin
 
    !> Factor on both films by heat in the inlet.
    pure subroutine set_inlet_factor(model, position, contact, setting, parts)
@@ -250,7 +325,10 @@ contains
       slopes%bearing_torque = (contact%bearing_torque - contact%bearing_drag)*motion%load
       if (allocated(model%drag)) slopes%bearing_torque = slopes%bearing_torque &
          & + motion%relative_spin*drag_torque_slope(model%drag, contact%relative_spin)
-      if (allocated(model%bearing) .and. abs(motion%relative_spin) > 0.0_wp) then
+      if (has_pin_film(model)) then
+         slopes%bearing_torque = parts%pin_by_load*motion%load &
+            & + (parts%pin_by_spin + oil_drag_slope(model, contact%relative_spin))*motion%relative_spin
+      else if (allocated(model%bearing) .and. abs(motion%relative_spin) > 0.0_wp) then
          slopes%bearing_torque = slopes%bearing_torque + motion%relative_spin*bearing_torque_slope( &
             & model%bearing%friction_coefficient, contact%load, model%bearing%radius, contact%relative_spin, &
             & model%bearing%reversal_spin)

@@ -11,9 +11,7 @@ module camroller_spin
    use camroller_ramp, only : follow_ramp
    use camroller_kinematics, only : position_t
    use camroller_dynamics, only : moments_t
-   use camroller_contact_forces, only : contact_t
-   use camroller_needle, only : bearing_torque_slope
-   use camroller_needle_drag, only : drag_torque_slope
+   use camroller_contact_forces, only : contact_t, bearing_slope, has_oil_drag, oil_drag_slope
    use camroller_state, only : evaluate_loading, evaluate_spin
    use camroller_spin_slopes, only : spin_slopes_t, evaluate_spin_slopes
    implicit none
@@ -194,10 +192,9 @@ contains
 
       decay_rate = film_decay_rate(model, contact)
       if (allocated(model%bearing)) then
-         decay_rate = decay_rate + bearing_torque_slope(model%bearing%friction_coefficient, contact%load, model%bearing%radius, &
-            & contact%relative_spin, model%bearing%reversal_spin)/(model%roller_inertia*model%speed)
+         decay_rate = decay_rate + bearing_slope(model, contact%load, contact%relative_spin)/(model%roller_inertia*model%speed)
       end if
-      if (allocated(model%drag)) decay_rate = decay_rate + drag_torque_slope(model%drag, contact%relative_spin) &
+      if (has_oil_drag(model)) decay_rate = decay_rate + oil_drag_slope(model, contact%relative_spin) &
          & /(model%roller_inertia*model%speed)
    end function decay_rate_of
 
@@ -271,7 +268,7 @@ contains
       !> Does it?
       logical :: needs
 
-      needs = model%ramp%is_moving .and. (abs(model%ramp%temperature_slope) > 0.0_wp .or. allocated(model%drag) &
+      needs = model%ramp%is_moving .and. (abs(model%ramp%temperature_slope) > 0.0_wp .or. has_oil_drag(model) &
          & .or. allocated(model%joints))
    end function needs_difference
 

@@ -13,8 +13,8 @@ module camroller_spin_slopes
    use camroller_dual, only : dual_t
    use camroller_joint_forces, only : finger_moment, finger_moment_slope, has_pivot_friction, set_pivot_forces
    use camroller_pivot_friction, only : pivot_forces_t, pivot_moment, hold_forces
-   use camroller_contact_forces, only : contact_t, motion_t, slopes_t, set_speeds, follow_contact
-   use camroller_needle_drag, only : drag_torque_slope
+   use camroller_contact_forces, only : contact_t, motion_t, slopes_t, set_speeds, follow_contact, has_oil_drag, &
+      & oil_drag_slope
    use camroller_roller, only : spin_acceleration
    implicit none
    private
@@ -90,7 +90,7 @@ contains
          if (status /= 0) return
          slopes%acceleration = acceleration_of(model, contact%traction, contact%rolling_resistance, contact%bearing_torque)
          if (.not. contact%is_touching) then
-            if (allocated(model%drag)) call follow_drag(model, position, contact, speed_slope, angle_slope)
+            if (has_oil_drag(model)) call follow_drag(model, position, contact, speed_slope, angle_slope)
             return
          end if
 
@@ -131,7 +131,7 @@ contains
       ! Slope of the torque over the spin [N m s/rad]
       real(wp) :: slope
 
-      slope = drag_torque_slope(model%drag, contact%relative_spin)
+      slope = oil_drag_slope(model, contact%relative_spin)
       by_speed = speed_motion(model, contact)
       by_angle = angle_motion(model, position, contact, 0.0_wp)
       speed_slope = acceleration_of(model, 0.0_wp, 0.0_wp, slope*by_speed%relative_spin)

@@ -185,6 +185,19 @@ contains
       torque = model%linkage%sense*state%contact%bearing_drag*state%position%finger_slope
    end function flight_torque
 
+   !> Torque of the drag that is a loss of its own: that of a pin with a film belongs to its bearing.
+   pure function needle_drag(model, contact) result(torque)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> State of the contact
+      type(contact_t), intent(in) :: contact
+      !> The torque [N m]
+      real(wp) :: torque
+
+      torque = 0.0_wp
+      if (allocated(model%drag)) torque = contact%bearing_drag
+   end function needle_drag
+
    !> Losses of a follower as torques: one line for each loss of `torque_list`. The bookkeeping of the source puts the friction of
    !> the contact on the arm of the tangent, and lets the bearing slide by the whole spin of the roller.
    pure subroutine add_losses(model, state)
@@ -200,7 +213,7 @@ contains
          else
             torques(of_contact) = state%contact_friction*state%position%cam_arm
          end if
-         if (allocated(model%bearing)) torques(of_needle) = (contact%bearing_torque - contact%bearing_drag) &
+         if (allocated(model%bearing)) torques(of_needle) = (contact%bearing_torque - needle_drag(model, contact)) &
             & *merge(contact%relative_spin, contact%roller_spin, model%is_consistent)/model%speed
          if (allocated(model%drag)) torques(of_needle_drag) = contact%bearing_drag*merge(contact%relative_spin, &
             & contact%roller_spin, model%is_consistent)/model%speed

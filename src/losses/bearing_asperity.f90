@@ -92,8 +92,8 @@ contains
 
       if (.not. (min(surfaces%roughness, surfaces%modulus, surfaces%roughness_product, surfaces%roughness_over_tip_radius) &
          & > 0.0_wp .and. surfaces%boundary_coefficient >= 0.0_wp)) then
-         call raise(error, kind_deck, "mixed friction of camshaft bearings needs roughness, modulus and constants of "// &
-            & "asperities above zero, and no negative friction coefficient")
+         call raise(error, kind_deck, "mixed friction of bearings needs roughness, modulus and constants of asperities "// &
+            & "above zero, and no negative friction coefficient")
       else if (.not. clearance_is_enough(surfaces%roughness, clearance)) then
          call raise(error, kind_deck, clearance_advice)
       end if

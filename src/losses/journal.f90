@@ -16,7 +16,7 @@ module camroller_journal
 
    public :: cam_bearings_t, journal_t, journal_law_names
    public :: new_journal, journal_torque, journal_at_speed, journal_friction, law_covers_width, width_advice
-   public :: journal_solved, journal_without_film, find_tangent, load_at, film_friction, film_direction
+   public :: journal_solved, journal_without_film, find_tangent, load_at, film_friction, film_direction, film_t, film_at
    public :: journal_motion_names, motion_quasi_steady, motion_orbit, law_can_orbit, orbit_advice, moves_like_finite, &
       & is_short
 
@@ -88,6 +88,14 @@ module camroller_journal
       !> Friction of the unloaded bearing, `2 pi eta omega r^2 L/c` [N]
       real(wp) :: petroff_friction = 0.0_wp
    end type journal_t
+
+   !> Film of a bearing at an eccentricity, with slopes over ln t
+   type :: film_t
+      !> Load number `W (c/r)^2/(eta omega r L)`, and the slope of its logarithm [-]
+      real(wp) :: number = 0.0_wp, number_slope = 0.0_wp
+      !> Angle between its force and the line of centres, and the slope of that [rad]
+      real(wp) :: angle = 0.0_wp, angle_slope = 0.0_wp
+   end type film_t
 
 contains
 
@@ -300,6 +308,24 @@ contains
       end select
    end function film_direction
 
+   !> Film of a short or finite bearing at an eccentricity, with its slopes.
+   pure function film_at(journal, t) result(film)
+      !> The bearing
+      type(journal_t), intent(in) :: journal
+      !> e/sqrt(1 - e^2), positive [-]
+      real(wp), intent(in) :: t
+      !> The film
+      type(film_t) :: film
+
+      call load_number(journal, t, film%number, film%number_slope)
+      if (journal%law == law_short) then
+         film%angle = atan2(pi, 4.0_wp*t)
+         film%angle_slope = -4.0_wp*pi*t/(16.0_wp*t**2 + pi**2)
+      else
+         call finite_angle(journal%width_ratio, t, film%angle, film%angle_slope)
+      end if
+   end function film_at
+
    !> e/sqrt(1 - e^2) under a load, by Newton's method on logarithms: there the load number rises with a slope between 1 and 4
    !> which changes little, so that a few steps from a bound above the root suffice.
    pure subroutine find_tangent(journal, load, t, status)
@@ -430,13 +456,30 @@ contains
       !> Attitude angle [rad]
       real(wp) :: angle
 
-      !> e, factor of the short bearing's form [-]
-      real(wp) :: e, factor
+      !> Slope of the angle [rad]
+      real(wp) :: unused
 
-      e = t/sqrt(1.0_wp + t**2)
-      factor = 1.152624_wp - 0.104565_wp*b + e*(-2.5905_wp + 0.798745_wp*b + e*(8.73393_wp - 2.3291_wp*b &
-         & + e*(-13.3414_wp + 3.424337_wp*b + e*(6.6294_wp - 1.591732_wp*b))))
-      angle = factor*atan2(pi, 2.0_wp*t)
+      call finite_angle(b, t, angle, unused)
    end function attitude_angle
+
+   !> The same with its slope over ln t.
+   elemental subroutine finite_angle(b, t, angle, slope)
+      !> Width over diameter [-]
+      real(wp), intent(in) :: b
+      !> e/sqrt(1 - e^2) [-]
+      real(wp), intent(in) :: t
+      !> Attitude angle and its slope [rad]
+      real(wp), intent(out) :: angle, slope
+
+      !> e, factor of the short bearing's form and its slope over e [-]; coefficients of its powers of e [-]
+      real(wp) :: e, factor, growth, c(4)
+
+      c = [-2.5905_wp + 0.798745_wp*b, 8.73393_wp - 2.3291_wp*b, -13.3414_wp + 3.424337_wp*b, 6.6294_wp - 1.591732_wp*b]
+      e = t/sqrt(1.0_wp + t**2)
+      factor = 1.152624_wp - 0.104565_wp*b + e*(c(1) + e*(c(2) + e*(c(3) + e*c(4))))
+      growth = c(1) + e*(2.0_wp*c(2) + e*(3.0_wp*c(3) + e*4.0_wp*c(4)))
+      angle = factor*atan2(pi, 2.0_wp*t)
+      slope = growth*e/(1.0_wp + t**2)*atan2(pi, 2.0_wp*t) - factor*2.0_wp*pi*t/(4.0_wp*t**2 + pi**2)
+   end subroutine finite_angle
 
 end module camroller_journal

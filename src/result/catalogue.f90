@@ -12,7 +12,7 @@ module camroller_catalogue
    use camroller_effect_list, only : effect_names, has_effect
    use camroller_result, only : quantity_t, quantity_list_t, append_quantity, lobe_scope, scope_camshaft, scope_case, &
       & scope_engine, scope_length
-   use camroller_part_series, only : add_axial, add_axial_film, add_bearings, add_heat, bearing_count
+   use camroller_part_series, only : add_axial, add_axial_film, add_bearings, add_heat, add_pin, bearing_count
    use camroller_state, only : state_t, flexible_values_t
    use camroller_torque_list, only : torque_list, torque_count, is_loss, is_torque, of_residual, torque_series
    use camroller_hertz, only : peak_pressure
@@ -255,6 +255,7 @@ contains
             & ratio(state%boundary_friction, state%contact_friction))
       end if
       if (allocated(case%roller_profile)) call add_axial(list, case%roller_profile, model, state)
+      call add_pin(list, case, model, state)
       call add_joints(list, case, state%joints)
       if (allocated(case%dynamics)) call add_flexible(list, case, state%flexible)
    end subroutine add_follower

@@ -17,19 +17,21 @@ module camroller_cycle_remarks
    use camroller_number_text, only : number_text, fixed_text, integer_text
    use camroller_lubricant, only : pressure_limit
    use camroller_remarks, only : remark_t, add_remark, beyond_pressure_law, cut_off_contact, film_without_limit, &
-      & hot_inlet, lost_contact, open_pivot, outside_range, pumped_adjuster, standing_entrainment, unloaded_end, &
+      & hot_inlet, lost_contact, open_pivot, outside_range, pumped_adjuster, rubbing_pin, standing_entrainment, unloaded_end, &
       & unresolved_slip
    use camroller_result, only : lobe_scope
    implicit none
    private
 
-   public :: judge_lobe, judge_films, judge_pressure, has_film_limit
+   public :: judge_lobe, judge_films, judge_pin, judge_pressure, has_film_limit
 
    !> Estimate of the error of the sliding speed, relative to the largest, beyond which a result is worth a warning [-]
    real(wp), parameter :: worth_a_warning = 0.1_wp
    !> Film over the equivalent radius beyond which formulas for films say nothing: they hold for gaps that are small against the
    !> radius, with errors of the order of this ratio [-]
    real(wp), parameter :: thickest_film = 0.01_wp
+   !> Film over roughness of a pin below which the law of smooth surfaces lets the film carry what asperities would [-]
+   real(wp), parameter :: thinnest_film = 0.5_wp
    !> Intervals without contact that a remark lists
    integer, parameter :: most_intervals = 4
 
@@ -121,6 +123,27 @@ contains
       remarks(last)%lobe = lobe
       remarks(last)%text = trim(lobe_scope(lobe))//": "//remarks(last)%text
    end subroutine judge_pressure
+
+   !> Say that the film on the roller's pin is too thin for its law.
+   subroutine judge_pin(roughness, smallest, lobe, remarks)
+      !> Roughness of roller and pin, smallest film of the cycle between them [m]
+      real(wp), intent(in) :: roughness, smallest
+      !> Lobe shape to be named; 0 where there is one alone
+      integer, intent(in) :: lobe
+      !> Remarks so far
+      type(remark_t), allocatable, intent(inout) :: remarks(:)
+
+      integer :: last
+
+      if (smallest >= thinnest_film*roughness) return
+      call add_remark(remarks, rubbing_pin, "the film between roller and pin goes down to "//number_text(smallest/roughness, 2)// &
+         & " of their roughness; below about "//number_text(thinnest_film, 2)//" the law for smooth surfaces leaves the film "// &
+         & "load that asperities would carry, and the friction stated is too small", roughness/max(smallest, tiny(smallest)))
+      if (lobe == 0) return
+      last = size(remarks)
+      remarks(last)%lobe = lobe
+      remarks(last)%text = trim(lobe_scope(lobe))//": "//remarks(last)%text
+   end subroutine judge_pin
 
    !> Have mean and largest film of a lobe a limit?
    elemental function has_film_limit(statistics) result(verdict)

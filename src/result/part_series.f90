@@ -12,7 +12,9 @@ module camroller_part_series
    use camroller_film, only : film_line_t, new_film_line
    use camroller_hertz, only : peak_pressure
    use camroller_model, only : model_t
+   use camroller_needle, only : kind_journal, roller_bearing_names
    use camroller_number_text, only : integer_text
+   use camroller_pin_film, only : pin_state_t, solve_pin
    use camroller_result, only : quantity_list_t, add => append_quantity, scope_camshaft
    use camroller_roller_profile, only : roller_profile_t
    use camroller_shaft, only : has_orbits
@@ -20,7 +22,7 @@ module camroller_part_series
    implicit none
    private
 
-   public :: add_axial, add_axial_film, add_heat, add_bearings, bearing_count, bearing_series_count
+   public :: add_axial, add_axial_film, add_heat, add_pin, add_bearings, bearing_count, bearing_series_count
 
 contains
 
@@ -66,6 +68,30 @@ contains
             & state%contact%flash_rise)
       end if
    end subroutine add_heat
+
+   !> Series of a roller's pin with an oil film.
+   pure subroutine add_pin(list, case, model, state)
+      !> List to extend
+      type(quantity_list_t), intent(inout) :: list
+      !> The case
+      type(case_t), intent(in) :: case
+      !> The model of its lobe
+      type(model_t), intent(in) :: model
+      !> State of the follower
+      type(state_t), intent(in) :: state
+
+      type(pin_state_t) :: pin
+
+      if (.not. allocated(case%needle_bearing)) return
+      if (case%needle_bearing%kind /= roller_bearing_names(kind_journal)) return
+      if (allocated(model%bearing)) call solve_pin(model%bearing%film, state%contact%load, state%contact%relative_spin, &
+         & model%bearing%reversal_spin, pin)
+      call add(list, "pin_eccentricity", "1", "eccentricity of the roller on its pin relative to the radial clearance", &
+         & "needle_bearing", pin%eccentricity)
+      call add(list, "pin_film_min", "m", "smallest film between roller and pin", "needle_bearing", pin%film)
+      call add(list, "pin_asperity_share", "1", "load of the asperities along the line of centres relative to the pin's load", &
+         & "needle_bearing", pin%asperity_share)
+   end subroutine add_pin
 
    !> Series of the contact along the roller.
    pure subroutine add_axial(list, profile, model, state)

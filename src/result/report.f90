@@ -9,7 +9,7 @@ module camroller_report
    use camroller_model, only : model_t
    use camroller_contact_forces, only : contact_t
    use camroller_cycle, only : cycle_t, state_at
-   use camroller_cycle_remarks, only : judge_films, judge_lobe, judge_pressure
+   use camroller_cycle_remarks, only : judge_films, judge_lobe, judge_pin, judge_pressure
    use camroller_catalogue, only : list_series, follower_count, follower_values, camshaft_columns, camshaft_count, &
       & camshaft_values, lobe_columns, lobe_prefix
    use camroller_extremes, only : samples_t
@@ -208,16 +208,34 @@ contains
       if (allocated(error)) return
       result%worst_extreme = statistics(maxloc(statistics%extreme_error, 1))%worst_extreme
       call make_summary(solved, statistics, bearing_torque, of_bearings, margins, extremes, result)
+      call judge_extremes(case, models, statistics, result)
+      if (.not. with_series) result%series_values = result%series_values(:0, :)
+      call check_numbers(result, error)
+   end subroutine make_result
+
+   !> Remarks on the smallest and largest values of each lobe shape.
+   subroutine judge_extremes(case, models, statistics, result)
+      !> The case
+      type(case_t), intent(in) :: case
+      !> Model of each lobe shape
+      type(model_t), intent(in) :: models(:)
+      !> Statistics of each
+      type(statistics_t), intent(in) :: statistics(:)
+      !> Gets the remarks; has its summary
+      type(result_t), intent(inout) :: result
+
+      integer :: lobe, pin
+
       do lobe = 1, size(models)
          associate (named => merge(lobe, 0, size(models) > 1))
             call judge_films(statistics(lobe), named, result%remarks)
             call judge_pressure(models(lobe), result%summary_values(find_quantity(result%summary, "max_"// &
                & trim(lobe_prefix(lobe))//"hertz_pressure")), named, result%remarks)
+            pin = find_quantity(result%summary, "min_"//trim(lobe_prefix(lobe))//"pin_film_min")
+            if (pin > 0) call judge_pin(case%needle_bearing%film%roughness, result%summary_values(pin), named, result%remarks)
          end associate
       end do
-      if (.not. with_series) result%series_values = result%series_values(:0, :)
-      call check_numbers(result, error)
-   end subroutine make_result
+   end subroutine judge_extremes
 
    !> Cam angles of the output, 0 to 360 with the nose at 180, end point left out [deg].
    pure function output_angles(step) result(angles)

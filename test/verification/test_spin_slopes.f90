@@ -9,11 +9,12 @@ module test_spin_slopes
    use camroller_asperity, only : asperity_law_names, law_zhao_maietta_chang
    use camroller_lubricant, only : pressure_law_names
    use camroller_traction, only : rolling_law_names
+   use camroller_pin_film, only : pin_law_names
    use camroller_spin, only : spin_problem_t
    use closeness, only : check_scaled
    use camroller_ode_problem, only : linear_t, counters_t, new_linear
    use reference_cases, only : thesis_case, source_case, skewed_case, make_model, set_point, add_gas_force, add_joints, add_heat, &
-      add_profile, point_speeds, point_viscosities
+      add_pin_film, add_profile, point_speeds, point_viscosities
    implicit none
    private
 
@@ -42,6 +43,7 @@ contains
          new_unittest("slopes with heat of inlet and contact, for every film, viscosity and shear law", test_with_heat), &
          new_unittest("slopes with a tilted crown, for every film and rolling law", test_with_profile), &
          new_unittest("slopes with heat and a tilted crown at once, for every film law", test_with_heat_and_profile), &
+         new_unittest("slopes with an oil film on the roller's pin, for both of its laws", test_with_pin_film), &
          new_unittest("slopes with a given fraction of the boundary friction, as in sliding and sticking", test_given_share), &
          new_unittest("slopes without contact are those of the kinematics", test_no_contact) &
          ]
@@ -238,6 +240,25 @@ contains
          if (allocated(error)) return
       end do
    end subroutine test_with_heat_and_profile
+
+   subroutine test_with_pin_film(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: case
+      type(model_t) :: model
+      integer :: law, point
+
+      do law = 1, size(pin_law_names)
+         do point = 1, 3
+            case = skewed_case(rotation_names(law))
+            call add_pin_film(case, pin_law_names(law))
+            call set_point(case, point_speeds(point), point_viscosities(1 + mod(point, 3)))
+            call make_model(case, model, error)
+            if (allocated(error)) return
+            call compare(error, model, "pin film, "//trim(pin_law_names(law)))
+            if (allocated(error)) return
+         end do
+      end do
+   end subroutine test_with_pin_film
 
    subroutine test_source(error)
       type(error_type), allocatable, intent(out) :: error

@@ -94,7 +94,13 @@ contains
       end if
       if (allocated(case%asperity)) call change(case%asperity%film_shear_strength, pressure)
       if (allocated(case%asperity)) call change(case%asperity%mobilising_speed, speed)
-      if (allocated(case%needle_bearing)) call change(case%needle_bearing%needle_radius, length)
+      if (allocated(case%needle_bearing)) then
+         call change(case%needle_bearing%needle_radius, length)
+         call change(case%needle_bearing%film%width, length)
+         call change(case%needle_bearing%film%radial_clearance, length)
+         call change(case%needle_bearing%film%roughness, length)
+         call change(case%needle_bearing%film%modulus, pressure)
+      end if
       if (allocated(case%valve_guide)) call change(case%valve_guide%length, length)
       if (allocated(case%valve_guide)) call change(case%valve_guide%stem_diameter, length)
       if (allocated(case%valve_guide)) call change(case%valve_guide%radial_clearance, length)

@@ -14,7 +14,7 @@ module reference_cases
    private
 
    public :: thesis_case, source_case, skewed_case, named_case, make_model, make_cycle, set_point, add_gas_force, add_joints, &
-      & add_heat, add_profile
+      & add_heat, add_pin_film, add_profile
    public :: point_speeds, point_viscosities
 
    !> Speeds of the nine operating points [rad/s]
@@ -206,6 +206,24 @@ contains
       the_case%heat%limit_fall = 2.0e-3_wp
       the_case%heat%conductivity(2) = 20.0_wp
    end subroutine add_heat
+
+   !> A plain pin with an oil film, on which asperities touch at the hot points.
+   subroutine add_pin_film(the_case, law)
+      !> The case
+      type(case_t), intent(inout) :: the_case
+      !> Law of its film
+      character(len=*), intent(in) :: law
+
+      associate (bearing => the_case%needle_bearing)
+         bearing%kind = "journal"
+         bearing%friction_coefficient = 0.1_wp
+         bearing%film%law = law
+         bearing%film%width = 9.0e-3_wp
+         bearing%film%radial_clearance = 20.0e-6_wp
+         bearing%film%roughness = 0.3e-6_wp
+         bearing%film%modulus = 110.0e9_wp
+      end associate
+   end subroutine add_pin_film
 
    !> A crowned roller that stands askew.
    subroutine add_profile(the_case)

@@ -147,7 +147,7 @@ contains
       if (group == "bearing_heat") may_have = draft%has_cams .and. any(deck_word(text, "lubricant", &
          & "temperature_law") == [character(len=10) :: "vogel", "walther", "data_sheet"])
       if (group == "friction_modifier") may_have = index(text, "&asperity") > 0
-      if (group == "needle_drag") may_have = .not. draft%has_dynamics
+      if (group == "needle_drag") may_have = .not. draft%has_dynamics .and. deck_word(text, "needle_bearing", "kind") /= "journal"
       if (group == "finger_pivot") may_have = may_have .and. deck_word(text, "masses", "finger_kg") /= ""
    end function may_have
 
@@ -247,6 +247,8 @@ contains
          is_given = deck_word(text, group, "profile") == merge("crowned    ", "logarithmic", key == "crown_radius_mm")
       case ("needle_radius_mm")
          is_given = is_given .or. deck_word(text, group, "kind") == "needles"
+      case ("pin_width_mm", "pin_radial_clearance_um", "pin_roughness_um", "pin_modulus_GPa")
+         is_given = is_given .or. deck_word(text, group, "kind") == "journal"
       case ("grinding_wheel_radius_mm")
          is_given = is_given .and. draft%is_first
       case ("cam_cylinders")
@@ -339,7 +341,9 @@ contains
             & /= "stick_slip" .and. .not. draft%has_dynamics
          if (words == "'hermite'") is_allowed = .not. draft%has_dynamics
       case ("journal_motion")
-         is_allowed = words == key%default .or. index(text, "'short_ocvirk'") + index(text, "'finite'") > 0
+         is_allowed = words == key%default .or. index(" short_ocvirk finite ", " "//deck_word(text, "cam_bearings", "law")//" ") > 0
+      case ("kind")
+         is_allowed = words /= "'journal'" .or. .not. (draft%has_dynamics .or. index(text, "&ehl") > 0)
       case ("sae_grade")
          is_allowed = words /= key%default
       case ("energy", "mobilisation")

@@ -98,6 +98,12 @@ module wide_numbers
       & usual_t("needle_bearing.friction_coefficient", 1.0e-4_wp, 0.1_wp, .true.), &
       & usual_t("needle_bearing.needle_radius_mm", 0.5_wp, 2.0_wp), &
       & usual_t("needle_bearing.reversal_ratio", 1.0e-4_wp, 0.5_wp, .true.), &
+      & usual_t("needle_bearing.pin_width_mm", 4.0_wp, 9.0_wp), &
+      & usual_t("needle_bearing.pin_radial_clearance_um", 10.0_wp, 60.0_wp, .true.), &
+      & usual_t("needle_bearing.pin_roughness_um", 0.02_wp, 1.0_wp, .true.), &
+      & usual_t("needle_bearing.pin_modulus_GPa", 50.0_wp, 250.0_wp), &
+      & usual_t("needle_bearing.pin_roughness_product", 0.02_wp, 0.1_wp), &
+      & usual_t("needle_bearing.pin_roughness_over_tip_radius", 1.0e-4_wp, 0.05_wp, .true.), &
       & usual_t("cam_bearings.diameter_mm", 18.0_wp, 35.0_wp), &
       & usual_t("cam_bearings.width_mm", 8.0_wp, 30.0_wp), &
       & usual_t("cam_bearings.radial_clearance_um", 10.0_wp, 100.0_wp, .true.), &
