@@ -40,6 +40,7 @@ def environment(folder: pathlib.Path, leaks: bool) -> dict[str, str]:
         "LSAN_OPTIONS": f"suppressions={suppressions}:print_suppressions=0",
         "UBSAN_OPTIONS": "print_stacktrace=1",
         "OPENBLAS_NUM_THREADS": "1",
+        "WIDE_CASES": "12",  # random cases of the suite random_wide, which takes a minute for each with checks
     }
 
 

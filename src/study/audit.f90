@@ -10,9 +10,8 @@ module camroller_audit
    use camroller_effect_list, only : choice_t, decision_t, effect_names, effect_count, effect_bearings, effect_ehl, &
       & effect_rolling, has_effect, leave_all_but, leave_out, needs_bearings
    use camroller_model, only : model_t
-   use camroller_result, only : quantity_t
    use camroller_run, only : build_models
-   use camroller_study_table, only : study_table_t, new_table, new_row, set_number, set_word
+   use camroller_study_table, only : study_table_t, add_numbers, add_words, new_row, set_number, set_word
    use camroller_study_trial, only : trial_t, run_trial
    implicit none
    private
@@ -34,25 +33,28 @@ contains
       !> The table
       type(study_table_t), intent(out) :: table
 
-      call new_table(table, [quantity_t("effect", "", "effect that is left out, or the only one", "audit"), &
-         & quantity_t("run", "", "all effects, without one, none, one alone, or those that are needed", "audit"), &
-         & quantity_t("reason", "", "indicator that decides about the effect", "audit"), &
-         & quantity_t("message", "", "error message, or empty", "audit")], [ &
-         & quantity_t("case", "1", "case of the sweep", "audit"), &
-         & quantity_t("status", "1", "0, or the kind of the error", "audit"), &
-         & quantity_t("mean_torque", "N m", "mean torque for all losses", "torque"), &
-         & quantity_t("minimum_film", "m", "smallest film", "film"), &
-         & quantity_t("slip", "1", "slip per cam revolution, relative to the turns of the roller in pure rolling", "roller"), &
-         & quantity_t("change_mean_torque", "1", "change of the mean torque relative to the value with all effects", "audit"), &
-         & quantity_t("change_minimum_film", "1", "change of the smallest film relative to the value with all effects", "audit"), &
-         & quantity_t("change_slip", "1", "change of the slip relative to the magnitude of the value with all effects", "audit"), &
-         & quantity_t("estimate_mean_torque", "1", "largest change of the mean torque expected before the run", "audit"), &
-         & quantity_t("estimate_minimum_film", "1", "largest change of the smallest film expected before the run", "audit"), &
-         & quantity_t("estimate_slip", "1", "largest change of the slip expected before the run", "audit"), &
-         & quantity_t("is_left_out", "1", "1 where the choice of needed effects leaves it out", "audit"), &
-         & quantity_t("evaluations", "1", "evaluations of the roller equation", "audit"), &
-         & quantity_t("time", "s", "median processor time of a run", "audit"), &
-         & quantity_t("time_share", "1", "fraction of the time of the run with all effects that is saved", "audit")])
+      call add_words(table, "effect", "effect that is left out, or the only one", "audit")
+      call add_words(table, "run", "all effects, without one, none, one alone, or those that are needed", "audit")
+      call add_words(table, "reason", "indicator that decides about the effect", "audit")
+      call add_words(table, "message", "error message, or empty", "audit")
+      call add_numbers(table, "case", "1", "case of the sweep", "audit")
+      call add_numbers(table, "status", "1", "0, or the kind of the error", "audit")
+      call add_numbers(table, "mean_torque", "N m", "mean torque for all losses", "torque")
+      call add_numbers(table, "minimum_film", "m", "smallest film", "film")
+      call add_numbers(table, "slip", "1", "slip per cam revolution, relative to the turns of the roller in pure rolling", "roller")
+      call add_numbers(table, "change_mean_torque", "1", "change of the mean torque relative to the value with all effects", &
+         & "audit")
+      call add_numbers(table, "change_minimum_film", "1", "change of the smallest film relative to the value with all effects", &
+         & "audit")
+      call add_numbers(table, "change_slip", "1", "change of the slip relative to the magnitude of the value with all effects", &
+         & "audit")
+      call add_numbers(table, "estimate_mean_torque", "1", "largest change of the mean torque expected before the run", "audit")
+      call add_numbers(table, "estimate_minimum_film", "1", "largest change of the smallest film expected before the run", "audit")
+      call add_numbers(table, "estimate_slip", "1", "largest change of the slip expected before the run", "audit")
+      call add_numbers(table, "is_left_out", "1", "1 where the choice of needed effects leaves it out", "audit")
+      call add_numbers(table, "evaluations", "1", "evaluations of the roller equation", "audit")
+      call add_numbers(table, "time", "s", "median processor time of a run", "audit")
+      call add_numbers(table, "time_share", "1", "fraction of the time of the run with all effects that is saved", "audit")
    end subroutine new_audit_table
 
    !> Every run of a case.

@@ -11,8 +11,7 @@ module camroller_study
    use camroller_ehl_table, only : ehl_t
    use camroller_number_text, only : number_text
    use camroller_ode_methods, only : method_facts
-   use camroller_result, only : quantity_t
-   use camroller_study_table, only : study_table_t, new_table, new_row, set_number, set_word
+   use camroller_study_table, only : study_table_t, add_numbers, add_words, new_row, set_number, set_word
    use camroller_study_trial, only : trial_t, run_trial, solve_trial, errors_against, no_number, smallest_error
    implicit none
    private
@@ -70,19 +69,20 @@ contains
       !> The table
       type(study_table_t), intent(out) :: table
 
-      call new_table(table, [quantity_t("way", "", "method, film law or model", "study"), &
-         & quantity_t("dial", "", "what the setting is; 'reference' for what counts as right", "study"), &
-         & quantity_t("message", "", "error message, or empty", "study")], [ &
-         & quantity_t("case", "1", "case of the sweep", "study"), &
-         & quantity_t("status", "1", "0, or the kind of the error", "study"), &
-         & quantity_t("setting", "1", "accuracy, tolerance, fixed step in degrees, or nodes", "study"), &
-         & quantity_t("error_sliding_speed", "1", "largest error of the sliding speed relative to its largest value", "study"), &
-         & quantity_t("error_mean_friction", "1", "relative error of the mean torque for all losses", "study"), &
-         & quantity_t("error_smallest_film", "1", "relative error of the smallest film", "study"), &
-         & quantity_t("estimated_error", "1", "error of the sliding speed as the program estimates it", "study"), &
-         & quantity_t("evaluations", "1", "evaluations of the roller equation", "study"), &
-         & quantity_t("steps", "1", "accepted steps", "study"), &
-         & quantity_t("time", "s", "median processor time of a whole run", "study")])
+      call add_words(table, "way", "method, film law or model", "study")
+      call add_words(table, "dial", "what the setting is; 'reference' for what counts as right", "study")
+      call add_words(table, "message", "error message, or empty", "study")
+      call add_numbers(table, "case", "1", "case of the sweep", "study")
+      call add_numbers(table, "status", "1", "0, or the kind of the error", "study")
+      call add_numbers(table, "setting", "1", "accuracy, tolerance, fixed step in degrees, or nodes", "study")
+      call add_numbers(table, "error_sliding_speed", "1", "largest error of the sliding speed relative to its largest value", &
+         & "study")
+      call add_numbers(table, "error_mean_friction", "1", "relative error of the mean torque for all losses", "study")
+      call add_numbers(table, "error_smallest_film", "1", "relative error of the smallest film", "study")
+      call add_numbers(table, "estimated_error", "1", "error of the sliding speed as the program estimates it", "study")
+      call add_numbers(table, "evaluations", "1", "evaluations of the roller equation", "study")
+      call add_numbers(table, "steps", "1", "accepted steps", "study")
+      call add_numbers(table, "time", "s", "median processor time of a whole run", "study")
    end subroutine new_study_table
 
    !> Every method over its tolerances or steps, and the accuracy that a deck asks for.

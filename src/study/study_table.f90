@@ -8,7 +8,7 @@ module camroller_study_table
    implicit none
    private
 
-   public :: study_table_t, word_length, new_table, new_row, set_number, set_word, column_of, words_of
+   public :: study_table_t, word_length, add_words, add_numbers, new_row, set_number, set_word, column_of, words_of
 
    !> Longest word of a table; messages are cut to it
    integer, parameter :: word_length = 240
@@ -29,17 +29,47 @@ module camroller_study_table
 
 contains
 
-   !> An empty table.
-   subroutine new_table(table, word_columns, number_columns)
+   !> Append a column of words to a table without rows.
+   subroutine add_words(table, name, description, source)
       !> The table
-      type(study_table_t), intent(out) :: table
-      !> Meaning of the columns with words and of those with numbers
-      type(quantity_t), intent(in) :: word_columns(:), number_columns(:)
+      type(study_table_t), intent(inout) :: table
+      !> Name, meaning, part of the program
+      character(len=*), intent(in) :: name, description, source
 
-      table%word_columns = word_columns
-      table%number_columns = number_columns
-      allocate (table%words(first_room, size(word_columns)), table%numbers(first_room, size(number_columns)))
-   end subroutine new_table
+      call add_column(table%word_columns, name, "", description, source)
+   end subroutine add_words
+
+   !> Append a column of numbers to a table without rows.
+   subroutine add_numbers(table, name, unit, description, source)
+      !> The table
+      type(study_table_t), intent(inout) :: table
+      !> Name, unit, meaning, part of the program or of the model
+      character(len=*), intent(in) :: name, unit, description, source
+
+      call add_column(table%number_columns, name, unit, description, source)
+   end subroutine add_numbers
+
+   !> Append a column.
+   subroutine add_column(columns, name, unit, description, source)
+      !> The columns; not allocated where there is none
+      type(quantity_t), allocatable, intent(inout) :: columns(:)
+      !> Name, unit, meaning, part of the program
+      character(len=*), intent(in) :: name, unit, description, source
+
+      type(quantity_t), allocatable :: more(:)
+      integer :: n
+
+      n = 0
+      if (allocated(columns)) n = size(columns)
+      allocate (more(n + 1))
+      if (n > 0) more(:n) = columns
+      ! Component by component: a constructor with components of deferred length leaves memory behind in gfortran 12
+      more(n + 1)%name = name
+      more(n + 1)%unit = unit
+      more(n + 1)%description = description
+      more(n + 1)%source = source
+      call move_alloc(more, columns)
+   end subroutine add_column
 
    !> Append a row without words and numbers.
    subroutine new_row(table)
@@ -52,6 +82,8 @@ contains
       integer :: n
 
       n = table%rows
+      if (.not. allocated(table%words)) allocate (table%words(first_room, size(table%word_columns)), &
+         & table%numbers(first_room, size(table%number_columns)))
       if (n == size(table%words, 1)) then
          allocate (more_words(2*n, size(table%words, 2)), more_numbers(2*n, size(table%numbers, 2)))
          more_words(:n, :) = table%words
@@ -97,6 +129,7 @@ contains
       !> Its numbers, one for each row [unit of the column]
       real(wp) :: values(table%rows)
 
+      if (table%rows == 0) return
       values = table%numbers(:table%rows, find_quantity(table%number_columns, name))
    end function column_of
 
@@ -109,6 +142,7 @@ contains
       !> Its words, one for each row
       character(len=word_length) :: words(table%rows)
 
+      if (table%rows == 0) return
       words = table%words(:table%rows, find_quantity(table%word_columns, name))
    end function words_of
 
