@@ -94,13 +94,6 @@ contains
       end if
       if (allocated(case%asperity)) call change(case%asperity%film_shear_strength, pressure)
       if (allocated(case%asperity)) call change(case%asperity%mobilising_speed, speed)
-      if (allocated(case%needle_bearing)) then
-         call change(case%needle_bearing%needle_radius, length)
-         call change(case%needle_bearing%film%width, length)
-         call change(case%needle_bearing%film%radial_clearance, length)
-         call change(case%needle_bearing%film%roughness, length)
-         call change(case%needle_bearing%film%modulus, pressure)
-      end if
       if (allocated(case%valve_guide)) call change(case%valve_guide%length, length)
       if (allocated(case%valve_guide)) call change(case%valve_guide%stem_diameter, length)
       if (allocated(case%valve_guide)) call change(case%valve_guide%radial_clearance, length)
@@ -120,8 +113,15 @@ contains
          value = scaled(units, value, dimension)
       end subroutine change
 
-      !> Camshaft bearings, and what comes on top of them, in other units.
+      !> Bearings of roller and camshaft, and what comes on top of them, in other units.
       subroutine change_bearings()
+         if (allocated(case%needle_bearing)) then
+            call change(case%needle_bearing%needle_radius, length)
+            call change(case%needle_bearing%film%width, length)
+            call change(case%needle_bearing%film%radial_clearance, length)
+            call change(case%needle_bearing%film%roughness, length)
+            call change(case%needle_bearing%film%modulus, pressure)
+         end if
          if (allocated(case%cam_bearings)) then
             call change(case%cam_bearings%diameter, length)
             call change(case%cam_bearings%width, length)

@@ -245,10 +245,8 @@ contains
          is_given = is_given .or. deck_word(text, group, "shear_law") == "eyring"
       case ("crown_radius_mm", "design_load_N")
          is_given = deck_word(text, group, "profile") == merge("crowned    ", "logarithmic", key == "crown_radius_mm")
-      case ("needle_radius_mm")
-         is_given = is_given .or. deck_word(text, group, "kind") == "needles"
-      case ("pin_width_mm", "pin_radial_clearance_um", "pin_roughness_um", "pin_modulus_GPa")
-         is_given = is_given .or. deck_word(text, group, "kind") == "journal"
+      case ("needle_radius_mm", "pin_width_mm", "pin_radial_clearance_um", "pin_roughness_um", "pin_modulus_GPa")
+         is_given = is_given .or. deck_word(text, group, "kind") == merge("needles", "journal", key == "needle_radius_mm")
       case ("grinding_wheel_radius_mm")
          is_given = is_given .and. draft%is_first
       case ("cam_cylinders")
