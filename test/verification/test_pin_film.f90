@@ -280,7 +280,7 @@ contains
 
    subroutine test_refusals(error)
       type(error_type), allocatable, intent(out) :: error
-      type(case_t) :: case
+      type(case_t) :: pinned
       type(model_t) :: model
       type(error_t), allocatable :: failure
       character(len=*), parameter :: words(6) = [character(len=24) :: "covers widths", "covers widths", "above zero", &
@@ -288,24 +288,24 @@ contains
       integer :: i
 
       do i = 1, size(words)
-         case = thesis_case()
-         call add_pin_film(case, "finite")
+         pinned = thesis_case()
+         call add_pin_film(pinned, "finite")
          select case (i)
          case (1)
-            case%needle_bearing%film%law = "long_full_sommerfeld"
+            pinned%needle_bearing%film%law = "long_full_sommerfeld"
          case (2)
-            case%needle_bearing%film%width = 3.0_wp*radius
+            pinned%needle_bearing%film%width = 3.0_wp*radius
          case (3)
-            case%needle_bearing%film%radial_clearance = 0.0_wp
+            pinned%needle_bearing%film%radial_clearance = 0.0_wp
          case (4)
-            case%needle_bearing%film%roughness = 3.0e-6_wp
+            pinned%needle_bearing%film%roughness = 3.0e-6_wp
          case (5)
-            case%needle_bearing%film%modulus = 0.0_wp
+            pinned%needle_bearing%film%modulus = 0.0_wp
          case (6)
-            allocate (case%needle_drag)
-            case%needle_drag%pitch_diameter = 10.0e-3_wp
+            allocate (pinned%needle_drag)
+            pinned%needle_drag%pitch_diameter = 10.0e-3_wp
          end select
-         call new_model(model, case, case%lift, failure)
+         call new_model(model, pinned, pinned%lift, failure)
          call expect_error(error, failure, kind_deck, trim(words(i)))
          if (allocated(error)) return
          deallocate (failure)
