@@ -6,10 +6,9 @@ module test_study
    use camroller_error, only : error_t, kind_convergence
    use camroller_case, only : case_t
    use camroller_ode_methods, only : method_names
-   use camroller_result, only : quantity_t
    use camroller_study, only : plan_t, plan_for, way_t, apply_way, check_agreement, dial_reference, list_ways, new_study_table, &
       & study_case
-   use camroller_study_table, only : study_table_t, new_table, new_row, set_number, set_word, column_of, words_of
+   use camroller_study_table, only : study_table_t, add_numbers, add_words, new_row, set_number, set_word, column_of, words_of
    use camroller_study_trial, only : trial_t, errors_against, median, relative_error, run_trial, smallest_error
    use reference_cases, only : thesis_case
    implicit none
@@ -170,8 +169,9 @@ contains
       type(study_table_t) :: table
       integer :: i
 
-      call new_table(table, [quantity_t("word", "", "", "")], [quantity_t("one", "1", "", ""), &
-         & quantity_t("two", "1", "", "")])
+      call add_words(table, "word", "", "")
+      call add_numbers(table, "one", "1", "", "")
+      call add_numbers(table, "two", "1", "", "")
       do i = 1, 200
          call new_row(table)
          call set_word(table, "word", "w")
