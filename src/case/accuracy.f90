@@ -13,8 +13,8 @@ module camroller_accuracy
    implicit none
    private
 
-   public :: check_numerics, is_within, above_zero, divides_turn, resolve_numerics, has_error_control, is_checked, has_tolerance, &
-      & refine_tolerance, way_out, most_refinements, second_method, far_beyond, evaluations_allowed
+   public :: check_numerics, is_within, above_zero, divides_turn, resolve_numerics, first_numerics, has_error_control, is_checked, &
+      & has_tolerance, refine_tolerance, way_out, most_refinements, second_method, far_beyond, evaluations_allowed
 
    !> Method with the least work for errors from 1e-2 to 1e-8, or near it
    character(len=*), parameter :: chosen_method = "hermite"
@@ -23,8 +23,11 @@ module camroller_accuracy
    !> Method without error control
    character(len=*), parameter :: fixed_method = "euler"
    !> Tolerance over accuracy: errors of the sliding speed stay within twice the tolerance with the chosen method, but extremes and
-   !> means of steep forces are estimated at up to a hundred times it. A second try costs more than smaller steps [-]
+   !> means of steep forces are estimated at up to a hundred times it [-]
    real(wp), parameter :: tolerance_share = 0.01_wp
+   !> Tolerance of the first try of a rigid train's result over that: a seventh more steps spare most cases a second try, which
+   !> costs as much as the first [-]
+   real(wp), parameter :: first_part = 0.3_wp
    !> Smallest tolerance that rounding leaves a meaning [-]
    real(wp), parameter :: least_tolerance = 1.0e-12_wp
    !> Part of the reduction asked for by the estimate that is taken beyond it; strongest reduction at once [-]
@@ -126,6 +129,17 @@ contains
          resolved%periodicity = max(numerics%periodicity, least_periodicity_share*numerics%tolerance)
       end if
    end function resolve_numerics
+
+   !> Numerics of the first try of a result whose means and extremes are to be as accurate as the sliding speed.
+   pure function first_numerics(numerics) result(first)
+      !> As given
+      type(numerics_t), intent(in) :: numerics
+      !> With method, tolerance and periodicity
+      type(numerics_t) :: first
+
+      first = resolve_numerics(numerics)
+      if (is_checked(numerics)) first%tolerance = max(least_tolerance, first_part*first%tolerance)
+   end function first_numerics
 
    !> Is the error to be held below the accuracy? Not where tolerance or step are given by hand.
    pure function is_checked(numerics) result(verdict)

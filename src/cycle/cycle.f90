@@ -14,6 +14,7 @@ module camroller_cycle
    use camroller_contact_forces, only : contact_t
    use camroller_dynamics, only : moments_t
    use camroller_state, only : state_t, evaluate_state, evaluate_loading
+   use camroller_error_estimate, only : contact_accuracy_for
    use camroller_events, only : find_stops, cycle_stops
    use camroller_fold, only : explain_end
    use camroller_spin, only : spin_problem_t, nearby_t, rolling_speed_at
@@ -427,8 +428,8 @@ contains
       type(position_t) :: position
       type(moments_t) :: moments
       ! Angle within the cycle [rad], sliding speed or surface speed [m/s], gas force [N], slope of the curve [m/s/rad], mobilised
-      ! part of the boundary friction [-]
-      real(wp) :: inside, value(1), force, slope(1), share
+      ! part of the boundary friction, relative error of load and forces [-]
+      real(wp) :: inside, value(1), force, slope(1), share, accuracy
       integer :: status
       logical :: is_moved, rests
 
@@ -436,6 +437,7 @@ contains
          call follower_on_path(model, cycle%flexible%cycle%trajectory, cycle%flexible%cycle%resolution, angle, hint, state, error)
          return
       end if
+      accuracy = contact_accuracy_for(cycle%tolerance)
       inside = cycle%start + modulo(angle - cycle%start, two_pi)
       call interpolate_state(cycle%trajectory, inside, hint, value)
       if (cycle%has_surface_speed) then
@@ -452,13 +454,13 @@ contains
             value = 0.0_wp
             call share_at_rest(model, inside, share, status)
          end if
-         if (status == 0) call evaluate_state(model, inside, value(1), state, status, share, start=start)
+         if (status == 0) call evaluate_state(model, inside, value(1), state, status, share, start, accuracy)
       else
-         call evaluate_state(model, inside, value(1), state, status, start=start)
+         call evaluate_state(model, inside, value(1), state, status, start=start, accuracy=accuracy)
          if (status == 0 .and. cycle%step_error > 0.0_wp) then
             call curve_slope(cycle%trajectory, inside, hint, slope)
             call settle(model, inside, slope(1), cycle%step_error, state, value(1), is_moved)
-            if (is_moved) call evaluate_state(model, inside, value(1), state, status)
+            if (is_moved) call evaluate_state(model, inside, value(1), state, status, accuracy=accuracy)
          end if
       end if
       if (status /= 0) call raise(error, kind_convergence, "no load satisfies the equilibrium of the contact at "// &

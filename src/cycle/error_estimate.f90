@@ -194,8 +194,8 @@ contains
       error = (estimate%error - closure)/max(1.0_wp - estimate%contraction, epsilon(1.0_wp))
    end function error_at_start
 
-   !> Relative error to which contacts are solved where only differences from a state of a cycle are wanted: films and pressures
-   !> then have about its root, far less than the tolerance.
+   !> Relative error of load and forces to which the contacts of a cycle are solved once it is known, round-off at most: films and
+   !> pressures then have about its root, far less than the tolerance.
    elemental function contact_accuracy_for(tolerance) result(accuracy)
       !> Tolerance of the cycle [-]
       real(wp), intent(in) :: tolerance

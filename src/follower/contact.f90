@@ -180,22 +180,19 @@ contains
       real(wp) :: excess, slope
       ! Relative change of the film ratio in the last step, of the load in the next [-]
       real(wp) :: change, shift
-      type(setting_t) :: in_use
       type(hinge_t) :: hinge
       integer :: iteration
 
       status = 0
-      in_use = basis%setting
       load = contact%load
       low = 0.0_wp
       high = huge(1.0_wp)
       if (has_pivot_friction(model)) call set_hinge(model, position, moments, hinge)
       do iteration = 1, max_iterations
          ! A share that is not quite found narrows no bracket: what has taken so long needs all of its figures
-         if (iteration > usual_iterations) in_use%coarse = 0.0_wp
-         call evaluate_contact(model, position, in_use, load, contact, basis%parts, change)
-         basis%setting%scale = in_use%scale
-         slopes = follow_contact(model, in_use, contact, basis%parts, motion_t(load=1.0_wp))
+         if (iteration > usual_iterations) basis%setting%coarse = 0.0_wp
+         call evaluate_contact(model, position, basis%setting, load, contact, basis%parts, change)
+         slopes = follow_contact(model, basis%setting, contact, basis%parts, motion_t(load=1.0_wp))
          excess = load*position%normal_arm - moment &
             & + model%linkage%sense*(contact%tangential_force*position%tangent_arm + contact%bearing_torque)
          slope = load*position%normal_arm &

@@ -19,6 +19,9 @@ module camroller_extremes
 
    public :: samples_t, search_t, start_samples, add_sample, move_samples, start_search, narrow_search
 
+   !> Rows that are looked near at most
+   integer, parameter :: most_rows = 8
+
    !> Rows of series over one turn
    type :: samples_t
       !> Number of rows
@@ -33,8 +36,9 @@ module camroller_extremes
       !> round the turn, shape (side, row)
       integer, allocatable, private :: order(:), beside(:, :)
       integer, private :: sorted = 0
-      !> Their values by angle, one row beyond the turn at both ends, shape (row, series) [unit of the series]
-      real(wp), allocatable, private :: by_angle(:, :)
+      !> Among them by angle: places of the smallest and the largest value of each series, shape (2, series); places where it may
+      !> turn, those of all series one after another, and what stands before the first of each series
+      integer, allocatable, private :: ends(:, :), turns(:), before_turns(:)
    end type samples_t
 
    !> Search for the smallest or largest value of a series; for the largest all values have the opposite sign
@@ -49,24 +53,22 @@ module camroller_extremes
       real(wp) :: left = 0.0_wp
       integer, private :: series = 0, sense = 1
       !> Rows to look near, how many of them are done, and the search near one
-      integer, allocatable, private :: rows(:)
-      integer, private :: done = 0
+      integer, private :: rows(most_rows) = 0, row_count = 0, done = 0
       type(extremum_t), private :: now
       !> What a gain is small against, the extent of the series as a rule; lowest value that there may be where the search is done
       !> [unit of the series]
       real(wp), private :: extent = 0.0_wp, bound = 0.0_wp
-      !> What may be left at a kink, over the extent [-]
-      real(wp), private :: coarse = 0.0_wp
+      !> Gain that is not worth a value, what may be left at a kink, over the extent [-]
+      real(wp), private :: worth = 0.0_wp, coarse = 0.0_wp
    end type search_t
 
    !> Values that are asked for near a row at most, and at a kink, where each about halves what is left
    integer, parameter :: most_steps = 8, most_halvings = 30
-   !> Gain of an extreme that is not worth a value, over the extent of its series [-]
-   real(wp), parameter :: worth = 1.0e-6_wp
+   !> Gain of an extreme that is not worth a value, over the extent of its series: over the tolerance, which makes a hundredth of
+   !> the accuracy, at least, and at most [-]
+   real(wp), parameter :: worth_part = 3.0_wp, least_worth = 1.0e-6_wp, most_worth = 1.0e-5_wp
    !> Widest distance to a neighbour that a search may begin with [rad]
    real(wp), parameter :: widest = two_pi/24.0_wp
-   !> Rows that are looked near at most
-   integer, parameter :: most_rows = 8
    !> Rows for which there is room at first
    integer, parameter :: first_room = 1536
 
@@ -141,9 +143,8 @@ contains
 
       integer :: place, before
 
-      if (allocated(samples%order)) deallocate (samples%order, samples%beside, samples%by_angle)
-      allocate (samples%order(samples%count), samples%beside(2, samples%count), &
-         & samples%by_angle(0:samples%count + 1, size(samples%values, 1)))
+      if (allocated(samples%order)) deallocate (samples%order, samples%beside)
+      allocate (samples%order(samples%count), samples%beside(2, samples%count))
       call sort_rows(samples%angle(:samples%count), samples%order)
       samples%sorted = samples%count
       associate (order => samples%order)
@@ -162,13 +163,59 @@ contains
             end if
             samples%beside(2, order(place)) = before
          end do
-         do place = 1, samples%count
-            samples%by_angle(place, :) = samples%values(:, order(place))
-         end do
-         samples%by_angle(0, :) = samples%by_angle(samples%count, :)
-         samples%by_angle(samples%count + 1, :) = samples%by_angle(1, :)
       end associate
+      call find_turns(samples)
    end subroutine find_neighbours
+
+   !> Find the smallest and the largest value of every series, the first of equal ones, and the places where it may turn: where it
+   !> is beyond both places beside it, or as far as one of them.
+   pure subroutine find_turns(samples)
+      !> The rows; their neighbours are known
+      type(samples_t), intent(inout) :: samples
+
+      ! Values by angle, one row beyond the turn at both ends [unit of the series]
+      real(wp), allocatable :: values(:)
+      integer, allocatable :: turns(:)
+      integer :: series, place, found
+
+      if (allocated(samples%ends)) deallocate (samples%ends, samples%turns, samples%before_turns)
+      allocate (samples%ends(2, size(samples%values, 1)), samples%before_turns(size(samples%values, 1) + 1))
+      allocate (values(0:samples%count + 1), turns(samples%count*size(samples%values, 1)))
+      found = 0
+      associate (order => samples%order, ends => samples%ends)
+         ends = 1
+         do series = 1, size(samples%values, 1)
+            samples%before_turns(series) = found
+            values(1:samples%count) = samples%values(series, order)
+            values([0, samples%count + 1]) = values([samples%count, 1])
+            do place = 1, samples%count
+               associate (before => values(place - 1), here => values(place), after => values(place + 1))
+                  if ((here > before .and. here < after) .or. (here < before .and. here > after)) cycle
+                  if (here < values(ends(1, series))) ends(1, series) = place
+                  if (here > values(ends(2, series))) ends(2, series) = place
+                  if (max(before, after) <= here .and. min(before, after) >= here .and. stands_alone(samples, place)) cycle
+               end associate
+               found = found + 1
+               turns(found) = place
+            end do
+         end do
+      end associate
+      samples%before_turns(size(samples%before_turns)) = found
+      samples%turns = turns(:found)
+   end subroutine find_turns
+
+   !> Have the rows beside a place other angles than the row there?
+   pure function stands_alone(samples, place)
+      !> The rows; their neighbours are known
+      type(samples_t), intent(in) :: samples
+      !> The place among them by angle
+      integer, intent(in) :: place
+      logical :: stands_alone
+
+      associate (order => samples%order, n => samples%count)
+         stands_alone = all(samples%beside(:, order(place)) == order([1 + modulo(place - 2, n), 1 + modulo(place, n)]))
+      end associate
+   end function stands_alone
 
    !> Rows by their angles: runs that rise as they are, each with the next, are merged until one is left.
    pure subroutine sort_rows(angle, order)
@@ -237,49 +284,27 @@ contains
       !> Is the extreme itself what a gain is small against, where it is less than the extent?
       logical, intent(in), optional :: by_itself
 
-      ! Sign that makes the extreme the smallest value [-]; largest value [unit of the series]
-      real(wp) :: sign, largest
+      ! The other end of the extent [unit of the series]
+      real(wp) :: largest
       integer :: extreme
 
       if (samples%sorted < samples%count) call find_neighbours(samples)
       search%series = series
       search%sense = sense
-      search%coarse = max(worth, tolerance)
-      sign = real(sense, wp)
-      call find_ends(samples%by_angle(1:samples%count, series), sign, extreme, search%value, largest)
+      search%worth = min(max(least_worth, worth_part*tolerance), most_worth)
+      search%coarse = max(least_worth, tolerance)
+      associate (ends => samples%order(samples%ends(:, series)))
+         extreme = ends(merge(1, 2, sense > 0))
+         search%value = sense*samples%values(series, extreme)
+         largest = sense*samples%values(series, ends(merge(2, 1, sense > 0)))
+      end associate
       search%extent = largest - search%value
       if (present(by_itself)) then
          if (by_itself) search%extent = min(search%extent, abs(search%value))
       end if
-      call list_rows(samples, samples%by_angle(:, series), sign, extreme, search)
+      call list_rows(samples, extreme, search)
       call enter_row(samples, search)
    end subroutine start_search
-
-   !> Smallest and largest of some values.
-   pure subroutine find_ends(values, sign, extreme, smallest, largest)
-      !> The values [unit of the series]
-      real(wp), intent(in) :: values(:)
-      !> Sign that they get [-]
-      real(wp), intent(in) :: sign
-      !> Place of the first of the smallest
-      integer, intent(out) :: extreme
-      !> Both [unit of the series]
-      real(wp), intent(out) :: smallest, largest
-
-      real(wp) :: value ! [unit of the series]
-      integer :: place
-
-      extreme = 1
-      smallest = sign*values(1)
-      largest = smallest
-      do place = 2, size(values)
-         value = sign*values(place)
-         if (value > largest) largest = value
-         if (value >= smallest) cycle
-         smallest = value
-         extreme = place
-      end do
-   end subroutine find_ends
 
    !> Take the value of the series at the trial angle.
    pure subroutine narrow_search(samples, search, value)
@@ -301,14 +326,10 @@ contains
 
    !> Rows near which there may be an extreme: the extreme one, then those that may hide a value beyond it, the most promising
    !> first.
-   pure subroutine list_rows(samples, values, sign, extreme, search)
+   pure subroutine list_rows(samples, extreme, search)
       !> The rows
       type(samples_t), intent(in) :: samples
-      !> Values by angle, one row beyond the turn at both ends [unit of the series]
-      real(wp), intent(in) :: values(0:)
-      !> Sign that makes the extreme the smallest of them [-]
-      real(wp), intent(in) :: sign
-      !> Place of the extreme one among them by angle
+      !> The extreme one
       integer, intent(in) :: extreme
       !> The search
       type(search_t), intent(inout) :: search
@@ -316,30 +337,24 @@ contains
       integer :: rows(samples%count)
       ! The lowest value that each of these rows may hide [unit of the series]
       real(wp) :: bounds(samples%count), bound
-      ! Values of the rows before and after, and of this one [unit of the series]
-      real(wp) :: before, here, after
-      integer :: found, place, best
+      integer :: found, turn, place, best
 
       search%bound = search%value
-      search%point = samples%angle(samples%order(extreme))
+      search%point = samples%angle(extreme)
       found = 0
-      here = sign*values(0)
-      after = sign*values(1)
-      do place = 1, samples%count
-         before = here
-         here = after
-         after = sign*values(place + 1)
-         if (here > before .or. here > after) cycle
-         if (place == extreme .or. samples%is_kink(samples%order(place))) cycle
-         bound = lowest_hidden(samples, search, samples%order(place))
-         if (bound >= search%value - worth*search%extent) cycle
-         found = found + 1
-         rows(found) = samples%order(place)
-         bounds(found) = bound
+      do turn = samples%before_turns(search%series) + 1, samples%before_turns(search%series + 1)
+         associate (row => samples%order(samples%turns(turn)))
+            if (row == extreme .or. samples%is_kink(row)) cycle
+            bound = lowest_hidden(samples, search, row)
+            if (bound >= search%value - search%worth*search%extent) cycle
+            found = found + 1
+            rows(found) = row
+            bounds(found) = bound
+         end associate
       end do
-      allocate (search%rows(min(found + 1, most_rows)))
-      search%rows(1) = samples%order(extreme)
-      do place = 2, size(search%rows)
+      search%row_count = min(found + 1, most_rows)
+      search%rows(1) = extreme
+      do place = 2, search%row_count
          best = minloc(bounds(:found), 1)
          search%rows(place) = rows(best)
          bounds(best) = huge(1.0_wp)
@@ -396,14 +411,14 @@ contains
       ! Angles of row and neighbours from that of the row [rad]
       real(wp) :: x(3)
 
-      do while (search%done < size(search%rows))
+      do while (search%done < search%row_count)
          search%done = search%done + 1
          associate (row => search%rows(search%done))
             if (samples%is_kink(row)) cycle
             x = ways(samples, row)
             if (max(-x(1), x(3)) > widest) cycle
             call start_extremum(search%now, samples%angle(row) + x, search%sense*samples%values(search%series, &
-               & [samples%beside(1, row), row, samples%beside(2, row)]), worth*search%extent, most_halvings)
+               & [samples%beside(1, row), row, samples%beside(2, row)]), search%worth*search%extent, most_halvings)
          end associate
          search%is_wanted = search%now%is_wanted
          search%trial = search%now%trial

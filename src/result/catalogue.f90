@@ -11,7 +11,7 @@ module camroller_catalogue
    use camroller_number_text, only : integer_text
    use camroller_effect_list, only : effect_names, has_effect
    use camroller_result, only : quantity_t, quantity_list_t, append_quantity, lobe_scope, scope_camshaft, scope_case, &
-      & scope_engine, scope_length
+      & scope_engine, scope_length, take_quantities
    use camroller_part_series, only : add_axial, add_axial_film, add_bearings, add_heat, add_pin, bearing_count
    use camroller_state, only : state_t, flexible_values_t
    use camroller_torque_list, only : torque_list, torque_count, is_loss, is_torque, of_residual, torque_series
@@ -56,7 +56,7 @@ contains
          call add_camshafts(list, case, none)
          call set_camshaft_scopes(list%items(first:list%count), merge(scope_engine, scope_camshaft, has_engine(case)))
       end do
-      series = list%items(:list%count)
+      call take_quantities(list, series)
    end subroutine list_series
 
    !> Number of series of one follower.

@@ -44,12 +44,12 @@ module camroller_follower_samples
       real(wp) :: one_end_share = 0.0_wp
    end type shares_t
 
-   !> One point of a cycle, for the search of standstills
+   !> One point of a cycle, for the search of standstills and of pure rolling
    type :: entrainment_t
       !> Cam angle from full lift [rad]
       real(wp) :: angle = 0.0_wp
-      !> Mean surface speed [m/s]
-      real(wp) :: entrainment_speed = 0.0_wp
+      !> Mean surface speed, sliding speed [m/s]
+      real(wp) :: entrainment_speed = 0.0_wp, sliding_speed = 0.0_wp
       logical :: is_touching = .false.
    end type entrainment_t
 
@@ -314,7 +314,7 @@ contains
       range = [min(range(1), value), max(range(2), value)]
    end subroutine widen_range
 
-   !> The point that was sampled last, for the search of standstills.
+   !> The point that was sampled last, for the search of standstills and of pure rolling.
    pure function entrainment_of(samples, angle) result(speed)
       !> The samples
       type(follower_samples_t), intent(in) :: samples
@@ -325,6 +325,7 @@ contains
 
       speed%angle = angle
       speed%entrainment_speed = samples%state%contact%entrainment_speed
+      speed%sliding_speed = samples%state%contact%sliding_speed
       speed%is_touching = samples%state%contact%is_touching
    end function entrainment_of
 

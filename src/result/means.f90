@@ -24,7 +24,7 @@ module camroller_means
    use camroller_names, only : name_length
    use camroller_panels, only : panels_t, panel_points, panel_places, start_panels, add_panel, add_trapezoid, refine_panels
    use camroller_result, only : quantity_t, find_quantity
-   use camroller_standstills, only : add_standstills
+   use camroller_standstills, only : add_rolling_points, add_standstills
    use camroller_stored_work, only : stored_work_t, follow_contact, end_work, spin_work
    implicit none
    private
@@ -76,7 +76,7 @@ module camroller_means
    !> Times that what is allowed is taken anew from means that have become better
    integer, parameter :: most_passes = 5
    !> Error of a mean over the tolerance of its cycle, for a whole cycle [-]: a twentieth of the accuracy
-   real(wp), parameter, public :: quadrature_part = 5.0_wp
+   real(wp), parameter, public :: quadrature_part = 15.0_wp
    !> Least tolerance of a mean: below it rounding counts [-]
    real(wp), parameter :: least_tolerance = 1.0e-10_wp
 
@@ -118,6 +118,7 @@ contains
          call refine_means(walk%panels, samples, quadrature_part*mean_tolerance(cycle%tolerance), series_count, films, error)
          if (.not. allocated(error)) call add_standstills(samples, walk%speeds(:walk%count), statistics%standstills, &
             & statistics%first_standstill, error)
+         if (.not. allocated(error)) call add_rolling_points(samples, walk%speeds(:walk%count), error)
          if (allocated(error)) return
       end if
       statistics%largest_sliding = samples%largest_sliding

@@ -12,8 +12,8 @@ module camroller_result
    implicit none
    private
 
-   public :: quantity_t, quantity_list_t, append_quantity, result_t, get_series, get_summary, find_quantity, check_numbers, &
-      & lobe_scope
+   public :: quantity_t, quantity_list_t, append_quantity, take_quantities, result_t, get_series, get_summary, find_quantity, &
+      & check_numbers, lobe_scope
    public :: scope_length, scope_camshaft, scope_engine, scope_case
 
    !> Length of a scope
@@ -99,7 +99,7 @@ contains
       if (.not. allocated(list%items)) return
       if (list%count > size(list%items)) then
          allocate (items(size(list%values)))
-         items(:list%count - 1) = list%items(:list%count - 1)
+         call move_quantities(list%items(:list%count - 1), items)
          call move_alloc(items, list%items)
       end if
       associate (item => list%items(list%count))
@@ -110,6 +110,37 @@ contains
          if (present(scope)) item%scope = scope
       end associate
    end subroutine append_quantity
+
+   !> Move quantities to other places, without copies of their texts.
+   pure subroutine move_quantities(from, to)
+      !> The quantities; out: without texts
+      type(quantity_t), intent(inout) :: from(:)
+      !> Their places, the first of as many or more
+      type(quantity_t), intent(inout) :: to(:)
+
+      integer :: i
+
+      do i = 1, size(from)
+         call move_alloc(from(i)%name, to(i)%name)
+         call move_alloc(from(i)%unit, to(i)%unit)
+         call move_alloc(from(i)%description, to(i)%description)
+         call move_alloc(from(i)%source, to(i)%source)
+         to(i)%scope = from(i)%scope
+         to(i)%may_be_infinite = from(i)%may_be_infinite
+      end do
+   end subroutine move_quantities
+
+   !> Take the quantities out of a list, as many as there are.
+   pure subroutine take_quantities(list, quantities)
+      !> The list; out: without quantities
+      type(quantity_list_t), intent(inout) :: list
+      !> The quantities
+      type(quantity_t), allocatable, intent(out) :: quantities(:)
+
+      allocate (quantities(list%count))
+      call move_quantities(list%items(:list%count), quantities)
+      deallocate (list%items)
+   end subroutine take_quantities
 
    !> Position of a quantity in a list, 0 where it is not there.
    pure function find_quantity(quantities, name) result(position)

@@ -1,8 +1,10 @@
-!> Standstills of the contact: cam angles at which the entrainment speed passes through zero or stays there.
+!> Standstills of the contact: cam angles at which the entrainment speed passes through zero or stays there; and points of pure
+!> rolling, at which the sliding speed does.
 !>
 !> In: a cycle with the points met on the way round it. Out: the angles, and the states there among the rows of
-!> series. There a film formula gives no film, or where asperities carry the load the gap of the dry surfaces; whatever the points,
-!> they miss it.
+!> series. At a standstill a film formula gives no film, or where asperities carry the load the gap of the dry surfaces; in pure
+!> rolling the friction of the contact is least, and so steep on both sides that the rows beside it may show nothing of it. Whatever
+!> the points, they miss both.
 module camroller_standstills
    use camroller_kinds, only : wp
    use camroller_error, only : error_t
@@ -12,10 +14,11 @@ module camroller_standstills
    use camroller_extremes, only : add_sample
    use camroller_follower_samples, only : follower_samples_t, entrainment_t
    use camroller_roots, only : bracket_t, start_bracket, narrow_bracket, root_wanted, root_found
+   use camroller_trajectory, only : interpolate_state
    implicit none
    private
 
-   public :: add_standstills
+   public :: add_standstills, add_rolling_points
 
    !> Accuracy of the angle of a standstill [rad]: its state is that without entrainment, which changes little over it
    real(wp), parameter :: angle_tolerance = 1.0e-10_wp
@@ -95,6 +98,37 @@ contains
       is_found = bracket%status == root_found
       angle = bracket%trial
    end subroutine find_reversal
+
+   !> Add the states at the points of pure rolling to the rows: where the curve of the sliding speed passes through zero between two
+   !> points in contact.
+   subroutine add_rolling_points(samples, speeds, error)
+      !> The samples
+      type(follower_samples_t), intent(inout) :: samples
+      !> Points of the cycle in order
+      type(entrainment_t), intent(in) :: speeds(:)
+      !> Convergence error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(bracket_t) :: bracket
+      ! Values of all that is sampled [unit of each]; sliding speed [m/s]
+      real(wp) :: values(samples%series + torque_count), sliding_speed(1)
+      integer :: i, hint
+
+      if (samples%cycle%has_surface_speed .or. allocated(samples%cycle%phases)) return
+      hint = 1
+      do i = 2, size(speeds)
+         if (.not. (speeds(i - 1)%is_touching .and. speeds(i)%is_touching)) cycle
+         if ((speeds(i - 1)%sliding_speed > 0.0_wp) .eqv. (speeds(i)%sliding_speed > 0.0_wp)) cycle
+         call start_bracket(bracket, speeds(i - 1)%angle, speeds(i)%angle, speeds(i - 1)%sliding_speed, speeds(i)%sliding_speed, &
+            & 0.0_wp)
+         do while (bracket%status == root_wanted)
+            call interpolate_state(samples%cycle%trajectory, bracket%trial, hint, sliding_speed)
+            call narrow_bracket(bracket, sliding_speed(1))
+         end do
+         if (bracket%status == root_found) call samples%sample(bracket%trial, values, error)
+         if (allocated(error)) return
+      end do
+   end subroutine add_rolling_points
 
    !> Add the state without entrainment at a cam angle to the rows.
    subroutine add_state_at_rest(samples, angle, error)

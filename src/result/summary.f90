@@ -16,7 +16,7 @@ module camroller_summary
    use camroller_means, only : statistics_t
    use camroller_number_text, only : integer_text
    use camroller_result, only : result_t, quantity_list_t, add => append_quantity, find_quantity, lobe_scope, scope_camshaft, &
-      & scope_engine
+      & scope_engine, take_quantities
    use camroller_series_extremes, only : extremes_t
    use camroller_shaft, only : solved_t
    implicit none
@@ -81,8 +81,8 @@ contains
          & "of the smallest film relative to itself; without films where contact is lost", "numerics", &
          & maxval(statistics%extreme_error))
       call add_counters(solved%cycles, list)
-      result%summary = list%items(:list%count)
       result%summary_values = list%values(:list%count)
+      call take_quantities(list, result%summary)
    end subroutine make_summary
 
    !> Means of all series: those of each lobe's follower, and the torques of the whole camshaft.

@@ -4,8 +4,8 @@
 module camroller_run
    use camroller_kinds, only : wp
    use camroller_error, only : error_t, raise, add_context, kind_convergence, cause_several_balances
-   use camroller_accuracy, only : is_checked, has_tolerance, far_beyond, most_refinements, refine_tolerance, resolve_numerics, &
-      & second_method, way_out
+   use camroller_accuracy, only : is_checked, has_tolerance, far_beyond, first_numerics, most_refinements, refine_tolerance, &
+      & resolve_numerics, second_method, way_out
    use camroller_case, only : case_t, numerics_t, automatic_method
    use camroller_kept_models, only : kept_models_t, keep_models, recall_models
    use camroller_model, only : model_t, new_model, revise_model
@@ -140,7 +140,8 @@ contains
       integer :: attempt
       logical :: has_result, has_way_out, is_finer
 
-      numerics = resolve_numerics(case%numerics)
+      numerics = first_numerics(case%numerics)
+      if (allocated(case%dynamics)) numerics = resolve_numerics(case%numerics)
       has_result = .false.
       has_way_out = .false.
       least = 0.0_wp

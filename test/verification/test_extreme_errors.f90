@@ -6,7 +6,7 @@ module test_extreme_errors
    use camroller_case, only : case_t
    use camroller_cycle, only : cycle_t, integrate_cycle, state_at
    use camroller_catalogue, only : follower_count, follower_values
-   use camroller_accuracy, only : resolve_numerics
+   use camroller_accuracy, only : first_numerics
    use camroller_error, only : error_t
    use camroller_model, only : model_t
    use camroller_remarks, only : film_without_limit, lost_contact, remark_lines
@@ -32,6 +32,8 @@ contains
          new_unittest("the estimate bounds the errors of extremes for every kind of method", test_estimate), &
          new_unittest("the estimate bounds the error of the largest friction torque, which is beyond those of the follower", &
             & test_torques), &
+         new_unittest("the estimate bounds the error of the least friction, at a point of pure rolling between rows", &
+            & test_pure_rolling), &
          new_unittest("extremes include both sides of a jump", test_jump), &
          new_unittest("where traction saturates, the sliding speed is corrected within the error allowed", test_settle), &
          new_unittest("where the load tends to zero a remark names the films that have no mean", test_film_remark) &
@@ -91,15 +93,36 @@ contains
    subroutine test_torques(error)
       type(error_type), allocatable, intent(out) :: error
       type(case_t) :: the_case
+      type(error_t), allocatable :: failure
+
+      call get_deck_case("decks/hard/sharp_cap.nml", the_case, failure)
+      if (allocated(failure)) call test_failed(error, failure%message)
+      if (.not. allocated(error)) call compare_with_estimate(the_case, error)
+   end subroutine test_torques
+
+   !> The sliding speed passes through zero within half a degree, where the friction falls to three quarters of what rows show.
+   subroutine test_pure_rolling(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: the_case
+      type(error_t), allocatable :: failure
+
+      call get_deck_case("decks/three_cam_head.nml", the_case, failure, number=9)
+      if (allocated(failure)) call test_failed(error, failure%message)
+      if (.not. allocated(error)) call compare_with_estimate(the_case, error)
+   end subroutine test_pure_rolling
+
+   !> Errors of extremes at an accuracy of 1e-3 against their estimate.
+   subroutine compare_with_estimate(the_case, error)
+      type(case_t), intent(inout) :: the_case
+      type(error_type), allocatable, intent(out) :: error
       type(result_t) :: reference, result
       type(error_t), allocatable :: failure
       ! Error over range, estimate [-]
       real(wp) :: found, estimate
       character(len=120) :: words
 
-      call get_deck_case("decks/hard/sharp_cap.nml", the_case, failure)
       the_case%numerics%accuracy = 1.0e-7_wp
-      if (.not. allocated(failure)) call run_case(the_case, reference, failure)
+      call run_case(the_case, reference, failure)
       the_case%numerics%accuracy = 1.0e-3_wp
       if (.not. allocated(failure)) call run_case(the_case, result, failure)
       if (.not. allocated(failure)) call get_summary(result, "estimated_error_of_extremes", estimate, failure)
@@ -108,7 +131,7 @@ contains
       found = largest_error(result, reference)
       write (words, "(a, 2es10.2)") "error and estimate", found, estimate
       call check(error, found <= estimate, words)
-   end subroutine test_torques
+   end subroutine compare_with_estimate
 
    !> Largest difference of a smallest or largest value over the range of its series, for torques over that of the friction torque
    !> where it is larger.
@@ -152,7 +175,7 @@ contains
       call get_deck_case("decks/hard/stick_slip_true.nml", case, failure)
       if (.not. allocated(failure)) call run_case(case, result, failure)
       if (.not. allocated(failure)) call build_models(case, models, failure)
-      if (.not. allocated(failure)) call integrate_cycle(cycle, models(1), resolve_numerics(case%numerics), failure)
+      if (.not. allocated(failure)) call integrate_cycle(cycle, models(1), first_numerics(case%numerics), failure)
       if (allocated(failure)) call test_failed(error, failure%message)
       if (allocated(error)) return
       allocate (values(follower_count(case), 2))
