@@ -37,6 +37,7 @@ EFFECTS = {
                      ["part_series:add_bearings", "state:cam_force"]),
     "gas_force": (["gas"], []),
     "friction_modifier": ([], ["asperity:coverage"]),
+    "boundary_law": (["boundary_law"], []),
     "bearing_heat": (["bearing_heat"], []),
     "roller_profile": (["roller_profile", "slices", "axial_table", "axial_film"],
                        ["part_series:add_axial", "part_series:add_axial_film", "follower_samples:note_ends"]),

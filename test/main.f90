@@ -20,6 +20,7 @@ program main
    use test_heat, only : collect_heat
    use test_axial, only : collect_axial
    use test_axial_follower, only : collect_axial_follower
+   use test_boundary_law, only : collect_boundary_law
    use test_friction_modifier, only : collect_friction_modifier
    use test_heat_laws, only : collect_heat_laws
    use test_spline, only : collect_spline
@@ -208,6 +209,7 @@ contains
          new_testsuite("axial", collect_axial), &
          new_testsuite("axial_follower", collect_axial_follower), &
          new_testsuite("friction_modifier", collect_friction_modifier), &
+         new_testsuite("boundary_law", collect_boundary_law), &
          new_testsuite("heat_laws", collect_heat_laws), &
          new_testsuite("spline", collect_spline), &
          new_testsuite("lift", collect_lift), &

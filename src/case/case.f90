@@ -14,6 +14,7 @@ module camroller_case
    use camroller_ehl_table, only : ehl_t
    use camroller_film, only : film_t
    use camroller_asperity, only : asperity_t, friction_modifier_t
+   use camroller_boundary_law, only : boundary_law_t
    use camroller_traction, only : traction_t
    use camroller_heat, only : heat_t
    use camroller_needle, only : needle_bearing_t
@@ -127,6 +128,8 @@ module camroller_case
       type(asperity_t), allocatable :: asperity
       !> Additive of the oil; of no effect without asperities
       type(friction_modifier_t), allocatable :: friction_modifier
+      !> Law of the boundary coefficient; without it, or without asperities, it is constant
+      type(boundary_law_t), allocatable :: boundary_law
       type(needle_bearing_t), allocatable :: needle_bearing
       type(needle_drag_t), allocatable :: needle_drag
       !> Numerical film in place of the film law

@@ -22,21 +22,21 @@ module camroller_effect_list
       & effect_pressure, effect_shear, effect_spin, effect_ehl, effect_tip, effect_seal, effect_side, effect_pivot, &
       & effect_drag, effect_inlet_heat, effect_contact_heat, effect_dynamics, effect_surge, effect_adjuster, is_part_of_train, &
       & effect_bearing_asperity, effect_belt_pull, effect_modifier, effect_orbit, effect_bearing_heat, effect_profile, &
-      & needs_bearings
+      & effect_boundary_law, needs_bearings
 
    !> Effects: groups of the deck, and laws that have a simpler one beside them
    character(len=*), parameter :: effect_names(*) = [character(len=name_length) :: "asperity", "needle_bearing", "valve_guide", &
       & "cam_bearings", "gas_force", "rolling_resistance", "film_law", "pressure_law", "shear_law", "roller_equation", &
       & "ehl", "valve_tip", "stem_seal", "guide_side_load", "finger_pivot", "needle_drag", "inlet_heat", "contact_heat", &
       & "dynamics", "spring_surge", "lash_adjuster", "bearing_asperity", "belt_pull", &
-      & "friction_modifier", "journal_orbit", "bearing_heat", "roller_profile"]
+      & "friction_modifier", "journal_orbit", "bearing_heat", "roller_profile", "boundary_law"]
    !> Positions in it
    integer, parameter :: effect_asperity = 1, effect_needle = 2, effect_guide = 3, effect_bearings = 4, effect_gas = 5, &
       & effect_rolling = 6, effect_film = 7, effect_pressure = 8, effect_shear = 9, effect_spin = 10, effect_ehl = 11, &
       & effect_tip = 12, effect_seal = 13, effect_side = 14, effect_pivot = 15, effect_drag = 16, &
       & effect_inlet_heat = 17, effect_contact_heat = 18, effect_dynamics = 19, effect_surge = 20, effect_adjuster = 21, &
       & effect_bearing_asperity = 22, effect_belt_pull = 23, effect_modifier = 24, &
-      & effect_orbit = 25, effect_bearing_heat = 26, effect_profile = 27
+      & effect_orbit = 25, effect_bearing_heat = 26, effect_profile = 27, effect_boundary_law = 28
    !> Effects of the camshaft bearings, two and two side by side: nothing else depends on them, and without these bearings they are
    !> of no effect
    integer, parameter :: needs_bearings(*) = [effect_bearing_asperity, effect_belt_pull, effect_orbit, effect_bearing_heat]
@@ -93,8 +93,7 @@ contains
 
       select case (effect)
       case (effect_asperity)
-         if (allocated(variant%asperity)) deallocate (variant%asperity)
-         if (allocated(variant%friction_modifier)) deallocate (variant%friction_modifier)
+         call leave_asperities_out(variant)
       case (effect_needle)
          if (allocated(variant%needle_bearing)) deallocate (variant%needle_bearing)
       case (effect_guide)
@@ -132,6 +131,8 @@ contains
          if (allocated(variant%roller_profile)) deallocate (variant%roller_profile)
       case (effect_modifier)
          if (allocated(variant%friction_modifier)) deallocate (variant%friction_modifier)
+      case (effect_boundary_law)
+         if (allocated(variant%boundary_law)) deallocate (variant%boundary_law)
       case (effect_inlet_heat)
          if (allocated(variant%heat)) variant%heat%inlet_law = inlet_law_names(inlet_none)
       case (effect_contact_heat)
@@ -146,6 +147,16 @@ contains
          call fix_pivot(variant)
       end select
    end subroutine leave_out
+
+   !> Leave asperities out, with all that needs them.
+   pure subroutine leave_asperities_out(variant)
+      !> In: a case; out: without them
+      type(case_t), intent(inout) :: variant
+
+      if (allocated(variant%asperity)) deallocate (variant%asperity)
+      if (allocated(variant%friction_modifier)) deallocate (variant%friction_modifier)
+      if (allocated(variant%boundary_law)) deallocate (variant%boundary_law)
+   end subroutine leave_asperities_out
 
    !> Take the lash adjuster away: the pivot stays where the adjuster holds it at rest, and the base circle keeps its load.
    subroutine fix_pivot(variant)
@@ -273,6 +284,8 @@ contains
          has = allocated(case%roller_profile)
       case (effect_modifier)
          has = allocated(case%friction_modifier) .and. allocated(case%asperity)
+      case (effect_boundary_law)
+         has = allocated(case%boundary_law) .and. allocated(case%asperity)
       case (effect_inlet_heat)
          if (allocated(case%heat)) has = case%heat%inlet_law /= inlet_law_names(inlet_none)
       case (effect_contact_heat)

@@ -10,6 +10,7 @@ module camroller_model
    use camroller_axial_setup, only : set_axial
    use camroller_axial_table, only : axial_part_t
    use camroller_accuracy, only : check_numerics, is_within, above_zero
+   use camroller_cam_surface, only : cam_surface_t
    use camroller_case, only : case_t, contact_policy_names, energy_names
    use camroller_lift, only : lift_t, lift_law_t, new_lift_law, evaluate_lift, stop_angles
    use camroller_kinematics, only : linkage_t, position_t, new_linkage, evaluate_position
@@ -69,6 +70,8 @@ module camroller_model
       type(lubricant_t) :: lubricant
       type(oil_t) :: oil
       type(boundary_part_t), allocatable :: boundary
+      !> Surfaces of cam and roller that differ from those of the case, after hours of running
+      type(cam_surface_t), allocatable :: surface
       type(heat_part_t), allocatable :: heat
       !> Load along the roller
       type(axial_part_t), allocatable :: axial
@@ -164,6 +167,7 @@ contains
       has_same_films = allocated(model%film_table) .and. allocated(case%ehl) .and. &
          & model%lubricant%pressure_law == case%lubricant%pressure_law
       if (allocated(model%boundary)) deallocate (model%boundary)
+      if (allocated(model%surface)) deallocate (model%surface)
       if (allocated(model%heat)) deallocate (model%heat)
       if (allocated(model%bearing)) deallocate (model%bearing)
       if (allocated(model%drag)) deallocate (model%drag)
@@ -286,6 +290,7 @@ contains
 
       call evaluate_lift(model%lift_law, angle, lift)
       call evaluate_position(model%linkage, lift, position, status)
+      position%angle = angle
    end subroutine evaluate_geometry
 
    !> Laws by name; numerics that mean nothing are refused.
@@ -455,7 +460,7 @@ contains
       if (allocated(case%asperity)) then
          allocate (model%boundary)
          call new_boundary_part(model%boundary, case%asperity, model%modulus, model%hardness, &
-            & model%film_law == law_masjedi_khonsari_rough, error, case%friction_modifier)
+            & model%film_law == law_masjedi_khonsari_rough, error, case%friction_modifier, case%boundary_law)
          if (allocated(error)) return
       end if
       if (allocated(case%heat)) then

@@ -7,6 +7,7 @@
 module camroller_asperity
    use camroller_kinds, only : wp, pi
    use camroller_error, only : error_t, raise, kind_deck
+   use camroller_boundary_law, only : boundary_curve_t, boundary_law_t, evaluate_boundary_curve, new_boundary_curve
    use camroller_names, only : name_length, find_name
    use camroller_greenwood_tripp, only : integral_2, integral_5_2, largest_film_ratio
    use camroller_zhao_maietta_chang, only : summits_t, new_summits, summits_load, summits_area, first_yield, smallest_product
@@ -15,6 +16,7 @@ module camroller_asperity
 
    public :: asperity_t, asperity_constants_t, asperity_law_names, boundary_names, mobilisation_names, largest_film_ratio
    public :: boundary_part_t, new_boundary_part, friction_modifier_t, coverage, set_boundary_temperature
+   public :: boundary_friction_t, find_boundary_friction, largest_coefficient, has_one_coefficient
    public :: law_greenwood_tripp, law_zhao_maietta_chang, law_masjedi_khonsari, smallest_product
    public :: new_asperity_constants, asperity_load_function, asperity_area_function
    public :: asperity_load, asperity_area, load_factor
@@ -83,12 +85,18 @@ module camroller_asperity
    type :: boundary_part_t
       !> Constants of load and area
       type(asperity_constants_t) :: constants
-      !> mu_B; with a friction modifier at the temperature set last [-]
+      !> mu_B; with a friction modifier at the temperature set last; with a law also at its reference speed [-]
       real(wp) :: coefficient
       !> mu_B of bare surfaces [-]
       real(wp) :: bare_coefficient
       !> Allocated where the oil has one
       type(friction_modifier_t), allocatable :: modifier
+      !> Law of mu_B of bare surfaces over sliding speed and temperature; allocated where it is not constant
+      type(boundary_curve_t), allocatable :: curve
+      !> mu_B of surfaces that a tribofilm covers; allocated where one grows [-]
+      real(wp), allocatable :: film_coefficient
+      !> Temperature set last [K], part of the surfaces that the friction modifier covers there [-]
+      real(wp) :: temperature = 0.0_wp, modified = 0.0_wp
       !> tau_0 [Pa]
       real(wp) :: film_shear_strength
       !> v_b [m/s]
@@ -99,10 +107,17 @@ module camroller_asperity
       logical :: is_set_valued
    end type boundary_part_t
 
+   !> Friction coefficient of asperities with its derivatives
+   type :: boundary_friction_t
+      !> The coefficient [-]; its derivatives over the sliding speed [s/m], the temperature of the surfaces [1/K] and the part that
+      !> a tribofilm covers [-]
+      real(wp) :: coefficient = 0.0_wp, by_speed = 0.0_wp, by_temperature = 0.0_wp, by_covered = 0.0_wp
+   end type boundary_friction_t
+
 contains
 
    !> Prepare asperities and their friction.
-   subroutine new_boundary_part(part, asperity, modulus, hardness, has_rough_film, error, modifier)
+   subroutine new_boundary_part(part, asperity, modulus, hardness, has_rough_film, error, modifier, law)
       !> Ready for evaluation
       type(boundary_part_t), intent(out) :: part
       !> Asperities
@@ -117,6 +132,8 @@ contains
       type(error_t), allocatable, intent(out) :: error
       !> Friction modifier of the oil, where it has one
       type(friction_modifier_t), intent(in), optional :: modifier
+      !> Law of the boundary coefficient, where it is not constant
+      type(boundary_law_t), intent(in), optional :: law
 
       integer :: choice
 
@@ -137,6 +154,11 @@ contains
                & "are positive, coefficient and heat are not negative")
             return
          end if
+      end if
+      if (present(law)) then
+         allocate (part%curve)
+         call new_boundary_curve(part%curve, law, asperity%boundary_coefficient, error)
+         if (allocated(error)) return
       end if
       part%film_shear_strength = asperity%film_shear_strength
       part%mobilising_speed = asperity%mobilising_speed
@@ -163,9 +185,72 @@ contains
       !> The temperature [K]
       real(wp), intent(in) :: temperature
 
-      if (allocated(part%modifier)) part%coefficient = part%bare_coefficient &
-         & + coverage(part%modifier, temperature)*(part%modifier%coefficient - part%bare_coefficient)
+      ! Slopes of the law that are not wanted here [s/m], [1/K]
+      real(wp) :: by_speed, by_temperature
+
+      part%temperature = temperature
+      if (allocated(part%curve)) then
+         call evaluate_boundary_curve(part%curve, part%curve%reference_speed, temperature, part%bare_coefficient, by_speed, &
+            & by_temperature)
+         part%coefficient = part%bare_coefficient
+      end if
+      if (.not. allocated(part%modifier)) return
+      part%modified = coverage(part%modifier, temperature)
+      part%coefficient = part%bare_coefficient + part%modified*(part%modifier%coefficient - part%bare_coefficient)
    end subroutine set_boundary_temperature
+
+   !> Is the coefficient the same at any sliding speed, temperature of the surfaces and place on the cam?
+   pure function has_one_coefficient(part) result(verdict)
+      !> Asperities at the temperature of the oil
+      type(boundary_part_t), intent(in) :: part
+      !> Is it?
+      logical :: verdict
+
+      verdict = .not. (allocated(part%curve) .or. allocated(part%film_coefficient))
+   end function has_one_coefficient
+
+   !> Friction coefficient at a sliding speed and a temperature: that of bare surfaces by its law, of a tribofilm and of a friction
+   !> modifier on both, each in proportion to the part it covers. The modifier's layer is that of the oil's temperature, to which
+   !> surfaces return between contacts.
+   pure subroutine find_boundary_friction(part, sliding_speed, rise, covered, friction)
+      !> Asperities at the temperature of the oil
+      type(boundary_part_t), intent(in) :: part
+      !> Sliding speed, of either sign [m/s], rise of the surfaces' temperature over that of the oil [K]
+      real(wp), intent(in) :: sliding_speed, rise
+      !> Part of the surfaces that a tribofilm covers [-]
+      real(wp), intent(in) :: covered
+      !> The coefficient with its derivatives
+      type(boundary_friction_t), intent(out) :: friction
+
+      friction%coefficient = part%coefficient
+      if (has_one_coefficient(part)) return
+      friction%coefficient = part%bare_coefficient
+      if (allocated(part%curve)) call evaluate_boundary_curve(part%curve, sliding_speed, part%temperature + rise, &
+         & friction%coefficient, friction%by_speed, friction%by_temperature)
+      if (allocated(part%film_coefficient)) then
+         friction%by_covered = part%film_coefficient - friction%coefficient
+         friction%coefficient = friction%coefficient + covered*friction%by_covered
+         friction%by_speed = (1.0_wp - covered)*friction%by_speed
+         friction%by_temperature = (1.0_wp - covered)*friction%by_temperature
+      end if
+      if (.not. allocated(part%modifier)) return
+      friction%coefficient = friction%coefficient + part%modified*(part%modifier%coefficient - friction%coefficient)
+      friction%by_speed = (1.0_wp - part%modified)*friction%by_speed
+      friction%by_temperature = (1.0_wp - part%modified)*friction%by_temperature
+      friction%by_covered = (1.0_wp - part%modified)*friction%by_covered
+   end subroutine find_boundary_friction
+
+   !> Largest coefficient at any sliding speed and temperature of the surfaces.
+   pure function largest_coefficient(part) result(largest)
+      !> Asperities at the temperature of the oil
+      type(boundary_part_t), intent(in) :: part
+      !> The coefficient [-]
+      real(wp) :: largest
+
+      largest = part%coefficient
+      if (allocated(part%curve)) largest = max(largest, part%curve%largest)
+      if (allocated(part%film_coefficient)) largest = max(largest, part%film_coefficient)
+   end function largest_coefficient
 
    !> Part of the surfaces that a friction modifier covers: `theta = K c/(1 + K c)` by Langmuir (1918), J. American Chemical Society
    !> 40, 1361, with `K = K_0 exp(-dH/(R T))`, whose K_0 follows from the coverage that is known.

@@ -10,6 +10,7 @@ module camroller_deck_case
    use camroller_table_file, only : table_t
    use camroller_settings, only : settings_t, take, get_word, has_group
    use camroller_deck_asperity, only : fill_modifier
+   use camroller_deck_boundary_law, only : fill_boundary_law
    use camroller_deck_cam_bearings, only : fill_bearing_parts
    use camroller_deck_engine, only : fill_engine
    use camroller_deck_dynamics, only : fill_dynamics
@@ -53,6 +54,7 @@ contains
       call fill_heat(settings, case)
       call fill_asperity(settings, case)
       call fill_modifier(settings, case)
+      call fill_boundary_law(settings, case)
       call fill_bearings(settings, case)
       call fill_bearing_parts(settings, case)
       call fill_engine(settings, case)

@@ -86,6 +86,16 @@ module camroller_usual_values
       usual_t("friction_modifier.reference_temperature_degC", -40.0_wp, 200.0_wp), &
       usual_t("friction_modifier.adsorption_heat_kJ_mol", 5.0_wp, 150.0_wp), &
       usual_t("friction_modifier.concentration_ratio", 0.001_wp, 1000.0_wp), &
+      usual_t("boundary_law.reference_speed_m_s", 1.0e-4_wp, 20.0_wp), &
+      usual_t("boundary_law.reference_temperature_degC", -40.0_wp, 250.0_wp), &
+      usual_t("boundary_law.change_per_decade", -0.05_wp, 0.05_wp), &
+      usual_t("boundary_law.change_per_K", -2.0e-3_wp, 2.0e-3_wp), &
+      usual_t("boundary_law.lowest_speed_m_s", 1.0e-6_wp, 0.1_wp), &
+      usual_t("boundary_law.smallest_coefficient", 0.0_wp, 0.2_wp), &
+      usual_t("boundary_law.largest_coefficient", 0.05_wp, 1.0_wp), &
+      usual_t("boundary_law.speed_points_m_s", 1.0e-5_wp, 20.0_wp), &
+      usual_t("boundary_law.temperature_points_degC", -40.0_wp, 250.0_wp), &
+      usual_t("boundary_law.coefficient_points", 0.01_wp, 0.5_wp), &
       usual_t("needle_bearing.friction_coefficient", 0.0_wp, 0.3_wp), &
       usual_t("needle_bearing.needle_radius_mm", 0.3_wp, 5.0_wp), &
       usual_t("needle_bearing.pin_width_mm", 2.0_wp, 25.0_wp), &

@@ -9,7 +9,7 @@ module camroller_effect_reasons
    use camroller_effect_list, only : effect_names, effect_asperity, effect_needle, effect_guide, effect_bearings, effect_gas, &
       & effect_rolling, effect_film, effect_pressure, effect_shear, effect_spin, effect_ehl, effect_tip, effect_seal, effect_side, &
       & effect_pivot, effect_drag, effect_inlet_heat, effect_contact_heat, effect_dynamics, effect_surge, effect_adjuster, &
-      & effect_modifier, effect_profile, needs_bearings
+      & effect_boundary_law, effect_modifier, effect_profile, needs_bearings
    use camroller_effect_grid, only : points, mean_over
    use camroller_effect_survey, only : survey_t
    use camroller_effect_train, only : train_change_t, train_load_t
@@ -59,6 +59,9 @@ contains
          case (effect_modifier)
             reason = "changes the boundary coefficient from "//trim(text(model%boundary%bare_coefficient))//" to "// &
                & trim(text(model%boundary%coefficient))
+         case (effect_boundary_law)
+            reason = "has a boundary coefficient from "//trim(text(minval(contact%boundary_coefficient)))//" to "// &
+               & trim(text(maxval(contact%boundary_coefficient)))
          case (effect_profile)
             reason = "a line contact of "//trim(percent(minval(contact%length)/model%contact_width))//" to "// &
                & trim(percent(maxval(contact%length)/model%contact_width))//" of the roller's length stands for it"

@@ -5,6 +5,7 @@
 !> differences of first or second order. No quantity is taken from the previous step: film, load and sliding speed are iterated
 !> until they agree.
 module camroller_ehl_step
+   use camroller_asperity, only : boundary_friction_t, find_boundary_friction
    use camroller_kinds, only : wp, pi
    use camroller_model, only : model_t
    use camroller_kinematics, only : position_t
@@ -316,6 +317,7 @@ contains
       real(wp) :: by_shear, by_limit, traction_slope, torque
       ! Mobilised part of boundary friction [-]; excess over traction [1/kg]; friction that leaves no excess [N]
       real(wp) :: part, by_traction, holding
+      type(boundary_friction_t) :: friction
 
       now%traction = 0.0_wp
       now%shear = 0.0_wp
@@ -331,8 +333,9 @@ contains
          now%shear = now%traction
          traction_slope = traction_slope*by_shear
          if (allocated(model%boundary)) then
+            call find_boundary_friction(model%boundary, speed, 0.0_wp, 0.0_wp, friction)
             now%boundary_capacity = model%boundary%film_shear_strength*now%films%real_area*model%contact_width &
-               & + model%boundary%coefficient*now%films%asperity_share*now%load
+               & + friction%coefficient*now%films%asperity_share*now%load
             if (has_stick(model)) then
                part = sliding_direction(speed)
             else
@@ -340,6 +343,7 @@ contains
                traction_slope = traction_slope + now%boundary_capacity*(1.0_wp - part)*(1.0_wp + part) &
                   & /model%boundary%mobilising_speed
             end if
+            traction_slope = traction_slope + friction%by_speed*now%films%asperity_share*now%load*part
             now%traction = now%traction + now%boundary_capacity*part
          end if
       end if

@@ -4,6 +4,7 @@
 module camroller_contact_forces
    use camroller_kinds, only : wp
    use camroller_axial_table, only : effective_length
+   use camroller_cam_surface, only : meet_surfaces
    use camroller_model, only : model_t
    use camroller_kinematics, only : position_t
    use camroller_contact_state, only : contact_t, setting_t, parts_t, motion_t, slopes_t, length_change, release_contact
@@ -21,7 +22,7 @@ module camroller_contact_forces
    private
 
    public :: contact_t, setting_t, parts_t, motion_t, slopes_t, set_speeds, start_heat, prepare_contact, evaluate_contact, &
-      & follow_contact, release_contact, film_groups, has_oil_drag, oil_drag_slope, bearing_slope
+      & follow_contact, release_contact, film_groups, set_surfaces, has_oil_drag, oil_drag_slope, bearing_slope
 
    !> Change of the film ratio that may be the last, over the root of the relative error that is good enough: its square is the
    !> error left, times a factor of a few [-]
@@ -48,6 +49,7 @@ contains
       contact%entrainment_speed = contact%cam_surface_speed - 0.5_wp*sliding_speed
       contact%roller_spin = (contact%rolling_speed - sliding_speed)/model%roller_radius
       contact%length = model%contact_width
+      call set_surfaces(model, position, contact)
       contact%relative_spin = contact%roller_spin - model%linkage%sense*position%finger_slope*model%speed
       if (allocated(model%heat)) call start_heat(model, contact)
       contact%bearing_drag = 0.0_wp
@@ -109,6 +111,22 @@ contains
             & model%bearing%reversal_spin)
       end if
    end function bearing_slope
+
+   !> Roughness of the surfaces that meet, and what covers them.
+   pure subroutine set_surfaces(model, position, contact)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> Geometry at this angle
+      type(position_t), intent(in) :: position
+      !> State of the contact: surfaces
+      type(contact_t), intent(inout) :: contact
+
+      if (allocated(model%surface)) then
+         call meet_surfaces(model%surface, position%angle, model%roughness, contact%surfaces)
+      else
+         contact%surfaces%roughness = model%roughness
+      end if
+   end subroutine set_surfaces
 
    !> Heat of a contact without load: no temperature, and the factor that a film has there.
    pure subroutine start_heat(model, contact)
@@ -184,7 +202,7 @@ contains
       groups%speed = model%oil%viscosity*abs(contact%entrainment_speed)/(model%modulus*position%equivalent_radius)
       groups%material = model%oil%pressure_viscosity*model%modulus
       groups%load = contact%load/(model%modulus*position%equivalent_radius*contact%length)
-      groups%roughness = model%roughness/position%equivalent_radius
+      groups%roughness = contact%surfaces%roughness/position%equivalent_radius
       groups%hardness = model%hardness/model%modulus
    end function film_groups
 
@@ -228,7 +246,7 @@ contains
       end if
       contact%film_min = parts%share%film_min*position%equivalent_radius
       contact%film_central = parts%share%film_central*position%equivalent_radius
-      contact%film_ratio = contact%film_min/model%roughness
+      contact%film_ratio = contact%film_min/contact%surfaces%roughness
       contact%asperity_load = min(max(0.0_wp, parts%share%asperity_load)*setting%scale, load)
       contact%real_area = parts%share%real_area_ratio*contact%apparent_area
       call set_traction(model, setting, contact, parts)
@@ -298,19 +316,20 @@ contains
       type(slopes_t) :: slopes
 
       type(share_change_t) :: change
-      ! Changes of load group, length and rolling resistance, their logarithms [-]
-      real(wp) :: group, length, rolling
+      ! Changes of load group, length, radius over roughness and rolling resistance, their logarithms [-]
+      real(wp) :: group, length, relative, rolling
 
       length = length_change(parts, motion)
+      relative = motion%radius - motion%roughness
       group = motion%load - motion%radius - length
       if (allocated(model%heat)) then
          change = share_change(setting%line, parts%load_group, parts%share, group, &
-            & motion%entrainment - motion%radius, motion%radius, parts%heat%inlet_by_speed*motion%entrainment &
+            & motion%entrainment - motion%radius, relative, parts%heat%inlet_by_speed*motion%entrainment &
             & + parts%heat%inlet_by_sliding*motion%sliding_speed &
             & + 0.5_wp*parts%heat%inlet_by_pressure*group)
       else
          change = share_change(setting%line, parts%load_group, parts%share, group, &
-            & motion%entrainment - motion%radius, motion%radius)
+            & motion%entrainment - motion%radius, relative)
       end if
       slopes%film_ratio = change%film_min + motion%radius
       slopes%traction = follow_traction(model, setting, contact, parts, motion, change)

@@ -1,6 +1,8 @@
 !> State of the contact of cam and roller, and what its slopes are made of: the types that its procedures share.
 module camroller_contact_state
    use camroller_kinds, only : wp
+   use camroller_asperity, only : boundary_friction_t
+   use camroller_cam_surface, only : meeting_t
    use camroller_film, only : film_line_t
    use camroller_load_share, only : share_t
    implicit none
@@ -26,6 +28,8 @@ module camroller_contact_state
       real(wp) :: half_width, apparent_area
       !> Length of the line contact that stands for the roller: its own, or shorter where the load is not the same along it [m]
       real(wp) :: length
+      !> Composite roughness and what covers the surfaces here
+      type(meeting_t) :: surfaces
       !> Minimum and central film [m]
       real(wp) :: film_min, film_central
       !> Minimum film over composite roughness [-]
@@ -36,6 +40,8 @@ module camroller_contact_state
       real(wp) :: shear
       !> Boundary friction that the asperities can bear, F_b, and the part that the slip mobilises, with its sign [N]
       real(wp) :: boundary_capacity, boundary_mobilised
+      !> Friction coefficient of the asperities; zero without them [-]
+      real(wp) :: boundary_coefficient = 0.0_wp
       !> Rolling resistance of each surface, F_r, with the sign of the entrainment [N]
       real(wp) :: rolling_resistance
       !> Traction, F_t [N]; its slope over the sliding speed at constant load and film, which the film's temperature
@@ -97,6 +103,8 @@ module camroller_contact_state
       real(wp) :: free_shear, pressure_slope, speed_slope
       !> Limit of the shear over that of a film as cold as the oil around [-]
       real(wp) :: limit_share
+      !> Friction coefficient of the asperities
+      type(boundary_friction_t) :: boundary
       !> Heat, where the case has it
       type(heat_slopes_t) :: heat
       !> Logarithmic slopes of the rolling resistance over load and speed group [-]
@@ -115,11 +123,13 @@ module camroller_contact_state
       real(wp) :: load = 0.0_wp, entrainment = 0.0_wp, radius = 0.0_wp
       !> Change of sliding speed [m/s] and of the roller's spin relative to the finger [rad/s]
       real(wp) :: sliding_speed = 0.0_wp, relative_spin = 0.0_wp
+      !> Change of the composite roughness, its logarithm, and of the part that a tribofilm covers [-]
+      real(wp) :: roughness = 0.0_wp, covered = 0.0_wp
    end type motion_t
 
    !> Changes that follow
    type :: slopes_t
-      !> ln of the film ratio [-]
+      !> ln of the minimum film [-]
       real(wp) :: film_ratio
       !> Traction, rolling resistance, tangential force [N]
       real(wp) :: traction, rolling_resistance, tangential_force
@@ -158,6 +168,7 @@ contains
       contact%shear = 0.0_wp
       contact%boundary_capacity = 0.0_wp
       contact%boundary_mobilised = 0.0_wp
+      contact%boundary_coefficient = 0.0_wp
       contact%rolling_resistance = 0.0_wp
       contact%film_rise = 0.0_wp
       contact%flash_rise = 0.0_wp

@@ -4,9 +4,12 @@
 !> In: model, contact with film and load share. Out: forces, temperatures, changes. The temperature of the film is where the heat of
 !> the shear at that temperature keeps it: its rise is the one root of `y = g |F(y + y_b)|`, with g the rise per force of the shear
 !> and y_b that by boundary friction. F falls with the temperature, so Newton's method on logarithms stays between 0 and the first
-!> value.
+!> value. Where the coefficient of boundary friction follows the temperature of the surfaces, that is the root of `t = f(t)`, with f
+!> the rise that friction with the coefficient at t makes, by Newton's method inside a bracket.
 module camroller_contact_traction
    use camroller_kinds, only : wp
+   use camroller_asperity, only : find_boundary_friction, has_one_coefficient
+   use camroller_boundary_law, only : follows_temperature
    use camroller_conjunction, only : sheared_film_t, film_shear_t, flash_resistance, film_resistance, hot_shear
    use camroller_contact_state, only : contact_t, setting_t, parts_t, motion_t, length_change
    use camroller_load_share, only : share_change_t
@@ -22,6 +25,8 @@ module camroller_contact_traction
    real(wp), parameter :: last_step = 1.0e-7_wp
    !> Evaluations of the shear at most: bisection would need about 60, Newton's method takes two to five
    integer, parameter :: max_evaluations = 80
+   !> Step of the surfaces' temperature that may be the last: round-off of a temperature [K]
+   real(wp), parameter :: last_surface_step = 1.0e-10_wp
 
 contains
 
@@ -36,32 +41,70 @@ contains
       !> What slopes are made of; the load share is set
       type(parts_t), intent(inout) :: parts
 
-      ! Pressure in the middle of the film [Pa]; slope of the boundary friction over the sliding speed [N s/m]
-      real(wp) :: peak, boundary_slope
+      ! Pressure in the middle of the film [Pa]; slope of the boundary friction over the sliding speed [N s/m]; changes of the
+      ! temperatures of film and surfaces with it [K s/m]; change of boundary friction with the latter [N/K]
+      real(wp) :: peak, boundary_slope, film_rise, flash_rise, own
 
       contact%boundary_capacity = 0.0_wp
       contact%boundary_mobilised = 0.0_wp
       boundary_slope = 0.0_wp
-      if (allocated(model%boundary)) then
-         contact%boundary_capacity = model%boundary%film_shear_strength*contact%real_area &
-            & + model%boundary%coefficient*contact%asperity_load
-         contact%boundary_mobilised = contact%boundary_capacity*setting%mobilised
-         boundary_slope = contact%boundary_capacity*setting%mobilised_slope
-      end if
       peak = film_pressure(contact%load - contact%asperity_load, contact%apparent_area, contact%real_area)
-      if (has_hot_film(model)) then
-         call warm_film(model, setting, peak, contact, parts)
-      else
+      if (.not. has_hot_film(model)) then
+         call set_boundary(model, setting, 0.0_wp, contact, parts)
          call set_shear(model, setting, contact, peak, 0.0_wp, parts)
+      else if (has_hot_boundary(model)) then
+         call warm_surfaces(model, setting, peak, contact, parts)
+      else
+         call set_boundary(model, setting, 0.0_wp, contact, parts)
+         call warm_film(model, setting, peak, contact, parts)
       end if
+      if (allocated(model%boundary)) boundary_slope = contact%boundary_capacity*setting%mobilised_slope &
+         & + setting%mobilised*contact%asperity_load*parts%boundary%by_speed
       contact%traction_slope = parts%by_shear*parts%speed_slope + parts%by_speed
-      if (has_hot_film(model)) contact%traction_slope = contact%traction_slope + parts%heat%by_rise &
-         & *rise_change(contact, parts, motion_t(sliding_speed=1.0_wp), contact%traction_slope, boundary_slope, 0.0_wp, 0.0_wp, &
-         & 0.0_wp)
+      if (has_hot_film(model)) then
+         own = setting%mobilised*contact%asperity_load*parts%boundary%by_temperature
+         call follow_rises(contact, parts, motion_t(sliding_speed=1.0_wp), contact%traction_slope, boundary_slope, own, 0.0_wp, &
+            & 0.0_wp, 0.0_wp, film_rise, flash_rise)
+         contact%traction_slope = contact%traction_slope + parts%heat%by_rise*film_rise
+         boundary_slope = boundary_slope + own*flash_rise
+      end if
       contact%shear = parts%shear*(1.0_wp - parts%share%real_area_ratio)
       contact%traction = contact%shear + contact%boundary_mobilised
       contact%traction_slope = contact%traction_slope*(1.0_wp - parts%share%real_area_ratio) + boundary_slope
    end subroutine set_traction
+
+   !> Boundary friction at a temperature of the surfaces.
+   pure subroutine set_boundary(model, setting, rise, contact, parts)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> What does not change with the load
+      type(setting_t), intent(in) :: setting
+      !> Rise of the surfaces' temperature [K]
+      real(wp), intent(in) :: rise
+      !> State of the contact; load share is set
+      type(contact_t), intent(inout) :: contact
+      !> Gets the coefficient
+      type(parts_t), intent(inout) :: parts
+
+      if (.not. allocated(model%boundary)) return
+      call find_boundary_friction(model%boundary, contact%sliding_speed, rise, contact%surfaces%covered, parts%boundary)
+      contact%boundary_coefficient = parts%boundary%coefficient
+      contact%boundary_capacity = model%boundary%film_shear_strength*contact%real_area &
+         & + parts%boundary%coefficient*contact%asperity_load
+      contact%boundary_mobilised = contact%boundary_capacity*setting%mobilised
+   end subroutine set_boundary
+
+   !> Does the coefficient of boundary friction follow the temperature of the surfaces?
+   pure function has_hot_boundary(model) result(verdict)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> Does it?
+      logical :: verdict
+
+      verdict = .false.
+      if (.not. allocated(model%boundary)) return
+      if (allocated(model%boundary%curve)) verdict = follows_temperature(model%boundary%curve)
+   end function has_hot_boundary
 
    !> Is the film sheared at the temperature of the contact?
    pure function has_hot_film(model) result(verdict)
@@ -130,6 +173,44 @@ contains
       parts%by_shear = parts%by_shear*by_free
       if (has_hot_film(model)) parts%heat%by_rise = parts%by_shear*rise_slope - parts%by_limit*limit*model%heat%limit_fall
    end subroutine set_shear
+
+   !> Rise of the surfaces' temperature that the heat of friction keeps, whose boundary part follows that temperature, and friction
+   !> there. The search starts at the oil's temperature, so that a contact nearby has no part in the choice among several roots.
+   pure subroutine warm_surfaces(model, setting, peak, contact, parts)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> What does not change with the load
+      type(setting_t), intent(in) :: setting
+      !> Pressure in the middle of the film [Pa]
+      real(wp), intent(in) :: peak
+      !> State of the contact; in: temperature of the film of a contact nearby or zero; out: its own
+      type(contact_t), intent(inout) :: contact
+      !> What slopes are made of
+      type(parts_t), intent(inout) :: parts
+
+      ! Rise tried and next, bracket of it [K]
+      real(wp) :: rise, next, low, high
+      ! Changes of the boundary friction with the temperature that its coefficient is for [N/K], and of film and surfaces [-]
+      real(wp) :: own, by_film, by_surfaces
+      integer :: i
+
+      rise = 0.0_wp
+      low = 0.0_wp
+      high = huge(1.0_wp)
+      do i = 1, max_evaluations
+         call set_boundary(model, setting, rise, contact, parts)
+         call warm_film(model, setting, peak, contact, parts)
+         if (abs(contact%flash_rise - rise) <= last_surface_step .or. high - low <= last_surface_step) exit
+         if (contact%flash_rise > rise) low = rise
+         if (contact%flash_rise < rise) high = rise
+         own = setting%mobilised*contact%asperity_load*parts%boundary%by_temperature
+         call follow_rises(contact, parts, motion_t(), 0.0_wp, own, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, by_film, by_surfaces)
+         next = contact%flash_rise
+         if (by_surfaces < 1.0_wp) next = rise + (contact%flash_rise - rise)/(1.0_wp - by_surfaces)
+         if (next <= low .or. next >= high) next = merge(contact%flash_rise, 0.5_wp*(low + high), high >= huge(1.0_wp))
+         rise = next
+      end do
+   end subroutine warm_surfaces
 
    !> Rise of the temperature that the heat of the shear at that temperature keeps, and the shear there.
    pure subroutine warm_film(model, setting, peak, contact, parts)
@@ -233,6 +314,8 @@ contains
       ! Changes of length, apparent area, pressure in the film and central film, their logarithms [-]; of the shear, of boundary
       ! friction with its limit, and with the part of it that slip mobilises [N]
       real(wp) :: length, area, pressure, film, shear, boundary, mobilised
+      ! Changes of the temperatures of film and surfaces [K], of boundary friction with the latter [N/K]
+      real(wp) :: film_rise, flash_rise, own
 
       length = length_change(parts, motion)
       area = 0.5_wp*(motion%load + motion%radius + length)
@@ -247,46 +330,69 @@ contains
       if (allocated(model%boundary)) then
          boundary = setting%mobilised*(model%boundary%film_shear_strength &
             & *(area*contact%real_area + contact%apparent_area*change%real_area_ratio) &
-            & + model%boundary%coefficient*(change%asperity_load*setting%scale + (motion%radius + length)*contact%asperity_load))
+            & + parts%boundary%coefficient*(change%asperity_load*setting%scale + (motion%radius + length)*contact%asperity_load))
          mobilised = contact%boundary_capacity*setting%mobilised_slope*motion%sliding_speed
+         if (.not. has_one_coefficient(model%boundary)) boundary = boundary + setting%mobilised*contact%asperity_load &
+            & *(parts%boundary%by_speed*motion%sliding_speed + parts%boundary%by_covered*motion%covered)
       end if
-      if (has_hot_film(model)) shear = shear + parts%heat%by_rise &
-         & *rise_change(contact, parts, motion, shear, boundary + mobilised, area, film, change%real_area_ratio)
+      if (has_hot_film(model)) then
+         own = setting%mobilised*contact%asperity_load*parts%boundary%by_temperature
+         call follow_rises(contact, parts, motion, shear, boundary + mobilised, own, area, film, change%real_area_ratio, &
+            & film_rise, flash_rise)
+         shear = shear + parts%heat%by_rise*film_rise
+         boundary = boundary + own*flash_rise
+      end if
       traction = shear*(1.0_wp - parts%share%real_area_ratio) - parts%shear*change%real_area_ratio + boundary + mobilised
    end function follow_traction
 
-   !> How the rise of the film's temperature follows a motion, with the fall of the shear that it makes itself.
-   pure function rise_change(contact, parts, motion, shear, boundary, area, film, real_area_ratio) result(change)
+   !> How the temperatures of film and surfaces follow a motion, with the changes of shear and boundary friction that they make
+   !> themselves: two linear equations.
+   pure subroutine follow_rises(contact, parts, motion, shear, boundary, own, area, film, real_area_ratio, film_rise, flash_rise)
       !> State of the contact
       type(contact_t), intent(in) :: contact
       !> What slopes are made of
       type(parts_t), intent(in) :: parts
       !> Direction of the motion
       type(motion_t), intent(in) :: motion
-      !> Changes of the shear at the temperature that is there, and of the boundary friction [N]
+      !> Changes of the shear and of the boundary friction at the temperatures that are there [N]
       real(wp), intent(in) :: shear, boundary
+      !> Change of the boundary friction with the temperature of the surfaces [N/K]
+      real(wp), intent(in) :: own
       !> Changes of apparent area and central film, their logarithms, and of the real area ratio [-]
       real(wp), intent(in) :: area, film, real_area_ratio
-      !> Change of the rise [K]
-      real(wp) :: change
+      !> Changes of the rises of film and surfaces [K]
+      real(wp), intent(out) :: film_rise, flash_rise
 
-      ! Sliding speed over area [1/(m s)]; change of ln(flash) [-]; changes of the speeds of the contact over cam and roller [m/s];
-      ! change of the rise times area over sliding speed [N m^2 K/W]
-      real(wp) :: flux, flash, speeds(2), growth
+      ! Sliding speed over area [1/(m s)]; change of ln(flash) [-]; changes of the speeds of the contact over cam and roller [m/s]
+      real(wp) :: flux, flash, speeds(2)
+      ! Changes of both rises with friction at the temperatures that are there: of their part that surfaces make times area over
+      ! sliding speed [N m^2 K/W]; both [K]
+      real(wp) :: surfaces, film_given, flash_given
+      ! What the fall of the shear with the film's temperature takes from both rises, and what boundary friction adds [-]
+      real(wp) :: film_take, flash_take, add, whole
 
-      change = 0.0_wp
+      film_rise = 0.0_wp
+      flash_rise = 0.0_wp
       if (.not. abs(contact%sliding_speed) > 0.0_wp) return
       associate (heat => parts%heat, ratio => parts%share%real_area_ratio)
          flux = abs(contact%sliding_speed)/contact%apparent_area
          speeds = contact%entrainment_speed*motion%entrainment + [0.5_wp, -0.5_wp]*motion%sliding_speed
          flash = heat%flash_by_width*(area - length_change(parts, motion)) + sum(heat%flash_by_speed*speeds)
-         growth = heat%flash*flash*(abs(parts%shear)*(1.0_wp - ratio) + abs(contact%boundary_mobilised)) &
+         surfaces = heat%flash*flash*(abs(parts%shear)*(1.0_wp - ratio) + abs(contact%boundary_mobilised))
+         film_given = contact%film_rise*(motion%sliding_speed/contact%sliding_speed - area) + flux*(surfaces &
             & + abs(parts%shear)*(heat%film*film - heat%flash*real_area_ratio) &
             & + (heat%flash*(1.0_wp - ratio) + heat%film)*sign(1.0_wp, parts%shear)*shear &
-            & + heat%flash*sign(1.0_wp, contact%boundary_mobilised)*boundary
-         change = contact%film_rise*(motion%sliding_speed/contact%sliding_speed - area) + flux*growth
-         change = change/(1.0_wp + flux*(heat%flash*(1.0_wp - ratio) + heat%film)*abs(heat%by_rise))
+            & + heat%flash*sign(1.0_wp, contact%boundary_mobilised)*boundary)
+         flash_given = contact%flash_rise*(motion%sliding_speed/contact%sliding_speed - area) + flux*(surfaces + heat%flash &
+            & *((1.0_wp - ratio)*sign(1.0_wp, parts%shear)*shear - abs(parts%shear)*real_area_ratio &
+            & + sign(1.0_wp, contact%boundary_mobilised)*boundary))
+         film_take = flux*(heat%flash*(1.0_wp - ratio) + heat%film)*abs(heat%by_rise)
+         flash_take = flux*heat%flash*(1.0_wp - ratio)*abs(heat%by_rise)
+         add = flux*heat%flash*sign(1.0_wp, contact%boundary_mobilised)*own
+         whole = (1.0_wp + film_take)*(1.0_wp - add) + add*flash_take
+         film_rise = (film_given*(1.0_wp - add) + add*flash_given)/whole
+         flash_rise = ((1.0_wp + film_take)*flash_given - flash_take*film_given)/whole
       end associate
-   end function rise_change
+   end subroutine follow_rises
 
 end module camroller_contact_traction

@@ -4,6 +4,7 @@
 !> `dV_s/dtheta = omega dV_roll' - r_R (domega_R/dt)/omega`: friction depends on slip, which is a small difference of large
 !> speeds. The source integrates the roller's surface speed `r_R omega_R` instead; so does an integration with a fixed step here.
 module camroller_spin
+   use camroller_asperity, only : largest_coefficient
    use camroller_cam_angle, only : cam_angle_text
    use camroller_kinds, only : wp
    use camroller_ode_problem, only : problem_t, linear_t, counters_t, time_increment, linearise_in_two, words_length
@@ -354,7 +355,7 @@ contains
       real(wp) :: traction
 
       traction = model%limiting_coefficient
-      if (allocated(model%boundary)) traction = max(traction, model%boundary%coefficient)
+      if (allocated(model%boundary)) traction = max(traction, largest_coefficient(model%boundary))
       traction = traction*max(moments%total/position%normal_arm, 0.0_wp)
    end function largest_traction
 

@@ -199,6 +199,8 @@ contains
       type(motion_t) :: motion
 
       motion%radius = position%radius_slope/position%equivalent_radius
+      motion%roughness = contact%surfaces%roughness_slope
+      motion%covered = contact%surfaces%covered_slope
       if (abs(contact%entrainment_speed) > 0.0_wp) then
          motion%entrainment = model%speed*position%surface_travel_slope/contact%entrainment_speed
       end if

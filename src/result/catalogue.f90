@@ -237,6 +237,8 @@ contains
       if (allocated(case%asperity)) then
          call add(list, "asperity_load", "N", "load carried by asperities", "asperity", state%contact%asperity_load)
          call add(list, "real_contact_area", "m2", "contact area of the asperities", "asperity", state%contact%real_area)
+         if (allocated(case%boundary_law)) call add(list, "boundary_coefficient", "1", "friction coefficient of the asperities", &
+            & "boundary_law", state%contact%boundary_coefficient)
       end if
       call add(list, "friction_hydrodynamic", "N", "shear force of the film", "traction", state%contact%shear)
       if (allocated(case%asperity)) then

@@ -116,6 +116,8 @@ module camroller_kinematics
       real(wp) :: valve_arm_slope, normal_arm_slope, parallel_arm_slope, tangent_arm_slope
       !> Derivative of `equivalent_radius` with respect to the cam angle [m/rad]
       real(wp) :: radius_slope
+      !> Cam angle from full lift; not set by `evaluate_position` [rad]
+      real(wp) :: angle = 0.0_wp
    end type position_t
 
 contains

@@ -13,8 +13,8 @@ module test_spin_slopes
    use camroller_spin, only : spin_problem_t
    use closeness, only : check_scaled
    use camroller_ode_problem, only : linear_t, counters_t, new_linear
-   use reference_cases, only : thesis_case, source_case, skewed_case, make_model, set_point, add_gas_force, add_joints, add_heat, &
-      add_pin_film, add_profile, point_speeds, point_viscosities
+   use reference_cases, only : thesis_case, source_case, skewed_case, make_model, set_point, add_boundary_law, add_gas_force, &
+      & add_joints, add_heat, add_pin_film, add_profile, point_speeds, point_viscosities
    implicit none
    private
 
@@ -41,6 +41,7 @@ contains
          new_unittest("slopes with gas force, with yielding asperities, and without asperities, bearing and guide", test_effects), &
          new_unittest("slopes with friction at valve tip, seal, guide and pivot, and needle drag", test_with_joints), &
          new_unittest("slopes with heat of inlet and contact, for every film, viscosity and shear law", test_with_heat), &
+         new_unittest("slopes with a law of the boundary coefficient, with and without heat", test_with_boundary_law), &
          new_unittest("slopes with a tilted crown, for every film and rolling law", test_with_profile), &
          new_unittest("slopes with heat and a tilted crown at once, for every film law", test_with_heat_and_profile), &
          new_unittest("slopes with an oil film on the roller's pin, for both of its laws", test_with_pin_film), &
@@ -197,6 +198,25 @@ contains
          if (allocated(error)) return
       end do
    end subroutine test_with_heat
+
+   subroutine test_with_boundary_law(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: case
+      type(model_t) :: model
+      integer :: k
+
+      do k = 1, 4
+         case = skewed_case(rotation_names(1 + mod(k, 2)))
+         call add_boundary_law(case, merge("logarithmic", "table      ", k < 3))
+         case%asperity%film_shear_strength = 2.0e6_wp
+         if (mod(k, 2) == 0) call add_heat(case)
+         call set_point(case, point_speeds(1 + mod(k, 3)), 0.3_wp*point_viscosities(3))
+         call make_model(case, model, error)
+         if (allocated(error)) return
+         call compare(error, model, "boundary law '"//trim(case%boundary_law%law)//"'")
+         if (allocated(error)) return
+      end do
+   end subroutine test_with_boundary_law
 
    subroutine test_with_profile(error)
       type(error_type), allocatable, intent(out) :: error

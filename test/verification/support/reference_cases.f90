@@ -14,7 +14,7 @@ module reference_cases
    private
 
    public :: thesis_case, source_case, skewed_case, named_case, make_model, make_cycle, set_point, add_gas_force, add_joints, &
-      & add_heat, add_pin_film, add_profile
+      & add_boundary_law, add_heat, add_pin_film, add_profile
    public :: point_speeds, point_viscosities
 
    !> Speeds of the nine operating points [rad/s]
@@ -224,6 +224,29 @@ contains
          bearing%film%modulus = 110.0e9_wp
       end associate
    end subroutine add_pin_film
+
+   !> Boundary friction that follows sliding speed and temperature, or a table of both.
+   subroutine add_boundary_law(the_case, law)
+      !> The case, with asperities
+      type(case_t), intent(inout) :: the_case
+      !> Name of the law
+      character(len=*), intent(in) :: law
+
+      allocate (the_case%boundary_law)
+      associate (boundary => the_case%boundary_law)
+         boundary%law = law
+         boundary%reference_speed = 0.1_wp
+         boundary%reference_temperature = 360.0_wp
+         boundary%change_per_decade = 0.01_wp
+         boundary%temperature_slope = 2.0e-4_wp
+         boundary%lowest_speed = 1.0e-4_wp
+         if (law /= "table") return
+         boundary%speed_points = [1.0e-3_wp, 3.0e-2_wp, 1.0_wp]
+         boundary%temperature_points = [290.0_wp, 350.0_wp, 390.0_wp, 450.0_wp]
+         boundary%coefficient_points = [0.10_wp, 0.11_wp, 0.13_wp, 0.12_wp, 0.09_wp, 0.10_wp, 0.11_wp, 0.12_wp, 0.12_wp, 0.12_wp, &
+            & 0.14_wp, 0.15_wp]
+      end associate
+   end subroutine add_boundary_law
 
    !> A crowned roller that stands askew.
    subroutine add_profile(the_case)

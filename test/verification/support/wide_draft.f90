@@ -25,6 +25,9 @@ module wide_draft
 
    !> How a data sheet gives the viscosity: at two temperatures, at one with the viscosity index, or by a grade
    integer, parameter, public :: oil_by_points = 1, oil_by_index = 2, oil_by_grade = 3
+   !> Keys of a boundary coefficient that follows the logarithm of the speed
+   character(len=*), parameter :: logarithmic_keys(*) = [character(len=26) :: "reference_speed_m_s", "reference_temperature_degC", &
+      & "change_per_decade", "change_per_K", "lowest_speed_m_s"]
 
    !> What is decided before a deck is written
    type :: draft_t
@@ -146,7 +149,7 @@ contains
       if (group == "bearing_asperity" .or. group == "belt_pull") may_have = draft%has_cams
       if (group == "bearing_heat") may_have = draft%has_cams .and. any(deck_word(text, "lubricant", &
          & "temperature_law") == [character(len=10) :: "vogel", "walther", "data_sheet"])
-      if (group == "friction_modifier") may_have = index(text, "&asperity") > 0
+      if (group == "friction_modifier" .or. group == "boundary_law") may_have = index(text, "&asperity") > 0
       if (group == "needle_drag") may_have = .not. draft%has_dynamics .and. deck_word(text, "needle_bearing", "kind") /= "journal"
       if (group == "finger_pivot") may_have = may_have .and. deck_word(text, "masses", "finger_kg") /= ""
    end function may_have
@@ -203,6 +206,19 @@ contains
       end select
    end subroutine keep_lift_rules
 
+   !> Is a key of a law of boundary friction given?
+   pure function is_of_boundary_law(law, key, is_wanted) result(is_given)
+      !> Name of the law and of the key
+      character(len=*), intent(in) :: law, key
+      !> Is the key wanted?
+      logical, intent(in) :: is_wanted
+      logical :: is_given
+
+      is_given = is_wanted
+      if (index(key, "_points") > 0) is_given = law == "table"
+      if (any(key == logarithmic_keys)) is_given = law == "logarithmic"
+   end function is_of_boundary_law
+
    !> Which keys go together.
    pure subroutine keep_rules(draft, text, group, key, is_given)
       !> What is decided
@@ -215,9 +231,10 @@ contains
       logical, intent(inout) :: is_given
       character(len=:), allocatable :: law
 
-      if (group == "lubricant") call keep_oil_rules(draft, text, key, is_given)
       law = deck_word(text, group, "law")
+      if (group == "lubricant") call keep_oil_rules(draft, text, key, is_given)
       if (group == "lift" .or. group == "second_lift") call keep_lift_rules(law, key, is_given)
+      if (group == "boundary_law") is_given = is_of_boundary_law(law, key, is_given)
       select case (key)
       case ("table")
          is_given = law == "table" .or. group == "gas_force"
@@ -257,10 +274,8 @@ contains
          is_given = is_given .or. draft%camshafts == 2
       case ("viscosity_fall_per_K")
          is_given = deck_word(text, "lubricant", "temperature_law") == "direct"
-      case ("base_circle_load_N")
-         is_given = .not. draft%has_plunger
-      case ("plunger_spring_N")
-         is_given = draft%has_plunger
+      case ("base_circle_load_N", "plunger_spring_N")
+         is_given = draft%has_plunger .eqv. key == "plunger_spring_N"
       case ("lash_mm")
          ! Nothing holds such a finger, so that hardly any of these trains has a period
          is_given = is_given .and. draft%is_first .and. .not. draft%has_adjuster

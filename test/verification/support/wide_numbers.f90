@@ -95,6 +95,13 @@ module wide_numbers
       & usual_t("friction_modifier.reference_temperature_degC", -20.0_wp, 140.0_wp), &
       & usual_t("friction_modifier.adsorption_heat_kJ_mol", 0.0_wp, 150.0_wp), &
       & usual_t("friction_modifier.concentration_ratio", 0.01_wp, 100.0_wp, .true.), &
+      & usual_t("boundary_law.reference_speed_m_s", 1.0e-3_wp, 1.0_wp, .true.), &
+      & usual_t("boundary_law.reference_temperature_degC", 20.0_wp, 140.0_wp), &
+      & usual_t("boundary_law.change_per_decade", -0.02_wp, 0.02_wp), &
+      & usual_t("boundary_law.change_per_K", -5.0e-4_wp, 5.0e-4_wp), &
+      & usual_t("boundary_law.lowest_speed_m_s", 1.0e-4_wp, 1.0e-2_wp, .true.), &
+      & usual_t("boundary_law.smallest_coefficient", 0.0_wp, 0.05_wp), &
+      & usual_t("boundary_law.largest_coefficient", 0.1_wp, 0.3_wp), &
       & usual_t("needle_bearing.friction_coefficient", 1.0e-4_wp, 0.1_wp, .true.), &
       & usual_t("needle_bearing.needle_radius_mm", 0.5_wp, 2.0_wp), &
       & usual_t("needle_bearing.reversal_ratio", 1.0e-4_wp, 0.5_wp, .true.), &
