@@ -346,7 +346,10 @@ contains
          associate (row => samples%order(samples%turns(turn)))
             if (row == extreme .or. samples%is_kink(row)) cycle
             bound = lowest_hidden(samples, search, row)
-            if (bound >= search%value - search%worth*search%extent) cycle
+            if (bound >= search%value - search%worth*search%extent) then
+               search%bound = min(search%bound, bound)
+               cycle
+            end if
             found = found + 1
             rows(found) = row
             bounds(found) = bound

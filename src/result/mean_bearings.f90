@@ -20,7 +20,7 @@ module camroller_mean_bearings
    public :: mean_bearing_torque
 
    !> Longest panel [rad]
-   real(wp), parameter :: longest_panel = 20.0_wp*degree
+   real(wp), parameter :: longest_panel = 10.0_wp*degree
 
    !> Bearings of a camshaft on its turn
    type, extends(sampled_t) :: bearing_samples_t

@@ -8,15 +8,16 @@
 !> differences add up with their signs, since a method's defect has a mean next to nothing there: where the roller's inertia counts
 !> for little the force is off by the defect itself. Between intervals nothing is known of signs, and magnitudes add up.
 module camroller_slip_errors
-   use camroller_kinds, only : wp, two_pi
+   use camroller_kinds, only : wp, degree, two_pi
    use camroller_catalogue, only : follower_values
    use camroller_cycle, only : cycle_t
    use camroller_error_estimate, only : contact_accuracy_for, estimate_t, error_at_start, margin
    use camroller_follower_samples, only : follower_samples_t, sampled_values
    use camroller_model, only : model_t
    use camroller_shaft, only : solved_t
-   use camroller_state, only : state_t, evaluate_spin, add_torques
+   use camroller_state, only : state_t, evaluate_spin, evaluate_state, add_torques
    use camroller_stick_slip, only : direction_at
+   use camroller_trajectory, only : curve_slope, interpolate_state
    implicit none
    private
 
@@ -170,8 +171,8 @@ contains
       !> Its error [unit of the series]
       real(wp), intent(out) :: error
 
-      ! Part of a value that is rounding of another evaluation [-]
-      real(wp), parameter :: rounding = 1.0e-9_wp
+      ! Part of a value that is rounding of another evaluation [-]; distance beyond which the curve is not straight [rad]
+      real(wp), parameter :: rounding = 1.0e-9_wp, farthest = 1.0_wp*degree
       ! Angle within the cycle [rad]; error of the trajectory [m/s]; change of the value without it [unit of the series]
       real(wp) :: inside, slip_error, change
 
@@ -186,7 +187,7 @@ contains
          ! Where either sign of the error makes the value less of an extreme, it belongs to a sliding speed that the cycle passes
          ! through, a little earlier or later
          if (change > 0.0_wp) then
-            if (change_without(-slip_error) >= 0.0_wp) change = 0.0_wp
+            if (change_without(-slip_error) >= 0.0_wp) change = change_of_place()
          end if
          error = max(error, abs(change))
       end if
@@ -211,6 +212,31 @@ contains
          if (status /= 0) without = 0.0_wp
          difference = sense*(without(series) - values(series))
       end function change_without
+
+      !> Change of the value with its sliding speed at the angle at which the cycle passes through that without the error.
+      pure function change_of_place() result(difference)
+         !> The change [unit of the series]
+         real(wp) :: difference
+
+         type(state_t) :: right
+         ! Slope of the curve [m/s/rad]; sliding speed [m/s]; series at the other angle [unit of the series]
+         real(wp) :: slope(1), sliding_speed(1), there(size(values))
+         integer :: hint, status
+
+         difference = 0.0_wp
+         associate (cycle => solved%cycles(lobe))
+            if (cycle%has_surface_speed .or. cycle%is_linear .or. allocated(cycle%phases)) return
+            hint = 1
+            call interpolate_state(cycle%trajectory, inside, hint, sliding_speed)
+            call curve_slope(cycle%trajectory, inside, hint, slope)
+            if (.not. abs(slip_error) < farthest*abs(slope(1))) return
+            call evaluate_state(solved%models(lobe), inside + slip_error/slope(1), state%contact%sliding_speed, right, status, &
+               & start=state%contact, accuracy=contact_accuracy_for(cycle%tolerance))
+         end associate
+         if (status /= 0) return
+         call follower_values(solved%case, solved%models(lobe), right, there)
+         difference = there(series) - values(series)
+      end function change_of_place
 
    end subroutine error_of_extreme
 
