@@ -111,6 +111,7 @@ program main
    use test_hard_cases, only : collect_hard_cases
    use test_ode_switching, only : collect_ode_switching
    use test_flexible_cycle, only : collect_flexible_cycle
+   use test_flexible_periods, only : collect_flexible_periods
    use test_flexible_host, only : collect_flexible_host
    use test_flexible_simulation, only : collect_flexible_simulation
    use test_flexible_invariance, only : collect_flexible_invariance
@@ -168,6 +169,7 @@ contains
          new_testsuite("hard_cases", collect_hard_cases), &
          new_testsuite("ode_switching", collect_ode_switching), &
          new_testsuite("flexible_cycle", collect_flexible_cycle), &
+         new_testsuite("flexible_periods", collect_flexible_periods), &
          new_testsuite("flexible_simulation", collect_flexible_simulation), &
          new_testsuite("flexible_host", collect_flexible_host), &
          new_testsuite("flexible_parts", collect_flexible_parts), &

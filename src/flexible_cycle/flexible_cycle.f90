@@ -1,8 +1,9 @@
 !> The periodic state of a flexible train: cycles from rest until one closes, or a few together do, or none will.
 !>
 !> In: model, tolerance. Out: `flexible_cycle_t` with the last cycle, from full lift of one turn less half a turn on. Plain cycles
-!> approach the periodic state by the slowest decay of spring and adjuster; where that takes long, Anderson's acceleration mixes the
-!> last few. Source: Walker and Ni, SIAM J. Numer. Anal. 49 (2011) 1715.
+!> approach the periodic state by the slowest decay of spring and adjuster, or drift towards it; Anderson's acceleration extrapolates
+!> from the last few, but for turns that alternate: there a period of two may be near. An adjuster that only leaks is moved on by
+!> many turns at once. Source: Walker and Ni, SIAM J. Numer. Anal. 49 (2011) 1715.
 module camroller_flexible_cycle
    use camroller_kinds, only : wp, pi, degree
    use camroller_cam_angle, only : cam_angle_text
@@ -23,14 +24,19 @@ module camroller_flexible_cycle
    implicit none
    private
 
-   public :: flexible_cycle_t, turn_t, start_turns, set_tolerance, integrate_turn, find_periodic, find_period, rest_of_train
+   public :: flexible_cycle_t, turn_t, history_t, start_turns, set_tolerance, integrate_turn, find_periodic, find_period, &
+      & extrapolate, is_possible, rest_of_train
 
    !> Most cycles that make a period together
    integer, parameter, public :: longest_period = 8
    !> Cycles that acceleration mixes
    integer, parameter :: depth = 5
-   !> Contraction above which acceleration pays [-]
-   real(wp), parameter :: slow = 0.5_wp
+   !> Contraction above which acceleration pays, and number of turns that it needs: with fewer, trains whose check valve opens late in
+   !> a turn take up to twice as many turns [-]
+   real(wp), parameter :: slow = 0.1_wp
+   integer, parameter :: least_kept = 3
+   !> Part of a disturbance that comes back with the other sign above which turns alternate [-]
+   real(wp), parameter :: alternating = 0.9_wp
    !> Step that an integration begins with [rad]
    real(wp), parameter :: first_step = 1.0e-3_wp
    !> Largest step [rad]
@@ -56,6 +62,31 @@ module camroller_flexible_cycle
       real(wp), allocatable :: scales(:)
    end type turn_t
 
+   !> Turns in which a plunger has to fall before it is moved on, and its mean fall over their root mean square: trains without a period
+   !> seldom have as much by chance. It is moved on by as many turns as follow, the next time by twice as many; where that is too many
+   !> the check valve fills the adjuster within a turn [-]
+   integer, parameter :: leaking_turns = 8
+   real(wp), parameter :: steady_fall = 0.7_wp, jumped_turns = 32.0_wp
+
+   !> Turns from which the periodic state is extrapolated
+   type :: history_t
+      !> Their starts in units of the scales, shape (component, turn), the newest first [-]
+      real(wp), allocatable :: starts(:, :)
+      !> Their ends less their starts, in the same way [-]
+      real(wp), allocatable :: residuals(:, :)
+      !> How many there are
+      integer :: kept = 0
+   end type history_t
+
+   !> The last turns of an adjuster that may be leaking down
+   type :: leak_t
+      !> How many there are, and by how many of them the plunger would be moved on
+      integer :: turns = 0
+      real(wp) :: jump = jumped_turns
+      !> Their ends less their starts in units of the scales, shape (component, turn), the newest first [-]
+      real(wp), allocatable :: changes(:, :)
+   end type leak_t
+
    !> The periodic state, or what was found in its stead
    type :: flexible_cycle_t
       !> The last cycle
@@ -73,6 +104,8 @@ module camroller_flexible_cycle
       real(wp) :: tolerance = 0.0_wp
       !> What the last cycle did not tell apart, forces to round-off
       type(resolution_t) :: resolution
+      !> The last cycles, up to this one
+      type(history_t) :: history
    end type flexible_cycle_t
 
 contains
@@ -210,30 +243,39 @@ contains
       !> Convergence error where a turn cannot be integrated
       type(error_t), allocatable, intent(out) :: error
 
-      ! Ends of the last turns in units of the scales, the newest last; starts and residuals that acceleration mixes [-]
-      real(wp) :: ends(size(state), 0:2*longest_period), starts(size(state), depth + 1), residuals(size(state), depth + 1)
-      ! Start of a turn [state], its distance from its end, the same of the turn before [-]
-      real(wp) :: first(size(state)), distance, last_distance
-      integer :: turns, plain, kept
-      logical :: is_scaled
+      ! Ends of the last turns in units of the scales, the newest last [-]
+      real(wp) :: ends(size(state), 0:2*longest_period)
+      ! Start of a turn, its end less its start, where the periodic state should be, in units of the scales [-]
+      real(wp), dimension(size(state)) :: start, residual, aim
+      ! Distance of end and start, the same of the turn before [-]
+      real(wp) :: distance, last_distance
+      type(leak_t) :: leak
+      integer :: turns, plain
+      logical :: is_scaled, alternates, has_jumped
 
       plain = 1
-      kept = 0
       last_distance = huge(1.0_wp)
+      cycle%history%kept = 0
       ends(:, 2*longest_period) = state/turn%scales
       do turns = 1, max_cycles
-         first = state
+         start = state
          cycle%resolution%sliding_speed = turn%problem%resolution%sliding_speed
          call integrate_turn(turn, state, cycle%trajectory, cycle%counters, error)
          if (allocated(error)) return
          cycle%cycles = cycle%cycles + 1
          call scale_sliding(turn, cycle%trajectory, is_scaled)
-         if (is_scaled) kept = 0
-         distance = maxval(abs(state - first)/turn%scales)
+         residual = (state - start)/turn%scales
+         start = start/turn%scales
+         distance = maxval(abs(residual))
+         if (is_scaled) cycle%history%kept = 0
+         call remember(cycle%history, start, residual)
+         alternates = is_alternating(cycle%history)
+         if (distance > last_distance) cycle%history%kept = 1
          if (turns > 1 .and. distance < last_distance) cycle%multiplier = merge(max(cycle%multiplier, distance/last_distance), &
-            & distance/last_distance, kept > 0)
+            & distance/last_distance, cycle%history%kept > 1)
+         call extrapolate(cycle%history, start, residual, aim)
          cycle%closure = distance
-         if (distance <= closure*(1.0_wp - min(cycle%multiplier, 0.9_wp)) .and. .not. is_scaled) then
+         if (max(distance, maxval(abs(aim - start))) <= closure .and. .not. (is_scaled .or. alternates)) then
             cycle%period = 1
             return
          end if
@@ -242,16 +284,26 @@ contains
          plain = plain + 1
          if (distance >= 10.0_wp*closure) call find_period(ends, min(longest_period, (plain - 1)/2), closure, cycle)
          if (cycle%period > 0) return
-         if (distance > last_distance) kept = 0
-         call mix(turn, first, distance > slow*last_distance .and. distance < last_distance, starts, residuals, kept, state, plain)
+         call jump_leak(leak, turn, residual, state, has_jumped)
+         if (has_jumped) then
+            cycle%history%kept = 0
+            plain = 0
+         else if (distance > slow*last_distance .and. cycle%history%kept >= least_kept .and. .not. alternates) then
+            if (is_possible(turn, aim)) then
+               state = aim*turn%scales
+               plain = 0
+            else
+               cycle%history%kept = 1
+            end if
+         end if
          last_distance = distance
       end do
-      cycle%closure = distance
       cycle%resolution%sliding_speed = turn%problem%resolution%sliding_speed
    end subroutine find_periodic
 
    !> Do the last turns make a period of several? The difference from one period to the next, over that between the two before, is
-   !> the part of a disturbance that a period leaves: what seems to repeat itself may approach a period slowly, or leave one.
+   !> the part of a disturbance that a period leaves: what seems to repeat itself may approach a period slowly, or leave one. A chance
+   !> that the one before was far from repeating itself is no period either: the next will tell.
    pure subroutine find_period(ends, longest, closure, cycle)
       !> Ends of the last turns in units of the scales, shape (component, turn), the newest last [-]
       real(wp), intent(in) :: ends(:, :)
@@ -262,6 +314,8 @@ contains
       !> Gets the period, where there is one, and the difference of its end from its start
       type(flexible_cycle_t), intent(inout) :: cycle
 
+      ! Difference between two periods, over that which is near enough, above which the next is near by chance [-]
+      real(wp), parameter :: chance = 2.0_wp
       ! Difference of a period's end from its start, the same of the period before [-]
       real(wp) :: distance, last_distance
       integer :: k
@@ -270,7 +324,7 @@ contains
          do k = 2, longest
             distance = maxval(abs(ends(:, n) - ends(:, n - k)))
             last_distance = max(maxval(abs(ends(:, n - k) - ends(:, n - 2*k))), tiny(1.0_wp))
-            if (distance > closure*(1.0_wp - distance/last_distance)) cycle
+            if (distance > closure*(1.0_wp - distance/last_distance) .or. last_distance > chance*closure) cycle
             cycle%closure = distance
             cycle%period = k
             return
@@ -305,60 +359,124 @@ contains
       turn%scales(at_sliding) = scale
    end subroutine scale_sliding
 
-   !> Start of the next turn: the end of this one, or a mixture of the last ones by Anderson's rule.
-   subroutine mix(turn, first, is_slow, starts, residuals, kept, state, plain)
+   !> Move a train on by many turns where its adjuster leaks down by nearly as much each turn; vibration is left out by the mean.
+   subroutine jump_leak(leak, turn, residual, state, has_jumped)
+      !> The turns before; out: with this one, or none where it has jumped
+      type(leak_t), intent(inout) :: leak
       !> What integrates
       type(turn_t), intent(in) :: turn
-      !> Start of this turn [state]
-      real(wp), intent(in) :: first(:)
-      !> Do turns approach the periodic state slowly?
-      logical, intent(in) :: is_slow
-      !> Starts and residuals of the last turns, in units of the scales, the newest first [-]
-      real(wp), intent(inout) :: starts(:, :), residuals(:, :)
-      !> How many of them there are
-      integer, intent(inout) :: kept
-      !> In: end of this turn; out: start of the next [state]
+      !> End less start of this turn, in units of the scales [-]
+      real(wp), intent(in) :: residual(:)
+      !> In: end of the turn; out: start of the next [state]
       real(wp), intent(inout) :: state(:)
-      !> Turns since the last mixture
-      integer, intent(inout) :: plain
+      !> Is it another one?
+      logical, intent(out) :: has_jumped
 
-      ! End of this turn, rate there [state, state/rad]
-      real(wp) :: plain_end(size(state)), rate(size(state))
+      ! The state after the leak, mean change of a turn, in units of the scales [-]
+      real(wp), dimension(size(state)) :: aim, change
+
+      has_jumped = .false.
+      associate (flexible => turn%problem%model%flexible)
+         if (.not. allocated(flexible%adjuster)) return
+         if (.not. allocated(leak%changes)) allocate (leak%changes(size(state), leaking_turns), source=0.0_wp)
+         leak%changes(:, 2:) = leak%changes(:, :leaking_turns - 1)
+         leak%changes(:, 1) = residual
+         leak%turns = leak%turns + 1
+         if (leak%turns < leaking_turns) return
+         change = sum(leak%changes, 2)/leaking_turns
+         if (change(at_plunger) > -steady_fall*norm2(leak%changes(at_plunger, :))/sqrt(real(leaking_turns, wp))) return
+         aim = state/turn%scales + leak%jump*change
+         aim(at_plunger) = max(aim(at_plunger), flexible%adjuster%given%lowest/turn%scales(at_plunger))
+      end associate
+      leak%turns = 0
+      if (.not. is_possible(turn, aim)) return
+      state = aim*turn%scales
+      leak%jump = 2.0_wp*leak%jump
+      has_jumped = .true.
+   end subroutine jump_leak
+
+   !> Take a turn into the history.
+   pure subroutine remember(history, start, residual)
+      !> The last turns
+      type(history_t), intent(inout) :: history
+      !> Start of the turn, its end less its start, in units of the scales [-]
+      real(wp), intent(in) :: start(:), residual(:)
+
+      if (.not. allocated(history%starts)) allocate (history%starts(size(start), depth + 1), &
+         & history%residuals(size(start), depth + 1), source=0.0_wp)
+      history%starts(:, 2:) = history%starts(:, :depth)
+      history%residuals(:, 2:) = history%residuals(:, :depth)
+      history%starts(:, 1) = start
+      history%residuals(:, 1) = residual
+      history%kept = min(history%kept + 1, depth + 1)
+   end subroutine remember
+
+   !> Do disturbances come back with the other sign and nearly as large? The single cycle is then about to lose its stability to a
+   !> period of two, or has lost it: extrapolation would find it all the same.
+   pure function is_alternating(history) result(verdict)
+      !> The last turns
+      type(history_t), intent(in) :: history
+      logical :: verdict
+
+      ! Change of the start from one turn to the next, and of the end, in units of the scales [-]
+      real(wp), dimension(size(history%starts, 1)) :: start, end
+
+      verdict = .false.
+      if (history%kept < 2) return
+      start = history%starts(:, 1) - history%starts(:, 2)
+      end = start + history%residuals(:, 1) - history%residuals(:, 2)
+      ! By the end, in which what fades fast has done so
+      verdict = dot_product(end, start) < 0.0_wp .and. dot_product(end, end) > -alternating*dot_product(end, start)
+   end function is_alternating
+
+   !> Where a turn and those before it say that the periodic state is, by Anderson's rule: a step of Newton's method as far as the last
+   !> turns tell how their ends follow their starts, and the end of the turn in all other directions.
+   subroutine extrapolate(history, start, residual, aim)
+      !> The last turns
+      type(history_t), intent(in) :: history
+      !> Start of the turn, its end less its start, in units of the scales [-]
+      real(wp), intent(in) :: start(:), residual(:)
+      !> The periodic state, in the same units [-]
+      real(wp), intent(out) :: aim(:)
+
       ! Normal equations [-], weights of the differences [-], differences of residuals [-]
-      real(wp) :: normal(depth, depth), weights(depth, 1), differences(size(state), depth)
-      integer :: pivots(depth), info, status, i
+      real(wp) :: normal(depth, depth), weights(depth, 1), differences(size(start), depth)
+      integer :: pivots(depth), info, i
 
-      starts(:, 2:) = starts(:, :depth)
-      residuals(:, 2:) = residuals(:, :depth)
-      starts(:, 1) = first/turn%scales
-      residuals(:, 1) = (state - first)/turn%scales
-      kept = min(kept + 1, depth + 1)
-      if (.not. is_slow .or. kept < 3) return
-      associate (n => min(kept, depth + 1) - 1)
+      aim = start + residual
+      associate (n => history%kept - 1, starts => history%starts)
+         if (n < 1) return
          do i = 1, n
-            differences(:, i) = residuals(:, i) - residuals(:, i + 1)
+            differences(:, i) = history%residuals(:, i) - history%residuals(:, i + 1)
          end do
          normal = 0.0_wp
          normal(:n, :n) = matmul(transpose(differences(:, :n)), differences(:, :n))
          do i = 1, n
             normal(i, i) = normal(i, i)*(1.0_wp + 1.0e-10_wp) + tiny(1.0_wp)
          end do
-         weights(:n, 1) = matmul(transpose(differences(:, :n)), residuals(:, 1))
+         weights(:n, 1) = matmul(transpose(differences(:, :n)), residual)
          call dgesv(n, 1, normal, depth, pivots, weights, depth, info)
          if (info /= 0) return
-         plain_end = state
          do i = 1, n
-            state = state - weights(i, 1)*turn%scales*(starts(:, i) - starts(:, i + 1) + differences(:, i))
+            aim = aim - weights(i, 1)*(starts(:, i) - starts(:, i + 1) + differences(:, i))
          end do
       end associate
-      ! A mixture need not be a state that a train can be in
-      call turn%problem%get_rate(turn%stops(1), state, rate, status)
-      if (status == 0) then
-         plain = 0
-      else
-         state = plain_end
-         kept = 0
-      end if
-   end subroutine mix
+   end subroutine extrapolate
+
+   !> Can a train be in a state? A mixture of states need not be one.
+   function is_possible(turn, aim) result(verdict)
+      !> What integrates
+      type(turn_t), intent(in) :: turn
+      !> The state at the start of a turn, in units of the scales [-]
+      real(wp), intent(in) :: aim(:)
+      logical :: verdict
+
+      ! Rate there [state/rad]
+      real(wp) :: rate(size(aim))
+      integer :: status
+
+      call turn%problem%get_rate(turn%stops(1), aim*turn%scales, rate, status)
+      verdict = status == 0
+   end function is_possible
 
 end module camroller_flexible_cycle

@@ -1,0 +1,160 @@
+!> How a flexible train finds its periodic state: in few cycles, from far away, and not where it is unstable.
+module test_flexible_periods
+   use testdrive, only : new_unittest, unittest_type, error_type, check, test_failed
+   use camroller_kinds, only : wp, pi
+   use camroller_case, only : case_t
+   use camroller_error, only : error_t
+   use camroller_model, only : model_t
+   use camroller_flexible_cycle, only : extrapolate, find_periodic, flexible_cycle_t, history_t, rest_of_train, start_turns, turn_t
+   use camroller_flexible_train, only : at_finger, at_lift, at_plunger
+   use camroller_number_text, only : integer_text, number_text
+   use closeness, only : check_scaled
+   use flexible_cases, only : add_dynamics
+   use reference_cases, only : make_model, set_point, thesis_case
+   use run_settings, only : has_checks
+   implicit none
+   private
+
+   public :: collect_flexible_periods
+
+   !> Distance of end and start that counts as closed, in units of the scales, and tolerance of a step: as in the aim, at most 8 cycles
+   !> to 1e-3 up to 1500 rev/min [-]
+   real(wp), parameter :: closure = 1.0e-3_wp, tolerance = 1.0e-4_wp
+   integer, parameter :: most_cycles = 8
+
+contains
+
+   !> Collect the tests.
+   subroutine collect_flexible_periods(testsuite)
+      !> The tests
+      type(unittest_type), allocatable, intent(out) :: testsuite(:)
+
+      testsuite = [ &
+         new_unittest("a train on a fixed pivot or an adjuster is periodic after 8 cycles at most, up to 1500 rev/min", test_few), &
+         new_unittest("an adjuster that stands 30 um too high leaks down to the state that it has from rest, in few cycles", &
+            & test_drift), &
+         new_unittest("a cycle whose disturbances come back with the other sign, and larger, is not found", test_unstable), &
+         new_unittest("a state that loses a hundredth a turn is extrapolated from three turns", test_extrapolation) &
+         ]
+   end subroutine collect_flexible_periods
+
+   !> The reference train and its periodic state.
+   subroutine find(speed, viscosity, raised, has_adjuster, most, cycle, state, error)
+      !> Speed [rev/min], viscosity of the oil [Pa s], how much the plunger stands above its rest [m]
+      real(wp), intent(in) :: speed, viscosity, raised
+      logical, intent(in) :: has_adjuster
+      !> Cycles at most
+      integer, intent(in) :: most
+      type(flexible_cycle_t), intent(out) :: cycle
+      !> End of the last cycle, in units of the scales [-]
+      real(wp), allocatable, intent(out) :: state(:)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: the_case
+      type(model_t), target :: model
+      type(turn_t) :: turn
+      type(error_t), allocatable :: failure
+
+      the_case = thesis_case()
+      call set_point(the_case, speed*pi/30.0_wp, viscosity)
+      call add_dynamics(the_case, 5, has_adjuster)
+      call make_model(the_case, model, error)
+      if (allocated(error)) return
+      call start_turns(turn, model, "rodas5p", tolerance, failure)
+      if (.not. allocated(failure)) call rest_of_train(model, state, failure)
+      if (.not. allocated(failure)) then
+         if (raised > 0.0_wp) then
+            ! The finger turns about the roller
+            state(at_plunger) = state(at_plunger) + raised
+            state(at_finger) = state(at_finger) + raised/model%linkage%a
+            state(at_lift) = raised*(model%linkage%b/model%linkage%a - 1.0_wp)
+         end if
+         call find_periodic(cycle, turn, state, closure, most, failure)
+      end if
+      if (allocated(failure)) call test_failed(error, failure%message)
+      state = state/turn%scales
+   end subroutine find
+
+   subroutine test_few(error)
+      type(error_type), allocatable, intent(out) :: error
+      real(wp), parameter :: speeds(*) = [300.0_wp, 600.0_wp, 900.0_wp, 1200.0_wp, 1500.0_wp]
+      type(flexible_cycle_t) :: cycle
+      real(wp), allocatable :: state(:)
+      integer :: i, k
+
+      do i = merge(size(speeds), 1, has_checks()), size(speeds)
+         do k = 1, 2
+            call find(speeds(i), 0.01_wp, 0.0_wp, k == 2, most_cycles, cycle, state, error)
+            if (allocated(error)) return
+            call check(error, cycle%period, 1, number_text(speeds(i), 4)//" rev/min"//merge(" with adjuster", "              ", &
+               & k == 2)//": not periodic after "//integer_text(most_cycles)//" cycles")
+            if (allocated(error)) return
+         end do
+      end do
+   end subroutine test_few
+
+   !> It leaks down by the same step turn after turn until its check valve opens.
+   subroutine test_drift(error)
+      type(error_type), allocatable, intent(out) :: error
+      ! Height [m], speeds [rev/min], viscosities at 60, 60 and 25 degC [Pa s]
+      real(wp), parameter :: height = 30.0e-6_wp, speeds(*) = [300.0_wp, 900.0_wp, 900.0_wp], &
+         & viscosities(*) = [0.0305_wp, 0.0305_wp, 0.15_wp]
+      ! Cycles that take a third more than it does; without a jump the last one takes more than 200
+      integer, parameter :: most(*) = [10, 35, 55]
+      type(flexible_cycle_t) :: cycle
+      ! Periodic states, from rest and from above [-]
+      real(wp), allocatable :: usual(:), state(:)
+      integer :: i
+
+      do i = 1, merge(1, size(speeds), has_checks())
+         call find(speeds(i), viscosities(i), 0.0_wp, .true., most_cycles, cycle, usual, error)
+         if (allocated(error)) return
+         call find(speeds(i), viscosities(i), height, .true., most(i), cycle, state, error)
+         if (allocated(error)) return
+         call check(error, cycle%period, 1, number_text(speeds(i), 4)//" rev/min: not periodic after "//integer_text(most(i))// &
+            & " cycles")
+         if (allocated(error)) return
+         ! Both are as near to the periodic state as was asked for
+         call check_scaled(error, state(at_plunger), usual(at_plunger), 1.0_wp, 2.0_wp*closure, "place of the plunger")
+         if (allocated(error)) return
+      end do
+   end subroutine test_drift
+
+   !> At 2000 rev/min the plunger's disturbances come back as -1.01 of what they were.
+   subroutine test_unstable(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(flexible_cycle_t) :: cycle
+      real(wp), allocatable :: state(:)
+
+      call find(2000.0_wp, 0.01_wp, 0.0_wp, .true., 20, cycle, state, error)
+      if (allocated(error)) return
+      call check(error, cycle%period /= 1, "a single cycle is found where it is unstable")
+   end subroutine test_unstable
+
+   !> Turns of a linear map: the first component loses a hundredth a turn, the second nine tenths, to a fixed point at 1 and 2.
+   subroutine test_extrapolation(error)
+      type(error_type), allocatable, intent(out) :: error
+      ! Parts that a turn leaves, fixed point [-]
+      real(wp), parameter :: left(2) = [0.99_wp, 0.1_wp], fixed(2) = [1.0_wp, 2.0_wp]
+      type(history_t) :: history
+      ! Starts of three turns, their residuals, what is extrapolated [-]
+      real(wp) :: starts(2, 3), residuals(2, 3), aim(2)
+      integer :: i
+
+      starts(:, 1) = 0.0_wp
+      do i = 1, 3
+         residuals(:, i) = (left - 1.0_wp)*(starts(:, i) - fixed)
+         if (i < 3) starts(:, i + 1) = starts(:, i) + residuals(:, i)
+      end do
+      allocate (history%starts(2, 3), history%residuals(2, 3))
+      history%starts = starts(:, 3:1:-1)
+      history%residuals = residuals(:, 3:1:-1)
+      history%kept = 3
+      call extrapolate(history, starts(:, 3), residuals(:, 3), aim)
+      do i = 1, 2
+         ! The square of what is slow is 1e-8 of that of what is fast, and 1e-10 of this keeps the normal equations regular
+         call check_scaled(error, aim(i), fixed(i), 1.0_wp, 1.0e-2_wp, "extrapolated state")
+         if (allocated(error)) return
+      end do
+   end subroutine test_extrapolation
+
+end module test_flexible_periods
