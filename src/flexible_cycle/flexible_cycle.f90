@@ -1,9 +1,9 @@
 !> The periodic state of a flexible train: cycles from rest until one closes, or a few together do, or none will.
 !>
 !> In: model, tolerance. Out: `flexible_cycle_t` with the last cycle, from full lift of one turn less half a turn on. Plain cycles
-!> approach the periodic state by the slowest decay of spring and adjuster, or drift towards it; Anderson's acceleration extrapolates
-!> from the last few, but for turns that alternate: there a period of two may be near. An adjuster that only leaks is moved on by
-!> many turns at once. Source: Walker and Ni, SIAM J. Numer. Anal. 49 (2011) 1715.
+!> approach the periodic state by the slowest decay of spring and adjuster, or drift towards it; Anderson's acceleration
+!> extrapolates from the last few, but for turns that alternate: there a period of two may be near. An adjuster that leaks down is
+!> moved on by many turns at once. Source: Walker and Ni, SIAM J. Numer. Anal. 49 (2011) 1715.
 module camroller_flexible_cycle
    use camroller_kinds, only : wp, pi, degree
    use camroller_cam_angle, only : cam_angle_text
@@ -31,8 +31,8 @@ module camroller_flexible_cycle
    integer, parameter, public :: longest_period = 8
    !> Cycles that acceleration mixes
    integer, parameter :: depth = 5
-   !> Contraction above which acceleration pays, and number of turns that it needs: with fewer, trains whose check valve opens late in
-   !> a turn take up to twice as many turns [-]
+   !> Contraction above which acceleration pays, and number of turns that it needs: with fewer, trains whose check valve opens late
+   !> in a turn take up to twice as many turns [-]
    real(wp), parameter :: slow = 0.1_wp
    integer, parameter :: least_kept = 3
    !> Part of a disturbance that comes back with the other sign above which turns alternate [-]
@@ -62,11 +62,13 @@ module camroller_flexible_cycle
       real(wp), allocatable :: scales(:)
    end type turn_t
 
-   !> Turns in which a plunger has to fall before it is moved on, and its mean fall over their root mean square: trains without a period
-   !> seldom have as much by chance. It is moved on by as many turns as follow, the next time by twice as many; where that is too many
-   !> the check valve fills the adjuster within a turn [-]
+   !> Turns in which a plunger has to fall before it is moved on
    integer, parameter :: leaking_turns = 8
-   real(wp), parameter :: steady_fall = 0.7_wp, jumped_turns = 32.0_wp
+   !> Its mean fall over their root mean square: trains without a period seldom have as much by chance [-]
+   real(wp), parameter :: steady_fall = 0.7_wp
+   !> Turns by which it is moved on, the next time by twice as many; where that is too many the check valve fills the adjuster
+   !> within a turn [-]
+   real(wp), parameter :: jumped_turns = 32.0_wp
 
    !> Turns from which the periodic state is extrapolated
    type :: history_t
@@ -80,8 +82,9 @@ module camroller_flexible_cycle
 
    !> The last turns of an adjuster that may be leaking down
    type :: leak_t
-      !> How many there are, and by how many of them the plunger would be moved on
+      !> How many there are
       integer :: turns = 0
+      !> By how many of them the plunger would be moved on [-]
       real(wp) :: jump = jumped_turns
       !> Their ends less their starts in units of the scales, shape (component, turn), the newest first [-]
       real(wp), allocatable :: changes(:, :)
@@ -302,8 +305,8 @@ contains
    end subroutine find_periodic
 
    !> Do the last turns make a period of several? The difference from one period to the next, over that between the two before, is
-   !> the part of a disturbance that a period leaves: what seems to repeat itself may approach a period slowly, or leave one. A chance
-   !> that the one before was far from repeating itself is no period either: the next will tell.
+   !> the part of a disturbance that a period leaves: what seems to repeat itself may approach a period slowly, or leave one. Where
+   !> the one before was far from repeating itself it may be chance: the next will tell.
    pure subroutine find_period(ends, longest, closure, cycle)
       !> Ends of the last turns in units of the scales, shape (component, turn), the newest last [-]
       real(wp), intent(in) :: ends(:, :)
@@ -429,8 +432,8 @@ contains
       verdict = dot_product(end, start) < 0.0_wp .and. dot_product(end, end) > -alternating*dot_product(end, start)
    end function is_alternating
 
-   !> Where a turn and those before it say that the periodic state is, by Anderson's rule: a step of Newton's method as far as the last
-   !> turns tell how their ends follow their starts, and the end of the turn in all other directions.
+   !> Where a turn and those before it say that the periodic state is, by Anderson's rule: a step of Newton's method as far as the
+   !> last turns tell how their ends follow their starts, and the end of the turn in all other directions.
    subroutine extrapolate(history, start, residual, aim)
       !> The last turns
       type(history_t), intent(in) :: history

@@ -13,7 +13,7 @@ module camroller_flexible_solution
    use camroller_trajectory, only : trajectory_t, interpolate_state
    use camroller_flexible_train, only : flexible_state_t, resolution_t, evaluate_train, at_sliding
    use camroller_flexible_cycle, only : flexible_cycle_t, turn_t, start_turns, set_tolerance, integrate_turn, find_periodic, &
-      & rest_of_train
+      & extrapolate, is_possible, rest_of_train
    use camroller_flexible_measures, only : measure_count, measure_turn
    implicit none
    private
@@ -32,12 +32,12 @@ module camroller_flexible_solution
    real(wp), parameter, public :: tolerance_ratio = 0.4_wp
    !> Distance from the periodic state that is near enough, over the tolerance [-]
    real(wp), parameter :: closure_ratio = 10.0_wp
-   !> Tolerance of the turn that the error is estimated with, over the tolerance, and how much more it errs at least [-]: a method
-   !> of order 5 errs by 3 to 4 times as much, as its tolerance to the power 4/5 or 1, and less where contacts open; with 3, two
-   !> methods differed by up to 2.6 times what they promised in 8 of 31 random trains
-   real(wp), parameter :: coarser = 4.0_wp, worse = 2.0_wp
+   !> Tolerance of the turn that the error is estimated with, over the tolerance, and how much it errs at most, over the error [-]:
+   !> a method of order 5 errs as its tolerance to the power 4/5 or 1, and less regularly where contacts open. A turn that errs
+   !> more in the place of one that errs less would tell less: where steps are long, errors hardly grow with the tolerance
+   real(wp), parameter :: finer = 0.25_wp, better = 0.5_wp
    !> Error over the difference of both turns [-]
-   real(wp), parameter :: error_share = 1.0_wp/(worse - 1.0_wp)
+   real(wp), parameter :: error_share = 1.0_wp/(1.0_wp - better)
 
    !> Periodic state or turns without a period
    type :: flexible_solution_t
@@ -46,9 +46,9 @@ module camroller_flexible_solution
       type(trajectory_t), allocatable :: turns(:)
       !> Means of the measures over the turns, their standard deviations, smallest and largest [unit of the measure]
       real(wp), allocatable :: mean(:), deviation(:), lowest(:), highest(:)
-      !> The last turn again, with a coarser tolerance, and what its integration did not tell apart
-      type(trajectory_t) :: coarse
-      type(resolution_t) :: coarse_resolution
+      !> The last turn again, with a finer tolerance, and what its integration did not tell apart
+      type(trajectory_t) :: finer
+      type(resolution_t) :: finer_resolution
       !> Estimated error of load and sliding speed over the largest [-]
       real(wp) :: error = 0.0_wp
       !> Cam angle where that error is largest [rad]
@@ -139,7 +139,8 @@ contains
       solution%deviation = sqrt(sum((values - spread(solution%mean, 2, n))**2, 2)/max(1, n - 1))
    end subroutine take_measures
 
-   !> Error of the last turn: its difference from one from the same start with a coarser tolerance, which errs more.
+   !> Error of the last turn: its difference from one with a finer tolerance, which errs less and starts where that has its periodic
+   !> state.
    subroutine estimate_error(solution, turn, error)
       !> The solution
       type(flexible_solution_t), intent(inout) :: solution
@@ -150,36 +151,69 @@ contains
 
       type(counters_t) :: counters
       type(flexible_state_t) :: now
-      ! State of the other turn [state]; loads [N], sliding speeds [m/s]: of both turns
-      real(wp) :: state(size(turn%scales)), loads(2), speeds(2)
+      ! States of both turns [state] at an angle [rad], their loads [N] and sliding speeds [m/s]
+      real(wp) :: state(size(turn%scales)), other_state(size(turn%scales)), angle, loads(2), speeds(2)
       ! Largest load [N] and sliding speed [m/s], largest differences [N], [m/s]
       real(wp) :: largest(2), differences(2)
-      integer :: i, hint, status
+      integer :: i, hint, other_hint, status
 
-      call set_tolerance(turn, coarser*turn%options%tolerance)
-      associate (path => solution%cycle%trajectory, model => turn%problem%model, other => solution%coarse, &
-         & fine => solution%cycle%resolution, coarse => solution%coarse_resolution)
-         coarse = resolution_t(sliding_speed=turn%problem%resolution%sliding_speed)
-         state = path%state(:, 1)
-         call integrate_turn(turn, state, other, counters, error)
+      call set_tolerance(turn, finer*turn%options%tolerance)
+      associate (path => solution%cycle%trajectory, model => turn%problem%model, other => solution%finer, &
+         & resolution => solution%cycle%resolution, other_resolution => solution%finer_resolution)
+         other_resolution = resolution_t(sliding_speed=turn%problem%resolution%sliding_speed)
+         call start_finer(solution, turn, state, error)
+         if (.not. allocated(error)) call integrate_turn(turn, state, other, counters, error)
          call add_context(error, "estimating the error of the flexible train")
          if (allocated(error)) return
          hint = 1
+         other_hint = 1
          largest = [tiny(1.0_wp), 1.0e-5_wp*model%speed*model%roller_radius]
          differences = 0.0_wp
-         do i = 1, path%count
-            call interpolate_state(other, min(path%time(i), other%time(other%count)), hint, state)
-            call evaluate_train(model, path%time(i), path%state(:, i), fine, now, status)
+         do i = 2, 2*path%count
+            ! Points and the middle between each two, where the curve may be worse
+            angle = 0.5_wp*(path%time(i/2) + path%time(min((i + 1)/2, path%count)))
+            call interpolate_state(path, angle, hint, state)
+            call interpolate_state(other, min(angle, other%time(other%count)), other_hint, other_state)
+            call evaluate_train(model, angle, state, resolution, now, status)
             loads(1) = now%contact%load
-            call evaluate_train(model, path%time(i), state, coarse, now, status)
+            call evaluate_train(model, angle, other_state, other_resolution, now, status)
             loads(2) = now%contact%load
-            speeds = [path%state(at_sliding, i), state(at_sliding)]
+            speeds = [state(at_sliding), other_state(at_sliding)]
             largest = max(largest, [loads(1), abs(speeds(1))])
-            if (abs(loads(1) - loads(2)) > differences(1)) solution%error_angle = path%time(i)
+            if (abs(loads(1) - loads(2)) > differences(1)) solution%error_angle = angle
             differences = max(differences, abs([loads(1) - loads(2), speeds(1) - speeds(2)]))
          end do
          solution%error = maxval(differences/largest)*error_share
       end associate
    end subroutine estimate_error
+
+   !> Start of the turn that the error is estimated with: where the turns so far and one with the finer tolerance say that its
+   !> periodic state is. So what is left to the periodic state counts, and what the errors of the turns before have made of the
+   !> start: where a disturbance lasts, many times the error of a turn. Without a period of one turn it is the start of the last
+   !> turn.
+   subroutine start_finer(solution, turn, state, error)
+      !> The solution
+      type(flexible_solution_t), intent(inout) :: solution
+      !> What integrates, with the finer tolerance
+      type(turn_t), intent(inout) :: turn
+      !> The state [state]
+      real(wp), intent(out) :: state(:)
+      !> Convergence error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(counters_t) :: counters
+      ! Start of the last turn, where the periodic state should be, in units of the scales [-]
+      real(wp), dimension(size(state)) :: start, aim
+
+      associate (path => solution%cycle%trajectory)
+         state = path%state(:, 1)
+         if (solution%cycle%period /= 1) return
+         start = state/turn%scales
+         call integrate_turn(turn, state, solution%finer, counters, error)
+         if (allocated(error)) return
+         call extrapolate(solution%cycle%history, start, state/turn%scales - start, aim)
+         if (is_possible(turn, aim)) state = aim*turn%scales
+      end associate
+   end subroutine start_finer
 
 end module camroller_flexible_solution

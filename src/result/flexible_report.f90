@@ -98,7 +98,7 @@ contains
       call start_samples(means%torque_rows, series_count - first_torque + 1)
    end subroutine start_means
 
-   !> Errors of the means of a turn: from the last turn and the one with a coarser tolerance, each with points of its own. They are
+   !> Errors of the means of a turn: from the last turn and the one with a finer tolerance, each with points of its own. They are
    !> relative to the mean magnitude of their series, those of torques to the mean of all losses at least.
    subroutine compare_turns(case, model, solution, series, first_torque, mean_errors, error)
       !> The case
@@ -115,24 +115,24 @@ contains
       !> Convergence error
       type(error_t), allocatable, intent(out) :: error
 
-      type(flexible_means_t) :: fine, coarse
+      type(flexible_means_t) :: means, finer
       type(state_t) :: state
       integer :: residual
 
-      call start_means(fine, size(series), first_torque)
-      call add_turn(case, model, solution%cycle%trajectory, solution%cycle%resolution, 1.0_wp, .false., state, fine, error)
+      call start_means(means, size(series), first_torque)
+      call add_turn(case, model, solution%cycle%trajectory, solution%cycle%resolution, 1.0_wp, .false., state, means, error)
       if (allocated(error)) return
-      call start_means(coarse, size(series), first_torque)
-      call add_turn(case, model, solution%coarse, solution%coarse_resolution, 1.0_wp, .false., state, coarse, error)
+      call start_means(finer, size(series), first_torque)
+      call add_turn(case, model, solution%finer, solution%finer_resolution, 1.0_wp, .false., state, finer, error)
       if (allocated(error)) return
-      associate (torques => fine%size(first_torque:))
-         torques = max(torques, sum(fine%torques, mask=is_loss))
+      associate (torques => means%size(first_torque:))
+         torques = max(torques, sum(means%torques, mask=is_loss))
       end associate
       mean_errors = 0.0_wp
-      where (fine%size > 0.0_wp) mean_errors = error_share*abs(fine%mean - coarse%mean)/fine%size
+      where (means%size > 0.0_wp) mean_errors = error_share*abs(means%mean - finer%mean)/means%size
       residual = find_quantity(series, trim(torque_series(of_residual)))
       if (residual > 0) mean_errors(residual) = 0.0_wp
-      if (fine%lost_share > 0.0_wp) mean_errors(find_quantity(series, "film_thickness_min"):find_quantity(series, "film_ratio")) &
+      if (means%lost_share > 0.0_wp) mean_errors(find_quantity(series, "film_thickness_min"):find_quantity(series, "film_ratio")) &
          & = 0.0_wp
    end subroutine compare_turns
 

@@ -122,8 +122,8 @@ contains
          if (profile%slice_series) call slice_loads(model%axial, state%contact%load, &
             & state%position%equivalent_radius, loads)
       end if
-      call add(list, "effective_contact_length", "m", "length of the line contact that stands for the roller", "roller_profile", &
-         & state%contact%length)
+      call add(list, "effective_contact_length", "m", "length of the line contact that stands for the roller; zero without "// &
+         & "contact", "roller_profile", merge(state%contact%length, 0.0_wp, state%contact%is_touching))
       call add(list, "axial_pressure_max", "Pa", "largest pressure along the roller, dry contact", "roller_profile", pressure)
       call add(list, "axial_pressure_place", "m", "where along the roller the largest pressure is, from its middle", &
          & "roller_profile", along%place)

@@ -47,11 +47,11 @@ module camroller_series_extremes
       !> Their cam angles from full lift [rad]
       real(wp) :: angles(most_kept) = 0.0_wp
       type(state_t) :: states(most_kept)
-      !> Series of the follower, shape (series, state); of a flexible train also those of the turn with a coarser tolerance
+      !> Series of the follower, shape (series, state); of a flexible train also those of the turn with a finer tolerance
       !> [unit of the series]
-      real(wp), allocatable :: values(:, :), coarse(:, :)
+      real(wp), allocatable :: values(:, :), finer(:, :)
       !> Interval of the cycle where the next search starts, and of that turn
-      integer :: hint = 1, coarse_hint = 1
+      integer :: hint = 1, finer_hint = 1
    end type kept_states_t
 
    !> Rows of the camshafts that were solved for the errors of extremes
@@ -214,7 +214,7 @@ contains
                associate (of_value => statistics%extreme_errors(merge(1, 2, sense > 0), series))
                   if (allocated(cycle%flexible)) then
                      ! What the search leaves is unknown: slopes jump where contacts part, which rows do not mark
-                     of_value = abs(kept%values(series, place) - kept%coarse(series, place))*error_share
+                     of_value = abs(kept%values(series, place) - kept%finer(series, place))*error_share
                   else
                      call error_of_extreme(statistics%slip_errors, solved, lobe, kept%states(place), kept%values(:, place), &
                         & search%point, series, sense, sense*search%value, of_value)
@@ -245,7 +245,7 @@ contains
 
       type(state_t) :: state
 
-      if (.not. allocated(kept%values)) allocate (kept%values(series, most_kept), kept%coarse(series, most_kept))
+      if (.not. allocated(kept%values)) allocate (kept%values(series, most_kept), kept%finer(series, most_kept))
       do place = 1, min(kept%count, most_kept)
          if (.not. abs(kept%angles(place) - angle) > 0.0_wp) return
       end do
@@ -257,10 +257,10 @@ contains
       call follower_values(solved%case, solved%models(lobe), kept%states(place), kept%values(:, place))
       if (.not. allocated(solved%cycles(lobe)%flexible)) return
       associate (flexible => solved%cycles(lobe)%flexible)
-         call follower_on_path(solved%models(lobe), flexible%coarse, flexible%coarse_resolution, angle, kept%coarse_hint, &
+         call follower_on_path(solved%models(lobe), flexible%finer, flexible%finer_resolution, angle, kept%finer_hint, &
             & state, error)
       end associate
-      if (.not. allocated(error)) call follower_values(solved%case, solved%models(lobe), state, kept%coarse(:, place))
+      if (.not. allocated(error)) call follower_values(solved%case, solved%models(lobe), state, kept%finer(:, place))
    end subroutine keep_state
 
    !> Largest error of a smallest or largest value, relative to the range of its series; the smallest film counts by itself, and so

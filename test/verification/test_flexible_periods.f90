@@ -17,8 +17,8 @@ module test_flexible_periods
 
    public :: collect_flexible_periods
 
-   !> Distance of end and start that counts as closed, in units of the scales, and tolerance of a step: as in the aim, at most 8 cycles
-   !> to 1e-3 up to 1500 rev/min [-]
+   !> Distance of end and start that counts as closed, in units of the scales, and tolerance of a step: as in the aim, at most 8
+   !> cycles to 1e-3 up to 1500 rev/min [-]
    real(wp), parameter :: closure = 1.0e-3_wp, tolerance = 1.0e-4_wp
    integer, parameter :: most_cycles = 8
 
