@@ -155,6 +155,8 @@ contains
       real(wp) :: state(size(turn%scales)), other_state(size(turn%scales)), angle, loads(2), speeds(2)
       ! Largest load [N] and sliding speed [m/s], largest differences [N], [m/s]
       real(wp) :: largest(2), differences(2)
+      ! Parts of a step at whose ends both turns are compared
+      integer, parameter :: parts = 4
       integer :: i, hint, other_hint, status
 
       call set_tolerance(turn, finer*turn%options%tolerance)
@@ -169,9 +171,10 @@ contains
          other_hint = 1
          largest = [tiny(1.0_wp), 1.0e-5_wp*model%speed*model%roller_radius]
          differences = 0.0_wp
-         do i = 2, 2*path%count
-            ! Points and the middle between each two, where the curve may be worse
-            angle = 0.5_wp*(path%time(i/2) + path%time(min((i + 1)/2, path%count)))
+         do i = 0, parts*(path%count - 1)
+            ! Between points the curve may be worse
+            angle = path%time(1 + i/parts)
+            if (modulo(i, parts) > 0) angle = angle + modulo(i, parts)*(path%time(2 + i/parts) - angle)/parts
             call interpolate_state(path, angle, hint, state)
             call interpolate_state(other, min(angle, other%time(other%count)), other_hint, other_state)
             call evaluate_train(model, angle, state, resolution, now, status)
