@@ -15,6 +15,7 @@ from parts import (MOST_PANELS, angle_axis, closed, crank_axis, draw_curve, even
                    legend_height, mark_values, ranges_of, say_no_result, seen_range, set_values_axis)
 from quantities import CURVES, OVERVIEW, PARTS, SOURCES, TORQUES, TRAIN, Missing, has_series, is_nothing, need_series, values_of
 from roller import roller_figure
+from running_in import running_in_figure
 from units import unit_words
 
 MOST_COLUMNS = 4  # of the overview
@@ -207,6 +208,7 @@ FIGURES = {
     "train": lambda layout, _: overview_figure(layout, TRAIN, (), ("load_ratio",)),
     **{name: _curve_drawer(curve) for name, curve in CURVES.items() if name != "total_torque"},
     "roller": roller_figure,
+    "running_in": running_in_figure,
     "drive_torque": torque_figure,
     "friction_sources": lambda layout, whole: torque_figure(layout, whole, PARTS, "friction torque by source", "N mm"),
     "mean_slip": lambda layout, _: bars_figure(slip_bars, "mean slip ratio", layout),

@@ -44,6 +44,9 @@ CURVES = {
     "edge_stress": Curve("pressure at the end over that of the mean load", "edge_stress_factor", "1", touching=True, lines=(1.0,)),
     "subsurface_stress": Curve("largest shear stress below the surface", "subsurface_shear_stress", "MPa"),
     "sliding_distance": Curve("sliding distance of a place on the cam", "sliding_distance", "um", touching=True),
+    "wear_depth": Curve("depth worn away from the cam after the hours of running", "cam_wear_depth", "nm", whole_cycle=True),
+    "tribofilm": Curve("tribofilm on the cam after the hours of running", "cam_film_thickness", "nm", whole_cycle=True),
+    "boundary_coefficient": Curve("boundary coefficient", "boundary_coefficient", "1", touching=True),
     "wear": Curve("wear depth of a turn over specific wear rate", "wear_product", "N/m", touching=True),
     "friction_torque": Curve("friction torque", "torque_friction", "N mm"),  # friction in N mm, drive torque in N m, in every figure
     "total_torque": Curve("drive torque", "torque_drive", "N m"),
@@ -120,12 +123,14 @@ def _add_wear(series):
     peak, half, slide, speed = (series.get(name) for name in ("hertz_pressure", "hertz_half_width", "sliding_speed", "cam_surface_speed"))
     if peak is None:
         return
-    series["subsurface_shear_stress"] = Quantity(LARGEST_SHEAR * peak.values, "Pa", "largest shear stress below the surface, without traction")
+    # A case with &wear has this and the next one itself
+    series.setdefault("subsurface_shear_stress", Quantity(LARGEST_SHEAR * peak.values, "Pa",
+                                                          "largest shear stress below the surface, without traction"))
     if half is None or slide is None or speed is None:
         return
     with np.errstate(invalid="ignore", divide="ignore"):
         turns = np.abs(slide.values) / np.abs(speed.values)
-    series["sliding_distance"] = Quantity(2.0 * half.values * turns, "m", "sliding distance of a place on the cam in a passage")
+    series.setdefault("sliding_distance", Quantity(2.0 * half.values * turns, "m", "sliding distance of a place on the cam in a passage"))
     if "asperity_load_share" in series:
         series["wear_product"] = Quantity(0.5 * np.pi * peak.values * half.values * turns * series["asperity_load_share"].values, "N/m",
                                           "depth of wear of a place on the cam in a turn over the specific wear rate")

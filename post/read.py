@@ -55,6 +55,7 @@ class Result:
     messages: list = field(default_factory=list)
     cases: int = 0
     measured: dict = field(default_factory=dict)
+    history: dict = field(default_factory=dict)  # over hours of running, (case, row)
 
     @property
     def title(self):
@@ -188,7 +189,7 @@ def _read(path, file, with_series):
     run = {name: text_of(value) for name, value in file["run"].attrs.items()} if "run" in file else {}
     messages = [text_of(message) for message in file["run/messages"][()]] if "run/messages" in file else []
     return Result(path, angle, series, _datasets(file, "summary"),
-                  _in_deck_order(sweep, deck_text, deck), deck, deck_text, run, messages, cases, measured)
+                  _in_deck_order(sweep, deck_text, deck), deck, deck_text, run, messages, cases, measured, _datasets(file, "running_in"))
 
 
 def _read_series(path, file):

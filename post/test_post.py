@@ -55,17 +55,28 @@ def made_up_series(angle, speed, oil):
               "asperity_friction_share": share, "friction_contact": friction, "torque_geometric": geometric,
               "torque_friction": total, "torque_drive": geometric + total,
               "load_ratio": 1 + 1e-3 * np.sin(x * speed / 10), "lift_error": -5e-8 * load,
-              "axial_pressure_max": 2.5e7 * np.sqrt(load), "edge_stress_factor": 0.8 + 1e-4 * load}
+              "axial_pressure_max": 2.5e7 * np.sqrt(load), "edge_stress_factor": 0.8 + 1e-4 * load,
+              "cam_wear_depth": 1e-12 * load, "cam_film_thickness": 1e-10 * load, "boundary_coefficient": 0.1 + 1e-5 * load}
     for number in range(1, SLICES + 1):  # more load at the last slice than at the first
         series[f"line_load_{number}"] = load / 0.0137 * (1 + 0.2 * (2 * number - 1 - SLICES) / SLICES)
     return series | {f"torque_{name}": value for name, value in losses.items()}
+
+
+def made_up_hours():
+    """What surfaces go through in ten hours."""
+    time = np.linspace(0.0, 36000.0, 41)
+    grown = 1 - np.exp(-time / 9000)
+    return {"time": time, "largest_cam_film": 9e-8 * grown, "mean_cam_film": 5e-8 * grown, "roller_film": 8e-8 * grown,
+            "largest_cam_wear": 1e-16 * time, "mean_cam_wear": 5e-17 * time, "roller_wear": 4e-17 * time,
+            "mean_boundary_coefficient": 0.2 - 1e-6 * time, "mean_friction_torque": 0.01 + 0 * time}
 
 
 SERIES_UNITS = {"valve_lift": "m", "valve_velocity": "m/s", "film_ratio": "1", "asperity_load": "N",
                 "contact_load": "N", "hertz_pressure": "Pa", "slip_ratio": "1", "sliding_speed": "m/s", "cam_surface_speed": "m/s", "hertz_half_width": "m",
                 "entrainment_speed": "m/s", "film_thickness_min": "m", "friction_rolling": "N",
                 "asperity_friction_share": "1", "friction_contact": "N", "load_ratio": "1", "lift_error": "m", "axial_pressure_max": "Pa",
-                "edge_stress_factor": "1", **{f"line_load_{number}": "N m-1" for number in range(1, SLICES + 1)}}
+                "edge_stress_factor": "1", "cam_wear_depth": "m", "cam_film_thickness": "m", "boundary_coefficient": "1",
+                **{f"line_load_{number}": "N m-1" for number in range(1, SLICES + 1)}}
 
 
 def test_wear_of_a_contact_is_archards(tmp_path):
@@ -95,6 +106,20 @@ def test_the_largest_shear_below_a_line_contact_is_that_of_its_stresses(tmp_path
     layout = Layout([read_result(write_result(tmp_path / "one.h5", swept=(), speeds=(600.0,), oils=(60.0,)))])
     stress, peak = (values_of(layout, layout.entries[0], name, "MPa") for name in ("subsurface_shear_stress", "hertz_pressure"))
     assert np.allclose(stress / peak, LARGEST_SHEAR)
+
+
+def test_surfaces_over_hours_are_those_of_the_file(tmp_path):
+    path = write_result(tmp_path / "one.h5", swept=(), speeds=(600.0,), oils=(60.0,))
+    columns = made_up_hours()
+    panels = draw("running_in", Layout([read_result(path)])).axes
+    assert [len(axes.lines) for axes in panels] == [3, 3, 1, 1]
+    assert panels[0].get_ylabel() == "thickness of the tribofilm [nm]" and panels[0].lines[0].get_xdata()[-1] == pytest.approx(10.0)
+    assert panels[0].lines[2].get_ydata() == pytest.approx(1e9 * columns["roller_film"])
+    assert panels[3].lines[0].get_ydata() == pytest.approx(10.0 + 0 * columns["time"])
+    with h5py.File(path, "a") as file:
+        del file["running_in"]
+    with pytest.raises(Missing, match="running_in"):
+        draw("running_in", Layout([read_result(path)]))
 
 
 def test_load_along_the_roller_is_that_of_its_slices_in_their_order(tmp_path):
@@ -144,6 +169,8 @@ def write_result(path, speeds=(300.0, 600.0, 900.0), oils=(25.0, 60.0, 95.0), st
             data.dims[1].attach_scale(file["series/cam_angle"])
             file[f"summary/mean_{name}"] = values.mean(axis=1)
             file[f"summary/mean_{name}"].attrs["units"] = unit
+        for name, values in made_up_hours().items():
+            file[f"running_in/{name}"] = np.tile(values, (len(points), 1))
         if "torque_friction" not in without:
             power = [row["torque_friction"].mean() * factor * speed * np.pi / 30 for row, (speed, _) in zip(rows, points)]
             file["summary/power_friction"] = power

@@ -16,6 +16,8 @@ module camroller_core
    use camroller_ehl_table, only : ehl_t
    use camroller_asperity, only : asperity_t, friction_modifier_t
    use camroller_boundary_law, only : boundary_law_t
+   use camroller_tribofilm, only : running_in_t, tribofilm_t
+   use camroller_wear, only : wear_t
    use camroller_traction, only : traction_t
    use camroller_heat, only : heat_t
    use camroller_roller_profile, only : roller_profile_t
@@ -48,6 +50,7 @@ module camroller_core
       & lubricant_t, film_t, ehl_t, asperity_t, traction_t, heat_t, needle_bearing_t, valve_guide_t, roller_t, cam_bearings_t
    public :: needle_drag_t, sliding_t, valve_tip_t, stem_seal_t, guide_side_load_t, finger_pivot_t
    public :: bearing_asperity_t, belt_pull_t, bearing_heat_t, friction_modifier_t, roller_profile_t, boundary_law_t
+   public :: wear_t, tribofilm_t, running_in_t
    public :: deck_t, override_t, read_deck, parse_deck, make_case
    public :: run_case, result_t, quantity_t, find_quantity, get_series, get_summary, use_one_blas_thread
    public :: simulation_t, outcome_t, inputs_t, start_simulation, advance, halt, save_simulation, restore_simulation

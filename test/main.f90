@@ -22,6 +22,7 @@ program main
    use test_axial_follower, only : collect_axial_follower
    use test_boundary_law, only : collect_boundary_law
    use test_friction_modifier, only : collect_friction_modifier
+   use test_running_in, only : collect_running_in
    use test_heat_laws, only : collect_heat_laws
    use test_spline, only : collect_spline
    use test_lift_segments, only : collect_lift_segments
@@ -211,6 +212,7 @@ contains
          new_testsuite("axial", collect_axial), &
          new_testsuite("axial_follower", collect_axial_follower), &
          new_testsuite("friction_modifier", collect_friction_modifier), &
+         new_testsuite("running_in", collect_running_in), &
          new_testsuite("boundary_law", collect_boundary_law), &
          new_testsuite("heat_laws", collect_heat_laws), &
          new_testsuite("spline", collect_spline), &

@@ -45,6 +45,12 @@ module camroller_units
       unit_t("s", "s", 1.0_wp, 1.0_wp, 0.0_wp), &
       unit_t("m_s", "m/s", 1.0_wp, 1.0_wp, 0.0_wp), &
       unit_t("s_m", "s/m", 1.0_wp, 1.0_wp, 0.0_wp), &
+      unit_t("nm", "nm", 1.0_wp, 1.0e9_wp, 0.0_wp), &
+      unit_t("nm_s", "nm/s", 1.0_wp, 1.0e9_wp, 0.0_wp), &
+      unit_t("nm3", "nm3", 1.0_wp, 1.0e27_wp, 0.0_wp), &
+      unit_t("per_s", "1/s", 1.0_wp, 1.0_wp, 0.0_wp), &
+      unit_t("mm3_N_m", "mm3/(N m)", 1.0_wp, 1.0e9_wp, 0.0_wp), &
+      unit_t("h", "h", 3600.0_wp, 1.0_wp, 0.0_wp), &
       unit_t("mm2", "mm2", 1.0_wp, 1.0e6_wp, 0.0_wp), &
       unit_t("cm3", "cm3", 1.0_wp, 1.0e6_wp, 0.0_wp), &
       unit_t("kg", "kg", 1.0_wp, 1.0_wp, 0.0_wp), &

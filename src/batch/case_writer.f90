@@ -10,6 +10,7 @@ module camroller_case_writer
    use camroller_case_record, only : case_outcome_t
    use camroller_case_sink, only : sink_t
    use camroller_deck, only : deck_t
+   use camroller_history_file, only : close_history, history_file_t, put_history
    use camroller_layout, only : join_layouts, layout_t, places_of
    use camroller_output, only : abandon_output, add_layout, close_output, not_computed, open_output, output_options_t, output_t, &
       & write_outcome
@@ -37,6 +38,8 @@ module camroller_case_writer
       type(output_t) :: file
       !> Profiles across the contact in it
       type(profile_file_t) :: profiles
+      !> What is listed over hours of running
+      type(history_file_t) :: history
       !> Quantities so far
       type(layout_t) :: joint
       type(tally_t) :: tally
@@ -67,7 +70,7 @@ contains
       type(error_t), allocatable, intent(out) :: error
 
       writer%tally%cases = facts%cases
-      allocate (writer%joint%summary(0), writer%joint%series(0), writer%joint%angle(0))
+      allocate (writer%joint%summary(0), writer%joint%series(0), writer%joint%history(0), writer%joint%angle(0))
       call open_output(writer%file, path, facts%cases, options, error, is_sparse)
       if (.not. allocated(error)) call write_facts(writer%file, deck, error, facts)
       if (allocated(error)) call abandon_output(writer%file)
@@ -162,6 +165,7 @@ contains
       end if
       call write_outcome(self%file, number, outcome%status, outcome%text, outcome%reasons, summary, series, error)
       if (.not. allocated(error)) call put_profiles(self%profiles, self%file, number, outcome%profiles, error)
+      if (.not. allocated(error)) call put_history(self%history, self%file, number, layout%history, outcome%history, error)
    end subroutine write_one
 
    !> Finish the file.
@@ -171,6 +175,7 @@ contains
       !> File error
       type(error_t), allocatable, intent(out) :: error
 
+      call close_history(writer%history)
       call close_profiles(writer%profiles)
       call close_output(writer%file, error)
    end subroutine close_cases
@@ -180,6 +185,7 @@ contains
       !> The sink
       type(case_writer_t), intent(inout) :: writer
 
+      call close_history(writer%history)
       call close_profiles(writer%profiles)
       call abandon_output(writer%file)
    end subroutine abandon_cases

@@ -92,6 +92,7 @@ contains
       if (.not. allocated(error) .and. layout > 0) then
          call compare_summaries(self, first, outcomes, own%summary, differs, error)
          if (.not. allocated(error)) call compare_series(self, first, outcomes, own, differs, error)
+         if (.not. allocated(error)) call compare_histories(self, first, outcomes, own, differs, error)
          if (.not. allocated(error)) call compare_profiles(self, first, outcomes, differs, error)
       end if
       self%cases = self%cases + size(outcomes)
@@ -200,6 +201,36 @@ contains
          end do
       end do
    end subroutine compare_series
+
+   !> Compare what is listed over hours of running.
+   subroutine compare_histories(self, first, outcomes, layout, differs, error)
+      !> The sink
+      class(comparison_sink_t), intent(inout) :: self
+      !> First case, from 1
+      integer, intent(in) :: first
+      !> The cases
+      type(case_outcome_t), intent(in) :: outcomes(:)
+      !> Their layout
+      type(layout_t), intent(in) :: layout
+      !> Cases that differ
+      logical, intent(inout) :: differs(:)
+      !> File error
+      type(error_t), allocatable, intent(out) :: error
+
+      real(wp), allocatable :: stored(:) ! [unit of the quantity]
+      integer :: i, k
+
+      do i = 1, size(outcomes)
+         if (.not. allocated(outcomes(i)%history)) cycle
+         do k = 1, size(layout%history)
+            call read_numbers(self%file, "/running_in/"//layout%history(k)%name, [0, first + i - 2], &
+               & [size(outcomes(i)%history, 1), 1], stored, error)
+            if (allocated(error)) return
+            call compare_row(self, "running_in/"//layout%history(k)%name, first + i - 2, stored, outcomes(i)%history(:, k), &
+               & differs(i))
+         end do
+      end do
+   end subroutine compare_histories
 
    !> Compare profiles across the contact, of cases that have some or should have some.
    subroutine compare_profiles(self, first, outcomes, differs, error)

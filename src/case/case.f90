@@ -15,6 +15,8 @@ module camroller_case
    use camroller_film, only : film_t
    use camroller_asperity, only : asperity_t, friction_modifier_t
    use camroller_boundary_law, only : boundary_law_t
+   use camroller_tribofilm, only : running_in_t, tribofilm_t
+   use camroller_wear, only : wear_t
    use camroller_traction, only : traction_t
    use camroller_heat, only : heat_t
    use camroller_needle, only : needle_bearing_t
@@ -130,6 +132,11 @@ module camroller_case
       type(friction_modifier_t), allocatable :: friction_modifier
       !> Law of the boundary coefficient; without it, or without asperities, it is constant
       type(boundary_law_t), allocatable :: boundary_law
+      !> Wear of cam and roller; a film that grows on them, and the hours in which both change the surfaces before the cycle that is
+      !> the result; of no effect without asperities
+      type(wear_t), allocatable :: wear
+      type(tribofilm_t), allocatable :: tribofilm
+      type(running_in_t), allocatable :: running_in
       type(needle_bearing_t), allocatable :: needle_bearing
       type(needle_drag_t), allocatable :: needle_drag
       !> Numerical film in place of the film law

@@ -22,21 +22,21 @@ module camroller_effect_list
       & effect_pressure, effect_shear, effect_spin, effect_ehl, effect_tip, effect_seal, effect_side, effect_pivot, &
       & effect_drag, effect_inlet_heat, effect_contact_heat, effect_dynamics, effect_surge, effect_adjuster, is_part_of_train, &
       & effect_bearing_asperity, effect_belt_pull, effect_modifier, effect_orbit, effect_bearing_heat, effect_profile, &
-      & effect_boundary_law, needs_bearings
+      & effect_boundary_law, effect_running_in, needs_bearings
 
    !> Effects: groups of the deck, and laws that have a simpler one beside them
    character(len=*), parameter :: effect_names(*) = [character(len=name_length) :: "asperity", "needle_bearing", "valve_guide", &
       & "cam_bearings", "gas_force", "rolling_resistance", "film_law", "pressure_law", "shear_law", "roller_equation", &
       & "ehl", "valve_tip", "stem_seal", "guide_side_load", "finger_pivot", "needle_drag", "inlet_heat", "contact_heat", &
       & "dynamics", "spring_surge", "lash_adjuster", "bearing_asperity", "belt_pull", &
-      & "friction_modifier", "journal_orbit", "bearing_heat", "roller_profile", "boundary_law"]
+      & "friction_modifier", "journal_orbit", "bearing_heat", "roller_profile", "boundary_law", "running_in"]
    !> Positions in it
    integer, parameter :: effect_asperity = 1, effect_needle = 2, effect_guide = 3, effect_bearings = 4, effect_gas = 5, &
       & effect_rolling = 6, effect_film = 7, effect_pressure = 8, effect_shear = 9, effect_spin = 10, effect_ehl = 11, &
       & effect_tip = 12, effect_seal = 13, effect_side = 14, effect_pivot = 15, effect_drag = 16, &
       & effect_inlet_heat = 17, effect_contact_heat = 18, effect_dynamics = 19, effect_surge = 20, effect_adjuster = 21, &
       & effect_bearing_asperity = 22, effect_belt_pull = 23, effect_modifier = 24, &
-      & effect_orbit = 25, effect_bearing_heat = 26, effect_profile = 27, effect_boundary_law = 28
+      & effect_orbit = 25, effect_bearing_heat = 26, effect_profile = 27, effect_boundary_law = 28, effect_running_in = 29
    !> Effects of the camshaft bearings, two and two side by side: nothing else depends on them, and without these bearings they are
    !> of no effect
    integer, parameter :: needs_bearings(*) = [effect_bearing_asperity, effect_belt_pull, effect_orbit, effect_bearing_heat]
@@ -129,10 +129,8 @@ contains
          call leave_bearing_part_out(variant, effect)
       case (effect_profile)
          if (allocated(variant%roller_profile)) deallocate (variant%roller_profile)
-      case (effect_modifier)
-         if (allocated(variant%friction_modifier)) deallocate (variant%friction_modifier)
-      case (effect_boundary_law)
-         if (allocated(variant%boundary_law)) deallocate (variant%boundary_law)
+      case (effect_modifier, effect_boundary_law, effect_running_in)
+         call leave_boundary_part_out(variant, effect)
       case (effect_inlet_heat)
          if (allocated(variant%heat)) variant%heat%inlet_law = inlet_law_names(inlet_none)
       case (effect_contact_heat)
@@ -156,7 +154,35 @@ contains
       if (allocated(variant%asperity)) deallocate (variant%asperity)
       if (allocated(variant%friction_modifier)) deallocate (variant%friction_modifier)
       if (allocated(variant%boundary_law)) deallocate (variant%boundary_law)
+      if (allocated(variant%wear)) deallocate (variant%wear)
+      call leave_running_in_out(variant)
    end subroutine leave_asperities_out
+
+   !> Leave out what changes the friction of asperities.
+   pure subroutine leave_boundary_part_out(variant, effect)
+      !> In: a case; out: without it
+      type(case_t), intent(inout) :: variant
+      !> Position in `effect_names`
+      integer, intent(in) :: effect
+
+      select case (effect)
+      case (effect_modifier)
+         if (allocated(variant%friction_modifier)) deallocate (variant%friction_modifier)
+      case (effect_boundary_law)
+         if (allocated(variant%boundary_law)) deallocate (variant%boundary_law)
+      case (effect_running_in)
+         call leave_running_in_out(variant)
+      end select
+   end subroutine leave_boundary_part_out
+
+   !> Leave the hours of running out, with the film that grows in them.
+   pure subroutine leave_running_in_out(variant)
+      !> In: a case; out: with its surfaces as they are at first
+      type(case_t), intent(inout) :: variant
+
+      if (allocated(variant%running_in)) deallocate (variant%running_in)
+      if (allocated(variant%tribofilm)) deallocate (variant%tribofilm)
+   end subroutine leave_running_in_out
 
    !> Take the lash adjuster away: the pivot stays where the adjuster holds it at rest, and the base circle keeps its load.
    subroutine fix_pivot(variant)
@@ -282,10 +308,8 @@ contains
          has = has_bearing_part(case, effect)
       case (effect_profile)
          has = allocated(case%roller_profile)
-      case (effect_modifier)
-         has = allocated(case%friction_modifier) .and. allocated(case%asperity)
-      case (effect_boundary_law)
-         has = allocated(case%boundary_law) .and. allocated(case%asperity)
+      case (effect_modifier, effect_boundary_law, effect_running_in)
+         has = has_boundary_part(case, effect)
       case (effect_inlet_heat)
          if (allocated(case%heat)) has = case%heat%inlet_law /= inlet_law_names(inlet_none)
       case (effect_contact_heat)
@@ -298,6 +322,21 @@ contains
          has = allocated(case%dynamics) .and. allocated(case%lash_adjuster)
       end select
    end function has_effect
+
+   !> Does a case have what changes the friction of its asperities?
+   pure function has_boundary_part(case, effect) result(has)
+      !> The case
+      type(case_t), intent(in) :: case
+      !> Position in `effect_names`
+      integer, intent(in) :: effect
+      logical :: has
+
+      has = .false.
+      if (.not. allocated(case%asperity)) return
+      if (effect == effect_modifier) has = allocated(case%friction_modifier)
+      if (effect == effect_boundary_law) has = allocated(case%boundary_law)
+      if (effect == effect_running_in) has = allocated(case%running_in)
+   end function has_boundary_part
 
    !> Does a case have what comes on top of the camshaft bearings?
    pure function has_bearing_part(case, effect) result(has)

@@ -16,8 +16,8 @@ module camroller_kept_models
 
    !> Groups of a deck that are no part of the train
    character(len=*), parameter :: revised_groups(*) = [character(len=name_length) :: "operating_point", "gas_force", "materials", &
-      & "surface", "lubricant", "film", "traction", "heat", "ehl", "asperity", "friction_modifier", "boundary_law", &
-      & "needle_bearing", "needle_drag", "roller_profile", "cam_bearings", "bearing_asperity", &
+      & "surface", "lubricant", "film", "traction", "heat", "ehl", "asperity", "friction_modifier", "boundary_law", "wear", &
+      & "tribofilm", "running_in", "needle_bearing", "needle_drag", "roller_profile", "cam_bearings", "bearing_asperity", &
       & "belt_pull", "bearing_heat", "valve_guide", "valve_tip", "stem_seal", "guide_side_load", "finger_pivot", "effects", &
       & "numerics"]
 

@@ -11,6 +11,7 @@ module camroller_deck_case
    use camroller_settings, only : settings_t, take, get_word, has_group
    use camroller_deck_asperity, only : fill_modifier
    use camroller_deck_boundary_law, only : fill_boundary_law
+   use camroller_deck_running_in, only : fill_running_in
    use camroller_deck_cam_bearings, only : fill_bearing_parts
    use camroller_deck_engine, only : fill_engine
    use camroller_deck_dynamics, only : fill_dynamics
@@ -55,6 +56,7 @@ contains
       call fill_asperity(settings, case)
       call fill_modifier(settings, case)
       call fill_boundary_law(settings, case)
+      call fill_running_in(settings, case)
       call fill_bearings(settings, case)
       call fill_bearing_parts(settings, case)
       call fill_engine(settings, case)

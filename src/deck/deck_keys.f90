@@ -20,6 +20,7 @@ module camroller_deck_keys
    use camroller_roller, only : spin_names
    use camroller_deck_asperity, only : add_modifier_keys
    use camroller_deck_boundary_law, only : add_boundary_law_keys
+   use camroller_deck_running_in, only : add_running_in_keys
    use camroller_deck_cam_bearings, only : add_bearing_part_keys
    use camroller_deck_engine, only : add_engine_keys
    use camroller_deck_sweep_keys, only : add_sweep_keys
@@ -65,6 +66,7 @@ contains
       call add_asperity_keys(schema)
       call add_modifier_keys(schema)
       call add_boundary_law_keys(schema)
+      call add_running_in_keys(schema)
       call add_roller_bearing_keys(schema)
       call add_cam_bearing_keys(schema)
       call add_bearing_part_keys(schema)

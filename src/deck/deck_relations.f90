@@ -16,6 +16,7 @@ module camroller_deck_relations
    use camroller_deck_roller_bearing, only : check_roller_bearing
    use camroller_deck_joints, only : check_joints
    use camroller_deck_boundary_law, only : check_boundary_law
+   use camroller_deck_running_in, only : check_running_in
    use camroller_deck_complaint, only : complain, complain_about_group, demand
    use camroller_deck_cam_bearings, only : check_bearing_parts
    use camroller_deck_engine, only : check_engine
@@ -53,6 +54,7 @@ contains
       call check_heat(settings, mistakes)
       call check_modifier(settings, mistakes)
       call check_boundary_law(settings, mistakes)
+      call check_running_in(settings, mistakes)
       call check_dynamics(settings, mistakes)
    end subroutine check_relations
 

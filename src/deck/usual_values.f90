@@ -96,6 +96,16 @@ module camroller_usual_values
       usual_t("boundary_law.speed_points_m_s", 1.0e-5_wp, 20.0_wp), &
       usual_t("boundary_law.temperature_points_degC", -40.0_wp, 250.0_wp), &
       usual_t("boundary_law.coefficient_points", 0.01_wp, 0.5_wp), &
+      usual_t("wear.cam_rate_mm3_N_m", 0.0_wp, 1.0e-3_wp), &
+      usual_t("wear.roller_rate_mm3_N_m", 0.0_wp, 1.0e-3_wp), &
+      usual_t("tribofilm.growth_rate_nm_s", 0.0_wp, 1.0e15_wp), &
+      usual_t("tribofilm.activation_energy_kJ_mol", 0.0_wp, 250.0_wp), &
+      usual_t("tribofilm.activation_volume_nm3", 0.0_wp, 1.0_wp), &
+      usual_t("tribofilm.removal_rate_per_s", 0.0_wp, 1.0e3_wp), &
+      usual_t("tribofilm.largest_thickness_nm", 1.0_wp, 1.0e3_wp), &
+      usual_t("tribofilm.roughness_ratio", 0.0_wp, 3.0_wp), &
+      usual_t("tribofilm.coefficient", 0.01_wp, 0.5_wp), &
+      usual_t("running_in.duration_h", 1.0e-3_wp, 1.0e4_wp), &
       usual_t("needle_bearing.friction_coefficient", 0.0_wp, 0.3_wp), &
       usual_t("needle_bearing.needle_radius_mm", 0.3_wp, 5.0_wp), &
       usual_t("needle_bearing.pin_width_mm", 2.0_wp, 25.0_wp), &

@@ -130,6 +130,7 @@ contains
       do lobe = 1, size(models)
          call make_survey(models(lobe), surveys(lobe))
          if (case%numerics%method == fixed_step) surveys(lobe)%trouble = "a fixed step may not resolve the cycle"
+         if (allocated(case%running_in)) surveys(lobe)%trouble = "the surfaces change over the hours of running"
          choice%evaluations = choice%evaluations + surveys(lobe)%evaluations
          call estimate_train(models(lobe), trains(lobe))
          if (allocated(trains(lobe)%trouble)) surveys(lobe)%trouble = trains(lobe)%trouble

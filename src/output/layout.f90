@@ -14,8 +14,8 @@ module camroller_layout
 
    !> Quantities of a case
    type :: layout_t
-      !> Scalars and series
-      type(quantity_t), allocatable :: summary(:), series(:)
+      !> Scalars, series, and what is listed over hours of running
+      type(quantity_t), allocatable :: summary(:), series(:), history(:)
       !> Cam angles [deg]
       real(wp), allocatable :: angle(:)
    end type layout_t
@@ -40,6 +40,8 @@ contains
       layout%summary = result%summary
       layout%series = result%series
       layout%angle = result%angle
+      allocate (layout%history(0))
+      if (allocated(result%history)) layout%history = result%history
    end subroutine layout_of
 
    !> Has a result the quantities of a layout?
@@ -51,8 +53,12 @@ contains
       !> Has it?
       logical :: verdict
 
-      integer :: i
+      integer :: i, rows
 
+      rows = 0
+      if (allocated(result%history)) rows = size(result%history)
+      verdict = size(layout%history) == rows
+      if (.not. verdict) return
       verdict = size(layout%summary) == size(result%summary) .and. size(layout%series) == size(result%series) .and. &
          & size(layout%angle) == size(result%angle)
       if (.not. verdict) return
@@ -117,6 +123,7 @@ contains
 
       call put_quantities(record, layout%summary)
       call put_quantities(record, layout%series)
+      call put_quantities(record, layout%history)
       call put_integer(record, size(layout%angle))
       call put_numbers(record, layout%angle)
    end subroutine put_layout
@@ -151,6 +158,7 @@ contains
 
       call take_quantities(record, layout%summary)
       call take_quantities(record, layout%series)
+      call take_quantities(record, layout%history)
       call take_integer(record, angles)
       allocate (layout%angle(angles))
       call take_numbers(record, layout%angle)
@@ -191,6 +199,7 @@ contains
       end if
       call join_quantities(joint%summary, other%summary)
       call join_quantities(joint%series, other%series)
+      call join_quantities(joint%history, other%history)
    end subroutine join_layouts
 
    !> Add quantities that are not there yet.

@@ -22,7 +22,7 @@ module camroller_case_record
    !> In the place of the number of nodes: profiles were asked for and could not be solved
    integer, parameter :: unsolved = -1
    !> Words of a case besides its numbers, with a remark of the usual length
-   integer, parameter :: words_of_case = 25
+   integer, parameter :: words_of_case = 26
 
    !> One case
    type :: case_outcome_t
@@ -38,6 +38,8 @@ module camroller_case_record
       real(wp), allocatable :: summary(:)
       !> Series, shape (angle, series) [unit of the series]; none where they are not kept
       real(wp), allocatable :: series(:, :)
+      !> What is listed over hours of running, shape (row, quantity) [unit of the quantity]; none where the case has none
+      real(wp), allocatable :: history(:, :)
       !> Profiles across the contact; none where they are not kept
       type(ehl_record_t), allocatable :: profiles
       !> Were they asked for, and could not be solved?
@@ -90,6 +92,14 @@ contains
       end do
       call put_text(record, reasons)
       call put_numbers(record, result%summary_values)
+      if (allocated(result%history_values)) then
+         call put_integer(record, size(result%history_values, 1))
+         do i = 1, size(result%history_values, 2)
+            call put_numbers(record, result%history_values(:, i))
+         end do
+      else
+         call put_integer(record, 0)
+      end if
       if (with_series) then
          do i = 1, size(result%series_values, 2)
             call put_numbers(record, result%series_values(:, i))
@@ -175,6 +185,7 @@ contains
       call take_integer(record, nodes)
       if (outcome%status /= 0) call take_text(record, outcome%text)
       if (allocated(outcome%series)) deallocate (outcome%series)
+      if (allocated(outcome%history)) deallocate (outcome%history)
       if (allocated(outcome%profiles)) deallocate (outcome%profiles)
       outcome%lacks_profiles = nodes == unsolved
       outcome%reasons = ""
@@ -196,6 +207,13 @@ contains
       end if
       if (.not. allocated(outcome%summary)) allocate (outcome%summary(size(layout%summary)))
       call take_numbers(record, outcome%summary)
+      call take_integer(record, count)
+      if (count > 0) then
+         allocate (outcome%history(count, size(layout%history)))
+         do i = 1, size(layout%history)
+            call take_numbers(record, outcome%history(:, i))
+         end do
+      end if
       if (has_series > 0) then
          allocate (outcome%series(size(layout%angle), size(layout%series)))
          do i = 1, size(layout%series)
@@ -243,6 +261,7 @@ contains
       integer :: words
 
       words = words_of_case + size(result%summary_values)
+      if (allocated(result%history_values)) words = words + size(result%history_values)
       if (with_series) words = words + size(result%series_values)
       if (.not. present(profiles)) return
       words = words + size(profiles%angle) + size(profiles%nodes) + size(profiles%values) + 2*size(profiles%pressure)

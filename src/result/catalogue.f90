@@ -12,7 +12,8 @@ module camroller_catalogue
    use camroller_effect_list, only : effect_names, has_effect
    use camroller_result, only : quantity_t, quantity_list_t, append_quantity, lobe_scope, scope_camshaft, scope_case, &
       & scope_engine, scope_length, take_quantities
-   use camroller_part_series, only : add_axial, add_axial_film, add_bearings, add_heat, add_pin, bearing_count
+   use camroller_part_series, only : add_axial, add_axial_film, add_bearings, add_heat, add_pin, add_surfaces, &
+      & bearing_count
    use camroller_state, only : state_t, flexible_values_t
    use camroller_torque_list, only : torque_list, torque_count, is_loss, is_torque, of_residual, torque_series
    use camroller_hertz, only : peak_pressure
@@ -237,8 +238,8 @@ contains
       if (allocated(case%asperity)) then
          call add(list, "asperity_load", "N", "load carried by asperities", "asperity", state%contact%asperity_load)
          call add(list, "real_contact_area", "m2", "contact area of the asperities", "asperity", state%contact%real_area)
-         if (allocated(case%boundary_law)) call add(list, "boundary_coefficient", "1", "friction coefficient of the asperities", &
-            & "boundary_law", state%contact%boundary_coefficient)
+         if (allocated(case%boundary_law) .or. allocated(case%tribofilm)) call add(list, "boundary_coefficient", "1", &
+            & "friction coefficient of the asperities", "asperity", state%contact%boundary_coefficient)
       end if
       call add(list, "friction_hydrodynamic", "N", "shear force of the film", "traction", state%contact%shear)
       if (allocated(case%asperity)) then
@@ -258,6 +259,7 @@ contains
       end if
       if (allocated(case%roller_profile)) call add_axial(list, case%roller_profile, model, state)
       call add_pin(list, case, model, state)
+      if (allocated(case%wear) .or. allocated(case%running_in)) call add_surfaces(list, case, model, state)
       call add_joints(list, case, state%joints)
       if (allocated(case%dynamics)) call add_flexible(list, case, state%flexible)
    end subroutine add_follower
@@ -460,6 +462,7 @@ contains
       model%speed = 0.0_wp
       state%contact%length = 1.0_wp
       model%modulus = 1.0_wp
+      model%roller_radius = 1.0_wp
    end subroutine set_blank
 
    !> Does the case have rolling resistance?

@@ -1,11 +1,12 @@
-!> Series of parts: of heat in the contact, of the contact along the roller, of single camshaft bearings.
+!> Series of parts: of heat in the contact, of surfaces that wear, of the contact along the roller, of single camshaft bearings.
 !>
 !> In: a case, state of the follower, states of its bearings. Out: how many series of bearings there are, and the series.
 module camroller_part_series
-   use camroller_kinds, only : wp
+   use camroller_kinds, only : wp, two_pi
    use camroller_axial_film, only : smallest_film
    use camroller_axial_table, only : axial_state, axial_state_t, slice_loads
    use camroller_bearing_asperity, only : bearing_state_t
+   use camroller_cam_surface, only : value_at_angle
    use camroller_case, only : camshaft_number, case_t
    use camroller_contact_forces, only : film_groups
    use camroller_effect_list, only : effect_contact_heat, effect_inlet_heat, has_effect
@@ -19,10 +20,11 @@ module camroller_part_series
    use camroller_roller_profile, only : roller_profile_t
    use camroller_shaft, only : has_orbits
    use camroller_state, only : state_t
+   use camroller_wear, only : largest_shear, orthogonal_shear, sliding_distance, time_in_contact, worn_per_second
    implicit none
    private
 
-   public :: add_axial, add_axial_film, add_heat, add_pin, add_bearings, bearing_count, bearing_series_count
+   public :: add_axial, add_axial_film, add_heat, add_pin, add_surfaces, add_bearings, bearing_count, bearing_series_count
 
 contains
 
@@ -68,6 +70,53 @@ contains
             & state%contact%flash_rise)
       end if
    end subroutine add_heat
+
+   !> Series of wear, and of surfaces after hours of running: at each cam angle those of the place on the cam that is in contact.
+   pure subroutine add_surfaces(list, case, model, state)
+      !> List to extend
+      type(quantity_list_t), intent(inout) :: list
+      !> The case
+      type(case_t), intent(in) :: case
+      !> The model of the lobe
+      type(model_t), intent(in) :: model
+      !> State of the follower
+      type(state_t), intent(in) :: state
+
+      ! Peak pressure [Pa]; turn of the cam [s]; thickness, depth [m] and slope [m/rad]
+      real(wp) :: peak, period, film, depth, slope
+
+      film = 0.0_wp
+      depth = 0.0_wp
+      period = 0.0_wp
+      if (model%speed > 0.0_wp) period = two_pi/model%speed
+      associate (contact => state%contact)
+         if (allocated(case%wear)) then
+            peak = peak_pressure(contact%load, state%position%equivalent_radius, contact%length, model%modulus)
+            call add(list, "subsurface_shear_stress", "Pa", "largest shear stress below the surface, without traction", "wear", &
+               & largest_shear*peak)
+            call add(list, "orthogonal_shear_stress", "Pa", "largest shear stress along the surface below it, without traction", &
+               & "wear", orthogonal_shear*peak)
+            call add(list, "sliding_distance", "m", "distance that the roller slides over the place on the cam in a passage", &
+               & "wear", sliding_distance(contact%half_width, contact%sliding_speed, contact%cam_surface_speed, period))
+            call add(list, "cam_wear_per_turn", "m", "depth worn away from the place on the cam in a turn", "wear", period &
+               & *time_in_contact(contact%half_width, contact%cam_surface_speed, period)*worn_per_second(case%wear%cam_rate, &
+               & contact%asperity_load, contact%apparent_area, contact%sliding_speed))
+            call add(list, "roller_wear_rate", "m s-1", "rate at which the roller becomes thinner all round", "wear", &
+               & contact%half_width/(0.5_wp*two_pi*model%roller_radius)*worn_per_second(case%wear%roller_rate, &
+               & contact%asperity_load, contact%apparent_area, contact%sliding_speed))
+         end if
+         if (.not. allocated(case%running_in)) return
+         if (allocated(model%surface)) then
+            call value_at_angle(model%surface%cam_film, state%position%angle, film, slope)
+            call value_at_angle(model%surface%cam_wear, state%position%angle, depth, slope)
+         end if
+         call add(list, "composite_roughness", "m", "composite roughness of cam and roller with their films", "running_in", &
+            & contact%surfaces%roughness)
+         if (allocated(case%tribofilm)) call add(list, "cam_film_thickness", "m", "thickness of the tribofilm on the cam", &
+            & "running_in", film)
+         if (allocated(case%wear)) call add(list, "cam_wear_depth", "m", "depth worn away from the cam", "running_in", depth)
+      end associate
+   end subroutine add_surfaces
 
    !> Series of a roller's pin with an oil film.
    pure subroutine add_pin(list, case, model, state)

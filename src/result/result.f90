@@ -60,6 +60,10 @@ module camroller_result
       type(quantity_t), allocatable :: summary(:)
       !> Values of the scalars, units as in `summary`
       real(wp), allocatable :: summary_values(:)
+      !> Meaning of what is listed over hours of running; allocated where the case has them
+      type(quantity_t), allocatable :: history(:)
+      !> Values, shape (row, quantity), rows evenly spaced in time, the first at the start; units as in `history`
+      real(wp), allocatable :: history_values(:, :)
       !> Remarks that do not make the result wrong
       type(remark_t), allocatable :: remarks(:)
       !> Name of the series whose mean has the largest estimated error; blank where means have none

@@ -20,6 +20,7 @@ module camroller_run
    use camroller_report, only : make_result, search_extremes, take_statistics
    use camroller_remarks, only : add_remark, loose_tolerance, missed_accuracy, missed_extremes, missed_means
    use camroller_result, only : result_t, get_summary
+   use camroller_running_in, only : aged_t, add_running_in, run_in
    implicit none
    private
 
@@ -102,7 +103,7 @@ contains
       integer :: lobe, shapes
 
       if (.not. wants_choice(case)) then
-         call run_listed(case, models, with_series, result, error)
+         call run_aged(case, models, with_series, result, error)
          return
       end if
       call choose_effects(case, models, chosen, choice, error)
@@ -111,9 +112,35 @@ contains
       do lobe = 1, shapes
          if (.not. allocated(error)) call revise_model(models(lobe), chosen, error)
       end do
-      if (.not. allocated(error)) call run_listed(chosen, models(:shapes), with_series, result, error)
+      if (.not. allocated(error)) call run_aged(chosen, models(:shapes), with_series, result, error)
       if (.not. allocated(error)) call add_choice(result, choice)
    end subroutine run_chosen
+
+   !> Run a case with all its effects, after the hours of running that it has.
+   subroutine run_aged(case, models, with_series, result, error)
+      !> The case
+      type(case_t), intent(in) :: case
+      !> Model of each lobe shape; out: with surfaces as they are after these hours
+      type(model_t), intent(inout) :: models(:)
+      !> Does the result hold series?
+      logical, intent(in) :: with_series
+      !> Its result
+      type(result_t), intent(out) :: result
+      !> What went wrong, of any kind
+      type(error_t), allocatable, intent(out) :: error
+
+      type(aged_t) :: aged(size(models))
+      integer :: lobe
+
+      if (allocated(case%running_in)) then
+         do lobe = 1, size(models)
+            call run_in(case, models(lobe), aged(lobe), error)
+            if (allocated(error)) return
+         end do
+      end if
+      call run_listed(case, models, with_series, result, error)
+      if (allocated(case%running_in) .and. .not. allocated(error)) call add_running_in(case, models, aged, result)
+   end subroutine run_aged
 
    !> Run a case with all its effects.
    !>

@@ -2,6 +2,7 @@
 module test_spin_slopes
    use testdrive, only : unittest_type, new_unittest, error_type, check
    use camroller_kinds, only : wp, degree
+   use camroller_cam_surface, only : place_angle
    use camroller_case, only : case_t
    use camroller_model, only : model_t
    use camroller_kinematics, only : rotation_names
@@ -42,6 +43,7 @@ contains
          new_unittest("slopes with friction at valve tip, seal, guide and pivot, and needle drag", test_with_joints), &
          new_unittest("slopes with heat of inlet and contact, for every film, viscosity and shear law", test_with_heat), &
          new_unittest("slopes with a law of the boundary coefficient, with and without heat", test_with_boundary_law), &
+         new_unittest("slopes with a tribofilm whose thickness changes over the cam", test_with_tribofilm), &
          new_unittest("slopes with a tilted crown, for every film and rolling law", test_with_profile), &
          new_unittest("slopes with heat and a tilted crown at once, for every film law", test_with_heat_and_profile), &
          new_unittest("slopes with an oil film on the roller's pin, for both of its laws", test_with_pin_film), &
@@ -217,6 +219,33 @@ contains
          if (allocated(error)) return
       end do
    end subroutine test_with_boundary_law
+
+   subroutine test_with_tribofilm(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: case
+      type(model_t) :: model
+      integer :: law, i
+
+      do law = 1, size(film_law_names)
+         case = skewed_case(rotation_names(1 + mod(law, 2)))
+         case%film%law = film_law_names(law)
+         case%asperity%film_shear_strength = 2.0e6_wp
+         if (mod(law, 2) == 0) call add_heat(case)
+         if (mod(law, 3) == 0) call add_boundary_law(case, "logarithmic")
+         call set_point(case, point_speeds(1 + mod(law, 3)), 0.3_wp*point_viscosities(3))
+         call make_model(case, model, error)
+         if (allocated(error)) return
+         allocate (model%surface)
+         ! places coarse enough for differences of the step
+         model%surface%cam_film = [(5.0e-8_wp*(1.0_wp + sin(2.0_wp*place_angle(i, 24))), i=1, 24)]
+         model%surface%roller_film = 4.0e-8_wp
+         model%surface%roughness_ratio = 2.0_wp
+         model%surface%largest_thickness = 1.2e-7_wp
+         model%boundary%film_coefficient = 0.07_wp
+         call compare(error, model, "tribofilm, "//trim(film_law_names(law)))
+         if (allocated(error)) return
+      end do
+   end subroutine test_with_tribofilm
 
    subroutine test_with_profile(error)
       type(error_type), allocatable, intent(out) :: error

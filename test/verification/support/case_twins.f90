@@ -38,6 +38,19 @@ contains
       if (allocated(case%heat)) then
          if (.not. case%heat%viscosity_fall > 0.0_wp) case%heat%viscosity_fall = 0.04_wp
       end if
+      ! What follows the temperature itself
+      if (allocated(case%boundary_law)) then
+         case%boundary_law%temperature_slope = 0.0_wp
+         if (allocated(case%boundary_law%temperature_points)) then
+            case%boundary_law%temperature_points = case%boundary_law%temperature_points(:1)
+            case%boundary_law%coefficient_points = case%boundary_law%coefficient_points(:size(case%boundary_law%speed_points))
+         end if
+      end if
+      if (allocated(case%tribofilm)) then
+         ! Of the order of what a barrier leaves
+         case%tribofilm%growth_rate = case%tribofilm%growth_rate*exp(-25.0_wp)
+         case%tribofilm%activation_energy = 0.0_wp
+      end if
       ! The usual place of the finger's centre of mass is in millimetres; this one is within every radius of gyration
       if (.not. case%masses%finger_centre > 0.0_wp) case%masses%finger_centre = 1.0e-3_wp
    end subroutine leave_constants_out
@@ -97,6 +110,7 @@ contains
       if (allocated(case%valve_guide)) call change(case%valve_guide%length, length)
       if (allocated(case%valve_guide)) call change(case%valve_guide%stem_diameter, length)
       if (allocated(case%valve_guide)) call change(case%valve_guide%radial_clearance, length)
+      call change_surfaces()
       call change_joints()
       call change_flexible()
       call change_bearings()
@@ -112,6 +126,25 @@ contains
 
          value = scaled(units, value, dimension)
       end subroutine change
+
+      !> Boundary friction, wear and films of surfaces in other units.
+      subroutine change_surfaces()
+         type(dimension_t), parameter :: time = dimension_t(0, 0, 1), per_time = dimension_t(0, 0, -1)
+
+         if (allocated(case%boundary_law)) then
+            call change(case%boundary_law%reference_speed, speed)
+            call change(case%boundary_law%lowest_speed, speed)
+            if (allocated(case%boundary_law%speed_points)) call change(case%boundary_law%speed_points, speed)
+         end if
+         if (allocated(case%wear)) call change(case%wear%cam_rate, per_pressure)
+         if (allocated(case%wear)) call change(case%wear%roller_rate, per_pressure)
+         if (allocated(case%tribofilm)) then
+            call change(case%tribofilm%growth_rate, speed)
+            call change(case%tribofilm%removal_rate, per_time)
+            call change(case%tribofilm%largest_thickness, length)
+         end if
+         if (allocated(case%running_in)) call change(case%running_in%duration, time)
+      end subroutine change_surfaces
 
       !> Bearings of roller and camshaft, and what comes on top of them, in other units.
       subroutine change_bearings()

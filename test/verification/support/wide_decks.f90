@@ -158,6 +158,7 @@ contains
       if (schema%groups(group)%name == "dynamics") has_group = draft%has_dynamics
       if (schema%groups(group)%name == "spring_surge") has_group = draft%has_surge
       if (schema%groups(group)%name == "lash_adjuster") has_group = draft%has_adjuster
+      if (schema%groups(group)%name == "tribofilm" .or. schema%groups(group)%name == "running_in") has_group = draft%has_hours
       if (is_left_out(schema%groups(group)%name)) has_group = .false.
    end function has_group
 

@@ -43,6 +43,8 @@ module wide_draft
       integer :: oil_by = oil_by_points
       !> Is the coefficient of pressure left to its estimate, where there is one?
       logical :: has_estimate = .false.
+      !> Does a tribofilm grow over hours?
+      logical :: has_hours = .false.
       !> Has the deck an engine? Its cylinders, camshafts, strokes
       logical :: has_engine = .false.
       integer :: cylinders = 1, camshafts = 1, strokes = 4
@@ -115,6 +117,8 @@ contains
       type(style_t), intent(in) :: style
       !> What is decided
       type(draft_t), intent(inout) :: draft
+      ! Part of the decks with hours of running, which take as long as a hundred others [-]
+      real(wp), parameter :: hours_share = 0.02_wp
       ! [-]
       real(wp) :: number
 
@@ -130,6 +134,8 @@ contains
       draft%has_plunger = draft%has_adjuster .and. number < 0.5_wp
       call draw(random, number)
       draft%has_estimate = number < 0.3_wp
+      call draw(random, number)
+      draft%has_hours = number < hours_share .and. .not. draft%has_dynamics
    end subroutine draft_oil_and_train
 
    !> May a deck have a group, after what it has already? Sliding joints need a rigid train and a closed balance, that of the pivot
@@ -149,7 +155,9 @@ contains
       if (group == "bearing_asperity" .or. group == "belt_pull") may_have = draft%has_cams
       if (group == "bearing_heat") may_have = draft%has_cams .and. any(deck_word(text, "lubricant", &
          & "temperature_law") == [character(len=10) :: "vogel", "walther", "data_sheet"])
-      if (group == "friction_modifier" .or. group == "boundary_law") may_have = index(text, "&asperity") > 0
+      if (group == "friction_modifier" .or. group == "boundary_law" .or. group == "wear") may_have = index(text, "&asperity") > 0
+      if (group == "tribofilm") may_have = index(text, "&asperity") > 0
+      if (group == "running_in") may_have = index(text, "&tribofilm") > 0
       if (group == "needle_drag") may_have = .not. draft%has_dynamics .and. deck_word(text, "needle_bearing", "kind") /= "journal"
       if (group == "finger_pivot") may_have = may_have .and. deck_word(text, "masses", "finger_kg") /= ""
    end function may_have

@@ -102,6 +102,17 @@ module wide_numbers
       & usual_t("boundary_law.lowest_speed_m_s", 1.0e-4_wp, 1.0e-2_wp, .true.), &
       & usual_t("boundary_law.smallest_coefficient", 0.0_wp, 0.05_wp), &
       & usual_t("boundary_law.largest_coefficient", 0.1_wp, 0.3_wp), &
+      & usual_t("wear.cam_rate_mm3_N_m", 1.0e-12_wp, 1.0e-7_wp, .true.), &
+      & usual_t("wear.roller_rate_mm3_N_m", 1.0e-12_wp, 1.0e-7_wp, .true.), &
+      & usual_t("tribofilm.growth_rate_nm_s", 1.0e5_wp, 1.0e9_wp, .true.), &
+      & usual_t("tribofilm.activation_energy_kJ_mol", 40.0_wp, 100.0_wp), &
+      & usual_t("tribofilm.activation_volume_nm3", 0.0_wp, 0.3_wp), &
+      & usual_t("tribofilm.removal_rate_per_s", 1.0e-3_wp, 1.0_wp, .true.), &
+      & usual_t("tribofilm.largest_thickness_nm", 10.0_wp, 300.0_wp), &
+      & usual_t("tribofilm.roughness_ratio", 0.0_wp, 1.0_wp), &
+      & usual_t("tribofilm.coefficient", 0.05_wp, 0.2_wp), &
+      & usual_t("running_in.duration_h", 0.1_wp, 100.0_wp, .true.), &
+      & usual_t("running_in.accuracy", 1.0e-3_wp, 1.0e-1_wp, .true.), &
       & usual_t("needle_bearing.friction_coefficient", 1.0e-4_wp, 0.1_wp, .true.), &
       & usual_t("needle_bearing.needle_radius_mm", 0.5_wp, 2.0_wp), &
       & usual_t("needle_bearing.reversal_ratio", 1.0e-4_wp, 0.5_wp, .true.), &

@@ -1,0 +1,64 @@
+"""Hours of running: what is in the file, the same from run, sweep and rerun, and decks that are refused."""
+
+import h5py
+import numpy
+import pytest
+
+from sweeps import ROOT, done, run
+
+DECK = ROOT / "decks/tribofilm.nml"
+COARSE = ["--set", "output.angle_step_deg=10", "--set", "running_in.places=48", "--set", "sweep.values_1=300,900"]
+DECK_ERROR, DIFFERENCE = 3, 7
+
+
+@pytest.fixture(scope="module")
+def folder(camroller, tmp_path_factory):
+    path = tmp_path_factory.mktemp("hours")
+    done(camroller, "run", DECK, *COARSE, "-o", "one.h5", "--quiet", folder=path)
+    return path
+
+
+def test_the_file_has_the_way_of_the_surfaces(folder):
+    with h5py.File(folder / "one.h5") as file:
+        group = file["running_in"]
+        assert group["running_time_part"][...] == pytest.approx(numpy.linspace(0, 1, 41))
+        for name, data in group.items():
+            assert {"units", "long_name", "source", "scope"} <= set(data.attrs), name
+            assert name == "running_time_part" or data.shape == (2, 41) and numpy.isfinite(data[...]).all(), name
+        assert group["time"][:, -1] == pytest.approx(36000.0) and group["roller_film"].dims[1][0].name.endswith("running_time_part")
+        assert group["roller_film"][:, -1] == pytest.approx(file["summary/roller_film_thickness"][...])
+        assert group["roller_wear"][:, -1] == pytest.approx(file["summary/roller_wear_depth"][...])
+        assert (file["summary/estimated_error_of_running_in"][...] <= 1e-3).all()
+        # between places the series is a spline of them: below the largest, above the smallest
+        assert (file["series/cam_film_thickness"][...].max(axis=1) <= group["largest_cam_film"][:, -1] * (1 + 1e-12)).all()
+        # the mean of the B-spline is that of its coefficients; 36 angles miss little of it
+        mean = file["series/cam_film_thickness"][...].mean(axis=1)
+        assert mean == pytest.approx(group["mean_cam_film"][:, -1], rel=1e-2)
+        assert file["series/subsurface_shear_stress"][...] == pytest.approx(0.300283 * file["series/hertz_pressure"][...], rel=1e-5)
+
+
+def test_a_sweep_and_a_rerun_have_the_same_bits(camroller, folder):
+    done(camroller, "sweep", DECK, *COARSE, "-o", "two.h5", "--threads", 2, "--quiet", folder=folder)
+    with h5py.File(folder / "one.h5") as one, h5py.File(folder / "two.h5") as two:
+        for name, data in one["running_in"].items():
+            assert (two["running_in"][name][...] == data[...]).all(), name
+        assert (one["summary/max_cam_wear_depth"][...] == two["summary/max_cam_wear_depth"][...]).all()
+    assert " 2 cases are the same to the last bit" in done(camroller, "rerun", "one.h5", folder=folder).stdout
+    with h5py.File(folder / "two.h5", "r+") as file:
+        file["running_in/roller_wear"][1, 7] *= 1 + 1e-15
+    result = run(camroller, "rerun", "two.h5", folder=folder)
+    assert result.returncode == DIFFERENCE and "running_in/roller_wear: in 1 case" in result.stderr
+
+
+@pytest.mark.parametrize("leave, words", [
+    (("running_in",), "&tribofilm needs the group &running_in"),
+    (("asperity",), "&wear needs the group &asperity"),
+    (("tribofilm", "wear"), "&running_in needs &tribofilm or &wear")])
+def test_hours_need_what_changes_in_them(camroller, tmp_path, leave, words):
+    text = DECK.read_text()
+    for group in leave:
+        first = text.index(f"&{group}\n")
+        text = text[:first] + text[text.index("\n/\n", first) + 3:]
+    (tmp_path / "deck.nml").write_text(text)
+    result = run(camroller, "check", "deck.nml", folder=tmp_path)
+    assert result.returncode == DECK_ERROR and words in result.stderr

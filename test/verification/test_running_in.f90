@@ -1,0 +1,409 @@
+!> Hours of running: growth of films and wear of surfaces, and what they make of the cycle.
+module test_running_in
+   use testdrive, only : unittest_type, new_unittest, error_type, test_failed, check
+   use camroller_cam_surface, only : cam_surface_t, meet_surfaces, meeting_t, place_angle, value_at_angle
+   use camroller_case, only : case_t
+   use camroller_cycle, only : cycle_t, state_at
+   use camroller_error, only : error_t
+   use camroller_kinds, only : wp, pi, two_pi, degree
+   use camroller_model, only : model_t
+   use camroller_result, only : find_quantity, get_series, get_summary, result_t
+   use camroller_run, only : run_case
+   use camroller_running_in, only : aged_t, run_in
+   use camroller_state, only : state_t
+   use camroller_torque_list, only : of_residual
+   use camroller_tribofilm, only : growth_rate, running_in_t, thickness_after, tribofilm_t
+   use camroller_wear, only : largest_shear, largest_shear_depth, orthogonal_shear, orthogonal_shear_depth, sliding_distance, &
+      & time_in_contact, wear_t, worn_per_second
+   use case_twins, only : compare_twins, leave_constants_out, rescale_case
+   use reference_cases, only : add_heat, make_cycle, make_model, set_point, thesis_case
+   use unit_systems, only : unit_systems_tried
+   implicit none
+   private
+
+   public :: collect_running_in
+
+contains
+
+   subroutine collect_running_in(testsuite)
+      type(unittest_type), allocatable, intent(out) :: testsuite(:)
+
+      testsuite = [ &
+         new_unittest("first-order growth and removal, in closed form", test_growth), &
+         new_unittest("growth follows stress and temperature as a reaction with a barrier", test_reaction), &
+         new_unittest("stresses below a line contact are those of its stress field", test_stress), &
+         new_unittest("wear and sliding distance of a contact, by hand", test_wear), &
+         new_unittest("what is known at places is smooth, periodic, within bounds, with exact slopes", test_places), &
+         new_unittest("films and depths without feedback are those of the first cycle, in closed form", test_no_feedback), &
+         new_unittest("the volume that cam and roller lose for the same rate is the same", test_volume), &
+         new_unittest("the stated error covers that of the steps, which are of second order", test_convergence), &
+         new_unittest("hours in which nothing changes change no bit", test_nothing), &
+         new_unittest("a film that grows changes the cycle, whose energy closes", test_feedback), &
+         new_unittest("results are the same in other units", test_units) &
+         ]
+   end subroutine collect_running_in
+
+   !> A hot case with a film that saturates within the hours, and wear
+   function running_case() result(case)
+      type(case_t) :: case
+
+      case = thesis_case()
+      call set_point(case, 300.0_wp*pi/30.0_wp, 0.006_wp)
+      case%operating_point%oil_temperature = 368.15_wp
+      case%numerics%tolerance = 1.0e-4_wp
+      allocate (case%wear, case%tribofilm, case%running_in)
+      case%wear = wear_t(1.0e-18_wp, 1.0e-18_wp)
+      case%tribofilm = tribofilm_t(growth_rate=4.0e-2_wp, activation_energy=50.0e3_wp, activation_volume=0.1e-27_wp, &
+         & removal_rate=2.0e-2_wp, largest_thickness=120.0e-9_wp, roughness_ratio=2.0_wp, coefficient=0.06_wp)
+      case%running_in = running_in_t(duration=10.0_wp*3600.0_wp, accuracy=1.0e-2_wp, places=36)
+   end function running_case
+
+   subroutine test_growth(error)
+      type(error_type), allocatable, intent(out) :: error
+      ! h_0, a, b of `dh/dt = a - b h` [m], [m/s], [1/s]; exact thickness, that of two steps [m]
+      real(wp), parameter :: start = 3.0e-9_wp, growth = 2.0e-11_wp, decay = 4.0e-4_wp
+      real(wp) :: exact, twice
+      integer :: i
+
+      do i = -8, 4
+         associate (time => 10.0_wp**i/decay)
+            exact = growth/decay + (start - growth/decay)*exp(-decay*time)
+            call check(error, abs(thickness_after(start, growth, decay, time) - exact) < 1.0e-12_wp*exact, "closed form")
+            if (allocated(error)) return
+            twice = thickness_after(thickness_after(start, growth, decay, 0.3_wp*time), growth, decay, 0.7_wp*time)
+            call check(error, abs(twice - exact) < 1.0e-12_wp*exact, "in two steps")
+            if (allocated(error)) return
+         end associate
+      end do
+      call check(error, abs(thickness_after(start, growth, 0.0_wp, 50.0_wp) - 4.0e-9_wp) < 1.0e-23_wp, "without decay")
+   end subroutine test_growth
+
+   subroutine test_reaction(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(tribofilm_t) :: film
+      ! Boltzmann's constant [J/K], Avogadro's [1/mol]
+      real(wp), parameter :: boltzmann = 1.380649e-23_wp, avogadro = 6.02214076e23_wp
+      real(wp) :: rate
+
+      film%growth_rate = 1.0e-2_wp
+      film%activation_energy = 80.0e3_wp
+      film%activation_volume = 0.1e-27_wp
+      rate = 1.0e-2_wp*exp(-(80.0e3_wp/avogadro - 3.0e8_wp*0.1e-27_wp)/(boltzmann*373.15_wp))
+      call check(error, abs(growth_rate(film, -3.0e8_wp, 373.15_wp)/rate - 1.0_wp) < 1.0e-12_wp)
+      if (allocated(error)) return
+      ! 80 kJ/mol over 0.1 nm^3 is 1.33 GPa
+      call check(error, abs(growth_rate(film, 2.0e9_wp, 373.15_wp) - 1.0e-2_wp) <= 0.0_wp, "no barrier left")
+   end subroutine test_reaction
+
+   !> Stresses by McEwen, as in Johnson (1985), section 4.2: half of the difference of principal stresses on the axis, and
+   !> the shear along the surface, over p0 and b
+   subroutine test_stress(error)
+      type(error_type), allocatable, intent(out) :: error
+      ! Place [half widths], stresses over the peak pressure [-]
+      real(wp) :: x, z, m2, n2, s, largest, orthogonal
+      integer :: i, k
+
+      largest = 0.0_wp
+      orthogonal = 0.0_wp
+      do i = 0, 300
+         do k = 1, 300
+            x = 0.01_wp*i
+            z = 0.01_wp*k
+            s = sqrt((1.0_wp - x**2 + z**2)**2 + 4.0_wp*x**2*z**2)
+            m2 = 0.5_wp*(s + 1.0_wp - x**2 + z**2)
+            n2 = 0.5_wp*(s - (1.0_wp - x**2 + z**2))
+            orthogonal = max(orthogonal, sqrt(n2)*(m2 - z**2)/(m2 + n2))
+            if (i == 0) largest = max(largest, z - z**2/sqrt(1.0_wp + z**2))
+         end do
+      end do
+      ! largest values on a grid are below by half of a second derivative of about one times the square of half a step
+      call check(error, largest <= largest_shear .and. largest > largest_shear - 2.0e-5_wp, "largest shear")
+      if (allocated(error)) return
+      call check(error, orthogonal <= orthogonal_shear + epsilon(1.0_wp) .and. orthogonal > orthogonal_shear - 2.0e-5_wp, &
+         & "orthogonal shear")
+      if (allocated(error)) return
+      z = largest_shear_depth
+      call check(error, abs(z - z**2/sqrt(1.0_wp + z**2) - largest_shear) < 1.0e-15_wp .and. abs(1.0_wp - z*(2.0_wp + z**2) &
+         & /(1.0_wp + z**2)**1.5_wp) < 1.0e-14_wp, "it is at its depth, with a slope of zero")
+      if (allocated(error)) return
+      ! where x^2 = 1 - z^2 (1 + ...): sqrt(3)/2 from the middle
+      x = sqrt(0.75_wp)
+      z = orthogonal_shear_depth
+      s = sqrt((1.0_wp - x**2 + z**2)**2 + 4.0_wp*x**2*z**2)
+      m2 = 0.5_wp*(s + 1.0_wp - x**2 + z**2)
+      n2 = 0.5_wp*(s - (1.0_wp - x**2 + z**2))
+      call check(error, abs(sqrt(n2)*(m2 - z**2)/(m2 + n2) - orthogonal_shear) < 1.0e-15_wp, "at its depth")
+   end subroutine test_stress
+
+   subroutine test_wear(error)
+      type(error_type), allocatable, intent(out) :: error
+
+      ! 0.2 mm wide, 2 m/s, 50 turns a second: 0.1 ms of 20 ms
+      call check(error, abs(time_in_contact(1.0e-4_wp, -2.0_wp, 0.02_wp) - 0.005_wp) < 1.0e-17_wp, "part of the time")
+      if (allocated(error)) return
+      call check(error, abs(time_in_contact(1.0e-4_wp, 0.0_wp, 0.02_wp) - 1.0_wp) <= 0.0_wp, "a contact that stays")
+      if (allocated(error)) return
+      call check(error, abs(sliding_distance(1.0e-4_wp, -0.1_wp, 2.0_wp, 0.02_wp) - 1.0e-5_wp) < 1.0e-19_wp, "distance")
+      if (allocated(error)) return
+      ! 100 N on 2 mm^2 and 0.1 m/s
+      call check(error, abs(worn_per_second(1.0e-16_wp, 100.0_wp, 2.0e-6_wp, -0.1_wp) - 5.0e-10_wp) < 1.0e-23_wp, "depth")
+   end subroutine test_wear
+
+   subroutine test_places(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(cam_surface_t) :: surface
+      type(meeting_t) :: here, ahead, behind
+      ! Value and slope [m], [m/rad]
+      real(wp) :: value, slope
+      real(wp), parameter :: h = 1.0e-5_wp
+      integer :: i
+
+      surface%cam_film = [(1.0e-8_wp*(1.0_wp + sin(3.0_wp*place_angle(i, 48))), i=1, 48)]
+      surface%cam_film(7) = 9.0e-8_wp
+      surface%roller_film = 2.0e-8_wp
+      surface%roughness_ratio = 2.0_wp
+      surface%largest_thickness = 1.0e-7_wp
+      do i = -400, 400
+         call value_at_angle(surface%cam_film, 0.0317_wp*i, value, slope)
+         call check(error, value >= 0.0_wp .and. value <= 9.0e-8_wp, "bounds")
+         if (allocated(error)) return
+         call meet_surfaces(surface, 0.0317_wp*i, 1.0e-7_wp, here)
+         call meet_surfaces(surface, 0.0317_wp*i + h, 1.0e-7_wp, ahead)
+         call meet_surfaces(surface, 0.0317_wp*i - h, 1.0e-7_wp, behind)
+         ! truncation: h^2 times a third derivative of about (48/2 pi)^3; round-off over h
+         call check(error, abs(log(ahead%roughness/behind%roughness)/(2.0_wp*h) - here%roughness_slope) < 1.0e-7_wp, "roughness")
+         if (allocated(error)) return
+         call check(error, abs((ahead%covered - behind%covered)/(2.0_wp*h) - here%covered_slope) < 1.0e-7_wp, "cover")
+         if (allocated(error)) return
+      end do
+      call value_at_angle(surface%cam_film, place_angle(20, 48), value, slope)
+      call check(error, abs(value - (surface%cam_film(19) + 4.0_wp*surface%cam_film(20) + surface%cam_film(21))/6.0_wp) &
+         & < 1.0e-22_wp, "at a place")
+      if (allocated(error)) return
+      call value_at_angle([2.0_wp, 2.0_wp, 2.0_wp], 0.3_wp, value, slope)
+      call check(error, abs(value - 2.0_wp) < 4.0_wp*epsilon(1.0_wp) .and. abs(slope) < 4.0_wp*epsilon(1.0_wp), "a constant")
+   end subroutine test_places
+
+   !> A film as rough and as slippery as the surfaces: every cycle is the first
+   subroutine test_no_feedback(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: case
+      type(model_t) :: model, bare
+      type(cycle_t) :: cycle
+      type(aged_t) :: aged
+      type(state_t) :: state
+      type(error_t), allocatable :: failure
+      ! Part of the time, growth in contact [m/s], decay [1/s], thickness and depth [m]; sums for the roller
+      real(wp) :: part, growth, film, depth, sums(3)
+      integer :: i, hint
+
+      case = running_case()
+      call add_heat(case)
+      case%tribofilm%roughness_ratio = 0.0_wp
+      case%tribofilm%coefficient = case%asperity%boundary_coefficient
+      call make_model(case, model, error)
+      if (allocated(error)) return
+      bare = model
+      call run_in(case, model, aged, failure)
+      if (allocated(failure)) call test_failed(error, failure%message)
+      if (allocated(error)) return
+      call check(error, aged%error < 1.0e-12_wp, "error without feedback")
+      if (allocated(error)) return
+      call make_cycle(case, bare, cycle, error)
+      if (allocated(error)) return
+      hint = 1
+      sums = 0.0_wp
+      do i = 1, 36
+         call state_at(cycle, bare, (10*i - 190)*degree, hint, state, failure)
+         associate (contact => state%contact, film_law => case%tribofilm)
+            part = 2.0_wp*contact%half_width/contact%cam_surface_speed/(two_pi/model%speed)
+            growth = film_law%growth_rate*exp(-(film_law%activation_energy - 6.02214076e23_wp*film_law%activation_volume &
+               & *abs(contact%traction)/contact%apparent_area)/(8.31446261815324_wp*(368.15_wp + contact%flash_rise)))
+            film = thickness_after(0.0_wp, part*growth, part*(growth/film_law%largest_thickness + film_law%removal_rate), &
+               & case%running_in%duration)
+            depth = case%wear%cam_rate*contact%asperity_load/contact%length*abs(contact%sliding_speed)/contact%cam_surface_speed &
+               & *case%running_in%duration*model%speed/two_pi
+            ! round-off, and that of the cycle, whose stored energies are larger than its losses
+            call check(error, abs(model%surface%cam_film(i) - film) < 1.0e-9_wp*film, "film")
+            if (allocated(error)) return
+            call check(error, abs(model%surface%cam_wear(i) - depth) < 1.0e-9_wp*depth + 1.0e-30_wp, "depth")
+            if (allocated(error)) return
+            part = 2.0_wp*contact%half_width/(two_pi*model%roller_radius)/36.0_wp
+            sums = sums + part*[growth, film_law%removal_rate, case%wear%roller_rate*contact%asperity_load/contact%apparent_area &
+               & *abs(contact%sliding_speed)]
+         end associate
+      end do
+      film = thickness_after(0.0_wp, sums(1), sums(1)/case%tribofilm%largest_thickness + sums(2), case%running_in%duration)
+      call check(error, abs(model%surface%roller_film - film) < 1.0e-9_wp*film .and. film > 1.0e-9_wp, "film of the roller")
+      if (allocated(error)) return
+      depth = sums(3)*case%running_in%duration
+      call check(error, abs(model%surface%roller_wear - depth) < 1.0e-9_wp*depth .and. depth > 0.0_wp, "depth of the roller")
+   end subroutine test_no_feedback
+
+   !> Depth times length of the surface, cam and roller
+   subroutine test_volume(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: case
+      type(model_t) :: model
+      type(cycle_t) :: cycle
+      type(aged_t) :: aged
+      type(state_t) :: state
+      type(error_t), allocatable :: failure
+      ! Area of the section that is worn away [m^2]
+      real(wp) :: volume
+      integer :: i, hint
+
+      case = running_case()
+      call make_model(case, model, error)
+      if (allocated(error)) return
+      call run_in(case, model, aged, failure)
+      if (allocated(failure)) call test_failed(error, failure%message)
+      if (allocated(error)) return
+      call make_cycle(case, model, cycle, error)
+      if (allocated(error)) return
+      volume = 0.0_wp
+      hint = 1
+      do i = 1, 36
+         call state_at(cycle, model, place_angle(i, 36), hint, state, failure)
+         volume = volume + model%surface%cam_wear(i)*state%contact%cam_surface_speed/model%speed*two_pi/36.0_wp
+      end do
+      ! surface speeds do not depend on the friction: round-off of 36 terms
+      call check(error, abs(volume/(two_pi*model%roller_radius*model%surface%roller_wear) - 1.0_wp) < 1.0e-11_wp)
+   end subroutine test_volume
+
+   subroutine test_convergence(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: case
+      type(model_t) :: model, fine
+      type(aged_t) :: aged, finest
+      type(error_t), allocatable :: failure
+      ! Error, by the measure of the estimate [-]
+      real(wp) :: found
+      integer :: k, steps(2)
+
+      case = running_case()
+      ! cycles whose own errors are below those of the steps
+      case%numerics%tolerance = 1.0e-5_wp
+      case%running_in%accuracy = 2.0e-4_wp
+      call make_model(case, fine, error)
+      if (allocated(error)) return
+      call run_in(case, fine, finest, failure)
+      if (allocated(failure)) call test_failed(error, failure%message)
+      if (allocated(error)) return
+      do k = 1, 2
+         case%running_in%accuracy = merge(1.0e-2_wp, 1.0e-3_wp, k == 1)
+         call make_model(case, model, error)
+         if (allocated(error)) return
+         call run_in(case, model, aged, failure)
+         if (allocated(failure)) call test_failed(error, failure%message)
+         if (allocated(error)) return
+         found = max(maxval(abs(model%surface%cam_film - fine%surface%cam_film))/case%tribofilm%largest_thickness, &
+            & abs(model%surface%roller_film - fine%surface%roller_film)/case%tribofilm%largest_thickness, &
+            & maxval(abs(model%surface%cam_wear - fine%surface%cam_wear))/maxval(fine%surface%cam_wear), &
+            & abs(model%surface%roller_wear/fine%surface%roller_wear - 1.0_wp))
+         call check(error, found <= aged%error + finest%error .and. found > 0.0_wp, "the error is larger than stated")
+         if (allocated(error)) return
+         call check(error, aged%error <= case%running_in%accuracy, "more than allowed is stated")
+         if (allocated(error)) return
+         steps(k) = aged%steps
+      end do
+      ! a tenth of the error by sqrt(10) times as many steps, or fewer where the first ones have little
+      call check(error, steps(2) > steps(1) .and. steps(2) < 5*steps(1), "order")
+   end subroutine test_convergence
+
+   subroutine test_nothing(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: case, plain
+      type(result_t) :: with, without
+      type(error_t), allocatable :: failure
+      integer :: i
+
+      case = running_case()
+      case%tribofilm%growth_rate = 0.0_wp
+      case%wear = wear_t(0.0_wp, 0.0_wp)
+      ! the coefficient of a film takes part in a scale of the integration
+      case%tribofilm%coefficient = case%asperity%boundary_coefficient
+      plain = case
+      deallocate (plain%wear, plain%tribofilm, plain%running_in)
+      call run_case(case, with, failure)
+      if (.not. allocated(failure)) call run_case(plain, without, failure)
+      if (allocated(failure)) call test_failed(error, failure%message)
+      if (allocated(error)) return
+      do i = 1, size(without%series)
+         call check(error, all(abs(with%series_values(:, find_quantity(with%series, without%series(i)%name)) &
+            & - without%series_values(:, i)) <= 0.0_wp), "another bit in "//without%series(i)%name)
+         if (allocated(error)) return
+      end do
+      call check(error, .not. allocated(without%history), "a history without hours")
+   end subroutine test_nothing
+
+   subroutine test_feedback(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: case
+      type(result_t) :: result
+      type(error_t), allocatable :: failure
+      ! Series
+      real(wp), allocatable :: film(:), roughness(:), residual(:), coefficient(:)
+      ! Losses [W]; scalars [any]
+      real(wp) :: power, roller, error_stated
+      integer :: i
+
+      case = running_case()
+      call run_case(case, result, failure)
+      if (.not. allocated(failure)) call get_series(result, "cam_film_thickness", film, failure)
+      if (.not. allocated(failure)) call get_series(result, "composite_roughness", roughness, failure)
+      if (.not. allocated(failure)) call get_series(result, "energy_residual", residual, failure)
+      if (.not. allocated(failure)) call get_series(result, "boundary_coefficient", coefficient, failure)
+      if (.not. allocated(failure)) call get_summary(result, "power_friction", power, failure)
+      if (.not. allocated(failure)) call get_summary(result, "roller_film_thickness", roller, failure)
+      if (.not. allocated(failure)) call get_summary(result, "estimated_error_of_running_in", error_stated, failure)
+      if (allocated(failure)) call test_failed(error, failure%message)
+      if (allocated(error)) return
+      call check(error, maxval(film) > 20.0e-9_wp .and. maxval(film) < 120.0e-9_wp, "film")
+      if (allocated(error)) return
+      associate (bare => hypot(case%surface%cam_roughness, case%surface%roller_roughness))
+         call check(error, all(abs(roughness - sqrt(bare**2 + 4.0_wp*(film**2 + roller**2))) < 1.0e-12_wp*bare), "roughness")
+         if (allocated(error)) return
+      end associate
+      associate (covered => 0.5_wp*(film + roller)/120.0e-9_wp, bare => case%asperity%boundary_coefficient)
+         call check(error, all(abs(coefficient - bare - covered*(0.06_wp - bare)) < 1.0e-12_wp), "coefficient")
+         if (allocated(error)) return
+      end associate
+      ! round-off of stored powers up to 1e3 times larger, as elsewhere
+      call check(error, maxval(abs(residual)) < 1.0e-10_wp*power, "energy residual")
+      if (allocated(error)) return
+      call check(error, error_stated > 0.0_wp .and. error_stated <= 1.0e-2_wp, "stated error")
+      if (allocated(error)) return
+      i = find_quantity(result%history, "roller_film")
+      call check(error, abs(result%history_values(41, i) - roller) < 1.0e-12_wp*roller .and. abs(result%history_values(1, i)) <= &
+         & 0.0_wp .and. all(result%history_values(2:, i) > result%history_values(:40, i)), "history of a film that grows")
+      if (allocated(error)) return
+      i = find_quantity(result%history, "mean_boundary_coefficient")
+      call check(error, all(result%history_values(:, i) > 0.06_wp) .and. all(result%history_values(2:, i) &
+         & < result%history_values(:40, i)), "history of the coefficient")
+   end subroutine test_feedback
+
+   subroutine test_units(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: case, other
+      type(result_t) :: one, twin
+      type(error_t), allocatable :: failure
+      character(len=:), allocatable :: trouble
+
+      case = running_case()
+      case%tribofilm%activation_volume = 0.0_wp
+      call leave_constants_out(case)
+      call run_case(case, one, failure)
+      ! all units changed together: each run takes many cycles
+      associate (units => unit_systems_tried(size(unit_systems_tried)))
+         other = case
+         call rescale_case(other, units)
+         if (.not. allocated(failure)) call run_case(other, twin, failure)
+         if (allocated(failure)) call test_failed(error, failure%message)
+         if (allocated(error)) return
+         trouble = compare_twins(one, twin, units, 1.0e-9_wp)
+         call check(error, trouble == "", trouble)
+      end associate
+   end subroutine test_units
+
+end module test_running_in
