@@ -418,8 +418,7 @@ contains
       end if
       model%train%stiffness = case%spring%stiffness
       model%train%precompression = case%spring%precompression
-      model%roller_inertia = ring_inertia(case%roller%mass, model%roller_radius, &
-         & model%roller_radius - case%roller%wall_thickness)
+      model%roller_inertia = ring_inertia(case%roller%mass, model%roller_radius, model%roller_radius - case%roller%wall_thickness)
       if (.not. model%roller_inertia > 0.0_wp .or. case%roller%wall_thickness > model%roller_radius) then
          call raise(error, kind_deck, "roller: the mass must be positive and the wall thinner than the radius")
          return
