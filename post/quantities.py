@@ -44,8 +44,8 @@ CURVES = {
     "edge_stress": Curve("pressure at the end over that of the mean load", "edge_stress_factor", "1", touching=True, lines=(1.0,)),
     "subsurface_stress": Curve("largest shear stress below the surface", "subsurface_shear_stress", "MPa"),
     "sliding_distance": Curve("sliding distance of a place on the cam", "sliding_distance", "um", touching=True),
-    "wear_depth": Curve("depth worn away from the cam after the hours of running", "cam_wear_depth", "nm", whole_cycle=True),
-    "tribofilm": Curve("tribofilm on the cam after the hours of running", "cam_film_thickness", "nm", whole_cycle=True),
+    "wear_depth": Curve("depth worn away from the cam", "cam_wear_depth", "nm", whole_cycle=True),
+    "tribofilm": Curve("tribofilm on the cam", "cam_film_thickness", "nm", whole_cycle=True),
     "boundary_coefficient": Curve("boundary coefficient", "boundary_coefficient", "1", touching=True),
     "wear": Curve("wear depth of a turn over specific wear rate", "wear_product", "N/m", touching=True),
     "friction_torque": Curve("friction torque", "torque_friction", "N mm"),  # friction in N mm, drive torque in N m, in every figure
