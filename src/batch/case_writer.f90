@@ -11,7 +11,7 @@ module camroller_case_writer
    use camroller_case_sink, only : sink_t
    use camroller_deck, only : deck_t
    use camroller_history_file, only : close_history, history_file_t, put_history
-   use camroller_layout, only : join_layouts, layout_t, places_of
+   use camroller_layout, only : join_quantities, layout_t, places_of
    use camroller_output, only : abandon_output, add_layout, close_output, not_computed, open_output, output_options_t, output_t, &
       & write_outcome
    use camroller_part_scan, only : study_facts_t
@@ -70,7 +70,7 @@ contains
       type(error_t), allocatable, intent(out) :: error
 
       writer%tally%cases = facts%cases
-      allocate (writer%joint%summary(0), writer%joint%series(0), writer%joint%history(0), writer%joint%angle(0))
+      allocate (writer%joint%summary(0), writer%joint%series(0), writer%joint%angle(0))
       call open_output(writer%file, path, facts%cases, options, error, is_sparse)
       if (.not. allocated(error)) call write_facts(writer%file, deck, error, facts)
       if (allocated(error)) call abandon_output(writer%file)
@@ -86,7 +86,8 @@ contains
       type(error_t), allocatable, intent(out) :: error
 
       if (size(self%joint%angle) == 0) self%joint%angle = layout%angle
-      call join_layouts(self%joint, layout)
+      call join_quantities(self%joint%summary, layout%summary)
+      call join_quantities(self%joint%series, layout%series)
       call add_layout(self%file, layout, error)
    end subroutine announce
 

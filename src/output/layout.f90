@@ -9,7 +9,7 @@ module camroller_layout
    implicit none
    private
 
-   public :: layout_t, layout_list_t, layout_of, put_layout, take_layout, join_layouts, places_of
+   public :: layout_t, layout_list_t, layout_of, put_layout, take_layout, join_quantities, places_of
    public :: find_layout, set_layout_at
 
    !> Quantities of a case
@@ -186,25 +186,9 @@ contains
       end do
    end subroutine take_quantities
 
-   !> Add what another layout has and this one has not.
-   subroutine join_layouts(joint, other)
-      !> The layout to add to; not filled where it is the first
-      type(layout_t), intent(inout) :: joint
-      !> The other one
-      type(layout_t), intent(in) :: other
-
-      if (.not. allocated(joint%summary)) then
-         joint = other
-         return
-      end if
-      call join_quantities(joint%summary, other%summary)
-      call join_quantities(joint%series, other%series)
-      call join_quantities(joint%history, other%history)
-   end subroutine join_layouts
-
    !> Add quantities that are not there yet.
    subroutine join_quantities(joint, others)
-      !> Quantities to add to
+      !> Quantities to add to; none where not allocated
       type(quantity_t), allocatable, intent(inout) :: joint(:)
       !> Other ones
       type(quantity_t), intent(in) :: others(:)
@@ -212,6 +196,7 @@ contains
       type(quantity_t), allocatable :: longer(:)
       integer :: i, n
 
+      if (.not. allocated(joint)) allocate (joint(0))
       allocate (longer(size(joint) + size(others)))
       n = size(joint)
       longer(:n) = joint

@@ -8,7 +8,7 @@ module camroller_output_cases
    use camroller_kinds, only : wp
    use camroller_error, only : error_t, raise, kind_internal
    use camroller_effect_report, only : choice_source
-   use camroller_layout, only : join_layouts, layout_t
+   use camroller_layout, only : join_quantities, layout_t
    use camroller_result, only : quantity_t
    use camroller_hdf5_object, only : hdf5_object_t
    use camroller_hdf5_file, only : close_object, create_group, create_integers, create_numbers, create_texts, reserve_file, &
@@ -213,7 +213,6 @@ contains
       !> File error
       type(error_t), allocatable, intent(out) :: error
 
-      type(layout_t) :: joint
       real(wp) :: numbers, space ! [-], [byte]
       integer :: before(2), angles
       logical :: is_first
@@ -226,12 +225,9 @@ contains
          before = [size(writer%series), size(writer%summary)]
          call write_rows(writer, error)
          if (allocated(error)) return
-         call move_alloc(writer%series, joint%series)
-         call move_alloc(writer%summary, joint%summary)
       end if
-      call join_layouts(joint, layout)
-      call move_alloc(joint%summary, writer%summary)
-      call move_alloc(joint%series, writer%series)
+      call join_quantities(writer%summary, layout%summary)
+      call join_quantities(writer%series, layout%series)
       angles = size(layout%angle)
       if (.not. writer%options%series) then
          writer%series = [quantity_t ::]
