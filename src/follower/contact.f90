@@ -277,6 +277,8 @@ contains
       real(wp), intent(in) :: shift
 
       contact%load = contact%load*(1.0_wp + shift)
+      ! The asperities' share stays, else they could carry more than the load
+      contact%asperity_load = contact%asperity_load*(1.0_wp + shift)
       if (allocated(model%bearing)) then
          ! Without a film the torque goes with the load
          if (allocated(model%bearing%film)) then

@@ -89,6 +89,7 @@ contains
       layout%angle = result%angle
       layout%series = result%series
       layout%summary = result%summary
+      allocate (layout%history(0))
       call begin_cases(record, 1)
       do i = 1, 2
          result%lacks_profiles = i == 1
@@ -115,7 +116,7 @@ contains
       integer :: first, count, place
 
       call new_sample(result, 1, 4)
-      allocate (layout%angle(0), layout%series(0))
+      allocate (layout%angle(0), layout%series(0), layout%history(0))
       layout%summary = result%summary
       call add_remark(result%remarks, missed_means, "the means", 0.1_wp)
       call add_remark(result%remarks, missing_profiles, "no profiles")
@@ -219,7 +220,7 @@ contains
       if (allocated(error)) return
       call close_raw(file)
       call take_header(record, first, count, number)
-      allocate (layout%summary(0), layout%series(0), layout%angle(0))
+      allocate (layout%summary(0), layout%series(0), layout%history(0), layout%angle(0))
       call take_case(record, layout, outcome)
       call check(error, index%count == 1 .and. first == 1 .and. count == 3 .and. outcome%status == 4)
       if (allocated(error)) return
@@ -348,7 +349,7 @@ contains
       type(layout_t) :: layout
 
       layout%summary = [quantity_t(name, "1", "a number", "test")]
-      allocate (layout%series(0), layout%angle(0))
+      allocate (layout%series(0), layout%history(0), layout%angle(0))
    end function layout_of_one
 
    subroutine damaged_layout(error)

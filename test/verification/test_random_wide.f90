@@ -120,7 +120,8 @@ contains
       integer, intent(in) :: decks
       character(len=:), allocatable, intent(out) :: missing
       ! Every deck has much of what is rare
-      type(style_t), parameter :: style = style_t(ends_share=0.3_wp, ehl_share=0.3_wp, method_share=0.5_wp, dynamics_share=0.3_wp)
+      type(style_t), parameter :: style = style_t(ends_share=0.3_wp, ehl_share=0.3_wp, method_share=0.5_wp, dynamics_share=0.3_wp, &
+         & hours_share=0.3_wp)
       type(wide_deck_t) :: deck
       character(len=:), allocatable :: word
       logical :: is_seen(size(schema%keys), most_marks)

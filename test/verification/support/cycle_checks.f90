@@ -88,6 +88,7 @@ contains
       type(error_t), allocatable :: error
       ! Largest energy left over and largest sum of powers [W], smallest and largest numbers that must be possible
       real(wp) :: residual, power
+      character(len=40) :: fault
       integer :: i, hint
 
       hint = 1
@@ -100,7 +101,8 @@ contains
             sample%trouble = error%message
             return
          end if
-         if (.not. is_possible(state)) sample%trouble = "a state has a number that cannot be"
+         fault = fault_of(state)
+         if (fault /= "") sample%trouble = trim(fault)
          sample%sliding_speed(i) = state%contact%sliding_speed
          sample%scale = max(sample%scale, abs(state%contact%sliding_speed), least_slip*abs(state%contact%rolling_speed))
          residual = max(residual, abs(state%torques(of_residual)))
@@ -109,26 +111,28 @@ contains
       if (.not. residual <= energy_tolerance*power) sample%trouble = "energy does not close"
    end subroutine look_at_states
 
-   !> Are the numbers of a state finite, and those positive that must be?
-   pure function is_possible(state)
+   !> What is wrong with the numbers of a state; blank where all are finite, and positive where they must be.
+   pure function fault_of(state) result(fault)
       !> The state
       type(state_t), intent(in) :: state
-      !> Are they?
-      logical :: is_possible
+      !> The fault
+      character(len=40) :: fault
 
+      fault = ""
       associate (contact => state%contact)
-         is_possible = all(ieee_is_finite([contact%sliding_speed, contact%traction, contact%traction_slope, contact%load, &
+         if (.not. all(ieee_is_finite([contact%sliding_speed, contact%traction, contact%traction_slope, contact%load, &
             & contact%film_min, contact%film_central, contact%asperity_load, contact%rolling_resistance, contact%bearing_torque, &
-            & state%torque_drive, state%torque_friction, state%torques, &
-            & state%spin_acceleration]))
-         if (.not. is_possible) return
-         is_possible = min(contact%load, contact%film_min, contact%asperity_load, contact%real_area, &
-            & contact%boundary_capacity) >= 0.0_wp .and. contact%asperity_load <= contact%load &
-            & .and. contact%real_area <= contact%apparent_area .and. contact%film_min <= contact%film_central
+            & state%torque_drive, state%torque_friction, state%torques, state%spin_acceleration]))) fault = "a number is not finite"
+         if (fault /= "") return
+         if (min(contact%load, contact%film_min, contact%asperity_load, contact%real_area, contact%boundary_capacity) < 0.0_wp) &
+            & fault = "a load, a film or an area is negative"
+         if (contact%asperity_load > contact%load) fault = "asperities carry more than the load"
+         if (contact%real_area > contact%apparent_area) fault = "the real area is above the apparent one"
+         if (contact%film_min > contact%film_central) fault = "the smallest film is above the central one"
          ! Traction falls with the slip where the film is warm alone
-         is_possible = is_possible .and. (contact%traction_slope >= 0.0_wp .or. contact%film_rise > 0.0_wp)
+         if (contact%traction_slope < 0.0_wp .and. .not. contact%film_rise > 0.0_wp) fault = "traction falls with the slip"
       end associate
-   end function is_possible
+   end function fault_of
 
    !> Largest difference of the sliding speeds, over the scale.
    pure function difference(one, other)

@@ -21,6 +21,8 @@ module wide_draft
       real(wp) :: method_share = 0.1_wp
       !> Part of the decks with a flexible train, which takes a thousand times as long as a rigid one [-]
       real(wp) :: dynamics_share = 0.0_wp
+      !> Part of the decks with hours of running, which take as long as a hundred others [-]
+      real(wp) :: hours_share = 0.02_wp
    end type style_t
 
    !> How a data sheet gives the viscosity: at two temperatures, at one with the viscosity index, or by a grade
@@ -117,8 +119,6 @@ contains
       type(style_t), intent(in) :: style
       !> What is decided
       type(draft_t), intent(inout) :: draft
-      ! Part of the decks with hours of running, which take as long as a hundred others [-]
-      real(wp), parameter :: hours_share = 0.02_wp
       ! [-]
       real(wp) :: number
 
@@ -135,7 +135,7 @@ contains
       call draw(random, number)
       draft%has_estimate = number < 0.3_wp
       call draw(random, number)
-      draft%has_hours = number < hours_share .and. .not. draft%has_dynamics
+      draft%has_hours = number < style%hours_share .and. .not. draft%has_dynamics
    end subroutine draft_oil_and_train
 
    !> May a deck have a group, after what it has already? Sliding joints need a rigid train and a closed balance, that of the pivot

@@ -113,6 +113,7 @@ module wide_numbers
       & usual_t("tribofilm.coefficient", 0.05_wp, 0.2_wp), &
       & usual_t("running_in.duration_h", 0.1_wp, 100.0_wp, .true.), &
       & usual_t("running_in.accuracy", 1.0e-3_wp, 1.0e-1_wp, .true.), &
+      & usual_t("running_in.places", 24.0_wp, 720.0_wp), &
       & usual_t("needle_bearing.friction_coefficient", 1.0e-4_wp, 0.1_wp, .true.), &
       & usual_t("needle_bearing.needle_radius_mm", 0.5_wp, 2.0_wp), &
       & usual_t("needle_bearing.reversal_ratio", 1.0e-4_wp, 0.5_wp, .true.), &
