@@ -1,12 +1,14 @@
 !> What bearings of a camshaft take from a whole turn: the temperature of their oil, the orbits of their journals.
 !>
-!> In: a solved case. Out: the same with these in its shaft, where the case asks for them.
+!> In: a solved case. Out: the same with these in its shaft, where the case asks for them. Or in: the load on one bearing
+!> over the turn, from wherever. Out: its temperature, orbit, and means.
 !> The temperature of a bearing's oil is the root of `T = T_supply + rise(T)`: friction falls and the flow of oil rises with the
 !> temperature, so that there is one, between that of the supply and the rise that would follow there.
 module camroller_bearing_turn
    use camroller_kinds, only : wp, degree, two_pi
    use camroller_bearing_asperity, only : bearing_state_t, carry_load
    use camroller_bearing_heat, only : bearing_heat_t, check_bearing_heat, direct_advice, oil_flow, temperature_rise
+   use camroller_case, only : case_t
    use camroller_camshaft, only : share_force, share_pull
    use camroller_error, only : error_t, raise, kind_deck, kind_domain
    use camroller_journal, only : journal_solved, journal_t, new_journal
@@ -16,12 +18,13 @@ module camroller_bearing_turn
    use camroller_lubricant, only : density_at, get_oil, law_direct, oil_t, temperature_law_names
    use camroller_quadrature, only : gauss_legendre
    use camroller_roots, only : bracket_t, narrow_bracket, root_found, root_wanted, start_bracket
-   use camroller_shaft, only : bearing_number, cam_at, has_orbits, in_common_frame, needs_turn, refine_curves, shaft_stops, solved_t
+   use camroller_shaft, only : bearing_number, cam_at, has_orbits, in_common_frame, needs_turn, refine_curves, shaft_stops, &
+      & shaft_t, solved_t
    use camroller_torque_list, only : torque_count
    implicit none
    private
 
-   public :: complete_shaft
+   public :: turn_t, complete_shaft, find_turn, mean_of_turn, sample_load
 
    !> Load on one bearing of a solved case
    type, extends(bearing_load_t) :: cams_load_t
@@ -35,10 +38,14 @@ module camroller_bearing_turn
 
    !> One bearing over the turn
    type :: turn_t
-      !> Angles [rad] and their weights in a mean [-], load there, shape (2, angle) [N]
-      real(wp), allocatable :: angles(:), weights(:), loads(:, :)
       !> Start, stops and end of the turn [rad]
       real(wp), allocatable :: stops(:)
+      !> Sense in which the shaft turns, 1 from the first axis of the load to the second, or -1 [-]
+      real(wp) :: rotation = 1.0_wp
+      !> Error of an orbit allowed in a step, over the smallest film of the turn [-]; error of the rise of temperature [K]
+      real(wp) :: accuracy = 0.0_wp, rise_tolerance = 1.0e-7_wp
+      !> Angles [rad] and their weights in a mean [-], load there, shape (2, angle) [N]; allocated once they are sampled
+      real(wp), allocatable :: angles(:), weights(:), loads(:, :)
       !> The bearing with its oil
       type(journal_t) :: journal
       !> Rise of the oil's temperature [K]
@@ -50,8 +57,8 @@ module camroller_bearing_turn
    integer, parameter :: places_of_piece = 4
    !> The longest piece [rad]
    real(wp), parameter :: longest_piece = 5.0_wp*degree
-   !> Largest rise of temperature that is looked for, and what it may be off [K]
-   real(wp), parameter :: largest_rise = 200.0_wp, rise_tolerance = 1.0e-7_wp
+   !> Largest rise of temperature that is looked for [K]
+   real(wp), parameter :: largest_rise = 200.0_wp
 
 contains
 
@@ -63,6 +70,7 @@ contains
       type(error_t), allocatable, intent(out) :: error
 
       type(turn_t), allocatable :: turns(:, :)
+      type(cams_load_t) :: load
       integer :: bearing, k
 
       call refine_curves(solved, error)
@@ -70,7 +78,14 @@ contains
       allocate (turns(bearing_number(solved%shaft), solved%shaft%count))
       do k = 1, size(turns, 2)
          do bearing = 1, size(turns, 1)
-            call find_turn(solved, bearing, k, turns(bearing, k), error)
+            call set_load(solved, bearing, k, load)
+            associate (turn => turns(bearing, k))
+               turn%stops = shaft_stops(solved, abs(load%shares) > 0.0_wp)
+               ! A cam turns against the sense in which the finger's frame counts where its surface moves away from the pivot
+               turn%rotation = -solved%models(1)%linkage%sense
+               turn%accuracy = maxval(solved%cycles%tolerance)
+               call find_turn(solved%case, solved%shaft, load, turn, error)
+            end associate
             if (allocated(error)) return
          end do
       end do
@@ -80,27 +95,25 @@ contains
       solved%shaft%rises = turns%rise
    end subroutine complete_shaft
 
-   !> Find temperature and orbit of one bearing.
-   subroutine find_turn(solved, bearing, k, turn, error)
-      !> The solved case
-      type(solved_t), intent(inout), target :: solved
-      !> Bearing and camshaft
-      integer, intent(in) :: bearing, k
-      !> The turn
-      type(turn_t), intent(out) :: turn
+   !> Find temperature and orbit of one bearing, where the case asks for them.
+   subroutine find_turn(case, shaft, load, turn, error)
+      !> The case
+      type(case_t), intent(in) :: case
+      !> The shaft
+      type(shaft_t), intent(in) :: shaft
+      !> What loads the bearing
+      class(bearing_load_t), intent(in) :: load
+      !> In: stops, rotation and what may be off; out: with the bearing, its oil and orbit
+      type(turn_t), intent(inout) :: turn
       !> Convergence, deck or domain error
       type(error_t), allocatable, intent(out) :: error
 
-      type(cams_load_t) :: load
-
-      call set_load(solved, bearing, k, load)
-      turn%stops = shaft_stops(solved, abs(load%shares) > 0.0_wp)
-      turn%journal = solved%shaft%journal
-      if (allocated(solved%case%bearing_heat)) then
-         call sample_load(load, turn, error)
-         if (.not. allocated(error)) call find_temperature(solved, solved%case%bearing_heat, load, turn, error)
+      turn%journal = shaft%journal
+      if (allocated(case%bearing_heat)) then
+         if (.not. allocated(turn%angles)) call sample_load(load, turn, error)
+         if (.not. allocated(error)) call find_temperature(case, shaft, case%bearing_heat, load, turn, error)
       else
-         call follow_journal(solved, load, turn, error)
+         call follow_journal(case, shaft, load, turn, error)
       end if
    end subroutine find_turn
 
@@ -161,25 +174,26 @@ contains
    end subroutine load_of_cams
 
    !> Orbit of a bearing's journal, where the case has such.
-   subroutine follow_journal(solved, load, turn, error)
-      !> The solved case
-      type(solved_t), intent(in) :: solved
+   subroutine follow_journal(case, shaft, load, turn, error)
+      !> The case
+      type(case_t), intent(in) :: case
+      !> The shaft
+      type(shaft_t), intent(in) :: shaft
       !> What loads the bearing
-      type(cams_load_t), intent(in) :: load
+      class(bearing_load_t), intent(in) :: load
       !> In: the bearing with its oil; out: with the orbit
       type(turn_t), intent(inout) :: turn
       !> Convergence error
       type(error_t), allocatable, intent(out) :: error
 
-      ! A cam turns against the sense in which the finger's frame counts where its surface moves away from the pivot
-      if (has_orbits(solved%case)) call find_orbit(turn%journal, -solved%models(1)%linkage%sense, load, turn%stops, &
-         & maxval(solved%cycles%tolerance), turn%orbit, error, solved%shaft%touch)
+      if (has_orbits(case)) call find_orbit(turn%journal, turn%rotation, load, turn%stops, turn%accuracy, turn%orbit, error, &
+         & shaft%touch)
    end subroutine follow_journal
 
    !> Take the load at the angles of a mean: Gauss' rule in pieces between the stops.
    subroutine sample_load(load, turn, error)
       !> What loads the bearing
-      type(cams_load_t), intent(in) :: load
+      class(bearing_load_t), intent(in) :: load
       !> In: stops; out: with angles, weights and loads
       type(turn_t), intent(inout) :: turn
       !> Domain error
@@ -211,13 +225,15 @@ contains
    end subroutine sample_load
 
    !> Temperature of a bearing's oil.
-   subroutine find_temperature(solved, heat, load, turn, error)
-      !> The solved case
-      type(solved_t), intent(in) :: solved
+   subroutine find_temperature(case, shaft, heat, load, turn, error)
+      !> The case
+      type(case_t), intent(in) :: case
+      !> The shaft
+      type(shaft_t), intent(in) :: shaft
       !> What is given about heat
       type(bearing_heat_t), intent(in) :: heat
       !> What loads the bearing
-      type(cams_load_t), intent(in) :: load
+      class(bearing_load_t), intent(in) :: load
       !> In: loads; out: with the rise of temperature, the bearing with its oil, the orbit
       type(turn_t), intent(inout) :: turn
       !> Convergence, deck or domain error
@@ -229,7 +245,7 @@ contains
 
       call check_bearing_heat(heat, error)
       if (allocated(error)) return
-      if (solved%case%lubricant%temperature_law == temperature_law_names(law_direct)) then
+      if (case%lubricant%temperature_law == temperature_law_names(law_direct)) then
          call raise(error, kind_deck, direct_advice)
          return
       end if
@@ -238,7 +254,8 @@ contains
       last = min(-low, largest_rise)
       call try_rise(last, high)
       if (allocated(error)) return
-      call start_bracket(bracket, 0.0_wp, last, low, max(high, merge(0.0_wp, high, last < largest_rise)), rise_tolerance)
+      call start_bracket(bracket, 0.0_wp, last, low, max(high, merge(0.0_wp, high, last < largest_rise)), &
+         & turn%rise_tolerance)
       do while (bracket%status == root_wanted)
          call try_rise(bracket%trial, miss)
          if (allocated(error)) return
@@ -265,11 +282,11 @@ contains
          real(wp) :: torque, flow
 
          miss = 0.0_wp
-         associate (case => solved%case, shaft => solved%shaft, supply => solved%case%operating_point%oil_temperature)
+         associate (supply => case%operating_point%oil_temperature)
             call get_oil(case%lubricant, supply + rise, oil, error)
             if (.not. allocated(error)) call new_journal(turn%journal, shaft%bearings, oil%viscosity, shaft%speed, error)
-            if (.not. allocated(error)) call follow_journal(solved, load, turn, error)
-            if (.not. allocated(error)) call average(solved, turn, torque, flow, error)
+            if (.not. allocated(error)) call follow_journal(case, shaft, load, turn, error)
+            if (.not. allocated(error)) call mean_of_turn(case, shaft, turn, torque, flow, error)
             if (allocated(error)) return
             miss = rise - temperature_rise(heat, density_at(case%lubricant, supply), torque*shaft%speed, flow)
          end associate
@@ -278,9 +295,11 @@ contains
    end subroutine find_temperature
 
    !> Means of a bearing over the turn.
-   subroutine average(solved, turn, torque, flow, error)
-      !> The solved case
-      type(solved_t), intent(in) :: solved
+   subroutine mean_of_turn(case, shaft, turn, torque, flow, error)
+      !> The case
+      type(case_t), intent(in) :: case
+      !> The shaft
+      type(shaft_t), intent(in) :: shaft
       !> The bearing with its loads and orbit
       type(turn_t), intent(in) :: turn
       !> Mean torque [N m], mean flow of oil [m^3/s]
@@ -298,19 +317,19 @@ contains
       hint = 1
       status = journal_solved
       do i = 1, size(turn%angles)
-         if (has_orbits(solved%case)) then
+         if (has_orbits(case)) then
             call place_at(turn%orbit, turn%angles(i), hint, place)
-            call moving_state(turn%journal, place, turn%loads(:, i), state, solved%shaft%touch)
+            call moving_state(turn%journal, place, turn%loads(:, i), state, shaft%touch)
          else
-            call carry_load(turn%journal, turn%loads(:, i), state, status, solved%shaft%touch)
+            call carry_load(turn%journal, turn%loads(:, i), state, status, shaft%touch)
          end if
          if (status /= journal_solved) then
             call raise(error, kind_domain, "camshaft bearings: the bearing law has no solution for a load of the turn")
             return
          end if
          torque = torque + turn%weights(i)*state%torque
-         flow = flow + turn%weights(i)*oil_flow(turn%journal, solved%shaft%speed, state%eccentricity)
+         flow = flow + turn%weights(i)*oil_flow(turn%journal, shaft%speed, state%eccentricity)
       end do
-   end subroutine average
+   end subroutine mean_of_turn
 
 end module camroller_bearing_turn

@@ -37,8 +37,7 @@ module camroller_effect_list
       & effect_inlet_heat = 17, effect_contact_heat = 18, effect_dynamics = 19, effect_surge = 20, effect_adjuster = 21, &
       & effect_bearing_asperity = 22, effect_belt_pull = 23, effect_modifier = 24, &
       & effect_orbit = 25, effect_bearing_heat = 26, effect_profile = 27, effect_boundary_law = 28, effect_running_in = 29
-   !> Effects of the camshaft bearings, two and two side by side: nothing else depends on them, and without these bearings they are
-   !> of no effect
+   !> Effects of the camshaft bearings: nothing else depends on them, and without these bearings they are of no effect
    integer, parameter :: needs_bearings(*) = [effect_bearing_asperity, effect_belt_pull, effect_orbit, effect_bearing_heat]
    !> Their number
    integer, parameter :: effect_count = size(effect_names)
@@ -125,7 +124,7 @@ contains
          if (allocated(variant%finger_pivot)) deallocate (variant%finger_pivot)
       case (effect_drag)
          if (allocated(variant%needle_drag)) deallocate (variant%needle_drag)
-      case (needs_bearings(1):needs_bearings(2), needs_bearings(3):needs_bearings(4))
+      case (effect_bearing_asperity, effect_belt_pull, effect_orbit, effect_bearing_heat)
          call leave_bearing_part_out(variant, effect)
       case (effect_profile)
          if (allocated(variant%roller_profile)) deallocate (variant%roller_profile)
@@ -304,7 +303,7 @@ contains
          has = allocated(case%finger_pivot)
       case (effect_drag)
          has = allocated(case%needle_drag)
-      case (needs_bearings(1):needs_bearings(2), needs_bearings(3):needs_bearings(4))
+      case (effect_bearing_asperity, effect_belt_pull, effect_orbit, effect_bearing_heat)
          has = has_bearing_part(case, effect)
       case (effect_profile)
          has = allocated(case%roller_profile)

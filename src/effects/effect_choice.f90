@@ -12,14 +12,14 @@ module camroller_effect_choice
    use camroller_names, only : find_name
    use camroller_case, only : case_t, select_names, select_needed, quantity_names, quantity_torque, quantity_film, &
       & quantity_slip
+   use camroller_effect_bearings, only : has_single_cam, mean_bearing_torque
    use camroller_effect_list, only : choice_t, decision_t, effect_count, effect_bearings, effect_dynamics, effect_spin, &
       & has_effect, is_part_of_train, leave_out, needs_bearings
    use camroller_effect_reasons, only : find_reason, find_train_reason
    use camroller_effect_survey, only : survey_t, response_t, make_survey, respond
    use camroller_effect_train, only : compare_trains, estimate_train, train_change_t, train_load_t
    use camroller_model, only : model_t, revise_model
-   use camroller_shaft, only : shaft_t, bearing_torques, needs_turn, in_common_frame, new_shaft
-   use camroller_state, only : cam_force
+   use camroller_shaft, only : needs_turn
    implicit none
    private
 
@@ -32,14 +32,12 @@ module camroller_effect_choice
    !> Changes beyond this are too large to be estimated from small ones [-]
    real(wp), parameter :: largest_estimate = 1.0_wp
 
-   !> Why parts of the camshaft bearings are not weighed where their state follows from the whole turn
-   character(len=*), parameter :: turn_reason = "acts on the camshaft bearings alone; torque that follows from orbits or heat "// &
-      & "of the whole turn is not estimated"
-
    !> Mean torque for losses
    type :: mean_torque_t
       !> Of the followers, its uncertainty, of the bearings [N m]
       real(wp) :: followers = 0.0_wp, error = 0.0_wp, bearings = 0.0_wp
+      !> Why that of the bearings is not known; not allocated where it is, or where there are none
+      character(len=:), allocatable :: trouble
    end type mean_torque_t
 
 contains
@@ -119,6 +117,7 @@ contains
       type(survey_t), allocatable :: surveys(:)
       type(train_load_t), allocatable :: trains(:)
       type(mean_torque_t) :: torque
+      type(error_t), allocatable :: failure
       integer :: lobe, effect
 
       call find_name("quantity", case%effects%quantity, quantity_names, choice%quantity, error)
@@ -138,10 +137,11 @@ contains
          torque%followers = torque%followers + followers_of(case, lobe)*surveys(lobe)%torque
          torque%error = torque%error + followers_of(case, lobe)*surveys(lobe)%torque_error
       end do
-      ! Friction that follows from the whole turn is not surveyed: it stands in no denominator
-      if (has_single_bearings(case) .and. .not. needs_turn(case) .and. .not. allocated(surveys(1)%trouble)) then
-         call mean_bearing_torque(case, models(1), surveys(1), torque%bearings, error)
-         if (allocated(error)) return
+      if (has_single_cam(case) .and. .not. allocated(surveys(1)%trouble)) then
+         call mean_bearing_torque(case, models(1), surveys(1), needs_turn(case), torque%bearings, failure)
+         if (allocated(failure)) torque%trouble = failure%message
+         ! What is not known stands in no denominator
+         if (allocated(failure)) torque%bearings = 0.0_wp
       end if
       do effect = 1, effect_count
          if (.not. has_effect(case, effect)) cycle
@@ -194,8 +194,7 @@ contains
       decision%estimates = huge(1.0_wp)
       decision%reason = ""
       if (effect == effect_bearings) call weigh_bearings(case, surveys, torque, decision)
-      if (any(effect == needs_bearings)) call weigh_bearing_part(case, models, surveys, torque, decision, error)
-      if (allocated(error)) return
+      if (any(effect == needs_bearings)) call weigh_bearing_part(case, models, surveys, torque, decision)
       lobe = 1
       do while (lobe < size(surveys) .and. .not. allocated(surveys(lobe)%trouble))
          lobe = lobe + 1
@@ -349,22 +348,20 @@ contains
       !> The decision
       type(decision_t), intent(inout) :: decision
 
-      if (.not. has_single_bearings(case)) then
+      if (.not. has_single_cam(case)) then
          decision%reason = "not estimated: without them there is one cam, of the first lobe shape, at phase 0; here is another"
          return
       end if
       decision%estimates([quantity_film, quantity_slip]) = 0.0_wp
-      if (needs_turn(case)) then
-         decision%reason = turn_reason
-         return
-      end if
-      if (.not. allocated(surveys(1)%trouble)) then
+      if (allocated(torque%trouble)) then
+         decision%reason = "not estimated: "//torque%trouble
+      else if (.not. allocated(surveys(1)%trouble)) then
          decision%estimates(quantity_torque) = relative(torque%bearings, least_torque(torque))
       end if
    end subroutine weigh_bearings
 
    !> What changes the friction of the camshaft bearings and nothing else.
-   subroutine weigh_bearing_part(case, models, surveys, torque, decision, error)
+   subroutine weigh_bearing_part(case, models, surveys, torque, decision)
       !> The case
       type(case_t), intent(in) :: case
       !> Model of each lobe shape
@@ -375,68 +372,28 @@ contains
       type(mean_torque_t), intent(in) :: torque
       !> The decision
       type(decision_t), intent(inout) :: decision
-      !> Deck or domain error of the bearings
-      type(error_t), allocatable, intent(out) :: error
 
       type(case_t) :: variant
+      type(error_t), allocatable :: failure
       ! Mean torque of the bearings without the effect [N m]
       real(wp) :: without
 
       decision%estimates([quantity_film, quantity_slip]) = 0.0_wp
-      if (.not. has_single_bearings(case)) then
+      if (.not. has_single_cam(case)) then
          decision%reason = "not estimated for several cams, or one that is not of the first lobe shape at phase 0"
-      else if (needs_turn(case)) then
-         decision%reason = turn_reason
+      else if (allocated(torque%trouble)) then
+         decision%reason = "not estimated: "//torque%trouble
       else if (.not. allocated(surveys(1)%trouble)) then
          variant = case
          call leave_out(variant, decision%effect)
-         call mean_bearing_torque(variant, models(1), surveys(1), without, error)
-         if (allocated(error)) return
-         decision%estimates(quantity_torque) = relative(abs(torque%bearings - without), least_torque(torque))
+         call mean_bearing_torque(variant, models(1), surveys(1), needs_turn(case), without, failure)
+         if (allocated(failure)) then
+            decision%reason = "not estimated: without it "//failure%message
+         else
+            decision%estimates(quantity_torque) = relative(abs(torque%bearings - without), least_torque(torque))
+         end if
       end if
    end subroutine weigh_bearing_part
-
-   !> Are there camshaft bearings, and between them one cam of the first lobe shape at phase 0, as a case without them has it?
-   pure function has_single_bearings(case) result(has)
-      !> The case
-      type(case_t), intent(in) :: case
-      !> True for such a cam
-      logical :: has
-
-      has = .false.
-      if (.not. allocated(case%cam_bearings)) return
-      if (size(case%cam_bearings%cam_positions) /= 1) return
-      has = case%cam_bearings%cam_lobes(1) == 1 .and. abs(case%cam_bearings%cam_phases(1)) <= 0.0_wp
-   end function has_single_bearings
-
-   !> Mean torque of the bearings of a single cam.
-   subroutine mean_bearing_torque(case, model, survey, mean, error)
-      !> The case
-      type(case_t), intent(in) :: case
-      !> Its model
-      type(model_t), intent(in) :: model
-      !> The cycle
-      type(survey_t), intent(in) :: survey
-      !> Mean torque [N m]
-      real(wp), intent(out) :: mean
-      !> Deck or domain error of the bearings
-      type(error_t), allocatable, intent(out) :: error
-
-      type(shaft_t) :: shaft
-      ! Force on the cam in the frame of the first follower [N]; torque of the bearings [N m]
-      real(wp) :: forces(2, 1), torques(1)
-      integer :: i
-
-      mean = 0.0_wp
-      call new_shaft(shaft, case, model%oil%viscosity, model%speed, error)
-      if (allocated(error)) return
-      do i = 1, size(survey%states)
-         forces(:, 1) = in_common_frame(shaft, 1, cam_force(model, survey%states(i)))
-         call bearing_torques(shaft, forces, torques, error)
-         if (allocated(error)) return
-         mean = mean + survey%grid%weights(i)*torques(1)
-      end do
-   end subroutine mean_bearing_torque
 
    !> Mean torque for all losses, less its uncertainty.
    pure function least_torque(torque) result(least)
