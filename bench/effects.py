@@ -39,6 +39,7 @@ EFFECTS = {
     "friction_modifier": ([], ["asperity:coverage"]),
     "boundary_law": (["boundary_law"], []),
     "bearing_heat": (["bearing_heat"], []),
+    "shaft_drag": (["shaft_drag"], []),
     "roller_profile": (["roller_profile", "slices", "axial_table", "axial_film"],
                        ["part_series:add_axial", "part_series:add_axial_film", "follower_samples:note_ends"]),
 }

@@ -75,11 +75,13 @@ SOURCES = [("mean_torque_contact", "cam/roller contact", "#08306b", ""),
            ("mean_torque_seal", "stem seal", "#f4b6c2", "///"),
            ("mean_torque_guide_side", "ends of the guide", "#9a8700", "..."),
            ("mean_torque_pivot", "pivot", "#b5179e", ""),
-           ("mean_torque_needle_drag", "oil drag of the needles", "#7f7f7f", "xxx")]
+           ("mean_torque_needle_drag", "oil drag of the needles", "#7f7f7f", "xxx"),
+           ("mean_torque_shaft_drag", "seals and drive", "#2a9d8f", "...")]
 # The same over the cam angle: series, words, colour in each file, line style, line width
 PARTS = [(name.replace("mean_", ""), words, (colour.replace("#f0e442", "#9a8700"),), style, 1.4)
          for (name, words, colour, _), style in zip(SOURCES, (
-             "-", "--", "-.", ":", (0, (8, 2)), (0, (1, 3)), (0, (6, 1, 1, 1)), (0, (3, 3)), (0, (8, 2, 2, 2)), (0, (2, 1))),
+             "-", "--", "-.", ":", (0, (8, 2)), (0, (1, 3)), (0, (6, 1, 1, 1)), (0, (3, 3)), (0, (8, 2, 2, 2)), (0, (2, 1)),
+             (0, (12, 2))),
              strict=True)]
 # Series, words, colour in each file, line style, line width: the thin line of the whole lies on the broad one of the geometric part
 TORQUES = [("torque_geometric", "geometric", ("#7cc0ea", "#8fd19e", "#c9b3e6"), "-", 3.0),

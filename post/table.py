@@ -35,6 +35,7 @@ COLUMNS = [
     ('mean_torque_guide_side', 'guide ends', 'N mm'),
     ('mean_torque_pivot', 'pivot', 'N mm'),
     ('mean_torque_needle_drag', 'needle drag', 'N mm'),
+    ('mean_torque_shaft_drag', 'seals, drive', 'N mm'),
     ('mean_torque_friction', 'all friction', 'N mm'),
     ('fmep_friction', 'friction mean effective pressure', 'kPa'),
     ('mean_slip_ratio', 'mean slip', '%'),

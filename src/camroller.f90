@@ -14,7 +14,7 @@ module camroller
       & start_shaft, advance_shaft, halt_shaft, save_shaft, restore_shaft, cam_number, cam_place, shaft_angle, shaft_values, &
       & torque_list, of_geometric, of_contact, of_needle, of_guide, of_roller_inertia, of_damping, of_bearings, of_residual, &
       & needle_drag_t, sliding_t, valve_tip_t, stem_seal_t, guide_side_load_t, finger_pivot_t, bearing_asperity_t, &
-      & belt_pull_t, bearing_heat_t, friction_modifier_t, roller_profile_t, boundary_law_t, wear_t, &
+      & belt_pull_t, bearing_heat_t, shaft_drag_t, friction_modifier_t, roller_profile_t, boundary_law_t, wear_t, &
       & tribofilm_t, running_in_t
    use camroller_case_loop, only : sweep_cases
    use camroller_case_record, only : case_outcome_t
@@ -31,7 +31,7 @@ module camroller
    public :: case_t, operating_point_t, numerics_t, lift_t, mechanism_t, masses_t, spring_t, gas_force_t, materials_t, surface_t, &
       & lubricant_t, film_t, ehl_t, asperity_t, traction_t, heat_t, needle_bearing_t, valve_guide_t, roller_t, cam_bearings_t
    public :: needle_drag_t, sliding_t, valve_tip_t, stem_seal_t, guide_side_load_t, finger_pivot_t
-   public :: bearing_asperity_t, belt_pull_t, bearing_heat_t, friction_modifier_t, roller_profile_t, boundary_law_t
+   public :: bearing_asperity_t, belt_pull_t, bearing_heat_t, shaft_drag_t, friction_modifier_t, roller_profile_t, boundary_law_t
    public :: wear_t, tribofilm_t, running_in_t
    public :: deck_t, override_t, read_deck, parse_deck, make_case
    public :: run_case, result_t, quantity_t, find_quantity, get_series, get_summary, use_one_blas_thread

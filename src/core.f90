@@ -32,6 +32,7 @@ module camroller_core
    use camroller_bearing_asperity, only : bearing_asperity_t
    use camroller_bearing_heat, only : bearing_heat_t
    use camroller_camshaft, only : belt_pull_t
+   use camroller_shaft_drag, only : shaft_drag_t
    use camroller_deck, only : deck_t, override_t, read_deck, parse_deck, make_case
    use camroller_run, only : run_case
    use camroller_result, only : result_t, quantity_t, find_quantity, get_series, get_summary
@@ -49,7 +50,7 @@ module camroller_core
    public :: case_t, operating_point_t, numerics_t, lift_t, mechanism_t, masses_t, spring_t, gas_force_t, materials_t, surface_t, &
       & lubricant_t, film_t, ehl_t, asperity_t, traction_t, heat_t, needle_bearing_t, valve_guide_t, roller_t, cam_bearings_t
    public :: needle_drag_t, sliding_t, valve_tip_t, stem_seal_t, guide_side_load_t, finger_pivot_t
-   public :: bearing_asperity_t, belt_pull_t, bearing_heat_t, friction_modifier_t, roller_profile_t, boundary_law_t
+   public :: bearing_asperity_t, belt_pull_t, bearing_heat_t, shaft_drag_t, friction_modifier_t, roller_profile_t, boundary_law_t
    public :: wear_t, tribofilm_t, running_in_t
    public :: deck_t, override_t, read_deck, parse_deck, make_case
    public :: run_case, result_t, quantity_t, find_quantity, get_series, get_summary, use_one_blas_thread

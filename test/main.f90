@@ -48,6 +48,7 @@ program main
    use test_units, only : collect_units
    use test_journal, only : collect_journal
    use test_bearing_heat, only : collect_bearing_heat
+   use test_shaft_drag, only : collect_shaft_drag
    use test_journal_motion, only : collect_journal_motion
    use test_journal_orbit, only : collect_journal_orbit
    use test_mixed_bearings, only : collect_mixed_bearings
@@ -237,6 +238,7 @@ contains
          new_testsuite("units", collect_units), &
          new_testsuite("journal", collect_journal), &
          new_testsuite("bearing_heat", collect_bearing_heat), &
+         new_testsuite("shaft_drag", collect_shaft_drag), &
          new_testsuite("journal_motion", collect_journal_motion), &
          new_testsuite("journal_orbit", collect_journal_orbit), &
          new_testsuite("mixed_bearings", collect_mixed_bearings), &

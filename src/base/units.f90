@@ -58,6 +58,7 @@ module camroller_units
       unit_t("kg_m3", "kg/m3", 1.0_wp, 1.0_wp, 0.0_wp), &
       unit_t("N", "N", 1.0_wp, 1.0_wp, 0.0_wp), &
       unit_t("N_m", "N/m", 1.0_wp, 1.0_wp, 0.0_wp), &
+      unit_t("Nm", "N m", 1.0_wp, 1.0_wp, 0.0_wp), &
       unit_t("N_s_m", "N s/m", 1.0_wp, 1.0_wp, 0.0_wp), &
       unit_t("Pa", "Pa", 1.0_wp, 1.0_wp, 0.0_wp), &
       unit_t("kPa", "kPa", 1.0e3_wp, 1.0_wp, 0.0_wp), &

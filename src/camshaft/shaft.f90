@@ -17,16 +17,17 @@ module camroller_shaft
    use camroller_events, only : cycle_stops
    use camroller_journal_orbit, only : orbit_t, place_at
    use camroller_panels, only : panel_points
-   use camroller_torque_list, only : torque_count, of_bearings
+   use camroller_torque_list, only : torque_count, of_bearings, of_shaft_drag
    use camroller_journal, only : cam_bearings_t, journal_t, new_journal, journal_solved
    use camroller_journal_motion, only : moving_state
    use camroller_bearing_asperity, only : touch_t, bearing_state_t, new_touch, carry_load
    use camroller_bearing_heat, only : oil_flow
    use camroller_camshaft, only : belt_pull_t, share_force, share_pull
+   use camroller_shaft_drag, only : shaft_drag_t, check_shaft_drag, find_shaft_drag
    implicit none
    private
 
-   public :: shaft_t, solved_t, new_shaft, set_journal, refine_curves, shaft_torques, in_common_frame, bearing_torques
+   public :: shaft_t, solved_t, new_shaft, set_journal, set_drag, refine_curves, shaft_torques, in_common_frame, bearing_torques
    public :: bearing_number, cam_at, has_orbits, needs_turn, shaft_stops
 
    !> Cams of a shaft
@@ -48,6 +49,9 @@ module camroller_shaft
       !> Their surfaces, and the pull of belt or chain; allocated where the case has them
       type(touch_t), allocatable :: touch
       type(belt_pull_t), allocatable :: pull
+      !> Torque of seals and drive over speed and temperature, allocated where the case has it; that torque on each camshaft [N m]
+      type(shaft_drag_t), allocatable :: drag_table
+      real(wp) :: drag = 0.0_wp
       !> Cam speed [rad/s]
       real(wp) :: speed = 0.0_wp
       !> What follows from a whole turn, shape (bearing, camshaft), allocated once it is found: bearings with their own oil,
@@ -108,6 +112,13 @@ contains
       call set_journal(shaft, viscosity, speed, error)
       if (allocated(error)) return
       if (allocated(case%belt_pull)) shaft%pull = case%belt_pull
+      if (allocated(case%shaft_drag)) then
+         call check_shaft_drag(case%shaft_drag, error)
+         if (allocated(error)) return
+         shaft%drag_table = case%shaft_drag
+         call set_drag(shaft, speed, case%operating_point%oil_temperature, error)
+         if (allocated(error)) return
+      end if
       if (.not. allocated(case%bearing_asperity)) return
       allocate (shaft%touch)
       call new_touch(shaft%touch, case%bearing_asperity, case%cam_bearings%radial_clearance, error)
@@ -125,6 +136,18 @@ contains
       shaft%speed = speed
       if (allocated(shaft%journal)) call new_journal(shaft%journal, shaft%bearings, viscosity, speed, error)
    end subroutine set_journal
+
+   !> Set the torque of seals and drive, where there is one, to another speed and temperature.
+   subroutine set_drag(shaft, speed, temperature, error)
+      !> The shaft
+      type(shaft_t), intent(inout) :: shaft
+      !> Cam speed [rad/s], temperature of the oil [K]
+      real(wp), intent(in) :: speed, temperature
+      !> Domain error outside its table
+      type(error_t), allocatable, intent(out) :: error
+
+      if (allocated(shaft%drag_table)) call find_shaft_drag(shaft%drag_table, speed, temperature, shaft%drag, error)
+   end subroutine set_drag
 
    !> Do the journals of a case move on orbits?
    pure function has_orbits(case) result(has)
@@ -245,6 +268,7 @@ contains
             forces(:, cam) = in_common_frame(shaft, cam, values(torque_count + 1:))
          end do
          call bearing_torques(shaft, forces, torques(of_bearings, :), error, bearings, angle)
+         torques(of_shaft_drag, :) = shaft%drag
       end associate
    end subroutine shaft_torques
 

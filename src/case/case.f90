@@ -30,6 +30,7 @@ module camroller_case
    use camroller_bearing_asperity, only : bearing_asperity_t
    use camroller_bearing_heat, only : bearing_heat_t
    use camroller_camshaft, only : belt_pull_t
+   use camroller_shaft_drag, only : shaft_drag_t
    use camroller_engine, only : engine_t
    use camroller_flexible_parts, only : dynamics_t
    use camroller_spring_modes, only : spring_surge_t
@@ -148,10 +149,12 @@ module camroller_case
       type(guide_side_load_t), allocatable :: guide_side_load
       type(finger_pivot_t), allocatable :: finger_pivot
       type(cam_bearings_t), allocatable :: cam_bearings
-      !> Mixed friction in these bearings, pull of the belt or chain on each camshaft, heat balance; of no effect without bearings
+      !> Mixed friction in these bearings, pull of the belt or chain on each camshaft, heat balance, torque of seals and drive; of
+      !> no effect without bearings
       type(bearing_asperity_t), allocatable :: bearing_asperity
       type(belt_pull_t), allocatable :: belt_pull
       type(bearing_heat_t), allocatable :: bearing_heat
+      type(shaft_drag_t), allocatable :: shaft_drag
       !> Engine that the camshafts belong to; of no effect without their bearings
       type(engine_t), allocatable :: engine
       !> A train that bends and leaves contact; with it, a spring that surges and a hydraulic lash adjuster

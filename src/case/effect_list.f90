@@ -22,23 +22,26 @@ module camroller_effect_list
       & effect_pressure, effect_shear, effect_spin, effect_ehl, effect_tip, effect_seal, effect_side, effect_pivot, &
       & effect_drag, effect_inlet_heat, effect_contact_heat, effect_dynamics, effect_surge, effect_adjuster, is_part_of_train, &
       & effect_bearing_asperity, effect_belt_pull, effect_modifier, effect_orbit, effect_bearing_heat, effect_profile, &
-      & effect_boundary_law, effect_running_in, needs_bearings
+      & effect_boundary_law, effect_running_in, effect_shaft_drag, needs_bearings
 
    !> Effects: groups of the deck, and laws that have a simpler one beside them
    character(len=*), parameter :: effect_names(*) = [character(len=name_length) :: "asperity", "needle_bearing", "valve_guide", &
       & "cam_bearings", "gas_force", "rolling_resistance", "film_law", "pressure_law", "shear_law", "roller_equation", &
       & "ehl", "valve_tip", "stem_seal", "guide_side_load", "finger_pivot", "needle_drag", "inlet_heat", "contact_heat", &
       & "dynamics", "spring_surge", "lash_adjuster", "bearing_asperity", "belt_pull", &
-      & "friction_modifier", "journal_orbit", "bearing_heat", "roller_profile", "boundary_law", "running_in"]
+      & "friction_modifier", "journal_orbit", "bearing_heat", "roller_profile", "boundary_law", "running_in", &
+      & "shaft_drag"]
    !> Positions in it
    integer, parameter :: effect_asperity = 1, effect_needle = 2, effect_guide = 3, effect_bearings = 4, effect_gas = 5, &
       & effect_rolling = 6, effect_film = 7, effect_pressure = 8, effect_shear = 9, effect_spin = 10, effect_ehl = 11, &
       & effect_tip = 12, effect_seal = 13, effect_side = 14, effect_pivot = 15, effect_drag = 16, &
       & effect_inlet_heat = 17, effect_contact_heat = 18, effect_dynamics = 19, effect_surge = 20, effect_adjuster = 21, &
       & effect_bearing_asperity = 22, effect_belt_pull = 23, effect_modifier = 24, &
-      & effect_orbit = 25, effect_bearing_heat = 26, effect_profile = 27, effect_boundary_law = 28, effect_running_in = 29
+      & effect_orbit = 25, effect_bearing_heat = 26, effect_profile = 27, effect_boundary_law = 28, effect_running_in = 29, &
+      & effect_shaft_drag = 30
    !> Effects of the camshaft bearings: nothing else depends on them, and without these bearings they are of no effect
-   integer, parameter :: needs_bearings(*) = [effect_bearing_asperity, effect_belt_pull, effect_orbit, effect_bearing_heat]
+   integer, parameter :: needs_bearings(*) = [effect_bearing_asperity, effect_belt_pull, effect_orbit, effect_bearing_heat, &
+      & effect_shaft_drag]
    !> Their number
    integer, parameter :: effect_count = size(effect_names)
    !> Words of a reason
@@ -124,7 +127,7 @@ contains
          if (allocated(variant%finger_pivot)) deallocate (variant%finger_pivot)
       case (effect_drag)
          if (allocated(variant%needle_drag)) deallocate (variant%needle_drag)
-      case (effect_bearing_asperity, effect_belt_pull, effect_orbit, effect_bearing_heat)
+      case (effect_bearing_asperity, effect_belt_pull, effect_orbit, effect_bearing_heat, effect_shaft_drag)
          call leave_bearing_part_out(variant, effect)
       case (effect_profile)
          if (allocated(variant%roller_profile)) deallocate (variant%roller_profile)
@@ -218,6 +221,8 @@ contains
          if (allocated(variant%cam_bearings)) variant%cam_bearings%journal_motion = journal_motion_names(motion_quasi_steady)
       case (effect_bearing_heat)
          if (allocated(variant%bearing_heat)) deallocate (variant%bearing_heat)
+      case (effect_shaft_drag)
+         if (allocated(variant%shaft_drag)) deallocate (variant%shaft_drag)
       end select
    end subroutine leave_bearing_part_out
 
@@ -231,6 +236,7 @@ contains
       if (allocated(variant%bearing_asperity)) deallocate (variant%bearing_asperity)
       if (allocated(variant%belt_pull)) deallocate (variant%belt_pull)
       if (allocated(variant%bearing_heat)) deallocate (variant%bearing_heat)
+      if (allocated(variant%shaft_drag)) deallocate (variant%shaft_drag)
    end subroutine leave_bearings_out
 
    !> Has a case a rough film that a smooth one may stand for? Not where its asperities come with it.
@@ -303,7 +309,7 @@ contains
          has = allocated(case%finger_pivot)
       case (effect_drag)
          has = allocated(case%needle_drag)
-      case (effect_bearing_asperity, effect_belt_pull, effect_orbit, effect_bearing_heat)
+      case (effect_bearing_asperity, effect_belt_pull, effect_orbit, effect_bearing_heat, effect_shaft_drag)
          has = has_bearing_part(case, effect)
       case (effect_profile)
          has = allocated(case%roller_profile)
@@ -355,6 +361,8 @@ contains
          if (allocated(case%cam_bearings)) has = case%cam_bearings%journal_motion == journal_motion_names(motion_orbit)
       case (effect_bearing_heat)
          has = allocated(case%bearing_heat)
+      case (effect_shaft_drag)
+         has = allocated(case%shaft_drag)
       end select
    end function has_bearing_part
 

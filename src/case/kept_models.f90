@@ -18,8 +18,8 @@ module camroller_kept_models
    character(len=*), parameter :: revised_groups(*) = [character(len=name_length) :: "operating_point", "gas_force", "materials", &
       & "surface", "lubricant", "film", "traction", "heat", "ehl", "asperity", "friction_modifier", "boundary_law", "wear", &
       & "tribofilm", "running_in", "needle_bearing", "needle_drag", "roller_profile", "cam_bearings", "bearing_asperity", &
-      & "belt_pull", "bearing_heat", "valve_guide", "valve_tip", "stem_seal", "guide_side_load", "finger_pivot", "effects", &
-      & "numerics"]
+      & "belt_pull", "bearing_heat", "shaft_drag", "valve_guide", "valve_tip", "stem_seal", "guide_side_load", "finger_pivot", &
+      & "effects", "numerics"]
 
    !> Models of the last case whose train was another one's
    type :: kept_models_t

@@ -128,6 +128,9 @@ module camroller_usual_values
       usual_t("bearing_heat.oil_share", 0.3_wp, 1.0_wp), &
       usual_t("belt_pull.force_N", 0.0_wp, 5000.0_wp), &
       usual_t("belt_pull.position_mm", -3000.0_wp, 3000.0_wp), &
+      usual_t("shaft_drag.speed_points_rpm", 0.0_wp, 10000.0_wp), &
+      usual_t("shaft_drag.temperature_points_degC", -40.0_wp, 180.0_wp), &
+      usual_t("shaft_drag.torque_points_Nm", 0.0_wp, 20.0_wp), &
       usual_t("valve_guide.length_mm", 10.0_wp, 150.0_wp), &
       usual_t("valve_guide.stem_diameter_mm", 3.0_wp, 20.0_wp), &
       usual_t("valve_guide.radial_clearance_um", 3.0_wp, 100.0_wp), &

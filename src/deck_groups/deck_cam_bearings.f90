@@ -1,4 +1,4 @@
-!> Decks: what comes on top of the camshaft bearings, mixed friction, the pull of the belt or chain, heat.
+!> Decks: what comes on top of the camshaft bearings, mixed friction, the pull of the belt or chain, heat, seals.
 !>
 !> In: schema, settings. Out: groups and keys, the components of a case, and the rules that tie their keys to others.
 module camroller_deck_cam_bearings
@@ -6,17 +6,19 @@ module camroller_deck_cam_bearings
    use camroller_bearing_heat, only : bearing_heat_t, direct_advice
    use camroller_case, only : case_t
    use camroller_deck_complaint, only : complain, complain_about_group
-   use camroller_deck_schema, only : schema_t, add_group, add_number, anything, from_to, group_effect, not_negative, positive
+   use camroller_deck_schema, only : schema_t, add_group, add_number, add_numbers, anything, from_to, group_effect, &
+      & not_negative, positive, range_t
    use camroller_kinds, only : wp
    use camroller_mistakes, only : mistakes_t
    use camroller_settings, only : settings_t, get_word, has_group, is_known, take
+   use camroller_shaft_drag, only : is_rising, shaft_drag_t
    implicit none
    private
 
    public :: add_bearing_part_keys, fill_bearing_parts, check_bearing_parts
 
    character(len=*), parameter :: bearings = "cam_bearings", mixed = "bearing_asperity", pull = "belt_pull", &
-      & warm = "bearing_heat"
+      & warm = "bearing_heat", drag = "shaft_drag"
 
 contains
 
@@ -27,6 +29,7 @@ contains
 
       type(bearing_asperity_t) :: standard
       type(bearing_heat_t) :: usual_heat
+      type(range_t), parameter :: above_zero = range_t(smallest=-273.15_wp, with_smallest=.false.)
 
       call add_group(schema, "bearing_asperity", group_effect, &
          & "asperities that share the load of the camshaft bearings where their film is thin")
@@ -51,6 +54,15 @@ contains
       call add_number(schema, "heat_capacity_J_kg_K", positive, "heat capacity of the oil", default=usual_heat%heat_capacity)
       call add_number(schema, "oil_share", from_to(0.0_wp, 1.0_wp), &
          & "part of the friction's heat that the oil carries away; the rest goes into the metal", default=usual_heat%oil_share)
+      call add_group(schema, "shaft_drag", group_effect, &
+         & "torque of the seals and of the belt or chain on each camshaft, as a table over speed and temperature")
+      call add_numbers(schema, "speed_points_rpm", not_negative, "speeds of the camshaft, increasing; with one alone the "// &
+         & "torque does not depend on it", example="0, 1000, 3000")
+      call add_numbers(schema, "temperature_points_degC", above_zero, "temperatures of the oil, increasing; with one alone the "// &
+         & "torque does not depend on it", example="20, 90")
+      call add_numbers(schema, "torque_points_Nm", not_negative, "torques: those of all speeds at the first temperature, then "// &
+         & "at the next; linear between them, a case outside the table is refused", &
+         & example="0.25, 0.20, 0.22, 0.15, 0.12, 0.14")
    end subroutine add_bearing_part_keys
 
    !> Fill the components of a case.
@@ -79,6 +91,12 @@ contains
          call take(settings, warm, "heat_capacity_J_kg_K", case%bearing_heat%heat_capacity)
          call take(settings, warm, "oil_share", case%bearing_heat%oil_share)
       end if
+      if (has_group(settings, drag)) then
+         allocate (case%shaft_drag)
+         call take(settings, drag, "speed_points_rpm", case%shaft_drag%speed_points)
+         call take(settings, drag, "temperature_points_degC", case%shaft_drag%temperature_points)
+         call take(settings, drag, "torque_points_Nm", case%shaft_drag%torque_points)
+      end if
    end subroutine fill_bearing_parts
 
    !> Rules: all need bearings, mixed friction surfaces that are apart where the journal is in the middle, heat an oil that thins
@@ -99,8 +117,11 @@ contains
             & "&"//pull//" needs the group &"//bearings)
          if (has_group(settings, warm)) call complain_about_group(mistakes, settings, warm, &
             & "&"//warm//" needs the group &"//bearings)
+         if (has_group(settings, drag)) call complain_about_group(mistakes, settings, drag, &
+            & "&"//drag//" needs the group &"//bearings)
          return
       end if
+      call check_drag(settings, mistakes)
       if (has_group(settings, warm)) then
          if (get_word(settings, "lubricant", "temperature_law") == "direct") call complain_about_group(mistakes, settings, warm, &
             & direct_advice)
@@ -112,5 +133,27 @@ contains
       if (.not. clearance_is_enough(roughness, clearance)) call complain(mistakes, settings, mixed, "roughness_um", &
          & clearance_advice)
    end subroutine check_bearing_parts
+
+   !> Rules: the table of seals and drive rises in speed and temperature, and has a torque for each pair.
+   subroutine check_drag(settings, mistakes)
+      !> The settings
+      type(settings_t), intent(in) :: settings
+      !> Mistakes so far
+      type(mistakes_t), intent(inout) :: mistakes
+
+      type(shaft_drag_t) :: table
+
+      if (.not. (is_known(settings, drag, "speed_points_rpm") .and. is_known(settings, drag, "temperature_points_degC") .and. &
+         & is_known(settings, drag, "torque_points_Nm"))) return
+      call take(settings, drag, "speed_points_rpm", table%speed_points)
+      call take(settings, drag, "temperature_points_degC", table%temperature_points)
+      call take(settings, drag, "torque_points_Nm", table%torque_points)
+      if (.not. is_rising(table%speed_points)) call complain(mistakes, settings, drag, "speed_points_rpm", &
+         & "the numbers of 'speed_points_rpm' must increase")
+      if (.not. is_rising(table%temperature_points)) call complain(mistakes, settings, drag, "temperature_points_degC", &
+         & "the numbers of 'temperature_points_degC' must increase")
+      if (size(table%torque_points) /= size(table%speed_points)*size(table%temperature_points)) call complain(mistakes, &
+         & settings, drag, "torque_points_Nm", "'torque_points_Nm' has one number for each speed at each temperature")
+   end subroutine check_drag
 
 end module camroller_deck_cam_bearings

@@ -1,8 +1,8 @@
 !> Mean torque of camshaft bearings in a survey of the cycle.
 !>
-!> In: a case with one cam on its shaft, survey of its cycle. Out: mean torque of its bearings. What a bearing takes from the whole
-!> turn, orbit and temperature, is found as in a run, with less accuracy and under a load that is linear between the angles of the
-!> survey.
+!> In: a case with one cam on its shaft, survey of its cycle. Out: mean torque of its bearings, seals and drive. What a bearing
+!> takes from the whole turn, orbit and temperature, is found as in a run, with less accuracy and under a load that is linear
+!> between the angles of the survey.
 module camroller_effect_bearings
    use camroller_kinds, only : wp, two_pi
    use camroller_error, only : error_t
@@ -46,7 +46,7 @@ contains
       has = case%cam_bearings%cam_lobes(1) == 1 .and. abs(case%cam_bearings%cam_phases(1)) <= 0.0_wp
    end function has_single_cam
 
-   !> Mean torque of the bearings of a single cam.
+   !> Mean torque of the bearings of a single cam, and of seals and drive.
    subroutine mean_bearing_torque(case, model, survey, over_turn, mean, error)
       !> The case
       type(case_t), intent(in) :: case
@@ -81,14 +81,14 @@ contains
             loads(bearing)%loads(:, i) = states(bearing, 1)%load
          end do
       end do
-      if (.not. over_turn) return
-      mean = 0.0_wp
-      do bearing = 1, size(loads)
+      if (over_turn) mean = 0.0_wp
+      do bearing = 1, merge(size(loads), 0, over_turn)
          loads(bearing)%angles = survey%grid%angles
          call follow_bearing(case, shaft, -model%linkage%sense, loads(bearing), torque, error)
          if (allocated(error)) return
          mean = mean + torque
       end do
+      mean = mean + shaft%drag
    end subroutine mean_bearing_torque
 
    !> Mean torque of one bearing with the temperature and the orbit that the case asks for.

@@ -10,7 +10,7 @@ module camroller_effect_reasons
       & effect_rolling, effect_film, effect_pressure, effect_shear, effect_spin, effect_ehl, effect_tip, effect_seal, effect_side, &
       & effect_pivot, effect_drag, effect_inlet_heat, effect_contact_heat, effect_dynamics, effect_surge, effect_adjuster, &
       & effect_boundary_law, effect_modifier, effect_profile, effect_bearing_asperity, effect_belt_pull, effect_orbit, &
-      & effect_bearing_heat
+      & effect_bearing_heat, effect_shaft_drag
    use camroller_effect_grid, only : points, mean_over
    use camroller_effect_survey, only : survey_t
    use camroller_effect_train, only : train_change_t, train_load_t
@@ -72,6 +72,8 @@ contains
             reason = "takes "//trim(percent(lost/all_lost))//" of the follower's friction torque"
          case (effect_bearings)
             reason = "take "//trim(percent(share))//" of the friction torque; film and slip do not depend on them"
+         case (effect_shaft_drag)
+            reason = "acts on nothing else; with the camshaft bearings it takes "//trim(percent(share))//" of the friction torque"
          case (effect_bearing_asperity, effect_belt_pull, effect_orbit, effect_bearing_heat)
             reason = "acts on the camshaft bearings alone, which take "//trim(percent(share))//" of the friction torque"
          case (effect_gas)

@@ -11,12 +11,12 @@ module camroller_torque_list
 
    public :: torque_row_t, torque_list, torque_count, is_loss, is_torque, torque_series
    public :: of_geometric, of_contact, of_needle, of_guide, of_roller_inertia, of_damping, of_bearings, &
-      & of_tip, of_seal, of_guide_side, of_pivot, of_needle_drag, of_residual
+      & of_tip, of_seal, of_guide_side, of_pivot, of_needle_drag, of_shaft_drag, of_residual
 
    !> Rows of the list
    enum, bind(C)
       enumerator :: of_geometric = 1, of_contact, of_needle, of_guide, of_roller_inertia, of_damping, of_bearings, &
-         & of_tip, of_seal, of_guide_side, of_pivot, of_needle_drag, of_residual
+         & of_tip, of_seal, of_guide_side, of_pivot, of_needle_drag, of_shaft_drag, of_residual
    end enum
 
    !> Kinds of rows: energy that comes back, energy that is lost, the error of the energy balance
@@ -53,6 +53,7 @@ module camroller_torque_list
       torque_row_t("guide_side", "torque for friction at the ends of the guide", "guide_side_load", kind_loss, "guide ends"), &
       torque_row_t("pivot", "torque for friction at the finger's pivot", "finger_pivot", kind_loss, "pivot"), &
       torque_row_t("needle_drag", "torque for the oil in the roller's bearing", "needle_drag", kind_loss, "needle drag"), &
+      torque_row_t("shaft_drag", "torque for the seals and the drive of the camshaft", "shaft_drag", kind_loss, "seals, drive"), &
       torque_row_t("residual", "drive power less losses less stored power", "torque", kind_residual, "")]
 
    !> Number of rows

@@ -35,6 +35,7 @@ module camroller_deck_bounds
       bounds_t("kg_m2", "moment of inertia", 1.0e-18_wp, 1.0e6_wp), &
       bounds_t("kg_m3", "density", 1.0e-3_wp, 1.0e6_wp), &
       bounds_t("N", "force", 1.0e-9_wp, 1.0e12_wp), &
+      bounds_t("Nm", "torque", 1.0e-12_wp, 1.0e9_wp), &
       bounds_t("N_m", "stiffness", 1.0e-6_wp, 1.0e15_wp), &
       bounds_t("Pa kPa bar MPa GPa", "pressure, stress, modulus", 1.0e-3_wp, 1.0e15_wp), &
       bounds_t("Pa_s mPa_s", "viscosity", 1.0e-9_wp, 1.0e6_wp), &

@@ -10,7 +10,8 @@ module camroller_summary
    use camroller_cycle, only : cycle_t
    use camroller_flexible_report, only : add_outlook, add_train_scalars
    use camroller_catalogue, only : camshaft_columns, camshaft_values, lobe_columns, lobe_prefix
-   use camroller_torque_list, only : torque_list, torque_count, is_loss, of_bearings, of_residual, torque_series
+   use camroller_torque_list, only : torque_list, torque_count, is_loss, of_bearings, of_residual, of_shaft_drag, &
+      & torque_series
    use camroller_engine, only : cam_turns, crank_angle_at_nose
    use camroller_margins, only : margin_t, margins_t
    use camroller_means, only : statistics_t
@@ -116,6 +117,7 @@ contains
       columns = camshaft_columns(solved%case)
       allocate (with_all(columns(2) - columns(1) + 1), with_first(columns(2) - columns(1) + 1))
       torques(of_bearings, :) = bearing_torque
+      torques(of_shaft_drag, :) = solved%shaft%drag
       call camshaft_values(solved%case, torques, with_all)
       call camshaft_values(solved%case, first, with_first)
       means(columns(1):columns(2)) = statistics(1)%mean(columns(1):columns(2)) + (with_all - with_first)

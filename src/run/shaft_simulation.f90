@@ -17,11 +17,11 @@ module camroller_shaft_simulation
    use camroller_lubricant, only : oil_t, get_oil
    use camroller_follower_step, only : point_t, inputs_t, outcome_t, piece_number, inputs_between
    use camroller_part_series, only : bearing_count
-   use camroller_shaft, only : needs_turn, shaft_t, new_shaft, set_journal, in_common_frame, bearing_torques
+   use camroller_shaft, only : needs_turn, shaft_t, new_shaft, set_drag, set_journal, in_common_frame, bearing_torques
    use camroller_simulation, only : simulation_t, advance, halt, check_step, prepare_simulation, place_simulation, &
       & check_angle, has_films, put_back, get_mark, get_point, set_point, get_values
    use camroller_model_mark, only : mixed
-   use camroller_torque_list, only : torque_count, is_loss, is_torque, of_bearings
+   use camroller_torque_list, only : torque_count, is_loss, is_torque, of_bearings, of_shaft_drag
    implicit none
    private
 
@@ -247,8 +247,8 @@ contains
 
       ! Torque of the bearings of each camshaft and of all, torque that drives everything, at the angles of the nodes [N m]
       real(wp) :: by_shaft(shaft%shaft%count), bearings(0:ubound(nodes, 2)), drive
-      ! Means of the bearings by Simpson's and the trapezoidal rule [N m]
-      real(wp) :: mean, coarse
+      ! Torque of seals and drive of all camshafts at these angles, means by Simpson's and the trapezoidal rule [N m]
+      real(wp) :: drag(0:ubound(nodes, 2)), mean(2), coarse(2)
       integer :: i, k, last
 
       last = ubound(nodes, 2)
@@ -271,24 +271,40 @@ contains
             & outcome%bearings)
          if (allocated(error)) return
          bearings(i) = sum(by_shaft)
-         drive = sum(nodes(3, i, :)) + bearings(i)
+         drag(i) = shaft%shaft%count*shaft%shaft%drag
+         drive = sum(nodes(3, i, :)) + bearings(i) + drag(i)
          outcome%extreme_torque = [min(outcome%extreme_torque(1), drive), max(outcome%extreme_torque(2), drive)]
       end do
-      mean = sum([(bearings(k - 2) + 4.0_wp*bearings(k - 1) + bearings(k), k=2, last, 2)])/(3.0_wp*last)
-      coarse = sum([(bearings(k - 1) + bearings(k), k=1, last)])/(2.0_wp*last)
+      call take_means(bearings, mean(1), coarse(1))
+      call take_means(drag, mean(2), coarse(2))
       outcome%by_camshaft(of_bearings, :) = by_shaft
+      outcome%by_camshaft(of_shaft_drag, :) = shaft%shaft%drag
       outcome%torques = sum(outcome%by_camshaft, 2)
-      outcome%mean_torques(of_bearings) = mean
-      outcome%estimated_error = outcome%estimated_error + abs(mean - coarse)
+      outcome%mean_torques([of_bearings, of_shaft_drag]) = mean
+      outcome%estimated_error = outcome%estimated_error + sum(abs(mean - coarse))
       outcome%mean_torque_friction = sum(outcome%mean_torques, mask=is_loss)
       outcome%mean_torque_drive = sum(outcome%mean_torques, mask=is_torque)
       outcome%torque_friction = sum(outcome%torques, mask=is_loss)
       outcome%torque_drive = sum(outcome%torques, mask=is_torque)
    end subroutine add_up
 
+   !> Means of what is sampled at equal distances.
+   pure subroutine take_means(samples, mean, coarse)
+      !> The samples, an even number after the first [any]
+      real(wp), intent(in) :: samples(0:)
+      !> Mean by Simpson's and by the trapezoidal rule [any]
+      real(wp), intent(out) :: mean, coarse
+
+      integer :: k, last
+
+      last = ubound(samples, 1)
+      mean = sum([(samples(k - 2) + 4.0_wp*samples(k - 1) + samples(k), k=2, last, 2)])/(3.0_wp*last)
+      coarse = sum([(samples(k - 1) + samples(k), k=1, last)])/(2.0_wp*last)
+   end subroutine take_means
+
    !> Torque of the bearings of each camshaft at inputs and forces.
    subroutine bearings_at(shaft, inputs, forces, torques, error, bearings)
-      !> The shaft; its bearings are set to the inputs
+      !> The shaft; its bearings, seals and drive are set to the inputs
       type(shaft_simulation_t), intent(inout) :: shaft
       !> Speed and oil temperature
       type(inputs_t), intent(in) :: inputs
@@ -310,6 +326,7 @@ contains
       if (.not. allocated(shaft%shaft%journal)) return
       call get_oil(shaft%case%lubricant, inputs%oil_temperature, oil, error)
       if (.not. allocated(error)) call set_journal(shaft%shaft, oil%viscosity, inputs%speed, error)
+      if (.not. allocated(error)) call set_drag(shaft%shaft, inputs%speed, inputs%oil_temperature, error)
       if (allocated(error)) return
       do cam = 1, size(forces, 2)
          turned(:, cam) = in_common_frame(shaft%shaft, cam, forces(:, cam))
@@ -409,6 +426,8 @@ contains
          & shaft%shaft%touch%boundary_coefficient], parts)]
       if (allocated(shaft%shaft%pull)) parts = [parts, transfer([shaft%shaft%pull%force, shaft%shaft%pull%angle, &
          & shaft%shaft%pull%position], parts)]
+      if (allocated(shaft%shaft%drag_table)) parts = [parts, transfer([shaft%shaft%drag_table%speed_points, &
+         & shaft%shaft%drag_table%temperature_points, shaft%shaft%drag_table%torque_points], parts)]
       mark = mixed(parts)
    end subroutine get_shaft_mark
 

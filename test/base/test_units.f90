@@ -16,10 +16,10 @@ module test_units
    !> Names of units and what one of them is in SI, at zero and beyond it [SI unit]; source: Bureau International des Poids et
    !> Mesures, The International System of Units, 9th edition (2019), tables 2 to 8
    character(len=*), parameter :: names(*) = [character(len=8) :: "m", "mm", "um", "cm3", "mm2_s", "deg", "mrad", "rpm", &
-      & "degC", "s", "m_s", "s_m", "mm2", "kg", "kg_m2", "kg_m3", "N", "N_m", "Pa", "kPa", "bar", "MPa", "GPa", "Pa_s", "per_GPa", &
-      & "per_K", "N_s_m", "W_m_K", "J_kg_K", "kJ_mol", "mPa_s", "nm", "nm_s", "nm3", "per_s", "mm3_N_m", "h"]
+      & "degC", "s", "m_s", "s_m", "mm2", "kg", "kg_m2", "kg_m3", "N", "N_m", "Nm", "Pa", "kPa", "bar", "MPa", "GPa", "Pa_s", &
+      & "per_GPa", "per_K", "N_s_m", "W_m_K", "J_kg_K", "kJ_mol", "mPa_s", "nm", "nm_s", "nm3", "per_s", "mm3_N_m", "h"]
    real(wp), parameter :: ones(*) = [1.0_wp, 1.0e-3_wp, 1.0e-6_wp, 1.0e-6_wp, 1.0e-6_wp, pi/180.0_wp, 1.0e-3_wp, &
-      & pi/30.0_wp, 1.0_wp, 1.0_wp, 1.0_wp, 1.0_wp, 1.0e-6_wp, 1.0_wp, 1.0_wp, 1.0_wp, 1.0_wp, 1.0_wp, 1.0_wp, &
+      & pi/30.0_wp, 1.0_wp, 1.0_wp, 1.0_wp, 1.0_wp, 1.0e-6_wp, 1.0_wp, 1.0_wp, 1.0_wp, 1.0_wp, 1.0_wp, 1.0_wp, 1.0_wp, &
       & 1.0e3_wp, 1.0e5_wp, 1.0e6_wp, 1.0e9_wp, 1.0_wp, 1.0e-9_wp, &
       & 1.0_wp, 1.0_wp, 1.0_wp, 1.0_wp, 1.0e3_wp, 1.0e-3_wp, 1.0e-9_wp, 1.0e-9_wp, 1.0e-27_wp, 1.0_wp, &
       & 1.0e-9_wp, 3600.0_wp]

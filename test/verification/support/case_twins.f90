@@ -6,7 +6,7 @@ module case_twins
    use camroller_result, only : find_quantity, result_t
    use camroller_sliding_friction, only : sliding_t
    use unit_systems, only : units_t, dimension_t, scaled, number, angular_speed, area, drag, force, inertia, length, mass, &
-      & per_pressure, per_speed, pressure, speed, stiffness, viscosity, conductivity, density, heat_capacity, &
+      & per_pressure, per_speed, pressure, speed, stiffness, torque, viscosity, conductivity, density, heat_capacity, &
       & temperature, per_temperature
    implicit none
    private
@@ -166,6 +166,8 @@ contains
          if (allocated(case%bearing_asperity)) call change(case%bearing_asperity%modulus, pressure)
          if (allocated(case%belt_pull)) call change(case%belt_pull%force, force)
          if (allocated(case%belt_pull)) call change(case%belt_pull%position, length)
+         if (allocated(case%shaft_drag)) call change(case%shaft_drag%speed_points, angular_speed)
+         if (allocated(case%shaft_drag)) call change(case%shaft_drag%torque_points, torque)
       end subroutine change_bearings
 
       !> The sliding joints in other units.

@@ -47,6 +47,13 @@ contains
          values = running_sum(2, 0.0_wp, 60.0_wp)
       case ("boundary_law.coefficient_points")
          values = running_sum(6, 0.0_wp, 0.03_wp)
+      case ("shaft_drag.speed_points_rpm")
+         ! Some of the fastest are beyond
+         values = [0.0_wp, running_sum(2, 0.0_wp, 3000.0_wp)]
+      case ("shaft_drag.temperature_points_degC")
+         values = [-60.0_wp, running_sum(1, 90.0_wp, 100.0_wp)]
+      case ("shaft_drag.torque_points_Nm")
+         values = running_sum(6, 0.0_wp, 0.05_wp)
       case ("cam_bearings.bearing_positions_mm")
          values = running_sum(draft%bearings, -spacing_of_bearings, spacing_of_bearings)
       case ("cam_bearings.cam_positions_mm")
