@@ -6,7 +6,8 @@ Usage: post/campbell.py FILE [--output FIGURE.png] [--dpi DPI]
 FILE is a sweep over the speed alone, of a deck with `&spring_surge`, with its series. In the map (after Campbell 1924) the force of the
 spring's modes is taken apart into harmonics of the cam: dashed lines are the natural frequencies of the clamped spring, dotted rays
 harmonics; a mode answers where a ray meets its line. Below stand the largest force beside the estimate that a rigid train gives before
-a run, and the speed of seating with its range over the cycles. Exit code 2 where the file cannot be used.
+a run, and the speed of seating with its range over the cycles, dots for each turn where a motion does not repeat every turn. Exit code 2
+where the file cannot be used.
 """
 
 import argparse
@@ -23,6 +24,7 @@ import numpy as np  # noqa: E402
 
 from command import DPI, run, save_figure  # noqa: E402
 from read import ResultError, read_result  # noqa: E402
+from turns import turns_of  # noqa: E402
 
 SPEED = "operating_point.speed_rpm"
 SHOWN = 3  # decades of force
@@ -114,6 +116,9 @@ def draw_seating(axes, result, order, speed):
     lines = axes.plot(speed, result.summary["seating_speed"].values[order], color="#08306b", label="speed of seating")
     axes.fill_between(speed, result.summary["seating_speed_lowest"].values[order], result.summary["seating_speed_highest"].values[order],
                       color="#08306b", alpha=0.25, linewidth=0.0)
+    for case, place in zip(order, speed):
+        turns = turns_of(result, "seating_speed", case)
+        axes.plot(np.full(turns.size, place), turns, color="#08306b", marker="o", markersize=1.5, linestyle="none")
     axes.set_yscale("log")
     axes.set_ylabel("speed of seating [m/s]")
     other = axes.twinx()

@@ -10,12 +10,14 @@ from matplotlib.lines import Line2D
 import numpy as np
 
 from bars import MOST_BARS, both_bars, shown_in_bars, slip_bars, torque_bars
+from dampers import dampers_figure
 from layout import line_style, thin_out
 from parts import (MOST_PANELS, angle_axis, closed, crank_axis, draw_curve, event_window, file_legend, head, legend_handles,
                    legend_height, mark_values, ranges_of, say_no_result, seen_range, set_values_axis)
 from quantities import CURVES, OVERVIEW, PARTS, SOURCES, TORQUES, TRAIN, Missing, has_series, is_nothing, need_series, values_of
 from roller import roller_figure
 from running_in import running_in_figure
+from turns import turns_figure
 from units import unit_words
 
 MOST_COLUMNS = 4  # of the overview
@@ -167,8 +169,9 @@ def _overview_curves(figure, layout, curves, panels, shape):
     grid = figure.subplots(*shape, squeeze=False)
     window = event_window(layout, [curve.series for curve in curves])
     places = list(grid.flat)
-    for axes in places[len(curves) * len(panels):]:
-        axes.remove()
+    if len(places) > len(curves) * len(panels):  # an odd number of curves in two columns: the first one is as wide as both
+        places.pop(1).remove()
+        places[0].set_subplotspec(places[0].get_gridspec()[0, :])
     for number, curve in enumerate(curves):
         row = places[number * len(panels):(number + 1) * len(panels)]
         limits = [draw_curve(axes, layout, curve, panel, window) for axes, panel in zip(row, panels)]
@@ -213,4 +216,6 @@ FIGURES = {
     "friction_sources": lambda layout, whole: torque_figure(layout, whole, PARTS, "friction torque by source", "N mm"),
     "mean_slip": lambda layout, _: bars_figure(slip_bars, "mean slip ratio", layout),
     "mean_torque": lambda layout, _: bars_figure(torque_bars, "mean friction torque by source", layout),
+    "dampers": dampers_figure,
+    "turns": turns_figure,
 }

@@ -56,6 +56,7 @@ class Result:
     cases: int = 0
     measured: dict = field(default_factory=dict)
     history: dict = field(default_factory=dict)  # over hours of running, (case, row)
+    turns: dict = field(default_factory=dict)  # of a flexible train that does not repeat every turn, (case, turn)
 
     @property
     def title(self):
@@ -189,7 +190,8 @@ def _read(path, file, with_series):
     run = {name: text_of(value) for name, value in file["run"].attrs.items()} if "run" in file else {}
     messages = [text_of(message) for message in file["run/messages"][()]] if "run/messages" in file else []
     return Result(path, angle, series, _datasets(file, "summary"),
-                  _in_deck_order(sweep, deck_text, deck), deck, deck_text, run, messages, cases, measured, _datasets(file, "running_in"))
+                  _in_deck_order(sweep, deck_text, deck), deck, deck_text, run, messages, cases, measured, _datasets(file, "running_in"),
+                  _datasets(file, "turns"))
 
 
 def _read_series(path, file):

@@ -59,6 +59,15 @@ def test_map_is_brightest_where_the_harmonic_is(tmp_path):
         assert heights[image[:, case].argmax()] == pytest.approx(10 * speed / 60.0, abs=1.5)
 
 
+def test_every_turn_of_a_motion_that_does_not_repeat_has_its_dot(tmp_path):
+    path = write_sweep(tmp_path / "a.h5", [1e-5])
+    with h5py.File(path, "a") as file:
+        file["turns/seating_speed"] = [[np.nan] * 3, [0.1, 0.3, np.nan], [0.5, 0.6, 0.7]]
+    below = campbell.draw(read_result(path)).axes[2]
+    dots = {line.get_xdata()[0]: list(line.get_ydata()) for line in below.lines if line.get_marker() == "o" and line.get_xdata().size}
+    assert dots == {1200.0: [0.1, 0.3], 1800.0: [0.5, 0.6, 0.7]}
+
+
 def test_figure_is_written_and_other_sweeps_are_refused(tmp_path, capsys):
     path = write_sweep(tmp_path / "a.h5", [1e-5])
     assert campbell.main([str(path)]) == 0 and (tmp_path / "a_campbell.png").stat().st_size > 10_000

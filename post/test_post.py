@@ -71,6 +71,10 @@ def made_up_hours():
             "mean_boundary_coefficient": 0.2 - 1e-6 * time, "mean_friction_torque": 0.01 + 0 * time}
 
 
+# Energies lost in dampers [J] and turns of a train, for each case
+LOST = {"damping_work_cam": 1e-3, "damping_work_seat": 5e-4, "damping_work_leak": 1e-4}
+TURNS = {"valve_lift_at_nose": [9e-3, 9.002e-3, np.nan], "valve_velocity_at_nose": [0.1, -0.1, np.nan],
+         "dynamic_load_max": [700.0, 800.0, np.nan], "seating_speed": [0.2, 0.3, np.nan]}
 SERIES_UNITS = {"valve_lift": "m", "valve_velocity": "m/s", "film_ratio": "1", "asperity_load": "N",
                 "contact_load": "N", "hertz_pressure": "Pa", "slip_ratio": "1", "sliding_speed": "m/s", "cam_surface_speed": "m/s", "hertz_half_width": "m",
                 "entrainment_speed": "m/s", "film_thickness_min": "m", "friction_rolling": "N",
@@ -148,6 +152,51 @@ def test_a_flexible_train_is_a_page_of_what_its_file_has(tmp_path):
         draw("train", Layout([read_result(path)]))
 
 
+def test_a_page_with_an_odd_number_of_curves_has_no_gap(tmp_path):
+    path = write_result(tmp_path / "one.h5", swept=(), speeds=(600.0,), oils=(60.0,))
+    assert len(draw("train", Layout([read_result(path)])).axes) == 4
+    with h5py.File(path, "a") as file:
+        del file["series/lift_error"]
+    first, *others = draw("train", Layout([read_result(path)])).axes
+    spans = [axes.get_subplotspec().colspan for axes in (first, *others)]
+    assert [(span.start, span.stop) for span in spans] == [(0, 2), (0, 1), (1, 2)]
+    assert [axes.xaxis.get_tick_params()["labelbottom"] for axes in (first, *others)] == [False, True, True]
+
+
+def test_energy_lost_by_damper_has_a_bar_for_each_number_of_the_file(tmp_path):
+    path = write_result(tmp_path / "two.h5", swept=(SPEED,), speeds=(300.0, 600.0), oils=(60.0,))
+    figure = draw("dampers", Layout([read_result(path)]))
+    [axes] = figure.axes
+    assert axes.get_xlabel() == "energy lost in a turn [mJ]"
+    assert [text.get_text() for text in axes.get_yticklabels()] == ["cam and roller", "valve seat", "leak of the adjuster"]
+    # For each damper the bars of both cases, around its name
+    for place, value in enumerate(LOST.values()):
+        bars = [bar for bar in axes.patches if abs(bar.get_y() + 0.5 * bar.get_height() - place) < 0.5]
+        assert [bar.get_width() for bar in bars] == pytest.approx([1e3 * value, 2e3 * value])
+    with h5py.File(path, "a") as file:
+        for name in LOST:
+            del file[f"summary/{name}"]
+    with pytest.raises(Missing):
+        draw("dampers", Layout([read_result(path)]))
+
+
+def test_turns_of_a_train_that_does_not_repeat_are_drawn_one_by_one(tmp_path):
+    path = write_result(tmp_path / "two.h5", swept=(SPEED,), speeds=(300.0, 600.0), oils=(60.0,))
+    with h5py.File(path, "a") as file:
+        for data in file["turns"].values():  # the first case repeats every turn
+            data[0] = np.nan
+        file["summary/period_cycles"] = [1.0, 2.0]
+    lift, load, seating, section = draw("turns", Layout([read_result(path)])).axes
+    assert [len(axes.lines) for axes in (lift, load, seating, section)] == [1, 1, 1, 1]
+    assert lift.lines[0].get_ydata() == pytest.approx([-1.0, 1.0]) and list(load.lines[0].get_xdata()) == [1, 2]
+    assert list(seating.lines[0].get_ydata()) == [0.2, 0.3] and list(section.lines[0].get_ydata()) == [0.1, -0.1]
+    assert section.lines[0].get_label().endswith("repeats after 2 turns")
+    with h5py.File(path, "a") as file:
+        del file["turns"]
+    with pytest.raises(Missing, match="repeat every turn"):
+        draw("turns", Layout([read_result(path)]))
+
+
 def write_result(path, speeds=(300.0, 600.0, 900.0), oils=(25.0, 60.0, 95.0), step=5.0, title="made up", factor=1.0,
                  swept=(SPEED, OIL), without=(), complete=1, points=None):
     """A result file of a grid or of points; keys that are not swept have one value and stand with the other deck values."""
@@ -171,6 +220,11 @@ def write_result(path, speeds=(300.0, 600.0, 900.0), oils=(25.0, 60.0, 95.0), st
             file[f"summary/mean_{name}"].attrs["units"] = unit
         for name, values in made_up_hours().items():
             file[f"running_in/{name}"] = np.tile(values, (len(points), 1))
+        for name, values in TURNS.items():
+            file[f"turns/{name}"] = np.tile(values, (len(points), 1))
+        for name, value in LOST.items():
+            file[f"summary/{name}"] = value * (1.0 + np.arange(len(points)))
+            file[f"summary/{name}"].attrs["units"] = "J"
         if "torque_friction" not in without:
             power = [row["torque_friction"].mean() * factor * speed * np.pi / 30 for row, (speed, _) in zip(rows, points)]
             file["summary/power_friction"] = power

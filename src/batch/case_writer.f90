@@ -38,7 +38,7 @@ module camroller_case_writer
       type(output_t) :: file
       !> Profiles across the contact in it
       type(profile_file_t) :: profiles
-      !> What is listed over hours of running
+      !> What is listed over hours of running or turns
       type(history_file_t) :: history
       !> Quantities so far
       type(layout_t) :: joint

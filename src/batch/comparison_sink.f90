@@ -12,6 +12,7 @@ module camroller_comparison_sink
    use camroller_ehl_record, only : ehl_record_t, list_ehl_quantities
    use camroller_hdf5_object, only : hdf5_object_t
    use camroller_hdf5_read, only : has_member, read_numbers
+   use camroller_history_file, only : history_group
    use camroller_layout, only : layout_t
    use camroller_output_cases, only : group_of_source
    use camroller_record, only : record_t
@@ -202,7 +203,7 @@ contains
       end do
    end subroutine compare_series
 
-   !> Compare what is listed over hours of running.
+   !> Compare what is listed over hours of running or turns.
    subroutine compare_histories(self, first, outcomes, layout, differs, error)
       !> The sink
       class(comparison_sink_t), intent(inout) :: self
@@ -218,16 +219,16 @@ contains
       type(error_t), allocatable, intent(out) :: error
 
       real(wp), allocatable :: stored(:) ! [unit of the quantity]
+      character(len=:), allocatable :: name
       integer :: i, k
 
       do i = 1, size(outcomes)
          if (.not. allocated(outcomes(i)%history)) cycle
          do k = 1, size(layout%history)
-            call read_numbers(self%file, "/running_in/"//layout%history(k)%name, [0, first + i - 2], &
-               & [size(outcomes(i)%history, 1), 1], stored, error)
+            name = trim(history_group(layout%history))//"/"//layout%history(k)%name
+            call read_numbers(self%file, "/"//name, [0, first + i - 2], [size(outcomes(i)%history, 1), 1], stored, error)
             if (allocated(error)) return
-            call compare_row(self, "running_in/"//layout%history(k)%name, first + i - 2, stored, outcomes(i)%history(:, k), &
-               & differs(i))
+            call compare_row(self, name, first + i - 2, stored, outcomes(i)%history(:, k), differs(i))
          end do
       end do
    end subroutine compare_histories

@@ -17,6 +17,14 @@ module camroller_flexible_energy
    private
 
    public :: powers_t, evaluate_powers, stored_energy, energy_slopes
+   public :: damper_count
+
+   !> Where a train loses energy to damping: cam and roller, pad, seat, spring; the plunger's wall, its stops, leak, check valve
+   enum, bind(C)
+      enumerator :: at_cam = 1, at_pad, at_seat, in_spring, at_plunger_wall, at_stops, through_leak, through_check_valve
+   end enum
+   !> How many there are
+   integer, parameter :: damper_count = through_check_valve
 
    !> Powers at a state [W]
    type :: powers_t
@@ -24,13 +32,10 @@ module camroller_flexible_energy
       real(wp) :: drive = 0.0_wp, gallery = 0.0_wp
       !> On the gas in the cylinder [W]
       real(wp) :: gas = 0.0_wp
-      !> Losses, the rows of `torque_list` [W]; dampers, leak and check valve are one of them, and stand apart below
+      !> Losses, the rows of `torque_list` [W]; damping is one of them, the sum of those below
       real(wp) :: losses(torque_count) = 0.0_wp
-      !> Losses of dampers: cam and roller, pad, seat, spring, plunger, its stops [W]
-      real(wp) :: cam_damping = 0.0_wp, pad_damping = 0.0_wp, seat_damping = 0.0_wp, spring_damping = 0.0_wp, &
-         & plunger_drag = 0.0_wp, stop_damping = 0.0_wp
-      !> Losses of leak and check valve [W]
-      real(wp) :: leak = 0.0_wp, check_valve = 0.0_wp
+      !> Losses of each damper [W]
+      real(wp) :: dampers(damper_count) = 0.0_wp
       !> Rate of the energy that is stored: without the roller's spin, and that of the spin [W]
       real(wp) :: stored = 0.0_wp, spin = 0.0_wp
       !> What is left of drive and gallery: round-off [W]
@@ -60,19 +65,18 @@ contains
             & contact%cam_surface_speed, contact%roller_surface_speed)
          powers%losses(of_needle) = contact%bearing_torque*contact%relative_spin
          powers%losses(of_guide) = now%guide_drag*state(at_speed)**2
-         powers%cam_damping = (contact%load - now%cam%elastic)*now%cam%rate
-         powers%pad_damping = (now%pad%force - now%pad%elastic)*now%pad%rate
-         powers%seat_damping = (now%seat%force - now%seat%elastic)*now%seat%rate
-         powers%stop_damping = sum((now%stops%force - now%stops%elastic)*now%stops%rate)
+         powers%dampers(at_cam) = (contact%load - now%cam%elastic)*now%cam%rate
+         powers%dampers(at_pad) = (now%pad%force - now%pad%elastic)*now%pad%rate
+         powers%dampers(at_seat) = (now%seat%force - now%seat%elastic)*now%seat%rate
+         powers%dampers(at_stops) = sum((now%stops%force - now%stops%elastic)*now%stops%rate)
          first = first_mode(model)
-         if (modes%count > 0) powers%spring_damping = modes%mass*modes%damping_ratio &
+         if (modes%count > 0) powers%dampers(in_spring) = modes%mass*modes%damping_ratio &
             & *sum(modes%frequency*state(first + 1::2)**2)
          powers%spin = model%roller_inertia*contact%roller_spin*now%spin_acceleration
       end associate
       if (allocated(model%flexible%adjuster)) call add_oil(model, now, powers)
       powers%stored = stored_rate(model, state, now)
-      powers%losses(of_damping) = powers%cam_damping + powers%pad_damping + powers%seat_damping + powers%spring_damping &
-         & + powers%plunger_drag + powers%stop_damping + powers%leak + powers%check_valve
+      powers%losses(of_damping) = sum(powers%dampers)
       powers%residual = powers%drive + powers%gallery - powers%gas
       do i = 1, torque_count
          powers%residual = powers%residual - powers%losses(i)
@@ -98,9 +102,9 @@ contains
          supply_work = pressure_work(adjuster%given, adjuster%supply_pressure)
          end_work = pressure_work(adjuster%given, adjuster%end_pressure)
          powers%gallery = density*(flows%check*supply_work - flows%leak*end_work)
-         powers%leak = density*flows%leak*(work - end_work)
-         powers%check_valve = density*flows%check*(supply_work - work)
-         powers%plunger_drag = adjuster%drag*now%pivot_rate**2
+         powers%dampers(through_leak) = density*flows%leak*(work - end_work)
+         powers%dampers(through_check_valve) = density*flows%check*(supply_work - work)
+         powers%dampers(at_plunger_wall) = adjuster%drag*now%pivot_rate**2
       end associate
    end subroutine add_oil
 

@@ -15,7 +15,7 @@ module camroller_flexible_measures
    use camroller_flexible_geometry, only : dot, imaginary
    use camroller_flexible_train, only : flexible_state_t, resolution_t, evaluate_train, first_mode, at_finger_rate, at_lift, &
       & at_speed
-   use camroller_flexible_energy, only : powers_t, evaluate_powers
+   use camroller_flexible_energy, only : powers_t, evaluate_powers, damper_count
    use camroller_torque_list, only : of_damping
    implicit none
    private
@@ -24,7 +24,7 @@ module camroller_flexible_measures
       & event_pivot_force, least_lift_error, most_lift_error, seating_speed, bounce_height, bounces, float_share, &
       & losses_of_contact, drive_torque, loss_torque, damping_torque, smallest_pivot_force, tension_share, surge_force, &
       & coil_ratio, lowest_plunger, highest_plunger, largest_pressure, leak_volume, check_share, residual_work, &
-      & gallery_torque, event_check_share
+      & gallery_torque, event_check_share, damper_works, lift_at_nose, speed_at_nose
 
    !> A measure: its name, unit and meaning
    type :: measure_t
@@ -49,8 +49,11 @@ module camroller_flexible_measures
    integer, parameter :: largest_load = 1, largest_load_angle = 2, smallest_event_load = 3, least_lift_error = 4, &
       & most_lift_error = 5, seating_speed = 6, bounce_height = 7, bounces = 8, float_share = 9, losses_of_contact = 10, &
       & drive_torque = 11, loss_torque = 12, damping_torque = 13, smallest_pivot_force = 14, tension_share = 15, &
-      & surge_force = 16, coil_ratio = 17, event_pivot_force = 18, residual_work = 19, lowest_plunger = 20, highest_plunger = 21, &
-      & largest_pressure = 22, leak_volume = 23, check_share = 24, gallery_torque = 25, event_check_share = 26
+      & surge_force = 16, coil_ratio = 17, event_pivot_force = 18, lift_at_nose = 19, speed_at_nose = 20, residual_work = 25, &
+      & lowest_plunger = 26, highest_plunger = 27, largest_pressure = 28, leak_volume = 29, check_share = 30, &
+      & gallery_torque = 31, event_check_share = 32
+   !> Places of the energies lost in the dampers, in the order of `powers_t`; the last four are of the adjuster
+   integer, parameter :: damper_works(damper_count) = [21, 22, 23, 24, 33, 34, 35, 36]
 
    !> The measures; those of the adjuster last
    type(measure_t), parameter :: measures(*) = [ &
@@ -72,6 +75,12 @@ module camroller_flexible_measures
       & measure_t("surge_force", "N", "largest force of the spring's first mode"), &
       & measure_t("coil_ratio", "1", "largest travel of coils by the modes over that of the whole spring; above 1 coils clash"), &
       & measure_t("joint_force_min_event", "N", "smallest force in that joint in the upper three quarters of the lift"), &
+      & measure_t("valve_lift_at_nose", "m", "lift at the cam angle of full lift"), &
+      & measure_t("valve_velocity_at_nose", "m s-1", "speed of the valve at the cam angle of full lift"), &
+      & measure_t("damping_work_cam", "J", "energy lost per turn in the damping of cam and roller"), &
+      & measure_t("damping_work_pad", "J", "energy lost per turn in the damping of the pad at the valve"), &
+      & measure_t("damping_work_seat", "J", "energy lost per turn in the damping of the valve seat"), &
+      & measure_t("damping_work_spring", "J", "energy lost per turn in the damping of the spring's modes"), &
       & measure_t("energy_residual_work", "J", "drive less losses less stored energy over the turn, and gallery"), &
       & measure_t("plunger_lowest", "m", "lowest place of the plunger"), &
       & measure_t("plunger_highest", "m", "highest place of the plunger"), &
@@ -80,7 +89,11 @@ module camroller_flexible_measures
       & measure_t("check_valve_share", "1", "part of the cycle with the check valve open"), &
       & measure_t("gallery_torque", "N m", "mean power from the oil gallery over the cam's speed"), &
       & measure_t("pump_up_share", "1", "part of the cycle with the check valve open with the valve in the upper three "// &
-      & "quarters of its lift")]
+      & "quarters of its lift"), &
+      & measure_t("damping_work_plunger", "J", "energy lost per turn in the oil film between plunger and bore"), &
+      & measure_t("damping_work_stops", "J", "energy lost per turn in the damping of the plunger's stops"), &
+      & measure_t("damping_work_leak", "J", "energy lost per turn by the oil that leaks along the plunger"), &
+      & measure_t("damping_work_check_valve", "J", "energy lost per turn by the oil that passes the check valve")]
    !> How many there are without an adjuster, and with one
    integer, parameter :: measure_count(2) = [residual_work, size(measures)]
    !> Part of the largest lift above which a load counts as one of the event [-]
@@ -140,8 +153,15 @@ contains
          call follow_seat(trajectory%state([at_lift, at_speed], step), trajectory%state([at_lift, at_speed], step + 1), has_met, &
             & values)
       end do
+      ! Means over the turn become energies and a volume of it
       values(residual_work) = values(residual_work)*two_pi
+      associate (works => damper_works(:count(damper_works <= size(values))))
+         values(works) = values(works)*two_pi
+      end associate
       if (size(values) > residual_work) values(leak_volume) = values(leak_volume)*two_pi
+      hint = 1
+      call interpolate_state(trajectory, 0.0_wp, hint, state)
+      values([lift_at_nose, speed_at_nose]) = state([at_lift, at_speed])
    end subroutine measure_turn
 
    !> Largest lift of the rigid train.
@@ -222,6 +242,9 @@ contains
       values(loss_torque) = values(loss_torque) + weight*sum(powers%losses)/model%speed
       values(damping_torque) = values(damping_torque) + weight*powers%losses(of_damping)/model%speed
       values(residual_work) = values(residual_work) + weight*powers%residual/model%speed
+      associate (works => damper_works(:count(damper_works <= size(values))))
+         values(works) = values(works) + weight*powers%dampers(:size(works))/model%speed
+      end associate
       call add_spring(model, state, values)
       if (size(values) == residual_work) return
       values(lowest_plunger) = min(values(lowest_plunger), now%pivot)

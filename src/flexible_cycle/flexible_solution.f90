@@ -44,6 +44,8 @@ module camroller_flexible_solution
       type(flexible_cycle_t) :: cycle
       !> Turns of the period, or those for statistics
       type(trajectory_t), allocatable :: turns(:)
+      !> Measures of each turn, shape (measure, turn) [unit of the measure]
+      real(wp), allocatable :: values(:, :)
       !> Means of the measures over the turns, their standard deviations, smallest and largest [unit of the measure]
       real(wp), allocatable :: mean(:), deviation(:), lowest(:), highest(:)
       !> The last turn again, with a finer tolerance, and what its integration did not tell apart
@@ -123,20 +125,20 @@ contains
       !> Convergence error
       type(error_t), allocatable, intent(out) :: error
 
-      ! Measures of each turn [unit of the measure]
-      real(wp), allocatable :: values(:, :)
       integer :: i, n
 
       n = size(solution%turns)
-      allocate (values(measure_count(merge(2, 1, allocated(model%flexible%adjuster))), n))
+      allocate (solution%values(measure_count(merge(2, 1, allocated(model%flexible%adjuster))), n))
       do i = 1, n
-         call measure_turn(model, solution%turns(i), solution%cycle%resolution, values(:, i), error)
+         call measure_turn(model, solution%turns(i), solution%cycle%resolution, solution%values(:, i), error)
          if (allocated(error)) return
       end do
-      solution%mean = sum(values, 2)/n
-      solution%lowest = minval(values, 2)
-      solution%highest = maxval(values, 2)
-      solution%deviation = sqrt(sum((values - spread(solution%mean, 2, n))**2, 2)/max(1, n - 1))
+      associate (values => solution%values)
+         solution%mean = sum(values, 2)/n
+         solution%lowest = minval(values, 2)
+         solution%highest = maxval(values, 2)
+         solution%deviation = sqrt(sum((values - spread(solution%mean, 2, n))**2, 2)/max(1, n - 1))
+      end associate
    end subroutine take_measures
 
    !> Error of the last turn: its difference from one with a finer tolerance, which errs less and starts where that has its periodic

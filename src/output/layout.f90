@@ -14,7 +14,7 @@ module camroller_layout
 
    !> Quantities of a case
    type :: layout_t
-      !> Scalars, series, and what is listed over hours of running
+      !> Scalars, series, and what is listed over hours of running or turns
       type(quantity_t), allocatable :: summary(:), series(:), history(:)
       !> Cam angles [deg]
       real(wp), allocatable :: angle(:)

@@ -38,7 +38,7 @@ module camroller_case_record
       real(wp), allocatable :: summary(:)
       !> Series, shape (angle, series) [unit of the series]; none where they are not kept
       real(wp), allocatable :: series(:, :)
-      !> What is listed over hours of running, shape (row, quantity) [unit of the quantity]; none where the case has none
+      !> What is listed over hours of running or turns, shape (row, quantity) [unit of the quantity]; none where the case has none
       real(wp), allocatable :: history(:, :)
       !> Profiles across the contact; none where they are not kept
       type(ehl_record_t), allocatable :: profiles

@@ -1,18 +1,21 @@
-!> What a result has of a flexible train: means over its turns, scalars with their scatter, remarks.
+!> What a result has of a flexible train: means over its turns, scalars with their scatter, the turns one by one, remarks.
 !>
-!> In: the solution of a lobe's train. Out: means and rows of all series, as those of a rigid train; scalars for the summary;
-!> remarks, or an error where the case forbids what happens. Each step is integrated with its own curve; turns of a period, or those
-!> for statistics where there is none, count alike.
+!> In: the solution of a lobe's train. Out: means and rows of all series, as those of a rigid train; scalars for the summary, and
+!> the same of each turn where there are several; remarks, or an error where the case forbids what happens. Each step is integrated
+!> with its own curve; turns of a period, or those for statistics where there is none, count alike.
 module camroller_flexible_report
+   use, intrinsic :: ieee_arithmetic, only : ieee_quiet_nan, ieee_value
    use camroller_case, only : case_t
-   use camroller_catalogue, only : series_values
+   use camroller_catalogue, only : lobe_prefix, series_values
+   use camroller_cycle, only : cycle_t
    use camroller_engine, only : write_speed
    use camroller_error, only : error_t, kind_convergence, kind_domain, raise
    use camroller_extremes, only : add_sample, samples_t, start_samples
+   use camroller_flexible_cycle, only : longest_period
    use camroller_flexible_follower, only : evaluate_follower
    use camroller_flexible_measures, only : bounce_height, bounces, coil_ratio, event_check_share, highest_plunger, &
       & largest_load_angle, losses_of_contact, lowest_plunger, measures, seating_speed, smallest_pivot_force, tension_share
-   use camroller_flexible_solution, only : error_share, flexible_solution_t
+   use camroller_flexible_solution, only : error_share, flexible_solution_t, statistical_turns
    use camroller_flexible_train, only : resolution_t
    use camroller_cam_angle, only : file_angle
    use camroller_follower_samples, only : add_shares, shares_t
@@ -23,7 +26,7 @@ module camroller_flexible_report
    use camroller_quadrature, only : gauss_legendre
    use camroller_remarks, only : add_remark, bouncing_valve, clashing_coils, long_period, lost_contact, no_period, open_pivot, &
       & remark_t, rising_plunger, stopped_plunger
-   use camroller_result, only : append_quantity, find_quantity, quantity_list_t, quantity_t
+   use camroller_result, only : append_quantity, find_quantity, lobe_scope, quantity_list_t, quantity_t, result_t, take_quantities
    use camroller_state, only : state_t
    use camroller_torque_list, only : is_loss, of_residual, torque_count, torque_series
    use camroller_train_outlook, only : find_outlook, outlook_t
@@ -31,8 +34,10 @@ module camroller_flexible_report
    implicit none
    private
 
-   public :: flexible_means_t, integrate_turns, compare_turns, add_outlook, add_train_scalars, judge_train
+   public :: flexible_means_t, integrate_turns, compare_turns, add_outlook, add_train_scalars, list_turns, judge_train
 
+   !> Turns that a result may list
+   integer, parameter, public :: most_turns = max(longest_period, statistical_turns)
    !> Points of the rule for a step
    integer, parameter :: points = 3
    !> Turns whose points are kept for the search of extremes
@@ -243,6 +248,37 @@ contains
       end subroutine add
 
    end subroutine add_train_scalars
+
+   !> List the turns of all trains one by one, where one of them does not repeat every turn; what another has fewer of is
+   !> not-a-number.
+   subroutine list_turns(cycles, result)
+      !> Cycle of each lobe shape
+      type(cycle_t), intent(in) :: cycles(:)
+      !> Result; out: with the list
+      type(result_t), intent(inout) :: result
+
+      type(quantity_list_t) :: list
+      integer :: lobe, turns, first, i
+
+      if (.not. allocated(cycles(1)%flexible)) return
+      turns = maxval([(size(cycles(lobe)%flexible%turns), lobe=1, size(cycles))])
+      if (turns == 1) return
+      allocate (list%items(0), list%values(0))
+      allocate (result%history_values(turns, sum([(size(cycles(lobe)%flexible%values, 1), lobe=1, size(cycles))])), &
+         & source=ieee_value(1.0_wp, ieee_quiet_nan))
+      do lobe = 1, size(cycles)
+         associate (values => cycles(lobe)%flexible%values)
+            first = list%count
+            do i = 1, size(values, 1)
+               call append_quantity(list, trim(lobe_prefix(lobe))//trim(measures(i)%name), trim(merge("deg         ", &
+                  & measures(i)%unit, i == largest_load_angle)), trim(measures(i)%meaning), "dynamics", 0.0_wp, lobe_scope(lobe))
+            end do
+            result%history_values(:size(values, 2), first + 1:list%count) = transpose(values)
+            result%history_values(:size(values, 2), first + largest_load_angle) = file_angle(values(largest_load_angle, :))
+         end associate
+      end do
+      call take_quantities(list, result%history)
+   end subroutine list_turns
 
    !> Scalars of what a train's vibration is estimated to amount to, whether it is rigid or flexible.
    subroutine add_outlook(list, model, prefix, scope)

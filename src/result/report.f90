@@ -24,7 +24,7 @@ module camroller_report
    use camroller_shaft, only : new_shaft, shaft_torques, solved_t
    use camroller_mean_bearings, only : mean_bearing_torque
    use camroller_means, only : statistics_t, integrate_lobe
-   use camroller_flexible_report, only : compare_turns, flexible_means_t, integrate_turns
+   use camroller_flexible_report, only : compare_turns, flexible_means_t, integrate_turns, list_turns
    use camroller_state, only : state_t
    use camroller_summary, only : make_summary
    use camroller_torque_list, only : torque_count
@@ -208,6 +208,7 @@ contains
       if (allocated(error)) return
       result%worst_extreme = statistics(maxloc(statistics%extreme_error, 1))%worst_extreme
       call make_summary(solved, statistics, bearing_torque, of_bearings, margins, extremes, result)
+      call list_turns(cycles, result)
       call judge_extremes(case, models, statistics, result)
       if (.not. with_series) result%series_values = result%series_values(:0, :)
       call check_numbers(result, error)

@@ -60,9 +60,10 @@ module camroller_result
       type(quantity_t), allocatable :: summary(:)
       !> Values of the scalars, units as in `summary`
       real(wp), allocatable :: summary_values(:)
-      !> Meaning of what is listed over hours of running; allocated where the case has them
+      !> Meaning of what is listed over hours of running, or over the turns of a flexible train that does not repeat every turn;
+      !> allocated where the case has such a list
       type(quantity_t), allocatable :: history(:)
-      !> Values, shape (row, quantity), rows evenly spaced in time, the first at the start; units as in `history`
+      !> Values, shape (row, quantity): rows evenly spaced in time, the first at the start, or turns; units as in `history`
       real(wp), allocatable :: history_values(:, :)
       !> Remarks that do not make the result wrong
       type(remark_t), allocatable :: remarks(:)

@@ -1,9 +1,11 @@
 """Flexible trains: what a deck may say, what a result holds."""
 
 import pathlib
+import re
 import subprocess
 
 import h5py
+import numpy as np
 import pytest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -183,3 +185,49 @@ def test_periodic_states_agree_with_an_independent_integration(row, tmp_path, ca
     wrong = [f"{ours}: {summary[ours]:.6g}, not {reference[theirs]:.6g}" for theirs, ours, allowed, size in COMPARED if ours in summary
              and not abs(summary[ours] - reference[theirs]) <= allowed * max(size, abs(reference[theirs]))]
     assert not wrong
+
+
+def test_turns_that_differ_are_listed_one_by_one_and_make_the_scalars(tmp_path, camroller):
+    """The summary is their mean, spread and range; a case that repeats each turn has none, one without a period has 40."""
+    done = subprocess.run([camroller, "sweep", ADJUSTER, "-o", tmp_path / "turns.h5", "--quiet", "--set", "sweep.values_1=300,2000,2200",
+                           "--set", "numerics.tolerance=1e-3"], capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    with h5py.File(tmp_path / "turns.h5") as file:
+        periods, counts = file["summary/period_cycles"][...], file["summary/summary_cycles"][...]
+        assert periods[0] == 1 and periods[1] > 1 and periods[2] == 0 and counts[2] == 40
+        assert file["turns/turn"][...].tolist() == list(range(1, 41))
+        for name, data in file["turns"].items():
+            if name == "turn":
+                continue
+            assert data.dims[1][0].name == "/turns/turn" and data.attrs["units"] == file[f"summary/{name}"].attrs["units"]
+            assert np.isnan(data[0]).all() and np.isfinite(data[2]).all() and np.isfinite(data[1]).sum() == counts[1]
+            if name.endswith("_angle"):
+                continue
+            for case in (1, 2):
+                values = data[case][np.isfinite(data[case])]
+                size = np.abs(values).max()
+                assert values.mean() == pytest.approx(file[f"summary/{name}"][case], rel=1e-12, abs=1e-12 * size)
+                assert values.min() == file[f"summary/{name}_lowest"][case] and values.max() == file[f"summary/{name}_highest"][case]
+                assert values.std(ddof=1) == pytest.approx(file[f"summary/{name}_deviation"][case], rel=1e-9, abs=1e-9 * size)
+    with h5py.File(tmp_path / "turns.h5", "r+") as file:
+        file["turns/dynamic_load_max"][2, 7] *= 1 + 1e-15
+    done = subprocess.run([camroller, "rerun", tmp_path / "turns.h5"], capture_output=True, text=True)
+    assert done.returncode != 0 and re.findall(r"(\S+): in 1 case", done.stderr) == ["turns/dynamic_load_max"], done.stderr
+
+
+def test_energy_lost_in_the_spring_is_that_of_its_modes(tmp_path, camroller):
+    """m zeta sum omega_n times the integral of the square of each mode's speed, from the series by Fourier's sums."""
+    done = subprocess.run([camroller, "run", DECK, "-o", tmp_path / "run.h5", *QUICK, "--set", "sweep.values_1=1500"], capture_output=True,
+                          text=True)
+    assert done.returncode == 0, done.stderr
+    mass, ratio, stiffness, turn = 0.036, 0.01, 25000.0, 60.0 / 1500
+    with h5py.File(tmp_path / "run.h5") as file:
+        lost = 0.0
+        for mode in range(1, 6):
+            amplitude = np.abs(np.fft.rfft(file[f"series/spring_mode_{mode}"][0])) / file["series/cam_angle"].size
+            speed = 2 * np.pi / turn * np.arange(amplitude.size) * amplitude
+            lost += mass * ratio * mode * np.pi * np.sqrt(stiffness / mass) * 2 * (speed**2).sum() * turn
+        # Errors of the turn, some of those of the spring's amplitude
+        assert file["summary/damping_work_spring"][0] == pytest.approx(lost, rel=1e-3)
+        dampers = sum(file[f"summary/damping_work_{name}"][0] for name in ("cam", "pad", "seat", "spring"))
+        assert dampers == pytest.approx(file["summary/work_damping"][0], rel=1e-12)

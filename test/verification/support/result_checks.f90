@@ -173,8 +173,35 @@ contains
       if (.not. abs(means(2) - scalar_of(result, "mean_torque_drive")) <= rounding*scale) trouble = trouble//" mean drive;"
       if (.not. abs(means(1)*case%operating_point%speed - scalar_of(result, "power_friction")) &
          & <= rounding*scale*case%operating_point%speed) trouble = trouble//" power;"
+      if (allocated(case%dynamics)) then
+         if (.not. abs(damping_work(case, result) - scalar_of(result, "work_damping")) <= rounding*scale) trouble = trouble// &
+            & " damping;"
+      end if
       if (trouble /= "") trouble = "sums of torques:"//trouble
    end function check_sums
+
+   !> Energy lost per turn in the dampers of all followers, one by one.
+   function damping_work(case, result) result(work)
+      !> The case
+      type(case_t), intent(in) :: case
+      !> Its result
+      type(result_t), intent(in) :: result
+      ! [J]
+      real(wp) :: work
+      character(len=*), parameter :: dampers(*) = [character(len=11) :: "cam", "pad", "seat", "spring", "plunger", "stops", &
+         & "leak", "check_valve"]
+      ! Lobe shape of each cam
+      integer, allocatable :: lobes(:)
+      integer :: i
+
+      lobes = [1]
+      if (allocated(case%cam_bearings)) lobes = case%cam_bearings%cam_lobes
+      work = 0.0_wp
+      do i = 1, size(dampers)
+         work = work + count(lobes == 1)*scalar_of(result, "damping_work_"//trim(dampers(i))) &
+            & + count(lobes == 2)*scalar_of(result, "lobe_2_damping_work_"//trim(dampers(i)))
+      end do
+   end function damping_work
 
    !> Energy at every angle, to round-off; over a cycle without gas force and loss of contact, spring and masses give back what they
    !> took.
