@@ -10,12 +10,16 @@ import pytest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 TABLE = ROOT / "test/data/regression.csv"
-# A film by numerical solution takes as long as all others together and has tests of its own, as flexible trains have; as printed,
-# the spring is too weak, and rounding decides after how many cycles without contact the roller is periodic
-ELSEWHERE = ("numerical_film", "thesis_as_printed", "dynamics", "lash_adjuster")
+# A film by numerical solution takes as long as all others together and has tests of its own; as printed, the spring is too weak,
+# and rounding decides after how many cycles without contact the roller is periodic
+ELSEWHERE = ("numerical_film", "thesis_as_printed")
+# Flexible trains take turns from rest on: few cases, and errors that are seen to change all the same
+CHANGES = {deck: ("--set", f"sweep.values_1={speeds}", "--set", "numerics.tolerance=1e-3")
+           for deck, speeds in (("dynamics", "900,2900"), ("lash_adjuster", "900"))}
 DECKS = sorted(path.stem for path in (ROOT / "decks").glob("*.nml") if path.stem not in ELSEWHERE)
 RESULTS = ("mean_torque_drive", "mean_torque_friction", "mean_torque_contact", "min_film_thickness_min",
-           "max_hertz_pressure", "max_sliding_speed", "revolution_slip")
+           "max_hertz_pressure", "max_sliding_speed", "revolution_slip", "dynamic_load_max", "lift_error_min", "seating_speed",
+           "joint_force_min", "surge_force", "work_damping", "plunger_lowest", "chamber_pressure_max", "leak_volume")
 COUNTERS = ("counter_evaluations", "counter_steps", "counter_rejected", "counter_cycles")
 # Five times what the build with run-time checks and the optimised one differ by at most, in the largest sliding speed
 RELATIVE = 1.2e-6
@@ -31,7 +35,8 @@ def measure(program, folder):
     rows = []
     for deck in DECKS:
         target = folder / f"{deck}.h5"
-        subprocess.run([program, "run", ROOT / "decks" / f"{deck}.nml", "-o", target, "--quiet"], check=True, capture_output=True)
+        subprocess.run([program, "run", ROOT / "decks" / f"{deck}.nml", "-o", target, "--quiet", *CHANGES.get(deck, ())], check=True,
+                       capture_output=True)
         with h5py.File(target) as file:
             for name in RESULTS + COUNTERS:
                 if name in file["summary"]:
