@@ -5,7 +5,7 @@
 !>
 !> A new suite is one `use` line and one entry in `suites`.
 program main
-   use, intrinsic :: iso_fortran_env, only : error_unit, output_unit
+   use, intrinsic :: iso_fortran_env, only : error_unit, int64, output_unit
    use testdrive, only : testsuite_type, new_testsuite, unittest_type, error_type, get_argument, select_suite, &
       select_test
    use test_error, only : collect_error
@@ -299,9 +299,13 @@ contains
       !> Counts of tests
       integer, intent(inout) :: passed, failed, skipped
 
+      ! What is worth a line [s]
+      integer, parameter :: long = 10
       type(unittest_type), allocatable :: tests(:)
+      integer(int64) :: start, end, rate
       integer :: i, first, last
 
+      call system_clock(start, rate)
       call suite%collect(tests)
       first = 1
       last = size(tests)
@@ -318,6 +322,8 @@ contains
       do i = first, last
          call run_test(tests(i), passed, failed, skipped)
       end do
+      call system_clock(end)
+      if (end - start > long*rate) write (error_unit, '(3x, i0, a)') (end - start)/rate, " s"
    end subroutine run_suite
 
    !> Run one test, say how it went and add to the counts.
