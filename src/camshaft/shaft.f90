@@ -49,8 +49,9 @@ module camroller_shaft
       !> Their surfaces, and the pull of belt or chain; allocated where the case has them
       type(touch_t), allocatable :: touch
       type(belt_pull_t), allocatable :: pull
-      !> Torque of seals and drive over speed and temperature, allocated where the case has it; that torque on each camshaft [N m]
+      !> Torque of seals and drive over speed and temperature, allocated where the case has it
       type(shaft_drag_t), allocatable :: drag_table
+      !> That torque on each camshaft, zero without it [N m]
       real(wp) :: drag = 0.0_wp
       !> Cam speed [rad/s]
       real(wp) :: speed = 0.0_wp

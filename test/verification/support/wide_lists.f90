@@ -41,19 +41,9 @@ contains
          values = running_sum(points, -20.0_wp, 40.0_wp)
       case ("lubricant.viscosity_points_Pa_s")
          values = oil_points(points)
-      case ("boundary_law.speed_points_m_s")
-         values = 10.0_wp**running_sum(3, -4.0_wp, 1.0_wp)
-      case ("boundary_law.temperature_points_degC")
-         values = running_sum(2, 0.0_wp, 60.0_wp)
-      case ("boundary_law.coefficient_points")
-         values = running_sum(6, 0.0_wp, 0.03_wp)
-      case ("shaft_drag.speed_points_rpm")
-         ! Some of the fastest are beyond
-         values = [0.0_wp, running_sum(2, 0.0_wp, 3000.0_wp)]
-      case ("shaft_drag.temperature_points_degC")
-         values = [-60.0_wp, running_sum(1, 90.0_wp, 100.0_wp)]
-      case ("shaft_drag.torque_points_Nm")
-         values = running_sum(6, 0.0_wp, 0.05_wp)
+      case ("boundary_law.speed_points_m_s", "boundary_law.temperature_points_degC", "boundary_law.coefficient_points", &
+         & "shaft_drag.speed_points_rpm", "shaft_drag.temperature_points_degC", "shaft_drag.torque_points_Nm")
+         call draw_table()
       case ("cam_bearings.bearing_positions_mm")
          values = running_sum(draft%bearings, -spacing_of_bearings, spacing_of_bearings)
       case ("cam_bearings.cam_positions_mm")
@@ -93,6 +83,25 @@ contains
       end do
 
    contains
+
+      !> Points of a table over speed and temperature.
+      subroutine draw_table()
+         select case (name)
+         case ("boundary_law.speed_points_m_s")
+            values = 10.0_wp**running_sum(3, -4.0_wp, 1.0_wp)
+         case ("boundary_law.temperature_points_degC")
+            values = running_sum(2, 0.0_wp, 60.0_wp)
+         case ("boundary_law.coefficient_points")
+            values = running_sum(6, 0.0_wp, 0.03_wp)
+         case ("shaft_drag.speed_points_rpm")
+            ! Some of the fastest are beyond
+            values = [0.0_wp, running_sum(2, 0.0_wp, 3000.0_wp)]
+         case ("shaft_drag.temperature_points_degC")
+            values = [-60.0_wp, running_sum(1, 90.0_wp, 100.0_wp)]
+         case ("shaft_drag.torque_points_Nm")
+            values = running_sum(6, 0.0_wp, 0.05_wp)
+         end select
+      end subroutine draw_table
 
       !> Numbers that grow by half a step to one and a half.
       function running_sum(count, start, step) result(sums)
