@@ -44,6 +44,8 @@ module camroller_bearing_turn
       real(wp) :: rotation = 1.0_wp
       !> Error of an orbit allowed in a step, over the smallest film of the turn [-]; error of the rise of temperature [K]
       real(wp) :: accuracy = 0.0_wp, rise_tolerance = 1.0e-7_wp
+      !> The longest piece of the turn in a mean [rad]
+      real(wp) :: longest_piece = 5.0_wp*degree
       !> Angles [rad] and their weights in a mean [-], load there, shape (2, angle) [N]; allocated once they are sampled
       real(wp), allocatable :: angles(:), weights(:), loads(:, :)
       !> The bearing with its oil
@@ -55,8 +57,6 @@ module camroller_bearing_turn
 
    !> Places of a mean in each piece of the turn
    integer, parameter :: places_of_piece = 4
-   !> The longest piece [rad]
-   real(wp), parameter :: longest_piece = 5.0_wp*degree
    !> Largest rise of temperature that is looked for [K]
    real(wp), parameter :: largest_rise = 200.0_wp
 
@@ -206,7 +206,7 @@ contains
       call gauss_legendre(places, weights)
       allocate (turn%angles(0), turn%weights(0))
       do i = 1, size(turn%stops) - 1
-         pieces = ceiling((turn%stops(i + 1) - turn%stops(i))/longest_piece)
+         pieces = ceiling((turn%stops(i + 1) - turn%stops(i))/turn%longest_piece)
          if (pieces == 0) cycle
          half = 0.5_wp*(turn%stops(i + 1) - turn%stops(i))/pieces
          do n = 1, pieces

@@ -4,7 +4,7 @@
 !> takes from the whole turn, orbit and temperature, is found as in a run, with less accuracy and under a load that is linear
 !> between the angles of the survey.
 module camroller_effect_bearings
-   use camroller_kinds, only : wp, two_pi
+   use camroller_kinds, only : wp, two_pi, degree
    use camroller_error, only : error_t
    use camroller_bearing_asperity, only : bearing_state_t
    use camroller_bearing_turn, only : find_turn, mean_of_turn, sample_load, turn_t
@@ -20,8 +20,9 @@ module camroller_effect_bearings
 
    public :: has_single_cam, mean_bearing_torque
 
-   !> Error of an orbit in a step, over its smallest film [-]; error of a rise of temperature [K]
-   real(wp), parameter :: orbit_accuracy = 1.0e-3_wp, rise_tolerance = 1.0e-2_wp
+   !> Error of an orbit in a step, over its smallest film [-]; error of a rise of temperature [K]; the longest piece of a mean, four
+   !> angles of which stand for two of the survey [rad]
+   real(wp), parameter :: orbit_accuracy = 1.0e-2_wp, rise_tolerance = 1.0e-2_wp, longest_piece = 15.0_wp*degree
 
    !> Load on a bearing at the angles of a survey
    type, extends(bearing_load_t) :: surveyed_load_t
@@ -115,6 +116,7 @@ contains
       turn%rotation = rotation
       turn%accuracy = orbit_accuracy
       turn%rise_tolerance = rise_tolerance
+      turn%longest_piece = longest_piece
       call sample_load(load, turn, error)
       if (.not. allocated(error)) call find_turn(case, shaft, load, turn, error)
       if (.not. allocated(error)) call mean_of_turn(case, shaft, turn, torque, flow, error)
