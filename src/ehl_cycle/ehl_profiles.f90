@@ -14,7 +14,7 @@ module camroller_ehl_profiles
    use camroller_ehl_reynolds, only : new_ehl_fields
    use camroller_ehl_step, only : ehl_march_t, moment_t, find_film, spin_excess
    use camroller_ehl_table, only : ehl_t
-   use camroller_events, only : check_geometry
+   use camroller_cam_check, only : check_geometry
    use camroller_kinematics, only : position_t
    use camroller_model, only : model_t, new_model
    use camroller_remarks, only : add_remark, missing_profiles

@@ -3,15 +3,13 @@
 !> In: model. Out: stop angles for the integration, intervals without contact. All of them depend on the cam angle only, so they
 !> are known before a cycle is integrated, and no step passes over one.
 module camroller_events
-   use camroller_cam_angle, only : cam_angle_text
-   use camroller_kinds, only : wp, pi, two_pi, degree
-   use camroller_error, only : error_t, raise, kind_domain
+   use camroller_kinds, only : wp, pi, two_pi
+   use camroller_lift_pieces, only : find_edges, most_edges, next_angle, scan_steps, sort
    use camroller_model, only : model_t, evaluate_geometry
    use camroller_joints, only : jumps_with_tip, jumps_with_valve
    use camroller_lift, only : is_at_rest
    use camroller_kinematics, only : position_t
    use camroller_dynamics, only : moments_t
-   use camroller_number_text, only : in_mm => millimetres_text
    use camroller_joint_forces, only : contact_moment
    use camroller_state, only : evaluate_loading
    use camroller_extremum, only : extremum_t, start_extremum, narrow_extremum
@@ -19,15 +17,8 @@ module camroller_events
    implicit none
    private
 
-   public :: find_stops, find_stops_between, lift_stops_between, cycle_stops, contact_losses, check_geometry
+   public :: find_stops, find_stops_between, cycle_stops, contact_losses
 
-   !> Longest step of a scan [rad]
-   real(wp), parameter :: longest_step = 0.25_wp*degree
-   !> Least number of steps of a scan of a turn, shared out evenly between the pieces of the lift: an event may be shorter than a
-   !> step
-   integer, parameter :: least_steps = 256
-   !> Part of the bend that a path may have from which on the scan is refined [-]
-   real(wp), parameter :: nearly_too_much = 0.5_wp
    !> Accuracy of an angle [rad]: a few roundings of a turn
    real(wp), parameter :: angle_tolerance = 4.0e-15_wp
 
@@ -41,11 +32,17 @@ contains
       !> Cam angles from full lift, increasing [rad]
       real(wp), allocatable, intent(out) :: stops(:)
 
-      stops = [model%lift_stops, switch_angles(model, -pi, pi), jump_angles(model, -pi, pi)]
+      ! Angles of changes [rad]
+      real(wp), allocatable :: changes(:)
+
+      call find_changes(model, -pi, pi, changes)
+      stops = model%lift_stops
+      if (allocated(changes)) stops = [stops, changes]
       call sort(stops)
    end subroutine find_stops
 
-   !> The same between any two angles, with both of them: start, stops, end.
+   !> The same between any two angles, with both of them: start, stops, end. Where there is no stop, their list is all that is
+   !> allocated, as it is in most steps of a host.
    subroutine find_stops_between(model, start, finish, stops)
       !> The model
       type(model_t), intent(in) :: model
@@ -54,106 +51,105 @@ contains
       !> Cam angles, increasing [rad]
       real(wp), allocatable, intent(out) :: stops(:)
 
-      stops = [lift_stops_between(model, start, finish), switch_angles(model, start, finish), jump_angles(model, start, finish)]
-      call sort(stops)
-      stops = [start, pack(stops, stops > start), finish]
+      ! Ends of the pieces of the lift [rad]
+      real(wp) :: edges(most_edges(model, start, finish))
+      ! Angles of changes [rad]
+      real(wp), allocatable :: changes(:)
+      integer :: count
+
+      call find_edges(model, start, finish, edges, count)
+      call find_changes(model, start, finish, changes)
+      if (allocated(changes)) then
+         stops = [edges(2:count - 1), pack(changes, changes > start)]
+         call sort(stops)
+         stops = [start, stops, finish]
+      else
+         stops = edges(:count)
+      end if
    end subroutine find_stops_between
 
-   !> Kinks of the lift from one angle up to another, which is left out.
-   pure function lift_stops_between(model, start, finish) result(stops)
-      !> The model
-      type(model_t), intent(in) :: model
-      !> First and last angle, of any turn [rad]
-      real(wp), intent(in) :: start, finish
-      !> The kinks, increasing [rad]
-      real(wp), allocatable :: stops(:)
-
-      ! Kinks of the lift in the turn that begins at `start`, and in those after it [rad]
-      real(wp) :: kinks(size(model%lift_stops))
-
-      allocate (stops(0))
-      kinks = start + modulo(model%lift_stops - start, two_pi)
-      call sort(kinks)
-      do while (any(kinks < finish))
-         stops = [stops, pack(kinks, kinks < finish)]
-         kinks = kinks + two_pi
-      end do
-   end function lift_stops_between
-
-   !> Angles of a scan: the ends, every kink of the lift, and even steps between them, so that no event is too short to be seen.
-   pure function scan_angles(model, start, finish) result(angles)
+   !> Angles between two others at which something changes: one of the switches its sign, or friction its direction.
+   subroutine find_changes(model, start, finish, angles)
       !> The model
       type(model_t), intent(in) :: model
       !> First and last angle [rad]
       real(wp), intent(in) :: start, finish
-      !> Angles, increasing, with both ends [rad]
-      real(wp), allocatable :: angles(:)
+      !> Angles, in no order [rad]; not allocated where nothing changes
+      real(wp), allocatable, intent(out) :: angles(:)
 
-      ! Ends of the pieces [rad]
-      real(wp), allocatable :: edges(:)
-      integer, allocatable :: steps(:)
-      integer :: piece, last, i, least
+      ! Ends of the pieces of the lift [rad]
+      real(wp) :: edges(most_edges(model, start, finish))
+      integer :: count
 
-      edges = lift_stops_between(model, start, finish)
-      edges = [start, pack(edges, edges > start), finish]
-      least = ceiling(least_steps*min(1.0_wp, (finish - start)/two_pi))
-      steps = max(ceiling((edges(2:) - edges(:size(edges) - 1))/longest_step), 1 + least/size(edges))
-      allocate (angles(1 + sum(steps)))
-      angles(1) = start
-      last = 1
-      do piece = 1, size(steps)
-         do i = 1, steps(piece) - 1
-            angles(last + i) = edges(piece) + (edges(piece + 1) - edges(piece))*i/steps(piece)
-         end do
-         last = last + steps(piece)
-         angles(last) = edges(piece + 1)
-      end do
-   end function scan_angles
+      call find_edges(model, start, finish, edges, count)
+      call add_switches(model, edges(:count), angles)
+      if (allocated(model%joints)) then
+         if (jumps_with_valve(model%joints)) call add_jumps(model, edges(:count), angles)
+      end if
+   end subroutine find_changes
 
-   !> Angles between two others at which one of the switches changes its sign, found by a scan, and near the lowest of three values
-   !> by a search.
-   function switch_angles(model, start, finish) result(angles)
+   !> Add the angles at which one of the switches changes its sign, found by a scan, and near the lowest of three values by a
+   !> search.
+   subroutine add_switches(model, edges, angles)
       !> The model
       type(model_t), intent(in) :: model
-      !> First and last angle [rad]
-      real(wp), intent(in) :: start, finish
+      !> Ends of the pieces of the lift [rad]
+      real(wp), intent(in) :: edges(:)
       !> Angles, increasing but for the accuracy of a scan step [rad]
-      real(wp), allocatable :: angles(:)
+      real(wp), allocatable, intent(inout) :: angles(:)
 
       ! Switches at three angles of the scan in a row [m, N m]
       real(wp) :: earlier(2), before(2), after(2)
-      ! Angles of the scan [rad]
-      real(wp), allocatable :: scan(:)
-      ! First angle of the scan whose switches are kept
-      integer :: i, kind, first
+      ! These angles [rad]
+      real(wp) :: scan(3)
+      ! Steps of the scan; place in it; which angle it is, and the first one whose switches are kept
+      integer :: steps(size(edges) - 1), place(2), i, kind, first
       ! Does the valve rest at the ends of the interval, where nothing changes unless a force acts on the closed valve?
       logical :: rested, rests, rests_alike
 
-      allocate (angles(0))
-      scan = scan_angles(model, start, finish)
-      before = switches(model, start)
+      steps = scan_steps(edges)
+      place = [1, 0]
+      scan = edges(1)
+      before = switches(model, scan(3))
+      earlier = before
       first = 1
       rests_alike = .not. allocated(model%gas) .or. model%train%seat_lift > 0.0_wp
-      rests = is_at_rest(model%lift_law, start)
-      do i = 2, size(scan)
+      rests = is_at_rest(model%lift_law, scan(3))
+      do i = 2, 1 + sum(steps)
+         scan(:2) = scan(2:)
+         call next_angle(edges, steps, place, scan(3))
          rested = rests
-         rests = is_at_rest(model%lift_law, scan(i))
+         rests = is_at_rest(model%lift_law, scan(3))
          if (rested .and. rests .and. rests_alike) then
             first = i
             cycle
          end if
-         after = switches(model, scan(i))
+         after = switches(model, scan(3))
          do kind = 1, size(before)
             if ((before(kind) > 0.0_wp) .neqv. (after(kind) > 0.0_wp)) then
-               angles = [angles, switch_angle(model, kind, scan(i - 1), scan(i), before(kind), after(kind), switches)]
+               call append(angles, [switch_angle(model, kind, scan(2), scan(3), before(kind), after(kind), switches)])
             else if (i - 2 >= first) then
-               call add_short_change(model, kind, scan(i - 2:i), [earlier(kind), before(kind), after(kind)], angles)
+               call add_short_change(model, kind, scan, [earlier(kind), before(kind), after(kind)], angles)
             end if
          end do
          earlier = before
          before = after
       end do
-   end function switch_angles
+   end subroutine add_switches
+
+   !> Append angles to a list that is not allocated as long as it is empty.
+   pure subroutine append(list, angles)
+      !> The list [rad]
+      real(wp), allocatable, intent(inout) :: list(:)
+      !> What to append [rad]
+      real(wp), intent(in) :: angles(:)
+
+      if (allocated(list)) then
+         list = [list, angles]
+      else
+         list = angles
+      end if
+   end subroutine append
 
    !> Add the angles at which a switch changes its sign and changes it back between three angles of the scan, if there are any:
    !> where the one in the middle is so close to zero that the next values rise by more than itself, its extreme is looked for.
@@ -180,52 +176,54 @@ contains
       do while (search%is_wanted)
          found = switches(model, search%trial)
          if ((found(kind) > 0.0_wp) .neqv. (values(2) > 0.0_wp)) then
-            angles = [angles, switch_angle(model, kind, places(1), search%trial, values(1), found(kind), switches), &
-               & switch_angle(model, kind, search%trial, places(3), found(kind), values(3), switches)]
+            call append(angles, [switch_angle(model, kind, places(1), search%trial, values(1), found(kind), switches), &
+               & switch_angle(model, kind, search%trial, places(3), found(kind), values(3), switches)])
             return
          end if
          call narrow_extremum(search, abs(found(kind)))
       end do
    end subroutine add_short_change
 
-   !> Angles between two others at which friction of a sliding joint jumps: where the valve turns round, sets off or comes to rest,
-   !> and where the pad's contact with the tip passes the pivot's height. There is a stop on each side, so that no step has the
-   !> jump inside and none begins or ends on it.
-   function jump_angles(model, start, finish) result(angles)
-      !> The model
+   !> Add the angles at which friction of a sliding joint jumps: where the valve turns round, sets off or comes to rest, and where
+   !> the pad's contact with the tip passes the pivot's height. There is a stop on each side, so that no step has the jump inside
+   !> and none begins or ends on it.
+   subroutine add_jumps(model, edges, angles)
+      !> The model, with such joints
       type(model_t), intent(in) :: model
-      !> First and last angle [rad]
-      real(wp), intent(in) :: start, finish
-      !> Angles, in pairs [rad]
-      real(wp), allocatable :: angles(:)
+      !> Ends of the pieces of the lift [rad]
+      real(wp), intent(in) :: edges(:)
+      !> Angles so far; out: with those of jumps, in pairs [rad]
+      real(wp), allocatable, intent(inout) :: angles(:)
 
       ! Half the distance of the stops of a pair [rad]: beyond the accuracy of the angle, and a part of 1e-12 of a step
       real(wp), parameter :: side = 1.0e-13_wp
       ! Slope of the lift [m/rad], height of the contact of pad and tip [m]: at the ends of a scan interval
       real(wp) :: before(2), after(2)
-      ! Angles of the scan; angle of a jump [rad]
-      real(wp), allocatable :: scan(:)
-      real(wp) :: angle
-      integer :: i, kind
+      ! Ends of the interval; angle of a jump [rad]
+      real(wp) :: left, right, angle
+      real(wp), allocatable :: jumps(:)
+      integer :: steps(size(edges) - 1), place(2), i, kind
 
-      allocate (angles(0))
-      if (.not. allocated(model%joints)) return
-      if (.not. jumps_with_valve(model%joints)) return
-      scan = scan_angles(model, start, finish)
-      before = turning_values(model, start)
-      do i = 2, size(scan)
-         after = turning_values(model, scan(i))
+      steps = scan_steps(edges)
+      place = [1, 0]
+      right = edges(1)
+      before = turning_values(model, right)
+      allocate (jumps(0))
+      do i = 1, sum(steps)
+         left = right
+         call next_angle(edges, steps, place, right)
+         after = turning_values(model, right)
          do kind = 1, size(before)
             if (is_same_sign(before(kind), after(kind))) cycle
-            angle = switch_angle(model, kind, scan(i - 1), scan(i), before(kind), after(kind), turning_values)
+            angle = switch_angle(model, kind, left, right, before(kind), after(kind), turning_values)
             ! A jump at a point of the scan ends one interval and begins the next, and two may fall together: one pair for all
-            if (any(abs(angles + side - angle) < 0.5_wp*side)) cycle
-            angles = [angles, angle - side, angle + side]
+            if (any(abs(jumps + side - angle) < 0.5_wp*side)) cycle
+            jumps = [jumps, angle - side, angle + side]
          end do
          before = after
       end do
-      angles = pack(angles, angles > start .and. angles < finish)
-   end function jump_angles
+      call append(angles, pack(jumps, jumps > edges(1) .and. jumps < edges(size(edges))))
+   end subroutine add_jumps
 
    !> Have two numbers the same sign, or are they both zero?
    pure function is_same_sign(one, other)
@@ -359,123 +357,5 @@ contains
       end do
       intervals = reshape(ends, [2, size(ends)/2])
    end function contact_losses
-
-   !> Refuse a cam that cannot be: lift out of reach, undercut, a hollow flank that the grinding wheel does not fit. Where the
-   !> path of the roller's centre is bent most and nearly as much as it may be, that place is looked for between the steps.
-   subroutine check_geometry(model, grinding_wheel_radius, error)
-      !> The model
-      type(model_t), intent(in) :: model
-      !> Radius of the grinding wheel, zero where not given [m]
-      real(wp), intent(in) :: grinding_wheel_radius
-      !> Domain error that names the cam angle
-      type(error_t), allocatable, intent(out) :: error
-
-      ! Angles of the scan [rad]
-      real(wp), allocatable :: scan(:)
-      ! How much the path is bent at three neighbouring angles, over what it may be [-]
-      real(wp) :: bends(3)
-      integer :: i
-
-      scan = scan_angles(model, -pi, pi)
-      bends = 0.0_wp
-      do i = 1, size(scan)
-         bends(:2) = bends(2:)
-         call check_position(model, grinding_wheel_radius, scan(i), bends(3), error)
-         if (allocated(error)) return
-         if (i < 3 .or. bends(2) < max(nearly_too_much, bends(1), bends(3))) cycle
-         call check_summit(model, grinding_wheel_radius, scan(i - 2:i), bends, error)
-         if (allocated(error)) return
-      end do
-   end subroutine check_geometry
-
-   !> Refuse a cam whose roller path bends too sharply at its sharpest point between two angles.
-   subroutine check_summit(model, grinding_wheel_radius, angles, bends, error)
-      !> The model
-      type(model_t), intent(in) :: model
-      !> Radius of the grinding wheel, zero where not given [m]
-      real(wp), intent(in) :: grinding_wheel_radius
-      !> Three angles of the scan [rad]
-      real(wp), intent(in) :: angles(3)
-      !> How much the path is bent there, over what it may be, the middle one largest [-]
-      real(wp), intent(in) :: bends(3)
-      !> Domain error that names the cam angle
-      type(error_t), allocatable, intent(out) :: error
-
-      type(extremum_t) :: search
-      real(wp) :: bend ! [-]
-
-      call start_extremum(search, angles, -bends, epsilon(1.0_wp))
-      do while (search%is_wanted)
-         call check_position(model, grinding_wheel_radius, search%trial, bend, error)
-         if (allocated(error)) return
-         call narrow_extremum(search, -bend)
-      end do
-   end subroutine check_summit
-
-   !> Refuse a cam that cannot be at one angle.
-   subroutine check_position(model, grinding_wheel_radius, angle, bend, error)
-      !> The model
-      type(model_t), intent(in) :: model
-      !> Radius of the grinding wheel, zero where not given [m]
-      real(wp), intent(in) :: grinding_wheel_radius
-      !> Cam angle from full lift [rad]
-      real(wp), intent(in) :: angle
-      !> Curvature of the path of the roller's centre over that at which it undercuts, or the wheel does not fit [-]
-      real(wp), intent(out) :: bend
-      !> Domain error that names the cam angle
-      type(error_t), allocatable, intent(out) :: error
-
-      type(position_t) :: position
-      type(moments_t) :: moments
-      ! Gas force [N]
-      real(wp) :: force
-      integer :: status
-
-      bend = 0.0_wp
-      call evaluate_loading(model, angle, position, force, moments, status)
-      if (status /= 0) then
-         call raise(error, kind_domain, "the finger cannot reach the lift of "//in_mm(position%lift)//" mm at "// &
-            & cam_angle_text(angle, 2)//"; mechanism.pivot_to_pad_mm = "//in_mm(model%linkage%b)//" is too short for it")
-         return
-      end if
-      ! Hollow where the curvature is negative: |R_c| = -1/kappa + r_R
-      bend = position%pitch_curvature*model%roller_radius
-      if (grinding_wheel_radius > 0.0_wp) bend = max(bend, -position%pitch_curvature*(grinding_wheel_radius - model%roller_radius))
-      if (position%normal_arm <= 0.0_wp) then
-         call raise(error, kind_domain, "the roller passes the line from pivot to cam centre at "//cam_angle_text(angle, 2)// &
-            & ", at a lift of "//in_mm(position%lift)//" mm, with mechanism.pivot_to_roller_mm = "//in_mm(model%linkage%a)// &
-            & " and mechanism.pivot_to_cam_mm = "//in_mm(model%linkage%d))
-      else if (position%equivalent_radius <= 0.0_wp) then
-         call raise(error, kind_domain, "cam undercut: the path of the roller's centre has a radius of curvature of "// &
-            & in_mm(1.0_wp/position%pitch_curvature)//" mm at "//cam_angle_text(angle, 2)//", smaller than roller.radius_mm = "// &
-            & in_mm(model%roller_radius)//"; a larger mechanism.base_radius_mm, a smaller roller or a longer or lower lift "// &
-            & "avoids it")
-      else if (bend > 1.0_wp) then
-         call raise(error, kind_domain, "hollow flank: the cam's radius of curvature is "// &
-            & in_mm(model%roller_radius - 1.0_wp/position%pitch_curvature)//" mm at "//cam_angle_text(angle, 2)// &
-            & ", less than the grinding wheel's, mechanism.grinding_wheel_radius_mm = "//in_mm(grinding_wheel_radius))
-      end if
-   end subroutine check_position
-
-   !> Sort a short list by insertion.
-   pure subroutine sort(values)
-      !> Numbers, in and out [any]
-      real(wp), intent(inout) :: values(:)
-
-      ! The one being placed [any]
-      real(wp) :: value
-      integer :: i, j
-
-      do i = 2, size(values)
-         value = values(i)
-         j = i - 1
-         do while (j >= 1)
-            if (values(j) <= value) exit
-            values(j + 1) = values(j)
-            j = j - 1
-         end do
-         values(j + 1) = value
-      end do
-   end subroutine sort
 
 end module camroller_events

@@ -18,7 +18,7 @@ module camroller_flexible_step
    use camroller_lash_adjuster, only : set_supply
    use camroller_state, only : state_t, cam_force
    use camroller_torque_list, only : torque_count, is_torque, of_geometric, of_roller_inertia
-   use camroller_events, only : lift_stops_between
+   use camroller_lift_pieces, only : lift_stops_between
    use camroller_follower_samples, only : extremes_t, widen
    use camroller_trajectory, only : trajectory_t, interpolate_state
    use camroller_flexible_train, only : flexible_state_t, resolution_t, evaluate_train, state_size, at_sliding

@@ -12,7 +12,7 @@ module camroller_run
    use camroller_effect_choice, only : wants_choice, choose_effects
    use camroller_effect_list, only : choice_t
    use camroller_effect_report, only : add_choice
-   use camroller_events, only : check_geometry
+   use camroller_cam_check, only : check_geometry
    use camroller_cycle, only : cycle_t, integrate_cycle
    use camroller_number_text, only : number_text, fixed_text
    use camroller_margins, only : margins_t

@@ -193,7 +193,7 @@ contains
       type(linkage_t), intent(in) :: linkage
       !> Lift and its first three derivatives with respect to the cam angle [m, m/rad, m/rad^2, m/rad^3]
       real(wp), intent(in) :: lift(0:3)
-      !> Geometry at this angle
+      !> Geometry at this angle; the lift alone where the finger cannot reach it
       type(position_t), intent(out) :: position
       !> 0 fine, -1 the finger cannot reach this lift
       integer, intent(out) :: status
@@ -210,11 +210,11 @@ contains
       real(wp) :: ad_cos, ad_sin
 
       status = -1
+      position%lift = lift(0)
       cos_pad = linkage%base_cosine - lift(0)/linkage%b
       if (abs(cos_pad) >= 1.0_wp) return
       status = 0
       sin_pad = sqrt((1.0_wp - cos_pad)*(1.0_wp + cos_pad))
-      position%lift = lift(0)
       position%lift_slope = lift(1)
       position%lift_curvature = lift(2)
       position%valve_arm = linkage%b*sin_pad

@@ -8,7 +8,8 @@ module test_events
    use camroller_kinematics, only : position_t, rotation_names
    use camroller_dynamics, only : load_arm_names, moments_t
    use camroller_state, only : state_t, evaluate_state, evaluate_loading
-   use camroller_events, only : find_stops, find_stops_between, cycle_stops, contact_losses, check_geometry
+   use camroller_cam_check, only : check_geometry
+   use camroller_events, only : find_stops, find_stops_between, cycle_stops, contact_losses
    use closeness, only : check_close, check_scaled, expect_error, expect_success
    use reference_cases, only : thesis_case, source_case, skewed_case, make_model, set_point, point_speeds, point_viscosities
    implicit none
