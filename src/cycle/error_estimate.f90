@@ -33,14 +33,18 @@ module camroller_error_estimate
       integer :: points = 0, rated = 0
       !> Place of each point in the interval [-], defect there [m/s/rad]
       real(wp) :: places(panel_points) = 0.0_wp, defects(panel_points) = 0.0_wp
-      !> Places of the points with a decay rate [-], the rate [1/rad]
+      !> Places of the points with a decay rate [-], the rate [1/rad]; which of the cuts they are
       real(wp) :: rate_places(most_rates) = 0.0_wp, rates(most_rates) = 0.0_wp
+      integer :: rate_cuts(most_rates) = 0
       !> Error at each of those once the interval has ended [m/s], part of an error at the start of the cycle that is left there [-]
       real(wp) :: errors(most_rates) = 0.0_wp, shares(most_rates) = 0.0_wp
       !> Error at the end of the last interval, largest so far [m/s]
       real(wp) :: error = 0.0_wp, largest = 0.0_wp
       !> Part of an error at the start of the cycle that is left [-]
       real(wp) :: contraction = 1.0_wp
+      !> Shares of the defects at all cuts in those in the middle of the parts, once they are known [-]
+      real(wp) :: middle_shares(size(cuts) - 1, size(cuts)) = 0.0_wp
+      logical :: has_shares = .false.
    end type estimate_t
 
 contains
@@ -63,6 +67,7 @@ contains
       estimate%rated = estimate%rated + 1
       estimate%rate_places(estimate%rated) = place
       estimate%rates(estimate%rated) = decay_rate
+      estimate%rate_cuts(estimate%rated) = minloc(abs(cuts - place), 1)
    end subroutine add_defect
 
    !> Carry the error over an interval, or over two of the solution as one.
@@ -79,22 +84,24 @@ contains
 
       ! Defects at the cuts and in the middle of the parts [m/s/rad]
       real(wp) :: at_cuts(size(cuts)), at_middles(size(cuts) - 1)
-      ! Length of a part over that of the interval [-]; decay over it, what it leaves [-]
-      real(wp) :: part, decay, left
+      ! Length of a part over that of the interval [-]; decay over it, what it leaves [-]; logarithms of the decay rates, one of
+      ! them 1/rad [-]
+      real(wp) :: part, decay, left, logs(most_rates)
       integer :: i
 
       call interpolate_defects(estimate, at_cuts, at_middles, ends)
+      logs(:estimate%rated) = log(max(estimate%rates(:estimate%rated), tiny(1.0_wp)))
       associate (nodes => estimate%rate_places(:estimate%rated), rates => estimate%rates(:estimate%rated))
-         call keep_error(estimate, cuts(1))
+         call keep_error(estimate, 1)
          do i = 1, size(cuts) - 1
             part = cuts(i + 1) - cuts(i)
-            decay = max(rate_at(nodes, rates, cuts(i) + 0.5_wp*part)*length*part, -largest_growth)
+            decay = max(rate_at(nodes, rates, logs, cuts(i) + 0.5_wp*part)*length*part, -largest_growth)
             left = exp(-decay)
             estimate%error = left*estimate%error + length*part*decayed_integral([at_cuts(i), at_middles(i), at_cuts(i + 1)], decay)
             estimate%error = sign(min(abs(estimate%error), lost), estimate%error)
             estimate%contraction = min(estimate%contraction*left, lost)
             estimate%largest = max(estimate%largest, abs(estimate%error))
-            call keep_error(estimate, cuts(i + 1))
+            call keep_error(estimate, i + 1)
          end do
       end associate
       estimate%points = 0
@@ -104,7 +111,7 @@ contains
    !> Defects at the cuts of an interval and in the middle between them, by the polynomial through all that are known.
    pure subroutine interpolate_defects(estimate, at_cuts, at_middles, ends)
       !> The estimate with the points of the interval
-      type(estimate_t), intent(in) :: estimate
+      type(estimate_t), intent(inout) :: estimate
       !> The defects [m/s/rad]
       real(wp), intent(out) :: at_cuts(:), at_middles(:)
       !> Defects at the ends [m/s/rad], where they are known besides
@@ -114,6 +121,12 @@ contains
       real(wp) :: places(panel_points + 2), values(panel_points + 2), weights(panel_points + 2)
       integer :: i, known
 
+      if (present(ends) .and. estimate%points == panel_points) then
+         if (.not. estimate%has_shares) call find_shares(estimate)
+         at_cuts = [ends(1), estimate%defects, ends(2)]
+         at_middles = matmul(estimate%middle_shares, at_cuts)
+         return
+      end if
       known = estimate%points
       places(:known) = estimate%places(:known)
       values(:known) = estimate%defects(:known)
@@ -131,17 +144,40 @@ contains
       end do
    end subroutine interpolate_defects
 
-   !> Keep error and contraction for the point of the interval that stands at a place, if there is one.
-   pure subroutine keep_error(estimate, place)
+   !> Shares of the defects at all cuts in those in the middle of the parts, by the polynomial through them.
+   pure subroutine find_shares(estimate)
+      !> Gets the shares
+      type(estimate_t), intent(inout) :: estimate
+
+      ! Weights of the polynomial through the cuts, a defect of one at a cut alone [-]
+      real(wp) :: weights(size(cuts)), unit(size(cuts))
+      integer :: cut, i
+
+      weights = node_weights(cuts)
+      do cut = 1, size(cuts)
+         unit = 0.0_wp
+         unit(cut) = 1.0_wp
+         do i = 1, size(cuts) - 1
+            estimate%middle_shares(i, cut) = value_at(cuts, weights, unit, cuts(i) + 0.5_wp*(cuts(i + 1) - cuts(i)))
+         end do
+      end do
+      estimate%has_shares = .true.
+   end subroutine find_shares
+
+   !> Keep error and contraction for the point of the interval that stands at a cut, if there is one.
+   pure subroutine keep_error(estimate, cut)
       !> The estimate
       type(estimate_t), intent(inout) :: estimate
-      !> The place [-]
-      real(wp), intent(in) :: place
+      !> The cut
+      integer, intent(in) :: cut
 
-      where (abs(estimate%rate_places(:estimate%rated) - place) <= epsilon(1.0_wp))
-         estimate%errors(:estimate%rated) = estimate%error
-         estimate%shares(:estimate%rated) = estimate%contraction
-      end where
+      integer :: i
+
+      do i = 1, estimate%rated
+         if (estimate%rate_cuts(i) /= cut) cycle
+         estimate%errors(i) = estimate%error
+         estimate%shares(i) = estimate%contraction
+      end do
    end subroutine keep_error
 
    !> Integral of the parabola through three values over [0, 1], of which what is left decays up to its end.
@@ -209,11 +245,11 @@ contains
    end function contact_accuracy_for
 
    !> Decay rate between two or three points, constant beyond them.
-   pure function rate_at(nodes, rates, place) result(rate)
+   pure function rate_at(nodes, rates, logs, place) result(rate)
       !> Places of the points, in order [-]
       real(wp), intent(in) :: nodes(:)
-      !> Decay rates there, not negative [1/rad]
-      real(wp), intent(in) :: rates(:)
+      !> Decay rates there [1/rad], their logarithms [-]
+      real(wp), intent(in) :: rates(:), logs(:)
       !> Place looked for [-]
       real(wp), intent(in) :: place
       !> Decay rate there [1/rad]
@@ -231,7 +267,7 @@ contains
       if (min(rates(i), rates(i + 1)) < 0.0_wp) then
          rate = merge(rates(i), rates(i + 1), part < 0.5_wp)
       else
-         rate = max(rates(i), tiny(1.0_wp))**(1.0_wp - part)*max(rates(i + 1), tiny(1.0_wp))**part
+         rate = exp(logs(i) + part*(logs(i + 1) - logs(i)))
       end if
    end function rate_at
 

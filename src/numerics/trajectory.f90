@@ -223,16 +223,21 @@ contains
 
       ! Length of the interval [time], place in it [-]
       real(wp) :: length, place
+      integer :: i
 
       slope = 0.0_wp
       length = trajectory%time(interval + 1) - trajectory%time(interval)
       if (length <= 0.0_wp) return
       place = (time - trajectory%time(interval))/length
-      associate (bends => trajectory%bends(:, :, interval + 1))
-         slope = trajectory%state(:, interval + 1) - trajectory%state(:, interval) + (1.0_wp - 2.0_wp*place)*(bends(:, 1) &
-            & + place*(bends(:, 2) + place*(bends(:, 3) + place*bends(:, 4)))) &
-            & + place*(1.0_wp - place)*(bends(:, 2) + place*(2.0_wp*bends(:, 3) + place*3.0_wp*bends(:, 4))) &
-            & + bends(:, 5)*(bends(:, 6)*exp(bends(:, 6)*place) - (exp(bends(:, 6)) - 1.0_wp))
+      associate (bends => trajectory%bends(:, :, interval + 1), left => trajectory%state(:, interval), &
+         & right => trajectory%state(:, interval + 1))
+         do i = 1, size(slope)
+            slope(i) = right(i) - left(i) + (1.0_wp - 2.0_wp*place)*(bends(i, 1) &
+               & + place*(bends(i, 2) + place*(bends(i, 3) + place*bends(i, 4)))) &
+               & + place*(1.0_wp - place)*(bends(i, 2) + place*(2.0_wp*bends(i, 3) + place*3.0_wp*bends(i, 4)))
+            if (abs(bends(i, 5)) > 0.0_wp) slope(i) = slope(i) &
+               & + bends(i, 5)*(bends(i, 6)*exp(bends(i, 6)*place) - (exp(bends(i, 6)) - 1.0_wp))
+         end do
       end associate
       slope = slope/length
    end subroutine curve_slope
