@@ -11,8 +11,8 @@ module camroller_shaft
    use camroller_model, only : model_t
    use camroller_state, only : state_t
    use camroller_cycle, only : cycle_t, state_at
-   use camroller_lobe_curve, only : lobe_curve_t, close_curve, curve_at, curve_values, cam_values, halve_pieces, &
-      & keep_state, piece_angle
+   use camroller_lobe_curve, only : lobe_curve_t, close_curve, contact_near, curve_at, curve_values, cam_values, &
+      & halve_pieces, keep_state, piece_angle
    use camroller_effect_list, only : effect_bearing_heat, effect_orbit, has_effect
    use camroller_events, only : cycle_stops
    use camroller_journal_orbit, only : orbit_t, place_at
@@ -296,7 +296,8 @@ contains
          associate (lobe => shaft%lobes(cam), place => angle - shaft%phases(cam))
             call curve_at(solved%curves(lobe), place, values, is_known)
             if (all(is_known)) return
-            call state_at(solved%cycles(lobe), solved%models(lobe), place, shaft%hints(cam), state, error)
+            call state_at(solved%cycles(lobe), solved%models(lobe), place, shaft%hints(cam), state, error, &
+               & contact_near(solved%curves(lobe), place))
             if (allocated(error)) return
             solved_values = cam_values(solved%models(lobe), state, allocated(shaft%bearings))
             if (.not. is_known(1)) values(:torque_count) = solved_values(:torque_count)

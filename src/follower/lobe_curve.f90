@@ -3,8 +3,10 @@
 !> In: the states at the points from which the means of a lobe shape are made. Out: the same quantities at any angle, by the
 !> polynomial through the seven points of a panel, for every cam of the shape at its own phase. Where the two highest terms of a
 !> polynomial are beyond five tolerances of the cycle the curve is not known, and the state has to be solved. Torques and force are
-!> judged apart, and a camshaft without bearings asks for no force, so that bearings change no torque of a follower.
+!> judged apart, and a camshaft without bearings asks for no force, so that bearings change no torque of a follower. It also has the
+!> contacts from which those at other angles are looked for.
 module camroller_lobe_curve
+   use camroller_contact_forces, only : contact_t
    use camroller_kinds, only : wp, two_pi
    use camroller_model, only : model_t
    use camroller_panels, only : highest_terms, interpolation_weights, panel_places, panel_points
@@ -14,7 +16,7 @@ module camroller_lobe_curve
    private
 
    public :: lobe_curve_t, curve_values, start_curve, keep_state, add_piece, close_curve, halve_pieces, piece_angle, curve_at, &
-      & cam_values
+      & cam_values, contact_near
 
    !> Numbers of a state that a camshaft takes: torques, force on the cam, which is zero where no bearing asks for it
    integer, parameter :: curve_values = torque_count + 2
@@ -29,6 +31,9 @@ module camroller_lobe_curve
       real(wp), allocatable :: ends(:)
       !> Torques [N m], last the energy residual [W], and force [N] at the points of each piece, shape (quantity, point, piece)
       real(wp), allocatable :: values(:, :, :)
+      !> Contact at these points: tangential force [N], torque of the bearing [N m] and film ratio [-], which is zero for none,
+      !> shape (3, point, piece)
+      real(wp), allocatable :: contacts(:, :, :)
       !> Are the polynomials of the piece good enough: those of the torques, those of the force? Shape (2, piece)
       logical, allocatable :: is_smooth(:, :)
    end type lobe_curve_t
@@ -51,7 +56,8 @@ contains
       !> Does a bearing ask for the force?
       logical, intent(in) :: has_force
 
-      allocate (curve%ends(pieces + 1), curve%values(curve_values, panel_points, pieces), curve%is_smooth(2, pieces))
+      allocate (curve%ends(pieces + 1), curve%values(curve_values, panel_points, pieces), &
+         & curve%contacts(3, panel_points, pieces), curve%is_smooth(2, pieces))
       curve%ends(1) = start
       curve%has_force = has_force
    end subroutine start_curve
@@ -69,11 +75,16 @@ contains
       !> The piece
       integer, intent(in), optional :: piece
 
-      if (present(piece)) then
-         curve%values(:, point, piece) = cam_values(model, state, curve%has_force)
-      else
-         curve%values(:, point, curve%count + 1) = cam_values(model, state, curve%has_force)
-      end if
+      integer :: place
+
+      place = curve%count + 1
+      if (present(piece)) place = piece
+      curve%values(:, point, place) = cam_values(model, state, curve%has_force)
+      curve%contacts(:, point, place) = 0.0_wp
+      associate (contact => state%contact)
+         if (contact%is_touching) curve%contacts(:, point, place) = [contact%tangential_force, contact%bearing_torque, &
+            & contact%film_ratio]
+      end associate
    end subroutine keep_state
 
    !> Add the piece up to an angle whose states are kept.
@@ -136,6 +147,7 @@ contains
       do piece = 1, curve%count
          if (all(curve%is_smooth(:, piece))) then
             halved%values(:, :, halved%count + 1) = curve%values(:, :, piece)
+            halved%contacts(:, :, halved%count + 1) = curve%contacts(:, :, piece)
          else
             halves = [halves, halved%count + 1, halved%count + 2]
             call add_piece(halved, 0.5_wp*(curve%ends(piece) + curve%ends(piece + 1)))
@@ -168,14 +180,65 @@ contains
       !> Are they known: the torques, the force? A force that no bearing asks for is
       logical, intent(out) :: is_known(2)
 
-      ! Angle within the curve [rad], distances from the points [-], shares of the points [-]
-      real(wp) :: inside, distances(panel_points), shares(panel_points)
-      integer :: piece, last, middle, point
+      ! Shares of the points [-]
+      real(wp) :: shares(panel_points)
+      integer :: piece, point
 
       values = 0.0_wp
       is_known = .false.
+      call find_piece(curve, angle, piece, shares)
+      if (piece == 0) return
+      is_known = curve%is_smooth(:, piece)
+      if (.not. any(is_known)) return
+      do point = 1, panel_points
+         values = values + shares(point)*curve%values(:, point, piece)
+      end do
+   end subroutine curve_at
+
+   !> Contact to start from at a cam angle: on the polynomial of its piece, whether or not that is good enough for anything else.
+   pure function contact_near(curve, angle) result(nearby)
+      !> The curve
+      type(lobe_curve_t), intent(in) :: curve
+      !> Cam angle from full lift, of any turn [rad]
+      real(wp), intent(in) :: angle
+      !> Touches where all points of the piece do; has what a contact is started from
+      type(contact_t) :: nearby
+
+      ! Shares of the points [-]; forces, torque and film ratio [unit of each]
+      real(wp) :: shares(panel_points), values(3)
+      integer :: piece
+
+      nearby%is_touching = .false.
+      call find_piece(curve, angle, piece, shares)
+      if (piece == 0) return
+      nearby%is_touching = all(curve%contacts(3, :, piece) > 0.0_wp)
+      if (.not. nearby%is_touching) return
+      values = matmul(curve%contacts(:, :, piece), shares)
+      nearby%tangential_force = values(1)
+      nearby%bearing_torque = values(2)
+      nearby%film_ratio = max(values(3), 0.0_wp)
+   end function contact_near
+
+   !> Piece that holds a cam angle, and the shares of its points in the polynomial there.
+   pure subroutine find_piece(curve, angle, piece, shares)
+      !> The curve
+      type(lobe_curve_t), intent(in) :: curve
+      !> Cam angle from full lift, of any turn [rad]
+      real(wp), intent(in) :: angle
+      !> The piece, 0 where there is none
+      integer, intent(out) :: piece
+      !> The shares [-]
+      real(wp), intent(out) :: shares(panel_points)
+
+      ! Angle within the curve [rad], distances from the points [-]
+      real(wp) :: inside, distances(panel_points)
+      integer :: last, middle, point
+
+      piece = 0
+      shares = 0.0_wp
       if (curve%count == 0) return
       inside = curve%ends(1) + modulo(angle - curve%ends(1), two_pi)
+      if (inside > curve%ends(curve%count + 1)) return
       piece = 1
       last = curve%count + 1
       do while (last - piece > 1)
@@ -186,20 +249,15 @@ contains
             last = middle
          end if
       end do
-      is_known = curve%is_smooth(:, piece) .and. inside <= curve%ends(piece + 1)
-      if (.not. any(is_known)) return
       distances = (inside - curve%ends(piece))/(curve%ends(piece + 1) - curve%ends(piece)) - panel_places
       point = minloc(abs(distances), 1)
       if (abs(distances(point)) <= epsilon(1.0_wp)) then
-         values = curve%values(:, point, piece)
-         return
+         shares(point) = 1.0_wp
+      else
+         shares = interpolation_weights/distances
+         shares = shares/sum(shares)
       end if
-      shares = interpolation_weights/distances
-      shares = shares/sum(shares)
-      do point = 1, panel_points
-         values = values + shares(point)*curve%values(:, point, piece)
-      end do
-   end subroutine curve_at
+   end subroutine find_piece
 
    !> What a camshaft takes from a state.
    pure function cam_values(model, state, has_force) result(values)

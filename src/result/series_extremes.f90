@@ -12,7 +12,7 @@ module camroller_series_extremes
    use camroller_flexible_follower, only : follower_on_path
    use camroller_flexible_solution, only : error_share
    use camroller_extremes, only : samples_t, search_t, add_sample, narrow_search, start_search
-   use camroller_lobe_curve, only : cam_values, curve_values
+   use camroller_lobe_curve, only : cam_values, contact_near, curve_values, lobe_curve_t
    use camroller_margins, only : margins_t
    use camroller_means, only : statistics_t
    use camroller_model, only : model_t
@@ -86,7 +86,7 @@ contains
 
       columns = lobe_columns(solved%case, lobe)
       associate (list => series(columns(1):columns(2)))
-         call add_stops(solved, lobe, margins, statistics%rows, error)
+         call add_stops(solved, lobe, margins, statistics%curve, statistics%rows, error)
          if (allocated(error)) return
          call find_thickest_film(series, statistics)
          allocate (statistics%lowest(size(list)), statistics%highest(size(list)))
@@ -127,13 +127,15 @@ contains
    end subroutine find_extremes
 
    !> Rows of a lobe's follower at the stops, and at the smallest load of the event without friction.
-   subroutine add_stops(solved, lobe, margins, samples, error)
+   subroutine add_stops(solved, lobe, margins, curve, samples, error)
       !> The solved case
       type(solved_t), intent(in) :: solved
       !> The lobe shape, from 1
       integer, intent(in) :: lobe
       !> Its margins
       type(margins_t), intent(in) :: margins
+      !> Its curve, with contacts to start from
+      type(lobe_curve_t), intent(in) :: curve
       !> The rows
       type(samples_t), intent(inout) :: samples
       !> Convergence error
@@ -149,7 +151,8 @@ contains
          angles = [stops - beside, stops, stops + beside, margins%event%angle]
       end associate
       do i = 1, size(angles)
-         call state_at(solved%cycles(lobe), solved%models(lobe), angles(i), hint, state, error)
+         call state_at(solved%cycles(lobe), solved%models(lobe), angles(i), hint, state, error, &
+            & contact_near(curve, angles(i)))
          if (allocated(error)) return
          call follower_values(solved%case, solved%models(lobe), state, values)
          call add_sample(samples, angles(i), values, i < size(angles))
@@ -203,13 +206,13 @@ contains
                call start_search(statistics%rows, series, sense, cycle%tolerance, search, &
                   & sense > 0 .and. index(list(series)%name, "film_") > 0)
                do while (search%is_wanted .and. .not. cycle%is_linear)
-                  call keep_state(kept, solved, lobe, search%trial, size(lowest), place, error)
+                  call keep_state(kept, solved, lobe, statistics%curve, search%trial, size(lowest), place, error)
                   if (allocated(error)) return
                   call narrow_search(statistics%rows, search, kept%values(series, place))
                end do
                if (sense > 0) lowest(series) = search%value
                if (sense < 0) highest(series) = -search%value
-               call keep_state(kept, solved, lobe, search%point, size(lowest), place, error)
+               call keep_state(kept, solved, lobe, statistics%curve, search%point, size(lowest), place, error)
                if (allocated(error)) return
                associate (of_value => statistics%extreme_errors(merge(1, 2, sense > 0), series))
                   if (allocated(cycle%flexible)) then
@@ -227,13 +230,15 @@ contains
    end subroutine search_lobe
 
    !> Find the state at a cam angle among the last ones, or solve it: many series have their extremes at the same angles.
-   subroutine keep_state(kept, solved, lobe, angle, series, place, error)
+   subroutine keep_state(kept, solved, lobe, curve, angle, series, place, error)
       !> The states
       type(kept_states_t), intent(inout) :: kept
       !> The solved case
       type(solved_t), intent(in) :: solved
       !> The lobe shape, from 1
       integer, intent(in) :: lobe
+      !> Its curve, with contacts to start from
+      type(lobe_curve_t), intent(in) :: curve
       !> Cam angle from full lift [rad]
       real(wp), intent(in) :: angle
       !> Number of series of the follower
@@ -252,7 +257,8 @@ contains
       kept%count = kept%count + 1
       place = modulo(kept%count - 1, most_kept) + 1
       kept%angles(place) = angle
-      call state_at(solved%cycles(lobe), solved%models(lobe), angle, kept%hint, kept%states(place), error)
+      call state_at(solved%cycles(lobe), solved%models(lobe), angle, kept%hint, kept%states(place), error, &
+         & contact_near(curve, angle))
       if (allocated(error)) return
       call follower_values(solved%case, solved%models(lobe), kept%states(place), kept%values(:, place))
       if (.not. allocated(solved%cycles(lobe)%flexible)) return
@@ -330,16 +336,20 @@ contains
          call add_sample(samples, stops(i), values, .true.)
       end do
       do series = 1, size(values)
+         if (series == residual) then
+            lowest(series) = minval(samples%values(series, :samples%count))
+            highest(series) = maxval(samples%values(series, :samples%count))
+            cycle
+         end if
          do sense = -1, 1, 2
             call start_search(samples, series, sense, maxval(solved%cycles%tolerance), search)
-            do while (search%is_wanted .and. series /= residual .and. .not. any(solved%cycles%is_linear))
+            do while (search%is_wanted .and. .not. any(solved%cycles%is_linear))
                call camshaft_row(solved, search%trial, values, error)
                if (allocated(error)) return
                call narrow_search(samples, search, values(series))
             end do
             if (sense > 0) lowest(series) = search%value
             if (sense < 0) highest(series) = -search%value
-            if (series == residual) cycle
             call keep_row(kept, solved, statistics, search%point, i, error)
             if (allocated(error)) return
             associate (value => kept%values(series, i))
@@ -386,7 +396,8 @@ contains
          associate (shaft => solved%shaft, lobe => solved%shaft%lobes(cam))
             associate (model => solved%models(lobe), cycle => solved%cycles(lobe))
                inside = cycle%start + modulo(angle - shaft%phases(cam) - cycle%start, two_pi)
-               call state_at(cycle, model, inside, shaft%hints(cam), state, error)
+               call state_at(cycle, model, inside, shaft%hints(cam), state, error, &
+                  & contact_near(statistics(lobe)%curve, inside))
                if (allocated(error)) return
                cams(:, cam) = cam_values(model, state, allocated(shaft%bearings))
                others(:, cam) = cams(:, cam)
