@@ -119,23 +119,25 @@ contains
       ! Part of a decay rate that is as good as all of it [-]; evaluations at most
       real(wp), parameter :: good_part = 0.5_wp
       integer, parameter :: most = 12
-      ! Part of the traction that may be rounding [-]
-      real(wp), parameter :: rounding = 1.0e-9_wp
+      ! Part of the traction that may be an error of the contact, over the accuracy of that, and at least [-]
+      real(wp), parameter :: several = 10.0_wp, rounding = 1.0e-9_wp
       type(contact_t) :: contact
-      ! Distance [m/s]; acceleration of the roller [rad/s^2]; decay rate over the distance [1/rad]
-      real(wp) :: distance, acceleration, secant
+      ! Relative error of load and forces [-]; distance [m/s]; acceleration of the roller [rad/s^2]; decay rate over the distance
+      ! [1/rad]
+      real(wp) :: accuracy, distance, acceleration, secant
       integer :: i, status
 
       if (.not. state%contact%is_touching) return
-      if (abs(defect) <= rounding*(abs(state%contact%shear) + state%contact%boundary_capacity)*model%roller_radius**2 &
-         & /(model%roller_inertia*model%speed)) return
+      accuracy = contact_accuracy_for(cycle%tolerance)
+      if (abs(defect) <= max(several*accuracy, rounding)*(abs(state%contact%shear) + state%contact%boundary_capacity) &
+         & *model%roller_radius**2/(model%roller_inertia*model%speed)) return
       do i = 1, most
          if (.not. decay_rate > 0.0_wp) return
          distance = -defect/decay_rate
          if (.not. abs(distance) > 4.0_wp*spacing(state%contact%sliding_speed)) return
          if (abs(distance) > abs(state%contact%rolling_speed)) return
          call evaluate_spin(model, state%position, state%moments, state%contact%sliding_speed + distance, contact, &
-            & acceleration, status, contact_accuracy_for(cycle%tolerance), start=state%contact)
+            & acceleration, status, accuracy, start=state%contact)
          if (status /= 0) return
          secant = model%roller_radius*(acceleration - state%spin_acceleration)/(model%speed*distance)
          if (secant >= good_part*decay_rate) return

@@ -230,18 +230,17 @@ contains
       error = (estimate%error - closure)/max(1.0_wp - estimate%contraction, epsilon(1.0_wp))
    end function error_at_start
 
-   !> Relative error of load and forces to which the contacts of a cycle are solved once it is known, round-off at most: films and
-   !> pressures then have about its root, far less than the tolerance.
+   !> Relative error to which the contacts of a cycle are solved once it is known: far less than the tolerance.
    elemental function contact_accuracy_for(tolerance) result(accuracy)
       !> Tolerance of the cycle [-]
       real(wp), intent(in) :: tolerance
       !> The error [-]
       real(wp) :: accuracy
 
-      ! Root of it over the tolerance; largest [-]
-      real(wp), parameter :: small_part = 1.0e-3_wp, largest = 1.0e-15_wp
+      ! The error over the tolerance; largest [-]
+      real(wp), parameter :: small_part = 1.0e-2_wp, largest = 1.0e-7_wp
 
-      accuracy = min((small_part*tolerance)**2, largest)
+      accuracy = min(small_part*tolerance, largest)
    end function contact_accuracy_for
 
    !> Decay rate between two or three points, constant beyond them.

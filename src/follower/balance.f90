@@ -157,7 +157,7 @@ contains
 
       ! Part of the tolerance to which the contact is solved [-]
       real(wp), parameter :: part = 1.0e-2_wp
-      type(contact_t) :: contact
+      type(contact_t) :: contact, last
       ! dV_s/dtheta [m/s/rad]; step [m/s]; speed of pure rolling [m/s]
       real(wp) :: rate, step, rolling
       integer :: i
@@ -165,8 +165,10 @@ contains
       is_found = .false.
       decay_rate = 0.0_wp
       rolling = abs(rolling_speed_at(model, position))
+      contact%is_touching = .false.
       do i = 1, max_steps
-         call sliding_rate(model, position, moments, sliding_speed, part*tolerance/max(tolerance, rolling), contact, rate)
+         last = contact
+         call sliding_rate(model, position, moments, sliding_speed, part*tolerance/max(tolerance, rolling), contact, rate, last)
          evaluations = evaluations + 1
          decay_rate = film_decay_rate(model, contact)
          if (.not. decay_rate > 0.0_wp) exit
@@ -179,7 +181,7 @@ contains
    end subroutine improve_balance
 
    !> dV_s/dtheta at a sliding speed.
-   subroutine sliding_rate(model, position, moments, sliding_speed, accuracy, contact, rate)
+   subroutine sliding_rate(model, position, moments, sliding_speed, accuracy, contact, rate, start)
       !> The model
       type(model_t), intent(in) :: model
       !> Geometry at this angle
@@ -194,12 +196,14 @@ contains
       type(contact_t), intent(out) :: contact
       !> dV_s/dtheta [m/s/rad]
       real(wp), intent(out) :: rate
+      !> A contact nearby to start from, where it touches
+      type(contact_t), intent(in), optional :: start
 
       ! Angular acceleration [rad/s^2]
       real(wp) :: acceleration
       integer :: status
 
-      call evaluate_spin(model, position, moments, sliding_speed, contact, acceleration, status, accuracy)
+      call evaluate_spin(model, position, moments, sliding_speed, contact, acceleration, status, accuracy, start=start)
       rate = slip_rate(model, position, acceleration)
    end subroutine sliding_rate
 

@@ -6,6 +6,7 @@
 !> solved by Newton's method with the exact derivative from `contact_forces`, safeguarded by a bracket.
 module camroller_contact
    use camroller_kinds, only : wp
+   use camroller_hertz, only : half_width
    use camroller_model, only : model_t
    use camroller_kinematics, only : position_t
    use camroller_dynamics, only : moments_t
@@ -13,7 +14,7 @@ module camroller_contact
    use camroller_joint_forces, only : contact_moment, has_pivot_friction, set_pivot_forces
    use camroller_pivot_friction, only : pivot_forces_t, pivot_moment, hold_forces
    use camroller_contact_forces, only : contact_t, setting_t, parts_t, motion_t, slopes_t, set_speeds, prepare_contact, &
-      & evaluate_contact, follow_contact, release_contact
+      & evaluate_contact, follow_contact, has_pin_film, release_contact
    implicit none
    private
 
@@ -201,7 +202,7 @@ contains
          shift = -1.0_wp
          if (slope > 0.0_wp) shift = -excess/slope
          if (abs(shift)*step_curvature*max(abs(shift), share_tolerance) + change**2 <= enough) then
-            call shift_contact(model, contact, slopes, shift)
+            call shift_contact(model, position, moment, basis, hinge, slopes, shift, contact)
             return
          end if
          ! Only a converged share tells on which side of the root the load lies
@@ -265,31 +266,80 @@ contains
       slope = slope - friction%slope
    end subroutine take_pivot
 
-   !> Move a contact along its slopes by the last, small step.
-   pure subroutine shift_contact(model, contact, slopes, shift)
+   !> Move a contact along its slopes by the last, small step. The load is then the one that balances the forces there.
+   pure subroutine shift_contact(model, position, moment, basis, hinge, slopes, shift, contact)
       !> The model
       type(model_t), intent(in) :: model
-      !> State of the contact
-      type(contact_t), intent(inout) :: contact
+      !> Geometry at this angle
+      type(position_t), intent(in) :: position
+      !> Moment to be balanced [N m]
+      real(wp), intent(in) :: moment
+      !> What slopes are made of
+      type(contact_basis_t), intent(in) :: basis
+      !> What the friction of the pivot is made of, where it has any
+      type(hinge_t), intent(in) :: hinge
       !> Derivatives over ln(load)
       type(slopes_t), intent(in) :: slopes
       !> Relative change of the load [-]
       real(wp), intent(in) :: shift
+      !> State of the contact
+      type(contact_t), intent(inout) :: contact
 
       contact%load = contact%load*(1.0_wp + shift)
-      ! The asperities' share stays, else they could carry more than the load
-      contact%asperity_load = contact%asperity_load*(1.0_wp + shift)
-      if (allocated(model%bearing)) then
-         ! Without a film the torque goes with the load
-         if (allocated(model%bearing%film)) then
-            contact%bearing_torque = contact%bearing_torque + slopes%bearing_torque*shift
-         else
-            contact%bearing_torque = (contact%bearing_torque - contact%bearing_drag)*(1.0_wp + shift) + contact%bearing_drag
-         end if
-      end if
-      contact%traction = contact%traction + slopes%traction*shift
       contact%rolling_resistance = contact%rolling_resistance + slopes%rolling_resistance*shift
-      contact%tangential_force = contact%tangential_force + slopes%tangential_force*shift
+      contact%shear = contact%shear + slopes%shear*shift
+      contact%boundary_capacity = contact%boundary_capacity + slopes%boundary_capacity*shift
+      contact%boundary_mobilised = contact%boundary_capacity*basis%setting%mobilised
+      contact%traction = contact%shear + contact%boundary_mobilised
+      contact%tangential_force = contact%traction + contact%rolling_resistance*basis%parts%rolling_part
+      if (has_pin_film(model)) contact%bearing_torque = contact%bearing_torque + slopes%bearing_torque*shift
+      call rebalance(model, position, moment, basis%setting, hinge, contact)
+
+      contact%length = contact%length*(1.0_wp + basis%parts%length_by_load*shift)
+      contact%half_width = half_width(contact%load, position%equivalent_radius, contact%length, model%modulus)
+      contact%apparent_area = 2.0_wp*contact%half_width*contact%length
+      contact%film_min = contact%film_min*(1.0_wp + slopes%film_ratio*shift)
+      contact%film_ratio = contact%film_min/contact%surfaces%roughness
+      contact%film_central = contact%film_central*(1.0_wp + slopes%film_central*shift)
+      contact%inlet_factor = contact%inlet_factor*(1.0_wp + slopes%inlet_factor*shift)
+      contact%asperity_load = min(max(0.0_wp, contact%asperity_load + slopes%asperity_load*shift), contact%load)
+      contact%real_area = max(0.0_wp, contact%real_area + slopes%real_area*shift)
+      contact%film_rise = contact%film_rise + slopes%film_rise*shift
+      contact%flash_rise = contact%flash_rise + slopes%flash_rise*shift
+      contact%boundary_coefficient = contact%boundary_coefficient &
+         & + basis%parts%boundary%by_temperature*slopes%flash_rise*shift
    end subroutine shift_contact
+
+   !> Load that balances the forces which a contact has, and the torque of a bearing without a film, which goes with it: one step,
+   !> so small that it is exact, so that no energy is lost between them.
+   pure subroutine rebalance(model, position, moment, setting, hinge, contact)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> Geometry at this angle
+      type(position_t), intent(in) :: position
+      !> Moment to be balanced [N m]
+      real(wp), intent(in) :: moment
+      !> What does not change with the load
+      type(setting_t), intent(in) :: setting
+      !> What the friction of the pivot is made of, where it has any
+      type(hinge_t), intent(in) :: hinge
+      !> State of the contact, nearly balanced
+      type(contact_t), intent(inout) :: contact
+
+      type(slopes_t) :: held
+      ! Torque of the bearing over the load [m]; moment too much, and its derivative over ln(load) [N m]
+      real(wp) :: arm, excess, slope
+
+      arm = setting%bearing_arm
+      if (has_pin_film(model)) arm = 0.0_wp
+      if (.not. has_pin_film(model)) contact%bearing_torque = arm*contact%load + contact%bearing_drag
+      held%tangential_force = 0.0_wp
+      excess = contact%load*position%normal_arm - moment &
+         & + model%linkage%sense*(contact%tangential_force*position%tangent_arm + contact%bearing_torque)
+      slope = contact%load*(position%normal_arm + model%linkage%sense*arm)
+      if (has_pivot_friction(model)) call take_pivot(model, hinge, contact, held, excess, slope)
+      contact%load = contact%load*(1.0_wp - excess/slope)
+      if (.not. has_pin_film(model)) contact%bearing_torque = arm*contact%load + contact%bearing_drag
+   end subroutine rebalance
 
 end module camroller_contact

@@ -22,7 +22,7 @@ module camroller_contact_forces
    private
 
    public :: contact_t, setting_t, parts_t, motion_t, slopes_t, set_speeds, start_heat, prepare_contact, evaluate_contact, &
-      & follow_contact, release_contact, film_groups, set_surfaces, has_oil_drag, oil_drag_slope, bearing_slope
+      & follow_contact, release_contact, film_groups, set_surfaces, has_pin_film, has_oil_drag, oil_drag_slope, bearing_slope
 
    !> Change of the film ratio that may be the last, over the root of the relative error that is good enough: its square is the
    !> error left, times a factor of a few [-]
@@ -322,17 +322,19 @@ contains
       length = length_change(parts, motion)
       relative = motion%radius - motion%roughness
       group = motion%load - motion%radius - length
+      slopes%inlet_factor = 0.0_wp
       if (allocated(model%heat)) then
+         slopes%inlet_factor = parts%heat%inlet_by_speed*motion%entrainment + parts%heat%inlet_by_sliding*motion%sliding_speed &
+            & + 0.5_wp*parts%heat%inlet_by_pressure*group
          change = share_change(setting%line, parts%load_group, parts%share, group, &
-            & motion%entrainment - motion%radius, relative, parts%heat%inlet_by_speed*motion%entrainment &
-            & + parts%heat%inlet_by_sliding*motion%sliding_speed &
-            & + 0.5_wp*parts%heat%inlet_by_pressure*group)
+            & motion%entrainment - motion%radius, relative, slopes%inlet_factor)
       else
          change = share_change(setting%line, parts%load_group, parts%share, group, &
             & motion%entrainment - motion%radius, relative)
       end if
       slopes%film_ratio = change%film_min + motion%radius
-      slopes%traction = follow_traction(model, setting, contact, parts, motion, change)
+      slopes%film_central = change%film_central + motion%radius
+      call follow_traction(model, setting, contact, parts, motion, change, slopes)
 
       rolling = group
       if (model%rolling_law == rolling_biboulet_houpert) rolling = change%film_load

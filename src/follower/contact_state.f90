@@ -129,8 +129,14 @@ module camroller_contact_state
 
    !> Changes that follow
    type :: slopes_t
-      !> ln of the minimum film [-]
-      real(wp) :: film_ratio
+      !> ln of minimum and central film, ln of the factor on both by heat in the inlet [-]
+      real(wp) :: film_ratio, film_central, inlet_factor
+      !> Load of the asperities [N], their real contact area [m^2]
+      real(wp) :: asperity_load, real_area
+      !> Rises of the temperatures of film and surfaces [K]
+      real(wp) :: film_rise, flash_rise
+      !> Shear of the film beside the asperities, boundary friction that these can bear [N]
+      real(wp) :: shear, boundary_capacity
       !> Traction, rolling resistance, tangential force [N]
       real(wp) :: traction, rolling_resistance, tangential_force
       !> Torque of the roller's bearing [N m]

@@ -11,7 +11,7 @@ module camroller_contact_traction
    use camroller_asperity, only : find_boundary_friction, has_one_coefficient
    use camroller_boundary_law, only : follows_temperature
    use camroller_conjunction, only : sheared_film_t, film_shear_t, flash_resistance, film_resistance, hot_shear
-   use camroller_contact_state, only : contact_t, setting_t, parts_t, motion_t, length_change
+   use camroller_contact_state, only : contact_t, setting_t, parts_t, motion_t, slopes_t, length_change
    use camroller_load_share, only : share_change_t
    use camroller_lubricant, only : mean_relative_viscosity
    use camroller_model, only : model_t
@@ -294,8 +294,8 @@ contains
       rise = min(large*(1.0_wp - log(1.0_wp + large)/(2.0_wp + large))/fall, limited)
    end function first_rise
 
-   !> How shear and boundary friction follow a motion of the contact.
-   pure function follow_traction(model, setting, contact, parts, motion, change) result(traction)
+   !> How shear and boundary friction follow a motion of the contact, with the temperatures of film and surfaces.
+   pure subroutine follow_traction(model, setting, contact, parts, motion, change, slopes)
       !> The model
       type(model_t), intent(in) :: model
       !> What does not change with the load
@@ -308,14 +308,14 @@ contains
       type(motion_t), intent(in) :: motion
       !> How film and load share follow it
       type(share_change_t), intent(in) :: change
-      !> Change of the traction [N]
-      real(wp) :: traction
+      !> Gets the changes of traction, its parts and the temperatures
+      type(slopes_t), intent(inout) :: slopes
 
       ! Changes of length, apparent area, pressure in the film and central film, their logarithms [-]; of the shear, of boundary
       ! friction with its limit, and with the part of it that slip mobilises [N]
       real(wp) :: length, area, pressure, film, shear, boundary, mobilised
-      ! Changes of the temperatures of film and surfaces [K], of boundary friction with the latter [N/K]
-      real(wp) :: film_rise, flash_rise, own
+      ! Change of the limit of boundary friction [N], and with the temperature of the surfaces [N/K]
+      real(wp) :: capacity, own
 
       length = length_change(parts, motion)
       area = 0.5_wp*(motion%load + motion%radius + length)
@@ -325,25 +325,31 @@ contains
          & - contact%sliding_speed*film)
       shear = parts%by_shear*shear + parts%by_limit*model%limiting_coefficient*contact%load*motion%load*parts%limit_share &
          & + parts%by_speed*motion%sliding_speed
-      boundary = 0.0_wp
+      slopes%asperity_load = change%asperity_load*setting%scale + (motion%radius + length)*contact%asperity_load
+      slopes%real_area = area*contact%real_area + contact%apparent_area*change%real_area_ratio
+      capacity = 0.0_wp
       mobilised = 0.0_wp
       if (allocated(model%boundary)) then
-         boundary = setting%mobilised*(model%boundary%film_shear_strength &
-            & *(area*contact%real_area + contact%apparent_area*change%real_area_ratio) &
-            & + parts%boundary%coefficient*(change%asperity_load*setting%scale + (motion%radius + length)*contact%asperity_load))
+         capacity = model%boundary%film_shear_strength*slopes%real_area + parts%boundary%coefficient*slopes%asperity_load
          mobilised = contact%boundary_capacity*setting%mobilised_slope*motion%sliding_speed
-         if (.not. has_one_coefficient(model%boundary)) boundary = boundary + setting%mobilised*contact%asperity_load &
+         if (.not. has_one_coefficient(model%boundary)) capacity = capacity + contact%asperity_load &
             & *(parts%boundary%by_speed*motion%sliding_speed + parts%boundary%by_covered*motion%covered)
       end if
+      boundary = setting%mobilised*capacity
+      slopes%film_rise = 0.0_wp
+      slopes%flash_rise = 0.0_wp
       if (has_hot_film(model)) then
-         own = setting%mobilised*contact%asperity_load*parts%boundary%by_temperature
-         call follow_rises(contact, parts, motion, shear, boundary + mobilised, own, area, film, change%real_area_ratio, &
-            & film_rise, flash_rise)
-         shear = shear + parts%heat%by_rise*film_rise
-         boundary = boundary + own*flash_rise
+         own = contact%asperity_load*parts%boundary%by_temperature
+         call follow_rises(contact, parts, motion, shear, boundary + mobilised, setting%mobilised*own, area, film, &
+            & change%real_area_ratio, slopes%film_rise, slopes%flash_rise)
+         shear = shear + parts%heat%by_rise*slopes%film_rise
+         capacity = capacity + own*slopes%flash_rise
+         boundary = setting%mobilised*capacity
       end if
-      traction = shear*(1.0_wp - parts%share%real_area_ratio) - parts%shear*change%real_area_ratio + boundary + mobilised
-   end function follow_traction
+      slopes%boundary_capacity = capacity
+      slopes%shear = shear*(1.0_wp - parts%share%real_area_ratio) - parts%shear*change%real_area_ratio
+      slopes%traction = slopes%shear + boundary + mobilised
+   end subroutine follow_traction
 
    !> How the temperatures of film and surfaces follow a motion, with the changes of shear and boundary friction that they make
    !> themselves: two linear equations.

@@ -9,7 +9,7 @@ module camroller_settled_slip
    use camroller_model, only : model_t
    use camroller_ode_bridge, only : solve_euler
    use camroller_ode_problem, only : counters_t
-   use camroller_spin, only : spin_problem_t, slip_rate
+   use camroller_spin, only : nearby_t, spin_problem_t, slip_rate
    use camroller_state, only : state_t
    implicit none
    private
@@ -42,7 +42,10 @@ contains
       !> Has it been moved?
       logical, intent(out) :: is_moved
 
+      ! Relative error of load and forces, small against what is left of the equation in the end [-]
+      real(wp), parameter :: accuracy = 1.0e-10_wp
       type(spin_problem_t) :: problem
+      type(nearby_t), target :: nearby
       type(counters_t) :: counters
       ! Rate at the curve, largest that traction makes, rate in the end [m/s/rad]; step [rad]; sliding speed in the end [m/s]
       real(wp) :: rate, span, new_rate, step, settled
@@ -54,7 +57,10 @@ contains
       span = model%roller_radius**2/(model%roller_inertia*model%speed)*(model%limiting_coefficient*state%contact%load &
          & + state%contact%boundary_capacity)
       if (abs(rate - slope) <= small_part*span) return
+      nearby%last = state%contact
+      problem%nearby => nearby
       problem%model => model
+      problem%accuracy = accuracy
       step = reach/(span + abs(slope))
       call solve_euler(problem, span, angle, sliding_speed - step*slope, step, settled, new_rate, counters, status)
       ! Where the traction does not saturate nearby, so short a step changes next to nothing

@@ -74,15 +74,18 @@ contains
       type(position_t) :: position
       type(moments_t) :: moments
       type(contact_t) :: contact
+      type(contact_t), pointer :: start
       ! Gas force [N]; angular acceleration of the roller [rad/s^2]
       real(wp) :: force, acceleration
 
       rate = 0.0_wp
+      start => null()
+      if (associated(self%nearby)) start => self%nearby%last
       call follow_ramp(self%model, time)
       call evaluate_loading(self%model, time, position, force, moments, status)
       if (status /= 0) return
       call evaluate_spin(self%model, position, moments, sliding_speed_of(self, position, state(1)), contact, acceleration, &
-         & status, self%accuracy, self%mobilised)
+         & status, self%accuracy, self%mobilised, start)
       if (status /= 0) return
       if (self%has_surface_speed) then
          rate(1) = surface_rate(self%model, acceleration)

@@ -2,6 +2,7 @@
 module test_contact
    use testdrive, only : unittest_type, new_unittest, error_type, check, test_failed
    use camroller_kinds, only : wp, pi, degree
+   use camroller_number_text, only : integer_text
    use camroller_case, only : case_t
    use camroller_model, only : model_t
    use camroller_kinematics, only : position_t, rotation_names
@@ -11,8 +12,8 @@ module test_contact
    use camroller_spin, only : rolling_speed_slope
    use camroller_torque_list, only : of_contact
    use closeness, only : check_close, check_scaled
-   use reference_cases, only : thesis_case, source_case, skewed_case, make_model, set_point, add_gas_force, point_speeds, &
-      point_viscosities
+   use reference_cases, only : thesis_case, source_case, skewed_case, make_model, set_point, add_gas_force, add_heat, &
+      add_pin_film, add_profile, point_speeds, point_viscosities
    implicit none
    private
 
@@ -39,7 +40,8 @@ contains
          new_unittest("at an entrainment speed of zero the state is finite", test_standstill), &
          new_unittest("at the quasi-static balance the spin acceleration is that of the kinematics", test_balance_of_roller), &
          new_unittest("the decay rate agrees with a difference quotient of the roller equation", test_decay_rate), &
-         new_unittest("cam angles one turn apart give the same state", test_turns) &
+         new_unittest("cam angles one turn apart give the same state", test_turns), &
+         new_unittest("all of a contact has the accuracy asked for, and the finger is in balance", test_accuracy) &
          ]
    end subroutine collect_contact
 
@@ -56,6 +58,69 @@ contains
       excess = state%contact%load*state%position%normal_arm - excess + model%linkage%sense &
          *(state%contact%tangential_force*state%position%tangent_arm + state%contact%bearing_torque)
    end function imbalance
+
+   !> Contacts that start from others at sliding speeds more or less beside them, of which some end with the first evaluation and a
+   !> step that is as long as it may be.
+   subroutine test_accuracy(error)
+      type(error_type), allocatable, intent(out) :: error
+      ! Accuracy; error of the last step, whose curvature is five, and that of a share which is not quite found, over it [-]
+      real(wp), parameter :: accuracy = 1.0e-6_wp, several = 10.0_wp
+      ! Sliding speeds over that of the cam [m]; that of the other contact over it [-]
+      real(wp), parameter :: speeds(2) = [2.0e-4_wp, 2.0e-2_wp], others(5) = [1.0003_wp, 1.001_wp, 1.003_wp, 1.01_wp, 1.1_wp]
+      type(case_t) :: case
+      type(model_t) :: model
+      type(state_t) :: exact, beside, state
+      ! Largest magnitude of each quantity, and of its errors [unit of each]
+      real(wp), allocatable :: sizes(:), errors(:)
+      integer :: kind, i, speed, other, status
+
+      do kind = 1, 4
+         case = skewed_case(rotation_names(1))
+         if (kind == 2) call add_heat(case)
+         if (kind == 3) call add_profile(case)
+         if (kind == 4) call add_pin_film(case, "finite")
+         call make_model(case, model, error)
+         if (allocated(error)) return
+         sizes = [(0.0_wp, i=1, 16)]
+         errors = sizes
+         do i = -12, 12
+            do speed = 1, size(speeds)
+               call evaluate_state(model, (5*i + 1)*degree, speeds(speed)*model%speed, exact, status)
+               sizes = max(sizes, abs(quantities(exact)))
+               do other = 1, size(others)
+                  call evaluate_state(model, (5*i + 1)*degree, others(other)*speeds(speed)*model%speed, beside, status)
+                  call evaluate_state(model, (5*i + 1)*degree, speeds(speed)*model%speed, state, status, start=beside%contact, &
+                     accuracy=accuracy)
+                  call check_scaled(error, imbalance(model, state), 0.0_wp, state%moments%spring, 4.0e-14_wp, "balance")
+                  if (allocated(error)) return
+                  errors = max(errors, abs(quantities(state) - quantities(exact)))
+               end do
+            end do
+         end do
+         do i = 1, size(errors)
+            call check_scaled(error, errors(i), 0.0_wp, max(sizes(i), tiny(1.0_wp)), several*accuracy, &
+               "quantity "//integer_text(i)//" of case "//integer_text(kind))
+            if (allocated(error)) return
+         end do
+      end do
+
+   contains
+
+      !> What a contact consists of.
+      pure function quantities(of) result(values)
+         type(state_t), intent(in) :: of
+         ! [unit of each]
+         real(wp) :: values(16)
+
+         associate (contact => of%contact)
+            values = [contact%load, contact%half_width, contact%apparent_area, contact%length, contact%film_min, &
+               contact%film_central, contact%asperity_load, contact%real_area, contact%shear, contact%boundary_capacity, &
+               contact%rolling_resistance, contact%tangential_force, contact%bearing_torque, contact%film_rise, &
+               contact%flash_rise, contact%inlet_factor]
+         end associate
+      end function quantities
+
+   end subroutine test_accuracy
 
    subroutine test_balance_of_finger(error)
       type(error_type), allocatable, intent(out) :: error
