@@ -6,7 +6,6 @@ module camroller_number_text
    use, intrinsic :: ieee_arithmetic, only : ieee_is_finite, ieee_is_nan
    use, intrinsic :: iso_fortran_env, only : int64
    use camroller_kinds, only : wp
-   use camroller_quick_digits, only : write_quickly
    implicit none
    private
 
@@ -182,7 +181,6 @@ contains
 
       character(len=2) :: used
       integer :: places
-      logical :: is_written
 
       places = max(0, min(decimals, all_digits - 1))
       if (.not. ieee_is_finite(value)) then
@@ -192,9 +190,6 @@ contains
       end if
       used = form
       if (form == "f" .and. abs(value) >= largest_fixed) used = "es"
-      is_written = .false.
-      if (used /= "e3") call write_quickly(value, used == "es", places, text, is_written)
-      if (is_written) return
       ! style: write because this is the place where numbers become text
       if (used /= "e3") write (text, "("//used//"40."//counts(places)//")") value
       if (used == "f" .or. used == "es" .and. index(text, "E") > 0) return
@@ -245,12 +240,7 @@ contains
       integer :: mark, exponent, i, n
 
       mark = index(scientific, "E")
-      exponent = 0
-      do i = mark + 1, len(scientific)
-         n = index("0123456789", scientific(i:i)) - 1
-         if (n >= 0) exponent = 10*exponent + n
-      end do
-      if (index(scientific(mark:), "-") > 0) exponent = -exponent
+      read (scientific(mark + 1:), *) exponent
       sign = ""
       if (scientific(1:1) == "-") sign = "-"
       n = 0

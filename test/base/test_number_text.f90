@@ -5,7 +5,7 @@ module test_number_text
    use testdrive, only : unittest_type, new_unittest, error_type, check
    use camroller_kinds, only : wp, pi
    use camroller_number_text, only : agreeing, counted, number_text, fixed_text, scientific_text, integer_text, right_text, &
-      & is_number, is_beyond_range, number_length, write_number
+      & is_number, is_beyond_range
    implicit none
    private
 
@@ -24,7 +24,6 @@ contains
          new_unittest("a number is rounded where that is asked for", rounded_numbers), &
          new_unittest("digits after the point follow at least one digit before it", fixed_numbers), &
          new_unittest("every number has a text in every form", extreme_numbers), &
-         new_unittest("digits are those of a formatted write", formatted_numbers), &
          new_unittest("a column is as wide as asked for, or as its word", columns), &
          new_unittest("one of anything has no plural", counted_nouns), &
          new_unittest("words are told from numbers", words_and_numbers), &
@@ -145,32 +144,6 @@ contains
 
       read (text, *) number
    end function number_read
-
-   !> Numbers of any size and of few digits, whose rounding may be a tie, with up to ten digits after the point.
-   subroutine formatted_numbers(error)
-      !> Set where a check fails
-      type(error_type), allocatable, intent(out) :: error
-
-      character(len=number_length) :: text, formatted
-      ! A number, those it is made of [-]
-      real(wp) :: value, random(2)
-      integer :: i, decimals
-
-      do i = 1, 5000
-         call random_number(random)
-         value = (random(1) - 0.5_wp)*10.0_wp**(int(26.0_wp*random(2)) - 12)
-         if (mod(i, 3) == 0) value = 0.125_wp*aint(1.0e4_wp*random(1))*10.0_wp**int(4.0_wp*random(2))
-         decimals = mod(i, 11)
-         call write_number(value, "f", decimals, text)
-         write (formatted, "(f40."//integer_text(decimals)//")") value
-         call check(error, text, formatted)
-         if (allocated(error)) return
-         call write_number(value, "es", decimals, text)
-         write (formatted, "(es40."//integer_text(decimals)//")") value
-         call check(error, text, formatted)
-         if (allocated(error)) return
-      end do
-   end subroutine formatted_numbers
 
    subroutine columns(error)
       type(error_type), allocatable, intent(out) :: error
