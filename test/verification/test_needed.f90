@@ -218,7 +218,7 @@ contains
    end subroutine draw_case
 
    !> The same with every option of a deck but a numerical film, a flexible train and hours of running: nothing is estimated of the
-   !> last, and the train has a campaign of its own.
+   !> last, and the train has a campaign of its own. A camshaft has one cam, since bearings of several are not weighed.
    subroutine draw_wide_case(seed, schema, text, case, is_known)
       integer, intent(in) :: seed
       type(schema_t), intent(in) :: schema
@@ -238,6 +238,17 @@ contains
       if (allocated(failure)) return
       if (allocated(case%running_in)) return
       case%numerics = numerics_t()
+      if (allocated(case%cam_bearings)) then
+         if (allocated(case%engine)) deallocate (case%engine)
+         if (allocated(case%second_lift)) deallocate (case%second_lift)
+         associate (bearings => case%cam_bearings)
+            if (allocated(bearings%cam_shafts)) deallocate (bearings%cam_shafts)
+            bearings%cam_positions = bearings%cam_positions(:1)
+            bearings%cam_phases = [0.0_wp]
+            bearings%cam_lobes = [1]
+            bearings%follower_angles = bearings%follower_angles(:1)
+         end associate
+      end if
       call set_quantity(seed, case, is_known)
    end subroutine draw_wide_case
 
