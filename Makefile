@@ -200,7 +200,7 @@ bench-batch: build mpi ## cases per second, scaling, cost as a study grows: benc
 bench-cases: build ## where the instructions of a case go: bench/tables/case_cost.txt (twenty minutes, valgrind)
 	@$(PYTHON) bench/case_cost.py build/release/bin/camroller bench/tables/case_cost.txt build/bench/cases
 
-bench-effects: build ## instruction counts of effects, present and absent: bench/tables/effects.txt (three minutes)
+bench-effects: build ## instruction counts of effects, present and absent: bench/tables/effects.txt (ten minutes)
 	@bench/effects.sh
 
 bench-hosts: setup ## cost of a step of a host, instructions, allocations, time: bench/tables/hosts.txt (two minutes, valgrind)

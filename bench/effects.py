@@ -22,6 +22,7 @@ from __future__ import annotations
 
 import argparse
 import collections
+import functools
 import pathlib
 import re
 import subprocess
@@ -31,20 +32,34 @@ import sys
 EFFECTS = {
     "asperity": (["asperity", "greenwood_tripp"], ["load_share:improve_share", "load_share:share_with_asperities",
                                                    "load_share:complete_share", "traction:mobilised_share"]),
-    "needle_bearing": (["needle"], []),
+    "needle_bearing": (["needle", "pin_film"], ["contact_forces:load_pin"]),
+    "needle_drag": (["needle_drag"], []),
     "valve_guide": (["guide"], []),
+    "valve_tip": ([], ["stem_friction:new_tip_part"]),
+    "stem_seal": ([], ["stem_friction:new_seal_part"]),
+    "guide_side_load": ([], ["stem_friction:new_side_part"]),
+    "finger_pivot": ([], ["pivot_friction:new_pivot_part", "pivot_friction:pivot_moment", "joint_forces:set_pivot_forces"]),
+    "heat": (["heat", "conjunction"], ["contact_forces:start_heat", "contact_forces:set_inlet_factor", "part_series:add_heat"]),
+    "wear": (["wear"], []),
     "cam_bearings": (["journal", "journal_motion", "journal_orbit", "camshaft"],
                      ["part_series:add_bearings", "state:cam_force"]),
+    "journal_orbit": (["journal_motion", "journal_orbit"], ["bearing_turn:follow_journal"]),
+    "bearing_asperity": ([], ["bearing_asperity:new_touch", "bearing_asperity:share_bearing",
+                              "bearing_asperity:asperity_forces"]),
+    "belt_pull": ([], ["camshaft:share_pull"]),
     "gas_force": (["gas"], []),
     "friction_modifier": ([], ["asperity:coverage"]),
     "boundary_law": (["boundary_law"], []),
-    "bearing_heat": (["bearing_heat"], []),
+    "bearing_heat": (["bearing_heat"], ["bearing_turn:find_temperature"]),
     "shaft_drag": (["shaft_drag"], []),
     "roller_profile": (["roller_profile", "slices", "axial_table", "axial_film"],
                        ["part_series:add_axial", "part_series:add_axial_film", "follower_samples:note_ends"]),
 }
 #: Groups that are of no use without an effect
-USELESS_WITHOUT = {"cam_bearings": ["second_lift"]}
+USELESS_WITHOUT = {"cam_bearings": ["second_lift", "bearing_asperity", "bearing_heat", "belt_pull", "shaft_drag"],
+                   "asperity": ["friction_modifier", "boundary_law", "wear"], "valve_tip": ["guide_side_load"]}
+#: Effects that a key makes: its name and value
+KEYS = {"journal_orbit": ("journal_motion", "orbit")}
 #: The computation
 ROOT = "__camroller_run_MOD_run_next_case"
 #: Part of the instructions that may be unaccounted for. What samples, integrates and searches all series is dearer with the series of an
@@ -108,9 +123,11 @@ def belongs(name: str, effect: str) -> bool:
     return module in modules or f"{module}:{procedure}" in procedures
 
 
-def without_group(text: str, group: str) -> str:
-    """A deck without one of its groups, nor those that are of no use without it."""
-    for name in [group, *USELESS_WITHOUT.get(group, [])]:
+def without(text: str, effect: str) -> str:
+    """A deck without the group or key of an effect, nor groups that are of no use without it."""
+    if effect in KEYS:
+        return re.sub(rf"^\s*{KEYS[effect][0]}\s*=.*$\n?", "", text, flags=re.MULTILINE)
+    for name in [effect, *USELESS_WITHOUT.get(effect, [])]:
         text = re.sub(rf"^\s*&{name}\b.*?^\s*/\s*$\n?", "", text, flags=re.MULTILINE | re.DOTALL)
     return text
 
@@ -196,14 +213,18 @@ def main() -> int:
     parser.add_argument("program")
     parser.add_argument("deck", type=pathlib.Path)
     parser.add_argument("--set", action="append", default=[], dest="values")
+    parser.add_argument("--only", nargs="+", help="these effects alone")
     parser.add_argument("--work", type=pathlib.Path, default=pathlib.Path("build/bench"))
     arguments = parser.parse_args()
     arguments.work.mkdir(parents=True, exist_ok=True)
     options = [word for value in arguments.values for word in ("--set", value)]
-    text = without_group(arguments.deck.read_text(encoding="utf-8"), "sweep")
+    text = without(arguments.deck.read_text(encoding="utf-8"), "sweep")
     text = re.sub(r"'(tables/)", rf"'{arguments.deck.parent.resolve()}/\1", text)
     listed = [name for name in GROUP.findall(text) if name in EFFECTS]
-    decks = {"": text} | {name: without_group(text, name) for name in listed}
+    listed += [name for name, (key, value) in KEYS.items() if re.search(rf"^\s*{key}\s*=\s*'{value}'", text, re.MULTILINE)]
+    if arguments.only:
+        listed = [name for name in listed if name in arguments.only]
+    decks = {"": text} | {name: without(text, name) for name in listed}
     runs, wholes = {}, {}
     for name, content in decks.items():
         deck = arguments.work/f"effects_{name or 'all'}.nml"
@@ -230,6 +251,11 @@ def main() -> int:
         for called in foreign:
             print(f"effects.py: without &{name} there are calls of {called}", file=sys.stderr)
         failures += bool(foreign) + (abs(rest) > ALLOWED)
+    none = functools.reduce(without, listed, text)
+    deck = arguments.work/"effects_none.nml"
+    deck.write_text(none, encoding="utf-8")
+    plain = count(arguments.program, deck, options, False).total
+    print(f"# all of these: {runs[''].total/plain:.1f} times the instructions of the computation without any, {plain/1e3:.0f}")
     return 1 if failures else 0
 
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Count what effects cost and check that absent ones cost nothing; rewrites bench/tables/effects.txt.
 #
-# Usage: make bench-effects      three minutes
+# Usage: make bench-effects      ten minutes
 # Needs valgrind, which nothing else here does. Instructions are counted, so a busy machine does not matter.
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -19,6 +19,9 @@ count() { .venv/bin/python bench/effects.py "$program" "$@" --work "$work" --set
     count decks/three_cam_head.nml
     count decks/logarithmic_roller.nml --set operating_point.speed_rpm=300 --set operating_point.oil_temperature_degC=95 \
         --set roller_profile.slice_series=.false.
+    count decks/plain_pin.nml --only needle_bearing
+    count decks/journal_orbits.nml --only journal_orbit bearing_asperity
+    count bench/all_effects.nml
 } > "$work/table.part"
 mv "$work/table.part" bench/tables/effects.txt
 cat bench/tables/effects.txt
