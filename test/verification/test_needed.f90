@@ -29,8 +29,8 @@ module test_needed
 
    public :: collect_needed
 
-   !> Cases of a test run, and the seed of the first
-   integer, parameter :: usual_cases = 4, usual_seed = 1
+   !> Cases of a test run, with every option, which take as long as ten others, and the seed of the first
+   integer, parameter :: usual_cases = 4, wide_cases = 1, usual_seed = 1
    !> Accuracy of the runs that are compared; of those that decide where a change seems larger than its estimate, since a mean in
    !> which much cancels is less accurate than what it is a mean of [-]
    real(wp), parameter :: accuracy = 1.0e-5_wp, high_accuracy = 1.0e-10_wp
@@ -94,7 +94,7 @@ contains
       logical :: is_known
 
       call new_schema(schema)
-      wanted = number_from("NEEDED_CASES", usual_cases)
+      wanted = number_from("NEEDED_CASES", wide_cases)
       seed = number_from("NEEDED_SEED", usual_seed)
       call start_tally(tally)
       tested = 0
