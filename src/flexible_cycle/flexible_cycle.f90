@@ -136,7 +136,11 @@ contains
       turn%options%step = first_step
       turn%options%max_step = largest_step
       turn%options%max_steps = most_steps
-      turn%stops = cycle_stops(model%lift_stops, -pi)
+      if (allocated(model%gas)) then
+         turn%stops = cycle_stops([model%lift_stops, model%gas%sharp_angles], -pi)
+      else
+         turn%stops = cycle_stops(model%lift_stops, -pi)
+      end if
    end subroutine start_turns
 
    !> Set the errors allowed in a step, and with that of the sliding speed what is not resolved of it.

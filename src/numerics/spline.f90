@@ -12,7 +12,7 @@ module camroller_spline
    implicit none
    private
 
-   public :: spline_t, new_clamped_spline, new_periodic_spline, evaluate_spline
+   public :: spline_t, new_clamped_spline, new_periodic_spline, evaluate_spline, sharp_points
    public :: spline_inside, spline_outside
 
    !> The point lies in the table
@@ -128,6 +128,27 @@ contains
          values(3) = 6.0_wp*c(4) + t*(24.0_wp*c(5) + t*60.0_wp*c(6))
       end associate
    end subroutine evaluate_spline
+
+   !> Points of a periodic table where its curve bends sharply: where the pieces on both sides, each carried on, differ by more than
+   !> an amount at the end of the shorter one. What follows the curve with steps longer than the table's need not see what is there.
+   pure function sharp_points(spline, amount) result(points)
+      !> The function, periodic
+      type(spline_t), intent(in) :: spline
+      !> Difference from which on a point counts [y]
+      real(wp), intent(in) :: amount
+      !> The points, increasing; the last of the table counts as the first [x]
+      real(wp), allocatable :: points(:)
+
+      ! Length of a piece [x], coefficient of its highest power [y/x^5], both of the piece before it
+      real(wp), dimension(size(spline%pieces, 2)) :: length, coefficient, length_before, coefficient_before
+
+      length = spline%points(2:) - spline%points(:size(length))
+      coefficient = spline%pieces(5, :)
+      length_before = cshift(length, -1)
+      coefficient_before = cshift(coefficient, -1)
+      points = pack(spline%points(:size(length)), abs(coefficient - coefficient_before)*min(length, length_before)**5 &
+         & > amount)
+   end function sharp_points
 
    !> Number of the piece that holds a point of the table.
    pure function piece_by_bisection(points, x) result(piece)

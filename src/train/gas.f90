@@ -5,7 +5,7 @@ module camroller_gas
    use camroller_kinds, only : wp, two_pi
    use camroller_error, only : error_t, add_context, raise, kind_deck
    use camroller_dynamics, only : gas_force_t
-   use camroller_spline, only : spline_t, new_periodic_spline, evaluate_spline
+   use camroller_spline, only : spline_t, new_periodic_spline, evaluate_spline, sharp_points
    implicit none
    private
 
@@ -17,6 +17,8 @@ module camroller_gas
       type(spline_t) :: pressure
       !> First angle of the table [rad]
       real(wp) :: first_angle = 0.0_wp
+      !> Cam angles from full lift, of any turn, where the table bends sharply [rad]
+      real(wp), allocatable :: sharp_angles(:)
       !> Area of the valve head [m^2]
       real(wp) :: valve_area = 0.0_wp
       !> Does a host program give the pressure in the place of the table?
@@ -26,6 +28,9 @@ module camroller_gas
       !> Pressure there [Pa] and its change with the cam angle [Pa/rad]
       real(wp) :: given_pressure = 0.0_wp, given_slope = 0.0_wp
    end type gas_law_t
+
+   !> Part of the largest pressure by which neighbouring pieces of the curve differ where it bends sharply [-]
+   real(wp), parameter :: sharp = 1.0e-5_wp
 
 contains
 
@@ -56,7 +61,9 @@ contains
       end if
       call new_periodic_spline(law%pressure, [gas%angle(:last - 1), gas%angle(1) + two_pi], gas%pressure, 0.0_wp, error)
       call add_context(error, "gas force")
+      if (allocated(error)) return
       law%first_angle = gas%angle(1)
+      law%sharp_angles = sharp_points(law%pressure, sharp*maxval(abs(gas%pressure)))
       law%valve_area = gas%valve_area
    end subroutine new_gas_law
 

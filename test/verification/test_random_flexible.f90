@@ -36,7 +36,7 @@ module test_random_flexible
    real(wp), parameter :: slowest = 30.0_wp
    !> Decks of earlier campaigns in which two methods differed by more than both promised; why stands in each
    character(len=*), parameter :: kept_decks(*) = [character(len=16) :: "slow_approach", "drifting_plunger", "bouncing_seat", &
-      & "long_steps", "bent_steps"]
+      & "long_steps", "bent_steps", "pressure_corner"]
 
 contains
 
