@@ -50,7 +50,7 @@ def test_files_procedures_and_tests_of_a_row_exist(number, what, where, test):
 def test_deck_keys_exist():
     named = re.findall(r"`(\w+)\.(\w+)`", section(22))
     assert len(named) > 30
-    groups = set(re.findall(r'add_group\(schema, "(\w+)"', KEYS))
+    groups = set(re.findall(r'(?:add_group\(schema, |:: group = )"(\w+)"', KEYS))
     keys = set(re.findall(r'add_\w+\(schema, "(\w+)"', KEYS))
     assert {group for group, _ in named} <= groups
     assert {key for _, key in named} <= keys

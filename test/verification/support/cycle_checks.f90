@@ -122,10 +122,14 @@ contains
       associate (contact => state%contact)
          if (.not. all(ieee_is_finite([contact%sliding_speed, contact%traction, contact%traction_slope, contact%load, &
             & contact%film_min, contact%film_central, contact%asperity_load, contact%rolling_resistance, contact%bearing_torque, &
-            & state%torque_drive, state%torque_friction, state%torques, state%spin_acceleration]))) fault = "a number is not finite"
-         if (fault /= "") return
-         if (min(contact%load, contact%film_min, contact%asperity_load, contact%real_area, contact%boundary_capacity) < 0.0_wp) &
-            & fault = "a load, a film or an area is negative"
+            & state%torque_drive, state%torque_friction, state%torques, state%spin_acceleration]))) then
+            fault = "a number is not finite"
+            return
+         end if
+         if (min(contact%load, contact%film_min, contact%asperity_load, contact%real_area, contact%boundary_capacity) &
+            & < 0.0_wp) then
+            fault = "a load, a film or an area is negative"
+         end if
          if (contact%asperity_load > contact%load) fault = "asperities carry more than the load"
          if (contact%real_area > contact%apparent_area) fault = "the real area is above the apparent one"
          if (contact%film_min > contact%film_central) fault = "the smallest film is above the central one"
