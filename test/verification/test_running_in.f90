@@ -284,7 +284,7 @@ contains
       case = running_case()
       ! cycles whose own errors are below those of the steps
       case%numerics%tolerance = 1.0e-5_wp
-      case%running_in%accuracy = 2.0e-4_wp
+      case%running_in%accuracy = 5.0e-4_wp
       call make_model(case, fine, error)
       if (allocated(error)) return
       call run_in(case, fine, finest, failure)

@@ -119,10 +119,11 @@ contains
    end subroutine test_order
 
    !> A step of more than half a turn is integrated in halves, each of which a host could have asked for: the same steps of the
-   !> integration, so that states have the same bits and means differ by the rounding of a sum of two.
+   !> integration, so that states have the same bits and means differ by the rounding of a sum of two. Contacts at which extremes
+   !> are looked for start from those before, and are solved to a hundredth of the case's tolerance.
    subroutine test_long_step(error)
       type(error_type), allocatable, intent(out) :: error
-      real(wp), parameter :: tolerance = 8.0_wp*epsilon(1.0_wp)
+      real(wp), parameter :: tolerance = 8.0_wp*epsilon(1.0_wp), of_contacts = 1.0e-11_wp
       ! Cam angles of the start, the middle and the end [rad]: the nose is in the first half, then in the second
       real(wp), parameter :: angles(3, 2) = reshape([2.0_wp, 4.0_wp, 6.0_wp, 0.25_wp, 2.25_wp, 4.25_wp], [3, 2])
       type(simulation_t) :: whole, halved
@@ -151,13 +152,13 @@ contains
          call check_close(error, once%mean_torque_friction, 0.5_wp*sum(halves%mean_torque_friction), tolerance, "mean friction")
          if (allocated(error)) return
          associate (extremes => once%extremes, first => halves(1)%extremes, second => halves(2)%extremes)
-            call check_close(error, extremes%contact_load(1), min(first%contact_load(1), second%contact_load(1)), tolerance, &
+            call check_close(error, extremes%contact_load(1), min(first%contact_load(1), second%contact_load(1)), of_contacts, &
                & "smallest load")
             if (allocated(error)) return
-            call check_close(error, extremes%contact_load(2), max(first%contact_load(2), second%contact_load(2)), tolerance, &
+            call check_close(error, extremes%contact_load(2), max(first%contact_load(2), second%contact_load(2)), of_contacts, &
                & "largest load")
             if (allocated(error)) return
-            call check_close(error, extremes%film_min, min(first%film_min, second%film_min), tolerance, "smallest film")
+            call check_close(error, extremes%film_min, min(first%film_min, second%film_min), of_contacts, "smallest film")
             if (allocated(error)) return
 call check(error, (first%contact_load(2) > second%contact_load(2)) .eqv. i == 1, &
                & "the nose is in the other half")
