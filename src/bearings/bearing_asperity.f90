@@ -17,15 +17,14 @@ module camroller_bearing_asperity
    use camroller_error, only : error_t, raise, kind_deck
    use camroller_asperity, only : load_factor
    use camroller_greenwood_tripp, only : integral_5_2, largest_film_ratio
-   use camroller_journal, only : journal_t, find_tangent, load_at, film_friction, film_direction, journal_solved, &
-      & journal_without_film
+   use camroller_journal, only : journal_t, film_t, film_at, find_tangent, film_friction, journal_solved, journal_without_film
    use camroller_quadrature, only : gauss_legendre
-   use camroller_roots, only : bracket_t, start_bracket, narrow_bracket, root_found, root_wanted
+   use camroller_spline, only : spline_t, new_clamped_spline, evaluate_spline
    implicit none
    private
 
-   public :: bearing_asperity_t, touch_t, bearing_state_t, new_touch, carry_load, asperity_forces, clearance_is_enough, &
-      & clearance_advice
+   public :: bearing_asperity_t, touch_t, bearing_state_t, balance_t, new_touch, carry_load, balance_load, asperity_forces, &
+      & clearance_is_enough, clearance_advice
 
    !> What a case says about the surfaces of its camshaft bearings
    type :: bearing_asperity_t
@@ -43,6 +42,10 @@ module camroller_bearing_asperity
 
    !> Points of the integral over the contact; the error is below 1e-11 of the integral, see its test
    integer, parameter :: points = 24
+   !> Pieces of the tables, up to the film ratio at which asperities part; their error is below 1e-9 of the largest force
+   integer, parameter :: pieces = 160
+   !> A smallest film ratio of nothing, as e/sqrt(1 - e^2) [-]
+   real(wp), parameter :: squeezed = 1.0e100_wp
 
    !> Surfaces made ready
    type :: touch_t
@@ -54,7 +57,20 @@ module camroller_bearing_asperity
       real(wp) :: boundary_coefficient = 0.0_wp
       !> Places and weights of the integral on (0, 1) [-]
       real(wp) :: places(points) = 0.0_wp, weights(points) = 0.0_wp
+      !> Force along the line of centres and sum of the normal forces, over pressure, radius and width, by the smallest
+      !> film ratio [-]
+      type(spline_t) :: along, normal
    end type touch_t
+
+   !> Film and asperities at one eccentricity
+   type :: balance_t
+      !> Load over the one wanted, in logarithms, and its slopes over ln t and over the logarithm of viscosity times speed [-]
+      real(wp) :: excess = 0.0_wp, slope = 0.0_wp, by_speed = 0.0_wp
+      !> Load of asperities along the line of centres, sum of their normal forces and its slope over ln t [N]
+      real(wp) :: along = 0.0_wp, normal = 0.0_wp, normal_slope = 0.0_wp
+      !> The film
+      type(film_t) :: film
+   end type balance_t
 
    !> A bearing at one instant
    type :: bearing_state_t
@@ -104,7 +120,61 @@ contains
       call gauss_legendre(touch%places, touch%weights)
       touch%places = 0.5_wp*(1.0_wp + touch%places)
       touch%weights = 0.5_wp*touch%weights
+      call tabulate_forces(touch, clearance, error)
    end subroutine new_touch
+
+   !> Tables of the forces of asperities, from a bearing of one metre's radius and width.
+   subroutine tabulate_forces(touch, clearance, error)
+      !> The surfaces; get the tables
+      type(touch_t), intent(inout) :: touch
+      !> Radial clearance [m]
+      real(wp), intent(in) :: clearance
+      !> Domain error
+      type(error_t), allocatable, intent(out) :: error
+
+      ! Step for the derivatives at the end [-]
+      real(wp), parameter :: h = 2.0e-3_wp
+      type(journal_t) :: journal
+      ! Film ratios, forces over those scales there, forces near the end; slopes and curvatures at the end [-]
+      real(wp) :: ratios(0:pieces), forces(2, 0:pieces), near(2, 0:4), start(2, 2)
+      integer :: i
+
+      journal%radius = 1.0_wp
+      journal%width_ratio = 0.5_wp
+      journal%clearance_ratio = clearance
+      do i = 0, pieces
+         ratios(i) = largest_film_ratio*i/pieces
+         call force_at(ratios(i), forces(:, i))
+      end do
+      do i = 0, 4
+         call force_at(h*i, near(:, i))
+      end do
+      start(1, :) = matmul(near, [-25.0_wp, 48.0_wp, -36.0_wp, 16.0_wp, -3.0_wp])/(12.0_wp*h)
+      start(2, :) = matmul(near, [35.0_wp, -104.0_wp, 114.0_wp, -56.0_wp, 11.0_wp])/(12.0_wp*h**2)
+      call new_clamped_spline(touch%along, ratios, forces(1, :), start(:, 1), [0.0_wp, 0.0_wp], 0.0_wp, error)
+      if (allocated(error)) return
+      call new_clamped_spline(touch%normal, ratios, forces(2, :), start(:, 2), [0.0_wp, 0.0_wp], 0.0_wp, error)
+
+   contains
+
+      !> Forces at a film ratio.
+      subroutine force_at(ratio, force)
+         !> Smallest film over roughness [-]
+         real(wp), intent(in) :: ratio
+         !> Along the line of centres, sum of normal forces, over those scales [-]
+         real(wp), intent(out) :: force(2)
+
+         ! 1 - e, e/sqrt(1 - e^2) [-]
+         real(wp) :: gap, t
+
+         gap = ratio*touch%roughness/clearance
+         t = squeezed
+         if (gap > 0.0_wp) t = (1.0_wp - gap)/sqrt(gap*(2.0_wp - gap))
+         call asperity_forces(journal, touch, t, force(1), force(2))
+         force = force/touch%pressure
+      end subroutine force_at
+
+   end subroutine tabulate_forces
 
    !> Are the surfaces of a bearing apart where its journal is in the middle?
    pure function clearance_is_enough(roughness, clearance) result(answer)
@@ -129,86 +199,120 @@ contains
       !> Its surfaces; without them there is a film only
       type(touch_t), intent(in), optional :: touch
 
-      !> Whole load, that of the film [N]; t, e/sqrt(1 - e^2), and sqrt(1 + t^2) [-]; sum of normal forces of asperities [N]
-      real(wp) :: whole, by_film, t, secant, normal
+      type(balance_t) :: balance
+      ! Whole load, that of the film [N]; t, e/sqrt(1 - e^2), and sqrt(1 + t^2) [-]
+      real(wp) :: whole, by_film, t, secant
 
       state%load = load
       whole = norm2(load)
       by_film = whole
-      normal = 0.0_wp
       call find_tangent(journal, whole, t, status)
       if (status /= journal_solved) return
       if (present(touch)) then
-         if (t > first_touch(journal, touch)) call share_bearing(journal, touch, whole, t, by_film, state%asperity_load, &
-            & normal, status)
-         if (status /= journal_solved) return
-         state%boundary_torque = touch%boundary_coefficient*normal*journal%radius
+         if (t > first_touch(journal, touch)) then
+            ! By table first, which leaves two evaluations of the integrals
+            call balance_load(journal, touch, whole, .false., t, balance, status)
+            if (status == journal_solved) call balance_load(journal, touch, whole, .true., t, balance, status)
+            if (status /= journal_solved) return
+            by_film = journal%unit_load*balance%film%number
+            state%asperity_load = balance%along
+            state%boundary_torque = touch%boundary_coefficient*balance%normal*journal%radius
+         end if
       end if
       secant = sqrt(1.0_wp + t**2)
       state%eccentricity = t/secant
       state%film = clearance_of(journal)/(secant*(secant + t))
-      state%torque = film_friction(journal, by_film, t)*journal%radius
-      if (normal > 0.0_wp) state%torque = state%torque + state%boundary_torque
+      state%torque = film_friction(journal, by_film, t)*journal%radius + state%boundary_torque
    end subroutine carry_load
 
-   !> Share a load between film and asperities: both grow with the eccentricity, and the film alone bounds it.
-   pure subroutine share_bearing(journal, touch, whole, t, by_film, along, normal, status)
+   !> Eccentricity at which film and asperities carry a load, by Newton's method on logarithms inside a bracket: both grow with
+   !> it, and the film alone bounds it.
+   pure subroutine balance_load(journal, touch, load, is_exact, t, balance, status)
       !> The bearing
       type(journal_t), intent(in) :: journal
       !> Its surfaces
       type(touch_t), intent(in) :: touch
       !> Load [N]
-      real(wp), intent(in) :: whole
-      !> In: e/sqrt(1 - e^2) that the film alone would have, with asperities in touch; out: with their load [-]
+      real(wp), intent(in) :: load
+      !> Are the integrals evaluated in place of their tables?
+      logical, intent(in) :: is_exact
+      !> e/sqrt(1 - e^2); in: that of the film alone, or the root by table; apart, it stays [-]
       real(wp), intent(inout) :: t
-      !> Load of the film; of asperities, along the line of centres; sum of their normal forces [N]
-      real(wp), intent(out) :: by_film, along, normal
+      !> Loads there
+      type(balance_t), intent(out) :: balance
       !> `journal_solved` or `journal_without_film`
       integer, intent(out) :: status
 
-      type(bracket_t) :: bracket
-      !> Logarithms of the ends, and of the load over that wanted there [-]
-      real(wp) :: ends(2), excess(2)
+      ! A step whose square is rounding: loads rise with up to the thirtieth power [-]
+      real(wp), parameter :: last_step = 1.0e-9_wp
+      ! Room above the start for what it is off, far more than by rounding or by the tables [-]
+      real(wp), parameter :: room = 0.1_wp
+      ! Steps at most: bisection of the bracket to rounding
+      integer, parameter :: most_steps = 60
+      ! Logarithms of t, its bounds, step [-]
+      real(wp) :: place, low, high, step
       integer :: i
+      logical :: is_last
 
-      ends = log([first_touch(journal, touch), t])
-      do i = 1, 2
-         call carried(ends(i), excess(i))
-      end do
-      ! No load is carried by asperities at the one, none is missing at the other, but for rounding
-      excess = [min(excess(1), 0.0_wp), max(excess(2), 0.0_wp)]
-      call start_bracket(bracket, ends(1), ends(2), excess(1), excess(2), 0.0_wp)
-      do while (bracket%status == root_wanted)
-         call carried(bracket%trial, excess(1))
-         call narrow_bracket(bracket, excess(1))
+      status = journal_solved
+      place = log(t)
+      low = min(log(first_touch(journal, touch)), place)
+      high = place + room
+      call compare_loads(journal, touch, load, is_exact, t, balance)
+      if (.not. balance%along > 0.0_wp) return
+      do i = 1, most_steps
+         if (balance%excess > 0.0_wp) high = min(high, place)
+         if (balance%excess < 0.0_wp) low = max(low, place)
+         step = -balance%excess/balance%slope
+         is_last = abs(step) <= last_step
+         if (.not. (is_last .or. place + step > low .and. place + step < high)) step = 0.5_wp*(low + high) - place
+         place = place + step
+         t = exp(place)
+         call compare_loads(journal, touch, load, is_exact, t, balance)
+         if (is_last) return
       end do
       status = journal_without_film
-      if (bracket%status /= root_found) return
-      status = journal_solved
-      t = exp(bracket%trial)
-      by_film = load_at(journal, t)
-      call asperity_forces(journal, touch, t, along, normal)
+   end subroutine balance_load
 
-   contains
+   !> Loads at one eccentricity.
+   pure subroutine compare_loads(journal, touch, load, is_exact, t, balance)
+      !> The bearing
+      type(journal_t), intent(in) :: journal
+      !> Its surfaces
+      type(touch_t), intent(in) :: touch
+      !> Load wanted [N]
+      real(wp), intent(in) :: load
+      !> Are the integrals evaluated in place of their tables?
+      logical, intent(in) :: is_exact
+      !> e/sqrt(1 - e^2) [-]
+      real(wp), intent(in) :: t
+      !> The loads
+      type(balance_t), intent(out) :: balance
 
-      !> Logarithm of the load carried over that wanted.
-      pure subroutine carried(log_t, excess)
-         !> Logarithm of t [-]
-         real(wp), intent(in) :: log_t
-         !> That of the loads' ratio [-]
-         real(wp), intent(out) :: excess
+      ! Attitude angle and its slope over ln t [rad]
+      real(wp) :: angle, angle_slope
+      ! Load of the film, components along the line of centres and across it, and slopes over ln t [N]
+      real(wp) :: film, along, across, along_slope, across_slope, pressed_slope
 
-         !> Loads [N], attitude angle [rad]
-         real(wp) :: film, part, pressed, angle
-
-         film = load_at(journal, exp(log_t))
-         call asperity_forces(journal, touch, exp(log_t), part, pressed)
-         ! The fit of finite width is a little beyond a right angle where the eccentricity is small; no film pulls
-         angle = min(film_direction(journal, exp(log_t)), 0.5_wp*pi)
-         excess = log(hypot(film*cos(angle) + part, film*sin(angle))/whole)
-      end subroutine carried
-
-   end subroutine share_bearing
+      balance%film = film_at(journal, t)
+      ! The fit of finite width is a little beyond a right angle where the eccentricity is small; no film pulls
+      angle = min(balance%film%angle, 0.5_wp*pi)
+      angle_slope = merge(balance%film%angle_slope, 0.0_wp, balance%film%angle < 0.5_wp*pi)
+      film = journal%unit_load*balance%film%number
+      if (is_exact) then
+         call asperity_forces(journal, touch, t, balance%along, balance%normal, pressed_slope, balance%normal_slope)
+      else
+         call tabulated_forces(journal, touch, t, balance%along, balance%normal, pressed_slope, balance%normal_slope)
+      end if
+      across = film*sin(angle)
+      along = film*cos(angle)
+      along_slope = along*balance%film%number_slope - across*angle_slope + pressed_slope
+      across_slope = across*balance%film%number_slope + along*angle_slope
+      balance%by_speed = (along*(along + balance%along) + across**2)/((along + balance%along)**2 + across**2)
+      along = along + balance%along
+      balance%slope = (along*along_slope + across*across_slope)/(along**2 + across**2)
+      balance%excess = log(hypot(along, across)/load)
+   end subroutine compare_loads
 
    !> Eccentricity at which the first asperities touch, as `t = e/sqrt(1 - e^2)`.
    pure function first_touch(journal, touch) result(t)
@@ -226,8 +330,37 @@ contains
       t = (1.0_wp - gap)/sqrt(gap*(2.0_wp - gap))
    end function first_touch
 
-   !> Forces of the asperities of a bearing, by Gauss' rule over the part of it where they touch.
-   pure subroutine asperity_forces(journal, touch, t, along, normal)
+   !> Forces of the asperities of a bearing by the tables, with their slopes over ln t.
+   pure subroutine tabulated_forces(journal, touch, t, along, normal, along_slope, normal_slope)
+      !> The bearing
+      type(journal_t), intent(in) :: journal
+      !> Its surfaces
+      type(touch_t), intent(in) :: touch
+      !> e/sqrt(1 - e^2) [-]
+      real(wp), intent(in) :: t
+      !> Force along the line of centres, sum of the normal forces, their slopes [N]
+      real(wp), intent(out) :: along, normal, along_slope, normal_slope
+
+      ! sqrt(1 + t^2), clearance over roughness, smallest film ratio, its slope over ln t, forces over their scale [-]; scale [N]
+      real(wp) :: secant, wide, ratio, ratio_slope, values(0:3), scale
+      integer :: status
+
+      secant = sqrt(1.0_wp + t**2)
+      wide = clearance_of(journal)/touch%roughness
+      ratio = wide/(secant*(secant + t))
+      ratio_slope = -wide*t/secant**3
+      scale = touch%pressure*2.0_wp*journal%radius**2*journal%width_ratio
+      ! Zero beyond the end of the tables, where asperities are apart
+      call evaluate_spline(touch%normal, ratio, values, status)
+      normal = scale*max(values(0), 0.0_wp)
+      normal_slope = scale*values(1)*ratio_slope
+      call evaluate_spline(touch%along, ratio, values, status)
+      along = scale*max(values(0), 0.0_wp)
+      along_slope = scale*values(1)*ratio_slope
+   end subroutine tabulated_forces
+
+   !> Forces of the asperities of a bearing, by Gauss' rule over the part of it where they touch, with their slopes over ln t.
+   pure subroutine asperity_forces(journal, touch, t, along, normal, along_slope, normal_slope)
       !> The bearing
       type(journal_t), intent(in) :: journal
       !> Its surfaces
@@ -236,6 +369,8 @@ contains
       real(wp), intent(in) :: t
       !> Force along the line of centres, sum of the normal forces [N]
       real(wp), intent(out) :: along, normal
+      !> Their slopes [N]
+      real(wp), intent(out), optional :: along_slope, normal_slope
 
       !> Clearance [m]; e, smallest film over clearance, sine of half the angle where contact ends [-]
       real(wp) :: clearance, eccentricity, gap, sine
@@ -246,6 +381,8 @@ contains
 
       along = 0.0_wp
       normal = 0.0_wp
+      if (present(along_slope)) along_slope = 0.0_wp
+      if (present(normal_slope)) normal_slope = 0.0_wp
       clearance = clearance_of(journal)
       eccentricity = t/sqrt(1.0_wp + t**2)
       gap = 1.0_wp/(sqrt(1.0_wp + t**2)*(sqrt(1.0_wp + t**2) + t))
@@ -261,6 +398,11 @@ contains
       associate (scale => 2.0_wp*last*touch%pressure*2.0_wp*journal%radius**2*journal%width_ratio)
          along = scale*sum(touch%weights*integrals*cos(angles))
          normal = scale*sum(touch%weights*integrals)
+         if (.not. (present(along_slope) .and. present(normal_slope))) return
+         ! The film grows by -cos of the angle times that of e, t/(1 + t^2)^1.5; the ends of the contact carry no pressure
+         slopes = -clearance/touch%roughness*eccentricity/(1.0_wp + t**2)*slopes*cos(angles)
+         along_slope = scale*sum(touch%weights*slopes*cos(angles))
+         normal_slope = scale*sum(touch%weights*slopes)
       end associate
    end subroutine asperity_forces
 

@@ -16,7 +16,7 @@ module camroller_journal
 
    public :: cam_bearings_t, journal_t, journal_law_names
    public :: new_journal, journal_torque, journal_at_speed, journal_friction, law_covers_width, width_advice
-   public :: journal_solved, journal_without_film, find_tangent, load_at, film_friction, film_direction, film_t, film_at
+   public :: journal_solved, journal_without_film, find_tangent, film_friction, film_t, film_at
    public :: journal_motion_names, motion_quasi_steady, motion_orbit, law_can_orbit, orbit_advice, moves_like_finite, &
       & is_short
 
@@ -272,43 +272,8 @@ contains
       end select
    end function film_friction
 
-   !> Load that the film carries.
-   pure function load_at(journal, t) result(load)
-      !> The bearing
-      type(journal_t), intent(in) :: journal
-      !> e/sqrt(1 - e^2), positive [-]
-      real(wp), intent(in) :: t
-      !> The load [N]
-      real(wp) :: load
-
-      !> Load number, and its slope [-]
-      real(wp) :: number, slope
-
-      call load_number(journal, t, number, slope)
-      load = journal%unit_load*number
-   end function load_at
-
-   !> Angle between the film's force and the line of centres: a right one in the long bearing with its full film, that of Ocvirk
-   !> (1952) in the short one.
-   pure function film_direction(journal, t) result(angle)
-      !> The bearing
-      type(journal_t), intent(in) :: journal
-      !> e/sqrt(1 - e^2) [-]
-      real(wp), intent(in) :: t
-      !> Attitude angle [rad]
-      real(wp) :: angle
-
-      select case (journal%law)
-      case (law_long)
-         angle = 0.5_wp*pi
-      case (law_short)
-         angle = atan2(pi, 4.0_wp*t)
-      case default
-         angle = attitude_angle(journal%width_ratio, t)
-      end select
-   end function film_direction
-
-   !> Film of a short or finite bearing at an eccentricity, with its slopes.
+   !> Film of a bearing at an eccentricity, with its slopes. The attitude angle is a right one in the long bearing with its full
+   !> film, that of Ocvirk (1952) in the short one.
    pure function film_at(journal, t) result(film)
       !> The bearing
       type(journal_t), intent(in) :: journal
@@ -318,12 +283,15 @@ contains
       type(film_t) :: film
 
       call load_number(journal, t, film%number, film%number_slope)
-      if (journal%law == law_short) then
+      select case (journal%law)
+      case (law_long)
+         film%angle = 0.5_wp*pi
+      case (law_short)
          film%angle = atan2(pi, 4.0_wp*t)
          film%angle_slope = -4.0_wp*pi*t/(16.0_wp*t**2 + pi**2)
-      else
+      case default
          call finite_angle(journal%width_ratio, t, film%angle, film%angle_slope)
-      end if
+      end select
    end function film_at
 
    !> e/sqrt(1 - e^2) under a load, by Newton's method on logarithms: there the load number rises with a slope between 1 and 4

@@ -8,7 +8,7 @@ module camroller_journal_orbit
    use camroller_bearing_asperity, only : bearing_state_t, carry_load, touch_t
    use camroller_cam_angle, only : cam_angle_text
    use camroller_error, only : error_t, raise, kind_convergence
-   use camroller_journal, only : film_direction, journal_solved, journal_t
+   use camroller_journal, only : film_at, film_t, journal_solved, journal_t
    use camroller_journal_motion, only : journal_velocity
    use camroller_number_text, only : integer_text
    use camroller_ode, only : counters_t, integrate, method_t, options_t, problem_t
@@ -152,6 +152,7 @@ contains
       real(wp), intent(out) :: place(2)
 
       type(bearing_state_t) :: state
+      type(film_t) :: film
       ! Load [N], angle of the place from it [rad]
       real(wp) :: load(2), attitude
       integer :: status
@@ -161,8 +162,9 @@ contains
       if (status /= 0) return
       call carry_load(problem%journal, load, state, status, problem%touch)
       if (status /= journal_solved .or. .not. state%eccentricity > 0.0_wp) return
-      attitude = problem%rotation*film_direction(problem%journal, state%eccentricity/sqrt((1.0_wp - state%eccentricity) &
-         & *(1.0_wp + state%eccentricity) + tiny(1.0_wp)))
+      film = film_at(problem%journal, state%eccentricity/sqrt((1.0_wp - state%eccentricity)*(1.0_wp + state%eccentricity) &
+         & + tiny(1.0_wp)))
+      attitude = problem%rotation*film%angle
       place = min(state%eccentricity, largest_start)/norm2(load)*[cos(attitude)*load(1) - sin(attitude)*load(2), &
          & sin(attitude)*load(1) + cos(attitude)*load(2)]
    end subroutine start_place

@@ -7,7 +7,7 @@ module test_mixed_bearings
    use camroller_case, only : case_t
    use camroller_error, only : error_t, kind_deck
    use camroller_greenwood_tripp, only : integral_5_2
-   use camroller_journal, only : film_direction, film_friction, journal_at_speed, journal_law_names, journal_t, load_at
+   use camroller_journal, only : film_at, film_friction, film_t, journal_at_speed, journal_law_names, journal_t
    use camroller_quadrature, only : integral_reached, integrand_t, integrate
    use camroller_result, only : find_quantity, result_t
    use camroller_run, only : run_case
@@ -137,7 +137,8 @@ contains
       type(touch_t) :: touch
       type(journal_t) :: journal
       type(bearing_state_t) :: state, before
-      real(wp) :: load, film, t, angle, along, normal
+      type(film_t) :: film
+      real(wp) :: load, carried, t, angle, along, normal
       integer :: law, i, status
 
       call new_touch(touch, surfaces, clearance, failure)
@@ -161,13 +162,14 @@ contains
             associate (gap => state%film/clearance)
                t = (1.0_wp - gap)/sqrt(gap*(2.0_wp - gap))
             end associate
-            film = load_at(journal, t)
+            film = film_at(journal, t)
+            carried = journal%unit_load*film%number
             call asperity_forces(journal, touch, t, along, normal)
-            angle = min(film_direction(journal, t), 0.5_wp*pi)
+            angle = min(film%angle, 0.5_wp*pi)
             ! t to a few units of round-off; the heaviest loads rise with its fourth power
-            call check(error, abs(hypot(film*cos(angle) + along, film*sin(angle))/load - 1.0_wp) < 1.0e-12_wp, "the load")
+            call check(error, abs(hypot(carried*cos(angle) + along, carried*sin(angle))/load - 1.0_wp) < 1.0e-12_wp, "the load")
             if (allocated(error)) return
-            call check(error, abs((film_friction(journal, film, t) + 0.1_wp*normal)*0.5_wp*diameter/state%torque - 1.0_wp) &
+            call check(error, abs((film_friction(journal, carried, t) + 0.1_wp*normal)*0.5_wp*diameter/state%torque - 1.0_wp) &
                & < 1.0e-12_wp .and. normal >= along, "the torque")
             if (allocated(error)) return
          end do
