@@ -23,8 +23,10 @@ RESULTS = ("mean_torque_drive", "mean_torque_friction", "mean_torque_contact", "
 COUNTERS = ("counter_evaluations", "counter_steps", "counter_rejected", "counter_cycles")
 # Five times what the build with run-time checks and the optimised one differ by at most, in the largest sliding speed
 RELATIVE = 1.2e-6
-# Rounding can decide whether a step is taken
-COUNTS = 0.02
+# Rounding can decide whether a step is taken; at least, where the builds differ by six rejected steps in a case of sliding joints
+COUNTS, LEAST_COUNT = 0.02, 10
+# The same for a flexible train, in which rounding decides about steps at impacts: its tolerance; twice what the builds differ by
+RELATIVE_FLEXIBLE, COUNTS_FLEXIBLE = 1e-3, 0.13
 HEADER = """# Key results and counters of the decks in `decks`, one row a quantity and case, in the units of result files.
 # Source: this program; written by `make bless`. A change here is a change of results and needs a reason.
 """
@@ -63,5 +65,6 @@ def test_results_and_counters_are_those_of_the_table(camroller, tmp_path):
     known = {row[:3]: row[3] for row in stored()}
     assert set(known) == {row[:3] for row in rows}
     for deck, case, name, value in rows:
-        share = COUNTS if name in COUNTERS else RELATIVE
-        assert value == pytest.approx(known[deck, case, name], rel=share, abs=3 if name in COUNTERS else 0), (deck, case, name)
+        relative, counts = (RELATIVE_FLEXIBLE, COUNTS_FLEXIBLE) if deck in CHANGES else (RELATIVE, COUNTS)
+        share = counts if name in COUNTERS else relative
+        assert value == pytest.approx(known[deck, case, name], rel=share, abs=LEAST_COUNT if name in COUNTERS else 0), (deck, case, name)
