@@ -20,7 +20,7 @@ module camroller_history_file
    !> A list: the part of the model that it comes from, its group, its axis
    type :: list_t
       character(len=name_length) :: source, group, axis
-      character(len=40) :: meaning
+      character(len=48) :: meaning
    end type list_t
 
    !> The lists; a case has one of them at most, since running-in needs a rigid train

@@ -88,7 +88,7 @@ contains
       type(error_t), allocatable :: error
       ! Largest energy left over and largest sum of powers [W], smallest and largest numbers that must be possible
       real(wp) :: residual, power
-      character(len=40) :: fault
+      character(len=48) :: fault
       integer :: i, hint
 
       hint = 1
@@ -116,7 +116,7 @@ contains
       !> The state
       type(state_t), intent(in) :: state
       !> The fault
-      character(len=40) :: fault
+      character(len=48) :: fault
 
       fault = ""
       associate (contact => state%contact)
