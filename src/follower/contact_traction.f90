@@ -260,7 +260,7 @@ contains
          step = -excess
          if (force > 0.0_wp) step = -excess/(1.0_wp + rise*abs(parts%heat%by_rise)/force)
          next = rise*exp(step)
-         if (abs(step)*rise*model%heat%hot%coefficient <= last_step) then
+         if (abs(step)*max(rise, next)*model%heat%hot%coefficient <= last_step) then
             parts%shear = parts%shear + parts%heat%by_rise*(next - rise)
             exit
          end if

@@ -33,6 +33,7 @@ contains
 
       testsuite = [ &
          new_unittest("friction and film temperature are consistent at any slip", test_root), &
+         new_unittest("a contact nearby, however cold or hot, has no part in the temperature of a film", test_start), &
          new_unittest("energy closes at 720 angles with heat, for both senses of rotation, with gas force", test_energy), &
          new_unittest("bodies of infinite conductivity and an oil whose viscosity ignores temperature change no bit", test_cold), &
          new_unittest("results are the same in other units", test_units), &
@@ -86,6 +87,39 @@ contains
          end do
       end do
    end subroutine test_root
+
+   subroutine test_start(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: case
+      type(model_t) :: model
+      type(state_t) :: alone, beside, state
+      real(wp) :: warmest ! [K]
+      integer :: i, decade, status
+
+      case = thesis_case()
+      call add_heat(case)
+      call set_point(case, point_speeds(3), point_viscosities(1))
+      call make_model(case, model, error)
+      if (allocated(error)) return
+      warmest = 0.0_wp
+      do i = -65, 65, 10
+         call evaluate_state(model, i*degree, 3.0e-2_wp*model%speed, alone, status)
+         beside = alone
+         warmest = max(warmest, alone%contact%film_rise)
+         do decade = -16, 3
+            beside%contact%film_rise = 10.0_wp**decade
+            call evaluate_state(model, i*degree, 3.0e-2_wp*model%speed, state, status, start=beside%contact)
+            call check(error, status, 0)
+            if (allocated(error)) return
+            ! what is left after the last step is its square
+            call check_close(error, state%contact%film_rise, alone%contact%film_rise, 1.0e-10_wp, "temperature")
+            if (allocated(error)) return
+            call check_close(error, state%contact%shear, alone%contact%shear, 1.0e-10_wp, "shear")
+            if (allocated(error)) return
+         end do
+      end do
+      call check(error, warmest > 1.0_wp, "heat does nothing here")
+   end subroutine test_start
 
    subroutine test_energy(error)
       type(error_type), allocatable, intent(out) :: error
