@@ -183,7 +183,7 @@ contains
       type(setting_t), intent(in) :: setting
       !> Pressure in the middle of the film [Pa]
       real(wp), intent(in) :: peak
-      !> State of the contact; in: temperature of the film of a contact nearby or zero; out: its own
+      !> State of the contact; in: temperature of the film to try first or zero; out: its own
       type(contact_t), intent(inout) :: contact
       !> What slopes are made of
       type(parts_t), intent(inout) :: parts
@@ -220,7 +220,7 @@ contains
       type(setting_t), intent(in) :: setting
       !> Pressure in the middle of the film [Pa]
       real(wp), intent(in) :: peak
-      !> State of the contact; in: temperatures of a contact nearby or zero; out: its own
+      !> State of the contact; in: temperature of the film to try first or zero; out: its own
       type(contact_t), intent(inout) :: contact
       !> What slopes are made of
       type(parts_t), intent(inout) :: parts
