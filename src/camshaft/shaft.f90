@@ -61,6 +61,8 @@ module camroller_shaft
       type(orbit_t), allocatable :: orbits(:, :)
       !> Rise of the temperature of that oil, where it is found [K]
       real(wp), allocatable :: rises(:, :)
+      !> Room for the load vector of each bearing, shape (2, bearing) [N]
+      real(wp), allocatable :: loads(:, :)
    end type shaft_t
 
    !> A case that is solved: model and cycle of each lobe shape, and the camshafts that carry them
@@ -324,8 +326,8 @@ contains
 
    !> Torque of all bearings of each camshaft; zero where the case has none.
    subroutine bearing_torques(shaft, forces, torques, error, bearings, angle)
-      !> The shaft
-      type(shaft_t), intent(in) :: shaft
+      !> The shaft; its room is used
+      type(shaft_t), intent(inout) :: shaft
       !> Force on each cam in the frame of the first follower, shape (2, cam) [N]
       real(wp), intent(in) :: forces(:, :)
       !> The torques [N m]
@@ -337,14 +339,13 @@ contains
       !> Cam angle of the first cam from full lift; without it bearings follow from the loads of the instant [rad]
       real(wp), intent(in), optional :: angle
 
-      ! Load vector of each bearing [N]
-      real(wp) :: loads(2, bearing_number(shaft))
       type(bearing_state_t) :: state
       integer :: cam, k, bearing, status
 
       torques = 0.0_wp
       if (.not. allocated(shaft%journal)) return
-      associate (places => shaft%bearings%bearing_positions)
+      if (.not. allocated(shaft%loads)) allocate (shaft%loads(2, bearing_number(shaft)))
+      associate (places => shaft%bearings%bearing_positions, loads => shaft%loads)
          do k = 1, shaft%count
             loads = 0.0_wp
             do cam = 1, size(shaft%lobes)

@@ -7,7 +7,7 @@ module camroller_cam_check
    use camroller_extremum, only : extremum_t, start_extremum, narrow_extremum
    use camroller_kinds, only : wp, pi
    use camroller_kinematics, only : position_t
-   use camroller_lift_pieces, only : most_edges, find_edges, scan_steps, next_angle
+   use camroller_lift_pieces, only : find_edges, scan_t, start_scan, has_next, next_angle
    use camroller_model, only : model_t, evaluate_geometry
    use camroller_number_text, only : in_mm => millimetres_text
    implicit none
@@ -31,24 +31,26 @@ contains
       type(error_t), allocatable, intent(out) :: error
 
       ! Ends of the pieces of the lift [rad]
-      real(wp) :: edges(most_edges(model, -pi, pi))
+      real(wp), allocatable :: edges(:)
       ! Three neighbouring angles of the scan [rad], how much the path is bent there, over what it may be [-]
-      real(wp) :: scan(3), bends(3)
-      integer :: steps(size(edges)), place(2), count, i
+      real(wp) :: angles(3), bends(3)
+      type(scan_t) :: scan
+      integer :: i
 
-      call find_edges(model, -pi, pi, edges, count)
-      steps(:count - 1) = scan_steps(edges(:count))
-      place = [1, 0]
-      scan = -pi
+      call find_edges(model, -pi, pi, edges)
+      call start_scan(scan, edges)
+      angles = -pi
       bends = 0.0_wp
-      do i = 1, 1 + sum(steps(:count - 1))
-         scan(:2) = scan(2:)
-         if (i > 1) call next_angle(edges(:count), steps(:count - 1), place, scan(3))
+      i = 0
+      do while (i == 0 .or. has_next(scan, edges))
+         i = i + 1
+         angles(:2) = angles(2:)
+         if (i > 1) call next_angle(scan, edges, angles(3))
          bends(:2) = bends(2:)
-         call check_position(model, grinding_wheel_radius, scan(3), bends(3), error)
+         call check_position(model, grinding_wheel_radius, angles(3), bends(3), error)
          if (allocated(error)) return
          if (i < 3 .or. bends(2) < max(nearly_too_much, bends(1), bends(3))) cycle
-         call check_summit(model, grinding_wheel_radius, scan, bends, error)
+         call check_summit(model, grinding_wheel_radius, angles, bends, error)
          if (allocated(error)) return
       end do
    end subroutine check_geometry

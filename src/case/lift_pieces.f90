@@ -1,13 +1,21 @@
 !> Pieces of the lift between its kinks, and the angles of a scan over them.
 !>
-!> In: model, two cam angles. Out: ends of the pieces, numbers of steps, angles one after the other; nothing is allocated for them.
+!> In: model, two cam angles. Out: ends of the pieces, angles one after the other.
 module camroller_lift_pieces
    use camroller_kinds, only : wp, two_pi, degree
    use camroller_model, only : model_t
    implicit none
    private
 
-   public :: lift_stops_between, most_edges, find_edges, scan_steps, next_angle, sort
+   public :: lift_stops_between, find_edges, scan_t, start_scan, has_next, next_angle, sort
+
+   !> Place in a scan of the pieces of the lift
+   type :: scan_t
+      !> Piece, and step in it, of the angle reached
+      integer :: piece = 1, step = 0
+      !> Steps of the piece; least number of steps of any piece
+      integer :: steps = 0, least = 0
+   end type scan_t
 
    !> Longest step of a scan [rad]
    real(wp), parameter :: longest_step = 0.25_wp*degree
@@ -27,86 +35,118 @@ contains
       real(wp), allocatable :: stops(:)
 
       ! Ends of the pieces [rad]
-      real(wp) :: edges(most_edges(model, start, finish))
-      integer :: count
+      real(wp), allocatable :: edges(:)
 
-      call find_edges(model, start, finish, edges, count)
-      stops = edges(2:count - 1)
+      call find_edges(model, start, finish, edges)
+      stops = edges(2:size(edges) - 1)
       if (any(.not. abs(modulo(model%lift_stops - start, two_pi)) > 0.0_wp)) stops = [start, stops]
    end function lift_stops_between
 
-   !> Room for the ends of pieces of the lift.
-   pure function most_edges(model, start, finish) result(room)
-      !> The model
-      type(model_t), intent(in) :: model
-      !> First and last angle, of any turn [rad]
-      real(wp), intent(in) :: start, finish
-      !> Number of ends at most
-      integer :: room
-
-      room = 2 + size(model%lift_stops)*(1 + ceiling((finish - start)/two_pi))
-   end function most_edges
-
    !> Ends of the pieces of the lift between two angles: these, and the kinks between them.
-   pure subroutine find_edges(model, start, finish, edges, count)
+   pure subroutine find_edges(model, start, finish, edges)
       !> The model
       type(model_t), intent(in) :: model
       !> First and last angle, of any turn [rad]
       real(wp), intent(in) :: start, finish
-      !> The ends, increasing [rad]
-      real(wp), intent(out) :: edges(:)
-      !> Their number
-      integer, intent(out) :: count
+      !> The ends, increasing; allocated again only where their number is another [rad]
+      real(wp), allocatable, intent(inout) :: edges(:)
 
-      ! Kinks of the lift in the turn that begins at `start`, and in those after it [rad]
-      real(wp) :: kinks(size(model%lift_stops))
-      integer :: i
+      integer :: count, found
 
+      count = 0
+      call take_kinks(model, start, finish, count)
+      if (allocated(edges)) then
+         if (size(edges) /= 2 + count) deallocate (edges)
+      end if
+      if (.not. allocated(edges)) allocate (edges(2 + count))
       edges(1) = start
-      count = 1
-      kinks = start + modulo(model%lift_stops - start, two_pi)
-      call sort(kinks)
-      do while (any(kinks < finish))
-         do i = 1, size(kinks)
-            if (.not. (kinks(i) > start .and. kinks(i) < finish)) cycle
-            count = count + 1
-            edges(count) = kinks(i)
-         end do
-         kinks = kinks + two_pi
-      end do
-      count = count + 1
-      edges(count) = finish
+      edges(2 + count) = finish
+      if (count == 0) return
+      found = 0
+      call take_kinks(model, start, finish, found, edges(2:1 + count))
+      call sort(edges(2:1 + count))
    end subroutine find_edges
 
-   !> Even steps of a scan in each piece of the lift, so many that no event is too short to be seen.
-   pure function scan_steps(edges) result(steps)
+   !> Kinks of the lift strictly between two angles.
+   pure subroutine take_kinks(model, start, finish, count, kinks)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> First and last angle, of any turn [rad]
+      real(wp), intent(in) :: start, finish
+      !> In: zero; out: their number
+      integer, intent(inout) :: count
+      !> The kinks, in no order [rad]
+      real(wp), intent(inout), optional :: kinks(:)
+
+      ! A kink, turn after turn [rad]
+      real(wp) :: kink
+      integer :: i
+
+      do i = 1, size(model%lift_stops)
+         kink = start + modulo(model%lift_stops(i) - start, two_pi)
+         do while (kink < finish)
+            if (kink > start) then
+               count = count + 1
+               if (present(kinks)) kinks(count) = kink
+            end if
+            kink = kink + two_pi
+         end do
+      end do
+   end subroutine take_kinks
+
+   !> Begin a scan: even steps in each piece of the lift, so many that no event is too short to be seen.
+   pure subroutine start_scan(scan, edges)
+      !> The scan
+      type(scan_t), intent(out) :: scan
       !> Ends of the pieces [rad]
       real(wp), intent(in) :: edges(:)
-      !> Number of steps of each
-      integer :: steps(size(edges) - 1)
 
-      integer :: least
+      scan%least = 1 + ceiling(least_steps*min(1.0_wp, (edges(size(edges)) - edges(1))/two_pi))/size(edges)
+      scan%steps = steps_of(scan, edges(1:2))
+   end subroutine start_scan
 
-      least = ceiling(least_steps*min(1.0_wp, (edges(size(edges)) - edges(1))/two_pi))
-      steps = max(ceiling((edges(2:) - edges(:size(edges) - 1))/longest_step), 1 + least/size(edges))
-   end function scan_steps
+   !> Number of steps of a piece.
+   pure function steps_of(scan, ends) result(steps)
+      !> The scan
+      type(scan_t), intent(in) :: scan
+      !> Its ends [rad]
+      real(wp), intent(in) :: ends(2)
+      !> The number
+      integer :: steps
 
-   !> Angle of a scan, the ends and every kink of the lift among them; rising numbers cost nothing.
-   pure subroutine next_angle(edges, steps, place, angle)
+      steps = max(ceiling((ends(2) - ends(1))/longest_step), scan%least)
+   end function steps_of
+
+   !> Does a scan go on?
+   pure function has_next(scan, edges) result(verdict)
+      !> The scan
+      type(scan_t), intent(in) :: scan
       !> Ends of the pieces [rad]
       real(wp), intent(in) :: edges(:)
-      !> Number of steps of each
-      integer, intent(in) :: steps(:)
-      !> Piece and step in it of the angle before; out: of this one
-      integer, intent(inout) :: place(2)
+      !> Does it?
+      logical :: verdict
+
+      verdict = scan%piece < size(edges) - 1 .or. scan%step < scan%steps
+   end function has_next
+
+   !> Next angle of a scan, after its start, the ends and every kink of the lift among them.
+   pure subroutine next_angle(scan, edges, angle)
+      !> The scan, which goes on
+      type(scan_t), intent(inout) :: scan
+      !> Ends of the pieces [rad]
+      real(wp), intent(in) :: edges(:)
       !> The angle [rad]
       real(wp), intent(out) :: angle
 
-      place(2) = place(2) + 1
-      if (place(2) > steps(place(1))) place = [place(1) + 1, 1]
-      associate (piece => place(1))
+      scan%step = scan%step + 1
+      if (scan%step > scan%steps) then
+         scan%piece = scan%piece + 1
+         scan%step = 1
+         scan%steps = steps_of(scan, edges(scan%piece:scan%piece + 1))
+      end if
+      associate (piece => scan%piece)
          angle = edges(piece + 1)
-         if (place(2) < steps(piece)) angle = edges(piece) + (edges(piece + 1) - edges(piece))*place(2)/steps(piece)
+         if (scan%step < scan%steps) angle = edges(piece) + (edges(piece + 1) - edges(piece))*scan%step/scan%steps
       end associate
    end subroutine next_angle
 

@@ -17,7 +17,7 @@ module camroller_cycle
    use camroller_error_estimate, only : contact_accuracy_for
    use camroller_events, only : find_stops, cycle_stops
    use camroller_fold, only : explain_end
-   use camroller_spin, only : spin_problem_t, nearby_t, rolling_speed_at
+   use camroller_spin, only : spin_problem_t, rolling_speed_at
    use camroller_cycle_start, only : choose_start, run_up_stops, rolling_speed_at_angle
    use camroller_settled_slip, only : settle
    use camroller_quasi_static, only : quasi_static_cycle
@@ -34,7 +34,7 @@ module camroller_cycle
    implicit none
    private
 
-   public :: cycle_t, integrate_cycle, integrate_between, state_at
+   public :: cycle_t, integrate_cycle, choose_method, integrate_spin, state_at
 
    !> One periodic cycle
    type :: cycle_t
@@ -70,8 +70,8 @@ module camroller_cycle
    real(wp), parameter :: contact_accuracy = 1.0e-3_wp
    !> Error allowed per step over the error allowed in the cycle: errors of a few steps add up before they decay [-]
    real(wp), parameter :: step_part = 0.2_wp
-   !> First step of a method with error control, over a cycle, and most of it over a step of a host [rad]
-   real(wp), parameter :: first_step = 0.1_wp*degree, first_step_of_piece = 1.0_wp*degree
+   !> First step of a method with error control [rad]
+   real(wp), parameter :: first_step = 0.1_wp*degree
    !> Steps after which a method that stiffness does not slow down is given up: several times what a lift table of thousands of rows
    !> takes
    integer, parameter :: most_implicit_steps = 100000
@@ -249,47 +249,6 @@ contains
       cycle%distance = cycle%closure/max(1.0_wp - contraction, epsilon(1.0_wp))
       verdict = cycle%distance <= periodicity
    end function is_periodic
-
-   !> Integrate from one angle to another, less than a turn ahead, with the roller's spin given at the first.
-   subroutine integrate_between(piece, model, numerics, stops, scale, roller_spin, error, nearby)
-      !> The piece of a cycle
-      type(cycle_t), intent(out) :: piece
-      !> The model
-      type(model_t), intent(in), target :: model
-      !> Method and tolerance
-      type(numerics_t), intent(in) :: numerics
-      !> First angle, stops between, last angle [rad]
-      real(wp), intent(in) :: stops(:)
-      !> Scale of the sliding speed, to which the tolerance is relative [m/s]
-      real(wp), intent(in) :: scale
-      !> Spin of the roller, from first to last angle [rad/s]
-      real(wp), intent(inout) :: roller_spin
-      !> Deck error for an unknown method, convergence error
-      type(error_t), allocatable, intent(out) :: error
-      !> In: with the contact to start from; out: with the first and the last one of the piece
-      type(nearby_t), intent(inout), target, optional :: nearby
-
-      type(spin_problem_t) :: problem
-      class(method_t), allocatable :: method
-      type(options_t) :: options
-      ! Sliding speed or surface speed [m/s]
-      real(wp) :: state(1)
-      integer :: last
-
-      last = size(stops)
-      piece%start = stops(1)
-      call choose_method(piece, model, numerics, scale, problem, method, options, error)
-      if (allocated(error)) return
-      if (present(nearby)) problem%nearby => nearby
-      options%fewest_steps = ceiling(options%fewest_steps*(stops(last) - stops(1))/two_pi)
-      if (.not. piece%is_linear) options%step = min(stops(last) - stops(1), first_step_of_piece)
-      state = roller_spin*model%roller_radius
-      if (.not. piece%has_surface_speed) state = rolling_speed_at_angle(model, stops(1)) - state
-      call integrate_spin(piece, problem, method, options, stops, state, error)
-      if (allocated(error)) return
-      if (.not. piece%has_surface_speed) state = rolling_speed_at_angle(model, stops(last)) - state
-      roller_spin = state(1)/model%roller_radius
-   end subroutine integrate_between
 
    !> Problem, method and options of an integration.
    subroutine choose_method(cycle, model, numerics, scale, problem, method, options, error)

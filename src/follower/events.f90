@@ -4,7 +4,7 @@
 !> are known before a cycle is integrated, and no step passes over one.
 module camroller_events
    use camroller_kinds, only : wp, pi, two_pi
-   use camroller_lift_pieces, only : find_edges, most_edges, next_angle, scan_steps, sort
+   use camroller_lift_pieces, only : find_edges, scan_t, start_scan, has_next, next_angle, sort
    use camroller_model, only : model_t, evaluate_geometry
    use camroller_joints, only : jumps_with_tip, jumps_with_valve
    use camroller_lift, only : is_at_rest
@@ -32,59 +32,48 @@ contains
       !> Cam angles from full lift, increasing [rad]
       real(wp), allocatable, intent(out) :: stops(:)
 
-      ! Angles of changes [rad]
-      real(wp), allocatable :: changes(:)
+      ! Ends of the pieces of the lift, angles of changes [rad]
+      real(wp), allocatable :: edges(:), changes(:)
 
-      call find_changes(model, -pi, pi, changes)
+      call find_edges(model, -pi, pi, edges)
+      call find_changes(model, edges, changes)
       stops = model%lift_stops
       if (allocated(changes)) stops = [stops, changes]
       call sort(stops)
    end subroutine find_stops
 
-   !> The same between any two angles, with both of them: start, stops, end. Where there is no stop, their list is all that is
-   !> allocated, as it is in most steps of a host.
+   !> The same between any two angles, with both of them: start, stops, end.
    subroutine find_stops_between(model, start, finish, stops)
       !> The model
       type(model_t), intent(in) :: model
       !> First and last angle, of any turn [rad]
       real(wp), intent(in) :: start, finish
-      !> Cam angles, increasing [rad]
-      real(wp), allocatable, intent(out) :: stops(:)
+      !> Cam angles, increasing; allocated again only where their number is another, in a host's next step mostly not [rad]
+      real(wp), allocatable, intent(inout) :: stops(:)
 
-      ! Ends of the pieces of the lift [rad]
-      real(wp) :: edges(most_edges(model, start, finish))
       ! Angles of changes [rad]
       real(wp), allocatable :: changes(:)
-      integer :: count
 
-      call find_edges(model, start, finish, edges, count)
-      call find_changes(model, start, finish, changes)
-      if (allocated(changes)) then
-         stops = [edges(2:count - 1), pack(changes, changes > start)]
-         call sort(stops)
-         stops = [start, stops, finish]
-      else
-         stops = edges(:count)
-      end if
+      call find_edges(model, start, finish, stops)
+      call find_changes(model, stops, changes)
+      if (.not. allocated(changes)) return
+      stops = [stops(2:size(stops) - 1), pack(changes, changes > start)]
+      call sort(stops)
+      stops = [start, stops, finish]
    end subroutine find_stops_between
 
-   !> Angles between two others at which something changes: one of the switches its sign, or friction its direction.
-   subroutine find_changes(model, start, finish, angles)
+   !> Angles at which something changes: one of the switches its sign, or friction its direction.
+   subroutine find_changes(model, edges, angles)
       !> The model
       type(model_t), intent(in) :: model
-      !> First and last angle [rad]
-      real(wp), intent(in) :: start, finish
+      !> Ends of the pieces of the lift [rad]
+      real(wp), intent(in) :: edges(:)
       !> Angles, in no order [rad]; not allocated where nothing changes
       real(wp), allocatable, intent(out) :: angles(:)
 
-      ! Ends of the pieces of the lift [rad]
-      real(wp) :: edges(most_edges(model, start, finish))
-      integer :: count
-
-      call find_edges(model, start, finish, edges, count)
-      call add_switches(model, edges(:count), angles)
+      call add_switches(model, edges, angles)
       if (allocated(model%joints)) then
-         if (jumps_with_valve(model%joints)) call add_jumps(model, edges(:count), angles)
+         if (jumps_with_valve(model%joints)) call add_jumps(model, edges, angles)
       end if
    end subroutine find_changes
 
@@ -101,35 +90,37 @@ contains
       ! Switches at three angles of the scan in a row [m, N m]
       real(wp) :: earlier(2), before(2), after(2)
       ! These angles [rad]
-      real(wp) :: scan(3)
-      ! Steps of the scan; place in it; which angle it is, and the first one whose switches are kept
-      integer :: steps(size(edges) - 1), place(2), i, kind, first
+      real(wp) :: places(3)
+      type(scan_t) :: scan
+      ! Which angle it is, and the first one whose switches are kept
+      integer :: i, kind, first
       ! Does the valve rest at the ends of the interval, where nothing changes unless a force acts on the closed valve?
       logical :: rested, rests, rests_alike
 
-      steps = scan_steps(edges)
-      place = [1, 0]
-      scan = edges(1)
-      before = switches(model, scan(3))
+      call start_scan(scan, edges)
+      places = edges(1)
+      before = switches(model, places(3))
       earlier = before
       first = 1
       rests_alike = .not. allocated(model%gas) .or. model%train%seat_lift > 0.0_wp
-      rests = is_at_rest(model%lift_law, scan(3))
-      do i = 2, 1 + sum(steps)
-         scan(:2) = scan(2:)
-         call next_angle(edges, steps, place, scan(3))
+      rests = is_at_rest(model%lift_law, places(3))
+      i = 1
+      do while (has_next(scan, edges))
+         i = i + 1
+         places(:2) = places(2:)
+         call next_angle(scan, edges, places(3))
          rested = rests
-         rests = is_at_rest(model%lift_law, scan(3))
+         rests = is_at_rest(model%lift_law, places(3))
          if (rested .and. rests .and. rests_alike) then
             first = i
             cycle
          end if
-         after = switches(model, scan(3))
+         after = switches(model, places(3))
          do kind = 1, size(before)
             if ((before(kind) > 0.0_wp) .neqv. (after(kind) > 0.0_wp)) then
-               call append(angles, [switch_angle(model, kind, scan(2), scan(3), before(kind), after(kind), switches)])
+               call append(angles, [switch_angle(model, kind, places(2), places(3), before(kind), after(kind), switches)])
             else if (i - 2 >= first) then
-               call add_short_change(model, kind, scan, [earlier(kind), before(kind), after(kind)], angles)
+               call add_short_change(model, kind, places, [earlier(kind), before(kind), after(kind)], angles)
             end if
          end do
          earlier = before
@@ -202,16 +193,16 @@ contains
       ! Ends of the interval; angle of a jump [rad]
       real(wp) :: left, right, angle
       real(wp), allocatable :: jumps(:)
-      integer :: steps(size(edges) - 1), place(2), i, kind
+      type(scan_t) :: scan
+      integer :: kind
 
-      steps = scan_steps(edges)
-      place = [1, 0]
+      call start_scan(scan, edges)
       right = edges(1)
       before = turning_values(model, right)
       allocate (jumps(0))
-      do i = 1, sum(steps)
+      do while (has_next(scan, edges))
          left = right
-         call next_angle(edges, steps, place, right)
+         call next_angle(scan, edges, right)
          after = turning_values(model, right)
          do kind = 1, size(before)
             if (is_same_sign(before(kind), after(kind))) cycle

@@ -64,19 +64,19 @@ contains
       !> Rate [state/time]
       real(wp), intent(in) :: rate(:)
 
-      ! Bends [state]
-      real(wp) :: bends(size(state), 2)
-      integer :: last
+      ! Length of the curve [time]; change of a component along it [state]
+      real(wp) :: length, change
+      integer :: i, last
 
-      bends = 0.0_wp
       last = trajectory%count
-      if (last > 0 .and. .not. trajectory%is_linear) then
-         associate (length => time - trajectory%time(last), change => state - trajectory%state(:, last))
-            bends(:, 1) = length*trajectory%rate(:, last) - change
-            bends(:, 2) = 2.0_wp*change - length*(trajectory%rate(:, last) + rate)
-         end associate
-      end if
-      call append_curve(trajectory, time, state, rate, bends)
+      call add_point(trajectory, time, state, rate)
+      if (last == 0 .or. trajectory%is_linear) return
+      length = time - trajectory%time(last)
+      do i = 1, size(state)
+         change = state(i) - trajectory%state(i, last)
+         trajectory%bends(i, 1, last + 1) = length*trajectory%rate(i, last) - change
+         trajectory%bends(i, 2, last + 1) = 2.0_wp*change - length*(trajectory%rate(i, last) + rate(i))
+      end do
    end subroutine append_point
 
    !> Append a point and the curve that reaches it.
@@ -92,14 +92,24 @@ contains
       !> Bends of the curve, shape (component, 3) [state]
       real(wp), intent(in) :: bends(:, :)
 
+      call add_point(trajectory, time, state, rate)
+      trajectory%bends(:, :size(bends, 2), trajectory%count) = bends
+   end subroutine append_curve
+
+   !> Append a point, reached by a straight line.
+   pure subroutine add_point(trajectory, time, state, rate)
+      !> The trajectory
+      type(trajectory_t), intent(inout) :: trajectory
+      !> Time [time], state [state] and rate [state/time]
+      real(wp), intent(in) :: time, state(:), rate(:)
+
       if (trajectory%count == size(trajectory%time)) call grow(trajectory)
       trajectory%count = trajectory%count + 1
       trajectory%time(trajectory%count) = time
       trajectory%state(:, trajectory%count) = state
       trajectory%rate(:, trajectory%count) = rate
-      trajectory%bends(:, :size(bends, 2), trajectory%count) = bends
-      trajectory%bends(:, size(bends, 2) + 1:, trajectory%count) = 0.0_wp
-   end subroutine append_curve
+      trajectory%bends(:, :, trajectory%count) = 0.0_wp
+   end subroutine add_point
 
    !> Append another trajectory up to a time; the curve that holds the time is cut there.
    pure subroutine append_until(trajectory, source, time)

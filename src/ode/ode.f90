@@ -10,7 +10,7 @@ module camroller_ode
    use camroller_kinds, only : wp
    use camroller_error, only : error_t, raise, kind_convergence
    use camroller_ode_problem, only : problem_t, counters_t, new_linear, copy_linear
-   use camroller_ode_method, only : method_t, options_t, step_t, start_step, take_step, keep_point, keep_stable
+   use camroller_ode_method, only : method_t, options_t, step_t, start_step, move_step, take_step, keep_point, keep_stable
    use camroller_trajectory, only : trajectory_t, start_trajectory, append_point, append_curve
    use camroller_step_checks, only : check_step
    use camroller_ode_bridge, only : footing_t, bridge_t, watch, is_stuck, try_bridge, note_bridge
@@ -32,6 +32,8 @@ module camroller_ode
       type(step_t) :: step
       !> Step proposed by the controller [time]
       real(wp) :: proposed = 0.0_wp
+      !> Largest step of the segment [time]
+      real(wp) :: max_step = huge(1.0_wp)
       !> Error of the last accepted step over its tolerance [-]
       real(wp) :: last_error = 1.0_wp
       !> Was the last try rejected?
@@ -67,11 +69,11 @@ contains
       type(walk_t) :: walk
       ! A few roundings [time]
       real(wp) :: margin
-      type(options_t) :: limits
       integer :: segment, segments, status
 
-      limits = options
+      call move_step(method%room, walk%step)
       call start_step(walk%step, state)
+      walk%max_step = options%max_step
       walk%proposed = options%step
       if (walk%proposed <= 0.0_wp) walk%proposed = 1.0e-4_wp*(stops(size(stops)) - stops(1))
       margin = 4.0_wp*spacing(maxval(abs(stops)))
@@ -94,13 +96,14 @@ contains
                return
             end if
             call append_point(trajectory, step%time, step%state, step%rate)
-            if (.not. is_fixed(method, options)) limits%max_step = min(options%max_step, &
+            if (.not. is_fixed(method, options)) walk%max_step = min(options%max_step, &
                & (method%horizon - step%time)/max(1, options%fewest_steps/segments))
          end associate
-         call integrate_segment(problem, method, limits, walk, trajectory, counters, error)
-         state = walk%step%state
+         call integrate_segment(problem, method, options, walk, trajectory, counters, error)
+         state(:) = walk%step%state
          if (allocated(error)) return
       end do
+      call move_step(walk%step, method%room)
    end subroutine integrate
 
    !> Rate where a segment begins, with its derivatives where the method needs them.
@@ -270,7 +273,7 @@ contains
       type(counters_t), intent(inout) :: counters
 
       associate (step => walk%step, finish => method%horizon)
-         step%length = min(walk%proposed, options%max_step)
+         step%length = min(walk%proposed, walk%max_step)
          if (.not. is_fixed(method, options)) call keep_stable(method, problem, step, counters)
          step%is_last = step%time + step%length*(1.0_wp + 1.0e-9_wp) >= finish
          if (step%is_last) step%length = finish - step%time

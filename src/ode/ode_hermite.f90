@@ -39,6 +39,7 @@ module camroller_ode_hermite
       type(point_t), allocatable :: others_before(:), others(:)
    contains
       procedure :: try_step => try_hermite_step
+      procedure :: forget => forget_points
    end type hermite_method_t
 
    !> Largest growth exponent of a step [-]; beyond it a smaller step is taken
@@ -67,6 +68,19 @@ contains
       method%has_curve = .true.
       allocate (method%bends(1 + integrals, curve_numbers), method%others_before(integrals), method%others(integrals))
    end subroutine new_hermite_method
+
+   !> Forget the points of earlier steps.
+   pure subroutine forget_points(self)
+      !> The method
+      class(hermite_method_t), intent(inout) :: self
+
+      self%before = point_t()
+      self%start = point_t()
+      self%end = point_t()
+      self%others_before(:) = point_t()
+      self%others(:) = point_t()
+      self%error_order = first_order
+   end subroutine forget_points
 
    !> One step.
    subroutine try_hermite_step(self, problem, step, counters, status)

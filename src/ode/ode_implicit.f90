@@ -42,6 +42,7 @@ module camroller_ode_implicit
       type(made_step_t) :: last, tried
    contains
       procedure :: try_step => try_radau_step
+      procedure :: forget => forget_steps
    end type radau_method_t
 
    !> Square root of 6 [-]
@@ -94,6 +95,15 @@ contains
       allocate (method%stages(components, 3), method%correction(components, 3), method%stage_rate(components))
       allocate (method%bends(components, 3))
    end subroutine new_radau_method
+
+   !> Forget earlier steps.
+   pure subroutine forget_steps(self)
+      !> The method
+      class(radau_method_t), intent(inout) :: self
+
+      self%last%step = 0.0_wp
+      self%tried%step = 0.0_wp
+   end subroutine forget_steps
 
    !> One step.
    subroutine try_radau_step(self, problem, step, counters, status)

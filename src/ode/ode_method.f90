@@ -8,10 +8,26 @@ module camroller_ode_method
    implicit none
    private
 
-   public :: method_t, options_t, step_t, allow_more, start_step, take_step, keep_point, keep_stable
+   public :: method_t, options_t, step_t, allow_more, start_step, move_step, take_step, keep_point, keep_stable
 
    !> Part of the stability limit that a step may use [-]
    real(wp), parameter :: stability_margin = 0.95_wp
+
+   !> A step from an accepted point
+   type :: step_t
+      !> Time at its start and at its end, its length [time]
+      real(wp) :: time = 0.0_wp, end_time = 0.0_wp, length = 0.0_wp
+      !> Does it end at a stop?
+      logical :: is_last = .false.
+      !> State [state] and rate [state/time] at its start, which a try leaves untouched
+      real(wp), allocatable :: state(:), rate(:)
+      !> State [state] and rate [state/time] at its end
+      real(wp), allocatable :: new_state(:), new_rate(:)
+      !> Estimate of the error made in it; zero where the method has none [state]
+      real(wp), allocatable :: estimate(:)
+      !> Error over tolerance [-]
+      real(wp) :: scaled_error = 0.0_wp
+   end type step_t
 
    !> A way to make one step
    type, abstract :: method_t
@@ -39,25 +55,12 @@ module camroller_ode_method
       real(wp), allocatable :: bends(:, :)
       !> Error allowed per step, for methods that iterate; set by `integrate` [state]
       real(wp), allocatable :: tolerance(:)
+      !> Room of the steps of an integration, kept for the next one
+      type(step_t) :: room
    contains
       procedure(step_interface), deferred :: try_step
+      procedure :: forget => forget_nothing
    end type method_t
-
-   !> A step from an accepted point
-   type :: step_t
-      !> Time at its start and at its end, its length [time]
-      real(wp) :: time = 0.0_wp, end_time = 0.0_wp, length = 0.0_wp
-      !> Does it end at a stop?
-      logical :: is_last = .false.
-      !> State [state] and rate [state/time] at its start, which a try leaves untouched
-      real(wp), allocatable :: state(:), rate(:)
-      !> State [state] and rate [state/time] at its end
-      real(wp), allocatable :: new_state(:), new_rate(:)
-      !> Estimate of the error made in it; zero where the method has none [state]
-      real(wp), allocatable :: estimate(:)
-      !> Error over tolerance [-]
-      real(wp) :: scaled_error = 0.0_wp
-   end type step_t
 
    !> How to integrate
    type :: options_t
@@ -95,16 +98,43 @@ module camroller_ode_method
 
 contains
 
+   !> Forget the steps made so far, so that the next one depends on nothing but its start. A method that remembers steps overrides
+   !> this.
+   pure subroutine forget_nothing(self)
+      !> The method
+      class(method_t), intent(inout) :: self
+
+      associate (without_memory => self)
+      end associate
+   end subroutine forget_nothing
+
    !> A step with room for the components of a state.
    pure subroutine start_step(step, state)
-      !> The step
-      type(step_t), intent(out) :: step
+      !> The step; its room is kept where it is right
+      type(step_t), intent(inout) :: step
       !> State at its start [state]
       real(wp), intent(in) :: state(:)
 
-      step%state = state
-      allocate (step%rate, step%new_state, step%new_rate, step%estimate, mold=state)
+      if (allocated(step%state)) then
+         if (size(step%state) /= size(state)) deallocate (step%state, step%rate, step%new_state, step%new_rate, step%estimate)
+      end if
+      if (.not. allocated(step%state)) allocate (step%state, step%rate, step%new_state, step%new_rate, step%estimate, mold=state)
+      step%state(:) = state
    end subroutine start_step
+
+   !> Move the room of a step.
+   pure subroutine move_step(from, to)
+      !> A step; out: without room
+      type(step_t), intent(inout) :: from
+      !> Gets its room
+      type(step_t), intent(inout) :: to
+
+      call move_alloc(from%state, to%state)
+      call move_alloc(from%rate, to%rate)
+      call move_alloc(from%new_state, to%new_state)
+      call move_alloc(from%new_rate, to%new_rate)
+      call move_alloc(from%estimate, to%estimate)
+   end subroutine move_step
 
    !> Go on to the end of a step.
    pure subroutine take_step(step)

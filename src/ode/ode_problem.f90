@@ -129,15 +129,22 @@ contains
 
    !> Room for a rate with its derivatives.
    pure subroutine new_linear(linear, components)
-      !> Rate and derivatives
-      type(linear_t), intent(out) :: linear
+      !> Rate and derivatives, out: zero; room that is right is kept
+      type(linear_t), intent(inout) :: linear
       !> Number of components of the state
       integer, intent(in) :: components
 
-      allocate (linear%rate(components), linear%jacobian(components, components), linear%time_slope(components))
+      if (allocated(linear%rate)) then
+         if (size(linear%rate) /= components) deallocate (linear%rate, linear%jacobian, linear%time_slope)
+      end if
+      if (.not. allocated(linear%rate)) allocate (linear%rate(components), linear%jacobian(components, components), &
+         & linear%time_slope(components))
       linear%rate = 0.0_wp
       linear%jacobian = 0.0_wp
       linear%time_slope = 0.0_wp
+      linear%span = huge(1.0_wp)
+      linear%resolution = 1.0_wp
+      linear%clearance = huge(1.0_wp)
    end subroutine new_linear
 
    !> Room for factors.

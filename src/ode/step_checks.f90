@@ -28,8 +28,6 @@ contains
       !> Work done so far
       type(counters_t), intent(inout) :: counters
 
-      ! No bends [state]
-      real(wp) :: straight(size(step%state), 0)
       logical :: has_derivatives
 
       has_derivatives = method%needs_jacobian .and. (method%gives_rate .or. step%end_time < method%horizon)
@@ -38,11 +36,11 @@ contains
       end if
       if (is_fixed .or. step%scaled_error > 1.0_wp) return
       if (.not. has_derivatives) call problem%get_clearance(step%end_time, step%new_state, method%there%clearance)
-      if (method%has_curve) then
-         call check_barrier(problem, method%here, method%there, method%bends, step, counters)
-      else
-         call check_barrier(problem, method%here, method%there, straight, step, counters)
-      end if
+      associate (before => method%here%clearance, after => method%there%clearance)
+         if (max(abs(before), abs(after)) >= huge(1.0_wp)) return
+         if ((before >= 0.0_wp .eqv. after >= 0.0_wp) .or. .not. abs(before) > 0.0_wp) return
+      end associate
+      call check_barrier(problem, method, step, counters)
    end subroutine check_step
 
    !> Raise the error of a step that crosses a range of the state within which the rate saturates, without seeing it.
@@ -75,13 +73,11 @@ contains
    !> What happens at a barrier may be too narrow for any step to meet it by chance. So where a step crosses it, the rate at the
    !> barrier itself, some roundings before it since the rate may have no limit there, is asked: if it moves the state back to where
    !> it came from, faster than the barrier moves, the step is wrong.
-   subroutine check_barrier(problem, here, there, bends, step, counters)
+   subroutine check_barrier(problem, method, step, counters)
       !> The problem
       class(problem_t), intent(in) :: problem
-      !> Clearances at the start and at the end
-      type(linear_t), intent(in) :: here, there
-      !> Curve of the step, as a trajectory takes it, shape (component, numbers given); no numbers: a straight line [state]
-      real(wp), intent(in) :: bends(:, :)
+      !> The method after the step, with clearances of different signs at its ends; a step without a curve is a straight line
+      class(method_t), intent(in) :: method
       !> The step
       type(step_t), intent(inout) :: step
       !> Work done so far
@@ -91,7 +87,7 @@ contains
       real(wp), parameter :: far_too_large = 1.0e3_wp, apart = 1.0e-3_wp
       ! Roundings of a state [-]
       real(wp), parameter :: roundings = 4.0_wp
-      ! The curve with all its numbers, those that are not given zero; states on it, moved to the barrier at last [state]
+      ! The curve as a trajectory takes it; states on it, moved to the barrier at last [state]
       real(wp) :: curve(size(step%state), curve_numbers), between(size(step%state))
       ! Ends of a bracket and place of the crossing, places beside it [-]; clearances at these [state]
       real(wp) :: left, right, place, beside(2), clearance_left, clearance_right, clearance
@@ -101,12 +97,10 @@ contains
       integer, parameter :: few = 4
       integer :: i, status
 
-      clearance_left = here%clearance
-      clearance_right = there%clearance
-      if (max(abs(clearance_left), abs(clearance_right)) >= huge(1.0_wp)) return
-      if ((clearance_left >= 0.0_wp .eqv. clearance_right >= 0.0_wp) .or. .not. abs(clearance_left) > 0.0_wp) return
+      clearance_left = method%here%clearance
+      clearance_right = method%there%clearance
       curve = 0.0_wp
-      curve(:, :size(bends, 2)) = bends
+      if (method%has_curve) curve(:, :size(method%bends, 2)) = method%bends
       left = 0.0_wp
       right = 1.0_wp
       do i = 1, few
@@ -124,7 +118,7 @@ contains
       end do
       if (abs(clearance) >= huge(1.0_wp)) return
       between(1) = between(1) + clearance
-      between(1) = between(1) - sign(roundings*spacing(between(1)), here%clearance)
+      between(1) = between(1) - sign(roundings*spacing(between(1)), method%here%clearance)
       call problem%get_rate(step%time + place*step%length, between, rate, status)
       counters%evaluations = counters%evaluations + 1
       if (status /= 0) return
@@ -133,7 +127,7 @@ contains
          call problem%get_clearance(step%time + beside(i)*step%length, between, barriers(i))
       end do
       slope = (barriers(2) - barriers(1))/((beside(2) - beside(1))*step%length)
-      if (sign(1.0_wp, here%clearance)*(slope - rate(1)) > 0.0_wp) step%scaled_error = max(step%scaled_error, far_too_large)
+      if (sign(1.0_wp, method%here%clearance)*(slope - rate(1)) > 0.0_wp) step%scaled_error = max(step%scaled_error, far_too_large)
    end subroutine check_barrier
 
 end module camroller_step_checks

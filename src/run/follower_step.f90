@@ -23,7 +23,8 @@ module camroller_follower_step
    use camroller_spin, only : nearby_t, rolling_speed_at
    use camroller_stick, only : share_at_rest
    use camroller_stick_slip, only : direction_at
-   use camroller_cycle, only : cycle_t, integrate_between, state_at
+   use camroller_cycle, only : cycle_t, state_at
+   use camroller_spin_piece, only : spin_piece_t, integrate_between
    use camroller_means, only : integrate_torques
    use camroller_run, only : take_way_out
    use camroller_short_piece, only : integrate_short, contact_part
@@ -80,6 +81,8 @@ module camroller_follower_step
       integer :: lobe = 1
       !> Mark of the model at the start
       integer(int64) :: mark = 0_int64
+      !> The last piece of the last step; no step depends on it, but the next one uses its room
+      type(spin_piece_t) :: piece
    end type follower_t
 
    !> What one step gives
@@ -165,7 +168,10 @@ contains
          if (contact%is_touching) follower%point%contact = [contact%tangential_force, contact%bearing_torque, contact%film_ratio]
       end associate
       call add_slip_error(follower, cam_angle - first, outcome)
-      if (present(nodes)) nodes(:, ubound(nodes, 2)) = [outcome%cam_force, outcome%torque_drive]
+      if (present(nodes)) then
+         nodes(:2, ubound(nodes, 2)) = outcome%cam_force
+         nodes(3, ubound(nodes, 2)) = outcome%torque_drive
+      end if
       if (.not. all(ieee_is_finite([outcome%mean_torque_drive, outcome%torque_drive, follower%point%roller_spin]))) then
          call raise(error, kind_convergence, "advance: torques or spin are not finite")
       end if
@@ -323,7 +329,6 @@ contains
       !> Force on the cam [N] and torque that drives it [N m] at equally spaced angles from the start on, without the end
       real(wp), intent(out), optional :: nodes(:, :)
 
-      type(cycle_t) :: piece
       type(inputs_t) :: middle
       type(extremes_t) :: met
       type(nearby_t) :: nearby
@@ -331,32 +336,31 @@ contains
       type(state_t) :: states(3)
       ! Mean torques [N m], last the energy residual [W]; error of the mean torque that drives, by its integration [N m]
       real(wp) :: torques(torque_count), torque_error
-      ! Angles at which the right-hand side has kinks [rad]
-      real(wp), allocatable :: stops(:)
       integer :: i
 
       middle = inputs_between(start, finish, 0.5_wp)
       call set_model(follower, middle%speed, middle%oil_temperature, .true., error)
       if (allocated(error)) return
-      associate (point => follower%point, model => follower%model)
+      associate (point => follower%point, model => follower%model, path => follower%piece%path)
          call set_ramp(model, [point%angle, to] - pi, start, finish)
          if (allocated(model%gas)) then
             model%gas%is_given = .false.
             if (start%has_pressure) call give_pressure(model%gas, [point%angle, to] - pi, [start%gas_pressure, finish%gas_pressure])
          end if
-         call find_stops_between(model, point%angle - pi, to - pi, stops)
-         call integrate_piece(follower, stops, piece, nearby, error)
+         call find_stops_between(model, point%angle - pi, to - pi, follower%piece%stops)
+         call integrate_piece(follower, nearby, error)
          has_state = .false.
-         if (size(stops) == 2 .and. .not. allocated(error)) call integrate_short(model, piece, nearby, states, torques, &
-            & torque_error, met, has_state, error)
-         if (.not. (allocated(error) .or. has_state)) call integrate_torques(model, piece, torques, error, met, torque_error)
+         if (size(follower%piece%stops) == 2 .and. .not. allocated(error)) call integrate_short(model, path, nearby, states, &
+            & torques, torque_error, met, has_state, error)
+         if (.not. (allocated(error) .or. has_state)) call integrate_torques(model, path, torques, error, met, torque_error)
          if (present(nodes) .and. .not. allocated(error)) then
             if (has_state .and. size(nodes, 2) == 2) then
                do i = 1, 2
-                  nodes(:, i) = [cam_force(model, states(i)), states(i)%torque_drive]
+                  nodes(:2, i) = cam_force(model, states(i))
+                  nodes(3, i) = states(i)%torque_drive
                end do
             else
-               call sample_nodes(model, piece, [point%angle, to] - pi, nodes, error)
+               call sample_nodes(model, path, [point%angle, to] - pi, nodes, error)
             end if
          end if
          ! On the way the model has followed the inputs
@@ -368,7 +372,7 @@ contains
          outcome%extremes = joined(outcome%extremes, met)
          if (has_state) outcome%state = states(3)
          point%angle = to
-         if (allocated(piece%phases)) direction = direction_at(piece%phases, to - pi)
+         if (allocated(path%phases)) direction = direction_at(path%phases, to - pi)
       end associate
    end subroutine advance_piece
 
@@ -396,7 +400,8 @@ contains
          call follow_ramp(model, angle)
          call state_at(piece, model, angle, hint, state, error)
          if (allocated(error)) return
-         nodes(:, i) = [cam_force(model, state), state%torque_drive]
+         nodes(:2, i) = cam_force(model, state)
+         nodes(3, i) = state%torque_drive
       end do
    end subroutine sample_nodes
 
@@ -420,13 +425,9 @@ contains
    end subroutine set_ramp
 
    !> Integrate a piece; where that fails, once more with the method and the tolerances that `run_case` falls back on.
-   subroutine integrate_piece(follower, stops, piece, nearby, error)
-      !> The follower; its roller's spin is moved
+   subroutine integrate_piece(follower, nearby, error)
+      !> The follower, with the stops of its piece; its roller's spin is moved
       type(follower_t), intent(inout) :: follower
-      !> First angle, stops between, last angle [rad]
-      real(wp), intent(in) :: stops(:)
-      !> The piece
-      type(cycle_t), intent(out) :: piece
       !> First and last contact that the integration has solved
       type(nearby_t), intent(out) :: nearby
       !> Convergence error
@@ -450,7 +451,7 @@ contains
             start%bearing_torque = kept(2)
             start%film_ratio = kept(3)
          end associate
-         call integrate_between(piece, follower%model, numerics, stops, follower%point%scale, spin, error, nearby)
+         call integrate_between(follower%piece, follower%model, numerics, follower%point%scale, spin, error, nearby)
          if (.not. allocated(error)) exit
          if (has_way_out .or. error%kind /= kind_convergence .or. try == most_tries) return
          call take_way_out(follower%given, numerics, least, has_way_out)

@@ -3,25 +3,20 @@
 !> In: a case, then cam angles with speed, oil temperature and, for each cam, gas pressure at both ends of each step. Out: torques
 !> of all camshafts together by source, means over the step and values at its end, and what each follower gives. A step that fails
 !> leaves everything as it was, to the last bit. Bits do not depend on the number of threads.
-!>
-!> Forces on the cams are taken at angles a degree apart at most; between them the bearings' torque follows Simpson's rule, whose
-!> difference from the trapezoidal rule counts for the error.
 module camroller_shaft_simulation
    use, intrinsic :: iso_fortran_env, only : int64
-   use camroller_kinds, only : wp, degree
+   use camroller_kinds, only : wp
    use camroller_error, only : error_t, raise, add_context, kind_usage
    use camroller_number_text, only : integer_text
-   use camroller_bearing_asperity, only : bearing_state_t
    use camroller_case, only : case_t
    use camroller_catalogue, only : camshaft_count, camshaft_values, follower_count
    use camroller_lubricant, only : oil_t, get_oil
-   use camroller_follower_step, only : point_t, inputs_t, outcome_t, piece_number, inputs_between
-   use camroller_part_series, only : bearing_count
-   use camroller_shaft, only : needs_turn, shaft_t, new_shaft, set_drag, set_journal, in_common_frame, bearing_torques
+   use camroller_follower_step, only : point_t, inputs_t, outcome_t
+   use camroller_shaft, only : needs_turn, shaft_t, new_shaft
    use camroller_simulation, only : simulation_t, advance, halt, check_step, prepare_simulation, place_simulation, &
       & check_angle, has_films, put_back, get_mark, get_point, set_point, get_values
    use camroller_model_mark, only : mixed
-   use camroller_torque_list, only : torque_count, is_loss, is_torque, of_bearings, of_shaft_drag
+   use camroller_shaft_step, only : shaft_outcome_t, step_room_t, make_room, add_up
    implicit none
    private
 
@@ -39,35 +34,9 @@ module camroller_shaft_simulation
       real(wp) :: angle = 0.0_wp
       !> Threads that share the followers
       integer :: threads = 1
+      !> Room of a step, kept for the next one
+      type(step_room_t) :: room
    end type shaft_simulation_t
-
-   !> What one step gives
-   type :: shaft_outcome_t
-      !> Torque that drives all camshafts: mean over the step, and at its end [N m]
-      real(wp) :: mean_torque_drive = 0.0_wp, torque_drive = 0.0_wp
-      !> The part of it for losses: mean over the step, and at its end [N m]
-      real(wp) :: mean_torque_friction = 0.0_wp, torque_friction = 0.0_wp
-      !> By source, the rows of `torque_list`: mean over the step, and at its end [N m]; last the energy residual [W]
-      real(wp) :: mean_torques(torque_count) = 0.0_wp, torques(torque_count) = 0.0_wp
-      !> Smallest and largest torque that drives, at the angles at which forces are taken [N m]
-      real(wp) :: extreme_torque(2) = 0.0_wp
-      !> Estimate of the error of the mean torque that drives, as in `outcome_t` [N m]
-      real(wp) :: estimated_error = 0.0_wp
-      !> The same on each camshaft at the end, shape (torque, camshaft) [N m]
-      real(wp), allocatable :: by_camshaft(:, :)
-      !> States of the bearings at the end, shape (bearing, camshaft); allocated where the case has series of them
-      type(bearing_state_t), allocatable :: bearings(:, :)
-      !> What the follower of each cam gives
-      type(outcome_t), allocatable :: followers(:)
-   end type shaft_outcome_t
-
-   !> An error of one of several cams
-   type :: failure_t
-      type(error_t), allocatable :: error
-   end type failure_t
-
-   !> Largest distance of angles at which forces on the cams are taken [rad]
-   real(wp), parameter :: node_spacing = degree
 
 contains
 
@@ -133,11 +102,7 @@ contains
       real(wp), intent(in), optional :: pressures(:, :)
 
       type(simulation_t), allocatable :: kept(:)
-      type(point_t), allocatable :: before(:)
-      type(failure_t), allocatable :: failures(:)
-      ! Force on each cam and its torque over the step, shape (3, angle, cam) [N, N m]
-      real(wp), allocatable :: nodes(:, :, :)
-      integer :: cam, intervals
+      integer :: cam
 
       if (.not. allocated(shaft%followers)) then
          call raise(error, kind_usage, "advance_shaft: the shaft has not been started; call start_shaft first")
@@ -145,46 +110,50 @@ contains
       end if
       call check_shaft_step(shaft, cam_angle, pressures, error)
       if (allocated(error)) return
-      intervals = interval_number(cam_angle - shaft%angle)
-      allocate (nodes(3, 0:intervals, size(shaft%followers)), failures(size(shaft%followers)), before(size(shaft%followers)))
+      call make_room(shaft%room, cam_angle - shaft%angle, size(shaft%followers), shaft%shaft%count)
       if (has_films(shaft%followers(1))) kept = shaft%followers
       if (allocated(outcome%followers)) then
          if (size(outcome%followers) /= size(shaft%followers)) deallocate (outcome%followers)
       end if
       if (.not. allocated(outcome%followers)) allocate (outcome%followers(size(shaft%followers)))
-      !$omp parallel do num_threads(shaft%threads) schedule(static, 1)
-      do cam = 1, size(shaft%followers)
-         before(cam) = get_point(shaft%followers(cam))
-         call advance_cam(shaft, cam, cam_angle, [start, finish], outcome%followers(cam), nodes(:, :, cam), failures(cam)%error, &
-            & pressures)
-      end do
-      !$omp end parallel do
-      do cam = 1, size(failures)
-         if (.not. allocated(failures(cam)%error) .or. allocated(error)) cycle
-         call move_alloc(failures(cam)%error, error)
-         if (size(failures) > 1) call add_context(error, "cam "//integer_text(cam))
-      end do
-      if (.not. allocated(error)) call add_up(shaft, start, finish, nodes, outcome, error)
+      associate (room => shaft%room)
+         do cam = 1, size(shaft%followers)
+            room%before(cam) = get_point(shaft%followers(cam))
+         end do
+         if (shaft%threads == 1) then
+            do cam = 1, size(shaft%followers)
+               call advance_cam(shaft%followers(cam), cam, cam_angle - shaft%shaft%phases(cam), [start, finish], &
+                  & outcome%followers(cam), room%nodes(:, :, cam), room%failures(cam)%error, pressures)
+            end do
+         else
+            !$omp parallel do num_threads(shaft%threads) schedule(static, 1)
+            do cam = 1, size(shaft%followers)
+               call advance_cam(shaft%followers(cam), cam, cam_angle - shaft%shaft%phases(cam), [start, finish], &
+                  & outcome%followers(cam), room%nodes(:, :, cam), room%failures(cam)%error, pressures)
+            end do
+            !$omp end parallel do
+         end if
+         do cam = 1, size(shaft%followers)
+            if (.not. allocated(room%failures(cam)%error)) cycle
+            if (.not. allocated(error)) then
+               call move_alloc(room%failures(cam)%error, error)
+               if (size(shaft%followers) > 1) call add_context(error, "cam "//integer_text(cam))
+            else
+               deallocate (room%failures(cam)%error)
+            end if
+         end do
+      end associate
+      if (.not. allocated(error)) call add_up(shaft%case, shaft%shaft, shaft%room, start, finish, outcome, error)
       if (.not. allocated(error)) then
          shaft%angle = cam_angle
       else if (allocated(kept)) then
          shaft%followers = kept
       else
-         do cam = 1, size(before)
-            call put_back(shaft%followers(cam), before(cam))
+         do cam = 1, size(shaft%followers)
+            call put_back(shaft%followers(cam), shaft%room%before(cam))
          end do
       end if
    end subroutine advance_shaft
-
-   !> Intervals between the angles at which forces are taken: an even number in each piece of a step.
-   elemental function interval_number(span) result(intervals)
-      !> Cam angle of the step [rad]
-      real(wp), intent(in) :: span
-      !> The number
-      integer :: intervals
-
-      intervals = 2*piece_number(span)*ceiling(span/piece_number(span)/(2.0_wp*node_spacing))
-   end function interval_number
 
    !> Refuse a step that cannot be.
    subroutine check_shaft_step(shaft, cam_angle, pressures, error)
@@ -204,12 +173,12 @@ contains
    end subroutine check_shaft_step
 
    !> Advance the follower of one cam.
-   subroutine advance_cam(shaft, cam, cam_angle, inputs, outcome, nodes, error, pressures)
-      !> The shaft
-      type(shaft_simulation_t), intent(inout) :: shaft
+   subroutine advance_cam(follower, cam, cam_angle, inputs, outcome, nodes, error, pressures)
+      !> The follower
+      type(simulation_t), intent(inout) :: follower
       !> The cam
       integer, intent(in) :: cam
-      !> Cam angle of the first cam at the end of the step [rad]
+      !> Its angle at the end of the step [rad]
       real(wp), intent(in) :: cam_angle
       !> Inputs at both ends
       type(inputs_t), intent(in) :: inputs(2)
@@ -229,110 +198,8 @@ contains
          ends%has_pressure = .true.
          ends%gas_pressure = pressures(cam, :)
       end if
-      call advance(shaft%followers(cam), cam_angle - shaft%shaft%phases(cam), ends(1), ends(2), outcome, error, nodes)
+      call advance(follower, cam_angle, ends(1), ends(2), outcome, error, nodes)
    end subroutine advance_cam
-
-   !> Add the followers and their bearings up.
-   subroutine add_up(shaft, start, finish, nodes, outcome, error)
-      !> The shaft; its bearings are set to the inputs
-      type(shaft_simulation_t), intent(inout) :: shaft
-      !> Inputs at both ends
-      type(inputs_t), intent(in) :: start, finish
-      !> Force on each cam [N] and torque [N m], shape (3, angle, cam)
-      real(wp), intent(in) :: nodes(:, 0:, :)
-      !> What the followers give; out: all of it
-      type(shaft_outcome_t), intent(inout) :: outcome
-      !> Domain error of the bearings
-      type(error_t), allocatable, intent(out) :: error
-
-      ! Torque of the bearings of each camshaft and of all, torque that drives everything, at the angles of the nodes [N m]
-      real(wp) :: by_shaft(shaft%shaft%count), bearings(0:ubound(nodes, 2)), drive
-      ! Torque of seals and drive of all camshafts at these angles, means by Simpson's and the trapezoidal rule [N m]
-      real(wp) :: drag(0:ubound(nodes, 2)), mean(2), coarse(2)
-      integer :: i, k, last
-
-      last = ubound(nodes, 2)
-      outcome%mean_torques = 0.0_wp
-      outcome%estimated_error = 0.0_wp
-      if (allocated(outcome%by_camshaft)) deallocate (outcome%by_camshaft)
-      allocate (outcome%by_camshaft(torque_count, shaft%shaft%count))
-      outcome%by_camshaft = 0.0_wp
-      k = bearing_count(shaft%case)
-      if (k > 0 .and. .not. allocated(outcome%bearings)) allocate (outcome%bearings(k, shaft%shaft%count))
-      do i = 1, size(outcome%followers)
-         k = shaft%shaft%shafts(i)
-         outcome%mean_torques = outcome%mean_torques + outcome%followers(i)%mean_torques
-         outcome%by_camshaft(:, k) = outcome%by_camshaft(:, k) + outcome%followers(i)%torques
-         outcome%estimated_error = outcome%estimated_error + outcome%followers(i)%estimated_error
-      end do
-      outcome%extreme_torque = [huge(1.0_wp), -huge(1.0_wp)]
-      do i = 0, last
-         call bearings_at(shaft, inputs_between(start, finish, real(i, wp)/last), nodes(:2, i, :), by_shaft, error, &
-            & outcome%bearings)
-         if (allocated(error)) return
-         bearings(i) = sum(by_shaft)
-         drag(i) = shaft%shaft%count*shaft%shaft%drag
-         drive = sum(nodes(3, i, :)) + bearings(i) + drag(i)
-         outcome%extreme_torque = [min(outcome%extreme_torque(1), drive), max(outcome%extreme_torque(2), drive)]
-      end do
-      call take_means(bearings, mean(1), coarse(1))
-      call take_means(drag, mean(2), coarse(2))
-      outcome%by_camshaft(of_bearings, :) = by_shaft
-      outcome%by_camshaft(of_shaft_drag, :) = shaft%shaft%drag
-      outcome%torques = sum(outcome%by_camshaft, 2)
-      outcome%mean_torques([of_bearings, of_shaft_drag]) = mean
-      outcome%estimated_error = outcome%estimated_error + sum(abs(mean - coarse))
-      outcome%mean_torque_friction = sum(outcome%mean_torques, mask=is_loss)
-      outcome%mean_torque_drive = sum(outcome%mean_torques, mask=is_torque)
-      outcome%torque_friction = sum(outcome%torques, mask=is_loss)
-      outcome%torque_drive = sum(outcome%torques, mask=is_torque)
-   end subroutine add_up
-
-   !> Means of what is sampled at equal distances.
-   pure subroutine take_means(samples, mean, coarse)
-      !> The samples, an even number after the first [any]
-      real(wp), intent(in) :: samples(0:)
-      !> Mean by Simpson's and by the trapezoidal rule [any]
-      real(wp), intent(out) :: mean, coarse
-
-      integer :: k, last
-
-      last = ubound(samples, 1)
-      mean = sum([(samples(k - 2) + 4.0_wp*samples(k - 1) + samples(k), k=2, last, 2)])/(3.0_wp*last)
-      coarse = sum([(samples(k - 1) + samples(k), k=1, last)])/(2.0_wp*last)
-   end subroutine take_means
-
-   !> Torque of the bearings of each camshaft at inputs and forces.
-   subroutine bearings_at(shaft, inputs, forces, torques, error, bearings)
-      !> The shaft; its bearings, seals and drive are set to the inputs
-      type(shaft_simulation_t), intent(inout) :: shaft
-      !> Speed and oil temperature
-      type(inputs_t), intent(in) :: inputs
-      !> Force on each cam in the frame of its own follower, shape (2, cam) [N]
-      real(wp), intent(in) :: forces(:, :)
-      !> The torques [N m]
-      real(wp), intent(out) :: torques(:)
-      !> Domain error where a bearing law has no solution
-      type(error_t), allocatable, intent(out) :: error
-      !> States of the bearings, shape (bearing, camshaft)
-      type(bearing_state_t), intent(out), optional :: bearings(:, :)
-
-      type(oil_t) :: oil
-      ! Forces in the frame of the first follower [N]
-      real(wp) :: turned(2, size(forces, 2))
-      integer :: cam
-
-      torques = 0.0_wp
-      if (.not. allocated(shaft%shaft%journal)) return
-      call get_oil(shaft%case%lubricant, inputs%oil_temperature, oil, error)
-      if (.not. allocated(error)) call set_journal(shaft%shaft, oil%viscosity, inputs%speed, error)
-      if (.not. allocated(error)) call set_drag(shaft%shaft, inputs%speed, inputs%oil_temperature, error)
-      if (allocated(error)) return
-      do cam = 1, size(forces, 2)
-         turned(:, cam) = in_common_frame(shaft%shaft, cam, forces(:, cam))
-      end do
-      call bearing_torques(shaft%shaft, turned, torques, error, bearings)
-   end subroutine bearings_at
 
    !> Bring all rollers to rest, as in an engine that has stopped: the next step starts without spin.
    pure subroutine halt_shaft(shaft)

@@ -10,7 +10,8 @@ module test_hard_cases
    use camroller_result, only : get_summary, result_t
    use camroller_mistakes, only : line_t
    use camroller_raw_file, only : find_files
-   use camroller_cycle, only : cycle_t, integrate_cycle, integrate_between
+   use camroller_cycle, only : cycle_t, integrate_cycle
+   use camroller_spin_piece, only : spin_piece_t, integrate_between
    use camroller_cycle_start, only : choose_start
    use camroller_events, only : find_stops_between
    use camroller_ode_methods, only : method_facts
@@ -360,16 +361,16 @@ contains
       type(case_t) :: case
       type(model_t), allocatable :: models(:)
       type(error_t), allocatable :: failure
-      type(cycle_t) :: cycle, piece
-      ! Stops [rad], sliding speeds [m/s], their scale [m/s], spin [rad/s]
-      real(wp), allocatable :: stops(:)
+      type(cycle_t) :: cycle
+      type(spin_piece_t) :: piece
+      ! Sliding speeds [m/s], their scale [m/s], spin [rad/s]
       real(wp) :: periodic(1), reached(1), scale, least, spin, angle, sliding_speed
       integer :: i, hint
 
       call get_case("roller_started_backwards", case, error)
       if (allocated(error)) return
       call build_models(case, models, failure)
-      if (.not. allocated(failure)) call find_stops_between(models(1), start, finish, stops)
+      if (.not. allocated(failure)) call find_stops_between(models(1), start, finish, piece%stops)
       do i = 1, size(method_facts)
          if (.not. method_facts(i)%is_stiffly_stable .or. allocated(failure)) cycle
          case%numerics%method = method_facts(i)%name
@@ -379,13 +380,13 @@ contains
          hint = 0
          call choose_start(models(1), angle, sliding_speed, scale, least, hint)
          spin = -models(1)%speed
-         call integrate_between(piece, models(1), case%numerics, stops, scale, spin, failure)
+         call integrate_between(piece, models(1), case%numerics, scale, spin, failure)
          if (allocated(failure)) exit
          hint = 1
          call interpolate_state(cycle%trajectory, cycle%start + modulo(finish - cycle%start, two_pi), hint, periodic)
          hint = 1
-         call interpolate_state(piece%trajectory, finish, hint, reached)
-         if (.not. abs(reached(1) - periodic(1)) <= tight*scale*piece%counters%accepted) then
+         call interpolate_state(piece%path%trajectory, finish, hint, reached)
+         if (.not. abs(reached(1) - periodic(1)) <= tight*scale*piece%path%counters%accepted) then
             call test_failed(error, trim(method_facts(i)%name)//": the start is not forgotten")
             return
          end if

@@ -1,0 +1,214 @@
+!> What the followers of a step of a camshaft or an engine give, added up with the bearings that carry the camshafts.
+!>
+!> In: case, shaft, forces and torques of all followers at equally spaced angles of the step, inputs at both ends. Out: torques by
+!> source, means over the step and values at its end, extremes.
+!>
+!> Forces on the cams are taken at angles a degree apart at most; between them the bearings' torque follows Simpson's rule, whose
+!> difference from the trapezoidal rule counts for the error.
+module camroller_shaft_step
+   use camroller_kinds, only : wp, degree
+   use camroller_error, only : error_t
+   use camroller_bearing_asperity, only : bearing_state_t
+   use camroller_case, only : case_t
+   use camroller_lubricant, only : oil_t, get_oil
+   use camroller_follower_step, only : point_t, inputs_t, outcome_t, piece_number, inputs_between
+   use camroller_part_series, only : bearing_count
+   use camroller_shaft, only : shaft_t, set_drag, set_journal, in_common_frame, bearing_torques
+   use camroller_torque_list, only : torque_count, is_loss, is_torque, of_bearings, of_shaft_drag
+   implicit none
+   private
+
+   public :: shaft_outcome_t, step_room_t, make_room, add_up
+
+   !> What one step gives
+   type :: shaft_outcome_t
+      !> Torque that drives all camshafts: mean over the step, and at its end [N m]
+      real(wp) :: mean_torque_drive = 0.0_wp, torque_drive = 0.0_wp
+      !> The part of it for losses: mean over the step, and at its end [N m]
+      real(wp) :: mean_torque_friction = 0.0_wp, torque_friction = 0.0_wp
+      !> By source, the rows of `torque_list`: mean over the step, and at its end [N m]; last the energy residual [W]
+      real(wp) :: mean_torques(torque_count) = 0.0_wp, torques(torque_count) = 0.0_wp
+      !> Smallest and largest torque that drives, at the angles at which forces are taken [N m]
+      real(wp) :: extreme_torque(2) = 0.0_wp
+      !> Estimate of the error of the mean torque that drives, as in `outcome_t` [N m]
+      real(wp) :: estimated_error = 0.0_wp
+      !> The same on each camshaft at the end, shape (torque, camshaft) [N m]
+      real(wp), allocatable :: by_camshaft(:, :)
+      !> States of the bearings at the end, shape (bearing, camshaft); allocated where the case has series of them
+      type(bearing_state_t), allocatable :: bearings(:, :)
+      !> What the follower of each cam gives
+      type(outcome_t), allocatable :: followers(:)
+   end type shaft_outcome_t
+
+   !> An error of one of several cams
+   type :: failure_t
+      type(error_t), allocatable :: error
+   end type failure_t
+
+   !> Room that a step needs and the next one uses again
+   type :: step_room_t
+      !> What each follower remembered before the step, its error in it
+      type(point_t), allocatable :: before(:)
+      type(failure_t), allocatable :: failures(:)
+      !> Force on each cam and its torque over the step, shape (3, angle, cam) [N, N m]
+      real(wp), allocatable :: nodes(:, :, :)
+      !> Torque of all bearings, and of seals and drive, at these angles, shape (angle, 2); of the bearings of each camshaft [N m]
+      real(wp), allocatable :: losses(:, :), by_shaft(:)
+      !> Forces at one of the angles in the frame of the first follower, shape (2, cam) [N]
+      real(wp), allocatable :: turned(:, :)
+   end type step_room_t
+
+   !> Largest distance of angles at which forces on the cams are taken [rad]
+   real(wp), parameter :: node_spacing = degree
+
+contains
+
+   !> Make room for a step where it is not there from an earlier one.
+   pure subroutine make_room(room, span, cams, camshafts)
+      !> The room
+      type(step_room_t), intent(inout) :: room
+      !> Cam angle of the step [rad]
+      real(wp), intent(in) :: span
+      !> Number of cams, of camshafts
+      integer, intent(in) :: cams, camshafts
+
+      integer :: intervals
+
+      intervals = interval_number(span)
+      if (.not. allocated(room%before)) allocate (room%before(cams), room%failures(cams), room%turned(2, cams), &
+         & room%by_shaft(camshafts))
+      if (allocated(room%nodes)) then
+         if (ubound(room%nodes, 2) /= intervals) deallocate (room%nodes, room%losses)
+      end if
+      if (.not. allocated(room%nodes)) allocate (room%nodes(3, 0:intervals, cams), room%losses(0:intervals, 2))
+   end subroutine make_room
+
+   !> Intervals between the angles at which forces are taken: an even number in each piece of a step.
+   elemental function interval_number(span) result(intervals)
+      !> Cam angle of the step [rad]
+      real(wp), intent(in) :: span
+      !> The number
+      integer :: intervals
+
+      intervals = 2*piece_number(span)*ceiling(span/piece_number(span)/(2.0_wp*node_spacing))
+   end function interval_number
+
+   !> Add the followers and their bearings up.
+   subroutine add_up(case, shaft, room, start, finish, outcome, error)
+      !> The case
+      type(case_t), intent(in) :: case
+      !> Its shaft; bearings, seals and drive are set to the inputs
+      type(shaft_t), intent(inout) :: shaft
+      !> Room, with what the followers give over the step
+      type(step_room_t), intent(inout) :: room
+      !> Inputs at both ends
+      type(inputs_t), intent(in) :: start, finish
+      !> What the followers give; out: all of it
+      type(shaft_outcome_t), intent(inout) :: outcome
+      !> Domain error of the bearings
+      type(error_t), allocatable, intent(out) :: error
+
+      ! Torque that drives everything at one of the angles; means by Simpson's and the trapezoidal rule [N m]
+      real(wp) :: drive, mean(2), coarse(2)
+      integer :: i, k, last
+
+      last = ubound(room%nodes, 2)
+      outcome%mean_torques = 0.0_wp
+      outcome%estimated_error = 0.0_wp
+      if (allocated(outcome%by_camshaft)) then
+         if (size(outcome%by_camshaft, 2) /= shaft%count) deallocate (outcome%by_camshaft)
+      end if
+      if (.not. allocated(outcome%by_camshaft)) allocate (outcome%by_camshaft(torque_count, shaft%count))
+      outcome%by_camshaft = 0.0_wp
+      k = bearing_count(case)
+      if (k > 0 .and. .not. allocated(outcome%bearings)) allocate (outcome%bearings(k, shaft%count))
+      do i = 1, size(outcome%followers)
+         k = shaft%shafts(i)
+         outcome%mean_torques = outcome%mean_torques + outcome%followers(i)%mean_torques
+         outcome%by_camshaft(:, k) = outcome%by_camshaft(:, k) + outcome%followers(i)%torques
+         outcome%estimated_error = outcome%estimated_error + outcome%followers(i)%estimated_error
+      end do
+      outcome%extreme_torque = [huge(1.0_wp), -huge(1.0_wp)]
+      do i = 0, last
+         call bearings_at(case, shaft, inputs_between(start, finish, real(i, wp)/last), room%nodes(:2, i, :), &
+            & room%turned, room%by_shaft, error, outcome%bearings)
+         if (allocated(error)) return
+         associate (losses => room%losses)
+            losses(i, 1) = sum(room%by_shaft)
+            losses(i, 2) = shaft%count*shaft%drag
+            drive = sum(room%nodes(3, i, :)) + losses(i, 1) + losses(i, 2)
+         end associate
+         outcome%extreme_torque = [min(outcome%extreme_torque(1), drive), max(outcome%extreme_torque(2), drive)]
+      end do
+      do i = 1, 2
+         call take_means(room%losses(:, i), mean(i), coarse(i))
+      end do
+      outcome%by_camshaft(of_bearings, :) = room%by_shaft
+      outcome%by_camshaft(of_shaft_drag, :) = shaft%drag
+      outcome%torques = sum(outcome%by_camshaft, 2)
+      outcome%mean_torques([of_bearings, of_shaft_drag]) = mean
+      outcome%estimated_error = outcome%estimated_error + sum(abs(mean - coarse))
+      outcome%mean_torque_friction = sum(outcome%mean_torques, mask=is_loss)
+      outcome%mean_torque_drive = sum(outcome%mean_torques, mask=is_torque)
+      outcome%torque_friction = sum(outcome%torques, mask=is_loss)
+      outcome%torque_drive = sum(outcome%torques, mask=is_torque)
+   end subroutine add_up
+
+   !> Means of what is sampled at equal distances.
+   pure subroutine take_means(samples, mean, coarse)
+      !> The samples, an even number after the first [any]
+      real(wp), intent(in) :: samples(0:)
+      !> Mean by Simpson's and by the trapezoidal rule [any]
+      real(wp), intent(out) :: mean, coarse
+
+      integer :: k, last
+
+      last = ubound(samples, 1)
+      mean = 0.0_wp
+      do k = 2, last, 2
+         mean = mean + (samples(k - 2) + 4.0_wp*samples(k - 1) + samples(k))
+      end do
+      mean = mean/(3.0_wp*last)
+      coarse = 0.0_wp
+      do k = 1, last
+         coarse = coarse + (samples(k - 1) + samples(k))
+      end do
+      coarse = coarse/(2.0_wp*last)
+   end subroutine take_means
+
+   !> Torque of the bearings of each camshaft at inputs and forces.
+   subroutine bearings_at(case, shaft, inputs, forces, turned, torques, error, bearings)
+      !> The case
+      type(case_t), intent(in) :: case
+      !> The shaft; its bearings, seals and drive are set to the inputs
+      type(shaft_t), intent(inout) :: shaft
+      !> Speed and oil temperature
+      type(inputs_t), intent(in) :: inputs
+      !> Force on each cam in the frame of its own follower, shape (2, cam) [N]
+      real(wp), intent(in) :: forces(:, :)
+      !> The same in the frame of the first follower, same shape [N]
+      real(wp), intent(out) :: turned(:, :)
+      !> The torques [N m]
+      real(wp), intent(out) :: torques(:)
+      !> Domain error where a bearing law has no solution
+      type(error_t), allocatable, intent(out) :: error
+      !> States of the bearings, shape (bearing, camshaft)
+      type(bearing_state_t), intent(out), optional :: bearings(:, :)
+
+      type(oil_t) :: oil
+      integer :: cam
+
+      torques = 0.0_wp
+      turned = 0.0_wp
+      if (.not. allocated(shaft%journal)) return
+      call get_oil(case%lubricant, inputs%oil_temperature, oil, error)
+      if (.not. allocated(error)) call set_journal(shaft, oil%viscosity, inputs%speed, error)
+      if (.not. allocated(error)) call set_drag(shaft, inputs%speed, inputs%oil_temperature, error)
+      if (allocated(error)) return
+      do cam = 1, size(forces, 2)
+         turned(:, cam) = in_common_frame(shaft, cam, forces(:, cam))
+      end do
+      call bearing_torques(shaft, turned, torques, error, bearings)
+   end subroutine bearings_at
+
+end module camroller_shaft_step
