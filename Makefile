@@ -203,7 +203,7 @@ bench-cases: build ## where the instructions of a case go: bench/tables/case_cos
 bench-effects: build ## instruction counts of effects, present and absent: bench/tables/effects.txt (ten minutes)
 	@bench/effects.sh
 
-bench-hosts: setup ## cost of a step of a host, instructions, allocations, time: bench/tables/hosts.txt (two minutes, valgrind)
+bench-hosts: setup ## cost of a step of a host, instructions, allocations, time: bench/tables/hosts.txt (ten minutes, valgrind)
 	@mkdir -p build/bench && $(MAKE) --no-print-directory install PREFIX=$(CURDIR)/build/bench/prefix IO=OFF > build/bench-hosts.log
 	@$(PYTHON) bench/hosts.py build/bench/prefix build/bench/hosts > build/bench/hosts.part && mv build/bench/hosts.part bench/tables/hosts.txt
 	@cat bench/tables/hosts.txt

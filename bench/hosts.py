@@ -1,12 +1,14 @@
-"""What a step of a host costs: instructions and allocations of one follower in a step of one degree of crank angle, and processor
-time of a working cycle of all followers. Instructions and allocations are differences of two runs, so that the start does not count.
-The column `before`, instructions of an earlier program, stays as it is in the table.
+"""What steps of a host cost over a turn of the camshaft: instructions and allocations of one follower in a step of one degree of
+crank angle, half a degree of cam angle; instructions of a turn in steps of one degree of cam angle over those of a run of the case;
+processor time of a working cycle of all followers. Instructions and allocations are differences of two runs, so that neither the
+start nor the first step counts. The column `before`, instructions of an earlier program, stays as it is in the table.
 
 Usage: hosts.py PREFIX WORK        with the library installed in PREFIX; needs valgrind
 """
 
 from __future__ import annotations
 
+import math
 import os
 import pathlib
 import re
@@ -16,8 +18,9 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 TABLE = ROOT / "bench" / "tables" / "hosts.txt"
 DECKS = ("decks/thesis.nml", "decks/three_cam_head.nml", "decks/four_cylinder.nml", "decks/dynamics.nml", "decks/lash_adjuster.nml")
-STEPS = (20, 60)
-CYCLE = 720
+#: Steps of a turn, at one degree of crank angle and of cam angle [-]; cam speed [rad/s], that of host_steps.c
+TURN, FEW = 720, 360
+SPEED = 100.0
 
 
 def run(*command):
@@ -28,14 +31,18 @@ def run(*command):
     return done.stdout + done.stderr
 
 
-def count(program, deck, steps, work):
-    """Instructions and allocations of a run, and its number of cams."""
-    text = run("valgrind", "--tool=callgrind", f"--callgrind-out-file={work}/callgrind", program, deck, steps)
-    instructions = int(re.search(r"Collected : (\d+)", text).group(1))
-    cams = int(re.search(r"^(\d+) [\d.]+$", text, re.MULTILINE).group(1))
-    text = run("valgrind", program, deck, steps)
-    allocations = int(re.search(r"total heap usage: ([\d,]+) allocs", text).group(1).replace(",", ""))
-    return instructions, allocations, cams
+def instructions(*command):
+    text = run("valgrind", "--tool=callgrind", "--callgrind-out-file=/dev/null", *command)
+    return int(re.search(r"Collected : (\d+)", text).group(1))
+
+
+def allocations(*command):
+    return int(re.search(r"total heap usage: ([\d,]+) allocs", run("valgrind", *command)).group(1).replace(",", ""))
+
+
+def turn(count, program, deck, steps, degrees, speed):
+    """What is counted over so many steps after the first."""
+    return count(program, deck, steps + 1, degrees, speed) - count(program, deck, 1, degrees, speed)
 
 
 def counted_before():
@@ -50,16 +57,20 @@ def main():
     program = work / "host_steps"
     run("gcc", "-O2", "-std=c11", ROOT / "bench" / "host_steps.c", f"-I{prefix}/include", f"-L{prefix}/lib", "-lcamroller", "-lm",
         f"-Wl,-rpath,{prefix}/lib", "-o", program)
-    print("One degree of crank angle, half a degree of cam angle, with a ripple of the speed; one thread")
-    print(f"{'deck':26}{'cams':>5}{'before':>14}{'instructions':>14}{'allocations':>13}{'a cycle [s]':>13}")
-    print(f"{'':26}{'':5}{'a step, cam':>14}{'a step, cam':>14}{'a step, cam':>13}{'all cams':>13}")
+    print("A turn in steps of one degree of crank angle, half a degree of cam angle, with a ripple of the speed; one thread")
+    print(f"{'deck':26}{'cams':>5}{'before':>14}{'instructions':>14}{'allocations':>13}{'turn in 360':>14}{'a cycle [s]':>13}")
+    print(f"{'':26}{'':5}{'a step, cam':>14}{'a step, cam':>14}{'a step, cam':>13}{'over a run':>14}{'all cams':>13}")
     before = counted_before()
     for deck in DECKS:
-        few, many = (count(program, deck, steps, work) for steps in STEPS)
-        pairs = (STEPS[1] - STEPS[0]) * few[2]
-        times = sorted(float(run(program, deck, CYCLE).split()[1]) for _ in range(3))
-        print(f"{deck:26}{few[2]:5d}{before.get(deck, '-'):>14}{(many[0] - few[0]) / pairs:14.0f}{(many[1] - few[1]) / pairs:13.1f}"
-              f"{times[1]:13.3f}")
+        crank = 2.0 if "&engine" in (ROOT / deck).read_text() else 1.0
+        speed = crank * SPEED * 30.0 / math.pi
+        cycles = [run(program, deck, TURN, 0.5, speed).split() for _ in range(3)]
+        cams, seconds = int(cycles[0][0]), sorted(float(words[1]) for words in cycles)[1]
+        steps = turn(instructions, program, deck, TURN, 0.5, speed)
+        ratio = turn(instructions, program, deck, FEW, 1.0, speed) / turn(instructions, program, deck, 1, 0.0, speed)
+        made = turn(allocations, program, deck, TURN, 0.5, speed)
+        print(f"{deck:26}{cams:5d}{before.get(deck, '-'):>14}{steps / TURN / cams:14.0f}{made / TURN / cams:13.2f}{ratio:14.2f}"
+              f"{seconds:13.3f}", flush=True)
 
 
 main()

@@ -22,8 +22,9 @@ module camroller_spin_piece
       type(cycle_t) :: path
       !> Stops of the piece: first angle, those between, last angle [rad]
       real(wp), allocatable :: stops(:)
-      !> Numerics that method and options are made for; the scale of the sliding speed, of which tolerances are parts [m/s]
+      !> Numerics that method and options are made for
       type(numerics_t), private :: numerics
+      !> Scale of the sliding speed that they are made for [m/s]
       real(wp), private :: scale = 0.0_wp
       type(spin_problem_t), private :: problem
       class(method_t), allocatable, private :: method

@@ -36,8 +36,10 @@ module camroller_short_piece
    real(wp), parameter :: simpson_weights(places) = [1.0_wp, 0.0_wp, 4.0_wp, 0.0_wp, 1.0_wp]/6.0_wp
    !> Weights that leave nothing of a parabola: those of the rule, with the values at opposite places against each other [-]
    real(wp), parameter :: odd_weights(places) = lobatto_weights(2)*[inner, -1.0_wp, 0.0_wp, 1.0_wp, -inner]
-   !> Accepted points of a piece that may be short: in more steps of the integration more happens than five angles show
-   integer, parameter :: most_points = 4
+   !> Accepted points of a piece that may be short. Fast slip near pure rolling takes many steps of the integration and hardly shows
+   !> in the torques; what does show, the error estimate sees. Means of 24 drives with up to 16 points were within 4.1e-7 of those
+   !> by panels at an accuracy of 1e-4, at most 0.11 of the estimated error; with more points more may happen than five angles show
+   integer, parameter :: most_points = 16
    !> Error estimate over the tolerance up to which the means serve [-]: a tenth of the accuracy. The estimate is that of Simpson's
    !> rule for the most part, and the rule of five points far better
    real(wp), parameter :: largest_error = 10.0_wp

@@ -29,6 +29,7 @@ contains
          new_unittest("explicit methods keep within their stability limit", test_stability), &
          new_unittest("stops are never stepped over, however long the allowed step", test_stops), &
          new_unittest("a trial without a value makes the step smaller and leaves the point untouched", test_rejection), &
+         new_unittest("a method that has forgotten its steps is as good as new, to the last bit", test_forget), &
          new_unittest("evaluations are counted one by one", test_counters), &
          new_unittest("an unknown method is refused with the known ones", test_unknown), &
          new_unittest("failures name the time", test_failures) &
@@ -350,6 +351,53 @@ contains
          if (allocated(error)) return
       end do
    end subroutine test_counters
+
+   !> One step, then with the same method and another rate a second one, from the same point, or from the state that the first one
+   !> ended with: what a method remembers of the first one would serve in the second.
+   subroutine test_forget(error)
+      type(error_type), allocatable, intent(out) :: error
+      class(method_t), allocatable :: kept, fresh
+      type(error_t), allocatable :: failure
+      real(wp) :: first(1), second(1), expected(1)
+      integer :: i, k
+
+      do i = 1, size(method_names)
+         do k = 1, 2
+            call new_method(kept, method_names(i), 1, failure)
+            call new_method(fresh, method_names(i), 1, failure)
+            first = 2.0_wp
+            call make_step(kept, 2.0_wp, first)
+            second = merge(2.0_wp, first, k == 1)
+            expected = second
+            call kept%forget()
+            call make_step(kept, 3.0_wp, second)
+            call make_step(fresh, 3.0_wp, expected)
+            call check(error, abs(second(1) - expected(1)) <= 0.0_wp, trim(method_names(i))//" remembers an earlier step")
+            if (allocated(error)) return
+         end do
+      end do
+   end subroutine test_forget
+
+   !> One step of a method from time zero with a rate of decay.
+   subroutine make_step(method, decay, state)
+      class(method_t), intent(inout) :: method
+      real(wp), intent(in) :: decay
+      real(wp), intent(inout) :: state(:)
+
+      type(decay_t) :: problem
+      type(options_t) :: options
+      type(counters_t) :: counters
+      type(trajectory_t) :: trajectory
+      type(error_t), allocatable :: failure
+
+      problem%decay = decay
+      ! that of iterations: beyond round-off, so that their start shows
+      options%tolerance = [1.0e-6_wp]
+      options%step = 0.25_wp
+      options%is_fixed = .true.
+      call integrate(problem, method, options, [0.0_wp, 0.25_wp], state, trajectory, counters, failure)
+      if (allocated(failure)) state = huge(1.0_wp)
+   end subroutine make_step
 
    subroutine test_unknown(error)
       type(error_type), allocatable, intent(out) :: error

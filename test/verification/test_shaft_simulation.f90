@@ -310,8 +310,8 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(case_t) :: the_case
       type(shaft_simulation_t) :: shaft, untouched
-      type(shaft_outcome_t) :: outcome
-      type(inputs_t) :: inputs
+      type(shaft_outcome_t) :: outcome, expected
+      type(inputs_t) :: inputs, hot
       type(error_t), allocatable :: failure
       ! Pressures of the cams [Pa]; means of the turn after [N m]
       real(wp) :: pressures(3, 2), means(3, 2)
@@ -323,10 +323,19 @@ contains
       inputs = inputs_at(the_case, 0.0_wp, 0.0_wp)
       pressures = 1.0e5_wp
       pressures(3, 2) = ieee_value(1.0_wp, ieee_positive_inf)
-      call advance_shaft(shaft, 0.1_wp, inputs, inputs, outcome, failure, pressures)
+      hot = inputs
+      hot%oil_temperature = inputs%oil_temperature + 20.0_wp
+      ! So short a step that the integration takes it in one: the next one starts where its last one did
+      call advance_shaft(shaft, 0.01_wp, hot, hot, outcome, failure, pressures)
       call check(error, allocated(failure), "an infinite pressure was taken")
       if (allocated(error)) return
       call check(error, shaft_angle(shaft) <= 0.0_wp, "the shaft has moved")
+      if (allocated(error)) return
+      call advance_shaft(shaft, 0.01_wp, inputs, inputs, outcome, failure)
+      if (.not. allocated(failure)) call advance_shaft(untouched, 0.01_wp, inputs, inputs, expected, failure)
+      if (has_failed(failure, error)) return
+      call check(error, all(same([outcome%torques, outcome%mean_torques, outcome%estimated_error], [expected%torques, &
+         & expected%mean_torques, expected%estimated_error])), "a failed step has changed the next one")
       if (allocated(error)) return
       call turn(shaft, the_case, 20, 1, 0.05_wp, means(:, 1), failure, outcome)
       if (.not. allocated(failure)) call turn(untouched, the_case, 20, 1, 0.05_wp, means(:, 2), failure, outcome)
