@@ -16,7 +16,7 @@ module wide_decks
    use wide_lists, only : list_of_integers, list_of_numbers
    use wide_numbers, only : end_of_range, find_range, usual_t
    use wide_tables, only : draw_lift_table, draw_pressure_table
-   use wide_words, only : deck_word, number_words
+   use wide_words, only : deck_number, deck_word, number_words
    implicit none
    private
 
@@ -225,14 +225,15 @@ contains
       logical :: is_known
       ! [-]; mass of the valve, which holds a third of the spring's [kg]
       real(wp) :: number, valve
-      character(len=:), allocatable :: mass
 
       call find_range(group//"."//trim(key%name), usual, is_known)
       if (.not. is_known) deck%unknown = deck%unknown//" "//group//"."//trim(key%name)
       if (key%name == "width_mm" .and. deck_word(deck%text, group, "law") == "finite") usual%highest = widest_finite
+      ! A pin fills the ring of the roller, and is as wide as its diameter at most
+      if (key%name == "pin_width_mm" .and. deck_word(deck%text, group, "pin_law") == "finite") usual%highest = min(usual%highest, &
+         & 2.0_wp*(deck_number(deck%text, "roller", "radius_mm") - deck_number(deck%text, "roller", "wall_thickness_mm")))
       if (group == "spring_surge" .and. key%name == "mass_kg") then
-         mass = deck_word(deck%text, "masses", "valve_kg")
-         read (mass, *) valve
+         valve = deck_number(deck%text, "masses", "valve_kg")
          if (valve > 0.0_wp) usual%lowest = 0.3_wp*valve
          if (valve > 0.0_wp) usual%highest = 2.5_wp*valve
       end if
@@ -263,6 +264,7 @@ contains
       character(len=:), allocatable, intent(out) :: words
       ! [-]
       real(wp) :: number, share
+      integer :: i
 
       share = 1.0_wp
       select case (group//"."//trim(key%name))
@@ -283,6 +285,11 @@ contains
          words = "'"//trim(key%choices(min(size(key%choices), first + int(number*(size(key%choices) - first + 1)))))//"'"
       end associate
       if (.not. is_allowed(draft, text, key, words)) words = key%default
+      ! A default may stand for "not given"
+      do i = 1, size(key%choices)
+         if (is_allowed(draft, text, key, words)) exit
+         words = "'"//trim(key%choices(i))//"'"
+      end do
    end subroutine draw_choice
 
    !> Draw a number from its usual range.

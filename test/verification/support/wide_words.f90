@@ -4,7 +4,7 @@ module wide_words
    implicit none
    private
 
-   public :: deck_word, number_words
+   public :: deck_number, deck_word, number_words
 
    character(len=*), parameter :: nl = new_line("a")
 
@@ -35,6 +35,21 @@ contains
          word = text(first:last)
       end if
    end function deck_word
+
+   !> A number of a deck; zero where it is not there.
+   pure function deck_number(text, group, key) result(value)
+      !> The deck
+      character(len=*), intent(in) :: text
+      !> Names of group and key
+      character(len=*), intent(in) :: group, key
+      !> The value [unit of the key]
+      real(wp) :: value
+      character(len=:), allocatable :: word
+
+      value = 0.0_wp
+      word = deck_word(text, group, key)
+      if (word /= "") read (word, *) value
+   end function deck_number
 
    !> A number as text, with more digits than are drawn.
    pure function number_words(value) result(words)
