@@ -93,7 +93,7 @@ dynamics: build ## a flexible train at four speeds and over all speeds: figures 
 	build/release/bin/camroller sweep decks/lash_adjuster.nml --set sweep.values_1=300,900,2500,3000 --set sweep.series=all \
 	  --set numerics.tolerance=1e-4 -o results/adjuster.h5 --quiet
 	$(PYTHON) post/plot.py results/dynamics.h5 results/adjuster.h5 --figure dampers --dpi 80 --output doc/figures
-	build/release/bin/camroller sweep decks/lash_adjuster.nml --set sweep.values_1=2000,2200,2300 --set sweep.series=all \
+	build/release/bin/camroller sweep decks/lash_adjuster.nml --set sweep.values_1=1840,2200,2300 --set sweep.series=all \
 	  --set numerics.tolerance=1e-4 -o results/unsteady.h5 --quiet
 	$(PYTHON) post/plot.py results/unsteady.h5 --figure turns --dpi 80 --output doc/figures
 	build/release/bin/camroller sweep decks/dynamics.nml --set sweep.values_1=$$(seq -s, 500 50 3300) --set sweep.series=all \
