@@ -59,8 +59,10 @@ contains
       if (.not. allocated(error)) call open_output(writer, path, sweep_size(deck%sweep), output_options_t(), error)
       if (.not. allocated(error)) call write_facts(writer, deck, error)
       if (.not. allocated(error)) call open_ehl(file, writer, merge(2, 1, allocated(case%second_lift)), angle_count, &
-         & fewest_nodes, error)
+         & fewest_nodes, .false., error)
       if (allocated(error)) return
+      if (allocated(case%heat) .and. .not. config%is_quiet) call tell("remark: &heat is left out: over the cycle the film "// &
+         & "has one temperature; profiles of a run have heat (&ehl profiles = .true.)"//new_line("a"))
       call solve_cases(deck, config%is_quiet, writer, file, lines, failure, unheard, error)
       call close_ehl(file)
       if (.not. allocated(error) .and. size(lines) == 0) call move_alloc(failure, error)

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Draw solved contacts: pressure and film across the contact, film and friction over the cycle beside the closed formulas.
+"""Draw solved contacts: pressure, film and, with heat, its temperature across the contact; film and friction over the cycle
+beside the closed formulas.
 
 Usage: post/ehl.py FILE.h5 [RUN.h5] --output FIGURE.png [--map MAP.png] [--case N] [--angles 125 150 180 205]
        FILE.h5 comes from `camroller ehl`, or from `camroller run` where the deck has `&ehl profiles = .true.`;
@@ -78,10 +79,29 @@ def profiles(pressure, film, data: dict, angles: list[float]) -> None:
     pressure.legend(frameon=False, loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=3)
 
 
+def temperatures(across, turning, data: dict, angles: list[float]) -> None:
+    """Rise of the film's temperature across the contact at some angles, and its largest over the cycle."""
+    for number, angle in enumerate(angles):
+        i = int(numpy.argmin(numpy.abs(data["angle"] - angle)))
+        across.plot(1e6 * data["x"] * data["half_width"][i], data["film_rise"][i], color=f"C{number}")
+    reach = REACH * 1e6 * numpy.nanmax(data["half_width"])
+    across.set(ylabel="rise of the film's temperature [K]", xlim=(-reach, reach),
+               xlabel=f"place across the contact, inlet on the left [{MICRO}m]")
+    inside = numpy.abs(data["x"]) <= 1
+    turning.plot(data["angle"], data["film_rise"].max(axis=1), "k", label="largest across the contact")
+    turning.plot(data["angle"], numpy.trapezoid(data["film_rise"][:, inside], data["x"][inside], axis=1) / 2, "k--",
+                 label="mean over the dry contact")
+    turning.set(ylabel="rise of the film's temperature [K]", xlabel=ANGLE)
+
+
 def draw(data: dict, run: dict | None, angles: list[float], title: str) -> Figure:
     """Profiles on the left, film and slip in the middle, friction on the right."""
-    figure = Figure(figsize=(14, 7), layout="constrained")
-    axes = figure.subplots(2, 3)
+    has_heat = "film_rise" in data
+    figure = Figure(figsize=(14, 10.5 if has_heat else 7), layout="constrained")
+    axes = figure.subplots(3 if has_heat else 2, 3)
+    if has_heat:
+        temperatures(axes[2, 0], axes[2, 1], data, angles)
+        axes[2, 2].remove()
     profiles(axes[0, 0], axes[1, 0], data, angles)
     turn = data["angle"]
     for name, style, words in (("film_min", "-", "smallest"), ("film_central", "--", "central")):
@@ -103,11 +123,11 @@ def draw(data: dict, run: dict | None, angles: list[float], title: str) -> Figur
         axis.set(ylabel=words, yscale="log" if name == "shear" else "linear")
     axes[0, 2].set_ylim(bottom=0)
     axes[1, 2].set(xlabel=ANGLE)
-    for axis in axes[:, 1:].flat:
+    for axis in (axis for axis in axes[:, 1:].flat if axis in figure.axes):
         axis.set(xlim=(0, 360), xticks=range(0, 361, 60))
         handles, labels = axis.get_legend_handles_labels()
         axis.legend(handles, labels, frameon=False, loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=2)
-    for axis in axes.flat:
+    for axis in figure.axes:
         axis.grid(alpha=0.3)
     figure.suptitle(title, fontsize="medium")
     return figure

@@ -27,7 +27,10 @@ def made_up(tmp_path):
                 group[key] = np.array([row, np.full_like(row, np.nan)])
             pressure = 5e8 * np.sqrt(np.clip(1 - x**2, 0, None)) * touching[:, None]
             film = (2e-7 + 1e-7 * x**2) * touching[:, None]
-            for key, plane in (("pressure", pressure), ("film", film)):
+            planes = {"pressure": pressure, "film": film}
+            if name == "ehl":
+                planes["film_rise"] = 5.0 * touching[:, None] * np.exp(-x**2)
+            for key, plane in planes.items():
                 group[key] = np.array([plane, np.full_like(plane, np.nan)])
     return tmp_path / "made_ehl.h5"
 

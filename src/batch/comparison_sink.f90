@@ -318,6 +318,10 @@ contains
       call read_numbers(self%file, "/"//group//"/film", [0, 0, number], [shape(record%film), 1], stored, error)
       if (allocated(error)) return
       call compare_row(self, group//"/film", number, stored, reshape(record%film, [size(record%film)]), differs)
+      if (.not. allocated(record%film_rise)) return
+      call read_numbers(self%file, "/"//group//"/film_rise", [0, 0, number], [shape(record%film_rise), 1], stored, error)
+      if (allocated(error)) return
+      call compare_row(self, group//"/film_rise", number, stored, reshape(record%film_rise, [size(record%film_rise)]), differs)
    end subroutine compare_record
 
    !> Compare the numbers of a case; what is kept is the one that differs most.

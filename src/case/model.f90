@@ -464,7 +464,7 @@ contains
       end if
       if (allocated(case%heat)) then
          allocate (model%heat)
-         call new_heat_part(model%heat, case%heat, allocated(case%ehl), error)
+         call new_heat_part(model%heat, case%heat, error)
          if (allocated(error)) return
       end if
       if (allocated(case%needle_bearing)) then

@@ -15,7 +15,8 @@ module camroller_conjunction
    private
 
    public :: hot_oil_t, body_t, band_t, sheared_film_t, film_shear_t, band_mean, new_band, flash_resistance, film_resistance, &
-      & log_viscosity_change, hot_shear
+      & line_integral, log_viscosity_change, warm_oil, viscosity_by_rise, hot_shear
+   public :: film_part, least_log
 
    !> How the oil follows the temperature from that of the oil around on
    type :: hot_oil_t
@@ -116,6 +117,33 @@ contains
          log_slope = s*whole/double - 2.0_wp
       end associate
    end subroutine band_mean
+
+   !> Integral of `e^u K_0(|u|)` up to u, up to a constant that is the same on both sides of zero: the rise by a band whose ends are
+   !> at other distances is a difference of two.
+   !>
+   !> `u e^u (K_0(|u|) + sgn(u) K_1(|u|))`, one at zero. Source: Abramowitz and Stegun, 11.3.14 and 11.3.15.
+   elemental function line_integral(u) result(value)
+      !> Distance behind the source times V/(2 kappa); negative: ahead of it [-]
+      real(wp), intent(in) :: u
+      !> The integral [-]
+      real(wp) :: value
+
+      ! Distance ahead beyond which no heat arrives: e^(-2 u) is less than round-off of one [-]
+      real(wp), parameter :: farthest = 18.5_wp
+      ! Functions K_0 and K_1 times e^|u| [-]
+      real(wp) :: zero, one
+
+      value = 1.0_wp
+      if (abs(u) < tiny(u)) return
+      value = 0.0_wp
+      if (u < -farthest) return
+      call scaled_bessel_k(abs(u), zero, one)
+      if (u > 0.0_wp) then
+         value = u*(zero + one)
+      else
+         value = -u*exp(2.0_wp*u)*(one - zero)
+      end if
+   end function line_integral
 
    !> Work out the mean rise between Peclet numbers.
    pure subroutine new_band(band)
@@ -226,6 +254,46 @@ contains
       slope = -hot%coefficient/distance**2
    end subroutine log_viscosity_change
 
+   !> Oil at a rise of the temperature.
+   elemental subroutine warm_oil(hot, oil, rise, warm, change, change_slope)
+      !> How the oil follows the temperature
+      type(hot_oil_t), intent(in) :: hot
+      !> Oil at the temperature around
+      type(oil_t), intent(in) :: oil
+      !> Rise of the temperature [K]
+      real(wp), intent(in) :: rise
+      !> Oil at that rise
+      type(oil_t), intent(out) :: warm
+      !> Change of ln(viscosity) at ambient pressure [-], its derivative over the rise [1/K]
+      real(wp), intent(out) :: change, change_slope
+
+      call log_viscosity_change(hot, rise, change, change_slope)
+      warm = oil
+      warm%viscosity = oil%viscosity*exp(change)
+      warm%pressure_viscosity = oil%pressure_viscosity*exp(-hot%pressure_fall*rise)
+      ! Roelands' law has no viscosity below that of its exponent 0
+      warm%roelands_exponent = max(oil%roelands_exponent + change, 0.0_wp)
+   end subroutine warm_oil
+
+   !> Derivative of ln(viscosity) under pressure over the rise.
+   elemental function viscosity_by_rise(hot, warm, change_slope, log_ratio, log_slope) result(by_rise)
+      !> How the oil follows the temperature
+      type(hot_oil_t), intent(in) :: hot
+      !> Oil at its temperature
+      type(oil_t), intent(in) :: warm
+      !> Derivative of ln(viscosity) at ambient pressure over the rise [1/K]
+      real(wp), intent(in) :: change_slope
+      !> ln of the viscosity under pressure over that at ambient pressure; its derivative over ln(pressure) [-]
+      real(wp), intent(in) :: log_ratio, log_slope
+      !> The derivative [1/K]
+      real(wp) :: by_rise
+
+      by_rise = change_slope - hot%pressure_fall*log_slope
+      ! Roelands: ln(eta/eta_r) is the exponent times a power of the pressure, so both grow by the same factor
+      if (warm%pressure_law == law_roelands .and. log_slope > 0.0_wp) &
+         & by_rise = change_slope*(1.0_wp + log_ratio/warm%roelands_exponent)
+   end function viscosity_by_rise
+
    !> Shear force of a film that is warmer than the oil around, by either shear law, before any limit, with its slopes.
    pure subroutine hot_shear(film, oil, hot, rise, shear)
       !> The film
@@ -243,12 +311,7 @@ contains
       ! Change of ln(viscosity) at ambient pressure [-], its slope [1/K]; mean viscosity ratio, its logarithmic slope [-]
       real(wp) :: change, change_slope, ratio, log_slope
 
-      call log_viscosity_change(hot, rise, change, change_slope)
-      warm = oil
-      warm%viscosity = oil%viscosity*exp(change)
-      warm%pressure_viscosity = oil%pressure_viscosity*exp(-hot%pressure_fall*rise)
-      ! Roelands' law has no viscosity below that of its exponent 0
-      warm%roelands_exponent = max(oil%roelands_exponent + change, 0.0_wp)
+      call warm_oil(hot, oil, rise, warm, change, change_slope)
       if (film%law == law_newtonian .and. oil%pressure_law /= law_roelands) then
          call mean_relative_viscosity(warm, film%peak, ratio, log_slope)
          shear%by_speed = newtonian_shear(1.0_wp, warm%viscosity*ratio, film%area, film%thickness)
@@ -256,26 +319,28 @@ contains
          shear%by_peak = shear%force*log_slope
          shear%by_rise = shear%force*(change_slope - hot%pressure_fall*log_slope)
       else
-         call sum_shear(film, warm, hot%pressure_fall, change_slope, shear)
+         call sum_shear(film, warm, hot, change_slope, shear)
       end if
    end subroutine hot_shear
 
    !> The same by quadrature over the contact.
-   pure subroutine sum_shear(film, warm, pressure_fall, change_slope, shear)
+   pure subroutine sum_shear(film, warm, hot, change_slope, shear)
       !> The film
       type(sheared_film_t), intent(in) :: film
       !> Oil at the temperature of the film
       type(oil_t), intent(in) :: warm
-      !> Fall of ln(alpha), derivative of ln(viscosity) at ambient pressure, per kelvin [1/K]
-      real(wp), intent(in) :: pressure_fall, change_slope
+      !> How the oil follows the temperature
+      type(hot_oil_t), intent(in) :: hot
+      !> Derivative of ln(viscosity) at ambient pressure over the rise [1/K]
+      real(wp), intent(in) :: change_slope
       !> Shear force and slopes
       type(film_shear_t), intent(out) :: shear
 
       ! Viscosity over film thickness [Pa s/m], at a point; over the Eyring stress [s/m]; what the shear law makes of its slope [-]
       real(wp) :: unit, rate, reduced, bend
-      ! Viscosity ratios at the points of the rule, their logarithmic slopes [-]; derivative of ln(viscosity) at a point over the
-      ! rise [1/K]
-      real(wp) :: ratios(size(rule_heights)), log_slopes(size(rule_heights)), by_rise
+      ! Viscosity ratios at the points of the rule, their logarithmic slopes, logarithm of one where it is needed [-]; derivative of
+      ! ln(viscosity) at a point over the rise [1/K]
+      real(wp) :: ratios(size(rule_heights)), log_slopes(size(rule_heights)), log_ratio, by_rise
       ! Stress at a point [Pa]
       real(wp) :: stress
       integer :: i
@@ -284,11 +349,9 @@ contains
       unit = warm%viscosity/film%thickness
       call relative_viscosity(warm, film%peak*rule_heights, ratios, log_slopes)
       do i = 1, size(rule_heights)
-         by_rise = change_slope - pressure_fall*log_slopes(i)
-         ! Roelands: ln(eta/eta_r) is the exponent times a power of the pressure, so both grow by the same factor
-         if (warm%pressure_law == law_roelands .and. log_slopes(i) > 0.0_wp) then
-            by_rise = change_slope*(1.0_wp + log(ratios(i))/warm%roelands_exponent)
-         end if
+         log_ratio = 0.0_wp
+         if (warm%pressure_law == law_roelands) log_ratio = log(ratios(i))
+         by_rise = viscosity_by_rise(hot, warm, change_slope, log_ratio, log_slopes(i))
          rate = unit*ratios(i)
          stress = rate*film%sliding_speed
          bend = 1.0_wp

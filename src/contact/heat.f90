@@ -7,7 +7,7 @@ module camroller_heat
    use camroller_kinds, only : wp
    use camroller_error, only : error_t, raise, add_context, kind_deck, kind_domain
    use camroller_names, only : name_length, find_name
-   use camroller_lubricant, only : lubricant_t, oil_t, get_oil, temperature_law_names, law_direct, law_roelands
+   use camroller_lubricant, only : lubricant_t, oil_t, get_oil, density_at, temperature_law_names, law_direct, law_roelands
    use camroller_conjunction, only : hot_oil_t, body_t, band_t, new_band
    implicit none
    private
@@ -36,6 +36,8 @@ module camroller_heat
       real(wp) :: limit_fall = 0.0_wp
       !> Thermal conductivity of cam and roller [W/(m K)], their density [kg/m^3] and heat capacity [J/(kg K)]: steel
       real(wp) :: conductivity(2) = 46.0_wp, density(2) = 7850.0_wp, heat_capacity(2) = 460.0_wp
+      !> Heat capacity of the oil; of solved contacts alone [J/(kg K)]
+      real(wp) :: oil_heat_capacity = 2000.0_wp
    end type heat_t
 
    !> Ready for evaluation
@@ -44,8 +46,9 @@ module camroller_heat
       integer :: inlet_law
       !> Is the film sheared at the temperature of the contact?
       logical :: has_contact
-      !> Thermal conductivity of the oil [W/(m K)]
-      real(wp) :: oil_conductivity
+      !> Thermal conductivity of the oil [W/(m K)], its heat capacity over mass [J/(kg K)] and over volume [J/(m^3 K)], fall of its
+      !> density per kelvin [1/K], temperature of the oil around [K]
+      real(wp) :: oil_conductivity, oil_heat_capacity, oil_capacity, oil_expansion, temperature
       !> Fall of ln(viscosity) as given [1/K]; fall of ln(limiting traction coefficient) [1/K]
       real(wp) :: given_fall, limit_fall
       !> How the oil follows the temperature
@@ -78,13 +81,11 @@ module camroller_heat
 contains
 
    !> Prepare what does not depend on the oil.
-   subroutine new_heat_part(part, heat, has_numerical_film, error)
+   subroutine new_heat_part(part, heat, error)
       !> Ready but for the oil
       type(heat_part_t), intent(out) :: part
       !> What a deck gives
       type(heat_t), intent(in) :: heat
-      !> Are films solved numerically, at one temperature?
-      logical, intent(in) :: has_numerical_film
       !> Deck error for an unknown name or constants that are not positive
       type(error_t), allocatable, intent(out) :: error
 
@@ -95,16 +96,15 @@ contains
       call find_name("heat in the contact", heat%contact, contact_heat_names, choice, error)
       if (allocated(error)) return
       part%has_contact = choice /= contact_heat_none
-      if (.not. min(heat%oil_conductivity, minval(heat%conductivity), minval(heat%density), minval(heat%heat_capacity)) &
-         & > 0.0_wp) then
+      if (.not. min(heat%oil_conductivity, heat%oil_heat_capacity, minval(heat%conductivity), minval(heat%density), &
+         & minval(heat%heat_capacity)) > 0.0_wp) then
          call raise(error, kind_deck, "heat: conductivities, densities and heat capacities must be positive")
       else if (.not. min(heat%viscosity_fall, heat%limit_fall) >= 0.0_wp) then
          call raise(error, kind_deck, "heat: viscosity and limit of the traction must not rise with temperature")
-      else if (has_numerical_film) then
-         call raise(error, kind_deck, "heat is not part of a numerical film, &ehl, which has one temperature")
       end if
       if (allocated(error)) return
       part%oil_conductivity = heat%oil_conductivity
+      part%oil_heat_capacity = heat%oil_heat_capacity
       part%given_fall = heat%viscosity_fall
       part%limit_fall = heat%limit_fall
       part%bodies%conductivity = heat%conductivity
@@ -157,6 +157,9 @@ contains
          if (oil%pressure_law /= law_roelands) part%hot%pressure_fall = &
             & log(oil%pressure_viscosity/warm(2)%pressure_viscosity)/(2.0_wp*temperature_step)
       end if
+      part%temperature = temperature
+      part%oil_capacity = part%oil_heat_capacity*density_at(lubricant, temperature)
+      part%oil_expansion = lubricant%thermal_expansion*lubricant%density/density_at(lubricant, temperature)
       part%loading = part%hot%coefficient*oil%viscosity/part%oil_conductivity
    end subroutine set_heat_oil
 

@@ -68,6 +68,7 @@ module camroller_usual_values
       usual_t("roller_profile.end_drop_um", 0.0_wp, 100.0_wp), &
       usual_t("roller_profile.tilt_mrad", -5.0_wp, 5.0_wp), &
       usual_t("heat.oil_conductivity_W_m_K", 0.05_wp, 0.5_wp), &
+      usual_t("heat.oil_heat_capacity_J_kg_K", 1500.0_wp, 2700.0_wp), &
       usual_t("heat.viscosity_fall_per_K", 0.01_wp, 0.12_wp), &
       usual_t("heat.limit_fall_per_K", 0.0_wp, 0.02_wp), &
       usual_t("heat.cam_conductivity_W_m_K", 1.0_wp, 200.0_wp), &

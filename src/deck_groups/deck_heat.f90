@@ -30,6 +30,9 @@ contains
          & "temperature that the film is sheared at: that of the oil, or the mean over the contact with the heat of friction")
       call add_number(schema, "oil_conductivity_W_m_K", positive, "thermal conductivity of the oil", &
          & default=standard%oil_conductivity)
+      call add_number(schema, "oil_heat_capacity_J_kg_K", positive, &
+         & "heat capacity of the oil; for contacts that are solved numerically (profiles of &ehl) alone", &
+         & default=standard%oil_heat_capacity)
       call add_number(schema, "viscosity_fall_per_K", positive, &
          & "fall of ln(viscosity) per kelvin; for lubricant temperature_law 'direct' alone", is_optional=.true.)
       call add_number(schema, "limit_fall_per_K", not_negative, "fall of ln(limiting traction coefficient) per kelvin", &
@@ -58,6 +61,7 @@ contains
       call take(settings, group, "inlet_law", case%heat%inlet_law)
       call take(settings, group, "contact", case%heat%contact)
       call take(settings, group, "oil_conductivity_W_m_K", case%heat%oil_conductivity)
+      call take(settings, group, "oil_heat_capacity_J_kg_K", case%heat%oil_heat_capacity)
       call take(settings, group, "viscosity_fall_per_K", case%heat%viscosity_fall)
       call take(settings, group, "limit_fall_per_K", case%heat%limit_fall)
       call take(settings, "heat", "cam_conductivity_W_m_K", case%heat%conductivity(1))
@@ -68,7 +72,7 @@ contains
       call take(settings, "heat", "roller_heat_capacity_J_kg_K", case%heat%heat_capacity(2))
    end subroutine fill_heat
 
-   !> Rules: one law of the viscosity over the temperature, and no numerical film, which is isothermal.
+   !> Rule: one law of the viscosity over the temperature.
    subroutine check_heat(settings, mistakes)
       !> The settings
       type(settings_t), intent(in) :: settings
@@ -78,8 +82,6 @@ contains
       logical :: is_direct
 
       if (.not. has_group(settings, group)) return
-      if (has_group(settings, "ehl")) call complain_about_group(mistakes, settings, group, &
-         & "&heat is not part of a numerical film, &ehl, which has one temperature; leave out one of both")
       is_direct = get_word(settings, "lubricant", "temperature_law") == "direct"
       if (is_direct .and. .not. (is_known(settings, group, fall_key) .or. is_wrong(settings, group, fall_key))) then
          call complain_about_group(mistakes, settings, group, "&heat needs '"//fall_key// &

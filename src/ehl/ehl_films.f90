@@ -10,7 +10,7 @@ module camroller_ehl_films
    implicit none
    private
 
-   public :: ehl_films_t, get_films, compare_grids, chance_error
+   public :: ehl_films_t, cell_shear, get_films, compare_grids, chance_error
 
    !> Film and friction of a solution
    type :: ehl_films_t
@@ -33,6 +33,10 @@ module camroller_ehl_films
       !> Shear of a full film over length and sliding speed, `int eta/h dx` where no asperities touch [Pa s/m]; over the Hertz zone
       !> alone
       real(wp) :: shear_slope = 0.0_wp, shear_slope_inside = 0.0_wp
+      !> Mean of the limiting traction coefficient over that of the oil around: by the temperature, weighed with the pressure [-]
+      real(wp) :: limit_part = 1.0_wp
+      !> Rise of the film's temperature: mean over the dry contact, and largest [K]
+      real(wp) :: mean_rise = 0.0_wp, largest_rise = 0.0_wp
       !> Mass flow over density and speed, equal everywhere in the full film [m]
       real(wp) :: flow = 0.0_wp
       !> What load and flow lack, relative [-]
@@ -118,6 +122,11 @@ contains
          flow = fields%flow(last - 1)
          films%flow = problem%film_scale*flow
          films%flow_lack = maxval(abs(fields%flow(:last - 1)/flow - 1.0_wp))
+         if (allocated(fields%rise)) then
+            films%limit_part = integral(grid, state%total*exp(-problem%heat%limit_fall*fields%rise))/integral(grid, state%total)
+            films%mean_rise = sum(grid%weight*fields%rise, mask=abs(x) <= 1.0_wp)/sum(grid%weight, mask=abs(x) <= 1.0_wp)
+            films%largest_rise = maxval(fields%rise)
+         end if
       end associate
       call get_friction(problem, grid, state, films)
       films%iterations = state%iterations
@@ -138,8 +147,8 @@ contains
       !> Film and friction
       type(ehl_films_t), intent(inout) :: films
 
-      ! Integrals of viscosity over film between the nodes [-]
-      real(wp) :: shear(grid%size - 1)
+      ! Integrals of viscosity over film between the nodes, derivatives that are not used [-]
+      real(wp) :: shear(grid%size - 1), slopes(2, grid%size - 1)
       ! Part of the surface on which asperities touch [-]
       real(wp) :: touching(grid%size)
 
@@ -148,7 +157,8 @@ contains
          films%rolling = films%rolling*problem%pressure_scale*problem%film_scale
          touching = real_area_part(problem, fields%film)
          films%real_area = problem%length_scale*integral(grid, touching)
-         shear = cell_shear(grid, state)*(1.0_wp - 0.5_wp*(touching(:n - 1) + touching(2:)))
+         call cell_shear(grid, state, shear, slopes)
+         shear = shear*(1.0_wp - 0.5_wp*(touching(:n - 1) + touching(2:)))
          films%shear_slope = sum(shear)
          films%shear_slope_inside = sum(shear, mask=abs(grid%x(:n - 1) + grid%x(2:)) <= 2.0_wp)
       end associate
@@ -230,16 +240,18 @@ contains
    !> above the straight line by a sixteenth of both second differences in the middle, by a 24th in the mean. Without it the top
    !> of a spike of two or three nodes is cut off. That is so where the flow makes the pressure at a node, in films thicker than
    !> b^2/R. In thinner ones the bodies do, and they feel a pressure that is straight between the nodes: straight lines it is, then.
-   pure function cell_shear(grid, state) result(shear)
+   pure subroutine cell_shear(grid, state, shear, slopes)
       !> The grid
       type(ehl_grid_t), intent(in) :: grid
       !> The solution
       type(ehl_state_t), intent(in) :: state
       !> The integrals [-]
-      real(wp) :: shear(grid%size - 1)
+      real(wp), intent(out) :: shear(grid%size - 1)
+      !> Their derivatives over ln(film/viscosity) at both nodes, but for what its bend adds [-]
+      real(wp), intent(out) :: slopes(2, grid%size - 1)
 
-      ! Logarithm of film over viscosity; its derivatives, not used; part of a node's cell with a full film [-]
-      real(wp) :: fluidity(grid%size), slopes(2), filled(grid%size)
+      ! Logarithm of film over viscosity; part of a node's cell with a full film; length of a cell with what the bend adds [-]
+      real(wp) :: fluidity(grid%size), filled(grid%size), length
       ! Second differences of the logarithm, as far as the nodes resolve them [-]
       real(wp) :: bend(grid%size)
       integer :: i
@@ -250,12 +262,15 @@ contains
       bend(2:grid%size - 1) = fluidity(3:) - 2.0_wp*fluidity(2:grid%size - 1) + fluidity(:grid%size - 2)
       bend = bend/(1.0_wp + (bend/largest_bend)**4)/(1.0_wp + 1.0_wp/state%fields%film**2)
       shear = 0.0_wp
+      slopes = 0.0_wp
       do i = 1, grid%size - 1
          if (filled(i) + filled(i + 1) <= 0.0_wp) cycle
-         call mean_fluidity(fluidity(i), fluidity(i + 1), shear(i), slopes)
-         shear(i) = shear(i)*exp((bend(i) + bend(i + 1))/24.0_wp)*grid%step(i)*0.5_wp*(filled(i) + filled(i + 1))
+         call mean_fluidity(fluidity(i), fluidity(i + 1), shear(i), slopes(:, i))
+         length = exp((bend(i) + bend(i + 1))/24.0_wp)
+         shear(i) = shear(i)*length*grid%step(i)*0.5_wp*(filled(i) + filled(i + 1))
+         slopes(:, i) = slopes(:, i)*length*grid%step(i)*0.5_wp*(filled(i) + filled(i + 1))
       end do
-   end function cell_shear
+   end subroutine cell_shear
 
    !> Part of each node's cell in which the film is full.
    !>

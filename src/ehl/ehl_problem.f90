@@ -11,13 +11,17 @@ module camroller_ehl_problem
    use camroller_kinds, only : wp, pi
    use camroller_lubricant, only : oil_t, log_relative_viscosity
    use camroller_hertz, only : half_width, peak_pressure
+   use camroller_traction, only : cap_smooth
    use camroller_film, only : groups_t, film_shape_t, film_shape, law_moes
    use camroller_asperity, only : asperity_constants_t, asperity_load_function, asperity_area_function
+   use camroller_conjunction, only : body_t, hot_oil_t, viscosity_by_rise, warm_oil
    implicit none
    private
 
-   public :: ehl_contact_t, ehl_problem_t, new_ehl_problem, range_text, in_range, largest_pressure, speed_range, load_range
-   public :: log_viscosity, relative_density, asperity_reach, asperity_pressure, real_area_part, pressure_flow_factor, mean_gap
+   public :: ehl_contact_t, ehl_heat_t, ehl_problem_t, new_ehl_problem, range_text, in_range, largest_pressure, speed_range, &
+      & load_range
+   public :: log_viscosity, log_hot_viscosity, relative_density, asperity_reach, asperity_pressure, real_area_part, &
+      & pressure_flow_factor, mean_gap
 
    !> What a problem may be: in range, or which quantity is out of it
    integer, parameter :: in_range = 0, pressure_out_of_range = 1, exponent_out_of_range = 2, speed_out_of_range = 3, &
@@ -33,6 +37,25 @@ module camroller_ehl_problem
    real(wp), parameter :: smallest_pressure = 1.0e-9_wp
    !> Film ratio below which the flow factor is held [-]
    real(wp), parameter :: smallest_film_ratio = 0.5_wp
+
+   !> What the temperature along a contact depends on
+   type :: ehl_heat_t
+      !> How the oil follows the temperature from that around on
+      type(hot_oil_t) :: hot
+      !> Both bodies
+      type(body_t) :: bodies(2)
+      !> Speed of each surface over the contact [m/s]
+      real(wp) :: speeds(2) = 0.0_wp
+      !> Thermal conductivity of the oil [W/(m K)], its heat capacity over volume [J/(m^3 K)], fall of its density per kelvin [1/K]
+      real(wp) :: conductivity = 0.0_wp, capacity = 0.0_wp, expansion = 0.0_wp
+      !> Temperature of the oil around [K]
+      real(wp) :: temperature = 0.0_wp
+      !> Limiting traction coefficient [-], how it is approached, its fall per kelvin [1/K]
+      real(wp) :: limiting_coefficient = 0.0_wp, limit_fall = 0.0_wp
+      integer :: cap = cap_smooth
+      !> Boundary friction over the asperities' load [-] and over the area on which they touch [Pa], as far as slip mobilises it
+      real(wp) :: boundary_coefficient = 0.0_wp, boundary_stress = 0.0_wp
+   end type ehl_heat_t
 
    !> A line contact as it is given
    type :: ehl_contact_t
@@ -58,6 +81,8 @@ module camroller_ehl_problem
       type(asperity_constants_t) :: asperity
       !> Does roughness hinder the flow that pressure drives?
       logical :: has_flow_factors = .false.
+      !> Heat along the contact; not allocated: all of it is as warm as the oil around
+      type(ehl_heat_t), allocatable :: heat
    end type ehl_contact_t
 
    !> The same without dimension, and the scales
@@ -84,6 +109,10 @@ module camroller_ehl_problem
       real(wp) :: shear = 0.0_wp
       !> Film at the centre by Moes' formula, to choose grid and start [-]
       real(wp) :: expected_film
+      !> Mean of the surfaces' speeds, and their difference [m/s]
+      real(wp) :: entrainment_speed, sliding_speed
+      !> Heat along the contact; not allocated: none
+      type(ehl_heat_t), allocatable :: heat
    end type ehl_problem_t
 
 contains
@@ -113,6 +142,9 @@ contains
       problem%speed = 12.0_wp*contact%entrainment_speed*contact%oil%viscosity*contact%radius**2 &
          & /(problem%length_scale**3*problem%pressure_scale)
       problem%oil = contact%oil
+      problem%entrainment_speed = contact%entrainment_speed
+      problem%sliding_speed = contact%sliding_speed
+      if (allocated(contact%heat)) problem%heat = contact%heat
       problem%is_compressible = contact%is_compressible
       problem%has_flow_factors = contact%has_flow_factors
       problem%roughness = contact%roughness/problem%film_scale
@@ -197,6 +229,30 @@ contains
       if (pressure > smallest_pressure) call log_relative_viscosity(problem%oil, pressure*problem%pressure_scale, value, slope)
       slope = slope*problem%pressure_scale
    end subroutine log_viscosity
+
+   !> The same at a rise of the temperature, with its derivative over the rise.
+   pure subroutine log_hot_viscosity(problem, pressure, rise, value, slope, by_rise)
+      !> The problem, with heat
+      type(ehl_problem_t), intent(in) :: problem
+      !> Pressure over its scale [-], rise of the temperature [K]
+      real(wp), intent(in) :: pressure, rise
+      !> ln(eta/eta0), eta0 at the temperature around, and its derivative over the pressure over its scale [-]
+      real(wp), intent(out) :: value, slope
+      !> Its derivative over the rise [1/K]
+      real(wp), intent(out) :: by_rise
+
+      type(oil_t) :: warm
+      ! Change at ambient pressure [-], its derivative over the rise [1/K]
+      real(wp) :: change, change_slope
+
+      call warm_oil(problem%heat%hot, problem%oil, rise, warm, change, change_slope)
+      value = 0.0_wp
+      slope = warm%pressure_viscosity
+      if (pressure > smallest_pressure) call log_relative_viscosity(warm, pressure*problem%pressure_scale, value, slope)
+      slope = slope*problem%pressure_scale
+      by_rise = viscosity_by_rise(problem%heat%hot, warm, change_slope, value, slope*max(pressure, 0.0_wp))
+      value = value + change
+   end subroutine log_hot_viscosity
 
    !> Density over that at ambient pressure, and its slope.
    pure subroutine relative_density(problem, pressure, value, slope)

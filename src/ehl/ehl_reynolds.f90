@@ -14,8 +14,8 @@
 module camroller_ehl_reynolds
    use camroller_kinds, only : wp
    use camroller_ehl_grid, only : ehl_grid_t, deformation
-   use camroller_ehl_problem, only : ehl_problem_t, log_viscosity, relative_density, asperity_pressure, pressure_flow_factor, &
-      & mean_gap
+   use camroller_ehl_problem, only : ehl_problem_t, log_viscosity, log_hot_viscosity, relative_density, asperity_pressure, &
+      & pressure_flow_factor, mean_gap
    implicit none
    private
 
@@ -39,6 +39,10 @@ module camroller_ehl_reynolds
       real(wp), allocatable :: by_pressure(:, :), by_film(:, :)
       !> Excess of what leaves a cell over what enters it, of inner nodes [-]
       real(wp), allocatable :: excess(:)
+      !> Mean rise of the film's temperature across it [K], derivative of ln(viscosity) over it [1/K]; not allocated: no heat
+      real(wp), allocatable :: rise(:), by_rise(:)
+      !> Heat flux of the film into both surfaces: sum, then difference [W/m^2]; rise of both surfaces [K]; over node, then surface
+      real(wp), allocatable :: flux(:, :), surface_rise(:, :)
    end type ehl_fields_t
 
    !> What the film stored at the time before: for contacts that change
@@ -97,33 +101,65 @@ contains
       !> In: film; out: state of the oil
       type(ehl_fields_t), intent(inout) :: fields
 
+      ! Derivative of ln(viscosity) over that without thinning [-]
+      real(wp) :: part
+      logical :: is_hot
       integer :: i
 
+      is_hot = allocated(fields%rise)
       do i = 1, grid%size
          call asperity_pressure(problem, fields%film(i), fields%asperity(i), fields%asperity_slope(i))
          fields%pressure(i) = total(i) - fields%asperity(i)
          call mean_gap(problem, fields%film(i), fields%gap(i), fields%gap_slope(i))
          call relative_density(problem, fields%pressure(i), fields%density(i), fields%density_slope(i))
-         call effective_viscosity(problem, fields%pressure(i), fields%film(i), fields%log_viscosity(i), &
-            & fields%viscosity_slope(i), fields%thinning_slope(i))
+         if (is_hot) then
+            if (problem%is_compressible) call expand(problem, fields%rise(i), fields%density(i), fields%density_slope(i))
+            call log_hot_viscosity(problem, fields%pressure(i), fields%rise(i), fields%log_viscosity(i), &
+               & fields%viscosity_slope(i), fields%by_rise(i))
+         else
+            call log_viscosity(problem, fields%pressure(i), fields%log_viscosity(i), fields%viscosity_slope(i))
+         end if
+         call thin_by_sliding(problem, fields%film(i), fields%log_viscosity(i), part, fields%thinning_slope(i))
+         fields%viscosity_slope(i) = fields%viscosity_slope(i)*part
+         if (is_hot) fields%by_rise(i) = fields%by_rise(i)*part
       end do
    end subroutine evaluate_oil
+
+   !> Density of oil that is warmer than around.
+   pure subroutine expand(problem, rise, density, slope)
+      !> The problem, with heat
+      type(ehl_problem_t), intent(in) :: problem
+      !> Rise of the temperature [K]
+      real(wp), intent(in) :: rise
+      !> Density ratio and its derivative over the pressure: at the temperature around, then at the rise [-]
+      real(wp), intent(inout) :: density, slope
+
+      ! Density over that at the temperature around, least value [-]
+      real(wp) :: part
+      real(wp), parameter :: least_part = 0.5_wp
+
+      part = max(1.0_wp - problem%heat%expansion*rise, least_part)
+      density = density*part
+      slope = slope*part
+   end subroutine expand
 
    !> Logarithm of the viscosity ratio that acts on the flow: thinned by sliding as Eyring's law has it.
    !>
    !> `eta' = tau_E/(V_s/h) asinh(eta V_s/(h tau_E))`: Eyring (1936) with the shear rate of sliding alone.
-   pure subroutine effective_viscosity(problem, pressure, film, value, pressure_slope, film_slope)
+   pure subroutine thin_by_sliding(problem, film, value, part, film_slope)
       !> The problem
       type(ehl_problem_t), intent(in) :: problem
-      !> Pressure and film over their scales [-]
-      real(wp), intent(in) :: pressure, film
-      !> ln(viscosity ratio), and its derivatives with respect to pressure and film [-]
-      real(wp), intent(out) :: value, pressure_slope, film_slope
+      !> Film over its scale [-]
+      real(wp), intent(in) :: film
+      !> ln(viscosity ratio): in without, out with thinning [-]
+      real(wp), intent(inout) :: value
+      !> Derivative of the one over the other, and over the film [-]
+      real(wp), intent(out) :: part, film_slope
 
-      ! ln of the stress over tau_E without thinning; the stress itself; its thinned value; logarithmic slope of the latter [-]
-      real(wp) :: log_stress, stress, thinned, part
+      ! ln of the stress over tau_E without thinning; the stress itself; its thinned value [-]
+      real(wp) :: log_stress, stress, thinned
 
-      call log_viscosity(problem, pressure, value, pressure_slope)
+      part = 1.0_wp
       film_slope = 0.0_wp
       if (problem%shear <= 0.0_wp .or. film <= 0.0_wp) return
       log_stress = value + log(problem%shear/film)
@@ -137,9 +173,8 @@ contains
          part = stress/hypot(1.0_wp, stress)/thinned
       end if
       value = log(thinned*film/problem%shear)
-      pressure_slope = pressure_slope*part
       film_slope = (1.0_wp - part)/film
-   end subroutine effective_viscosity
+   end subroutine thin_by_sliding
 
    !> Flow between the nodes, its derivatives, and what is out of balance.
    pure subroutine evaluate_flow(problem, grid, fields, storage)

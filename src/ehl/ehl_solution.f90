@@ -10,6 +10,7 @@ module camroller_ehl_solution
    use camroller_ehl_problem, only : ehl_contact_t, ehl_problem_t, new_ehl_problem, asperity_reach, range_text, in_range
    use camroller_ehl_reynolds, only : new_ehl_fields
    use camroller_ehl_newton, only : ehl_state_t, solve_newton, forget
+   use camroller_ehl_heat, only : start_heat, warm_film
    use camroller_ehl_settling, only : settle
    use camroller_ehl_films, only : ehl_films_t, get_films, compare_grids, chance_error
    use camroller_number_text, only : fixed_text
@@ -127,6 +128,7 @@ contains
                track%states(i)%iterations = 0
                track%states(i)%factorisations = 0
                call solve_newton(problem, track%grids(i), track%states(i), options%tolerance, step_iterations, converged)
+               if (converged) call warm_film(problem, track%grids(i), track%states(i), options%tolerance, converged)
                if (.not. converged) exit
                call get_films(problem, track%grids(i), track%states(i), both(i))
             end do
@@ -204,6 +206,7 @@ contains
             previous = state
             call make_grid(problem, options, nodes, grid)
             call refine(problem, grid, previous, options%tolerance, state, converged)
+            if (converged) call warm_film(problem, grid, state, options%tolerance, converged)
             if (converged) call get_films(problem, grid, state, films)
          end if
          if (.not. converged) call solve_on_grid(problem, options, nodes, grid, state, films, converged)
@@ -256,8 +259,7 @@ contains
 
       n = size(coarse%total)
       if (.not. allocated(state%total)) allocate (state%total(grid%size))
-      state%total(1::2) = coarse%total
-      state%total(2::2) = 0.5_wp*(coarse%total(:n - 1) + coarse%total(2:))
+      call refine_column(coarse%total, state%total)
       if (is_cubic) then
          do i = 2, n - 2
             state%total(2*i) = (9.0_wp*(coarse%total(i) + coarse%total(i + 1)) - coarse%total(i - 1) - coarse%total(i + 2))/16.0_wp
@@ -268,8 +270,27 @@ contains
       gap = deformation(grid, state%total) + 0.5_wp*grid%x**2
       middle = minloc(abs(grid%x(1::2)), dim=1)
       state%level = coarse%fields%film(middle) - gap(2*middle - 1)
+      if (allocated(problem%heat)) then
+         call start_heat(grid, state%fields)
+         call refine_column(coarse%fields%rise, state%fields%rise)
+         call refine_column(coarse%fields%flux(:, 1), state%fields%flux(:, 1))
+      end if
       call forget(state)
    end subroutine interpolate
+
+   !> Values between nodes on straight lines.
+   pure subroutine refine_column(coarse, fine)
+      !> Values at the nodes of the grid with half the nodes [any]
+      real(wp), intent(in) :: coarse(:)
+      !> Values at the nodes [any]
+      real(wp), intent(out) :: fine(:)
+
+      integer :: n
+
+      n = size(coarse)
+      fine(1::2) = coarse
+      fine(2::2) = 0.5_wp*(coarse(:n - 1) + coarse(2:))
+   end subroutine refine_column
 
    !> Solution from nothing on one grid, and its films.
    pure subroutine solve_on_grid(problem, options, nodes, grid, state, films, converged)
@@ -290,6 +311,7 @@ contains
 
       call make_grid(problem, options, nodes, grid)
       call solve_cold(problem, grid, options%tolerance, state, converged)
+      if (converged) call warm_film(problem, grid, state, options%tolerance, converged)
       if (converged) call get_films(problem, grid, state, films)
    end subroutine solve_on_grid
 

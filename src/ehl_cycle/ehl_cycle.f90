@@ -43,8 +43,9 @@ module camroller_ehl_cycle
       !> Accepted angles from full lift [rad], what was found there
       real(wp), allocatable :: angle(:)
       type(moment_t), allocatable :: moments(:)
-      !> Nodes [half widths]; pressure [Pa] and film [m] there at the accepted angles, on request
-      real(wp), allocatable :: nodes(:), pressure(:, :), film(:, :)
+      !> Nodes [half widths]; pressure [Pa], film [m] and, of warm contacts, rise of its temperature [K] there at the accepted
+      !> angles, on request
+      real(wp), allocatable :: nodes(:), pressure(:, :), film(:, :), film_rise(:, :)
       !> Work: steps tried, of them refused, rounds of film and forces, factorisations, cycles
       integer :: tried = 0, refused = 0, rounds = 0, factorisations = 0, turns = 1
    end type ehl_cycle_t

@@ -117,11 +117,13 @@ contains
 
       call prepare_march(march, model, ehl_cycle_options_t(nodes=profile_nodes, is_transient=.false.), error)
       if (allocated(error)) return
+      march%is_warm = .true.
       call new_ehl_fields(state%fields, march%grid%size)
       cycle%angle = angles
       cycle%nodes = march%grid%x
       allocate (cycle%moments(size(angles)))
       allocate (cycle%pressure(march%grid%size, size(angles)), cycle%film(march%grid%size, size(angles)), source=0.0_wp)
+      if (allocated(model%heat)) allocate (cycle%film_rise(march%grid%size, size(angles)), source=0.0_wp)
       do i = 1, size(angles)
          cycle%moments(i)%angle = angles(i)
          cycle%moments(i)%load = loads(i)
@@ -135,6 +137,7 @@ contains
          if (.not. before(1)%has_film) cycle
          cycle%pressure(:, i) = state%total*before(1)%pressure_scale
          cycle%film(:, i) = state%fields%film*before(1)%film_scale
+         if (allocated(state%fields%rise)) cycle%film_rise(:, i) = state%fields%rise
       end do
    end subroutine steady_contacts
 

@@ -23,8 +23,9 @@ module camroller_ehl_record
    type :: ehl_record_t
       !> Angles from full lift, increasing [rad]
       real(wp), allocatable :: angle(:)
-      !> Nodes [half widths]; pressure [Pa] and film [m] there, shape (node, angle)
-      real(wp), allocatable :: nodes(:), pressure(:, :), film(:, :)
+      !> Nodes [half widths]; pressure [Pa], film [m] and, of profiles with heat, rise of its temperature [K] there, shape
+      !> (node, angle)
+      real(wp), allocatable :: nodes(:), pressure(:, :), film(:, :), film_rise(:, :)
       !> Values in the order of `list_ehl_quantities`, shape (angle, quantity) [unit of the quantity]
       real(wp), allocatable :: values(:, :)
    end type ehl_record_t
@@ -98,6 +99,7 @@ contains
       if (allocated(cycle%pressure)) then
          record%pressure = cycle%pressure
          record%film = cycle%film
+         if (allocated(cycle%film_rise)) record%film_rise = cycle%film_rise
       end if
       allocate (record%values(size(cycle%angle), quantity_count))
       do i = 1, size(cycle%angle)

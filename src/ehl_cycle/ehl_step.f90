@@ -20,11 +20,13 @@ module camroller_ehl_step
    use camroller_needle, only : bearing_torque
    use camroller_needle_drag, only : drag_torque
    use camroller_traction, only : law_eyring, rolling_none, limit_shear, mobilised_share, sliding_direction
+   use camroller_contact_heat, only : has_hot_contact, set_heat
    use camroller_ehl_grid, only : ehl_grid_t
    use camroller_ehl_problem, only : ehl_contact_t, ehl_problem_t, new_ehl_problem, in_range
    use camroller_ehl_reynolds, only : storage_t
    use camroller_ehl_newton, only : ehl_state_t, solve_newton, contraction
    use camroller_ehl_films, only : ehl_films_t, get_films
+   use camroller_ehl_heat, only : warm_film
    use camroller_ehl_solution, only : solve_cold
    implicit none
    private
@@ -63,6 +65,8 @@ module camroller_ehl_step
       real(wp) :: largest_load = 0.0_wp, largest_rolling = 0.0_wp
       !> Does the film remember? If not, each angle is a steady contact
       logical :: is_transient = .true.
+      !> Is the contact as warm as its heat makes it, where the model has heat?
+      logical :: is_warm = .false.
       !> What may be left of film and forces [-], and of the sliding speed [m/s]
       real(wp) :: tolerance = 1.0e-6_wp, slip_tolerance = 1.0_wp
    end type ehl_march_t
@@ -191,6 +195,10 @@ contains
       end if
       if (allocated(model%boundary) .or. contact%has_flow_factors) contact%roughness = model%roughness
       if (allocated(model%boundary)) contact%asperity = model%boundary%constants
+      if (march%is_warm .and. has_hot_contact(model)) then
+         allocate (contact%heat)
+         call set_heat(model, surface_speed, sliding_speed, contact%heat)
+      end if
    end function contact_at
 
    !> Film at a load and a sliding speed.
@@ -248,7 +256,11 @@ contains
       else
          converged = .false.
          if (before(1)%has_film) call solve_newton(problem, march%grid, state, march%tolerance, newton_iterations, converged)
-         if (.not. converged) call solve_cold(problem, march%grid, march%tolerance, state, converged)
+         if (converged) call warm_film(problem, march%grid, state, march%tolerance, converged)
+         if (.not. converged) then
+            call solve_cold(problem, march%grid, march%tolerance, state, converged)
+            if (converged) call warm_film(problem, march%grid, state, march%tolerance, converged)
+         end if
       end if
       if (.not. converged) return
       call get_films(problem, march%grid, state, now%films)
@@ -329,7 +341,7 @@ contains
          if (model%rolling_law /= rolling_none) now%rolling_resistance = now%films%rolling*model%contact_width
          traction_slope = now%films%shear_slope*model%contact_width
          now%traction = traction_slope*speed
-         call limit_shear(model%cap, model%limiting_coefficient*now%load, now%traction, by_shear, by_limit)
+         call limit_shear(model%cap, model%limiting_coefficient*now%films%limit_part*now%load, now%traction, by_shear, by_limit)
          now%shear = now%traction
          traction_slope = traction_slope*by_shear
          if (allocated(model%boundary)) then

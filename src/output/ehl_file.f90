@@ -1,9 +1,9 @@
 !> Solved contacts over the cycle in a result file.
 !>
-!> In: an open result file, one record after the other. Out: `/ehl` with pressure and film over case, angle and node, and
-!> what belongs to them over case and angle; `/ehl/second_lift` with the same for the second lobe shape. Angles are equally spaced;
-!> between the steps of a cycle values are taken as linear. Where a case has no record, numbers are NaN; where only few are expected
-!> to have one, the others take no space.
+!> In: an open result file, one record after the other. Out: `/ehl` with pressure, film and, of profiles with heat, rise of the
+!> film's temperature over case, angle and node, and what belongs to them over case and angle; `/ehl/second_lift` with the same for
+!> the second lobe shape. Angles are equally spaced; between the steps of a cycle values are taken as linear. Where a case has no
+!> record, numbers are NaN; where only few are expected to have one, the others take no space.
 module camroller_ehl_file
    use camroller_kinds, only : wp, two_pi
    use camroller_error, only : error_t
@@ -21,7 +21,7 @@ module camroller_ehl_file
 
    !> Datasets of one lobe shape
    type :: lobe_t
-      type(hdf5_object_t) :: group, angles, nodes, places, pressure, film
+      type(hdf5_object_t) :: group, angles, nodes, places, pressure, film, film_rise
       type(hdf5_object_t), allocatable :: series(:)
    end type lobe_t
 
@@ -29,6 +29,8 @@ module camroller_ehl_file
    type :: ehl_file_t
       !> Cam angles of a cycle, nodes of a contact
       integer :: angle_count = 0, node_count = 0
+      !> Do profiles have heat?
+      logical :: has_heat = .false.
       type(quantity_t), allocatable :: quantities(:)
       type(lobe_t), allocatable :: lobes(:)
    end type ehl_file_t
@@ -36,13 +38,15 @@ module camroller_ehl_file
 contains
 
    !> Create the datasets.
-   subroutine open_ehl(file, writer, lobe_count, angle_count, node_count, error)
+   subroutine open_ehl(file, writer, lobe_count, angle_count, node_count, has_heat, error)
       !> The datasets
       type(ehl_file_t), intent(out) :: file
       !> The writer
       type(output_t), intent(inout) :: writer
       !> Lobe shapes, cam angles of a cycle, nodes of a contact
       integer, intent(in) :: lobe_count, angle_count, node_count
+      !> Do profiles have heat?
+      logical, intent(in) :: has_heat
       !> File error
       type(error_t), allocatable, intent(out) :: error
 
@@ -51,13 +55,14 @@ contains
 
       file%angle_count = angle_count
       file%node_count = node_count
+      file%has_heat = has_heat
       call list_ehl_quantities(file%quantities)
       allocate (file%lobes(lobe_count))
       call check_open(writer, error)
       if (allocated(error)) return
       space = size_of_case(file)*size(writer%status)
       if (writer%is_sparse) space = 0.0_wp
-      call reserve_file(writer%file, lobe_count*(object_size*(7 + size(file%quantities)) + space), error)
+      call reserve_file(writer%file, lobe_count*(object_size*(merge(8, 7, has_heat) + size(file%quantities)) + space), error)
       do lobe = 1, lobe_count
          if (allocated(error)) exit
          if (lobe == 1) then
@@ -77,7 +82,7 @@ contains
       !> The space [byte]
       real(wp) :: space
 
-      space = number_size*(2*file%node_count + size(file%quantities))*(file%angle_count + 1.0_wp)
+      space = number_size*(merge(3, 2, file%has_heat)*file%node_count + size(file%quantities))*(file%angle_count + 1.0_wp)
    end function size_of_case
 
    !> Create the datasets of a lobe shape.
@@ -126,6 +131,8 @@ contains
          & [file%node_count, file%angle_count, cases], lobe%pressure, error)
       if (.not. allocated(error)) call create_profile(lobe, writer, "film", "m", "film", &
          & [file%node_count, file%angle_count, cases], lobe%film, error)
+      if (file%has_heat .and. .not. allocated(error)) call create_profile(lobe, writer, "film_rise", "K", &
+         & "mean temperature of the film above that of the oil", [file%node_count, file%angle_count, cases], lobe%film_rise, error)
    end subroutine create_lobe
 
    !> Extents of a chunk: one case where few have a record, else none, which is one contiguous block.
@@ -197,7 +204,8 @@ contains
       real(wp), allocatable :: row(:, :)
       integer :: i
 
-      if (writer%is_sparse) call reserve_file(writer%file, size_of_case(file) + object_size*(3 + size(file%quantities)), error)
+      if (writer%is_sparse) call reserve_file(writer%file, size_of_case(file) + object_size*(merge(4, 3, file%has_heat) &
+         & + size(file%quantities)), error)
       if (allocated(error)) return
       call sample_record(record, file%angle_count, sampled)
       associate (lobe => file%lobes(lobe_number))
@@ -212,6 +220,8 @@ contains
          call write_numbers(lobe%pressure, position - 1, sampled%pressure, 3, error)
          if (allocated(error)) return
          call write_numbers(lobe%film, position - 1, sampled%film, 3, error)
+         if (allocated(error) .or. .not. file%has_heat) return
+         call write_numbers(lobe%film_rise, position - 1, sampled%film_rise, 3, error)
       end associate
    end subroutine write_ehl
 
@@ -231,6 +241,7 @@ contains
       sampled%values = transpose(resample(sampled%angle, record%angle, transpose(record%values)))
       sampled%pressure = resample(sampled%angle, record%angle, record%pressure)
       sampled%film = resample(sampled%angle, record%angle, record%film)
+      if (allocated(record%film_rise)) sampled%film_rise = resample(sampled%angle, record%angle, record%film_rise)
    end subroutine sample_record
 
    !> Close the datasets.
@@ -248,6 +259,7 @@ contains
                   call close_object(this%series(i))
                end do
             end if
+            if (file%has_heat) call close_object(this%film_rise)
             call close_object(this%film)
             call close_object(this%pressure)
             call close_object(this%places)

@@ -117,6 +117,7 @@ contains
 
       integer :: i
 
+      call put_integer(record, merge(1, 0, allocated(profiles%film_rise)))
       call put_numbers(record, profiles%angle)
       call put_numbers(record, profiles%nodes)
       do i = 1, quantity_count
@@ -125,6 +126,7 @@ contains
       do i = 1, size(profiles%angle)
          call put_numbers(record, profiles%pressure(:, i))
          call put_numbers(record, profiles%film(:, i))
+         if (allocated(profiles%film_rise)) call put_numbers(record, profiles%film_rise(:, i))
       end do
    end subroutine put_profiles
 
@@ -234,10 +236,12 @@ contains
       !> The profiles
       type(ehl_record_t), intent(inout) :: profiles
 
-      integer :: i
+      integer :: i, has_rise
 
+      call take_integer(record, has_rise)
       allocate (profiles%angle(angles), profiles%nodes(nodes), profiles%values(angles, quantity_count))
       allocate (profiles%pressure(nodes, angles), profiles%film(nodes, angles))
+      if (has_rise > 0) allocate (profiles%film_rise(nodes, angles))
       call take_numbers(record, profiles%angle)
       call take_numbers(record, profiles%nodes)
       do i = 1, quantity_count
@@ -246,6 +250,7 @@ contains
       do i = 1, angles
          call take_numbers(record, profiles%pressure(:, i))
          call take_numbers(record, profiles%film(:, i))
+         if (has_rise > 0) call take_numbers(record, profiles%film_rise(:, i))
       end do
    end subroutine take_profiles
 
@@ -264,7 +269,8 @@ contains
       if (allocated(result%history_values)) words = words + size(result%history_values)
       if (with_series) words = words + size(result%series_values)
       if (.not. present(profiles)) return
-      words = words + size(profiles%angle) + size(profiles%nodes) + size(profiles%values) + 2*size(profiles%pressure)
+      words = words + 1 + size(profiles%angle) + size(profiles%nodes) + size(profiles%values) + 2*size(profiles%pressure)
+      if (allocated(profiles%film_rise)) words = words + size(profiles%film_rise)
    end function case_words
 
 end module camroller_case_record

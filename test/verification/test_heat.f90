@@ -287,11 +287,6 @@ contains
       case%heat%conductivity(2) = 0.0_wp
       call new_model(model, case, case%lift, failure)
       call expect_error(error, failure, kind_deck, "must be positive")
-      if (allocated(error)) return
-      case%heat%conductivity(2) = 46.0_wp
-      allocate (case%ehl)
-      call new_model(model, case, case%lift, failure)
-      call expect_error(error, failure, kind_deck, "not part of a numerical film")
    end subroutine test_refusals
 
 end module test_heat

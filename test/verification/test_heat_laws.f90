@@ -319,7 +319,7 @@ contains
          if (law == 2) lubricant%viscosity_points = [0.15_wp, 0.01_wp]
          lubricant%pressure_viscosity = 2.2e-8_wp
          call get_oil(lubricant, 320.0_wp, oil, failure)
-         call new_heat_part(part, heat_t(), .false., failure)
+         call new_heat_part(part, heat_t(), failure)
          call set_heat_oil(part, lubricant, 320.0_wp, oil, failure)
          if (allocated(failure)) call test_failed(error, failure%message)
          if (allocated(error)) return

@@ -99,6 +99,7 @@ contains
       end if
       if (allocated(case%heat)) then
          call change(case%heat%oil_conductivity, conductivity)
+         call change(case%heat%oil_heat_capacity, heat_capacity)
          call change(case%heat%viscosity_fall, per_temperature)
          call change(case%heat%limit_fall, per_temperature)
          call change(case%heat%conductivity, conductivity)

@@ -151,7 +151,7 @@ contains
 
       may_have = .true.
       if (any(group == joint_groups)) may_have = .not. (has_source(text) .or. draft%has_dynamics)
-      if (group == "heat" .or. group == "roller_profile") may_have = index(text, "&ehl") == 0
+      if (group == "roller_profile") may_have = index(text, "&ehl") == 0
       if (any(group == [character(len=16) :: "bearing_asperity", "belt_pull", "shaft_drag"])) may_have = draft%has_cams
       if (group == "bearing_heat") may_have = draft%has_cams .and. any(deck_word(text, "lubricant", &
          & "temperature_law") == [character(len=10) :: "vogel", "walther", "data_sheet"])

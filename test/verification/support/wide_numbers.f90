@@ -77,6 +77,7 @@ module wide_numbers
       & usual_t("roller_profile.tilt_mrad", -1.0_wp, 1.0_wp), &
       & usual_t("roller_profile.slices", 11.0_wp, 61.0_wp), &
       & usual_t("heat.oil_conductivity_W_m_K", 0.1_wp, 0.25_wp, .true.), &
+      & usual_t("heat.oil_heat_capacity_J_kg_K", 1600.0_wp, 2500.0_wp), &
       & usual_t("heat.viscosity_fall_per_K", 0.02_wp, 0.1_wp, .true.), &
       & usual_t("heat.limit_fall_per_K", 0.0_wp, 0.01_wp), &
       & usual_t("heat.cam_conductivity_W_m_K", 2.0_wp, 100.0_wp, .true.), &
