@@ -106,7 +106,8 @@ contains
       type(ehl_grid_t) :: grid
       type(body_t) :: body
       ! Rises per flux [m^2 K/W], mean over q b/k and its slope [-], speed [m/s]
-      real(wp) :: response(nodes, nodes), rise(nodes), mean, slope, speed
+      real(wp), allocatable :: response(:, :)
+      real(wp) :: rise(nodes), mean, slope, speed
       integer :: i
 
       body = body_t(steel, steel/steel_capacity)
