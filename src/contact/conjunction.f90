@@ -290,8 +290,9 @@ contains
 
       by_rise = change_slope - hot%pressure_fall*log_slope
       ! Roelands: ln(eta/eta_r) is the exponent times a power of the pressure, so both grow by the same factor
-      if (warm%pressure_law == law_roelands .and. log_slope > 0.0_wp) &
-         & by_rise = change_slope*(1.0_wp + log_ratio/warm%roelands_exponent)
+      if (warm%pressure_law == law_roelands .and. log_slope > 0.0_wp) then
+         by_rise = change_slope*(1.0_wp + log_ratio/warm%roelands_exponent)
+      end if
    end function viscosity_by_rise
 
    !> Shear force of a film that is warmer than the oil around, by either shear law, before any limit, with its slopes.
