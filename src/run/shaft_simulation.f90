@@ -16,7 +16,7 @@ module camroller_shaft_simulation
    use camroller_simulation, only : simulation_t, advance, halt, check_step, prepare_simulation, place_simulation, &
       & check_angle, has_films, put_back, get_mark, get_point, set_point, get_values
    use camroller_model_mark, only : mixed
-   use camroller_shaft_step, only : shaft_outcome_t, step_room_t, make_room, add_up
+   use camroller_camshaft_step, only : shaft_outcome_t, step_room_t, make_room, add_up
    implicit none
    private
 

@@ -229,9 +229,10 @@ contains
       call find_range(group//"."//trim(key%name), usual, is_known)
       if (.not. is_known) deck%unknown = deck%unknown//" "//group//"."//trim(key%name)
       if (key%name == "width_mm" .and. deck_word(deck%text, group, "law") == "finite") usual%highest = widest_finite
-      ! A pin fills the ring of the roller, and is as wide as its diameter at most
-      if (key%name == "pin_width_mm" .and. deck_word(deck%text, group, "pin_law") == "finite") usual%highest = min(usual%highest, &
-         & 2.0_wp*(deck_number(deck%text, "roller", "radius_mm") - deck_number(deck%text, "roller", "wall_thickness_mm")))
+      ! A pin fills the ring of the roller, and is as wide as its diameter at most; the ring may have been drawn of any size
+      if (key%name == "pin_width_mm" .and. deck_word(deck%text, group, "pin_law") == "finite") usual%highest = max(usual%lowest, &
+         & min(usual%highest, 2.0_wp*(deck_number(deck%text, "roller", "radius_mm") &
+         & - deck_number(deck%text, "roller", "wall_thickness_mm"))))
       if (group == "spring_surge" .and. key%name == "mass_kg") then
          valve = deck_number(deck%text, "masses", "valve_kg")
          if (valve > 0.0_wp) usual%lowest = 0.3_wp*valve

@@ -326,7 +326,7 @@ contains
       case ("hths_viscosity_mPa_s")
          is_given = is_given .and. law /= "direct"
       case ("sae_grade")
-         is_given = law == "data_sheet" .and. draft%oil_by == oil_by_grade
+         is_given = law == "data_sheet" .and. (is_given .or. draft%oil_by == oil_by_grade)
       case ("pressure_viscosity_coefficient_per_GPa")
          is_given = (draft%is_first .or. (is_given .and. deck_word(text, "lubricant", "pressure_law") /= "roelands")) &
             & .and. .not. is_estimated
@@ -366,7 +366,7 @@ contains
       case ("kind")
          is_allowed = words /= "'journal'" .or. .not. (draft%has_dynamics .or. index(text, "&ehl") > 0)
       case ("sae_grade")
-         is_allowed = words /= key%default
+         is_allowed = words == key%default .neqv. draft%oil_by == oil_by_grade
       case ("energy", "mobilisation")
          is_allowed = .not. draft%has_dynamics .or. words == key%default
       end select

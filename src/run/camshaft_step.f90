@@ -5,7 +5,7 @@
 !>
 !> Forces on the cams are taken at angles a degree apart at most; between them the bearings' torque follows Simpson's rule, whose
 !> difference from the trapezoidal rule counts for the error.
-module camroller_shaft_step
+module camroller_camshaft_step
    use camroller_kinds, only : wp, degree
    use camroller_error, only : error_t
    use camroller_bearing_asperity, only : bearing_state_t
@@ -211,4 +211,4 @@ contains
       call bearing_torques(shaft, turned, torques, error, bearings)
    end subroutine bearings_at
 
-end module camroller_shaft_step
+end module camroller_camshaft_step
