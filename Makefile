@@ -2,7 +2,7 @@
 
 SHELL := /bin/bash
 .DEFAULT_GOAL := help
-.PHONY: help setup commit build debug mpi install run dynamics comparison test quick bless random random-ehl random-flexible random-wide needed needed-flexible rough-rows fuzz sanitize faults study study-film study-dynamics audit trends check check-layers \
+.PHONY: help setup commit build debug mpi install run dynamics comparison test quick bless random random-ehl random-flexible random-wide needed needed-flexible rough-rows fuzz sanitize faults study study-film study-dynamics film-heat audit trends check check-layers \
   check-style check-format check-lint check-warnings second-compiler format docs recipes bench bench-dynamics bench-ehl range-ehl bench-batch bench-cases bench-effects bench-hosts clean distclean
 
 FPM := .venv/bin/fpm
@@ -65,6 +65,16 @@ study-film: build ## what the accuracy of a numerical film costs, at 300 rev/min
 	  -o results/film_study.h5 > results/film_study.txt
 	cp results/film_study.txt doc/film_tables.txt
 	$(PYTHON) post/plot_study.py results/film_study.h5 --output doc/figures --name film
+
+film-heat: build ## what heat does to contacts that are solved: table and figure of doc/ehl.md, two minutes
+	@mkdir -p results/film_heat
+	@(cat decks/heated_contact.nml; echo "&ehl profiles = .true. /") > results/film_heat/deck.nml
+	OPENBLAS_NUM_THREADS=1 build/release/bin/camroller run results/film_heat/deck.nml -o results/film_heat/heated.h5 --quiet
+	OPENBLAS_NUM_THREADS=1 build/release/bin/camroller run results/film_heat/deck.nml --set heat.inlet_law=none --set heat.contact=none \
+	  -o results/film_heat/isothermal.h5 --quiet
+	(printf '# Heat in contacts that are solved\n\n`make film-heat` makes this table. What it means: [ehl.md](ehl.md#temperature-along-the-contact).\n\n'; \
+	  $(PYTHON) post/film_heat.py results/film_heat/heated.h5 results/film_heat/isothermal.h5) > doc/film_heat_table.md
+	$(PYTHON) post/ehl.py results/film_heat/heated.h5 --case 6 --output doc/figures/ehl_heat.png
 
 study-dynamics: build ## what the accuracy of a flexible train costs: table and figure of doc/dynamics.md, one minute
 	@mkdir -p results

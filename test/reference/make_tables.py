@@ -5,6 +5,7 @@ import time
 import numpy as np
 
 import bearing_reference
+import film_heat_reference
 import heat_reference
 import joint_reference
 import journal_reference
@@ -78,6 +79,7 @@ if __name__ == '__main__':
                  lambda: bearing_reference.write(DATA / 'bearing_reference.csv'),
                  lambda: journal_reference.write(DATA / 'journal_orbit_reference.csv'),
                  lambda: heat_reference.write(DATA / 'heat_reference.csv'),
+                 lambda: film_heat_reference.write(DATA / 'film_heat_reference.csv'),
                  lambda: roller_problem_reference.write(DATA / 'roller_problem_reference.csv'), write_cycles):
         task()
         print(f'{time.time() - start:.0f} s')

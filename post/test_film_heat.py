@@ -1,0 +1,36 @@
+"""What heat does to solved contacts, from made-up ones."""
+
+import numpy as np
+import pytest
+
+import film_heat
+from read import ResultError
+
+
+def made_up():
+    """Two cases at four angles: a film that is 2 K warm from -1 to 1 at one angle, and one without solved contacts."""
+    place = np.array([[-2.0, -1.0, 0.0, 1.0, 2.0]] * 2)
+    films = np.array([[1.0, 1.0, 0.0, 1.0], [np.nan] * 4])
+    rise = np.zeros((2, 4, 5))
+    rise[0, 1] = [9.0, 2.0, 2.0, 2.0, 0.0]
+    rise[0, 2] = 1e3  # without contact
+    rise[1] = np.nan
+    cold = {"x": place, "film_central": films * 1.25}
+    heated = {"x": place, "film_central": films, "solved_rise": rise, "speed_rpm": np.array([300.0, 600.0]),
+              "film_temperature_rise": np.array([[0.0, 3.0, 0.0, 1.0]] * 2), "inlet_heat_factor": np.array([[1.0, 0.9, 1.0, 0.9]] * 2)}
+    return heated, cold
+
+
+def test_rows_hold_what_contacts_tell():
+    solved, lost = film_heat.rows(*made_up())
+    assert solved == ["300", "", "3", "2", "9", "5.0, 10.0", "20.0, 20.0"]
+    assert lost == ["600", "", "3", "-", "-", "5.0, 10.0", "-"]
+
+
+def test_files_that_do_not_belong_together_are_refused():
+    heated, cold = made_up()
+    with pytest.raises(ResultError, match="no contacts with heat"):
+        film_heat.rows(cold, cold)
+    cold["film_central"] = cold["film_central"][:1]
+    with pytest.raises(ResultError, match="different cases"):
+        film_heat.rows(heated, cold)
