@@ -33,9 +33,9 @@ module camroller_flexible_solution
    !> Distance from the periodic state that is near enough, over the tolerance [-]
    real(wp), parameter :: closure_ratio = 10.0_wp
    !> Tolerance of the turn that the error is estimated with, over the tolerance, and how much it errs at most, over the error [-]:
-   !> a method of order 5 errs as its tolerance to the power 4/5 or 1, and far less regularly where contacts open. A turn that errs
+   !> a method of order 5 errs as its tolerance to the power 4/5 or 1, and less regularly where contacts open. A turn that errs
    !> more in the place of one that errs less would tell less: where steps are long, errors hardly grow with the tolerance
-   real(wp), parameter :: finer = 1.0_wp/16.0_wp, better = 0.5_wp
+   real(wp), parameter :: finer = 0.25_wp, better = 0.5_wp
    !> Error over the difference of both turns [-]
    real(wp), parameter :: error_share = 1.0_wp/(1.0_wp - better)
 

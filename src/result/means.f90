@@ -49,6 +49,8 @@ module camroller_means
       real(wp) :: mean_error = 0.0_wp
       !> The mean that has it
       character(len=name_length) :: worst_mean = ""
+      !> Difference of the oil that enters an adjuster and the oil that leaks, over the larger [-]
+      real(wp) :: missing_oil = 0.0_wp
       !> What the camshaft takes from the follower
       type(lobe_curve_t) :: curve
       !> Errors caused by the error of the sliding speed

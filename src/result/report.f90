@@ -107,7 +107,8 @@ contains
       statistics%error_angle = cycle%flexible%error_angle
       call list_series(case, series)
       allocate (mean_errors(follower_count(case) + camshaft_count(case)))
-      call compare_turns(case, model, cycle%flexible, series(:size(mean_errors)), follower_count(case) + 1, mean_errors, error)
+      call compare_turns(case, model, cycle%flexible, series(:size(mean_errors)), follower_count(case) + 1, mean_errors, &
+         & statistics%missing_oil, error)
       if (allocated(error)) return
       worst = maxloc(mean_errors, 1)
       statistics%mean_error = mean_errors(worst)

@@ -298,6 +298,9 @@ contains
             if (index(series(i)%name, "film_thickness_min") > 0) relative(i) = max(relative(i), errors(1, i)/max(lowest(i), least))
          end do
       end associate
+      ! Where oil is missing, so is an opening of the check valve, or a part of one
+      i = find_quantity(series, "check_valve_flow")
+      if (i > 0) relative(i) = max(relative(i), statistics%missing_oil)
       i = maxloc(relative, 1)
       statistics%extreme_error = relative(i)
       statistics%worst_extreme = series(i)%name
