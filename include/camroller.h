@@ -58,7 +58,7 @@ int camroller_case_check(const camroller_case *self, camroller_error *error);
 int camroller_case_copy(const camroller_case *self, camroller_case **out, camroller_error *error);
 void camroller_case_free(camroller_case *self);
 /* Keys that the deck gives with one number each, by their place, from 0: name, unit and meaning, three buffers of `room` characters,
- * any of them NULL, and the value in that unit. CAMROLLER_USAGE tells that there are no more. */
+ * any or all of them NULL, and the value in that unit. CAMROLLER_USAGE tells that there are no more. */
 int camroller_case_number(const camroller_case *self, size_t number, char *const texts[3], size_t room, double *value,
                           camroller_error *error);
 /* Cases of the deck's sweep, 1 without one. A case stands for its deck without the sweep; the case of a number, from 0, is made
@@ -76,7 +76,7 @@ size_t camroller_result_rows(const camroller_result *self);
 int camroller_result_series(const camroller_result *self, const char *name, double *values, size_t room, camroller_error *error);
 int camroller_result_unit(const camroller_result *self, const char *name, char *buffer, size_t room, camroller_error *error);
 /* Name, unit and meaning of quantity `number`, from 0, of the series (kind 0) or the scalars (kind 1): three buffers of `room`
- * characters, any of them NULL. CAMROLLER_USAGE tells that there are no more. */
+ * characters, any or all of them NULL. CAMROLLER_USAGE tells that there are no more. */
 int camroller_result_quantity(const camroller_result *self, int kind, size_t number, char *const texts[3], size_t room,
                               camroller_error *error);
 /* Remarks, one a line; empty where there are none */

@@ -24,14 +24,18 @@ def camroller() -> str:
 @pytest.fixture(scope="session")
 def cmake_prefix(tmp_path_factory) -> pathlib.Path:
     """A prefix with the core installed by CMake, without HDF5; what is built stays in build/cmake from run to run."""
+    return installed_by_cmake(tmp_path_factory.mktemp("prefix"), "OFF")
+
+
+def installed_by_cmake(place: pathlib.Path, io: str) -> pathlib.Path:
+    """The prefix, with libraries that are installed into it: with `io` ON those that need HDF5, too, and the program."""
     if shutil.which("cmake") is None:
         pytest.skip("cmake is not installed")
-    place = tmp_path_factory.mktemp("prefix")
     build = ROOT / "build" / "cmake"
     # the one that builds the wheel: another version would compile everything again
     cmake = shutil.which("cmake", path=f"{pathlib.Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}")
     with alone_in_cmake():
-        _install(cmake, build, place)
+        _install(cmake, build, place, io)
     return place
 
 
@@ -44,9 +48,9 @@ def alone_in_cmake():
         yield
 
 
-def _install(cmake: str, build: pathlib.Path, place: pathlib.Path) -> None:
-    """Configure, build and install the core."""
-    for command in ([cmake, "-G", "Unix Makefiles", "-S", ROOT, "-B", build, "-DCAMROLLER_IO=OFF", "-DCMAKE_INSTALL_LIBDIR=lib",
+def _install(cmake: str, build: pathlib.Path, place: pathlib.Path, io: str) -> None:
+    """Configure, build and install."""
+    for command in ([cmake, "-G", "Unix Makefiles", "-S", ROOT, "-B", build, f"-DCAMROLLER_IO={io}", "-DCMAKE_INSTALL_LIBDIR=lib",
                      "-DCAMROLLER_BUNDLE_DIR=lib/camroller", f"-DCMAKE_INSTALL_PREFIX={place}"],
                     [cmake, "--build", build, "-j2"], [cmake, "--install", build]):
         done = subprocess.run([str(word) for word in command], capture_output=True, text=True, check=False)

@@ -2,11 +2,18 @@
  *
  * Usage: interface DECK CAMSHAFT          decks with one cam, and with three
  *        interface DECK --restore BLOCK   a follower is restored from that file, or saved there, and stepped; its numbers are printed */
+#define _GNU_SOURCE /* for fegetexcept */
 #include <camroller.h>
+#include <fenv.h>
+#include <float.h>
+#include <locale.h>
 #include <math.h>
+#include <signal.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 static int failures = 0;
 
@@ -18,13 +25,14 @@ static int failures = 0;
       } \
    } while (0)
 
-/* A call is refused with a code and a message that names a word */
-#define REFUSED(call, kind, word) \
+/* A call with these arguments is refused with a code and a message that names a word; with the code alone where nobody listens */
+#define REFUSED(kind, word, call, ...) \
    do { \
       error.message[0] = 0; \
-      CHECK((call) == (kind)); \
+      CHECK(call(__VA_ARGS__, &error) == (kind)); \
       CHECK(error.code == (kind)); \
       CHECK(strstr(error.message, word) != NULL); \
+      CHECK(call(__VA_ARGS__, NULL) == (kind)); \
    } while (0)
 
 static camroller_error error = {sizeof error, 0, 0, ""};
@@ -36,6 +44,20 @@ static char *read_all(const char *path) {
    if (file == NULL || fread(text, 1, (1 << 20) - 1, file) == 0) exit(9);
    fclose(file);
    return text;
+}
+
+/* What a library must leave alone: handlers and mask of signals, rounding, traps, denormal numbers, locale, folder, environment */
+static void note_settings(char *text) {
+   struct sigaction action;
+   sigset_t blocked;
+   volatile double tiny = DBL_MIN;
+   sigprocmask(SIG_BLOCK, NULL, &blocked);
+   for (int number = 1; number < NSIG; number++)
+      if (sigaction(number, NULL, &action) == 0)
+         text += sprintf(text, "%d %p %d\n", number, (void *)action.sa_handler, sigismember(&blocked, number));
+   text += sprintf(text, "%d %d %d %s ", fegetround(), fegetexcept(), tiny / 2 > 0, setlocale(LC_ALL, NULL));
+   text += strlen(getcwd(text, 4096));
+   for (char **variable = environ; *variable != NULL; variable++) text += sprintf(text, "\n%.400s", *variable);
 }
 
 static camroller_inputs inputs(double speed) {
@@ -71,23 +93,23 @@ static camroller_case *test_case(const char *path) {
    char *text = read_all(path);
    CHECK(camroller_case_from_file(path, &from_file, &error) == 0 && from_file != NULL);
    CHECK(camroller_case_from_text(text, "decks", &from_text, NULL) == 0 && from_text != NULL);
-   REFUSED(camroller_case_from_file("no such deck", &none, &error), CAMROLLER_FILE, "no such deck");
-   REFUSED(camroller_case_from_file(NULL, &none, &error), CAMROLLER_USAGE, "'path'");
-   REFUSED(camroller_case_from_file(path, NULL, &error), CAMROLLER_USAGE, "'out'");
-   REFUSED(camroller_case_from_text(NULL, NULL, &none, &error), CAMROLLER_USAGE, "'text'");
-   REFUSED(camroller_case_from_text("", NULL, NULL, &error), CAMROLLER_USAGE, "'out'");
-   REFUSED(camroller_case_from_text("&lift law = 3 /", NULL, &none, &error), CAMROLLER_DECK, "text:1:");
+   REFUSED(CAMROLLER_FILE, "no such deck", camroller_case_from_file, "no such deck", &none);
+   REFUSED(CAMROLLER_USAGE, "'path'", camroller_case_from_file, NULL, &none);
+   REFUSED(CAMROLLER_USAGE, "'out'", camroller_case_from_file, path, NULL);
+   REFUSED(CAMROLLER_USAGE, "'text'", camroller_case_from_text, NULL, NULL, &none);
+   REFUSED(CAMROLLER_USAGE, "'out'", camroller_case_from_text, "", NULL, NULL);
+   REFUSED(CAMROLLER_DECK, "text:1:", camroller_case_from_text, "&lift law = 3 /", NULL, &none);
    CHECK(none == NULL);
    CHECK(camroller_case_from_text("&lift law = 3 /", NULL, &none, NULL) == CAMROLLER_DECK);
    camroller_error old = {sizeof(size_t), 77, 0, ""};
    CHECK(camroller_case_from_text("&lift law = 3 /", NULL, &none, &old) == CAMROLLER_DECK && old.code == 77);
    CHECK(camroller_case_set(from_text, "operating_point.speed_rpm", "900", &error) == 0);
-   REFUSED(camroller_case_set(from_text, "operating_point.speed", "900", &error), CAMROLLER_DECK, "speed_rpm");
-   REFUSED(camroller_case_set(NULL, "a.b", "1", &error), CAMROLLER_USAGE, "'camroller_case'");
-   REFUSED(camroller_case_set(from_text, NULL, "1", &error), CAMROLLER_USAGE, "'key'");
-   REFUSED(camroller_case_set(from_text, "a.b", NULL, &error), CAMROLLER_USAGE, "'value'");
+   REFUSED(CAMROLLER_DECK, "speed_rpm", camroller_case_set, from_text, "operating_point.speed", "900");
+   REFUSED(CAMROLLER_USAGE, "'camroller_case'", camroller_case_set, NULL, "a.b", "1");
+   REFUSED(CAMROLLER_USAGE, "'key'", camroller_case_set, from_text, NULL, "1");
+   REFUSED(CAMROLLER_USAGE, "'value'", camroller_case_set, from_text, "a.b", NULL);
    CHECK(camroller_case_check(from_text, &error) == 0);
-   REFUSED(camroller_case_check(NULL, &error), CAMROLLER_USAGE, "NULL");
+   REFUSED(CAMROLLER_USAGE, "NULL", camroller_case_check, NULL);
    CHECK(camroller_case_set(from_text, "roller.radius_mm", "60", &error) == 0);
    CHECK(camroller_case_check(from_text, &error) != 0 && strstr(error.message, "radius_mm") != NULL);
    camroller_case_free(from_text);
@@ -101,15 +123,15 @@ static void test_result(const camroller_case *self) {
    double torque = 0.0, *angle, *friction, sum = 0.0;
    char name[64], unit[32], meaning[200], *texts[3] = {name, unit, meaning}, *nothing[3] = {NULL, NULL, NULL}, remarks[4000];
    size_t rows, count = 0;
-   REFUSED(camroller_case_run(NULL, &result, &error), CAMROLLER_USAGE, "'camroller_case'");
-   REFUSED(camroller_case_run(self, NULL, &error), CAMROLLER_USAGE, "'out'");
+   REFUSED(CAMROLLER_USAGE, "'camroller_case'", camroller_case_run, NULL, &result);
+   REFUSED(CAMROLLER_USAGE, "'out'", camroller_case_run, self, NULL);
    CHECK(camroller_case_run(self, &result, &error) == 0 && error.code == 0 && error.message[0] == 0);
    CHECK(camroller_result_scalar(result, "mean_torque_friction", &torque, &error) == 0 && torque > 0.0);
-   REFUSED(camroller_result_scalar(result, "no_such", &torque, &error), CAMROLLER_USAGE, "no_such");
+   REFUSED(CAMROLLER_USAGE, "no_such", camroller_result_scalar, result, "no_such", &torque);
    CHECK(torque > 0.0); /* a call that is refused leaves what it would have filled */
-   REFUSED(camroller_result_scalar(NULL, "a", &torque, &error), CAMROLLER_USAGE, "NULL");
-   REFUSED(camroller_result_scalar(result, NULL, &torque, &error), CAMROLLER_USAGE, "'name'");
-   REFUSED(camroller_result_scalar(result, "a", NULL, &error), CAMROLLER_USAGE, "'value'");
+   REFUSED(CAMROLLER_USAGE, "NULL", camroller_result_scalar, NULL, "a", &torque);
+   REFUSED(CAMROLLER_USAGE, "'name'", camroller_result_scalar, result, NULL, &torque);
+   REFUSED(CAMROLLER_USAGE, "'value'", camroller_result_scalar, result, "a", NULL);
    rows = camroller_result_rows(result);
    CHECK(rows > 100 && camroller_result_rows(NULL) == 0);
    angle = malloc(rows * sizeof *angle);
@@ -119,24 +141,26 @@ static void test_result(const camroller_case *self) {
    CHECK(camroller_result_series(result, "torque_friction", friction, rows, &error) == 0);
    for (size_t i = 0; i < rows; i++) sum += friction[i] / rows;
    CHECK(fabs(sum - torque) < 0.1 * torque);
-   REFUSED(camroller_result_series(result, "torque_friction", friction, rows - 1, &error), CAMROLLER_USAGE, "room");
-   REFUSED(camroller_result_series(result, "no_such", friction, rows, &error), CAMROLLER_USAGE, "no_such");
-   REFUSED(camroller_result_series(NULL, "a", friction, rows, &error), CAMROLLER_USAGE, "NULL");
-   REFUSED(camroller_result_series(result, NULL, friction, rows, &error), CAMROLLER_USAGE, "'name'");
-   REFUSED(camroller_result_series(result, "a", NULL, rows, &error), CAMROLLER_USAGE, "'values'");
+   REFUSED(CAMROLLER_USAGE, "room", camroller_result_series, result, "torque_friction", friction, rows - 1);
+   REFUSED(CAMROLLER_USAGE, "no_such", camroller_result_series, result, "no_such", friction, rows);
+   REFUSED(CAMROLLER_USAGE, "NULL", camroller_result_series, NULL, "a", friction, rows);
+   REFUSED(CAMROLLER_USAGE, "'name'", camroller_result_series, result, NULL, friction, rows);
+   REFUSED(CAMROLLER_USAGE, "'values'", camroller_result_series, result, "a", NULL, rows);
    CHECK(camroller_result_unit(result, "torque_friction", unit, sizeof unit, &error) == 0 && strcmp(unit, "N m") == 0);
    CHECK(camroller_result_unit(result, "cam_angle", unit, sizeof unit, &error) == 0 && strcmp(unit, "rad") == 0);
    CHECK(camroller_result_unit(result, "mean_torque_friction", unit, sizeof unit, &error) == 0);
-   REFUSED(camroller_result_unit(result, "no_such", unit, sizeof unit, &error), CAMROLLER_USAGE, "no_such");
-   REFUSED(camroller_result_unit(NULL, "a", unit, sizeof unit, &error), CAMROLLER_USAGE, "NULL");
-   REFUSED(camroller_result_unit(result, NULL, unit, sizeof unit, &error), CAMROLLER_USAGE, "'name'");
-   REFUSED(camroller_result_unit(result, "a", NULL, 0, &error), CAMROLLER_USAGE, "'buffer'");
+   REFUSED(CAMROLLER_USAGE, "no_such", camroller_result_unit, result, "no_such", unit, sizeof unit);
+   REFUSED(CAMROLLER_USAGE, "NULL", camroller_result_unit, NULL, "a", unit, sizeof unit);
+   REFUSED(CAMROLLER_USAGE, "'name'", camroller_result_unit, result, NULL, unit, sizeof unit);
+   REFUSED(CAMROLLER_USAGE, "'buffer'", camroller_result_unit, result, "a", NULL, 0);
    for (int kind = 0; kind < 2; kind++)
       for (size_t i = 0; camroller_result_quantity(result, kind, i, texts, sizeof unit, NULL) == 0; i++) count++;
    CHECK(count > 50);
    CHECK(camroller_result_quantity(result, 0, 0, nothing, 0, &error) == 0);
-   REFUSED(camroller_result_quantity(result, 2, 0, texts, 10, &error), CAMROLLER_USAGE, "number");
-   REFUSED(camroller_result_quantity(NULL, 0, 0, texts, 10, &error), CAMROLLER_USAGE, "NULL");
+   CHECK(camroller_result_quantity(result, 0, 0, NULL, 0, &error) == 0);
+   REFUSED(CAMROLLER_USAGE, "number", camroller_result_quantity, result, 0, SIZE_MAX, texts, 10);
+   REFUSED(CAMROLLER_USAGE, "number", camroller_result_quantity, result, 2, 0, texts, 10);
+   REFUSED(CAMROLLER_USAGE, "NULL", camroller_result_quantity, NULL, 0, 0, texts, 10);
    camroller_result_remarks(result, remarks, sizeof remarks);
    camroller_result_remarks(NULL, remarks, sizeof remarks);
    CHECK(remarks[0] == 0);
@@ -154,14 +178,14 @@ static void test_simulation(const camroller_case *self) {
    double value, sums[3];
    size_t bytes = camroller_simulation_save_size();
    char *block = malloc(bytes);
-   REFUSED(camroller_simulation_new(NULL, 1, 0.0, &simulation, &error), CAMROLLER_USAGE, "'camroller_case'");
-   REFUSED(camroller_simulation_new(self, 1, 0.0, NULL, &error), CAMROLLER_USAGE, "'out'");
-   REFUSED(camroller_simulation_new(self, 2, 0.0, &simulation, &error), CAMROLLER_USAGE, "second_lift");
-   REFUSED(camroller_simulation_new(self, 1, INFINITY, &simulation, &error), CAMROLLER_USAGE, "finite");
+   REFUSED(CAMROLLER_USAGE, "'camroller_case'", camroller_simulation_new, NULL, 1, 0.0, &simulation);
+   REFUSED(CAMROLLER_USAGE, "'out'", camroller_simulation_new, self, 1, 0.0, NULL);
+   REFUSED(CAMROLLER_USAGE, "second_lift", camroller_simulation_new, self, 2, 0.0, &simulation);
+   REFUSED(CAMROLLER_USAGE, "finite", camroller_simulation_new, self, 1, INFINITY, &simulation);
    CHECK(simulation == NULL);
    CHECK(camroller_simulation_new(self, 1, 1.0, &simulation, &error) == 0 && simulation != NULL);
    CHECK(camroller_simulation_angle(simulation) == 1.0 && camroller_simulation_angle(NULL) == 0.0);
-   REFUSED(camroller_simulation_value(simulation, "contact_load", &value, &error), CAMROLLER_USAGE, "no step");
+   REFUSED(CAMROLLER_USAGE, "no step", camroller_simulation_value, simulation, "contact_load", &value);
    CHECK(camroller_simulation_step(simulation, 1.1, &start, &end, &outcome, &error) == 0);
    CHECK(outcome.mean_torque_friction > 0.0 && outcome.contact_load[0] <= outcome.contact_load[1]);
    CHECK(fabs(outcome.torques[0] + outcome.torques[1] + outcome.torques[2] + outcome.torques[3] + outcome.torques[4]
@@ -169,38 +193,38 @@ static void test_simulation(const camroller_case *self) {
    CHECK(camroller_simulation_value(simulation, "contact_load", &value, &error) == 0);
    CHECK(value > 0.0 && fabs(hypot(outcome.cam_force[0], outcome.cam_force[1]) / value - 1.0) < 0.1);
    CHECK(camroller_simulation_step(simulation, 1.2, &start, &end, NULL, NULL) == 0);
-   REFUSED(camroller_simulation_step(simulation, 1.2, &start, &end, &outcome, &error), CAMROLLER_USAGE, "grow");
-   REFUSED(camroller_simulation_step(simulation, 1.3, &wrong, &end, &outcome, &error), CAMROLLER_USAGE, "speed");
+   REFUSED(CAMROLLER_USAGE, "grow", camroller_simulation_step, simulation, 1.2, &start, &end, &outcome);
+   REFUSED(CAMROLLER_USAGE, "speed", camroller_simulation_step, simulation, 1.3, &wrong, &end, &outcome);
    wrong.size = 1;
-   REFUSED(camroller_simulation_step(simulation, 1.3, &wrong, &end, &outcome, &error), CAMROLLER_USAGE, "size");
-   REFUSED(camroller_simulation_step(simulation, 1.3, &start, &end, &small, &error), CAMROLLER_USAGE, "size");
-   REFUSED(camroller_simulation_step(NULL, 1.3, &start, &end, &outcome, &error), CAMROLLER_USAGE, "NULL");
-   REFUSED(camroller_simulation_step(simulation, 1.3, NULL, &end, &outcome, &error), CAMROLLER_USAGE, "'start'");
-   REFUSED(camroller_simulation_step(simulation, 1.3, &start, NULL, &outcome, &error), CAMROLLER_USAGE, "'finish'");
+   REFUSED(CAMROLLER_USAGE, "size", camroller_simulation_step, simulation, 1.3, &wrong, &end, &outcome);
+   REFUSED(CAMROLLER_USAGE, "size", camroller_simulation_step, simulation, 1.3, &start, &end, &small);
+   REFUSED(CAMROLLER_USAGE, "NULL", camroller_simulation_step, NULL, 1.3, &start, &end, &outcome);
+   REFUSED(CAMROLLER_USAGE, "'start'", camroller_simulation_step, simulation, 1.3, NULL, &end, &outcome);
+   REFUSED(CAMROLLER_USAGE, "'finish'", camroller_simulation_step, simulation, 1.3, &start, NULL, &outcome);
    pressed.has_pressure = 1;
-   REFUSED(camroller_simulation_step(simulation, 1.3, &pressed, &pressed, &outcome, &error), CAMROLLER_USAGE, "&gas_force");
-   REFUSED(camroller_simulation_value(simulation, "no_such", &value, &error), CAMROLLER_USAGE, "no_such");
-   REFUSED(camroller_simulation_value(NULL, "a", &value, &error), CAMROLLER_USAGE, "NULL");
-   REFUSED(camroller_simulation_value(simulation, NULL, &value, &error), CAMROLLER_USAGE, "'name'");
-   REFUSED(camroller_simulation_value(simulation, "a", NULL, &error), CAMROLLER_USAGE, "'value'");
+   REFUSED(CAMROLLER_USAGE, "&gas_force", camroller_simulation_step, simulation, 1.3, &pressed, &pressed, &outcome);
+   REFUSED(CAMROLLER_USAGE, "no_such", camroller_simulation_value, simulation, "no_such", &value);
+   REFUSED(CAMROLLER_USAGE, "NULL", camroller_simulation_value, NULL, "a", &value);
+   REFUSED(CAMROLLER_USAGE, "'name'", camroller_simulation_value, simulation, NULL, &value);
+   REFUSED(CAMROLLER_USAGE, "'value'", camroller_simulation_value, simulation, "a", NULL);
 
    CHECK(camroller_simulation_save(simulation, block, bytes, &error) == 0);
-   REFUSED(camroller_simulation_save(simulation, block, bytes - 1, &error), CAMROLLER_USAGE, "small");
-   REFUSED(camroller_simulation_save(NULL, block, bytes, &error), CAMROLLER_USAGE, "NULL");
-   REFUSED(camroller_simulation_save(simulation, NULL, bytes, &error), CAMROLLER_USAGE, "'buffer'");
+   REFUSED(CAMROLLER_USAGE, "small", camroller_simulation_save, simulation, block, bytes - 1);
+   REFUSED(CAMROLLER_USAGE, "NULL", camroller_simulation_save, NULL, block, bytes);
+   REFUSED(CAMROLLER_USAGE, "'buffer'", camroller_simulation_save, simulation, NULL, bytes);
    CHECK(camroller_simulation_copy(simulation, &copy, &error) == 0);
-   REFUSED(camroller_simulation_copy(NULL, &copy, &error), CAMROLLER_USAGE, "NULL");
-   REFUSED(camroller_simulation_copy(simulation, NULL, &error), CAMROLLER_USAGE, "'out'");
-   REFUSED(camroller_simulation_restore(self, block, bytes - 1, &restored, &error), CAMROLLER_USAGE, "size");
+   REFUSED(CAMROLLER_USAGE, "NULL", camroller_simulation_copy, NULL, &copy);
+   REFUSED(CAMROLLER_USAGE, "'out'", camroller_simulation_copy, simulation, NULL);
+   REFUSED(CAMROLLER_USAGE, "size", camroller_simulation_restore, self, block, bytes - 1, &restored);
    block[50] ^= 1;
-   REFUSED(camroller_simulation_restore(self, block, bytes, &restored, &error), CAMROLLER_USAGE, "damaged");
+   REFUSED(CAMROLLER_USAGE, "damaged", camroller_simulation_restore, self, block, bytes, &restored);
    block[50] ^= 1;
    block[0] ^= 1;
-   REFUSED(camroller_simulation_restore(self, block, bytes, &restored, &error), CAMROLLER_USAGE, "not one");
+   REFUSED(CAMROLLER_USAGE, "not one", camroller_simulation_restore, self, block, bytes, &restored);
    block[0] ^= 1;
-   REFUSED(camroller_simulation_restore(NULL, block, bytes, &restored, &error), CAMROLLER_USAGE, "NULL");
-   REFUSED(camroller_simulation_restore(self, NULL, bytes, &restored, &error), CAMROLLER_USAGE, "'buffer'");
-   REFUSED(camroller_simulation_restore(self, block, bytes, NULL, &error), CAMROLLER_USAGE, "'out'");
+   REFUSED(CAMROLLER_USAGE, "NULL", camroller_simulation_restore, NULL, block, bytes, &restored);
+   REFUSED(CAMROLLER_USAGE, "'buffer'", camroller_simulation_restore, self, NULL, bytes, &restored);
+   REFUSED(CAMROLLER_USAGE, "'out'", camroller_simulation_restore, self, block, bytes, NULL);
    CHECK(restored == NULL);
    CHECK(camroller_simulation_restore(self, block, bytes, &restored, &error) == 0);
    drive(simulation, &sums[0]);
@@ -208,7 +232,7 @@ static void test_simulation(const camroller_case *self) {
    drive(restored, &sums[2]);
    CHECK(sums[0] == sums[1] && sums[0] == sums[2]);
    CHECK(camroller_simulation_halt(copy, &error) == 0);
-   REFUSED(camroller_simulation_halt(NULL, &error), CAMROLLER_USAGE, "NULL");
+   REFUSED(CAMROLLER_USAGE, "NULL", camroller_simulation_halt, NULL);
    drive(copy, &sums[1]);
    drive(simulation, &sums[0]);
    CHECK(sums[0] != sums[1]);
@@ -225,8 +249,8 @@ static void test_deck(const camroller_case *self) {
    char name[64], unit[32], meaning[400], *texts[3] = {name, unit, meaning}, *few[2] = {name, unit}, *nothing[3] = {NULL, NULL, NULL};
    double value = 0.0;
    size_t count = 0, cases;
-   REFUSED(camroller_case_copy(NULL, &copy, &error), CAMROLLER_USAGE, "NULL");
-   REFUSED(camroller_case_copy(self, NULL, &error), CAMROLLER_USAGE, "'out'");
+   REFUSED(CAMROLLER_USAGE, "NULL", camroller_case_copy, NULL, &copy);
+   REFUSED(CAMROLLER_USAGE, "'out'", camroller_case_copy, self, NULL);
    CHECK(camroller_case_copy(self, &copy, &error) == 0);
    CHECK(camroller_case_set(copy, "roller.mass_kg", "0.5", &error) == 0);
    for (size_t i = 0; camroller_case_number(self, i, texts, sizeof unit, &value, &error) == 0; i++) {
@@ -237,20 +261,27 @@ static void test_deck(const camroller_case *self) {
    for (size_t i = 0; camroller_case_number(copy, i, texts, sizeof unit, &value, &error) == 0; i++)
       if (strcmp(name, "roller.mass_kg") == 0) CHECK(value == 0.5);
    CHECK(camroller_case_number(self, 0, nothing, 0, NULL, NULL) == 0);
-   REFUSED(camroller_case_number(NULL, 0, texts, 10, &value, &error), CAMROLLER_USAGE, "NULL");
+   CHECK(camroller_case_number(self, 0, NULL, 0, &value, NULL) == 0);
+   REFUSED(CAMROLLER_USAGE, "place", camroller_case_number, self, SIZE_MAX, texts, 10, &value);
+   REFUSED(CAMROLLER_USAGE, "NULL", camroller_case_number, NULL, 0, texts, 10, &value);
    cases = camroller_case_sweep_size(self);
    CHECK(cases == 9 && camroller_case_sweep_size(NULL) == 0);
    CHECK(camroller_case_sweep_value(self, 8, 0, few, sizeof unit, &error) == 0 && strcmp(unit, "900") == 0);
    CHECK(strcmp(name, "operating_point.speed_rpm") == 0);
    CHECK(camroller_case_sweep_value(self, 8, 0, nothing, 0, &error) == 0);
-   REFUSED(camroller_case_sweep_value(self, 9, 0, few, 10, &error), CAMROLLER_USAGE, "case");
-   REFUSED(camroller_case_sweep_value(self, 0, 2, few, 10, &error), CAMROLLER_USAGE, "key");
-   REFUSED(camroller_case_sweep_value(NULL, 0, 0, few, 10, &error), CAMROLLER_USAGE, "NULL");
-   REFUSED(camroller_case_sweep_case(self, 9, &varied, &error), CAMROLLER_USAGE, "case");
-   REFUSED(camroller_case_sweep_case(NULL, 0, &varied, &error), CAMROLLER_USAGE, "NULL");
-   REFUSED(camroller_case_sweep_case(self, 0, NULL, &error), CAMROLLER_USAGE, "'out'");
+   CHECK(camroller_case_sweep_value(self, 8, 0, NULL, 0, &error) == 0);
+   REFUSED(CAMROLLER_USAGE, "case", camroller_case_sweep_value, self, SIZE_MAX, 0, few, 10);
+   REFUSED(CAMROLLER_USAGE, "key", camroller_case_sweep_value, self, 0, SIZE_MAX, few, 10);
+   REFUSED(CAMROLLER_USAGE, "case", camroller_case_sweep_case, self, SIZE_MAX, &varied);
+   REFUSED(CAMROLLER_USAGE, "case", camroller_case_sweep_value, self, 9, 0, few, 10);
+   REFUSED(CAMROLLER_USAGE, "key", camroller_case_sweep_value, self, 0, 2, few, 10);
+   REFUSED(CAMROLLER_USAGE, "NULL", camroller_case_sweep_value, NULL, 0, 0, few, 10);
+   REFUSED(CAMROLLER_USAGE, "case", camroller_case_sweep_case, self, 9, &varied);
+   REFUSED(CAMROLLER_USAGE, "NULL", camroller_case_sweep_case, NULL, 0, &varied);
+   REFUSED(CAMROLLER_USAGE, "'out'", camroller_case_sweep_case, self, 0, NULL);
    CHECK(varied == NULL && camroller_case_sweep_case(copy, 8, &varied, &error) == 0);
    CHECK(camroller_case_sweep_size(varied) == 1);
+   REFUSED(CAMROLLER_USAGE, "key", camroller_case_sweep_value, varied, 0, 0, few, 10);
    count = 0;
    for (size_t i = 0; camroller_case_number(varied, i, texts, sizeof unit, &value, &error) == 0; i++) {
       if (strcmp(name, "roller.mass_kg") == 0) CHECK(value == 0.5 && ++count);
@@ -284,23 +315,23 @@ static void test_shaft(const char *path, const camroller_case *other) {
    double value, sums[3], values[100], pressures[6] = {1e5, 2e5, 3e5, 1e5, 2e5, 3e5};
    size_t bytes, count = 0;
    CHECK(camroller_case_from_file(path, &self, &error) == 0);
-   REFUSED(camroller_shaft_new(NULL, 0.0, 1, &shaft, &error), CAMROLLER_USAGE, "'camroller_case'");
-   REFUSED(camroller_shaft_new(self, 0.0, 1, NULL, &error), CAMROLLER_USAGE, "'out'");
-   REFUSED(camroller_shaft_new(self, INFINITY, 1, &shaft, &error), CAMROLLER_USAGE, "finite");
-   REFUSED(camroller_shaft_new(self, 0.0, 0, &shaft, &error), CAMROLLER_USAGE, "threads");
+   REFUSED(CAMROLLER_USAGE, "'camroller_case'", camroller_shaft_new, NULL, 0.0, 1, &shaft);
+   REFUSED(CAMROLLER_USAGE, "'out'", camroller_shaft_new, self, 0.0, 1, NULL);
+   REFUSED(CAMROLLER_USAGE, "finite", camroller_shaft_new, self, INFINITY, 1, &shaft);
+   REFUSED(CAMROLLER_USAGE, "threads", camroller_shaft_new, self, 0.0, 0, &shaft);
    CHECK(shaft == NULL && camroller_shaft_cams(NULL) == 0 && camroller_shaft_angle(NULL) == 0.0);
    CHECK(camroller_shaft_new(self, 1.0, 2, &shaft, &error) == 0 && camroller_shaft_cams(shaft) == 3);
    CHECK(camroller_shaft_angle(shaft) == 1.0);
    CHECK(camroller_shaft_cam(shaft, 2, &cam, &error) == 0 && cam.lobe == 2 && cam.camshaft == 1);
    CHECK(fabs(cam.phase - turn_angle / 3.0) < 1e-12);
-   REFUSED(camroller_shaft_cam(shaft, 4, &cam, &error), CAMROLLER_USAGE, "cam 4");
-   REFUSED(camroller_shaft_cam(shaft, 0, &cam, &error), CAMROLLER_USAGE, "cam 0");
-   REFUSED(camroller_shaft_cam(shaft, 1, &small_cam, &error), CAMROLLER_USAGE, "size");
-   REFUSED(camroller_shaft_cam(NULL, 1, &cam, &error), CAMROLLER_USAGE, "NULL");
-   REFUSED(camroller_shaft_cam(shaft, 1, NULL, &error), CAMROLLER_USAGE, "'facts'");
-   REFUSED(camroller_shaft_value(shaft, 1, "contact_load", &value, &error), CAMROLLER_USAGE, "no step");
-   REFUSED(camroller_shaft_values(shaft, 0, values, 100, &error), CAMROLLER_USAGE, "no step");
-   REFUSED(camroller_shaft_follower(shaft, 1, &follower, &error), CAMROLLER_USAGE, "no step");
+   REFUSED(CAMROLLER_USAGE, "cam 4", camroller_shaft_cam, shaft, 4, &cam);
+   REFUSED(CAMROLLER_USAGE, "cam 0", camroller_shaft_cam, shaft, 0, &cam);
+   REFUSED(CAMROLLER_USAGE, "size", camroller_shaft_cam, shaft, 1, &small_cam);
+   REFUSED(CAMROLLER_USAGE, "NULL", camroller_shaft_cam, NULL, 1, &cam);
+   REFUSED(CAMROLLER_USAGE, "'facts'", camroller_shaft_cam, shaft, 1, NULL);
+   REFUSED(CAMROLLER_USAGE, "no step", camroller_shaft_value, shaft, 1, "contact_load", &value);
+   REFUSED(CAMROLLER_USAGE, "no step", camroller_shaft_values, shaft, 0, values, 100);
+   REFUSED(CAMROLLER_USAGE, "no step", camroller_shaft_follower, shaft, 1, &follower);
    CHECK(camroller_shaft_step(shaft, 1.1, &start, &end, NULL, &outcome, &error) == 0);
    CHECK(outcome.mean_torque_bearings > 0.0 && outcome.mean_torque_friction > outcome.mean_torque_bearings);
    CHECK(outcome.extreme_torque[0] <= outcome.torque_drive && outcome.torque_drive <= outcome.extreme_torque[1]);
@@ -310,67 +341,69 @@ static void test_shaft(const char *path, const camroller_case *other) {
    CHECK(camroller_shaft_value(shaft, 3, "contact_load", &value, &error) == 0);
    CHECK(follower.contact_load[0] <= value && value <= follower.contact_load[1]);
    follower.size = 3;
-   REFUSED(camroller_shaft_follower(shaft, 3, &follower, &error), CAMROLLER_USAGE, "size");
-   REFUSED(camroller_shaft_follower(shaft, 9, &follower, &error), CAMROLLER_USAGE, "cam 9");
-   REFUSED(camroller_shaft_follower(NULL, 1, &follower, &error), CAMROLLER_USAGE, "NULL");
-   REFUSED(camroller_shaft_follower(shaft, 1, NULL, &error), CAMROLLER_USAGE, "'outcome'");
+   REFUSED(CAMROLLER_USAGE, "size", camroller_shaft_follower, shaft, 3, &follower);
+   REFUSED(CAMROLLER_USAGE, "cam 9", camroller_shaft_follower, shaft, 9, &follower);
+   REFUSED(CAMROLLER_USAGE, "NULL", camroller_shaft_follower, NULL, 1, &follower);
+   REFUSED(CAMROLLER_USAGE, "'outcome'", camroller_shaft_follower, shaft, 1, NULL);
    for (int which = 0; which <= 3; which += 3) {
       CHECK(camroller_shaft_values(shaft, which, values, 100, &error) == 0);
       for (count = 0; camroller_shaft_quantity(shaft, which, count, texts, sizeof name, NULL) == 0; count++)
          CHECK(camroller_shaft_value(shaft, which, name, &value, &error) == 0 && value == values[count]);
       CHECK(count > 3);
-      REFUSED(camroller_shaft_values(shaft, which, values, count - 1, &error), CAMROLLER_USAGE, "room");
+      REFUSED(CAMROLLER_USAGE, "room", camroller_shaft_values, shaft, which, values, count - 1);
    }
    CHECK(camroller_shaft_quantity(shaft, 0, 0, nothing, 0, &error) == 0);
-   REFUSED(camroller_shaft_quantity(shaft, 9, 0, texts, 10, &error), CAMROLLER_USAGE, "cam 9");
-   REFUSED(camroller_shaft_quantity(NULL, 0, 0, texts, 10, &error), CAMROLLER_USAGE, "NULL");
-   REFUSED(camroller_shaft_values(NULL, 0, values, 100, &error), CAMROLLER_USAGE, "NULL");
-   REFUSED(camroller_shaft_values(shaft, 0, NULL, 100, &error), CAMROLLER_USAGE, "'values'");
-   REFUSED(camroller_shaft_values(shaft, -1, values, 100, &error), CAMROLLER_USAGE, "cam -1");
-   REFUSED(camroller_shaft_value(shaft, 0, "contact_load", &value, &error), CAMROLLER_USAGE, "contact_load");
-   REFUSED(camroller_shaft_value(shaft, 7, "contact_load", &value, &error), CAMROLLER_USAGE, "cam 7");
-   REFUSED(camroller_shaft_value(NULL, 1, "a", &value, &error), CAMROLLER_USAGE, "NULL");
-   REFUSED(camroller_shaft_value(shaft, 1, NULL, &value, &error), CAMROLLER_USAGE, "'name'");
-   REFUSED(camroller_shaft_value(shaft, 1, "a", NULL, &error), CAMROLLER_USAGE, "'value'");
+   CHECK(camroller_shaft_quantity(shaft, 0, 0, NULL, 0, &error) == 0);
+   REFUSED(CAMROLLER_USAGE, "number", camroller_shaft_quantity, shaft, 1, SIZE_MAX, texts, 10);
+   REFUSED(CAMROLLER_USAGE, "cam 9", camroller_shaft_quantity, shaft, 9, 0, texts, 10);
+   REFUSED(CAMROLLER_USAGE, "NULL", camroller_shaft_quantity, NULL, 0, 0, texts, 10);
+   REFUSED(CAMROLLER_USAGE, "NULL", camroller_shaft_values, NULL, 0, values, 100);
+   REFUSED(CAMROLLER_USAGE, "'values'", camroller_shaft_values, shaft, 0, NULL, 100);
+   REFUSED(CAMROLLER_USAGE, "cam -1", camroller_shaft_values, shaft, -1, values, 100);
+   REFUSED(CAMROLLER_USAGE, "contact_load", camroller_shaft_value, shaft, 0, "contact_load", &value);
+   REFUSED(CAMROLLER_USAGE, "cam 7", camroller_shaft_value, shaft, 7, "contact_load", &value);
+   REFUSED(CAMROLLER_USAGE, "NULL", camroller_shaft_value, NULL, 1, "a", &value);
+   REFUSED(CAMROLLER_USAGE, "'name'", camroller_shaft_value, shaft, 1, NULL, &value);
+   REFUSED(CAMROLLER_USAGE, "'value'", camroller_shaft_value, shaft, 1, "a", NULL);
 
-   REFUSED(camroller_shaft_step(shaft, 1.2, &start, &end, NULL, &outcome, &error), CAMROLLER_USAGE, "grow");
-   REFUSED(camroller_shaft_step(shaft, 1.0, &start, &end, NULL, &outcome, &error), CAMROLLER_USAGE, "backward");
-   REFUSED(camroller_shaft_step(shaft, 1.3, &wrong, &end, NULL, &outcome, &error), CAMROLLER_USAGE, "cam 1: advance: the speed");
+   REFUSED(CAMROLLER_USAGE, "grow", camroller_shaft_step, shaft, 1.2, &start, &end, NULL, &outcome);
+   REFUSED(CAMROLLER_USAGE, "backward", camroller_shaft_step, shaft, 1.0, &start, &end, NULL, &outcome);
+   REFUSED(CAMROLLER_USAGE, "cam 1: advance: the speed", camroller_shaft_step, shaft, 1.3, &wrong, &end, NULL, &outcome);
    wrong.size = 1;
-   REFUSED(camroller_shaft_step(shaft, 1.3, &wrong, &end, NULL, &outcome, &error), CAMROLLER_USAGE, "size");
-   REFUSED(camroller_shaft_step(shaft, 1.3, &start, &end, NULL, &small, &error), CAMROLLER_USAGE, "size");
-   REFUSED(camroller_shaft_step(NULL, 1.3, &start, &end, NULL, &outcome, &error), CAMROLLER_USAGE, "NULL");
-   REFUSED(camroller_shaft_step(shaft, 1.3, NULL, &end, NULL, &outcome, &error), CAMROLLER_USAGE, "'start'");
-   REFUSED(camroller_shaft_step(shaft, 1.3, &start, NULL, NULL, &outcome, &error), CAMROLLER_USAGE, "'finish'");
+   REFUSED(CAMROLLER_USAGE, "size", camroller_shaft_step, shaft, 1.3, &wrong, &end, NULL, &outcome);
+   REFUSED(CAMROLLER_USAGE, "size", camroller_shaft_step, shaft, 1.3, &start, &end, NULL, &small);
+   REFUSED(CAMROLLER_USAGE, "NULL", camroller_shaft_step, NULL, 1.3, &start, &end, NULL, &outcome);
+   REFUSED(CAMROLLER_USAGE, "'start'", camroller_shaft_step, shaft, 1.3, NULL, &end, NULL, &outcome);
+   REFUSED(CAMROLLER_USAGE, "'finish'", camroller_shaft_step, shaft, 1.3, &start, NULL, NULL, &outcome);
    pressures[4] = INFINITY;
-   REFUSED(camroller_shaft_step(shaft, 1.3, &start, &end, pressures, &outcome, &error), CAMROLLER_USAGE, "cam 2");
+   REFUSED(CAMROLLER_USAGE, "cam 2", camroller_shaft_step, shaft, 1.3, &start, &end, pressures, &outcome);
    CHECK(camroller_shaft_angle(shaft) == 1.2);
 
    bytes = camroller_shaft_save_size(shaft);
    CHECK(camroller_shaft_save_size(NULL) == 0);
    char *block = malloc(bytes);
    CHECK(camroller_shaft_save(shaft, block, bytes, &error) == 0);
-   REFUSED(camroller_shaft_save(shaft, block, bytes - 1, &error), CAMROLLER_USAGE, "small");
-   REFUSED(camroller_shaft_save(NULL, block, bytes, &error), CAMROLLER_USAGE, "NULL");
-   REFUSED(camroller_shaft_save(shaft, NULL, bytes, &error), CAMROLLER_USAGE, "'buffer'");
+   REFUSED(CAMROLLER_USAGE, "small", camroller_shaft_save, shaft, block, bytes - 1);
+   REFUSED(CAMROLLER_USAGE, "NULL", camroller_shaft_save, NULL, block, bytes);
+   REFUSED(CAMROLLER_USAGE, "'buffer'", camroller_shaft_save, shaft, NULL, bytes);
    CHECK(camroller_shaft_copy(shaft, &copy, &error) == 0);
-   REFUSED(camroller_shaft_copy(NULL, &copy, &error), CAMROLLER_USAGE, "NULL");
-   REFUSED(camroller_shaft_copy(shaft, NULL, &error), CAMROLLER_USAGE, "'out'");
-   REFUSED(camroller_shaft_restore(self, block, bytes - 1, 1, &restored, &error), CAMROLLER_USAGE, "size");
-   REFUSED(camroller_shaft_restore(self, block, bytes - 8, 1, &restored, &error), CAMROLLER_USAGE, "damaged");
-   REFUSED(camroller_shaft_restore(self, block, 8, 1, &restored, &error), CAMROLLER_USAGE, "size");
-   REFUSED(camroller_shaft_restore(other, block, bytes, 1, &restored, &error), CAMROLLER_USAGE, "another case");
-   REFUSED(camroller_shaft_restore(self, block, bytes, 0, &restored, &error), CAMROLLER_USAGE, "threads");
-   REFUSED(camroller_shaft_restore(NULL, block, bytes, 1, &restored, &error), CAMROLLER_USAGE, "NULL");
-   REFUSED(camroller_shaft_restore(self, NULL, bytes, 1, &restored, &error), CAMROLLER_USAGE, "'buffer'");
-   REFUSED(camroller_shaft_restore(self, block, bytes, 1, NULL, &error), CAMROLLER_USAGE, "'out'");
+   REFUSED(CAMROLLER_USAGE, "NULL", camroller_shaft_copy, NULL, &copy);
+   REFUSED(CAMROLLER_USAGE, "'out'", camroller_shaft_copy, shaft, NULL);
+   REFUSED(CAMROLLER_USAGE, "size", camroller_shaft_restore, self, block, bytes - 1, 1, &restored);
+   REFUSED(CAMROLLER_USAGE, "damaged", camroller_shaft_restore, self, block, bytes - 8, 1, &restored);
+   REFUSED(CAMROLLER_USAGE, "size", camroller_shaft_restore, self, block, 8, 1, &restored);
+   REFUSED(CAMROLLER_USAGE, "another case", camroller_shaft_restore, other, block, bytes, 1, &restored);
+   REFUSED(CAMROLLER_USAGE, "threads", camroller_shaft_restore, self, block, bytes, 0, &restored);
+   REFUSED(CAMROLLER_USAGE, "NULL", camroller_shaft_restore, NULL, block, bytes, 1, &restored);
+   REFUSED(CAMROLLER_USAGE, "'buffer'", camroller_shaft_restore, self, NULL, bytes, 1, &restored);
+   REFUSED(CAMROLLER_USAGE, "'out'", camroller_shaft_restore, self, block, bytes, 1, NULL);
    CHECK(restored == NULL && camroller_shaft_restore(self, block, bytes, 1, &restored, &error) == 0);
    turn(shaft, &sums[0]);
    turn(copy, &sums[1]);
    turn(restored, &sums[2]);
    CHECK(sums[0] == sums[1] && sums[0] == sums[2]);
    CHECK(camroller_shaft_halt(copy, &error) == 0);
-   REFUSED(camroller_shaft_halt(NULL, &error), CAMROLLER_USAGE, "NULL");
+   REFUSED(CAMROLLER_USAGE, "NULL", camroller_shaft_halt, NULL);
    turn(copy, &sums[1]);
    turn(shaft, &sums[0]);
    CHECK(sums[0] != sums[1]);
@@ -382,6 +415,25 @@ static void test_shaft(const char *path, const camroller_case *other) {
    free(block);
 }
 
+/* A law outside its range where that is forbidden; a method that gets nowhere at such a speed, after which the follower goes on */
+static void test_other_kinds(const camroller_case *self) {
+   camroller_case *own = NULL;
+   camroller_result *result = NULL;
+   camroller_simulation *simulation = NULL;
+   camroller_inputs start = inputs(30.0), fast = inputs(1e10);
+   CHECK(camroller_case_copy(self, &own, &error) == 0);
+   CHECK(camroller_case_set(own, "film.range_policy", "'stop'", &error) == 0);
+   REFUSED(CAMROLLER_DOMAIN, "published range", camroller_case_run, own, &result);
+   CHECK(result == NULL);
+   CHECK(camroller_case_set(own, "numerics.method", "'dormand_prince'", &error) == 0);
+   CHECK(camroller_simulation_new(own, 1, 1.0, &simulation, &error) == 0);
+   REFUSED(CAMROLLER_CONVERGENCE, "deg", camroller_simulation_step, simulation, 4.0, &fast, &fast, NULL);
+   CHECK(camroller_simulation_angle(simulation) == 1.0);
+   CHECK(camroller_simulation_step(simulation, 4.0, &start, &start, NULL, &error) == 0);
+   camroller_simulation_free(simulation);
+   camroller_case_free(own);
+}
+
 /* A block of another case is refused */
 static void test_other_case(camroller_case *self) {
    camroller_simulation *simulation = NULL, *restored = NULL;
@@ -390,7 +442,7 @@ static void test_other_case(camroller_case *self) {
    CHECK(camroller_simulation_new(self, 1, 0.0, &simulation, &error) == 0);
    CHECK(camroller_simulation_save(simulation, block, bytes, &error) == 0);
    CHECK(camroller_case_set(self, "roller.mass_kg", "0.01", &error) == 0);
-   REFUSED(camroller_simulation_restore(self, block, bytes, &restored, &error), CAMROLLER_USAGE, "another case");
+   REFUSED(CAMROLLER_USAGE, "another case", camroller_simulation_restore, self, block, bytes, &restored);
    camroller_simulation_free(simulation);
    free(block);
 }
@@ -422,6 +474,7 @@ static int keep_or_restore(const camroller_case *self, const char *path) {
 
 int main(int count, char **words) {
    camroller_case *self = NULL;
+   static char before[1 << 20], after[1 << 20];
    if (count < 3) return 9;
    if (count > 3) {
       CHECK(camroller_case_from_file(words[1], &self, &error) == 0);
@@ -429,14 +482,18 @@ int main(int count, char **words) {
       camroller_case_free(self);
       return code;
    }
+   note_settings(before);
    test_version();
    self = test_case(words[1]);
    test_result(self);
    test_simulation(self);
    test_deck(self);
+   test_other_kinds(self);
    test_shaft(words[2], self);
    test_other_case(self);
    camroller_case_free(self);
+   note_settings(after);
+   CHECK(strcmp(before, after) == 0);
    printf("%d failures\n", failures);
    return failures > 0;
 }

@@ -1,4 +1,5 @@
-/* Decks read and followers driven in many threads at once, then the same work in one: every sum has to have the same bits.
+/* Decks read, followers driven and a case that all share run in many threads at once, then the same work in one: every sum has to
+ * have the same bits.
  *
  * Usage: threads DECK THREADS RUNS        each thread reads the deck RUNS times and drives a follower of it */
 #include <camroller.h>
@@ -8,6 +9,7 @@
 
 static const char *path;
 static int runs;
+static camroller_case *shared = NULL;
 
 typedef struct {
    int number;
@@ -20,9 +22,27 @@ static void stop_on(int code, const camroller_error *error) {
    exit(1);
 }
 
+/* Friction of the case that all threads share, checked, run, and started as a shaft and as a follower */
+static double share(void) {
+   camroller_error error = {.size = sizeof error};
+   camroller_result *result = NULL;
+   camroller_shaft *shaft = NULL;
+   camroller_simulation *follower = NULL;
+   double friction;
+   stop_on(camroller_case_check(shared, &error), &error);
+   stop_on(camroller_shaft_new(shared, 0.0, 1, &shaft, &error), &error);
+   stop_on(camroller_simulation_new(shared, 1, 0.0, &follower, &error), &error);
+   stop_on(camroller_case_run(shared, &result, &error), &error);
+   stop_on(camroller_result_scalar(result, "mean_torque_friction", &friction, &error), &error);
+   camroller_result_free(result);
+   camroller_shaft_free(shaft);
+   camroller_simulation_free(follower);
+   return friction;
+}
+
 static void *work(void *place) {
    job *own = place;
-   own->sum = 0.0;
+   own->sum = share();
    for (int run = 0; run < runs; run++) {
       camroller_error error = {.size = sizeof error};
       camroller_case *deck = NULL;
@@ -48,6 +68,8 @@ int main(int count, char **words) {
    int threads = atoi(words[2]), different = 0;
    path = words[1];
    runs = atoi(words[3]);
+   camroller_error error = {.size = sizeof error};
+   stop_on(camroller_case_from_file(path, &shared, &error), &error);
    job *together = calloc((size_t)threads, sizeof *together), alone;
    pthread_t *ids = calloc((size_t)threads, sizeof *ids);
    for (int i = 0; i < threads; i++) {
@@ -61,6 +83,7 @@ int main(int count, char **words) {
       different += alone.sum != together[i].sum;
    }
    printf("%d of %d threads differ\n", different, threads);
+   camroller_case_free(shared);
    free(together);
    free(ids);
    return different > 0;

@@ -14,7 +14,7 @@ module camroller_c_case
    use camroller_result, only : result_t, find_quantity, get_series, get_summary
    use camroller_remarks, only : remark_lines
    use camroller_c_structs, only : give_address, give_quantity
-   use camroller_c_texts, only : take_text, give_text, give_error, refuse_null
+   use camroller_c_texts, only : take_text, give_text, give_error, refuse_null, has_place
    implicit none
    private
 
@@ -342,8 +342,8 @@ contains
       integer(c_int), value, intent(in) :: kind
       !> Its number
       integer(c_size_t), value, intent(in) :: number
-      !> Buffers for name, unit and meaning; NULL takes nothing
-      type(c_ptr), intent(in) :: texts(3)
+      !> Buffers for name, unit and meaning; NULL, each or all, takes nothing
+      type(c_ptr), intent(in), optional :: texts(3)
       !> Size of each
       integer(c_size_t), value, intent(in) :: rooms
       !> Error struct or NULL
@@ -359,7 +359,7 @@ contains
       if (.not. allocated(failure)) then
          call c_f_pointer(handle, given)
          count = merge(size(given%result%series), size(given%result%summary), kind == 0)
-         if (number >= count .or. kind < 0 .or. kind > 1) then
+         if (.not. has_place(number, count) .or. kind < 0 .or. kind > 1) then
             call raise(failure, kind_usage, "the result has no quantity of that number")
          else if (kind == 0) then
             call give_quantity(given%result%series(number + 1), texts, rooms)

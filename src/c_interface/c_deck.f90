@@ -11,7 +11,7 @@ module camroller_c_deck
    use camroller_deck_sweep, only : sweep_size, sweep_overrides, get_sweep_value, case_in_words
    use camroller_c_case, only : case_handle_t
    use camroller_c_structs, only : give_address
-   use camroller_c_texts, only : give_text, give_error, refuse_null
+   use camroller_c_texts, only : give_text, give_error, refuse_null, has_place
    implicit none
    private
 
@@ -23,8 +23,8 @@ contains
       type(c_ptr), value, intent(in) :: handle
       !> The place of the key
       integer(c_size_t), value, intent(in) :: number
-      !> Buffers for name, unit and meaning; NULL takes nothing
-      type(c_ptr), intent(in) :: texts(3)
+      !> Buffers for name, unit and meaning; NULL, each or all, takes nothing
+      type(c_ptr), intent(in), optional :: texts(3)
       !> Size of each
       integer(c_size_t), value, intent(in) :: rooms
       !> Gets the value in the unit of the key; NULL takes nothing
@@ -45,13 +45,15 @@ contains
       if (.not. allocated(failure)) then
          call c_f_pointer(handle, given)
          call given_numbers(given%deck, positions)
-         if (number >= size(positions)) call raise(failure, kind_usage, "the deck has no number of that place")
+         if (.not. has_place(number, size(positions))) call raise(failure, kind_usage, "the deck has no number of that place")
       end if
       if (.not. allocated(failure)) then
          associate (key => given%deck%schema%keys(positions(number + 1)), set => given%deck%settings%values(positions(number + 1)))
-            call give_text(trim(given%deck%schema%groups(key%group)%name)//"."//trim(key%name), texts(1), rooms)
-            call give_text(trim(key%unit%symbol), texts(2), rooms)
-            call give_text(key%meaning, texts(3), rooms)
+            if (present(texts)) then
+               call give_text(trim(given%deck%schema%groups(key%group)%name)//"."//trim(key%name), texts(1), rooms)
+               call give_text(trim(key%unit%symbol), texts(2), rooms)
+               call give_text(key%meaning, texts(3), rooms)
+            end if
             if (c_associated(value)) then
                call c_f_pointer(value, found)
                read (set%text, *, iostat=status) found
@@ -108,8 +110,8 @@ contains
       type(c_ptr), value, intent(in) :: handle
       !> Number of the case and of the key, from 0
       integer(c_size_t), value, intent(in) :: number, key
-      !> Buffers for name and value; NULL takes nothing
-      type(c_ptr), intent(in) :: texts(2)
+      !> Buffers for name and value; NULL, each or both, takes nothing
+      type(c_ptr), intent(in), optional :: texts(2)
       !> Size of each
       integer(c_size_t), value, intent(in) :: rooms
       !> Error struct or NULL
@@ -124,13 +126,13 @@ contains
       call refuse_null(handle, "camroller_case", failure)
       if (.not. allocated(failure)) then
          call c_f_pointer(handle, given)
-         if (number >= sweep_size(given%deck%sweep)) then
+         if (.not. has_place(number, sweep_size(given%deck%sweep))) then
             call raise(failure, kind_usage, "the sweep has no case of that number")
-         else if (key >= size(given%deck%sweep%axes)) then
+         else if (.not. has_place(key, size(given%deck%sweep%axes))) then
             call raise(failure, kind_usage, "the sweep has no key of that number")
          end if
       end if
-      if (.not. allocated(failure)) then
+      if (.not. allocated(failure) .and. present(texts)) then
          call get_sweep_value(given%deck%sweep, int(key) + 1, int(number) + 1, text)
          call give_text(given%deck%sweep%axes(key + 1)%key, texts(1), rooms)
          call give_text(text, texts(2), rooms)
@@ -163,7 +165,8 @@ contains
       if (.not. allocated(failure)) then
          call give_address(out, c_null_ptr)
          call c_f_pointer(handle, given)
-         if (number >= sweep_size(given%deck%sweep)) call raise(failure, kind_usage, "the sweep has no case of that number")
+         if (.not. has_place(number, sweep_size(given%deck%sweep))) call raise(failure, kind_usage, &
+            & "the sweep has no case of that number")
       end if
       if (.not. allocated(failure)) then
          deck = given%deck

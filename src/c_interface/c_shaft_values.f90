@@ -10,7 +10,7 @@ module camroller_c_shaft_values
    use camroller_shaft_simulation, only : cam_number, cam_place, shaft_values
    use camroller_c_shaft, only : shaft_handle_t
    use camroller_c_structs, only : check_outcome, give_outcome, give_quantity, refuse_size
-   use camroller_c_texts, only : take_text, give_error, refuse_null
+   use camroller_c_texts, only : take_text, give_error, refuse_null, has_place
    implicit none
    private
 
@@ -205,8 +205,8 @@ contains
       integer(c_int), value, intent(in) :: cam
       !> Its place
       integer(c_size_t), value, intent(in) :: number
-      !> Buffers for name, unit and meaning; NULL takes nothing
-      type(c_ptr), intent(in) :: texts(3)
+      !> Buffers for name, unit and meaning; NULL, each or all, takes nothing
+      type(c_ptr), intent(in), optional :: texts(3)
       !> Size of each
       integer(c_size_t), value, intent(in) :: rooms
       !> Error struct or NULL
@@ -224,7 +224,7 @@ contains
          call check_cam(given, int(cam), 0, failure)
       end if
       if (.not. allocated(failure)) then
-         if (number >= merge(size(given%of_follower), size(given%of_camshaft), cam > 0)) then
+         if (.not. has_place(number, merge(size(given%of_follower), size(given%of_camshaft), cam > 0))) then
             call raise(failure, kind_usage, "there is no quantity of that number")
          else if (cam > 0) then
             quantity = given%of_follower(number + 1)

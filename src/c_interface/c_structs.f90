@@ -142,11 +142,12 @@ contains
    subroutine give_quantity(quantity, texts, room)
       !> The quantity
       type(quantity_t), intent(in) :: quantity
-      !> Buffers for name, unit and meaning; NULL takes nothing
-      type(c_ptr), intent(in) :: texts(3)
+      !> Buffers for name, unit and meaning; NULL, each or all, takes nothing
+      type(c_ptr), intent(in), optional :: texts(3)
       !> Size of each
       integer(c_size_t), intent(in) :: room
 
+      if (.not. present(texts)) return
       call give_text(quantity%name, texts(1), room)
       call give_text(quantity%unit, texts(2), room)
       call give_text(quantity%description, texts(3), room)

@@ -7,7 +7,7 @@ module camroller_c_texts
    implicit none
    private
 
-   public :: take_text, give_text, give_error, refuse_null
+   public :: take_text, give_text, give_error, refuse_null, has_place
 
    !> Room for a message, as the header has it
    integer, parameter :: message_room = 4096
@@ -114,5 +114,17 @@ contains
       if (allocated(error) .or. c_associated(address)) return
       call raise(error, kind_usage, "the argument '"//name//"' is NULL")
    end subroutine refuse_null
+
+   !> Is there something at a place? Sizes of C have no sign: the largest of them are negative here.
+   pure function has_place(place, count) result(has)
+      !> The place, from 0
+      integer(c_size_t), intent(in) :: place
+      !> How many there are
+      integer, intent(in) :: count
+      !> The answer
+      logical :: has
+
+      has = place >= 0 .and. place < count
+   end function has_place
 
 end module camroller_c_texts

@@ -1,10 +1,11 @@
 """The installed library: from an empty prefix a C program is built and tries every call of the interface.
 
-The libraries are built by CMake, without HDF5, into build/cmake, which is kept from run to run.
+The libraries are built by CMake, without HDF5 but for one test, into build/cmake, which is kept from run to run.
 """
 
 from __future__ import annotations
 
+import collections
 import os
 import pathlib
 import re
@@ -12,6 +13,8 @@ import shutil
 import subprocess
 
 import pytest
+
+from conftest import installed_by_cmake
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 DECK = ROOT / "decks" / "thesis.nml"
@@ -53,6 +56,23 @@ def threads(prefix, tmp_path_factory):
 
 def test_every_call_of_the_c_interface(host):
     assert "0 failures" in run(host, DECK, CAMSHAFT, cwd=ROOT)
+
+
+def test_every_call_is_tried_with_null_in_every_place():
+    """Pointers of each call of the header, and those places where the program above gives NULL."""
+    header = re.sub(r"/\*.*?\*/", "", (ROOT / "include" / "camroller.h").read_text(), flags=re.DOTALL)
+    source = (ROOT / "tools" / "try_c_interface.c").read_text()
+    # what is refused is tried without an error struct, too
+    calls = [(name, f"{words}, NULL") for name, words in re.findall(r"REFUSED\(\w+, \".*?\", (camroller_\w+), (.*)\);", source)]
+    calls += re.findall(r"\b(camroller_\w+)\(([^()]*)\)", source)
+    tried = collections.defaultdict(set)
+    for name, words in calls:
+        tried[name] |= {place for place, word in enumerate(words.split(",")) if word.strip() == "NULL"}
+    declared = re.findall(r"\b(camroller_\w+)\(([^)]*)\);", header)
+    assert len(declared) > 40
+    for name, words in declared:
+        pointers = {place for place, word in enumerate(words.split(",")) if "*" in word}
+        assert pointers <= tried[name], (name, pointers - tried[name])
 
 
 def test_no_memory_is_lost_or_misused(host):
@@ -132,9 +152,48 @@ end program host
     (tmp_path / "CMakeLists.txt").write_text("""cmake_minimum_required(VERSION 3.16)
 project(host LANGUAGES C Fortran)
 find_package(camroller REQUIRED)
-add_executable(host host.f90)
-target_link_libraries(host PRIVATE camroller::camroller_shared)
+foreach(kind shared static)
+  add_executable(${kind} host.f90)
+  target_link_libraries(${kind} PRIVATE camroller::camroller_${kind})
+endforeach()
 """)
     run("cmake", "-S", tmp_path, "-B", tmp_path / "build", f"-DCMAKE_PREFIX_PATH={prefix}")
     run("cmake", "--build", tmp_path / "build")
-    run(tmp_path / "build" / "host", DECK)
+    for kind in ("shared", "static"):
+        run(tmp_path / "build" / kind, DECK)
+        assert ("libcamroller" in run("ldd", tmp_path / "build" / kind)) == (kind == "shared")
+
+
+def test_nothing_installed_points_to_the_sources(prefix):
+    """So that the source tree can go: neither texts nor the places where libraries look for others."""
+    texts = [path for path in prefix.rglob("*") if path.suffix in (".pc", ".cmake", ".h", ".txt", ".nml", ".f90", ".c", ".py")]
+    assert len(texts) > 8
+    assert [path for path in texts if str(ROOT) in path.read_text()] == []
+    for library in prefix.rglob("*.so*"):
+        assert str(ROOT) not in run("readelf", "-d", library)
+
+
+def test_with_hdf5_there_are_both_libraries_the_program_and_its_pages(tmp_path):
+    prefix = installed_by_cmake(tmp_path / "prefix", "ON")
+    result = tmp_path / "result.h5"
+    run(prefix / "bin" / "camroller", "run", DECK, "--no-sweep", "-o", result, "--quiet")
+    assert result.read_bytes()[:4] == b"\x89HDF"
+    assert (prefix / "share" / "man" / "man1" / "camroller.1").read_text().startswith(".TH")
+    run("bash", "-n", prefix / "share" / "bash-completion" / "completions" / "camroller")
+    library = prefix / "lib" / "libcamroller_io.so"
+    shown = [line.split()[-1] for line in run("nm", "-D", "--defined-only", library).splitlines()]
+    assert shown and all(name.startswith(("camroller_", "__camroller_")) for name in shown)
+    assert "hdf5" in run("ldd", library) and "hdf5" not in run("ldd", prefix / "lib" / "libcamroller.so")
+    # a program of Fortran for both, from another place
+    (tmp_path / "CMakeLists.txt").write_text("""cmake_minimum_required(VERSION 3.16)
+project(host LANGUAGES C Fortran)
+find_package(camroller REQUIRED)
+foreach(kind shared static)
+  add_executable(${kind} two_cases.f90)
+  target_link_libraries(${kind} PRIVATE camroller::camroller_io_${kind})
+endforeach()
+""")
+    shutil.copy(ROOT / "example" / "library" / "two_cases.f90", tmp_path)
+    run("cmake", "-S", tmp_path, "-B", tmp_path / "build", f"-DCMAKE_PREFIX_PATH={prefix}")
+    run("cmake", "--build", tmp_path / "build")
+    assert run(tmp_path / "build" / "shared", cwd=ROOT) == run(tmp_path / "build" / "static", cwd=ROOT) != ""
