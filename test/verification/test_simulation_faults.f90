@@ -5,6 +5,7 @@ module test_simulation_faults
    use testdrive, only : unittest_type, new_unittest, error_type, check, test_failed
    use camroller, only : wp, pi, degree, error_t, case_t, numerics_t, result_t, simulation_t, outcome_t, run_case, &
       & start_simulation, advance, kind_usage, kind_deck
+   use deck_cases, only : get_deck_case
    use reference_cases, only : thesis_case
    use test_simulation, only : tight_case
    implicit none
@@ -21,6 +22,7 @@ contains
          new_unittest("the second lobe shape can be driven, and one that the case lacks is refused", test_lobe), &
          new_unittest("backward steps and impossible angles or operating points are refused", test_refusal), &
          new_unittest("after a failed step the follower continues with the same bits as without it", test_failed_step), &
+         new_unittest("a step in which the usual method gets nowhere is taken by another, as in a run", test_fallback), &
          new_unittest("the torque of the shortest possible step is that at its angle", test_smallest_step), &
          new_unittest("numerics of a case built without a deck are checked in runs and simulations", test_numerics) &
          ]
@@ -196,6 +198,37 @@ contains
       end do
       if (allocated(failure)) call test_failed(error, failure%message)
    end subroutine test_failed_step
+
+   !> At this tolerance rounding keeps the usual method from some of these steps.
+   subroutine test_fallback(error)
+      type(error_type), allocatable, intent(out) :: error
+      character(len=*), parameter :: tolerances(2) = [character(len=24) :: "numerics.tolerance=1e-8", "numerics.tolerance=1e-12"]
+      integer, parameter :: steps = 36
+      type(case_t) :: the_case
+      type(simulation_t) :: simulation
+      type(outcome_t) :: outcome
+      type(error_t), allocatable :: failure
+      ! Mean friction torque of a turn at each tolerance [N m]
+      real(wp) :: means(2)
+      integer :: i, k
+
+      means = 0.0_wp
+      do k = 1, 2
+         call get_deck_case("decks/hard/narrow_contact.nml", the_case, failure, trim(tolerances(k)))
+         if (.not. allocated(failure)) call start_simulation(simulation, the_case, 0.0_wp, failure)
+         do i = 1, steps
+            if (.not. allocated(failure)) call advance(simulation, 2.0_wp*pi*i/steps, the_case%operating_point%speed, &
+               & the_case%operating_point%oil_temperature, outcome, failure)
+            if (allocated(failure)) then
+               call test_failed(error, failure%message)
+               return
+            end if
+            means(k) = means(k) + outcome%mean_torque_friction/steps
+         end do
+      end do
+      ! some hundred steps of the larger tolerance
+      call check(error, abs(means(1) - means(2)) < 1.0e-6_wp*means(2), "mean friction depends on who takes the steps")
+   end subroutine test_fallback
 
    !> From near zero and from many turns away, with a method of each family.
    subroutine test_smallest_step(error)
