@@ -92,8 +92,8 @@ contains
 
    subroutine test_order(error)
       type(error_type), allocatable, intent(out) :: error
-      ! Steps of four degrees, one, a quarter, and a sixteenth for what they tend to
-      integer, parameter :: steps(*) = [90, 360, 1440, 5760]
+      ! Steps of four degrees, one, a quarter, and an eighth for what they tend to
+      integer, parameter :: steps(*) = [90, 360, 1440, 2880]
       type(turn_t) :: turns(size(steps))
       type(error_t), allocatable :: failure
       ! Errors of three lengths of the step
