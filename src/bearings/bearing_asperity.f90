@@ -18,13 +18,13 @@ module camroller_bearing_asperity
    use camroller_asperity, only : load_factor
    use camroller_greenwood_tripp, only : integral_5_2, largest_film_ratio
    use camroller_journal, only : journal_t, film_t, film_at, find_tangent, film_friction, journal_solved, journal_without_film
+   use camroller_lapack, only : dgesv
    use camroller_quadrature, only : gauss_legendre
-   use camroller_spline, only : spline_t, new_clamped_spline, evaluate_spline
    implicit none
    private
 
    public :: bearing_asperity_t, touch_t, bearing_state_t, balance_t, new_touch, carry_load, balance_load, asperity_forces, &
-      & clearance_is_enough, clearance_advice
+      & tabulated_forces, clearance_is_enough, clearance_advice
 
    !> What a case says about the surfaces of its camshaft bearings
    type :: bearing_asperity_t
@@ -42,10 +42,9 @@ module camroller_bearing_asperity
 
    !> Points of the integral over the contact; the error is below 1e-11 of the integral, see its test
    integer, parameter :: points = 24
-   !> Pieces of the tables, up to the film ratio at which asperities part; their error is below 1e-9 of the largest force
-   integer, parameter :: pieces = 160
-   !> A smallest film ratio of nothing, as e/sqrt(1 - e^2) [-]
-   real(wp), parameter :: squeezed = 1.0e100_wp
+   !> Pieces of the tables, up to the film ratio at which asperities part, and terms of the polynomial in each: the error of a force
+   !> is below 1e-11 of itself up to a film ratio of 7, and below 1e-12 of the largest force beyond, see its test
+   integer, parameter :: pieces = 8, terms = 14
 
    !> Surfaces made ready
    type :: touch_t
@@ -57,17 +56,18 @@ module camroller_bearing_asperity
       real(wp) :: boundary_coefficient = 0.0_wp
       !> Places and weights of the integral on (0, 1) [-]
       real(wp) :: places(points) = 0.0_wp, weights(points) = 0.0_wp
-      !> Force along the line of centres and sum of the normal forces, over pressure, radius and width, by the smallest
-      !> film ratio [-]
-      type(spline_t) :: along, normal
+      !> Force along the line of centres and sum of the normal forces, over pressure, radius and width, by the smallest film
+      !> ratio H: coefficients of the powers of the place in a piece, from -1 to 1, of force times exp(H^2/2), which hardly varies;
+      !> shape (term, piece) [-]
+      real(wp), dimension(terms, pieces) :: along = 0.0_wp, normal = 0.0_wp
    end type touch_t
 
    !> Film and asperities at one eccentricity
    type :: balance_t
       !> Load over the one wanted, in logarithms, and its slopes over ln t and over the logarithm of viscosity times speed [-]
       real(wp) :: excess = 0.0_wp, slope = 0.0_wp, by_speed = 0.0_wp
-      !> Load of asperities along the line of centres, sum of their normal forces and its slope over ln t [N]
-      real(wp) :: along = 0.0_wp, normal = 0.0_wp, normal_slope = 0.0_wp
+      !> Load of asperities along the line of centres, sum of their normal forces, and their slopes over ln t [N]
+      real(wp) :: along = 0.0_wp, normal = 0.0_wp, along_slope = 0.0_wp, normal_slope = 0.0_wp
       !> The film
       type(film_t) :: film
    end type balance_t
@@ -120,60 +120,43 @@ contains
       call gauss_legendre(touch%places, touch%weights)
       touch%places = 0.5_wp*(1.0_wp + touch%places)
       touch%weights = 0.5_wp*touch%weights
-      call tabulate_forces(touch, clearance, error)
+      call tabulate_forces(touch, clearance)
    end subroutine new_touch
 
-   !> Tables of the forces of asperities, from a bearing of one metre's radius and width.
-   subroutine tabulate_forces(touch, clearance, error)
+   !> Tables of the forces of asperities, from a bearing of one metre's radius and width: in each piece the polynomial through the
+   !> forces at the zeros of Chebyshev's. The equations are the same for every bearing, and regular.
+   pure subroutine tabulate_forces(touch, clearance)
       !> The surfaces; get the tables
       type(touch_t), intent(inout) :: touch
       !> Radial clearance [m]
       real(wp), intent(in) :: clearance
-      !> Domain error
-      type(error_t), allocatable, intent(out) :: error
 
-      ! Step for the derivatives at the end [-]
-      real(wp), parameter :: h = 2.0e-3_wp
       type(journal_t) :: journal
-      ! Film ratios, forces over those scales there, forces near the end; slopes and curvatures at the end [-]
-      real(wp) :: ratios(0:pieces), forces(2, 0:pieces), near(2, 0:4), start(2, 2)
-      integer :: i
+      ! Places in a piece; their powers; forces there, then coefficients: along, then normal [-]
+      real(wp) :: places(terms), powers(terms, terms), forces(terms, 2*pieces)
+      ! Smallest film over roughness; 1 - e; e/sqrt(1 - e^2) [-]
+      real(wp) :: ratio, gap, t
+      integer :: i, piece, pivots(terms), info
 
       journal%radius = 1.0_wp
       journal%width_ratio = 0.5_wp
       journal%clearance_ratio = clearance
-      do i = 0, pieces
-         ratios(i) = largest_film_ratio*i/pieces
-         call force_at(ratios(i), forces(:, i))
+      places = cos(pi*([(i, i=1, terms)] - 0.5_wp)/terms)
+      do i = 1, terms
+         powers(:, i) = places**(i - 1)
       end do
-      do i = 0, 4
-         call force_at(h*i, near(:, i))
+      do piece = 1, pieces
+         do i = 1, terms
+            ratio = largest_film_ratio*(piece - 0.5_wp + 0.5_wp*places(i))/pieces
+            gap = ratio*touch%roughness/clearance
+            t = (1.0_wp - gap)/sqrt(gap*(2.0_wp - gap))
+            call asperity_forces(journal, touch, t, forces(i, piece), forces(i, pieces + piece))
+            forces(i, [piece, pieces + piece]) = forces(i, [piece, pieces + piece])*exp(0.5_wp*ratio**2)/touch%pressure
+         end do
       end do
-      start(1, :) = matmul(near, [-25.0_wp, 48.0_wp, -36.0_wp, 16.0_wp, -3.0_wp])/(12.0_wp*h)
-      start(2, :) = matmul(near, [35.0_wp, -104.0_wp, 114.0_wp, -56.0_wp, 11.0_wp])/(12.0_wp*h**2)
-      call new_clamped_spline(touch%along, ratios, forces(1, :), start(:, 1), [0.0_wp, 0.0_wp], 0.0_wp, error)
-      if (allocated(error)) return
-      call new_clamped_spline(touch%normal, ratios, forces(2, :), start(:, 2), [0.0_wp, 0.0_wp], 0.0_wp, error)
-
-   contains
-
-      !> Forces at a film ratio.
-      subroutine force_at(ratio, force)
-         !> Smallest film over roughness [-]
-         real(wp), intent(in) :: ratio
-         !> Along the line of centres, sum of normal forces, over those scales [-]
-         real(wp), intent(out) :: force(2)
-
-         ! 1 - e, e/sqrt(1 - e^2) [-]
-         real(wp) :: gap, t
-
-         gap = ratio*touch%roughness/clearance
-         t = squeezed
-         if (gap > 0.0_wp) t = (1.0_wp - gap)/sqrt(gap*(2.0_wp - gap))
-         call asperity_forces(journal, touch, t, force(1), force(2))
-         force = force/touch%pressure
-      end subroutine force_at
-
+      call dgesv(terms, 2*pieces, powers, terms, pivots, forces, terms, info)
+      touch%along = forces(:, :pieces)
+      touch%normal = forces(:, pieces + 1:)
    end subroutine tabulate_forces
 
    !> Are the surfaces of a bearing apart where its journal is in the middle?
@@ -210,9 +193,7 @@ contains
       if (status /= journal_solved) return
       if (present(touch)) then
          if (t > first_touch(journal, touch)) then
-            ! By table first, which leaves two evaluations of the integrals
-            call balance_load(journal, touch, whole, .false., t, balance, status)
-            if (status == journal_solved) call balance_load(journal, touch, whole, .true., t, balance, status)
+            call balance_load(journal, touch, whole, t, balance, status)
             if (status /= journal_solved) return
             by_film = journal%unit_load*balance%film%number
             state%asperity_load = balance%along
@@ -227,16 +208,14 @@ contains
 
    !> Eccentricity at which film and asperities carry a load, by Newton's method on logarithms inside a bracket: both grow with
    !> it, and the film alone bounds it.
-   pure subroutine balance_load(journal, touch, load, is_exact, t, balance, status)
+   pure subroutine balance_load(journal, touch, load, t, balance, status)
       !> The bearing
       type(journal_t), intent(in) :: journal
       !> Its surfaces
       type(touch_t), intent(in) :: touch
       !> Load [N]
       real(wp), intent(in) :: load
-      !> Are the integrals evaluated in place of their tables?
-      logical, intent(in) :: is_exact
-      !> e/sqrt(1 - e^2); in: that of the film alone, or the root by table; apart, it stays [-]
+      !> e/sqrt(1 - e^2); in: that of the film alone, which stays where surfaces are apart [-]
       real(wp), intent(inout) :: t
       !> Loads there
       type(balance_t), intent(out) :: balance
@@ -244,46 +223,61 @@ contains
       integer, intent(out) :: status
 
       ! A step whose square is rounding: loads rise with up to the thirtieth power [-]
-      real(wp), parameter :: last_step = 1.0e-9_wp
-      ! Room above the start for what it is off, far more than by rounding or by the tables [-]
+      real(wp), parameter :: last_step = 1.0e-8_wp
+      ! Room above the start for its rounding, far more than that [-]
       real(wp), parameter :: room = 0.1_wp
       ! Steps at most: bisection of the bracket to rounding
       integer, parameter :: most_steps = 60
       ! Logarithms of t, its bounds, step [-]
       real(wp) :: place, low, high, step
       integer :: i
-      logical :: is_last
 
       status = journal_solved
       place = log(t)
       low = min(log(first_touch(journal, touch)), place)
       high = place + room
-      call compare_loads(journal, touch, load, is_exact, t, balance)
+      call compare_loads(journal, touch, load, t, balance)
       if (.not. balance%along > 0.0_wp) return
       do i = 1, most_steps
          if (balance%excess > 0.0_wp) high = min(high, place)
          if (balance%excess < 0.0_wp) low = max(low, place)
          step = -balance%excess/balance%slope
-         is_last = abs(step) <= last_step
-         if (.not. (is_last .or. place + step > low .and. place + step < high)) step = 0.5_wp*(low + high) - place
+         if (abs(step) <= last_step) then
+            call take_last_step(step, t, balance)
+            return
+         end if
+         if (.not. (place + step > low .and. place + step < high)) step = 0.5_wp*(low + high) - place
          place = place + step
          t = exp(place)
-         call compare_loads(journal, touch, load, is_exact, t, balance)
-         if (is_last) return
+         call compare_loads(journal, touch, load, t, balance)
       end do
       status = journal_without_film
    end subroutine balance_load
 
+   !> Carry loads on by a step that is so short that slopes say all about it.
+   pure subroutine take_last_step(step, t, balance)
+      !> Change of ln t [-]
+      real(wp), intent(in) :: step
+      !> e/sqrt(1 - e^2) [-]
+      real(wp), intent(inout) :: t
+      !> Loads there
+      type(balance_t), intent(inout) :: balance
+
+      t = t*(1.0_wp + step)
+      balance%film%number = balance%film%number*(1.0_wp + balance%film%number_slope*step)
+      balance%film%angle = balance%film%angle + balance%film%angle_slope*step
+      balance%along = balance%along + balance%along_slope*step
+      balance%normal = balance%normal + balance%normal_slope*step
+   end subroutine take_last_step
+
    !> Loads at one eccentricity.
-   pure subroutine compare_loads(journal, touch, load, is_exact, t, balance)
+   pure subroutine compare_loads(journal, touch, load, t, balance)
       !> The bearing
       type(journal_t), intent(in) :: journal
       !> Its surfaces
       type(touch_t), intent(in) :: touch
       !> Load wanted [N]
       real(wp), intent(in) :: load
-      !> Are the integrals evaluated in place of their tables?
-      logical, intent(in) :: is_exact
       !> e/sqrt(1 - e^2) [-]
       real(wp), intent(in) :: t
       !> The loads
@@ -292,26 +286,22 @@ contains
       ! Attitude angle and its slope over ln t [rad]
       real(wp) :: angle, angle_slope
       ! Load of the film, components along the line of centres and across it, and slopes over ln t [N]
-      real(wp) :: film, along, across, along_slope, across_slope, pressed_slope
+      real(wp) :: film, along, across, along_slope, across_slope
 
       balance%film = film_at(journal, t)
       ! The fit of finite width is a little beyond a right angle where the eccentricity is small; no film pulls
       angle = min(balance%film%angle, 0.5_wp*pi)
       angle_slope = merge(balance%film%angle_slope, 0.0_wp, balance%film%angle < 0.5_wp*pi)
       film = journal%unit_load*balance%film%number
-      if (is_exact) then
-         call asperity_forces(journal, touch, t, balance%along, balance%normal, pressed_slope, balance%normal_slope)
-      else
-         call tabulated_forces(journal, touch, t, balance%along, balance%normal, pressed_slope, balance%normal_slope)
-      end if
+      call tabulated_forces(journal, touch, t, balance%along, balance%normal, balance%along_slope, balance%normal_slope)
       across = film*sin(angle)
       along = film*cos(angle)
-      along_slope = along*balance%film%number_slope - across*angle_slope + pressed_slope
+      along_slope = along*balance%film%number_slope - across*angle_slope + balance%along_slope
       across_slope = across*balance%film%number_slope + along*angle_slope
       balance%by_speed = (along*(along + balance%along) + across**2)/((along + balance%along)**2 + across**2)
       along = along + balance%along
       balance%slope = (along*along_slope + across*across_slope)/(along**2 + across**2)
-      balance%excess = log(hypot(along, across)/load)
+      balance%excess = 0.5_wp*log((along**2 + across**2)/load**2)
    end subroutine compare_loads
 
    !> Eccentricity at which the first asperities touch, as `t = e/sqrt(1 - e^2)`.
@@ -341,26 +331,41 @@ contains
       !> Force along the line of centres, sum of the normal forces, their slopes [N]
       real(wp), intent(out) :: along, normal, along_slope, normal_slope
 
-      ! sqrt(1 + t^2), clearance over roughness, smallest film ratio, its slope over ln t, forces over their scale [-]; scale [N]
-      real(wp) :: secant, wide, ratio, ratio_slope, values(0:3), scale
-      integer :: status
+      ! sqrt(1 + t^2), clearance over roughness, smallest film ratio, its slope over ln t; place in its piece;
+      ! exp(-H^2/2) [-]; scale [N]
+      real(wp) :: secant, wide, ratio, ratio_slope, place, decay, scale
+      ! Forces times exp(H^2/2), and their slopes over the place [-]
+      real(wp) :: values(2), slopes(2)
+      integer :: piece, i
 
+      along = 0.0_wp
+      normal = 0.0_wp
+      along_slope = 0.0_wp
+      normal_slope = 0.0_wp
       secant = sqrt(1.0_wp + t**2)
       wide = clearance_of(journal)/touch%roughness
       ratio = wide/(secant*(secant + t))
+      if (.not. ratio < largest_film_ratio) return
       ratio_slope = -wide*t/secant**3
-      scale = touch%pressure*2.0_wp*journal%radius**2*journal%width_ratio
-      ! Zero beyond the end of the tables, where asperities are apart
-      call evaluate_spline(touch%normal, ratio, values, status)
-      normal = scale*max(values(0), 0.0_wp)
-      normal_slope = scale*values(1)*ratio_slope
-      call evaluate_spline(touch%along, ratio, values, status)
-      along = scale*max(values(0), 0.0_wp)
-      along_slope = scale*values(1)*ratio_slope
+      place = ratio*pieces/largest_film_ratio
+      piece = min(int(place) + 1, pieces)
+      place = 2.0_wp*(place - piece) + 1.0_wp
+      values = [touch%along(terms, piece), touch%normal(terms, piece)]
+      slopes = 0.0_wp
+      do i = terms - 1, 1, -1
+         slopes = slopes*place + values
+         values = values*place + [touch%along(i, piece), touch%normal(i, piece)]
+      end do
+      decay = exp(-0.5_wp*ratio**2)
+      scale = touch%pressure*2.0_wp*journal%radius**2*journal%width_ratio*decay
+      along = scale*values(1)
+      normal = scale*values(2)
+      along_slope = scale*(slopes(1)*2.0_wp*pieces/largest_film_ratio - ratio*values(1))*ratio_slope
+      normal_slope = scale*(slopes(2)*2.0_wp*pieces/largest_film_ratio - ratio*values(2))*ratio_slope
    end subroutine tabulated_forces
 
-   !> Forces of the asperities of a bearing, by Gauss' rule over the part of it where they touch, with their slopes over ln t.
-   pure subroutine asperity_forces(journal, touch, t, along, normal, along_slope, normal_slope)
+   !> Forces of the asperities of a bearing, by Gauss' rule over the part of it where they touch.
+   pure subroutine asperity_forces(journal, touch, t, along, normal)
       !> The bearing
       type(journal_t), intent(in) :: journal
       !> Its surfaces
@@ -369,20 +374,16 @@ contains
       real(wp), intent(in) :: t
       !> Force along the line of centres, sum of the normal forces [N]
       real(wp), intent(out) :: along, normal
-      !> Their slopes [N]
-      real(wp), intent(out), optional :: along_slope, normal_slope
 
       !> Clearance [m]; e, smallest film over clearance, sine of half the angle where contact ends [-]
       real(wp) :: clearance, eccentricity, gap, sine
       !> Angle where contact ends [rad]
       real(wp) :: last
-      !> Angles from the thinnest place [rad]; film over roughness, F_5/2 there and its slope [-]
+      !> Angles from the thinnest place [rad]; film over roughness, F_5/2 there, its slope [-]
       real(wp), dimension(points) :: angles, ratios, integrals, slopes
 
       along = 0.0_wp
       normal = 0.0_wp
-      if (present(along_slope)) along_slope = 0.0_wp
-      if (present(normal_slope)) normal_slope = 0.0_wp
       clearance = clearance_of(journal)
       eccentricity = t/sqrt(1.0_wp + t**2)
       gap = 1.0_wp/(sqrt(1.0_wp + t**2)*(sqrt(1.0_wp + t**2) + t))
@@ -398,11 +399,6 @@ contains
       associate (scale => 2.0_wp*last*touch%pressure*2.0_wp*journal%radius**2*journal%width_ratio)
          along = scale*sum(touch%weights*integrals*cos(angles))
          normal = scale*sum(touch%weights*integrals)
-         if (.not. (present(along_slope) .and. present(normal_slope))) return
-         ! The film grows by -cos of the angle times that of e, t/(1 + t^2)^1.5; the ends of the contact carry no pressure
-         slopes = -clearance/touch%roughness*eccentricity/(1.0_wp + t**2)*slopes*cos(angles)
-         along_slope = scale*sum(touch%weights*slopes*cos(angles))
-         normal_slope = scale*sum(touch%weights*slopes)
       end associate
    end subroutine asperity_forces
 

@@ -20,7 +20,7 @@
 !> direction (`test/reference/journal_reference.py`).
 module camroller_journal_motion
    use camroller_kinds, only : wp, pi
-   use camroller_bearing_asperity, only : asperity_forces, bearing_state_t, touch_t
+   use camroller_bearing_asperity, only : bearing_state_t, tabulated_forces, touch_t
    use camroller_journal, only : journal_t, moves_like_finite
    use camroller_names, only : name_length
    implicit none
@@ -245,13 +245,15 @@ contains
 
       ! Eccentricity [-], direction of the line of centres [-]
       real(wp) :: e, direction(2)
+      ! Slopes of the loads of asperities [N]
+      real(wp) :: unused(2)
 
       film = load
       along = 0.0_wp
       normal = 0.0_wp
       if (.not. present(touch)) return
       call line_of_centres(place, e, direction)
-      call asperity_forces(journal, touch, e/sqrt((1.0_wp - e)*(1.0_wp + e)), along, normal)
+      call tabulated_forces(journal, touch, e/sqrt((1.0_wp - e)*(1.0_wp + e)), along, normal, unused(1), unused(2))
       film = load - along*direction
    end subroutine share_moving
 

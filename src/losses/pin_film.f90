@@ -178,7 +178,7 @@ contains
       journal = part%journal
       journal%unit_load = shear*journal%unit_load
       call find_tangent(journal, load, t, status)
-      if (status == journal_solved .and. t > 0.0_wp) call balance_load(journal, part%touch, load, .false., t, balance, status)
+      if (status == journal_solved .and. t > 0.0_wp) call balance_load(journal, part%touch, load, t, balance, status)
    end subroutine hold_pin
 
 end module camroller_pin_film

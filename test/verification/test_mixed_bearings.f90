@@ -2,7 +2,8 @@
 module test_mixed_bearings
    use testdrive, only : unittest_type, new_unittest, error_type, test_failed, check
    use camroller_kinds, only : wp, pi
-   use camroller_bearing_asperity, only : asperity_forces, bearing_asperity_t, bearing_state_t, carry_load, new_touch, touch_t
+   use camroller_bearing_asperity, only : asperity_forces, bearing_asperity_t, bearing_state_t, carry_load, new_touch, &
+      & tabulated_forces, touch_t
    use camroller_camshaft, only : belt_pull_t
    use camroller_case, only : case_t
    use camroller_error, only : error_t, kind_deck
@@ -105,7 +106,9 @@ contains
       type(touch_t) :: touch
       type(journal_t) :: journal
       type(pressed_t) :: integrand
-      real(wp) :: found(2), expected(2), doubt, gap, last
+      ! e/sqrt(1 - e^2) of next to no film [-]
+      real(wp), parameter :: squeezed = 1.0e100_wp
+      real(wp) :: found(2), expected(2), largest(2), slopes(2), doubt, gap, last
       integer :: i, k, status
 
       journal = bearing_of(1)
@@ -127,6 +130,12 @@ contains
          end associate
          ! the film over roughness at its end, near 8, loses a factor 8*8 of the digits in its exponential, the reference as much
          call check(error, all(abs(found/expected - 1.0_wp) < 1.0e-11_wp), "the rule is not exact enough")
+         if (allocated(error)) return
+         ! polynomials of degree 13 in pieces of one film ratio are 4e-13 off; beyond a ratio of 7 the end of the contact counts
+         call asperity_forces(journal, touch, squeezed, largest(1), largest(2))
+         call tabulated_forces(journal, touch, (1.0_wp - gap)/sqrt(gap*(2.0_wp - gap)), found(1), found(2), slopes(1), slopes(2))
+         call check(error, all(abs(found - expected) < merge(1.0e-11_wp*expected, 1.0e-12_wp*largest, gap < 0.07_wp)), &
+            & "the tables are not exact enough")
          if (allocated(error)) return
       end do
    end subroutine test_forces
@@ -150,8 +159,9 @@ contains
             call carry_load(journal, [0.6_wp, -0.8_wp]*load, state, status, touch)
             call check(error, status, 0)
             if (allocated(error)) return
-            call check(error, state%eccentricity >= before%eccentricity .and. state%film < before%film .or. i == -20, &
-               & "the film does not become thinner with the load")
+            ! next to one the eccentricity has no more digits than one
+            call check(error, (state%eccentricity >= before%eccentricity - epsilon(1.0_wp) .and. state%film < before%film) &
+               & .or. i == -20, "the film does not become thinner with the load")
             if (allocated(error)) return
             call check(error, state%torque > before%torque .and. state%boundary_torque >= before%boundary_torque .and. &
                & state%asperity_load >= before%asperity_load, "torque or load of asperities fall with the load")
