@@ -11,7 +11,7 @@ module camroller_contact
    use camroller_kinematics, only : position_t
    use camroller_dynamics, only : moments_t
    use camroller_dual, only : dual_t
-   use camroller_joint_forces, only : contact_moment, has_pivot_friction, set_pivot_forces
+   use camroller_joint_forces, only : find_contact_moment, has_pivot_friction
    use camroller_pivot_friction, only : pivot_forces_t, pivot_moment, hold_forces
    use camroller_contact_forces, only : contact_t, setting_t, parts_t, motion_t, slopes_t, set_speeds, prepare_contact, &
       & evaluate_contact, follow_contact, has_pin_film, release_contact
@@ -103,9 +103,11 @@ contains
       real(wp) :: moment, load
       ! Relative change of the film ratio in the last step; relative error that is good enough [-]
       real(wp) :: change, enough
+      type(hinge_t) :: hinge
 
       status = 0
-      moment = contact_moment(model, position, moments)
+      call find_contact_moment(model, position, moments, moment, hinge%forces, hinge%unloaded)
+      if (has_pivot_friction(model)) call hold_forces(hinge%forces)
       load = moment/merge(position%normal_arm, position%parallel_arm, model%has_exact_arm)
       if (model%takes_maximum_load) load = max(model%base_circle_load, load)
       if (.not. load > 0.0_wp) then
@@ -121,7 +123,7 @@ contains
          if (present(start)) then
             if (start%is_touching) call start_nearby(model, position, moment, start, contact)
          end if
-         call balance_finger(model, position, moments, moment, enough, contact, basis, status)
+         call balance_finger(model, position, moment, hinge, enough, contact, basis, status)
       else
          call evaluate_contact(model, position, basis%setting, load, contact, basis%parts, change)
       end if
@@ -156,15 +158,15 @@ contains
    !>
    !> Friction changes the load by a few per cent at most, so the second evaluation is good to about 1e-5 and the third to
    !> 1e-10. Without a load at which friction lets the balance be, contact is lost.
-   pure subroutine balance_finger(model, position, moments, moment, enough, contact, basis, status)
+   pure subroutine balance_finger(model, position, moment, hinge, enough, contact, basis, status)
       !> The model
       type(model_t), intent(in) :: model
       !> Geometry at this angle
       type(position_t), intent(in) :: position
-      !> Moments about the pivot at this angle
-      type(moments_t), intent(in) :: moments
       !> Moment to be balanced, with the friction of the pivot as it is without load, positive [N m]
       real(wp), intent(in) :: moment
+      !> What the friction of the pivot is made of, where it has any
+      type(hinge_t), intent(in) :: hinge
       !> Relative error of load and forces that is good enough [-]
       real(wp), intent(in) :: enough
       !> State of the contact; in: with the load to start from and the film ratio there, or zero
@@ -181,14 +183,12 @@ contains
       real(wp) :: excess, slope
       ! Relative change of the film ratio in the last step, of the load in the next [-]
       real(wp) :: change, shift
-      type(hinge_t) :: hinge
       integer :: iteration
 
       status = 0
       load = contact%load
       low = 0.0_wp
       high = huge(1.0_wp)
-      if (has_pivot_friction(model)) call set_hinge(model, position, moments, hinge)
       do iteration = 1, max_iterations
          ! A share that is not quite found narrows no bracket: what has taken so long needs all of its figures
          if (iteration > usual_iterations) basis%setting%coarse = 0.0_wp
@@ -227,22 +227,6 @@ contains
       end do
       status = 1
    end subroutine balance_finger
-
-   !> What the pivot's friction is made of while the load is sought.
-   pure subroutine set_hinge(model, position, moments, hinge)
-      !> The model, whose pivot has friction
-      type(model_t), intent(in) :: model
-      !> Geometry at this angle
-      type(position_t), intent(in) :: position
-      !> Moments about the pivot at this angle
-      type(moments_t), intent(in) :: moments
-      !> What it is made of
-      type(hinge_t), intent(out) :: hinge
-
-      call set_pivot_forces(model, position, moments, 0.0_wp, hinge%forces)
-      call hold_forces(hinge%forces)
-      hinge%unloaded = pivot_moment(model%joints%pivot, hinge%forces, dual_t(0.0_wp, 0.0_wp), dual_t(0.0_wp, 0.0_wp))
-   end subroutine set_hinge
 
    !> Take the pivot's friction, as far as the load makes it, from the moment too much and from its slope.
    pure subroutine take_pivot(model, hinge, contact, slopes, excess, slope)

@@ -16,8 +16,8 @@ module camroller_joint_forces
    implicit none
    private
 
-   public :: joint_values_t, no_joints, finger_moment, finger_moment_slope, contact_moment, has_pivot_friction, set_pivot_forces, &
-      & evaluate_joints
+   public :: joint_values_t, no_joints, finger_moment, finger_moment_slope, contact_moment, find_contact_moment, &
+      & has_pivot_friction, set_pivot_forces, evaluate_joints
 
    !> Forces of the joints and the torques that they cost, each zero where the case has no such joint; not set without any joint
    type :: joint_values_t
@@ -54,6 +54,24 @@ contains
       real(wp) :: moment
 
       type(stem_t) :: stem
+
+      if (model%is_consistent .and. allocated(model%joints)) call set_stem(model, position, moments, 0.0_wp, stem)
+      moment = moment_with(model, position, moments, stem)
+   end function finger_moment
+
+   !> The same with the forces at the valve's end, where the case has joints.
+   pure function moment_with(model, position, moments, stem) result(moment)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> Geometry at this angle
+      type(position_t), intent(in) :: position
+      !> Moments about the pivot at this angle
+      type(moments_t), intent(in) :: moments
+      !> Forces at the valve's end
+      type(stem_t), intent(in) :: stem
+      !> Moment [N m]
+      real(wp) :: moment
+
       ! Moment of the joints [N m]
       type(dual_t) :: friction
 
@@ -63,10 +81,9 @@ contains
          moment = moment + model%guide_drag*model%speed*position%lift_slope*position%valve_arm
       end if
       if (.not. allocated(model%joints)) return
-      call set_stem(model, position, moments, 0.0_wp, stem)
       friction = stem_moment(position, stem)
       moment = moment + friction%value
-   end function finger_moment
+   end function moment_with
 
    !> Its derivative over the cam angle at a constant speed.
    pure function finger_moment_slope(model, position, moments, moment_slope) result(slope)
@@ -110,12 +127,35 @@ contains
       ! Friction of the pivot [N m]
       type(dual_t) :: friction
 
-      moment = finger_moment(model, position, moments)
-      if (.not. has_pivot_friction(model)) return
-      call set_pivot_forces(model, position, moments, 0.0_wp, forces)
-      friction = pivot_moment(model%joints%pivot, forces, dual_t(0.0_wp, 0.0_wp), dual_t(0.0_wp, 0.0_wp))
-      moment = moment + friction%value
+      call find_contact_moment(model, position, moments, moment, forces, friction)
    end function contact_moment
+
+   !> The same with what the pivot's friction is made of, where it has any.
+   pure subroutine find_contact_moment(model, position, moments, moment, forces, unloaded)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> Geometry at this angle
+      type(position_t), intent(in) :: position
+      !> Moments about the pivot at this angle
+      type(moments_t), intent(in) :: moments
+      !> Moment that keeps cam and roller in contact [N m]
+      real(wp), intent(out) :: moment
+      !> What the ball's force is made of
+      type(pivot_forces_t), intent(out) :: forces
+      !> Friction of the pivot without a contact load [N m]
+      type(dual_t), intent(out) :: unloaded
+
+      type(stem_t) :: stem
+
+      if (.not. has_pivot_friction(model)) then
+         moment = finger_moment(model, position, moments)
+         return
+      end if
+      call set_stem(model, position, moments, 0.0_wp, stem)
+      call place_forces(model, position, stem, forces)
+      unloaded = pivot_moment(model%joints%pivot, forces, dual_t(0.0_wp, 0.0_wp), dual_t(0.0_wp, 0.0_wp))
+      moment = moment_with(model, position, moments, stem) + unloaded%value
+   end subroutine find_contact_moment
 
    !> Does the finger's pivot have friction?
    pure function has_pivot_friction(model) result(has)
@@ -171,8 +211,8 @@ contains
       values%tip_speed = stem%tip_speed%value
       values%seal_friction = stem%seal_friction%value
       values%side_friction = stem%side_friction%value
-      values%upper_force = stem%upper_force%value
-      values%lower_force = stem%lower_force%value
+      values%upper_force = stem%upper_force
+      values%lower_force = stem%lower_force
       values%torque_tip = values%tip_friction*values%tip_speed/model%speed
       values%torque_seal = values%seal_friction*position%lift_slope
       values%torque_side = values%side_friction*position%lift_slope

@@ -7,7 +7,7 @@ module camroller_sliding_friction
    use camroller_kinds, only : wp
    use camroller_error, only : error_t, raise, kind_deck
    use camroller_names, only : name_length, find_name
-   use camroller_dual, only : dual_t, constant_part, operator(-), operator(*), operator(/), operator(+), abs, exp, tanh
+   use camroller_dual, only : dual_t, operator(/), abs, tanh
    implicit none
    private
 
@@ -106,16 +106,22 @@ contains
       !> Friction, not negative [N]
       type(dual_t) :: limit
 
-      ! x F, which does not depend on the force [N m/s]
-      type(dual_t) :: duty
+      ! Sliding speed without its sign [m/s]; x/v_d, and mu exp(-x/v_d) [-]
+      type(dual_t) :: size
+      real(wp) :: exponent, coefficient
 
+      ! Written out, since a case spends much of its time here
       limit = dual_t(0.0_wp, 0.0_wp)
       if (law%has_curve) then
-         duty = law%duty*abs(speed)
-         limit = law%viscous_part*duty
-         if (force%value > 0.0_wp) limit = limit + law%coefficient*(force*exp(-(duty/force/law%decay_speed)))
+         size = abs(speed)
+         limit = dual_t(law%viscous_part*law%duty*size%value, law%viscous_part*law%duty*size%slope)
+         if (.not. force%value > 0.0_wp) return
+         exponent = law%duty*size%value/(law%decay_speed*force%value)
+         coefficient = law%coefficient*exp(-exponent)
+         limit%value = limit%value + coefficient*force%value
+         limit%slope = limit%slope + coefficient*((1.0_wp + exponent)*force%slope - law%duty*size%slope/law%decay_speed)
       else if (force%value > 0.0_wp) then
-         limit = law%coefficient*force
+         limit = dual_t(law%coefficient*force%value, law%coefficient*force%slope)
       end if
    end function friction_limit
 

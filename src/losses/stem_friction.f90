@@ -107,11 +107,13 @@ module camroller_stem_friction
       !> Friction of seal and guide on the stem, with the sign of the valve's speed [N]
       type(dual_t) :: seal_friction, side_friction
       !> Forces of the guide's upper and lower end, sizes [N]
-      type(dual_t) :: upper_force, lower_force
+      real(wp) :: upper_force = 0.0_wp, lower_force = 0.0_wp
    end type stem_t
 
    !> Steps of Newton's method for the tip's force: each doubles the figures from about two
    integer, parameter :: most_steps = 20
+   !> Relative change of the force whose square is rounding [-]
+   real(wp), parameter :: last_change = 1.0e-8_wp
    !> Largest slope of the guide's friction over the tip's force: nearer to one the stem jams [-]
    real(wp), parameter :: largest_slope = 0.9_wp
 
@@ -244,13 +246,14 @@ contains
 
       type(stem_motion_t) :: frozen
       type(stem_t) :: trial
-      ! Force without the guide's friction [N]
-      type(dual_t) :: start
+      ! Force without the guide's friction [N]; direction of the stem's sliding in its guide [-]
+      type(dual_t) :: start, reversal
       ! Force of the tip and its change in a step [N]; slope of the guide's friction over it [-]
       real(wp) :: force, change, rate
       integer :: i
 
       start = stem%tip_force
+      reversal = direction_of(motion%valve_speed, side%law%reversal_speed)
       frozen = motion
       frozen%lift = constant_part(motion%lift)
       frozen%arm = constant_part(motion%arm)
@@ -260,43 +263,47 @@ contains
       rate = 0.0_wp
       do i = 1, most_steps
          trial%tip_force = dual_t(force, 1.0_wp)
-         call press_stem(tip, side, frozen, constant_part(direction), trial)
+         call press_stem(tip, side, frozen, constant_part(direction), constant_part(reversal), trial)
          rate = trial%side_friction%slope
          change = (start%value + trial%side_friction%value - force)/(1.0_wp - rate)
          force = force + change
-         if (abs(change) <= 2.0_wp*epsilon(1.0_wp)*abs(force)) exit
+         if (abs(change) <= last_change*abs(force)) exit
       end do
-      ! What follows at a constant force first, then with the force that follows from it
+      ! What follows at a constant force, then what its change adds; forces balance to rounding
       stem%tip_force = dual_t(force, 0.0_wp)
-      call press_stem(tip, side, motion, direction, stem)
+      call press_stem(tip, side, motion, direction, reversal, stem)
+      stem%tip_force%value = start%value + stem%side_friction%value
       stem%tip_force%slope = (start%slope + stem%side_friction%slope)/(1.0_wp - rate)
-      call press_stem(tip, side, motion, direction, stem)
+      stem%side_friction%slope = stem%side_friction%slope + rate*stem%tip_force%slope
    end subroutine balance_stem
 
    !> How a force of the tip presses the stem on its guide, and what friction that makes.
-   pure subroutine press_stem(tip, side, motion, direction, stem)
+   pure subroutine press_stem(tip, side, motion, direction, reversal, stem)
       !> The tip; not allocated where it has no friction
       type(tip_part_t), allocatable, intent(in) :: tip
       !> The guide
       type(side_part_t), intent(in) :: side
       !> Motion and load
       type(stem_motion_t), intent(in) :: motion
-      !> Direction of the tip's sliding [-]
-      type(dual_t), intent(in) :: direction
+      !> Directions of the tip's sliding and of the stem's in its guide [-]
+      type(dual_t), intent(in) :: direction, reversal
       !> In: force and sliding speed of the tip; out: forces of the guide
       type(stem_t), intent(inout) :: stem
 
       ! Height of the tip above the guide [m]; side force [N]; moment of the tip's force about the stem [N m]
       type(dual_t) :: height, side_force, moment
+      ! Forces of the guide's upper and lower end, sizes [N]
+      type(dual_t) :: upper, lower
 
       if (allocated(tip)) side_force = direction*friction_limit(tip%law, stem%tip_force, stem%tip_speed)
       height = side%tip_height - motion%lift
       moment = (motion%arm + (-side%stem_axis))*stem%tip_force
-      stem%lower_force = abs(height*side_force + moment)/side%guide_length
-      stem%upper_force = abs((height + side%guide_length)*side_force + moment)/side%guide_length
-      stem%side_friction = direction_of(motion%valve_speed, side%law%reversal_speed) &
-         & *(friction_limit(side%law, stem%lower_force, motion%valve_speed) &
-         & + friction_limit(side%law, stem%upper_force, motion%valve_speed))
+      lower = abs(height*side_force + moment)/side%guide_length
+      upper = abs((height + side%guide_length)*side_force + moment)/side%guide_length
+      stem%lower_force = lower%value
+      stem%upper_force = upper%value
+      stem%side_friction = reversal*(friction_limit(side%law, lower, motion%valve_speed) &
+         & + friction_limit(side%law, upper, motion%valve_speed))
    end subroutine press_stem
 
 end module camroller_stem_friction
