@@ -49,6 +49,10 @@ contains
       contact%boundary_mobilised = 0.0_wp
       boundary_slope = 0.0_wp
       peak = film_pressure(contact%load - contact%asperity_load, contact%apparent_area, contact%real_area)
+      if (has_hot_film(model)) then
+         call flash_resistance(model%heat%band, model%heat%bodies, contact%half_width, [contact%cam_surface_speed, &
+            & contact%roller_surface_speed], parts%heat%flash, parts%heat%flash_by_width, parts%heat%flash_by_speed)
+      end if
       if (.not. has_hot_film(model)) then
          call set_boundary(model, setting, 0.0_wp, contact, parts)
          call set_shear(model, setting, contact, peak, 0.0_wp, parts)
@@ -222,7 +226,7 @@ contains
       real(wp), intent(in) :: peak
       !> State of the contact; in: temperature of the film to try first or zero; out: its own
       type(contact_t), intent(inout) :: contact
-      !> What slopes are made of
+      !> What slopes are made of; in: resistance of the surfaces
       type(parts_t), intent(inout) :: parts
 
       ! Sliding speed over area [1/(m s)]; rise per force of the shear [K/N]; rise by boundary friction, by the shear, its bounds,
@@ -232,8 +236,6 @@ contains
       real(wp) :: force, excess, step
       integer :: i
 
-      call flash_resistance(model%heat%band, model%heat%bodies, contact%half_width, [contact%cam_surface_speed, &
-         & contact%roller_surface_speed], parts%heat%flash, parts%heat%flash_by_width, parts%heat%flash_by_speed)
       parts%heat%film = film_resistance(contact%film_central, model%heat%oil_conductivity)
       flux = abs(contact%sliding_speed)/contact%apparent_area
       gain = flux*(parts%heat%flash*(1.0_wp - parts%share%real_area_ratio) + parts%heat%film)
