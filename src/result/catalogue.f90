@@ -12,7 +12,8 @@ module camroller_catalogue
    use camroller_effect_list, only : effect_names, has_effect
    use camroller_result, only : quantity_t, quantity_list_t, append_quantity, lobe_scope, scope_camshaft, scope_case, &
       & scope_engine, scope_length, take_quantities
-   use camroller_part_series, only : add_axial, add_axial_film, add_bearings, add_heat, add_pin, add_surfaces, &
+   use camroller_axial_table, only : axial_state_t
+   use camroller_part_series, only : state_along, add_axial, add_axial_film, add_bearings, add_heat, add_pin, add_surfaces, &
       & bearing_count
    use camroller_state, only : state_t, flexible_values_t
    use camroller_torque_list, only : torque_list, torque_count, is_loss, is_torque, of_residual, torque_series
@@ -209,6 +210,8 @@ contains
       !> State of the follower
       type(state_t), intent(in) :: state
 
+      type(axial_state_t) :: along
+
       call add(list, "valve_lift", "m", "valve lift", "lift", state%position%lift)
       call add(list, "valve_velocity", "m s-1", "speed of the valve, positive while it opens", "lift", &
          & model%speed*state%position%lift_slope)
@@ -232,7 +235,10 @@ contains
          & peak_pressure(state%contact%load, state%position%equivalent_radius, state%contact%length, model%modulus))
       call add(list, "film_thickness_min", "m", "minimum film thickness", "film", state%contact%film_min)
       call add(list, "film_thickness_central", "m", "central film thickness", "film", state%contact%film_central)
-      if (allocated(case%roller_profile)) call add_axial_film(list, model, state)
+      if (allocated(case%roller_profile)) then
+         along = state_along(model, state)
+         call add_axial_film(list, model, state, along)
+      end if
       call add(list, "film_ratio", "1", "minimum film thickness relative to composite roughness", "film", state%contact%film_ratio)
       call add_heat(list, case, state)
       if (allocated(case%asperity)) then
@@ -257,7 +263,7 @@ contains
          call add(list, "asperity_friction_share", "1", "fraction of boundary friction in contact friction", "asperity", &
             & ratio(state%boundary_friction, state%contact_friction))
       end if
-      if (allocated(case%roller_profile)) call add_axial(list, case%roller_profile, model, state)
+      if (allocated(case%roller_profile)) call add_axial(list, case%roller_profile, model, state, along)
       call add_pin(list, case, model, state)
       if (allocated(case%wear) .or. allocated(case%running_in)) call add_surfaces(list, case, model, state)
       call add_joints(list, case, state%joints)

@@ -24,26 +24,41 @@ module camroller_part_series
    implicit none
    private
 
-   public :: add_axial, add_axial_film, add_heat, add_pin, add_surfaces, add_bearings, bearing_count, bearing_series_count
+   public :: state_along, add_axial, add_axial_film, add_heat, add_pin, add_surfaces, add_bearings, bearing_count, &
+      & bearing_series_count
 
 contains
 
+   !> What matters of the load along the roller; zero all over without contact.
+   pure function state_along(model, state) result(along)
+      !> The model of its lobe
+      type(model_t), intent(in) :: model
+      !> State of the follower
+      type(state_t), intent(in) :: state
+      !> What matters
+      type(axial_state_t) :: along
+
+      along = axial_state_t(0.0_wp, 0.0_wp, [0.0_wp, 0.0_wp])
+      if (allocated(model%axial) .and. state%contact%is_touching) along = axial_state(model%axial, state%contact%load, &
+         & state%position%equivalent_radius)
+   end function state_along
+
    !> The smallest film along the roller.
-   pure subroutine add_axial_film(list, model, state)
+   pure subroutine add_axial_film(list, model, state, along)
       !> List to extend
       type(quantity_list_t), intent(inout) :: list
       !> The model of its lobe
       type(model_t), intent(in) :: model
       !> State of the follower
       type(state_t), intent(in) :: state
+      !> What matters of the load along the roller
+      type(axial_state_t), intent(in) :: along
 
       type(film_line_t) :: line
-      type(axial_state_t) :: along
       real(wp) :: film ! [m]
 
       film = 0.0_wp
       if (allocated(model%axial) .and. state%contact%is_touching) then
-         along = axial_state(model%axial, state%contact%load, state%position%equivalent_radius)
          call new_film_line(line, model%film_law, film_groups(model, state%position, state%contact), model%film_table)
          line%log_factor = log(state%contact%inlet_factor)
          film = smallest_film(line, along%peak*state%contact%load/model%contact_width, state%position%equivalent_radius, &
@@ -143,7 +158,7 @@ contains
    end subroutine add_pin
 
    !> Series of the contact along the roller.
-   pure subroutine add_axial(list, profile, model, state)
+   pure subroutine add_axial(list, profile, model, state, along)
       !> List to extend
       type(quantity_list_t), intent(inout) :: list
       !> What the case says about the roller
@@ -152,8 +167,9 @@ contains
       type(model_t), intent(in) :: model
       !> State of the follower
       type(state_t), intent(in) :: state
+      !> What matters of the load along the roller
+      type(axial_state_t), intent(in) :: along
 
-      type(axial_state_t) :: along
       ! Loads per length, in the mean [N/m] and of the slices over that [-]; largest pressure [Pa]
       real(wp) :: mean, pressure
       real(wp), allocatable :: loads(:)
@@ -161,12 +177,10 @@ contains
       integer :: i
 
       allocate (loads(profile%slices), source=0.0_wp)
-      along = axial_state_t(0.0_wp, 0.0_wp, [0.0_wp, 0.0_wp])
       mean = 0.0_wp
       pressure = 0.0_wp
       if (allocated(model%axial) .and. state%contact%is_touching) then
          mean = state%contact%load/model%contact_width
-         along = axial_state(model%axial, state%contact%load, state%position%equivalent_radius)
          pressure = peak_pressure(along%peak*mean, state%position%equivalent_radius, 1.0_wp, model%modulus)
          if (profile%slice_series) call slice_loads(model%axial, state%contact%load, &
             & state%position%equivalent_radius, loads)
