@@ -106,8 +106,9 @@ contains
       !> Friction, not negative [N]
       type(dual_t) :: limit
 
-      ! Sliding speed without its sign [m/s]; x/v_d, and mu exp(-x/v_d) [-]
+      ! Sliding speed without its sign [m/s]
       type(dual_t) :: size
+      ! x/v_d, and mu exp(-x/v_d) [-]
       real(wp) :: exponent, coefficient
 
       ! Written out, since a case spends much of its time here

@@ -13,7 +13,7 @@ module camroller_catalogue
    use camroller_result, only : quantity_t, quantity_list_t, append_quantity, lobe_scope, scope_camshaft, scope_case, &
       & scope_engine, scope_length, take_quantities
    use camroller_axial_table, only : axial_state_t
-   use camroller_part_series, only : state_along, add_axial, add_axial_film, add_bearings, add_heat, add_pin, add_surfaces, &
+   use camroller_part_series, only : add_axial, add_axial_film, add_bearings, add_heat, add_pin, add_surfaces, &
       & bearing_count
    use camroller_state, only : state_t, flexible_values_t
    use camroller_torque_list, only : torque_list, torque_count, is_loss, is_torque, of_residual, torque_series
@@ -235,10 +235,7 @@ contains
          & peak_pressure(state%contact%load, state%position%equivalent_radius, state%contact%length, model%modulus))
       call add(list, "film_thickness_min", "m", "minimum film thickness", "film", state%contact%film_min)
       call add(list, "film_thickness_central", "m", "central film thickness", "film", state%contact%film_central)
-      if (allocated(case%roller_profile)) then
-         along = state_along(model, state)
-         call add_axial_film(list, model, state, along)
-      end if
+      if (allocated(case%roller_profile)) call add_axial_film(list, model, state, along)
       call add(list, "film_ratio", "1", "minimum film thickness relative to composite roughness", "film", state%contact%film_ratio)
       call add_heat(list, case, state)
       if (allocated(case%asperity)) then

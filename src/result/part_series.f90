@@ -24,24 +24,10 @@ module camroller_part_series
    implicit none
    private
 
-   public :: state_along, add_axial, add_axial_film, add_heat, add_pin, add_surfaces, add_bearings, bearing_count, &
+   public :: add_axial, add_axial_film, add_heat, add_pin, add_surfaces, add_bearings, bearing_count, &
       & bearing_series_count
 
 contains
-
-   !> What matters of the load along the roller; zero all over without contact.
-   pure function state_along(model, state) result(along)
-      !> The model of its lobe
-      type(model_t), intent(in) :: model
-      !> State of the follower
-      type(state_t), intent(in) :: state
-      !> What matters
-      type(axial_state_t) :: along
-
-      along = axial_state_t(0.0_wp, 0.0_wp, [0.0_wp, 0.0_wp])
-      if (allocated(model%axial) .and. state%contact%is_touching) along = axial_state(model%axial, state%contact%load, &
-         & state%position%equivalent_radius)
-   end function state_along
 
    !> The smallest film along the roller.
    pure subroutine add_axial_film(list, model, state, along)
@@ -51,14 +37,16 @@ contains
       type(model_t), intent(in) :: model
       !> State of the follower
       type(state_t), intent(in) :: state
-      !> What matters of the load along the roller
-      type(axial_state_t), intent(in) :: along
+      !> What matters of the load along the roller; zero all over without contact
+      type(axial_state_t), intent(out) :: along
 
       type(film_line_t) :: line
       real(wp) :: film ! [m]
 
       film = 0.0_wp
+      along = axial_state_t(0.0_wp, 0.0_wp, [0.0_wp, 0.0_wp])
       if (allocated(model%axial) .and. state%contact%is_touching) then
+         along = axial_state(model%axial, state%contact%load, state%position%equivalent_radius)
          call new_film_line(line, model%film_law, film_groups(model, state%position, state%contact), model%film_table)
          line%log_factor = log(state%contact%inlet_factor)
          film = smallest_film(line, along%peak*state%contact%load/model%contact_width, state%position%equivalent_radius, &
