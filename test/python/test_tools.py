@@ -1,6 +1,7 @@
 """The commands of the README, the reader of Fortran sources and the set-up."""
 
 import pathlib
+import signal
 import subprocess
 import sys
 
@@ -33,6 +34,15 @@ def test_statements_are_joined_and_strings_emptied():
     assert [(s.line, s.last_line, s.text) for s in found] == [
         (1, 2, "a = '' // \"\""), (3, 3, "b = 1"), (3, 3, "c = 2")]
     assert found[0].comment == "! one ! two"
+
+
+def test_signals_are_heeded_by_what_tests_start_from_a_run_that_ignores_them():
+    """As in a run started by nohup; what they start inherits it from them."""
+    numbers = [signal.SIGHUP, signal.SIGINT, signal.SIGTERM]
+    text = f"import signal, conftest\nassert all(signal.getsignal(n) != signal.SIG_IGN for n in {[int(n) for n in numbers]})"
+    done = subprocess.run([sys.executable, "-c", text], cwd=ROOT / "test", capture_output=True, text=True, check=False,
+                          preexec_fn=lambda: [signal.signal(number, signal.SIG_IGN) for number in numbers])
+    assert done.returncode == 0, done.stderr
 
 
 @pytest.mark.skipif(not (ROOT / ".venv/requirements.done").exists(), reason="not set up by tools/setup.sh")
