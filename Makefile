@@ -7,6 +7,8 @@ SHELL := /bin/bash
 
 FPM := .venv/bin/fpm
 PYTHON := .venv/bin/python
+# that of .venv, which builds the wheel in the same folder, where it is there: another version would compile everything again
+CMAKE = $(or $(wildcard .venv/bin/cmake),cmake)
 
 # Both builds keep to the standard and never let the compiler change values: no -ffast-math, and no fused
 # multiply-add, so that results do not depend on whether a machine has it. The plain x86-64 target of gfortran has none
@@ -35,7 +37,7 @@ build: commit ## the program: build/release/bin/camroller
 debug: commit ## the program with all run-time checks: build/debug/bin/camroller
 	@$(FPM) install --flag "$(DEBUG_FLAGS)" --prefix build/debug > build/debug.log 2>&1 || { cat build/debug.log; exit 1; }
 
-mpi: commit ## the program for many nodes, where Open MPI is there: build/mpi/bin/camroller-mpi
+mpi: build ## the program for many nodes, where Open MPI is there: build/mpi/bin/camroller-mpi
 	@tools/build_mpi.sh
 
 run: build ## run decks/thesis.nml and plot it: results/thesis.h5 and figures beside it
@@ -111,9 +113,10 @@ dynamics: build ## a flexible train at four speeds and over all speeds: figures 
 	$(PYTHON) post/campbell.py results/speeds.h5 --dpi 80 --output doc/figures/dynamics_campbell.png
 
 install: ## libraries, header, modules and program by CMake, into PREFIX=/usr/local; IO=OFF leaves out what needs HDF5
-	@cmake -S . -B build/cmake -DCMAKE_INSTALL_PREFIX="$(or $(PREFIX),/usr/local)" -DCAMROLLER_IO=$(or $(IO),ON) > build/cmake.log
-	@cmake --build build/cmake -j2 >> build/cmake.log 2>&1 || { tail -n 20 build/cmake.log; exit 1; }
-	@cmake --install build/cmake
+	@mkdir -p build
+	@$(CMAKE) -S . -B build/cmake -DCMAKE_INSTALL_PREFIX="$(or $(PREFIX),/usr/local)" -DCAMROLLER_IO=$(or $(IO),ON) > build/cmake.log
+	@$(CMAKE) --build build/cmake -j2 >> build/cmake.log 2>&1 || { tail -n 20 build/cmake.log; exit 1; }
+	@$(CMAKE) --install build/cmake
 
 test: build debug mpi ## all tests, with run-time checks and optimised
 	@$(PYTHON) tools/run_tests.py
@@ -219,7 +222,7 @@ bench-hosts: setup ## cost of a step of a host, instructions, allocations, time:
 	@cat bench/tables/hosts.txt
 
 clean: ## remove built files; keep tools and results
-	rm -rf build/gfortran* build/debug build/release build/sanitize build/docs build/docs-source build/second build/package build/recipes build/commit build/tests build/bench bench/build mpi/build build/mpi build/*.log build/compile_commands.json
+	rm -rf build/gfortran* build/debug build/release build/sanitize build/docs build/docs-source build/second build/package build/recipes build/commit build/tests build/bench bench/build build/mpi build/*.log build/compile_commands.json
 
 distclean: ## remove everything that is not in git, results too
-	rm -rf build bench/build mpi/build .venv results
+	rm -rf build bench/build .venv results

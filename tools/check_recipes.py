@@ -4,8 +4,9 @@
 Usage: make recipes, which installs packaging/requirements.txt and sets FPM
 
 The recipe for Spack is executed with stand-ins for what Spack offers to it; its `install` installs. rattler-build reads the recipe for conda,
-whose script then runs as it would there; what it would take from a channel comes from this machine. hadolint reads the Containerfile; the
-container is built where buildah and the base image are there. Exit code 0, or 1 with what failed.
+whose script has to be the one that Spack's runs, and whose tests run with what that has installed; what it would take from a channel comes
+from this machine. hadolint reads the Containerfile; the container is built where buildah and the base image are there. Exit code 0, or 1
+with what failed.
 """
 
 from __future__ import annotations
@@ -21,6 +22,8 @@ import types
 from fortran_source import ROOT
 
 PACKAGING, TARGET = ROOT / "packaging", ROOT / "build/recipes"
+# What both recipes run: once is enough, since it compiles everything
+INSTALL = "packaging/install.sh"
 
 
 class RecipeError(Exception):
@@ -79,20 +82,20 @@ def check_spack() -> str:
 
 
 def check_conda() -> str:
-    """Read the recipe for conda, install and test as it does."""
+    """Read the recipe for conda; test what the script that it runs has installed for Spack."""
     from rattler_build import RattlerBuildError, Stage0Recipe, VariantConfig  # pylint: disable=import-outside-toplevel
     variants = VariantConfig.from_yaml("c_compiler: [gcc]\nfortran_compiler: [gfortran]\nc_stdlib: [sysroot]\n")
     try:
         recipe = Stage0Recipe.from_file(str(PACKAGING / "conda/recipe.yaml")).render(variants)[0].recipe
     except RattlerBuildError as error:
         raise RecipeError(f"packaging/conda/recipe.yaml: {error}") from error
-    prefix = TARGET / "conda"
-    run(recipe.build.script, PREFIX=str(prefix))
+    if recipe.build.script != f'{INSTALL} "$PREFIX"':
+        raise RecipeError(f"packaging/conda/recipe.yaml: the script is {recipe.build.script!r}, not {INSTALL}, which was run for Spack")
+    prefix = TARGET / "spack"
     commands = re.findall(r"^      - (.+)$", (PACKAGING / "conda/recipe.yaml").read_text(encoding="utf-8").split("\ntests:")[1], re.MULTILINE)
     for command in commands:
         run(command, PATH=f"{prefix}/bin:{os.environ['PATH']}")
-    check_installed(prefix)
-    return f"conda: recipe rendered by rattler-build, script run, {len(commands)} tests of it run"
+    return f"conda: recipe rendered by rattler-build, its script is that of Spack's, {len(commands)} tests of it run"
 
 
 def check_container() -> str:

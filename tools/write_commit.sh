@@ -13,7 +13,7 @@ if [ "$commit" != unknown ] && ! git diff --quiet HEAD -- src app include fpm.to
 fi
 names=$(find src -name '*.f90' 2> /dev/null | tr / _) || true
 # where the sources are in the folder above, fpm calls an object after it, with dots in front
-for object in build/gfortran_*/camroller/src_*.f90.o mpi/build/*/camroller-mpi/.*src_*.f90.o bench/build/*/bench/.*src_*.f90.o; do
+for object in build/gfortran_*/camroller/src_*.f90.o bench/build/*/bench/.*src_*.f90.o; do
     [ -f "$object" ] || continue
     name=${object##*/}
     name=src_${name#*src_}
@@ -26,5 +26,5 @@ text="character(len=*), parameter :: build_commit = \"$commit\""
 if [ -f "$target" ] && [ "$(cat "$target")" = "$text" ]; then exit 0; fi
 mkdir -p build/commit
 printf '%s\n' "$text" > "$target"
-rm -f build/gfortran_*/camroller/src_base_version.f90.o* mpi/build/*/camroller-mpi/.*src_base_version.f90.o* \
+rm -f build/gfortran_*/camroller/src_base_version.f90.o* \
     bench/build/*/bench/.*src_base_version.f90.o*

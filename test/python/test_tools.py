@@ -209,7 +209,7 @@ def test_ci_counts_failed_checks_and_names_those_that_cannot_run(tmp_path, node,
 def test_files_that_contain_the_commit_are_recompiled(tmp_path):
     """Objects made from the former commit are removed, with the names that fpm gives them in both programs."""
     objects = [tmp_path / "build/gfortran_1/camroller/src_base_version.f90.o",
-               tmp_path / "mpi/build/mpifort_1/camroller-mpi/.._src_base_version.f90.o"]
+               tmp_path / "bench/build/gfortran_2/bench/.._src_base_version.f90.o"]
     for path in [*objects, tmp_path / "tools/write_commit.sh"]:
         path.parent.mkdir(parents=True)
         path.touch()
