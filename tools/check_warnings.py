@@ -3,9 +3,8 @@
 
 Usage: make check-warnings, which sets DEBUG_FLAGS
 
-fpm shows warnings only of what it happens to compile, and -Werror would hit the test library as well. No code is made: what gfortran
-says only while it makes code are guesses on values that may not be set, false with allocatable arrays; reals that are truly not set are
-found by -finit-real=snan in the tests.
+fpm shows warnings only of what it happens to compile, and -Werror would hit the test library as well. No code is made, which takes a
+fifth of the time: what gfortran says only while it makes code are guesses, on values that may not be set for the most part.
 """
 
 from __future__ import annotations

@@ -13,6 +13,7 @@ module test_hard_ehl
    use cycle_checks, only : sample_t, take_sample, compare_samples
    use deck_cases, only : get_deck_case
    use ehl_checks, only : cycle_facts_t, solve_and_check
+   use run_settings, only : has_checks
    implicit none
    private
 
@@ -61,6 +62,8 @@ module test_hard_ehl
    real(wp), parameter :: film_accuracy = 5.0e-2_wp, tolerances(2) = [1.0e-6_wp, 1.0e-4_wp], &
       & step_errors(2) = [1.0e-3_wp, 1.0e-2_wp]
    integer, parameter :: nodes(2) = [65, 49]
+   !> With run-time checks, which make a deck take ten times as long, one deck of so many
+   integer, parameter :: checked_stride = 3
    !> What two grids of 65 and 49 nodes may differ by: the film, whose error is a few tenths of a per cent, and the slip, which is
    !> the film over a viscosity that the pressure raises; growth of the total variation of the slip with ten times smaller errors of
    !> a step, which is 0.95 to 1.13 here [-]
@@ -96,7 +99,7 @@ contains
       integer :: i
 
       list = ""
-      do i = 1, size(outcomes)
+      do i = 1, size(outcomes), merge(checked_stride, 1, has_checks())
          call run_law(outcomes(i), trouble)
          if (trouble == "" .and. outcomes(i)%may_run) cycle
          call compare(outcomes(i)%deck, outcomes(i)%law, trouble, list)
@@ -145,7 +148,7 @@ contains
       integer :: i
 
       list = ""
-      do i = 1, size(outcomes)
+      do i = 1, size(outcomes), merge(checked_stride, 1, has_checks())
          call run_cycle(outcomes(i)%deck, trouble)
          call compare(outcomes(i)%deck, outcomes(i)%cycle, trouble, list)
       end do

@@ -175,6 +175,8 @@ contains
 
       the_case = tight_case()
       the_case%numerics%method = "dormand_prince"
+      ! the smaller, the longer it takes until a step has failed
+      the_case%numerics%tolerance = 1.0e-5_wp
       the_case%lubricant%temperature_law = "vogel"
       the_case%lubricant%temperature_points = [313.15_wp, 343.15_wp, 373.15_wp]
       the_case%lubricant%viscosity_points = [0.08_wp, 0.025_wp, 0.011_wp]

@@ -65,7 +65,7 @@ contains
       the_case%roller%wall_thickness = 2.4e-3_wp
       call add_effects(the_case)
       call set_point(the_case, point_speeds(1), point_viscosities(3))
-      the_case%numerics%method = "dormand_prince"
+      the_case%numerics%method = "hermite"
       the_case%numerics%tolerance = 1.0e-6_wp
    end function thesis_case
 
