@@ -129,6 +129,8 @@ contains
                points = i - 1
                exit
             end if
+            ! Without tilt both sides have the same loads, whose rounding is not to choose between them
+            if (abs(part%profile%tilt) <= 0.0_wp) loads = 0.5_wp*(loads + loads(size(loads):1:-1))
             all(:, i, k) = loads
          end do
       end do
@@ -344,9 +346,7 @@ contains
       n = size(loads)
       call slice_loads(part, load, radius, loads)
       places = slice_places(n, part%length)
-      ! Ends with the same load differ by rounding
-      top = maxloc(loads, 1)
-      if (loads(n) >= loads(top)*(1.0_wp - sqrt(epsilon(1.0_wp)))) top = n
+      top = maxloc(loads, 1, back=.true.)
       state%peak = loads(top)
       state%place = places(top)
       if (top > 1 .and. top < n) then
@@ -357,6 +357,8 @@ contains
             state%peak = state%peak - 0.5_wp*bend*offset**2
          end if
       end if
+      ! The middle has no rounding whose mean could be looked for
+      if (abs(state%place) < sqrt(epsilon(1.0_wp))*part%length) state%place = 0.0_wp
       state%ends = loads([1, n])
    end function axial_state
 

@@ -67,7 +67,7 @@ contains
       if (build_commit == "unknown") return
       call check(error, len(build_commit) >= 12, "too short for a hash: "//build_commit)
       if (allocated(error)) return
-      call check(error, verify(build_commit(1:12), digits), 0, "no hash: "//build_commit)
+      call check(error, verify(build_commit(:min(12, len(build_commit))), digits), 0, "no hash: "//build_commit)
    end subroutine commit_is_a_hash
 
    subroutine facts_are_given(error)

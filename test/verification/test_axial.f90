@@ -32,6 +32,7 @@ contains
          new_unittest("loads add up, and turning the roller round mirrors them", test_sum), &
          new_unittest("slopes of the effective length are its difference quotients, inside and outside the table", test_slopes), &
          new_unittest("the table has the loads and the lengths of the slices between its points", test_table), &
+         new_unittest("the largest load of a profile without tilt is in the middle, or always on the same side", test_sides), &
          new_unittest("loads are found for any profile, tilt, load and number of slices", test_all), &
          new_unittest("impossible profiles are refused with a message", test_refusals) &
          ]
@@ -355,6 +356,36 @@ contains
          end do
       end do
    end subroutine test_table
+
+   !> Both sides of a profile without tilt have the same loads: the mean of the place is that of a jump where rounding chooses.
+   subroutine test_sides(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(roller_profile_t) :: profile
+      type(axial_part_t) :: part
+      type(axial_state_t) :: state
+      type(error_t), allocatable :: failure
+      real(wp) :: load
+      integer :: i, k, slices
+
+      do k = 1, 2
+         do slices = 40, 41
+            profile = profiles(k)
+            profile%slices = slices
+            call new_axial_part(part, profile, roller_length, modulus, [5.0e-3_wp, 9.0e-3_wp], failure)
+            call expect_success(error, failure)
+            if (allocated(error)) return
+            do i = 0, 100
+               load = 5.0_wp*1.08_wp**i
+               state = axial_state(part, load, radius)
+               call check(error, state%place >= 0.0_wp, "the largest load is once on the other side")
+               if (allocated(error)) return
+               ! Pressed hard, a roller has more load at its ends than in the middle of its crown
+               if (k == 1 .and. state%peak > state%ends(1)) call check(error, state%place <= 0.0_wp, "a crown without tilt")
+               if (allocated(error)) return
+            end do
+         end do
+      end do
+   end subroutine test_sides
 
    subroutine test_all(error)
       type(error_type), allocatable, intent(out) :: error

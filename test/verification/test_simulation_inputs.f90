@@ -123,10 +123,12 @@ contains
 
    !> A step of more than half a turn is integrated in halves, each of which a host could have asked for: the same steps of the
    !> integration, whose contacts start from those before and are solved to a thousandth of the case's tolerance or better. Those of
-   !> means and extremes are solved to a hundredth; the smallest load is a tenth of what that is relative to, or less.
+   !> means are solved to a hundredth. Extremes are those at the angles of the means: rounding decides whether a panel whose error is
+   !> just what is allowed is halved, and then they are those at other angles. 9e-8 of a load and 3e-6 of a film were seen. A half
+   !> that is forgotten changes the largest load by 0.4 of it.
    subroutine test_long_step(error)
       type(error_type), allocatable, intent(out) :: error
-      real(wp), parameter :: tolerance = 1.0e-12_wp, of_contacts = 1.0e-9_wp
+      real(wp), parameter :: tolerance = 1.0e-12_wp, of_contacts = 1.0e-9_wp, of_angles = 1.0e-4_wp
       ! Cam angles of the start, the middle and the end [rad]: the nose is in the first half, then in the second
       real(wp), parameter :: angles(3, 2) = reshape([2.0_wp, 4.0_wp, 6.0_wp, 0.25_wp, 2.25_wp, 4.25_wp], [3, 2])
       type(simulation_t) :: whole, halved
@@ -155,13 +157,13 @@ contains
          call check_close(error, once%mean_torque_friction, 0.5_wp*sum(halves%mean_torque_friction), of_contacts, "mean friction")
          if (allocated(error)) return
          associate (extremes => once%extremes, first => halves(1)%extremes, second => halves(2)%extremes)
-            call check_close(error, extremes%contact_load(1), min(first%contact_load(1), second%contact_load(1)), of_contacts, &
+            call check_close(error, extremes%contact_load(1), min(first%contact_load(1), second%contact_load(1)), of_angles, &
                & "smallest load")
             if (allocated(error)) return
-            call check_close(error, extremes%contact_load(2), max(first%contact_load(2), second%contact_load(2)), of_contacts, &
+            call check_close(error, extremes%contact_load(2), max(first%contact_load(2), second%contact_load(2)), of_angles, &
                & "largest load")
             if (allocated(error)) return
-            call check_close(error, extremes%film_min, min(first%film_min, second%film_min), of_contacts, "smallest film")
+            call check_close(error, extremes%film_min, min(first%film_min, second%film_min), of_angles, "smallest film")
             if (allocated(error)) return
             call check(error, (first%contact_load(2) > second%contact_load(2)) .eqv. i == 1, &
                & "the nose is in the other half")
