@@ -31,7 +31,7 @@ contains
       type(unittest_type), allocatable, intent(out) :: testsuite(:)
 
       testsuite = [ &
-         new_unittest("up to 1500 rev/min a train on a fixed pivot is periodic after 8 cycles at most, with adjuster after 10", test_few), &
+         new_unittest("up to 1500 rev/min a fixed pivot has its periodic state in 8 cycles, an adjuster in 10", test_few), &
          new_unittest("an adjuster that stands 30 um too high leaks down to the state that it has from rest, in few cycles", &
             & test_drift), &
          new_unittest("a cycle whose disturbances come back with the other sign, and larger, is not found", test_unstable), &

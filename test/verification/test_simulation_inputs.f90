@@ -123,9 +123,9 @@ contains
 
    !> A step of more than half a turn is integrated in halves, each of which a host could have asked for: the same steps of the
    !> integration, whose contacts start from those before and are solved to a thousandth of the case's tolerance or better. Those of
-   !> means are solved to a hundredth. Extremes are those at the angles of the means: rounding decides whether a panel whose error is
-   !> just what is allowed is halved, and then they are those at other angles. 9e-8 of a load and 3e-6 of a film were seen. A half
-   !> that is forgotten changes the largest load by 0.4 of it.
+   !> means are solved to a hundredth. Extremes are those at the angles of the means: rounding decides whether a panel whose error
+   !> is just what is allowed is halved, and then they are those at other angles. 9e-8 of a load and 3e-6 of a film were seen.
+   !> A half that is forgotten changes the largest load by 0.4 of it.
    subroutine test_long_step(error)
       type(error_type), allocatable, intent(out) :: error
       real(wp), parameter :: tolerance = 1.0e-12_wp, of_contacts = 1.0e-9_wp, of_angles = 1.0e-4_wp
