@@ -19,7 +19,7 @@ module test_flexible_periods
 
    !> Distance of end and start that counts as closed, in units of the scales, and tolerance of a step [-]
    real(wp), parameter :: closure = 1.0e-3_wp, tolerance = 1.0e-4_wp
-   !> Cycles to that closure at most, on a fixed pivot and with adjuster. With adjuster the kink of its check valve makes the number a
+   !> Cycles to that closure at most, on a fixed pivot and with adjuster. The kink of an adjuster's check valve makes the number a
    !> matter of rounding: speeds that differ by 1e-7 of their value take 8 to 10 at 1200 rev/min and 6 to 8 at 1500
    integer, parameter :: most_cycles(2) = [8, 10]
 
