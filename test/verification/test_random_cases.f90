@@ -22,7 +22,7 @@ module test_random_cases
    public :: collect_random_cases
 
    !> Cases of a test run with and without run-time checks, and the seed of the first
-   integer, parameter :: usual_cases = 150, few_cases = 10, usual_seed = 1
+   integer, parameter :: usual_cases = 60, few_cases = 5, usual_seed = 1
    !> Accuracy asked for, tolerance of the cycle whose states are looked at [-]
    real(wp), parameter :: accuracy = 1.0e-3_wp, tolerance = 1.0e-4_wp
    !> Part of the decks drawn that must have a geometry, lest nothing is tested [-]

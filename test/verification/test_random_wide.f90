@@ -34,7 +34,7 @@ module test_random_wide
    public :: collect_random_wide
 
    !> Cases of a test run with and without run-time checks, and the seed of the first
-   integer, parameter :: usual_cases = 10, few_cases = 5, usual_seed = 1
+   integer, parameter :: usual_cases = 4, few_cases = 1, usual_seed = 1
    !> One deck of so many has numbers at the ends of their ranges, and their part of all numbers [-]
    integer, parameter :: ends_stride = 4
    real(wp), parameter :: ends_share = 0.03_wp
