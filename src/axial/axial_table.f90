@@ -83,7 +83,7 @@ contains
       part%length = length
       part%modulus = modulus
       part%radii = radii
-      places = slice_places(profile%slices, length)
+      places = slice_place([(i, i=1, profile%slices)], profile%slices, length)
       call new_slices(slices, length, modulus, profile_gap(profile, length, modulus, places), &
          & profile%coupling == coupling_names(coupling_half_space))
       middle = 0.5_wp*log(radii(1)*radii(2)/length**2)
@@ -120,6 +120,7 @@ contains
          loads = 1.0_wp
          do i = 1, points
             load = exp(part%last - group_step*(i - 1))*part%modulus*part%length**2
+            if (i > 1) call foresee_loads(all, i, k, loads)
             call load_slices(slices, load, radius, loads, approach, status)
             if (status /= 0) then
                call raise(error, kind_convergence, "roller profile: no loads of the slices found for "//number_text(load, 4)//" N")
@@ -142,6 +143,23 @@ contains
       part%loads = all(:, points:1:-1, :)
       part%first = part%last - group_step*(points - 1)
    end subroutine solve_loads
+
+   !> Where to look for the loads at a point: those of the radius before, as far from its own as at the load before; at the first radius
+   !> along a straight line through the two loads before.
+   pure subroutine foresee_loads(all, point, radius, loads)
+      !> Loads found so far, shape (slice, point, radius) [-]
+      real(wp), intent(in) :: all(:, :, :)
+      !> Which point after the first, which radius
+      integer, intent(in) :: point, radius
+      !> In: loads of the point before; out: loads to begin with [-]
+      real(wp), intent(inout) :: loads(:)
+
+      if (radius > 1) then
+         loads = loads + (all(:, point, radius - 1) - all(:, point - 1, radius - 1))
+      else if (point > 2) then
+         loads = loads + (loads - all(:, point - 2, radius))
+      end if
+   end subroutine foresee_loads
 
    !> Effective lengths at the points, with slopes by which no cubic between two of them leaves their range.
    !>
@@ -219,19 +237,17 @@ contains
       end associate
    end function is_same_axial_part
 
-   !> Middles of the slices.
-   pure function slice_places(count, length) result(places)
-      !> Their number
-      integer, intent(in) :: count
+   !> Middle of a slice.
+   elemental function slice_place(slice, count, length) result(place)
+      !> Which slice, their number
+      integer, intent(in) :: slice, count
       !> Length of the roller [m]
       real(wp), intent(in) :: length
-      !> Places from the middle of the roller [m]
-      real(wp) :: places(count)
+      !> Place from the middle of the roller [m]
+      real(wp) :: place
 
-      integer :: i
-
-      places = [(length*((i - 0.5_wp)/count - 0.5_wp), i=1, count)]
-   end function slice_places
+      place = length*((slice - 0.5_wp)/count - 0.5_wp)
+   end function slice_place
 
    !> Length of the line contact that stands for the roller, L_e, with its derivatives.
    pure subroutine effective_length(part, load, radius, length, by_load, by_radius)
@@ -308,7 +324,7 @@ contains
 
       ! Weights of the radii, of four points; place among the points [-]
       real(wp) :: weights(size(part%log_radii)), unused(size(part%log_radii)), cubic(0:3), t
-      integer :: i, k, n, first
+      integer :: k, n, first
 
       loads = 0.0_wp
       if (.not. load > 0.0_wp) return
@@ -320,9 +336,8 @@ contains
          & -t*(t - 1.0_wp)*(t - 3.0_wp)/2.0_wp, t*(t - 1.0_wp)*(t - 2.0_wp)/6.0_wp]
       call radius_weights(part, radius, weights, unused)
       do k = 1, size(weights)
-         do i = 0, 3
-            loads = loads + weights(k)*cubic(i)*part%loads(:, first + i, k)
-         end do
+         loads = loads + weights(k)*(cubic(0)*part%loads(:, first, k) + cubic(1)*part%loads(:, first + 1, k) &
+            & + cubic(2)*part%loads(:, first + 2, k) + cubic(3)*part%loads(:, first + 3, k))
       end do
       loads = max(loads, 0.0_wp)
       loads = loads*(size(loads)/sum(loads))
@@ -339,16 +354,15 @@ contains
       !> What matters
       type(axial_state_t) :: state
 
-      ! Loads of the slices, places [m]; largest load between three slices, as a parabola has it: its place among them [-]
-      real(wp) :: loads(size(part%loads, 1)), places(size(part%loads, 1)), bend, offset
+      ! Loads of the slices; largest load between three slices, as a parabola has it: its place among them [-]
+      real(wp) :: loads(size(part%loads, 1)), bend, offset
       integer :: n, top
 
       n = size(loads)
       call slice_loads(part, load, radius, loads)
-      places = slice_places(n, part%length)
       top = maxloc(loads, 1, back=.true.)
       state%peak = loads(top)
-      state%place = places(top)
+      state%place = slice_place(top, n, part%length)
       if (top > 1 .and. top < n) then
          bend = loads(top - 1) - 2.0_wp*loads(top) + loads(top + 1)
          if (bend < 0.0_wp) then

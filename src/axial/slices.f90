@@ -29,8 +29,9 @@ module camroller_slices
    !> Half width over the distance of the line that stands for a slice [-]
    real(wp), parameter :: thin_line = 0.5_wp*exp(-0.5_wp)
    !> Load per length over its mean by which a slice joins, if it has to carry more: from below Newton's method does not make it
-   !> negative again; change after which joins are looked for; the last change of a solution [-]
-   real(wp), parameter :: first_load = 1.0e-4_wp, small_change = 1.0e-2_wp, last_change = 1.0e-9_wp
+   !> negative again; change after which joins are looked for; the last change of a solution, whose square is next to nothing beside
+   !> the 1e-4 of a table between its points [-]
+   real(wp), parameter :: first_load = 1.0e-4_wp, small_change = 1.0e-2_wp, last_change = 1.0e-5_wp
    !> Steps at most
    integer, parameter :: max_steps = 200
 
@@ -142,6 +143,8 @@ contains
       real(wp) :: beta, ends(0:size(loads) - 1), angles(0:size(loads) - 1), falls(0:size(loads) - 1), roots(0:size(loads) - 1)
       ! Derivative of ln(b) over ln(load) [-]
       real(wp) :: part
+      ! Most slices between a slice and the one that moves it
+      integer :: far
       integer :: i, j, k, n
 
       n = size(loads)
@@ -158,9 +161,10 @@ contains
             part = 1.0_wp/(1.0_wp + (beta*n/thin_line)**4)
             beta = beta*sqrt(sqrt(part))
             part = 0.5_wp*part
-            roots = sqrt(ends**2 + beta**2)
-            angles = log((ends + roots)/beta)
-            falls = angles - part*ends/roots
+            far = max(j - 1, n - j)
+            roots(:far) = sqrt(ends(:far)**2 + beta**2)
+            angles(:far) = log((ends(:far) + roots(:far))/beta)
+            falls(:far) = angles(:far) - part*ends(:far)/roots(:far)
             do i = 1, n
                if (i == j) then
                   influence(i, j) = 2.0_wp*angles(0)
