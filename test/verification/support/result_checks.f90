@@ -97,8 +97,9 @@ contains
          trouble = trouble//" asperities carry more than the load;"
       end if
       do i = 1, size(result%series)
-         ! Extremes of the camshaft's torques are those of the reported angles
+         ! Extremes of the camshafts' torques are those of the reported angles
          if (index(result%series(i)%name, "torque_") == 1 .or. result%series(i)%name == "energy_residual") cycle
+         if (index(result%series(i)%name, "camshaft_") == 1 .and. index(result%series(i)%name, "_torque_") > 0) cycle
          low = scalar_of(result, "min_"//result%series(i)%name)
          mean = scalar_of(result, "mean_"//result%series(i)%name)
          high = scalar_of(result, "max_"//result%series(i)%name)
