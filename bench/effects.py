@@ -217,7 +217,6 @@ def main() -> int:
     parser.add_argument("--work", type=pathlib.Path, default=pathlib.Path("build/bench"))
     arguments = parser.parse_args()
     arguments.work.mkdir(parents=True, exist_ok=True)
-    options = [word for value in arguments.values for word in ("--set", value)]
     text = without(arguments.deck.read_text(encoding="utf-8"), "sweep")
     text = re.sub(r"'(tables/)", rf"'{arguments.deck.parent.resolve()}/\1", text)
     listed = [name for name in GROUP.findall(text) if name in EFFECTS]
@@ -226,7 +225,14 @@ def main() -> int:
         listed = [name for name in listed if name in arguments.only]
     decks = {"": text} | {name: without(text, name) for name in listed}
     runs, wholes = {}, {}
+    def options_for(content: str) -> list[str]:
+        """Options for a deck: a value of an effect that it leaves out would be refused."""
+        groups = GROUP.findall(content)
+        return [word for value in arguments.values if value.split(".")[0] in groups or value.split(".")[0] not in EFFECTS
+                for word in ("--set", value)]
+
     for name, content in decks.items():
+        options = options_for(content)
         deck = arguments.work/f"effects_{name or 'all'}.nml"
         deck.write_text(content, encoding="utf-8")
         runs[name] = count(arguments.program, deck, options, False)
@@ -254,7 +260,7 @@ def main() -> int:
     none = functools.reduce(without, listed, text)
     deck = arguments.work/"effects_none.nml"
     deck.write_text(none, encoding="utf-8")
-    plain = count(arguments.program, deck, options, False).total
+    plain = count(arguments.program, deck, options_for(none), False).total
     print(f"# all of these: {runs[''].total/plain:.1f} times the instructions of the computation without any, {plain/1e3:.0f}")
     return 1 if failures else 0
 

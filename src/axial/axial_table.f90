@@ -144,8 +144,8 @@ contains
       part%first = part%last - group_step*(points - 1)
    end subroutine solve_loads
 
-   !> Where to look for the loads at a point: those of the radius before, as far from its own as at the load before; at the first radius
-   !> along a straight line through the two loads before.
+   !> Where to look for the loads at a point: those of the radius before, as far from its own as at the load before; at the first
+   !> radius along a straight line through the two loads before.
    pure subroutine foresee_loads(all, point, radius, loads)
       !> Loads found so far, shape (slice, point, radius) [-]
       real(wp), intent(in) :: all(:, :, :)
