@@ -18,7 +18,7 @@ module camroller_state
    implicit none
    private
 
-   public :: state_t, flexible_values_t, evaluate_state, evaluate_spin, evaluate_loading, add_torques, &
+   public :: state_t, flexible_values_t, evaluate_state, complete_state, evaluate_spin, evaluate_loading, add_torques, &
       & add_sums, cam_force, flight_torque
 
    !> What a flexible train has beside a rigid one
@@ -115,8 +115,7 @@ contains
       type(contact_t), intent(in), optional :: start
 
       call solve_contact(model, position, moments, sliding_speed, contact, status, accuracy, mobilised, start)
-      acceleration = spin_acceleration(contact%traction, merge(contact%rolling_resistance, 0.0_wp, &
-         & model%has_rolling_in_balance), model%roller_radius, contact%bearing_torque, model%roller_inertia)
+      acceleration = acceleration_in(model, contact)
    end subroutine evaluate_spin
 
    !> Everything at one angle.
@@ -151,6 +150,39 @@ contains
       if (status /= 0) return
       call add_torques(model, state)
    end subroutine evaluate_state
+
+   !> Everything at an angle at which the contact is solved.
+   pure subroutine complete_state(model, angle, contact, state, status)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> Cam angle from full lift [rad]
+      real(wp), intent(in) :: angle
+      !> The contact there
+      type(contact_t), intent(in) :: contact
+      !> State
+      type(state_t), intent(out) :: state
+      !> 0 fine, negative: the finger cannot reach this lift
+      integer, intent(out) :: status
+
+      call evaluate_loading(model, angle, state%position, state%gas_force, state%moments, status)
+      if (status /= 0) return
+      state%contact = contact
+      state%spin_acceleration = acceleration_in(model, contact)
+      call add_torques(model, state)
+   end subroutine complete_state
+
+   !> Angular acceleration of the roller in a contact.
+   pure function acceleration_in(model, contact) result(acceleration)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> The contact
+      type(contact_t), intent(in) :: contact
+      !> The acceleration [rad/s^2]
+      real(wp) :: acceleration
+
+      acceleration = spin_acceleration(contact%traction, merge(contact%rolling_resistance, 0.0_wp, &
+         & model%has_rolling_in_balance), model%roller_radius, contact%bearing_torque, model%roller_inertia)
+   end function acceleration_in
 
    !> Torques of a state whose contact is solved, with the friction that is reported and the energy residual.
    pure subroutine add_torques(model, state)

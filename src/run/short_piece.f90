@@ -1,10 +1,11 @@
-!> Torques of a short piece of a host's step, one without stops: means from five angles, the ends among them.
+!> Torques of a short piece of a host's step, one without stops: means from three or five angles, the ends among them.
 !>
 !> In: model that follows the inputs, piece, the contacts that the integration has solved at its ends. Out: mean torques with
 !> their error, extremes, states at the ends and in the middle.
 !>
-!> The rule is that of Lobatto with five points, exact for polynomials of degree 7, which holds Simpson's with three. The error
-!> estimate is the root of the sum of squares of two terms: the difference of both rules, and the part of degree 3 that a parabola
+!> Simpson's rule is enough where its difference from the trapezoidal rule, which is far above its error, may count as error: on
+!> the base circle and where torques change slowly. Elsewhere the rule is that of Lobatto with five points, exact for polynomials of
+!> degree 7, which holds Simpson's with three. Its error estimate is the root of the sum of squares of two terms: the difference of both rules, and the part of degree 3 that a parabola
 !> leaves, so that a kink at which one of them vanishes by chance is seen by the other. Source of the rule: Abramowitz and Stegun
 !> (1964), 25.4.32.
 module camroller_short_piece
@@ -12,7 +13,7 @@ module camroller_short_piece
    use camroller_error, only : error_t
    use camroller_model, only : model_t
    use camroller_ramp, only : follow_ramp
-   use camroller_state, only : state_t, evaluate_state
+   use camroller_state, only : state_t, evaluate_state, complete_state
    use camroller_cycle, only : cycle_t
    use camroller_contact_forces, only : contact_t
    use camroller_follower_samples, only : follower_samples_t, start_samples, sampled_values, extremes_t, widen
@@ -24,22 +25,25 @@ module camroller_short_piece
    implicit none
    private
 
-   public :: integrate_short, contact_part, places, lobatto_places, lobatto_weights, simpson_weights, odd_weights
+   public :: integrate_short, places, lobatto_places, lobatto_weights, simpson_weights, odd_weights
 
-   !> Number of places, and those of Simpson's rule among them
-   integer, parameter :: places = 5, simpson_places(3) = [1, 3, 5]
+   !> Number of places; all of them, those of Simpson's rule first
+   integer, parameter :: places = 5, in_order(places) = [1, 5, 3, 2, 4]
    !> Distance of the second and the fourth place from the middle, over half of the piece [-]
    real(wp), parameter :: inner = sqrt(3.0_wp/7.0_wp)
-   !> Places in the piece; weights of both rules [-]
+   !> Places in the piece; weights of the rules [-]
    real(wp), parameter :: lobatto_places(places) = 0.5_wp*(1.0_wp + [-1.0_wp, -inner, 0.0_wp, inner, 1.0_wp])
    real(wp), parameter :: lobatto_weights(places) = [9.0_wp, 49.0_wp, 64.0_wp, 49.0_wp, 9.0_wp]/180.0_wp
    real(wp), parameter :: simpson_weights(places) = [1.0_wp, 0.0_wp, 4.0_wp, 0.0_wp, 1.0_wp]/6.0_wp
+   real(wp), parameter :: trapezoidal_weights(places) = [0.5_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.5_wp]
    !> Weights that leave nothing of a parabola: those of the rule, with the values at opposite places against each other [-]
    real(wp), parameter :: odd_weights(places) = lobatto_weights(2)*[inner, -1.0_wp, 0.0_wp, 1.0_wp, -inner]
    !> Accepted points of a piece that may be short. Fast slip near pure rolling takes many steps of the integration and hardly shows
    !> in the torques; what does show, the error estimate sees. Means of 24 drives with up to 16 points were within 4.1e-7 of those
    !> by panels at an accuracy of 1e-4, at most 0.11 of the estimated error; with more points more may happen than five angles show
    integer, parameter :: most_points = 16
+   !> Accepted points of a piece for which three angles may do: the integration took it in one or two steps
+   integer, parameter :: few_points = 3
    !> Error estimate over the tolerance up to which the means serve [-]: a tenth of the accuracy. The estimate is that of Simpson's
    !> rule for the most part, and the rule of five points far better
    real(wp), parameter :: largest_error = 10.0_wp
@@ -82,10 +86,8 @@ contains
       type(follower_samples_t) :: samples
       type(stored_work_t) :: work
       type(known_t) :: known
-      ! Values at the places; mean magnitudes, error estimates [N m]; length of the piece [rad]
-      real(wp) :: values(torque_count, places), sizes(torque_count), errors(torque_count), length
-      ! Mean magnitude of all losses [N m]
-      real(wp) :: losses
+      ! Values at the places [N m]; length of the piece [rad]
+      real(wp) :: values(torque_count, places), length
       integer :: i, status
 
       associate (path => piece%trajectory)
@@ -97,58 +99,93 @@ contains
             call keep_contact(known, 1, nearby%first)
             call keep_contact(known, places, nearby%last)
          end if
+         values = 0.0_wp
          do i = 1, places
-            call sample_place(samples, path%time(1) + lobatto_places(i)*length, contact_at(known, i), i == places, values(:, i), &
-               & status)
-            ! Where contact is lost or comes back on the way, the angle of that is for panels to find
-            is_enough = status == 0
-            if (is_enough .and. i > 1) is_enough = samples%state%contact%is_touching .eqv. states(1)%contact%is_touching
-            if (.not. is_enough) return
-            call keep_contact(known, i, samples%state%contact)
-            call follow_contact(work, samples, path%time(1) + lobatto_places(i)*length, path%time(1), error)
-            if (any(simpson_places == i)) states((i + 1)/2) = samples%state
+            associate (place => in_order(i))
+               call sample_place(samples, path%time(1) + lobatto_places(place)*length, contact_at(known, place), place, nearby, &
+                  & values(:, place), status)
+               ! Where contact is lost or comes back on the way, the angle of that is for panels to find
+               is_enough = status == 0
+               if (is_enough .and. i > 1) is_enough = samples%state%contact%is_touching .eqv. states(1)%contact%is_touching
+               if (.not. is_enough) return
+               call keep_contact(known, place, samples%state%contact)
+               if (i <= size(states)) states((place + 1)/2) = samples%state
+            end associate
+            if (i == size(states) .and. path%count <= few_points) then
+               call judge(values, simpson_weights, piece%tolerance, torques, drive_error, is_enough)
+               if (is_enough) exit
+            end if
          end do
+         if (i > places) call judge(values, lobatto_weights, piece%tolerance, torques, drive_error, is_enough)
+         call follow_contact(work, samples, path%time(path%count), path%time(1), error)
       end associate
-      do i = 1, torque_count
-         torques(i) = sum(lobatto_weights*values(i, :))
-         sizes(i) = sum(lobatto_weights*abs(values(i, :)))
-         errors(i) = sqrt((torques(i) - sum(simpson_weights*values(i, :)))**2 + sum(odd_weights*values(i, :))**2)
-      end do
-      ! What a torque adds to that of all losses counts: within a step one of them may be next to nothing
-      losses = sum(sizes, mask=is_loss)
-      is_enough = all(errors <= largest_error*mean_tolerance(piece%tolerance)*losses .or. .not. is_torque)
       torques = torques + stored_torques(samples, work, length)
-      drive_error = sum(errors, mask=is_torque)
       extremes = samples%extremes
    end subroutine integrate_short
 
+   !> Means by the rule of the weights, Simpson's or that of all places, and whether they are good enough.
+   pure subroutine judge(values, weights, tolerance, torques, drive_error, is_enough)
+      !> Torques at the places [N m]
+      real(wp), intent(in) :: values(torque_count, places)
+      !> Weights of the rule [-], tolerance of the integration [-]
+      real(wp), intent(in) :: weights(places), tolerance
+      !> Mean torques [N m], last the energy residual [W]
+      real(wp), intent(out) :: torques(torque_count)
+      !> Estimate of the error of the mean torque that drives [N m]
+      real(wp), intent(out) :: drive_error
+      !> Are the means good enough?
+      logical, intent(out) :: is_enough
+
+      ! Mean magnitudes, error estimates; mean magnitude of all losses [N m]
+      real(wp) :: sizes(torque_count), errors(torque_count), losses
+      integer :: i
+
+      do i = 1, torque_count
+         torques(i) = sum(weights*values(i, :))
+         sizes(i) = sum(weights*abs(values(i, :)))
+         if (weights(2) > 0.0_wp) then
+            errors(i) = sqrt((torques(i) - sum(simpson_weights*values(i, :)))**2 + sum(odd_weights*values(i, :))**2)
+         else
+            errors(i) = abs(torques(i) - sum(trapezoidal_weights*values(i, :)))
+         end if
+      end do
+      ! What a torque adds to that of all losses counts: within a step one of them may be next to nothing
+      losses = sum(sizes, mask=is_loss)
+      is_enough = all(errors <= largest_error*mean_tolerance(tolerance)*losses .or. .not. is_torque)
+      drive_error = sum(errors, mask=is_torque)
+   end subroutine judge
+
    !> Sample a place of the piece.
-   subroutine sample_place(samples, angle, start, is_last, values, status)
+   subroutine sample_place(samples, angle, start, place, nearby, values, status)
       !> The samples
       type(follower_samples_t), intent(inout) :: samples
       !> Cam angle from full lift [rad]
       real(wp), intent(in) :: angle
       !> Contact to start from, where it touches
       type(contact_t), intent(in) :: start
-      !> Is it the end, whose state a step returns?
-      logical, intent(in) :: is_last
+      !> The place: at the first the integration has solved the contact, and the state at the last is what a step returns
+      integer, intent(in) :: place
+      !> Contacts that the integration has solved
+      type(nearby_t), intent(in) :: nearby
       !> Torques [N m], last the energy residual [W]
       real(wp), intent(out) :: values(:)
       !> 0 where there is a state
       integer, intent(out) :: status
 
-      type(state_t) :: state
       ! Sliding speed [m/s]
       real(wp) :: sliding_speed(1)
 
       call follow_ramp(samples%model, angle)
-      call interpolate_state(samples%cycle%trajectory, angle, samples%hint, sliding_speed)
-      call evaluate_state(samples%model, angle, sliding_speed(1), state, status, start=start, &
-         & accuracy=merge(round_off, contact_part*samples%cycle%tolerance, is_last))
+      if (place == 1 .and. nearby%has_first) then
+         call complete_state(samples%model, angle, nearby%first, samples%state, status)
+      else
+         call interpolate_state(samples%cycle%trajectory, angle, samples%hint, sliding_speed)
+         call evaluate_state(samples%model, angle, sliding_speed(1), samples%state, status, start=start, &
+            & accuracy=merge(round_off, contact_part*samples%cycle%tolerance, place == places))
+      end if
       if (status /= 0) return
-      samples%state = state
-      call sampled_values(samples, state, values)
-      call widen(samples%extremes, samples%model, state)
+      call sampled_values(samples, samples%state, values)
+      call widen(samples%extremes, samples%model, samples%state)
    end subroutine sample_place
 
    !> Keep a contact that is known at a place; one that does not touch is none to start from.
