@@ -5,9 +5,9 @@
 !>
 !> Simpson's rule is enough where its difference from the trapezoidal rule, which is far above its error, may count as error: on
 !> the base circle and where torques change slowly. Elsewhere the rule is that of Lobatto with five points, exact for polynomials of
-!> degree 7, which holds Simpson's with three. Its error estimate is the root of the sum of squares of two terms: the difference of both rules, and the part of degree 3 that a parabola
-!> leaves, so that a kink at which one of them vanishes by chance is seen by the other. Source of the rule: Abramowitz and Stegun
-!> (1964), 25.4.32.
+!> degree 7, which holds Simpson's with three. Its error estimate is the root of the sum of squares of two terms: the difference of
+!> both rules, and the part of degree 3 that a parabola leaves, so that a kink at which one of them vanishes by chance is seen by
+!> the other. Source of the rule: Abramowitz and Stegun (1964), 25.4.32.
 module camroller_short_piece
    use camroller_kinds, only : wp
    use camroller_error, only : error_t
