@@ -8,11 +8,12 @@ module camroller_shaft
    use camroller_kinds, only : wp
    use camroller_error, only : error_t, raise, kind_domain
    use camroller_case, only : camshaft_number, case_t
+   use camroller_case_torques, only : torque_rows
    use camroller_model, only : model_t
    use camroller_state, only : state_t
    use camroller_cycle, only : cycle_t, state_at
    use camroller_lobe_curve, only : lobe_curve_t, close_curve, contact_near, curve_at, curve_values, cam_values, &
-      & halve_pieces, keep_state, piece_angle
+      & halve_pieces, keep_state, move_curve, piece_angle
    use camroller_effect_list, only : effect_bearing_heat, effect_orbit, has_effect
    use camroller_events, only : cycle_stops
    use camroller_journal_orbit, only : orbit_t, place_at
@@ -61,8 +62,12 @@ module camroller_shaft
       type(orbit_t), allocatable :: orbits(:, :)
       !> Rise of the temperature of that oil, where it is found [K]
       real(wp), allocatable :: rises(:, :)
-      !> Room for the load vector of each bearing, shape (2, bearing) [N]
-      real(wp), allocatable :: loads(:, :)
+      !> For each cam the first one with its lobe shape and phase: the followers of both do the same
+      integer, allocatable :: twins(:)
+      !> Which torques of `torque_list` the case has
+      logical :: has_torque(torque_count) = .false.
+      !> Room for what each cam takes, shape (value, cam) [N m, N], and for the load of each bearing, shape (2, bearing) [N]
+      real(wp), allocatable :: values(:, :), loads(:, :)
    end type shaft_t
 
    !> A case that is solved: model and cycle of each lobe shape, and the camshafts that carry them
@@ -97,6 +102,8 @@ contains
          shaft%hints = [1]
          allocate (shaft%directions(2, 1))
          shaft%directions(:, 1) = [1.0_wp, 0.0_wp]
+         call find_twins(shaft)
+         shaft%has_torque = torque_rows(case)
          return
       end if
       cams = size(case%cam_bearings%cam_positions)
@@ -111,6 +118,8 @@ contains
       shaft%directions(1, :) = cos(case%cam_bearings%follower_angles)
       shaft%directions(2, :) = sin(case%cam_bearings%follower_angles)
       shaft%hints = 1
+      call find_twins(shaft)
+      shaft%has_torque = torque_rows(case)
       allocate (shaft%journal)
       call set_journal(shaft, viscosity, speed, error)
       if (allocated(error)) return
@@ -126,6 +135,24 @@ contains
       allocate (shaft%touch)
       call new_touch(shaft%touch, case%bearing_asperity, case%cam_bearings%radial_clearance, error)
    end subroutine new_shaft
+
+   !> Find the cams that do the same, and make room.
+   pure subroutine find_twins(shaft)
+      !> The shaft with its cams
+      type(shaft_t), intent(inout) :: shaft
+
+      integer :: cam, other
+
+      associate (cams => size(shaft%lobes))
+         allocate (shaft%twins(cams), shaft%values(curve_values, cams))
+         do cam = 1, cams
+            do other = 1, cam
+               if (shaft%lobes(other) == shaft%lobes(cam) .and. .not. abs(shaft%phases(other) - shaft%phases(cam)) > 0.0_wp) exit
+            end do
+            shaft%twins(cam) = other
+         end do
+      end associate
+   end subroutine find_twins
 
    !> Set the bearings, where there are any, to another viscosity and speed.
    subroutine set_journal(shaft, viscosity, speed, error)
@@ -221,20 +248,25 @@ contains
       ! Times that a piece is halved: what is left of a kink is a small part of the turn
       integer, parameter :: most_halvings = 6
       type(state_t) :: state
+      type(lobe_curve_t) :: halved
       integer, allocatable :: halves(:)
+      ! Cam angle from full lift [rad]
+      real(wp) :: angle
       integer :: pass, i, point, hint
 
       hint = 1
       do pass = 1, most_halvings
-         call halve_pieces(curve, halves)
+         call halve_pieces(curve, halved, halves)
          if (size(halves) == 0) return
          do i = 1, size(halves)
             do point = 1, panel_points
-               call state_at(cycle, model, piece_angle(curve, halves(i), point), hint, state, error)
+               angle = piece_angle(halved, halves(i), point)
+               call state_at(cycle, model, angle, hint, state, error, contact_near(curve, angle))
                if (allocated(error)) return
-               call keep_state(curve, model, state, point, halves(i))
+               call keep_state(halved, model, state, point, halves(i))
             end do
          end do
+         call move_curve(halved, curve)
          call close_curve(curve, cycle%tolerance)
       end do
    end subroutine refine_curve
@@ -263,9 +295,12 @@ contains
          do cam = 1, size(shaft%lobes)
             if (present(cams)) then
                values = cams(:, cam)
+            else if (shaft%twins(cam) < cam) then
+               values = shaft%values(:, shaft%twins(cam))
             else
                call cam_at(solved, cam, angle, values, error)
                if (allocated(error)) return
+               shaft%values(:, cam) = values
             end if
             torques(:, shaft%shafts(cam)) = torques(:, shaft%shafts(cam)) + values(:torque_count)
             forces(:, cam) = in_common_frame(shaft, cam, values(torque_count + 1:))

@@ -15,8 +15,8 @@ module camroller_lobe_curve
    implicit none
    private
 
-   public :: lobe_curve_t, curve_values, start_curve, keep_state, add_piece, close_curve, halve_pieces, piece_angle, curve_at, &
-      & cam_values, contact_near
+   public :: lobe_curve_t, curve_values, start_curve, keep_state, add_piece, close_curve, halve_pieces, move_curve, piece_angle, &
+      & curve_at, cam_values, contact_near
 
    !> Numbers of a state that a camshaft takes: torques, force on the cam, which is zero where no bearing asks for it
    integer, parameter :: curve_values = torque_count + 2
@@ -128,14 +128,15 @@ contains
       end associate
    end subroutine close_curve
 
-   !> Halve the pieces whose polynomials are not good enough. `close_curve` has to judge the halves before the next value is taken.
-   pure subroutine halve_pieces(curve, halves)
+   !> Halve the pieces whose polynomials are not good enough. `close_curve` has to judge the halves before a value is taken of them.
+   pure subroutine halve_pieces(curve, halved, halves)
       !> The curve
-      type(lobe_curve_t), intent(inout) :: curve
-      !> Pieces of which no states are kept yet
+      type(lobe_curve_t), intent(in) :: curve
+      !> The same with these pieces halved; nothing where there are none
+      type(lobe_curve_t), intent(out) :: halved
+      !> Pieces of it of which no states are kept yet
       integer, allocatable, intent(out) :: halves(:)
 
-      type(lobe_curve_t) :: halved
       integer :: piece
 
       allocate (halves(0))
@@ -154,8 +155,23 @@ contains
          end if
          call add_piece(halved, curve%ends(piece + 1))
       end do
-      curve = halved
    end subroutine halve_pieces
+
+   !> Hand a curve over without a copy.
+   pure subroutine move_curve(from, to)
+      !> The curve; out: without pieces
+      type(lobe_curve_t), intent(inout) :: from
+      !> The same curve
+      type(lobe_curve_t), intent(out) :: to
+
+      to%count = from%count
+      to%has_force = from%has_force
+      from%count = 0
+      call move_alloc(from%ends, to%ends)
+      call move_alloc(from%values, to%values)
+      call move_alloc(from%contacts, to%contacts)
+      call move_alloc(from%is_smooth, to%is_smooth)
+   end subroutine move_curve
 
    !> Cam angle of a point of a piece.
    pure function piece_angle(curve, piece, point) result(angle)

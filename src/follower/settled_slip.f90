@@ -42,14 +42,8 @@ contains
       !> Has it been moved?
       logical, intent(out) :: is_moved
 
-      ! Relative error of load and forces, small against what is left of the equation in the end [-]
-      real(wp), parameter :: accuracy = 1.0e-10_wp
-      type(spin_problem_t) :: problem
-      type(nearby_t), target :: nearby
-      type(counters_t) :: counters
-      ! Rate at the curve, largest that traction makes, rate in the end [m/s/rad]; step [rad]; sliding speed in the end [m/s]
-      real(wp) :: rate, span, new_rate, step, settled
-      integer :: status
+      ! Rate at the curve, largest that traction makes [m/s/rad]
+      real(wp) :: rate, span
 
       is_moved = .false.
       if (.not. state%contact%is_touching .or. .not. reach > 0.0_wp) return
@@ -57,6 +51,36 @@ contains
       span = model%roller_radius**2/(model%roller_inertia*model%speed)*(model%limiting_coefficient*state%contact%load &
          & + state%contact%boundary_capacity)
       if (abs(rate - slope) <= small_part*span) return
+      call take_step(model, angle, slope, rate, span, reach, state, sliding_speed, is_moved)
+   end subroutine settle
+
+   !> Take that step. It is a procedure of its own since most sliding speeds are where they have to be, and its room is large.
+   subroutine take_step(model, angle, slope, rate, span, reach, state, sliding_speed, is_moved)
+      !> The model
+      type(model_t), intent(in), target :: model
+      !> Cam angle from full lift [rad]
+      real(wp), intent(in) :: angle
+      !> Slope of the curve, rate of the equation there, largest that traction makes [m/s/rad]
+      real(wp), intent(in) :: slope, rate, span
+      !> Error that the curve may have [m/s]
+      real(wp), intent(in) :: reach
+      !> State on the curve
+      type(state_t), intent(in) :: state
+      !> Sliding speed, from that of the curve [m/s]
+      real(wp), intent(inout) :: sliding_speed
+      !> Has it been moved?
+      logical, intent(out) :: is_moved
+
+      ! Relative error of load and forces, small against what is left of the equation in the end [-]
+      real(wp), parameter :: accuracy = 1.0e-10_wp
+      type(spin_problem_t) :: problem
+      type(nearby_t), target :: nearby
+      type(counters_t) :: counters
+      ! Step [rad]; sliding speed in the end [m/s]; rate there [m/s/rad]
+      real(wp) :: step, settled, new_rate
+      integer :: status
+
+      is_moved = .false.
       nearby%last = state%contact
       problem%nearby => nearby
       problem%model => model
@@ -67,6 +91,6 @@ contains
       if (status /= 0 .or. .not. abs(new_rate - slope) < settled_part*abs(rate - slope)) return
       sliding_speed = settled
       is_moved = .true.
-   end subroutine settle
+   end subroutine take_step
 
 end module camroller_settled_slip

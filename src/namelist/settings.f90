@@ -54,7 +54,11 @@ contains
       integer :: position
 
       do position = 1, size(settings%groups)
-         if (settings%groups(position)%name == group) return
+         associate (name => settings%groups(position)%name)
+            ! Most names differ in the first letter: no comparison of texts then, since every case asks some 400 times
+            if (name(1:1) /= group(1:1)) cycle
+            if (name == group) return
+         end associate
       end do
       position = 0
    end function group_position
@@ -84,7 +88,10 @@ contains
 
       section = group_position(settings, group)
       do position = settings%groups(section)%first, settings%groups(section)%last
-         if (settings%values(position)%name == key) return
+         associate (name => settings%values(position)%name)
+            if (name(1:1) /= key(1:1)) cycle
+            if (name == key) return
+         end associate
       end do
       position = 0
    end function find_value

@@ -6,10 +6,10 @@ module camroller_catalogue
    use, intrinsic :: iso_fortran_env, only : int8
    use camroller_kinds, only : wp
    use camroller_bearing_asperity, only : bearing_state_t
-   use camroller_case, only : camshaft_number, has_engine, case_t, energy_names
+   use camroller_case, only : camshaft_number, has_engine, case_t
+   use camroller_case_torques, only : torque_rows
    use camroller_model, only : model_t
    use camroller_number_text, only : integer_text
-   use camroller_effect_list, only : effect_names, has_effect
    use camroller_result, only : quantity_t, quantity_list_t, append_quantity, lobe_scope, scope_camshaft, scope_case, &
       & scope_engine, scope_length, take_quantities
    use camroller_axial_table, only : axial_state_t
@@ -55,7 +55,7 @@ contains
          call name_lobe(list%items(first:list%count), lobe)
          if (lobe > 1) cycle
          first = list%count + 1
-         call add_camshafts(list, case, none)
+         call add_camshafts(list, case, torque_rows(case), none)
          call set_camshaft_scopes(list%items(first:list%count), merge(scope_engine, scope_camshaft, has_engine(case)))
       end do
       call take_quantities(list, series)
@@ -91,7 +91,7 @@ contains
 
       none = 0.0_wp
       allocate (list%values(0))
-      call add_camshafts(list, case, none)
+      call add_camshafts(list, case, torque_rows(case), none)
       count = list%count
    end function camshaft_count
 
@@ -140,7 +140,7 @@ contains
    end subroutine follower_values
 
    !> Values of the series of the camshafts.
-   pure subroutine camshaft_values(case, torques, values, bearings)
+   pure subroutine camshaft_values(case, torques, values, bearings, has)
       !> The case
       type(case_t), intent(in) :: case
       !> Torques on each camshaft, the rows of `torque_list` [N m], last the energy residual [W]
@@ -149,11 +149,17 @@ contains
       real(wp), intent(out) :: values(:)
       !> States of the bearings, shape (bearing, camshaft); without them their series are zero
       type(bearing_state_t), intent(in), optional :: bearings(:, :)
+      !> Which torques the case has, by `torque_rows`, where the caller asks often
+      logical, intent(in), optional :: has(torque_count)
 
       type(quantity_list_t) :: list
 
       allocate (list%values(size(values)))
-      call add_camshafts(list, case, torques, bearings)
+      if (present(has)) then
+         call add_camshafts(list, case, has, torques, bearings)
+      else
+         call add_camshafts(list, case, torque_rows(case), torques, bearings)
+      end if
       values = list%values(:list%count)
    end subroutine camshaft_values
 
@@ -178,7 +184,7 @@ contains
       of_shafts(:, 1) = torques
       allocate (list%values(size(values)))
       call add_follower(list, case, model, state)
-      call add_camshafts(list, case, of_shafts)
+      call add_camshafts(list, case, torque_rows(case), of_shafts)
       values = list%values(:list%count)
    end subroutine series_values
 
@@ -337,19 +343,27 @@ contains
    end subroutine add_flexible
 
    !> Series of all camshafts together, then, where there are several, of each, last those of the bearings.
-   pure subroutine add_camshafts(list, case, torques, bearings)
+   pure subroutine add_camshafts(list, case, has, torques, bearings)
       !> List to extend
       type(quantity_list_t), intent(inout) :: list
       !> The case
       type(case_t), intent(in) :: case
+      !> Which torques it has
+      logical, intent(in) :: has(torque_count)
       !> Torques on each camshaft, the rows of `torque_list` [N m], last the energy residual [W]
       real(wp), intent(in) :: torques(:, :)
       !> States of the bearings, shape (bearing, camshaft)
       type(bearing_state_t), intent(in), optional :: bearings(:, :)
 
+      ! Torques of all camshafts [N m], last the energy residual [W]
+      real(wp) :: all_of(torque_count)
       integer :: k
 
-      call add_camshaft(list, case, sum(torques, 2))
+      all_of = torques(:, 1)
+      do k = 2, size(torques, 2)
+         all_of = all_of + torques(:, k)
+      end do
+      call add_camshaft(list, has, all_of)
       do k = 1, merge(0, size(torques, 2), size(torques, 2) == 1)
          call add(list, camshaft_prefix//integer_text(k)//"_torque_friction", "N m", "torque for all losses of camshaft "// &
             & integer_text(k), "torque", sum(torques(:, k), mask=is_loss))
@@ -378,51 +392,25 @@ contains
    end subroutine set_camshaft_scopes
 
    !> Series of the camshaft: the torques that the case has, and their sums.
-   pure subroutine add_camshaft(list, case, torques)
+   pure subroutine add_camshaft(list, has, torques)
       !> List to extend
       type(quantity_list_t), intent(inout) :: list
-      !> The case
-      type(case_t), intent(in) :: case
+      !> Which torques the case has
+      logical, intent(in) :: has(torque_count)
       !> Torques of all followers and bearings together, the rows of `torque_list` [N m], last the energy residual [W]
       real(wp), intent(in) :: torques(torque_count)
 
       integer :: row
 
       do row = 1, torque_count
-         if (is_torque(row) .and. has_torque(case, row)) call add(list, torque_series(row), "N m", torque_list(row)%meaning, &
+         if (is_torque(row) .and. has(row)) call add(list, torque_series(row), "N m", torque_list(row)%meaning, &
             & torque_list(row)%source, torques(row))
       end do
       call add(list, "torque_friction", "N m", "torque for all losses", "torque", sum(torques, mask=is_loss))
       call add(list, "torque_drive", "N m", "torque that drives the camshaft", "torque", sum(torques, mask=is_torque))
-      if (has_torque(case, of_residual)) call add(list, torque_series(of_residual), "W", &
+      if (has(of_residual)) call add(list, torque_series(of_residual), "W", &
          & torque_list(of_residual)%meaning, torque_list(of_residual)%source, torques(of_residual))
    end subroutine add_camshaft
-
-   !> Does a case have a torque of the list? It follows from the part of the model that the torque comes from.
-   pure function has_torque(case, row) result(has)
-      !> The case
-      type(case_t), intent(in) :: case
-      !> Row of `torque_list`
-      integer, intent(in) :: row
-      !> True where the result has a series of it
-      logical :: has
-
-      integer :: i
-      ! Effect without which a case has no such torque, by its place in `effect_names`; 0 where there is none to leave out.
-      ! Constants, since this is asked at each sample.
-      integer, parameter :: effect_of(*) = [(findloc(effect_names, torque_list(i)%source, 1), i=1, torque_count)]
-      logical, parameter :: is_dynamic(*) = torque_list%source == "dynamics", &
-         & is_consistent(*) = torque_list%source == "roller" .or. .not. is_torque
-
-      has = .true.
-      if (effect_of(row) > 0) then
-         has = has_effect(case, effect_of(row))
-      else if (is_dynamic(row)) then
-         has = allocated(case%dynamics)
-      else if (is_consistent(row)) then
-         has = case%energy == energy_names(1)
-      end if
-   end function has_torque
 
    !> Beginning of the names of series and scalars of a lobe; blank for the first one.
    pure function lobe_prefix(lobe) result(prefix)

@@ -20,7 +20,7 @@ module camroller_mean_bearings
    public :: mean_bearing_torque
 
    !> Longest panel [rad]
-   real(wp), parameter :: longest_panel = 10.0_wp*degree
+   real(wp), parameter :: longest_panel = 15.0_wp*degree
 
    !> Bearings of a camshaft on its turn
    type, extends(sampled_t) :: bearing_samples_t
@@ -129,12 +129,10 @@ contains
       if (self%of_bearings > 0) allocate (bearings(bearing_count(self%solved%case), self%solved%shaft%count))
       call shaft_torques(self%solved, x, torques, error, bearings=bearings)
       if (allocated(error)) return
-      if (self%of_bearings == 0 .and. .not. self%keeps_rows) then
-         values = torques(of_bearings, :)
-         return
-      end if
-      call camshaft_values(self%solved%case, torques, series, bearings)
-      values = [torques(of_bearings, :), series(self%series - self%of_bearings + 1:)]
+      values(:size(torques, 2)) = torques(of_bearings, :)
+      if (self%of_bearings == 0 .and. .not. self%keeps_rows) return
+      call camshaft_values(self%solved%case, torques, series, bearings, self%solved%shaft%has_torque)
+      values(size(torques, 2) + 1:) = series(self%series - self%of_bearings + 1:)
       if (self%keeps_rows) call add_sample(self%rows, x, series, .false.)
    end subroutine sample_bearings
 

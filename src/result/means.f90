@@ -20,7 +20,7 @@ module camroller_means
    use camroller_extremes, only : samples_t, move_samples
    use camroller_follower_samples, only : follower_samples_t, start_samples, extremes_t, shares_t
    use camroller_slip_errors, only : slip_errors_t, find_slip_errors
-   use camroller_lobe_curve, only : lobe_curve_t
+   use camroller_lobe_curve, only : lobe_curve_t, move_curve
    use camroller_names, only : name_length
    use camroller_panels, only : panels_t, panel_points, panel_places, start_panels, add_panel, add_trapezoid, refine_panels
    use camroller_result, only : quantity_t, find_quantity
@@ -113,7 +113,7 @@ contains
       if (allocated(error)) return
       statistics%shares_t = walk%shares
       statistics%error_angle = walk%error_angle
-      statistics%curve = walk%curve
+      call move_curve(walk%curve, statistics%curve)
       films = [1, 0]
       if (statistics%lost_share > 0.0_wp) films = [find_quantity(series, "film_thickness_min"), find_quantity(series, "film_ratio")]
       if (.not. cycle%is_linear) then

@@ -19,7 +19,7 @@ module camroller_series_extremes
    use camroller_result, only : quantity_t, find_quantity
    use camroller_part_series, only : bearing_count
    use camroller_shaft, only : solved_t, shaft_torques
-   use camroller_slip_errors, only : error_at, error_of_extreme, state_without
+   use camroller_slip_errors, only : error_at, error_of_extreme, relief_t, state_without
    use camroller_state, only : state_t
    use camroller_torque_list, only : torque_count, torque_series, of_residual
    implicit none
@@ -47,6 +47,8 @@ module camroller_series_extremes
       !> Their cam angles from full lift [rad]
       real(wp) :: angles(most_kept) = 0.0_wp
       type(state_t) :: states(most_kept)
+      !> Series without the error of the sliding speed
+      type(relief_t) :: relief(most_kept)
       !> Series of the follower, shape (series, state); of a flexible train also those of the turn with a finer tolerance
       !> [unit of the series]
       real(wp), allocatable :: values(:, :), finer(:, :)
@@ -220,7 +222,7 @@ contains
                      of_value = abs(kept%values(series, place) - kept%finer(series, place))*error_share
                   else
                      call error_of_extreme(statistics%slip_errors, solved, lobe, kept%states(place), kept%values(:, place), &
-                        & search%point, series, sense, sense*search%value, of_value)
+                        & kept%relief(place), search%point, series, sense, sense*search%value, of_value)
                      of_value = of_value + search%left
                   end if
                end associate
@@ -257,6 +259,7 @@ contains
       kept%count = kept%count + 1
       place = modulo(kept%count - 1, most_kept) + 1
       kept%angles(place) = angle
+      kept%relief(place)%is_known = .false.
       call state_at(solved%cycles(lobe), solved%models(lobe), angle, kept%hint, kept%states(place), error, &
          & contact_near(curve, angle))
       if (allocated(error)) return
@@ -331,7 +334,9 @@ contains
       ! It is rounding, of which the rows show enough
       residual = find_quantity(list, trim(torque_series(of_residual)))
       errors = 0.0_wp
-      stops = [(solved%cycles(solved%shaft%lobes(i))%stops + solved%shaft%phases(i), i=1, size(solved%shaft%lobes))]
+      ! Cams that do the same stop at the same angles
+      stops = [(pack(solved%cycles(solved%shaft%lobes(i))%stops + solved%shaft%phases(i), solved%shaft%twins(i) == i), i=1, &
+         & size(solved%shaft%lobes))]
       stops = [stops - beside, stops, stops + beside]
       do i = 1, size(stops)
          call camshaft_row(solved, stops(i), values, error)
@@ -384,10 +389,10 @@ contains
       ! What each cam takes from its follower, and without the error of the sliding speed [N m, N]; angle within the cycle [rad]
       real(wp), dimension(curve_values, size(solved%shaft%lobes)) :: cams, others
       real(wp) :: inside
-      integer :: cam, series, status
+      integer :: cam, status
 
-      series = camshaft_count(solved%case)
-      if (.not. allocated(kept%values)) allocate (kept%values(series, most_kept), kept%without(series, most_kept))
+      if (.not. allocated(kept%values)) allocate (kept%values(camshaft_count(solved%case), most_kept), &
+         & kept%without(camshaft_count(solved%case), most_kept))
       do place = 1, kept%used
          if (.not. abs(kept%angles(place) - angle) > 0.0_wp) return
       end do
@@ -396,7 +401,10 @@ contains
       kept%used = max(kept%used, place)
       kept%angles(place) = angle
       do cam = 1, size(solved%shaft%lobes)
-         associate (shaft => solved%shaft, lobe => solved%shaft%lobes(cam))
+         associate (shaft => solved%shaft, lobe => solved%shaft%lobes(cam), twin => solved%shaft%twins(cam))
+            if (twin < cam) cams(:, cam) = cams(:, twin)
+            if (twin < cam) others(:, cam) = others(:, twin)
+            if (twin < cam) cycle
             associate (model => solved%models(lobe), cycle => solved%cycles(lobe))
                inside = cycle%start + modulo(angle - shaft%phases(cam) - cycle%start, two_pi)
                call state_at(cycle, model, inside, shaft%hints(cam), state, error, &
@@ -463,7 +471,7 @@ contains
       if (bearing_count(solved%case) > 0) allocate (bearings(bearing_count(solved%case), solved%shaft%count))
       call shaft_torques(solved, angle, torques, error, cams, bearings)
       if (allocated(error)) return
-      call camshaft_values(solved%case, torques, values, bearings)
+      call camshaft_values(solved%case, torques, values, bearings, solved%shaft%has_torque)
    end subroutine camshaft_row
 
    !> Smallest contact load with the valve off its seat; over the whole cycle where it never leaves it.

@@ -21,8 +21,8 @@ module camroller_slip_errors
    implicit none
    private
 
-   public :: slip_points_t, slip_errors_t, start_points, keep_point, set_errors, find_slip_errors, error_of_extreme, error_at, &
-      & state_without
+   public :: slip_points_t, slip_errors_t, relief_t, start_points, keep_point, set_errors, find_slip_errors, error_of_extreme, &
+      & error_at, state_without
 
    !> Fraction of what cancels within an interval that is counted all the same: the estimate at a point is of first order [-]
    real(wp), parameter :: distrust = 0.02_wp
@@ -41,6 +41,14 @@ module camroller_slip_errors
       !> Error of the trajectory [m/s]; fraction of an error at its start that is left [-]
       real(wp), allocatable :: errors(:), shares(:)
    end type slip_points_t
+
+   !> What the series of a follower would be at one angle without the error of the sliding speed: many have their extremes there
+   type :: relief_t
+      !> Is it known with the error taken away, and with as much of the other sign?
+      logical :: is_known(2) = .false.
+      !> The series, shape (series, sign) [unit of the series]
+      real(wp), allocatable :: values(:, :)
+   end type relief_t
 
    !> Errors of all that is sampled, and where they come from
    type :: slip_errors_t
@@ -149,7 +157,7 @@ contains
 
    !> Error of a smallest or largest value: by how much the error of the sliding speed changes it where it is, or by how much a
    !> point would exceed it without that error.
-   pure subroutine error_of_extreme(errors, solved, lobe, state, values, angle, series, sense, value, error)
+   subroutine error_of_extreme(errors, solved, lobe, state, values, relief, angle, series, sense, value, error)
       !> The errors
       type(slip_errors_t), intent(in) :: errors
       !> The solved case
@@ -160,6 +168,8 @@ contains
       type(state_t), intent(in) :: state
       !> Series of the follower there [unit of the series]
       real(wp), intent(in) :: values(:)
+      !> The same without the error, as far as it was asked for
+      type(relief_t), intent(inout) :: relief
       !> Cam angle from full lift, of any turn [rad]
       real(wp), intent(in) :: angle
       !> The series
@@ -183,11 +193,13 @@ contains
       ! The state of a standstill is not that of the curve: it is exact
       if (abs(values(series) - value) <= rounding*abs(value)) then
          slip_error = error_at(errors, inside)
-         change = change_without(slip_error)
+         call provide(1)
+         change = change_without(1)
          ! Where either sign of the error makes the value less of an extreme, it belongs to a sliding speed that the cycle passes
          ! through, a little earlier or later
          if (change > 0.0_wp) then
-            if (change_without(-slip_error) >= 0.0_wp) change = change_of_place()
+            call provide(2)
+            if (change_without(2) >= 0.0_wp) change = change_of_place()
          end if
          error = max(error, abs(change))
       end if
@@ -195,23 +207,32 @@ contains
 
    contains
 
-      !> Change of the value by an error of the sliding speed that is taken away, positive where it is less of an extreme then.
-      pure function change_without(of_slip) result(difference)
-         !> The error [m/s]
-         real(wp), intent(in) :: of_slip
+      !> Change of the value by the error of the sliding speed that is taken away, positive where it is less of an extreme then.
+      pure function change_without(sign) result(difference)
+         !> 1 for the error, 2 for as much of the other sign
+         integer, intent(in) :: sign
          !> The change [unit of the series]
          real(wp) :: difference
 
+         difference = sense*(relief%values(series, sign) - values(series))
+      end function change_without
+
+      !> See to it that what would be without the error is known.
+      subroutine provide(sign)
+         !> 1 for the error, 2 for as much of the other sign
+         integer, intent(in) :: sign
+
          type(state_t) :: right
-         ! Series without the error [unit of the series]
-         real(wp) :: without(size(values))
          integer :: status
 
-         call state_without(solved%models(lobe), solved%cycles(lobe), inside, state, of_slip, right, status)
-         if (status == 0) call follower_values(solved%case, solved%models(lobe), right, without)
-         if (status /= 0) without = 0.0_wp
-         difference = sense*(without(series) - values(series))
-      end function change_without
+         if (relief%is_known(sign)) return
+         if (.not. allocated(relief%values)) allocate (relief%values(size(values), 2))
+         call state_without(solved%models(lobe), solved%cycles(lobe), inside, state, merge(slip_error, -slip_error, sign == 1), &
+            & right, status)
+         if (status == 0) call follower_values(solved%case, solved%models(lobe), right, relief%values(:, sign))
+         if (status /= 0) relief%values(:, sign) = 0.0_wp
+         relief%is_known(sign) = .true.
+      end subroutine provide
 
       !> Change of the value with its sliding speed at the angle at which the cycle passes through that without the error.
       pure function change_of_place() result(difference)

@@ -59,8 +59,11 @@ contains
          else
             is_found = still > last
             if (is_found) angle = speeds(still)%angle
-            if (last > 0 .and. .not. is_found) call find_reversal(samples, speeds(last), speeds(i), is_found, angle, error)
-            if (allocated(error)) return
+            if (last > 0 .and. .not. is_found) then
+               if (speeds(last)%entrainment_speed*speeds(i)%entrainment_speed <= 0.0_wp) call find_reversal(samples, &
+                  & speeds(last), speeds(i), is_found, angle, error)
+               if (allocated(error)) return
+            end if
             if (is_found) then
                if (standstills == 0) first_angle = angle
                standstills = standstills + 1

@@ -70,7 +70,7 @@ contains
    !> A curve of equal states is smooth: it has nothing to halve, and is known afterwards.
    subroutine test_nothing_to_halve(error)
       type(error_type), allocatable, intent(out) :: error
-      type(lobe_curve_t) :: curve
+      type(lobe_curve_t) :: curve, halved
       type(model_t) :: model
       type(state_t) :: state
       real(wp) :: values(curve_values)
@@ -94,7 +94,7 @@ contains
          call add_piece(curve, two_pi*piece/8)
       end do
       call close_curve(curve, 1.0e-5_wp)
-      call halve_pieces(curve, halves)
+      call halve_pieces(curve, halved, halves)
       call check(error, size(halves), 0)
       if (allocated(error)) return
       do piece = 1, 8
