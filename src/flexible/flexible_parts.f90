@@ -10,6 +10,17 @@ module camroller_flexible_parts
    private
 
    public :: dynamics_t, flexible_t, set_contacts, set_oil
+   public :: damper_count, dampers_without_adjuster, damper_series, damper_meanings
+
+   !> Where a train loses energy to damping; the last four are of the adjuster: names of the series and what each is of
+   character(len=*), parameter :: damper_series(*) = [character(len=26) :: "damping_power_cam", "damping_power_pad", &
+      & "damping_power_seat", "damping_power_spring", "damping_power_plunger", "damping_power_stops", "damping_power_leak", &
+      & "damping_power_check_valve"]
+   character(len=*), parameter :: damper_meanings(*) = [character(len=54) :: "power lost between cam and roller", &
+      & "power lost at the pad of the valve", "power lost at the valve seat", "power lost in the spring's modes", &
+      & "power lost in the oil film between plunger and bore", "power lost at the plunger's stops", &
+      & "power lost by the oil that leaks along the plunger", "power lost by the oil that passes the check valve"]
+   integer, parameter :: damper_count = size(damper_series), dampers_without_adjuster = 4
 
    !> Stiffness and damping of the train's contacts, as a deck has them. Damping stands for a force over the elastic one, per speed
    !> of approach.

@@ -8,6 +8,7 @@ module camroller_flexible_energy
    use camroller_torque, only : contact_power
    use camroller_torque_list, only : torque_count, of_contact, of_needle, of_guide, of_damping
    use camroller_contact_compliance, only : series_energy
+   use camroller_flexible_parts, only : damper_count
    use camroller_spring_modes, only : mode_energy
    use camroller_lash_adjuster, only : relative_volume, bulk_modulus, pressure_work, chamber_volume, oil_energy
    use camroller_flexible_geometry, only : dot, imaginary
@@ -17,14 +18,11 @@ module camroller_flexible_energy
    private
 
    public :: powers_t, evaluate_powers, stored_energy, energy_slopes
-   public :: damper_count
 
-   !> Where a train loses energy to damping: cam and roller, pad, seat, spring; the plunger's wall, its stops, leak, check valve
+   !> Dampers in the order of `damper_series`
    enum, bind(C)
       enumerator :: at_cam = 1, at_pad, at_seat, in_spring, at_plunger_wall, at_stops, through_leak, through_check_valve
    end enum
-   !> How many there are
-   integer, parameter :: damper_count = through_check_valve
 
    !> Powers at a state [W]
    type :: powers_t

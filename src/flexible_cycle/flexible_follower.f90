@@ -59,6 +59,7 @@ contains
       state%torques(of_residual) = powers%residual
       if (present(work)) work = powers%gas - powers%gallery
       call add_sums(state)
+      state%flexible%damping_powers = powers%dampers
       call take_values(model, angle, train, now, state, status)
    end subroutine evaluate_follower
 

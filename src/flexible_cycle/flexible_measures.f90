@@ -15,7 +15,8 @@ module camroller_flexible_measures
    use camroller_flexible_geometry, only : dot, imaginary
    use camroller_flexible_train, only : flexible_state_t, resolution_t, evaluate_train, first_mode, at_finger_rate, at_lift, &
       & at_speed
-   use camroller_flexible_energy, only : powers_t, evaluate_powers, damper_count
+   use camroller_flexible_energy, only : powers_t, evaluate_powers
+   use camroller_flexible_parts, only : damper_count
    use camroller_torque_list, only : of_damping
    implicit none
    private

@@ -11,6 +11,7 @@ module camroller_state
    use camroller_joint_forces, only : joint_values_t, no_joints, evaluate_joints
    use camroller_contact_forces, only : contact_t
    use camroller_roller, only : spin_acceleration
+   use camroller_flexible_parts, only : damper_count
    use camroller_spring_modes, only : most_modes
    use camroller_torque, only : cam_torque, contact_power, normal_direction
    use camroller_torque_list, only : torque_count, is_loss, of_geometric, of_contact, of_needle, of_guide, of_roller_inertia, &
@@ -35,6 +36,8 @@ module camroller_state
       real(wp) :: plunger_travel, chamber_pressure, leak_flow, check_flow
       !> Energy that is stored [J]
       real(wp) :: stored_energy
+      !> Power lost in each damper [W]
+      real(wp) :: damping_powers(damper_count)
       !> Amplitudes of the spring's modes [m]
       real(wp) :: modes(most_modes)
    end type flexible_values_t

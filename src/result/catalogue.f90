@@ -10,6 +10,7 @@ module camroller_catalogue
    use camroller_case_torques, only : torque_rows
    use camroller_model, only : model_t
    use camroller_number_text, only : integer_text
+   use camroller_flexible_parts, only : damper_count, damper_meanings, damper_series, dampers_without_adjuster
    use camroller_result, only : quantity_t, quantity_list_t, append_quantity, lobe_scope, scope_camshaft, scope_case, &
       & scope_engine, scope_length, take_quantities
    use camroller_axial_table, only : axial_state_t
@@ -335,6 +336,9 @@ contains
          call add(list, "leak_flow", "m3 s-1", "oil that leaks along the plunger", "lash_adjuster", train%leak_flow)
          call add(list, "check_valve_flow", "m3 s-1", "oil that enters through the check valve", "lash_adjuster", train%check_flow)
       end if
+      do n = 1, merge(damper_count, dampers_without_adjuster, allocated(case%lash_adjuster))
+         call add(list, trim(damper_series(n)), "W", trim(damper_meanings(n)), "dynamics", train%damping_powers(n))
+      end do
       if (.not. allocated(case%spring_surge)) return
       do n = 1, case%spring_surge%modes
          call add(list, "spring_mode_"//integer_text(n), "m", "amplitude of the spring's mode "//integer_text(n), "spring_surge", &

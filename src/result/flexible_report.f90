@@ -13,6 +13,7 @@ module camroller_flexible_report
    use camroller_extremes, only : add_sample, samples_t, start_samples
    use camroller_flexible_cycle, only : longest_period
    use camroller_flexible_follower, only : evaluate_follower
+   use camroller_flexible_parts, only : damper_count, damper_series, dampers_without_adjuster
    use camroller_flexible_measures, only : bounce_height, bounces, coil_ratio, event_check_share, highest_plunger, &
       & largest_load_angle, losses_of_contact, lowest_plunger, measures, seating_speed, smallest_pivot_force, tension_share
    use camroller_flexible_solution, only : error_share, flexible_solution_t, statistical_turns
@@ -106,7 +107,7 @@ contains
    end subroutine start_means
 
    !> Errors of the means of a turn: from the last turn and the one with a finer tolerance, each with points of its own. They are
-   !> relative to the mean magnitude of their series, those of torques to the mean of all losses at least.
+   !> relative to the mean magnitude of their series, those of torques and of powers of dampers to the mean of all losses at least.
    !>
    !> In a period as much oil enters an adjuster as leaks. Both turns may lack the same of it: where little leaks, errors of the
    !> plunger's travel make up for it.
@@ -129,7 +130,9 @@ contains
 
       type(flexible_means_t) :: means, finer
       type(state_t) :: state
-      integer :: residual, place
+      ! Mean torque of all losses [N m]
+      real(wp) :: losses
+      integer :: residual, place, first_power, last_power
 
       missing_oil = 0.0_wp
       call start_means(means, size(series), first_torque)
@@ -138,8 +141,12 @@ contains
       call start_means(finer, size(series), first_torque)
       call add_turn(case, model, solution%finer, solution%finer_resolution, 1.0_wp, .false., state, finer, error)
       if (allocated(error)) return
-      associate (torques => means%size(first_torque:))
-         torques = max(torques, sum(means%torques, mask=is_loss))
+      losses = sum(means%torques, mask=is_loss)
+      first_power = find_quantity(series, trim(damper_series(1)))
+      last_power = first_power + merge(damper_count, dampers_without_adjuster, allocated(model%flexible%adjuster)) - 1
+      associate (torques => means%size(first_torque:), powers => means%size(first_power:last_power))
+         torques = max(torques, losses)
+         powers = max(powers, model%speed*losses)
       end associate
       mean_errors = 0.0_wp
       where (means%size > 0.0_wp) mean_errors = error_share*abs(means%mean - finer%mean)/means%size

@@ -37,6 +37,8 @@ module camroller_series_extremes
 
    !> Distance of the states on both sides of a stop, where series may jump [rad]
    real(wp), parameter :: beside = 1.0e-9_wp
+   !> Beginning of the names of what dampers lose, less that of a lobe
+   character(len=*), parameter :: damping_name = "damping_power_"
    !> States that are kept while extremes are searched for
    integer, parameter :: most_kept = 32
 
@@ -273,7 +275,7 @@ contains
    end subroutine keep_state
 
    !> Largest error of a smallest or largest value, relative to the range of its series; the smallest film counts by itself, and so
-   !> does that of every film where the largest has no limit.
+   !> does that of every film where the largest has no limit. Dampers count by the largest of them: they are one loss together.
    pure subroutine judge_extremes(series, lowest, highest, statistics)
       !> The series of the follower
       type(quantity_t), intent(in) :: series(:)
@@ -282,12 +284,16 @@ contains
       !> Statistics of the lobe; out: with the largest error
       type(statistics_t), intent(inout) :: statistics
 
-      ! Errors over the range [-]
-      real(wp) :: relative(size(series))
+      ! Errors over the range [-]; range, the largest one of what a damper loses [unit of the series]
+      real(wp) :: relative(size(series)), range, damping
       ! Range that counts as none, whose quotients do not overflow [unit of the series]
       real(wp), parameter :: least = sqrt(tiny(1.0_wp))
       integer :: i
 
+      damping = least
+      do i = 1, size(series)
+         if (index(series(i)%name, damping_name) > 0) damping = max(damping, highest(i) - lowest(i))
+      end do
       associate (errors => statistics%extreme_errors)
          do i = 1, size(series)
             relative(i) = 0.0_wp
@@ -297,7 +303,9 @@ contains
                if (lowest(i) > least) relative(i) = errors(1, i)/lowest(i)
                cycle
             end if
-            relative(i) = maxval(errors(:, i))/max(highest(i) - lowest(i), least)
+            range = max(highest(i) - lowest(i), least)
+            if (index(series(i)%name, damping_name) > 0) range = damping
+            relative(i) = maxval(errors(:, i))/range
             if (index(series(i)%name, "film_thickness_min") > 0) relative(i) = max(relative(i), errors(1, i)/max(lowest(i), least))
          end do
       end associate

@@ -25,6 +25,8 @@ module result_checks
    character(len=*), parameter :: films(*) = [character(len=24) :: "film_thickness_min", "film_thickness_central", &
       & "film_thickness_axial_min", "film_ratio"]
    !> Means that are judged by the mean of all losses
+   ! Beginning of the names of what dampers lose, less that of a lobe
+   character(len=*), parameter :: damping_name = "damping_power_"
    character(len=*), parameter :: drives(*) = [character(len=21) :: "torque_drive", "torque_geometric", "torque_roller_inertia"]
 
 contains
@@ -278,7 +280,7 @@ contains
    end function is_taken_back
 
    !> Means of all series, over the mean size of each; torques that store and give back, over the mean of all losses, and so all
-   !> torques of a flexible train.
+   !> torques and the dampers of a flexible train.
    subroutine compare_means(one, other, allowed, is_flexible, trouble)
       !> The results
       type(result_t), intent(in) :: one, other
@@ -303,6 +305,7 @@ contains
                & abs(scalar_of(other, "mean_"//name)))
             if (any(drives == name) .or. (is_flexible .and. index(name, "torque_") == 1)) scale = abs(scalar_of(one, &
                & "mean_torque_friction"))
+            if (index(name, damping_name) > 0) scale = abs(scalar_of(one, "power_friction"))
             scale = max(scale, least_scale(one, name))
             found = max(0.0_wp, difference - least)/max(scale, tiny(1.0_wp))
             if (found > allowed) trouble = trouble//" mean_"//name//words_of_difference(found, allowed)
@@ -360,6 +363,7 @@ contains
             values(1, :) = [scalar_of(one, "min_"//name), scalar_of(one, "max_"//name)]
             values(2, :) = [scalar_of(other, "min_"//name), scalar_of(other, "max_"//name)]
             range = max(maxval(values) - minval(values), least_scale(one, name))
+            if (index(name, damping_name) > 0) range = damping_range(one, name)
             ! Without a largest value, the smallest counts by itself
             if (is_film_without_limit(one, other, name)) then
                range = minval(values(:, 1))
@@ -380,6 +384,24 @@ contains
          end associate
       end do
    end subroutine compare_extremes
+
+   !> Largest range of what a damper of a lobe loses: dampers are one loss together, as in the program's own estimate.
+   function damping_range(result, name) result(range)
+      !> A result
+      type(result_t), intent(in) :: result
+      !> Name of a series, with that of the lobe
+      character(len=*), intent(in) :: name
+      ! [W]
+      real(wp) :: range
+      integer :: i
+
+      range = 0.0_wp
+      do i = 1, size(result%series)
+         associate (other => result%series(i)%name, prefix => name(:index(name, damping_name) - 1)//damping_name)
+            if (index(other, prefix) == 1) range = max(range, scalar_of(result, "max_"//other) - scalar_of(result, "min_"//other))
+         end associate
+      end do
+   end function damping_range
 
    !> Rises and falls of a curve.
    pure function pieces(values) result(number)
