@@ -19,11 +19,11 @@ module camroller_cycle_remarks
    use camroller_remarks, only : remark_t, add_remark, beyond_pressure_law, cut_off_contact, film_without_limit, &
       & hot_inlet, lost_contact, open_pivot, outside_range, pumped_adjuster, rubbing_pin, standing_entrainment, unloaded_end, &
       & unresolved_slip
-   use camroller_result, only : lobe_scope
+   use camroller_result, only : find_quantity, lobe_scope, quantity_t
    implicit none
    private
 
-   public :: judge_lobe, judge_films, judge_pin, judge_pressure, has_film_limit
+   public :: judge_lobe, judge_films, judge_pin, judge_pressure, judge_extremes
 
    !> Estimate of the error of the sliding speed, relative to the largest, beyond which a result is worth a warning [-]
    real(wp), parameter :: worth_a_warning = 0.1_wp
@@ -297,5 +297,47 @@ contains
          call add_remark(remarks, outside_range, text, 100.0_wp*statistics%film_range%share)
       end if
    end subroutine check_range
+
+   !> Largest error of a smallest or largest value, relative to the range of its series; the smallest film counts by itself, and so
+   !> does that of every film where the largest has no limit. Dampers count by the largest of them: they are one loss together.
+   pure subroutine judge_extremes(series, lowest, highest, statistics)
+      !> The series of the follower
+      type(quantity_t), intent(in) :: series(:)
+      !> Smallest and largest values [unit of the series]
+      real(wp), intent(in) :: lowest(:), highest(:)
+      !> Statistics of the lobe; out: with the largest error
+      type(statistics_t), intent(inout) :: statistics
+
+      ! Errors over the range [-]; ranges [unit of the series]
+      real(wp) :: relative(size(series)), ranges(size(series))
+      ! Is a series what a damper loses?
+      logical :: is_damper(size(series))
+      ! Range that counts as none, whose quotients do not overflow [unit of the series]
+      real(wp), parameter :: least = sqrt(tiny(1.0_wp))
+      integer :: i
+
+      ranges = max(highest - lowest, least)
+      is_damper = [(index(series(i)%name, "damping_power_") > 0, i=1, size(series))]
+      where (is_damper) ranges = maxval(ranges, mask=is_damper)
+      associate (errors => statistics%extreme_errors)
+         do i = 1, size(series)
+            relative(i) = 0.0_wp
+            ! A quantity that is zero throughout has no error
+            if (.not. maxval(errors(:, i)) > 0.0_wp) cycle
+            if (index(series(i)%name, "film_") > 0 .and. .not. has_film_limit(statistics)) then
+               if (lowest(i) > least) relative(i) = errors(1, i)/lowest(i)
+               cycle
+            end if
+            relative(i) = maxval(errors(:, i))/ranges(i)
+            if (index(series(i)%name, "film_thickness_min") > 0) relative(i) = max(relative(i), errors(1, i)/max(lowest(i), least))
+         end do
+      end associate
+      ! Where oil is missing, so is an opening of the check valve, or a part of one
+      i = find_quantity(series, "check_valve_flow")
+      if (i > 0) relative(i) = max(relative(i), statistics%missing_oil)
+      i = maxloc(relative, 1)
+      statistics%extreme_error = relative(i)
+      statistics%worst_extreme = series(i)%name
+   end subroutine judge_extremes
 
 end module camroller_cycle_remarks

@@ -7,7 +7,7 @@ module camroller_series_extremes
    use camroller_bearing_asperity, only : bearing_state_t
    use camroller_catalogue, only : follower_values, camshaft_values, camshaft_count, lobe_columns, camshaft_columns
    use camroller_cycle, only : state_at
-   use camroller_cycle_remarks, only : has_film_limit
+   use camroller_cycle_remarks, only : judge_extremes
    use camroller_error_estimate, only : margin
    use camroller_flexible_follower, only : follower_on_path
    use camroller_flexible_solution, only : error_share
@@ -37,8 +37,6 @@ module camroller_series_extremes
 
    !> Distance of the states on both sides of a stop, where series may jump [rad]
    real(wp), parameter :: beside = 1.0e-9_wp
-   !> Beginning of the names of what dampers lose, less that of a lobe
-   character(len=*), parameter :: damping_name = "damping_power_"
    !> States that are kept while extremes are searched for
    integer, parameter :: most_kept = 32
 
@@ -273,49 +271,6 @@ contains
       end associate
       if (.not. allocated(error)) call follower_values(solved%case, solved%models(lobe), state, kept%finer(:, place))
    end subroutine keep_state
-
-   !> Largest error of a smallest or largest value, relative to the range of its series; the smallest film counts by itself, and so
-   !> does that of every film where the largest has no limit. Dampers count by the largest of them: they are one loss together.
-   pure subroutine judge_extremes(series, lowest, highest, statistics)
-      !> The series of the follower
-      type(quantity_t), intent(in) :: series(:)
-      !> Smallest and largest values [unit of the series]
-      real(wp), intent(in) :: lowest(:), highest(:)
-      !> Statistics of the lobe; out: with the largest error
-      type(statistics_t), intent(inout) :: statistics
-
-      ! Errors over the range [-]; range, the largest one of what a damper loses [unit of the series]
-      real(wp) :: relative(size(series)), range, damping
-      ! Range that counts as none, whose quotients do not overflow [unit of the series]
-      real(wp), parameter :: least = sqrt(tiny(1.0_wp))
-      integer :: i
-
-      damping = least
-      do i = 1, size(series)
-         if (index(series(i)%name, damping_name) > 0) damping = max(damping, highest(i) - lowest(i))
-      end do
-      associate (errors => statistics%extreme_errors)
-         do i = 1, size(series)
-            relative(i) = 0.0_wp
-            ! A quantity that is zero throughout has no error
-            if (.not. maxval(errors(:, i)) > 0.0_wp) cycle
-            if (index(series(i)%name, "film_") > 0 .and. .not. has_film_limit(statistics)) then
-               if (lowest(i) > least) relative(i) = errors(1, i)/lowest(i)
-               cycle
-            end if
-            range = max(highest(i) - lowest(i), least)
-            if (index(series(i)%name, damping_name) > 0) range = damping
-            relative(i) = maxval(errors(:, i))/range
-            if (index(series(i)%name, "film_thickness_min") > 0) relative(i) = max(relative(i), errors(1, i)/max(lowest(i), least))
-         end do
-      end associate
-      ! Where oil is missing, so is an opening of the check valve, or a part of one
-      i = find_quantity(series, "check_valve_flow")
-      if (i > 0) relative(i) = max(relative(i), statistics%missing_oil)
-      i = maxloc(relative, 1)
-      statistics%extreme_error = relative(i)
-      statistics%worst_extreme = series(i)%name
-   end subroutine judge_extremes
 
    !> Smallest and largest values of the camshaft's series, with the largest of their errors.
    subroutine search_camshaft(solved, statistics, list, samples, lowest, highest, error)
