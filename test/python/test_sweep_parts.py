@@ -257,7 +257,7 @@ def test_flipped_bits_anywhere(camroller, deck, whole, parts):
     draw = random.Random(7)
     originals = {part: part.read_bytes() for part in sorted(parts.glob("*.part-*"))}
     refused = 0
-    for _ in range(12):
+    for _ in range(30):
         for part, content in originals.items():
             part.write_bytes(content)
         for _ in range(draw.randint(1, 4)):
