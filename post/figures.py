@@ -208,7 +208,7 @@ def _curve_drawer(curve):
 
 FIGURES = {
     "overview": lambda layout, _: overview_figure(layout, OVERVIEW, (slip_bars, torque_bars)),
-    "train": lambda layout, _: overview_figure(layout, TRAIN, (), ("load_ratio",)),
+    "train": lambda layout, _: overview_figure(layout, TRAIN, (), ("load_error",)),
     **{name: _curve_drawer(curve) for name, curve in CURVES.items() if name != "total_torque"},
     "roller": roller_figure,
     "running_in": running_in_figure,

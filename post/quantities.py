@@ -56,7 +56,7 @@ OVERVIEW = {name: CURVES[name] for name in ("load", "entrainment", "film", "fric
 # A flexible train on one page, beside its load
 TRAIN = {
     "load": CURVES["load"],
-    "load_ratio": Curve("load over rigid load", "load_ratio", "1", lines=(1.0,)),
+    "load_error": Curve("load less rigid load", "load_error", "N", lines=(0.0,)),
     "lift_error": Curve("lift less rigid lift", "lift_error", "um"),
     "valve_speed": Curve("valve's speed", "valve_velocity", "m/s", lines=(0.0,)),
     "gap": Curve("gap at the cam", "contact_gap", "um"),

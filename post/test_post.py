@@ -54,7 +54,7 @@ def made_up_series(angle, speed, oil):
               "entrainment_speed": entrainment, "film_thickness_min": film, "friction_rolling": rolling,
               "asperity_friction_share": share, "friction_contact": friction, "torque_geometric": geometric,
               "torque_friction": total, "torque_drive": geometric + total,
-              "load_ratio": 1 + 1e-3 * np.sin(x * speed / 10), "lift_error": -5e-8 * load,
+              "load_error": 20 * np.sin(x * speed / 10), "lift_error": -5e-8 * load,
               "axial_pressure_max": 2.5e7 * np.sqrt(load), "edge_stress_factor": 0.8 + 1e-4 * load,
               "cam_wear_depth": 1e-12 * load, "cam_film_thickness": 1e-10 * load, "boundary_coefficient": 0.1 + 1e-5 * load}
     for number in range(1, SLICES + 1):  # more load at the last slice than at the first
@@ -78,7 +78,7 @@ TURNS = {"valve_lift_at_nose": [9e-3, 9.002e-3, np.nan], "valve_velocity_at_nose
 SERIES_UNITS = {"valve_lift": "m", "valve_velocity": "m/s", "film_ratio": "1", "asperity_load": "N",
                 "contact_load": "N", "hertz_pressure": "Pa", "slip_ratio": "1", "sliding_speed": "m/s", "cam_surface_speed": "m/s", "hertz_half_width": "m",
                 "entrainment_speed": "m/s", "film_thickness_min": "m", "friction_rolling": "N",
-                "asperity_friction_share": "1", "friction_contact": "N", "load_ratio": "1", "lift_error": "m", "axial_pressure_max": "Pa",
+                "asperity_friction_share": "1", "friction_contact": "N", "load_error": "N", "lift_error": "m", "axial_pressure_max": "Pa",
                 "edge_stress_factor": "1", "cam_wear_depth": "m", "cam_film_thickness": "m", "boundary_coefficient": "1",
                 **{f"line_load_{number}": "N m-1" for number in range(1, SLICES + 1)}}
 
@@ -146,9 +146,9 @@ def test_load_along_the_roller_is_that_of_its_slices_in_their_order(tmp_path):
 def test_a_flexible_train_is_a_page_of_what_its_file_has(tmp_path):
     figure = draw("train", Layout([read_result(write_result(tmp_path / "one.h5", swept=(), speeds=(600.0,), oils=(60.0,)))]))
     labels = [axes.get_ylabel().split("\n")[0] for axes in figure.axes]
-    assert labels == ["contact load", "load over rigid load", "lift less rigid lift", "valve's speed"]
-    path = write_result(tmp_path / "rigid.h5", without=("load_ratio",))
-    with pytest.raises(Missing, match="load_ratio"):
+    assert labels == ["contact load", "load less rigid load", "lift less rigid lift", "valve's speed"]
+    path = write_result(tmp_path / "rigid.h5", without=("load_error",))
+    with pytest.raises(Missing, match="load_error"):
         draw("train", Layout([read_result(path)]))
 
 

@@ -151,6 +151,11 @@ contains
       type(rest_t) :: rest
 
       if (allocated(case%lash_adjuster)) then
+         if (.not. load > 0.0_wp) then
+            call raise(error, kind_deck, "lash_adjuster: in this mechanism the plunger presses the finger away from the "// &
+               & "base circle, not onto it; check mechanism.adjuster_tilt_deg and valve_axis_angle_deg")
+            return
+         end if
          allocate (flexible%adjuster)
          call new_adjuster(flexible%adjuster, case%lash_adjuster)
       end if
@@ -224,12 +229,17 @@ contains
       complex(wp) :: centre, arm, axis, normal
       ! Way too far [m], gap too wide at the pad [m]; their derivatives over gamma [m] and y [-]; changes of both [rad], [m]
       real(wp) :: excess, gap, by_finger(2), by_pivot(2), change(2), determinant
+      ! Size of a change, of the one before [m]
+      real(wp) :: size, last_size
+      ! Changes below which rounding may keep them from falling, over the roller arm [-]
+      real(wp), parameter :: smallest = 1.0e-10_wp
       integer :: i, status
 
       call evaluate_position(linkage, [0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp], closed, status)
       distance = closed%rolling_travel + linkage%roller_radius - flexible%compliance*load**0.9_wp - load/flexible%finger_stiffness
       rest%finger = linkage%base_angle
       rest%pivot = 0.0_wp
+      last_size = huge(1.0_wp)
       axis = flexible%axis
       do i = 1, 50
          arm = linkage%a*exp(cmplx(0.0_wp, rest%finger + linkage%arm_offset + linkage%valve_axis_angle, wp))
@@ -249,7 +259,10 @@ contains
          change = [gap*by_pivot(1) - excess*by_pivot(2), excess*by_finger(2) - gap*by_finger(1)]/determinant
          rest%finger = rest%finger + change(1)
          rest%pivot = rest%pivot + change(2)
-         if (abs(change(1))*linkage%a + abs(change(2)) <= 1.0e-17_wp + 1.0e-15_wp*linkage%a) return
+         size = abs(change(1))*linkage%a + abs(change(2))
+         ! An adjuster that is nearly along the finger multiplies rounding
+         if (size <= 1.0e-15_wp*linkage%a .or. (size >= last_size .and. size <= smallest*linkage%a)) return
+         last_size = size
       end do
       call raise(error, kind_convergence, "the flexible train finds no rest on the base circle under "//number_text(load, 4)//" N")
    end subroutine find_rest

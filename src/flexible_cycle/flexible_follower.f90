@@ -138,8 +138,7 @@ contains
          values%lift_error = train(at_lift) - rigid%lift
          values%gap = max(0.0_wp, -now%cam%approach)
          values%contact_turn = now%touch%angle - angle
-         values%load_ratio = 0.0_wp
-         if (moments%total > 0.0_wp) values%load_ratio = now%contact%load*rigid%normal_arm/moments%total
+         values%load_error = now%contact%load - moments%total/rigid%normal_arm
          values%pad_force = now%pad%force
          values%seat_force = now%seat%force
          values%joint_force = pivot_force(model, train, now)

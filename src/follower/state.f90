@@ -28,8 +28,8 @@ module camroller_state
       real(wp) :: lift_error, gap
       !> Angle by which the place of contact is ahead of the cam's turn [rad]
       real(wp) :: contact_turn
-      !> Load over that of the rigid train without friction; zero where that has none [-]
-      real(wp) :: load_ratio
+      !> Load less that of the rigid train without friction [N]
+      real(wp) :: load_error
       !> Forces of pad, seat, joint of finger and pivot, spring at the valve [N]
       real(wp) :: pad_force, seat_force, joint_force, spring_force
       !> Travel of the plunger [m], pressure in its chamber [Pa], leak and flow of the check valve [m^3/s]

@@ -76,22 +76,27 @@ contains
    end subroutine judge_lobe
 
    !> Say that films have no mean and no largest value: formulas let them grow without limit as the load goes to zero, and how far
-   !> they get hangs on how closely a loss of contact is met.
-   subroutine judge_films(statistics, lobe, remarks)
+   !> they get hangs on how closely a loss of contact is met. So do the parts of what friction there is.
+   subroutine judge_films(statistics, has_asperities, lobe, remarks)
       !> Statistics of the lobe
       type(statistics_t), intent(in) :: statistics
+      !> Do asperities have a part of the friction?
+      logical, intent(in) :: has_asperities
       !> Lobe shape to be named; 0 where there is one alone
       integer, intent(in) :: lobe
       !> Remarks so far
       type(remark_t), allocatable, intent(inout) :: remarks(:)
 
+      character(len=*), parameter :: of_share = "; smallest and largest asperity_friction_share may be those of next to no "// &
+         & "friction there"
       integer :: last
 
       if (has_film_limit(statistics)) return
       call add_remark(remarks, film_without_limit, "mean and largest value of film thicknesses and of film_ratio have "// &
          & "no limit: the load falls to next to nothing, where formulas let the film grow; at cam angle "// &
          & fixed_text(file_angle(statistics%thickest_angle), 1)//" deg it is "//number_text(statistics%thickest_film, 2)// &
-         & " of the equivalent radius, and formulas hold for a small part of it", statistics%thickest_film)
+         & " of the equivalent radius, and formulas hold for a small part of it"// &
+         & of_share(:merge(len(of_share), 0, has_asperities)), statistics%thickest_film)
       if (lobe == 0) return
       last = size(remarks)
       remarks(last)%lobe = lobe

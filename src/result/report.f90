@@ -230,7 +230,8 @@ contains
 
       do lobe = 1, size(models)
          associate (named => merge(lobe, 0, size(models) > 1))
-            call judge_films(statistics(lobe), named, result%remarks)
+            call judge_films(statistics(lobe), find_quantity(result%summary, "max_"//trim(lobe_prefix(lobe))// &
+               & "asperity_friction_share") > 0, named, result%remarks)
             call judge_pressure(models(lobe), result%summary_values(find_quantity(result%summary, "max_"// &
                & trim(lobe_prefix(lobe))//"hertz_pressure")), named, result%remarks)
             pin = find_quantity(result%summary, "min_"//trim(lobe_prefix(lobe))//"pin_film_min")

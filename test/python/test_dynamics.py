@@ -41,6 +41,20 @@ def test_an_impossible_train_is_refused_with_a_message_of_one_line(deck, change,
     assert words in done.stderr
 
 
+def test_a_plunger_that_presses_the_finger_away_is_refused(tmp_path, camroller):
+    text = ADJUSTER.read_text().replace("   base_circle_load_N = 64\n", "").replace(
+        "   diameter_mm = 10\n", "   diameter_mm = 10\n   plunger_spring_N = 10.7\n")
+    (tmp_path / "deck.nml").write_text(text)
+    lengths = {"pivot_to_roller_mm": 25.7, "pivot_to_pad_mm": 30.5, "pivot_to_cam_mm": 29.8, "base_radius_mm": 16.8,
+               "roller_arm_angle_deg": -7.7, "valve_axis_angle_deg": 30.5}
+    settings = [word for key, value in lengths.items() for word in ("--set", f"mechanism.{key}={value}")]
+    for tilt, words in ((-23, "the plunger presses the finger away from the base circle"), (0, "")):
+        done = subprocess.run([camroller, "check", tmp_path / "deck.nml", *settings, "--set", f"mechanism.adjuster_tilt_deg={tilt}"],
+                              capture_output=True, text=True)
+        assert (done.returncode != 0) == bool(words), done.stderr
+        assert words in done.stderr
+
+
 def test_spring_surge_and_lash_adjuster_without_dynamics_are_refused(tmp_path, camroller):
     text = DECK.read_text().replace("&dynamics\n   finger_stiffness_N_m = 5.0e7\n   pad_stiffness_N_m = 5.0e7\n"
                                     "   seat_stiffness_N_m = 5.0e7\n/\n", "")

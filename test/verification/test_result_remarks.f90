@@ -79,6 +79,14 @@ contains
       if (allocated(error)) return
       call check(error, any(result%remarks%kind == film_without_limit .and. result%remarks%lobe == 2) .and. &
          & index(remark_lines(result%remarks), "lobe 2: mean and largest value of film") > 0, remark_lines(result%remarks))
+      if (allocated(error)) return
+      call check(error, index(remark_lines(result%remarks), "largest asperity_friction_share may be those of next to no") > 0 &
+         & .eqv. allocated(case%asperity), remark_lines(result%remarks))
+      if (allocated(error)) return
+      deallocate (case%asperity)
+      call run(case, result, error)
+      if (allocated(error)) return
+      call check(error, index(remark_lines(result%remarks), "asperity_friction_share"), 0, remark_lines(result%remarks))
    end subroutine test_lobe_remark
 
    subroutine test_policy(error)

@@ -24,9 +24,11 @@ module result_checks
    !> how closely the loss is met
    character(len=*), parameter :: films(*) = [character(len=24) :: "film_thickness_min", "film_thickness_central", &
       & "film_thickness_axial_min", "film_ratio"]
-   !> Means that are judged by the mean of all losses
-   ! Beginning of the names of what dampers lose, less that of a lobe
+   !> Parts of what friction there is: extremes may be those of next to none, as the same remark says
+   character(len=*), parameter :: shares(*) = ["asperity_friction_share"]
+   !> Beginning of the names of what dampers lose, less that of a lobe
    character(len=*), parameter :: damping_name = "damping_power_"
+   !> Means that are judged by the mean of all losses
    character(len=*), parameter :: drives(*) = [character(len=21) :: "torque_drive", "torque_geometric", "torque_roller_inertia"]
 
 contains
@@ -296,7 +298,7 @@ contains
 
       do i = 1, size(one%series)
          associate (name => one%series(i)%name)
-            if (name == "energy_residual" .or. is_film_without_limit(one, other, name)) cycle
+            if (name == "energy_residual" .or. is_without_limit(one, other, name, films)) cycle
             if (is_taken_back(one, other, missed_means, one%worst_mean, other%worst_mean, name)) cycle
             difference = abs(scalar_of(one, "mean_"//name) - scalar_of(other, "mean_"//name))
             least = rounding*maxval(abs(one%series_values(:, i)))
@@ -329,20 +331,20 @@ contains
       if (name == lobe//"slip_ratio") scale = least_slip
    end function least_scale
 
-   !> Is a series a film of which a remark says that it has no limit?
-   function is_film_without_limit(one, other, name) result(verdict)
+   !> Is a series one of a list, and does a remark say that the load falls to next to nothing?
+   function is_without_limit(one, other, name, list) result(verdict)
       !> The results
       type(result_t), intent(in) :: one, other
-      !> Name of a series
-      character(len=*), intent(in) :: name
+      !> Name of the series, names without that of a lobe
+      character(len=*), intent(in) :: name, list(:)
       logical :: verdict
       integer :: lobe
 
       lobe = merge(2, 1, index(name, "lobe_2_") > 0)
-      verdict = any(films == name(merge(8, 1, lobe == 2):))
+      verdict = any(list == name(merge(8, 1, lobe == 2):))
       if (verdict) verdict = any(one%remarks%kind == film_without_limit .and. max(one%remarks%lobe, 1) == lobe) .or. &
          & any(other%remarks%kind == film_without_limit .and. max(other%remarks%lobe, 1) == lobe)
-   end function is_film_without_limit
+   end function is_without_limit
 
    !> Smallest and largest values of all series but torques, over the range of each, and the smallest film over itself.
    subroutine compare_extremes(one, other, allowed, trouble)
@@ -360,12 +362,13 @@ contains
          associate (name => one%series(i)%name)
             if (index(name, "torque_") == 1 .or. name == "energy_residual") cycle
             if (is_taken_back(one, other, missed_extremes, one%worst_extreme, other%worst_extreme, name)) cycle
+            if (is_without_limit(one, other, name, shares)) cycle
             values(1, :) = [scalar_of(one, "min_"//name), scalar_of(one, "max_"//name)]
             values(2, :) = [scalar_of(other, "min_"//name), scalar_of(other, "max_"//name)]
             range = max(maxval(values) - minval(values), least_scale(one, name))
             if (index(name, damping_name) > 0) range = damping_range(one, name)
             ! Without a largest value, the smallest counts by itself
-            if (is_film_without_limit(one, other, name)) then
+            if (is_without_limit(one, other, name, films)) then
                range = minval(values(:, 1))
                values(:, 2) = 0.0_wp
             end if
