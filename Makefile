@@ -134,9 +134,9 @@ random-wide: commit ## random cases with all options of a deck, optimised build:
 	@WIDE_CASES=$(or $(CASES),20000) WIDE_SEED=$(or $(SEED),1) $(if $(FOLDER),WIDE_FOLDER="$(FOLDER)") $(FPM) test \
 	  --flag "$(RELEASE_FLAGS)" -- random_wide
 
-random-flexible: commit ## random flexible trains by two methods, optimised build: CASES=100 SEED=1 FOLDER= for decks that fail, DECK= for one of them
+random-flexible: commit ## random flexible trains by two methods, optimised build: CASES=100 SEED=1 FOLDER= for decks that fail, DECK= for one of them, ACCURACY= in the place of a tolerance of 1e-3
 	@FLEXIBLE_CASES=$(or $(CASES),100) FLEXIBLE_SEED=$(or $(SEED),1) $(if $(FOLDER),WIDE_FOLDER="$(FOLDER)") \
-	  $(if $(DECK),FLEXIBLE_DECK="$(DECK)") $(FPM) test \
+	  $(if $(DECK),FLEXIBLE_DECK="$(DECK)") $(if $(ACCURACY),FLEXIBLE_ACCURACY=$(ACCURACY)) $(FPM) test \
 	  --flag "$(RELEASE_FLAGS)" -- random_flexible
 
 needed: commit ## changes by leaving effects out, compared with their estimates, for random cases: CASES=300 SEED=1

@@ -60,11 +60,11 @@ module camroller_ode_problem
    type :: factors_t
       !> The shift [1/time]
       real(wp) :: shift = 0.0_wp
-      !> Factors of the matrix, or of what is left of it where some components are eliminated beforehand [1/time]
+      !> Factors of the matrix [1/time], or the inverse of what is left of it where some components are eliminated beforehand [time]
       real(wp), allocatable :: matrix(:, :)
       !> Pivots of the factors
       integer, allocatable :: pivots(:)
-      !> Pivots of components that are eliminated beforehand [1/time]
+      !> 1 over the pivots of components that are eliminated beforehand [time]
       real(wp), allocatable :: eliminated(:)
    end type factors_t
 

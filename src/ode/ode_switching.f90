@@ -5,6 +5,7 @@
 module camroller_ode_switching
    use camroller_kinds, only : wp
    use camroller_error, only : error_t, raise, kind_convergence
+   use camroller_roots, only : bracket_t, start_bracket, narrow_bracket, root_wanted
    use camroller_ode_problem, only : problem_t, counters_t, new_linear, copy_linear
    use camroller_ode_method, only : method_t, options_t, step_t, start_step, take_step, keep_point, keep_stable
    use camroller_trajectory, only : trajectory_t, start_trajectory, append_point, curve_state, curve_numbers
@@ -42,8 +43,8 @@ module camroller_ode_switching
    !> Error over tolerance of a step in which a kink makes no difference: a contact that rests at zero but for rounding would end
    !> every step [-]
    real(wp), parameter :: least_kink = 1.0e-6_wp
-   !> Halvings of the part of a step that holds a kink
-   integer, parameter :: halvings = 14
+   !> How far past a zero on the step's curve a kink is taken to be, over the step [-]
+   real(wp), parameter :: past_zero = 1.0e-6_wp
 
    abstract interface
       !> Values whose zeros are kinks of the right-hand side
@@ -243,7 +244,7 @@ contains
       end associate
    end subroutine try_step
 
-   !> Place of the first zero of a switch that changes its sign in a step, by halving on the step's curve.
+   !> Place of the first zero of a switch that changes its sign in a step, on the step's curve, and a little past it.
    function first_kink(problem, method, walk) result(place)
       !> The problem
       class(switching_problem_t), intent(in) :: problem
@@ -254,9 +255,9 @@ contains
       !> The place [-]
       real(wp) :: place
 
-      ! Curve of the step [state]; state [state] and switches [any] on it; part that holds the zero [-]
-      real(wp) :: bends(size(walk%step%state), curve_numbers), state(size(walk%step%state)), values(size(walk%switches)), low, high
-      logical :: changes(size(walk%switches))
+      ! Curve of the step [state]; state [state] and switches [any] on it
+      real(wp) :: bends(size(walk%step%state), curve_numbers), state(size(walk%step%state)), values(size(walk%switches))
+      type(bracket_t) :: bracket
       integer :: i, status
 
       associate (step => walk%step)
@@ -266,24 +267,28 @@ contains
          else
             bends(:, 1) = step%length*step%rate - (step%new_state - step%state)
          end if
-         ! A switch that is zero by a few roundings where the last kink ended its step is past it
-         low = 0.0_wp
-         high = 1.0_wp
-         changes = walk%new_switches*walk%switches < 0.0_wp
-         do i = 1, halvings
-            place = 0.5_wp*(low + high)
+         place = 1.0_wp
+         values = walk%new_switches
+         do i = 1, size(values)
+            ! A switch that has kept its sign up to the first zero so far has none before
+            if (.not. values(i)*walk%switches(i) < 0.0_wp) cycle
+            call start_bracket(bracket, 0.0_wp, place, walk%switches(i), values(i), past_zero)
+            status = 0
+            do while (bracket%status == root_wanted .and. status == 0)
+               state = curve_state(step%state, step%new_state, bends, bracket%trial)
+               call problem%get_switches(step%time + bracket%trial*step%length, state, values, status)
+               if (status == 0) call narrow_bracket(bracket, values(i))
+            end do
+            if (status /= 0) exit
+            place = min(place, bracket%trial + past_zero)
+            if (.not. any(walk%new_switches(i + 1:)*walk%switches(i + 1:) < 0.0_wp)) exit
             state = curve_state(step%state, step%new_state, bends, place)
             call problem%get_switches(step%time + place*step%length, state, values, status)
             if (status /= 0) exit
-            if (any(changes .and. values*walk%switches <= 0.0_wp)) then
-               high = place
-            else
-               low = place
-            end if
          end do
       end associate
-      place = high
-      if (high <= near_end) place = 2.0_wp
+      ! A switch that is zero by a few roundings where the last kink ended its step is past it
+      if (place <= near_end) place = 2.0_wp
    end function first_kink
 
 end module camroller_ode_switching

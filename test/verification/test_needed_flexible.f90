@@ -146,9 +146,9 @@ contains
          "a train that does not matter stays")
       if (allocated(error)) return
       ! the parts that a rigid train cannot have are in the estimate of the whole
-      call check(error, choice%bound <= estimate_of(choice, effect_dynamics) + sum(choice%decisions%estimates(1), &
+      call check(error, choice%bound <= (estimate_of(choice, effect_dynamics) + sum(choice%decisions%estimates(1), &
          mask=.not. choice%decisions%is_used .and. choice%decisions%effect /= effect_dynamics &
-         .and. choice%decisions%effect /= effect_surge)*(1.0_wp + 1.0e-12_wp), "a part of the train counts twice")
+         .and. choice%decisions%effect /= effect_surge))*(1.0_wp + 1.0e-12_wp), "a part of the train counts twice")
       if (allocated(error)) return
       rigid = chosen
       rigid%effects%select = "listed"
