@@ -2,8 +2,9 @@
 !>
 !> In: derivatives of the rates. Out: factors of `shift I - J`, solutions. Places are integrals of speeds, and modes of the spring
 !> follow the valve's acceleration alone: both are eliminated in closed form. Speeds of finger, valve and plunger, sliding speed and
-!> pressure remain, three or five unknowns, whose matrix LAPACK inverts: the stages of a step solve eight times with it. Source of the elimination of places: Hairer and Wanner, Solving
-!> Ordinary Differential Equations II, 2nd ed., Springer (1996), section IV.8, special structures.
+!> pressure remain, three or five unknowns, whose matrix LAPACK inverts: the stages of a step solve eight times with it. Source of the
+!> elimination of places: Hairer and Wanner, Solving Ordinary Differential Equations II, 2nd ed., Springer (1996), section IV.8,
+!> special structures.
 !>
 !> With u the solution, r the right-hand side, `sigma` the shift and `mu` the derivative of a place's rate over its speed:
 !>
@@ -90,8 +91,8 @@ contains
       !> In: right-hand side [state/rad]; out: solution [state]
       real(wp), intent(inout) :: right_side(:)
 
-      ! Right-hand side and solution of what remains [state/rad], [state]; derivative of a place's rate over its speed [any]; part of
-      ! a place that is known [state]
+      ! Right-hand side and solution of what remains [state/rad], [state]; derivative of a place's rate over its speed [any]; part
+      ! of a place that is known [state]
       real(wp) :: side(5), unknown(5), by_speed, known
       ! Valve's row of the right-hand side [m/s/rad]; 1 over the shift [rad]
       real(wp) :: valve_side, per_shift
