@@ -2,8 +2,8 @@
 !>
 !> In: derivatives of the rates. Out: factors of `shift I - J`, solutions. Places are integrals of speeds, and modes of the spring
 !> follow the valve's acceleration alone: both are eliminated in closed form. Speeds of finger, valve and plunger, sliding speed and
-!> pressure remain, three or five unknowns, whose matrix LAPACK inverts: the stages of a step solve eight times with it. Source of the
-!> elimination of places: Hairer and Wanner, Solving Ordinary Differential Equations II, 2nd ed., Springer (1996), section IV.8,
+!> pressure remain, three or five unknowns, whose matrix LAPACK inverts: the stages of a step solve eight times with it. Source of
+!> the elimination of places: Hairer and Wanner, Solving Ordinary Differential Equations II, 2nd ed., Springer (1996), section IV.8,
 !> special structures.
 !>
 !> With u the solution, r the right-hand side, `sigma` the shift and `mu` the derivative of a place's rate over its speed:
