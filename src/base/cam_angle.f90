@@ -3,11 +3,11 @@
 !> In: an angle from full lift, as the solver counts it. Out: the angle in degrees, or in words.
 module camroller_cam_angle
    use camroller_kinds, only : wp, degree
-   use camroller_number_text, only : fixed_text
+   use camroller_number_text, only : append_fixed, fixed_text
    implicit none
    private
 
-   public :: file_angle, cam_angle_text
+   public :: file_angle, cam_angle_text, append_cam_angle
 
 contains
 
@@ -32,5 +32,19 @@ contains
 
       text = "cam angle "//fixed_text(file_angle(angle), decimals)//" deg"
    end function cam_angle_text
+
+   !> Append a cam angle in these words to a text.
+   pure subroutine append_cam_angle(text, angle, decimals)
+      !> The text
+      character(len=:), allocatable, intent(inout) :: text
+      !> Cam angle from full lift [rad]
+      real(wp), intent(in) :: angle
+      !> Digits behind the point
+      integer, intent(in) :: decimals
+
+      text = text//"cam angle "
+      call append_fixed(text, file_angle(angle), decimals)
+      text = text//" deg"
+   end subroutine append_cam_angle
 
 end module camroller_cam_angle
