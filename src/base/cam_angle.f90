@@ -3,7 +3,7 @@
 !> In: an angle from full lift, as the solver counts it. Out: the angle in degrees, or in words.
 module camroller_cam_angle
    use camroller_kinds, only : wp, degree
-   use camroller_number_text, only : append_fixed, fixed_text
+   use camroller_number_text, only : fixed_text, number_length, write_number
    implicit none
    private
 
@@ -42,9 +42,10 @@ contains
       !> Digits behind the point
       integer, intent(in) :: decimals
 
-      text = text//"cam angle "
-      call append_fixed(text, file_angle(angle), decimals)
-      text = text//" deg"
+      character(len=number_length) :: buffer
+
+      call write_number(file_angle(angle), "f", decimals, buffer)
+      text = text//"cam angle "//trim(adjustl(buffer))//" deg"
    end subroutine append_cam_angle
 
 end module camroller_cam_angle

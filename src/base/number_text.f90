@@ -10,9 +10,8 @@ module camroller_number_text
    private
 
    public :: number_text, fixed_text, scientific_text, millimetres_text, integer_text, hexadecimal_text, right_text
-   public :: append_number, append_fixed
    public :: counted, agreeing
-   public :: write_number, number_length
+   public :: append_number, write_number, number_length
    public :: is_number, is_beyond_range
 
    !> A number with as few digits as give it back, or rounded to a number of significant digits
@@ -145,21 +144,6 @@ contains
       call write_plain(value, digits, digits, buffer, length)
       text = text//buffer(:length)
    end subroutine append_number
-
-   !> Append a number with so many digits after the point to a text, see `append_number`.
-   pure subroutine append_fixed(text, value, decimals)
-      !> The text
-      character(len=:), allocatable, intent(inout) :: text
-      !> The number [any unit]
-      real(wp), intent(in) :: value
-      !> Digits after the point, from 0 to 16
-      integer, intent(in) :: decimals
-
-      character(len=number_length) :: buffer
-
-      call write_number(value, "f", decimals, buffer)
-      text = text//trim(adjustl(buffer))
-   end subroutine append_fixed
 
    !> A length as decks have it, for messages.
    pure function millimetres_text(length) result(text)

@@ -28,7 +28,8 @@ module camroller_spin
       logical :: has_first = .false.
       !> Where the last one is: cam angle from full lift [rad], sliding speed [m/s]
       real(wp) :: angle = 0.0_wp, sliding_speed = 0.0_wp
-      !> How it changes, see `spin_slopes_t`; zero before there is a first one
+      !> How it changes, see `start_slopes` of `spin_slopes_t`; zero before there is a first one [N s/m], [N s], [s/m]; [N/rad],
+      !> [N m/rad], [1/rad]
       real(wp) :: slopes(3, 2) = 0.0_wp
    end type nearby_t
 
