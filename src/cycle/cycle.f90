@@ -17,7 +17,7 @@ module camroller_cycle
    use camroller_error_estimate, only : contact_accuracy_for
    use camroller_events, only : find_stops, cycle_stops
    use camroller_fold, only : explain_end
-   use camroller_spin, only : nearby_t, spin_problem_t, rolling_speed_at
+   use camroller_spin, only : spin_problem_t, rolling_speed_at
    use camroller_cycle_start, only : choose_start, run_up_stops, rolling_speed_at_angle
    use camroller_settled_slip, only : settle
    use camroller_quasi_static, only : quasi_static_cycle
@@ -112,7 +112,6 @@ contains
       type(error_t), allocatable, intent(out) :: error
 
       type(spin_problem_t) :: problem
-      type(nearby_t), target :: nearby
       class(method_t), allocatable :: method
       type(options_t) :: options
       ! Stops within one turn [rad]
@@ -139,8 +138,6 @@ contains
       end if
       call choose_method(cycle, model, resolved, scale, problem, method, options, error)
       if (allocated(error)) return
-      problem%nearby => nearby
-      nearby%last%is_touching = .false.
       if (cycle%has_surface_speed) state(1) = rolling_speed_at_angle(model, cycle%start) - state(1)
       cycle%stops = cycle_stops(stops, cycle%start)
 
