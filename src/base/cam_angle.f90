@@ -3,11 +3,11 @@
 !> In: an angle from full lift, as the solver counts it. Out: the angle in degrees, or in words.
 module camroller_cam_angle
    use camroller_kinds, only : wp, degree
-   use camroller_number_text, only : fixed_text
+   use camroller_number_text, only : fixed_text, number_length, write_number
    implicit none
    private
 
-   public :: file_angle, cam_angle_text
+   public :: file_angle, cam_angle_text, append_cam_angle
 
 contains
 
@@ -32,5 +32,20 @@ contains
 
       text = "cam angle "//fixed_text(file_angle(angle), decimals)//" deg"
    end function cam_angle_text
+
+   !> Append a cam angle in these words to a text.
+   pure subroutine append_cam_angle(text, angle, decimals)
+      !> The text
+      character(len=:), allocatable, intent(inout) :: text
+      !> Cam angle from full lift [rad]
+      real(wp), intent(in) :: angle
+      !> Digits behind the point
+      integer, intent(in) :: decimals
+
+      character(len=number_length) :: buffer
+
+      call write_number(file_angle(angle), "f", decimals, buffer)
+      text = text//"cam angle "//trim(adjustl(buffer))//" deg"
+   end subroutine append_cam_angle
 
 end module camroller_cam_angle

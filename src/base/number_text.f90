@@ -11,7 +11,7 @@ module camroller_number_text
 
    public :: number_text, fixed_text, scientific_text, millimetres_text, integer_text, hexadecimal_text, right_text
    public :: counted, agreeing
-   public :: write_number, number_length
+   public :: append_number, write_number, number_length
    public :: is_number, is_beyond_range
 
    !> A number with as few digits as give it back, or rounded to a number of significant digits
@@ -127,6 +127,23 @@ contains
       call write_plain(value, digits, digits, buffer, length)
       text = buffer
    end function rounded_text
+
+   !> Append a number rounded to so many significant digits to a text. It is written once, where a function writes it again to know
+   !> how long it is.
+   pure subroutine append_number(text, value, digits)
+      !> The text
+      character(len=:), allocatable, intent(inout) :: text
+      !> The number [any unit]
+      real(wp), intent(in) :: value
+      !> Digits, from 1 to 17
+      integer, intent(in) :: digits
+
+      character(len=number_length) :: buffer
+      integer :: length
+
+      call write_plain(value, digits, digits, buffer, length)
+      text = text//buffer(:length)
+   end subroutine append_number
 
    !> A length as decks have it, for messages.
    pure function millimetres_text(length) result(text)

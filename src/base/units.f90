@@ -90,7 +90,8 @@ contains
          length = len_trim(known_units(i)%suffix)
          start = len_trim(key) - length
          if (length <= longest .or. start < 2) cycle
-         if (key(start:len_trim(key)) /= "_"//trim(known_units(i)%suffix)) cycle
+         if (key(start:start) /= "_") cycle
+         if (key(start + 1:len_trim(key)) /= known_units(i)%suffix(:length)) cycle
          longest = length
          unit = known_units(i)
       end do

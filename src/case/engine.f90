@@ -3,7 +3,7 @@
 !> In: what a case says. Out: phases of cams, crank angles, the speed in words.
 module camroller_engine
    use camroller_kinds, only : wp, two_pi
-   use camroller_number_text, only : number_text
+   use camroller_number_text, only : append_number
    implicit none
    private
 
@@ -53,10 +53,13 @@ contains
       !> The words
       character(len=:), allocatable, intent(out) :: text
 
+      text = ""
       if (turns > 0.0_wp) then
-         text = number_text(turns*speed*60.0_wp/two_pi, digits)//" rev/min of the crankshaft"
+         call append_number(text, turns*speed*60.0_wp/two_pi, digits)
+         text = text//" rev/min of the crankshaft"
       else
-         text = number_text(speed*60.0_wp/two_pi, digits)//" rev/min"
+         call append_number(text, speed*60.0_wp/two_pi, digits)
+         text = text//" rev/min"
       end if
    end subroutine write_speed
 

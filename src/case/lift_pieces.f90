@@ -7,7 +7,7 @@ module camroller_lift_pieces
    implicit none
    private
 
-   public :: lift_stops_between, find_edges, scan_t, start_scan, has_next, next_angle, sort
+   public :: lift_stops_between, find_edges, scan_t, start_scan, has_next, next_angle, leave_rest, sort
 
    !> Place in a scan of the pieces of the lift
    type :: scan_t
@@ -149,6 +149,14 @@ contains
          if (scan%step < scan%steps) angle = edges(piece) + (edges(piece + 1) - edges(piece))*scan%step/scan%steps
       end associate
    end subroutine next_angle
+
+   !> Leave out what remains of a rest of the valve, whose ends are kinks: all angles of the piece but its last two.
+   pure subroutine leave_rest(scan)
+      !> The scan, which has reached two angles of the rest
+      type(scan_t), intent(inout) :: scan
+
+      if (scan%step < scan%steps) scan%step = max(scan%step, scan%steps - 2)
+   end subroutine leave_rest
 
    !> Sort a short list by insertion.
    pure subroutine sort(values)

@@ -5,7 +5,7 @@
 module camroller_film_range
    use camroller_kinds, only : wp
    use camroller_film, only : film_law_names, groups_t, law_masjedi_khonsari_rough, law_table, published_range
-   use camroller_number_text, only : number_text
+   use camroller_number_text, only : append_number
    implicit none
    private
 
@@ -77,16 +77,26 @@ contains
       words = "in the event and on the base circle"
       if (range%event_share <= 0.0_wp) words = "on the base circle"
       if (range%share - range%event_share <= epsilon(1.0_wp)*range%share) words = "in the event"
-      words = words//", where "//number_text(100.0_wp*range%outside_loss/max(range%loss, tiny(1.0_wp)), 2)// &
-         & " % of the follower's friction arises"
+      words = words//", where "
+      call append_number(words, 100.0_wp*range%outside_loss/max(range%loss, tiny(1.0_wp)), 2)
+      words = words//" % of the follower's friction arises"
       if (law == law_table) return
       bounds = published_range(law)
       do i = 1, 3
-         if (range%smallest(i) < bounds(1, i)) words = words//"; "//trim(group_names(i))//" down to "// &
-            & number_text(range%smallest(i), 3)
-         if (range%largest(i) > bounds(2, i)) words = words//"; "//trim(group_names(i))//" up to "//number_text(range%largest(i), 3)
-         if (range%smallest(i) < bounds(1, i) .or. range%largest(i) > bounds(2, i)) words = words//", published for "// &
-            & number_text(bounds(1, i), 3)//" to "//number_text(bounds(2, i), 3)
+         if (range%smallest(i) < bounds(1, i)) then
+            words = words//"; "//trim(group_names(i))//" down to "
+            call append_number(words, range%smallest(i), 3)
+         end if
+         if (range%largest(i) > bounds(2, i)) then
+            words = words//"; "//trim(group_names(i))//" up to "
+            call append_number(words, range%largest(i), 3)
+         end if
+         if (range%smallest(i) < bounds(1, i) .or. range%largest(i) > bounds(2, i)) then
+            words = words//", published for "
+            call append_number(words, bounds(1, i), 3)
+            words = words//" to "
+            call append_number(words, bounds(2, i), 3)
+         end if
       end do
       covering = ""
       do other = 1, size(film_law_names)

@@ -6,6 +6,7 @@ module camroller_cycle_start
    use camroller_model, only : model_t, evaluate_geometry
    use camroller_ramp, only : speed_on_ramp
    use camroller_kinematics, only : position_t
+   use camroller_lift, only : is_at_rest
    use camroller_spin, only : rolling_speed_at
    use camroller_balance, only : follow_balance, least_slip
    implicit none
@@ -41,7 +42,8 @@ contains
       ! Largest speed of pure rolling, accuracy of the scan [m/s]
       real(wp) :: largest_rolling, tolerance
       integer :: i
-      logical :: is_found
+      ! Is there a balance; is it one of a valve at rest, the same at all angles of the rest, as it was at the angle before?
+      logical :: is_found, rests, rested
 
       start = 0.0_wp
       sliding_speed = 0.0_wp
@@ -49,9 +51,15 @@ contains
       fastest = -1.0_wp
       largest_rolling = 0.0_wp
       balance = 0.0_wp
+      is_found = .false.
+      rests = .false.
       tolerance = scan_tolerance*abs(rolling_speed_at_angle(model, -pi))
       do i = 0, balance_points - 1
          angle = -pi + (i + 0.5_wp)*two_pi/balance_points
+         rested = rests .and. is_found
+         rests = is_at_rest(model%lift_law, angle) .and. .not. (allocated(model%gas) .or. allocated(model%surface) .or. &
+            & model%ramp%is_moving)
+         if (rests .and. rested) cycle
          call follow_balance(model, angle, tolerance, position, balance, decay_rate, evaluations, is_found)
          largest_rolling = max(largest_rolling, abs(rolling_speed_at(model, position)))
          if (.not. is_found) cycle

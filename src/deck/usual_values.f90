@@ -4,7 +4,7 @@
 !> meant, as `defaults` shows the range. Ranges hold engines from motorcycles to trucks, from cranking to their limit.
 module camroller_usual_values
    use camroller_kinds, only : wp
-   use camroller_deck_schema, only : schema_t, range_t
+   use camroller_deck_schema, only : find_group, find_key, schema_t, range_t
    implicit none
    private
 
@@ -155,18 +155,31 @@ contains
       !> Groups and keys
       type(schema_t), intent(inout) :: schema
 
-      character(len=:), allocatable :: name
-      integer :: i, k
+      type(usual_t) :: range
+      integer :: i, point
 
-      do k = 1, schema%key_count
-         name = trim(schema%groups(schema%keys(k)%group)%name)//"."//trim(schema%keys(k)%name)
-         if (index(name, "second_lift.") == 1) name = name(8:)
-         do i = 1, size(usual)
-            if (usual(i)%name /= name) cycle
-            schema%keys(k)%usual = range_t(usual(i)%smallest, usual(i)%largest)
-            schema%keys(k)%has_usual = .true.
-         end do
+      do i = 1, size(usual)
+         range = usual(i)
+         point = index(range%name, ".")
+         call add_range(schema, range%name(:point - 1), range%name(point + 1:), range)
+         if (range%name(:point) == "lift.") call add_range(schema, "second_lift", range%name(point + 1:), range)
       end do
    end subroutine add_usual_ranges
+
+   !> Give one key its usual range.
+   pure subroutine add_range(schema, group, key, range)
+      !> Groups and keys
+      type(schema_t), intent(inout) :: schema
+      !> Names of group and key
+      character(len=*), intent(in) :: group, key
+      !> The range
+      type(usual_t), intent(in) :: range
+
+      integer :: position
+
+      position = find_key(schema, find_group(schema, group), key)
+      schema%keys(position)%usual = range_t(range%smallest, range%largest)
+      schema%keys(position)%has_usual = .true.
+   end subroutine add_range
 
 end module camroller_usual_values

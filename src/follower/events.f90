@@ -4,7 +4,7 @@
 !> are known before a cycle is integrated, and no step passes over one.
 module camroller_events
    use camroller_kinds, only : wp, pi, two_pi
-   use camroller_lift_pieces, only : find_edges, scan_t, start_scan, has_next, next_angle, sort
+   use camroller_lift_pieces, only : find_edges, scan_t, start_scan, has_next, leave_rest, next_angle, sort
    use camroller_model, only : model_t, evaluate_geometry
    use camroller_joints, only : jumps_with_tip, jumps_with_valve
    use camroller_lift, only : is_at_rest
@@ -113,6 +113,7 @@ contains
          rests = is_at_rest(model%lift_law, places(3))
          if (rested .and. rests .and. rests_alike) then
             first = i
+            call leave_rest(scan)
             cycle
          end if
          after = switches(model, places(3))

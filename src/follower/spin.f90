@@ -26,6 +26,11 @@ module camroller_spin
       type(contact_t) :: first, last
       !> Is there a first one yet?
       logical :: has_first = .false.
+      !> Where the last one is: cam angle from full lift [rad], sliding speed [m/s]
+      real(wp) :: angle = 0.0_wp, sliding_speed = 0.0_wp
+      !> How it changes, see `start_slopes` of `spin_slopes_t`; zero before there is a first one [N s/m], [N s], [s/m]; [N/rad],
+      !> [N m/rad], [1/rad]
+      real(wp) :: slopes(3, 2) = 0.0_wp
    end type nearby_t
 
    !> The roller's spin over the cam angle
@@ -73,19 +78,18 @@ contains
 
       type(position_t) :: position
       type(moments_t) :: moments
-      type(contact_t) :: contact
-      type(contact_t), pointer :: start
-      ! Gas force [N]; angular acceleration of the roller [rad/s^2]
-      real(wp) :: force, acceleration
+      type(contact_t) :: contact, start
+      ! Gas force, sliding speed [m/s]; angular acceleration of the roller [rad/s^2]
+      real(wp) :: force, sliding_speed, acceleration
 
       rate = 0.0_wp
-      start => null()
-      if (associated(self%nearby)) start => self%nearby%last
       call follow_ramp(self%model, time)
       call evaluate_loading(self%model, time, position, force, moments, status)
       if (status /= 0) return
-      call evaluate_spin(self%model, position, moments, sliding_speed_of(self, position, state(1)), contact, acceleration, &
-         & status, self%accuracy, self%mobilised, start)
+      sliding_speed = sliding_speed_of(self, position, state(1))
+      call start_from(self%nearby, time, sliding_speed, start)
+      call evaluate_spin(self%model, position, moments, sliding_speed, contact, acceleration, status, self%accuracy, &
+         & self%mobilised, start)
       if (status /= 0) return
       if (self%has_surface_speed) then
          rate(1) = surface_rate(self%model, acceleration)
@@ -227,7 +231,7 @@ contains
       ! Surface of the roller per turn of the cam [m/rad over rad/s]; relative error of load and forces that is good enough [-];
       ! change of the cam's speed with the cam angle [rad/s/rad]
       real(wp) :: factor, accuracy, gain
-      type(contact_t), pointer :: start
+      type(contact_t) :: start
       logical :: has_difference
 
       if (self%has_surface_speed) then
@@ -241,15 +245,14 @@ contains
       if (has_difference) accuracy = min(accuracy, difference_accuracy)
       gain = 0.0_wp
       if (self%model%ramp%is_moving .and. .not. has_difference) gain = self%model%speed_slope
-      start => null()
-      if (associated(self%nearby)) start => self%nearby%last
+      call start_from(self%nearby, time, state(1), start)
       call follow_ramp(self%model, time)
       call evaluate_loading(self%model, time, position, force, moments, status)
       if (status /= 0) return
       call evaluate_spin_slopes(self%model, time, position, moments, state(1), slopes, status, accuracy, self%mobilised, &
          & start, gain)
       if (status /= 0) return
-      if (associated(self%nearby)) call remember(self%nearby, slopes%contact)
+      if (associated(self%nearby)) call remember(self%nearby, time, state(1), slopes)
       factor = self%model%roller_radius/self%model%speed
       linear%rate(1) = rolling_speed_slope(self%model, position) - factor*slopes%acceleration
       linear%jacobian(1, 1) = -factor*slopes%speed_slope
@@ -277,16 +280,42 @@ contains
    end function needs_difference
 
    !> Keep a contact that has been solved.
-   pure subroutine remember(nearby, contact)
+   pure subroutine remember(nearby, angle, sliding_speed, slopes)
       !> The contacts
       type(nearby_t), intent(inout) :: nearby
-      !> The one that comes last
-      type(contact_t), intent(in) :: contact
+      !> Cam angle from full lift [rad], sliding speed [m/s]
+      real(wp), intent(in) :: angle, sliding_speed
+      !> The one that comes last, with its changes
+      type(spin_slopes_t), intent(in) :: slopes
 
-      if (.not. nearby%has_first) nearby%first = contact
+      if (.not. nearby%has_first) nearby%first = slopes%contact
       nearby%has_first = .true.
-      nearby%last = contact
+      nearby%last = slopes%contact
+      nearby%angle = angle
+      nearby%sliding_speed = sliding_speed
+      nearby%slopes = slopes%start_slopes
    end subroutine remember
+
+   !> Contact to start from: the last one, moved along its slopes; without contact where there is none.
+   pure subroutine start_from(nearby, angle, sliding_speed, start)
+      !> The contacts, where an integration keeps them
+      type(nearby_t), pointer, intent(in) :: nearby
+      !> Cam angle from full lift [rad], sliding speed [m/s]
+      real(wp), intent(in) :: angle, sliding_speed
+      !> What to start from
+      type(contact_t), intent(out) :: start
+
+      real(wp) :: change(3) ! of tangential force [N], torque of the bearing [N m], film ratio [-]
+
+      start%is_touching = .false.
+      if (.not. associated(nearby)) return
+      start = nearby%last
+      if (.not. start%is_touching) return
+      change = nearby%slopes(:, 1)*(sliding_speed - nearby%sliding_speed) + nearby%slopes(:, 2)*(angle - nearby%angle)
+      start%tangential_force = start%tangential_force + change(1)
+      start%bearing_torque = start%bearing_torque + change(2)
+      start%film_ratio = start%film_ratio + change(3)
+   end subroutine start_from
 
    !> Add what changing inputs do to the derivative over the cam angle: a difference at one position.
    subroutine add_inputs(self, time, sliding_speed, position, nearby, linear, counters, status)

@@ -28,6 +28,9 @@ module camroller_spin_slopes
       real(wp) :: acceleration
       !> Its derivatives over the sliding speed [rad/s/m] and, at constant sliding speed, over the cam angle [1/s^2]
       real(wp) :: speed_slope, angle_slope
+      !> Change of what a contact nearby starts from: tangential force [N], torque of the bearing [N m], film ratio [-], over the
+      !> sliding speed [m/s] and, at constant sliding speed, over the cam angle [rad], shape (3, 2); zero without contact
+      real(wp) :: start_slopes(3, 2)
    end type spin_slopes_t
 
    !> Changes of forces and torque of a contact at constant load, and with the load
@@ -85,6 +88,7 @@ contains
          speed_slope = 0.0_wp
          angle_slope = 0.0_wp
          slopes%acceleration = 0.0_wp
+         slopes%start_slopes = 0.0_wp
          call set_speeds(model, position, sliding_speed, contact)
          call solve_at_speeds(model, position, moments, contact, basis, status, accuracy, mobilised, start)
          if (status /= 0) return
@@ -113,6 +117,8 @@ contains
          end if
          speed_slope = slope_along(model, changes%by_speed, changes%by_load, load_by_speed)
          angle_slope = slope_along(model, changes%by_angle, changes%by_load, load_by_angle)
+         slopes%start_slopes(:, 1) = start_along(contact, changes%by_speed, changes%by_load, load_by_speed)
+         slopes%start_slopes(:, 2) = start_along(contact, changes%by_angle, changes%by_load, load_by_angle)
       end associate
    end subroutine evaluate_spin_slopes
 
@@ -295,6 +301,21 @@ contains
       slope = acceleration_of(model, slopes%traction + by_load%traction*load, &
          & slopes%rolling_resistance + by_load%rolling_resistance*load, slopes%bearing_torque + by_load%bearing_torque*load)
    end function slope_along
+
+   !> Change along a motion, with the load that goes with it, of what a contact nearby starts from.
+   pure function start_along(contact, slopes, by_load, load) result(slope)
+      !> State of the contact
+      type(contact_t), intent(in) :: contact
+      !> Changes at constant load, changes with ln(load)
+      type(slopes_t), intent(in) :: slopes, by_load
+      !> Change of the load, its logarithm [-]
+      real(wp), intent(in) :: load
+      !> Changes of tangential force [N], torque of the bearing [N m], film ratio [-]
+      real(wp) :: slope(3)
+
+      slope = [slopes%tangential_force + by_load%tangential_force*load, slopes%bearing_torque + by_load%bearing_torque*load, &
+         & contact%film_ratio*(slopes%film_ratio + by_load%film_ratio*load)]
+   end function start_along
 
    !> Angular acceleration that forces make, or its change by theirs.
    pure function acceleration_of(model, traction, rolling_resistance, bearing_torque) result(acceleration)

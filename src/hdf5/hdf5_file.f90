@@ -6,17 +6,14 @@
 !> it.
 module camroller_hdf5_file
    use, intrinsic :: iso_c_binding, only : c_associated, c_char, c_f_pointer, c_int, c_int64_t, c_loc, c_ptr
-   use, intrinsic :: ieee_arithmetic, only : ieee_quiet_nan, ieee_value
-   use hdf5, only : hid_t, hsize_t, size_t, h5dcreate_f, h5dget_space_f, h5dwrite_f, h5fclose_f, h5fcreate_f, &
-      & h5fflush_f, h5fget_filesize_f, h5gcreate_f, h5oclose_f, h5pclose_f, h5pcreate_f, h5pset_attr_creation_order_f, &
-      & h5pset_buffer_f, h5pset_chunk_f, h5pset_chunk_cache_f, h5pset_deflate_f, h5pset_fclose_degree_f, h5pset_fill_value_f, &
-      & h5pset_link_creation_order_f, h5pset_obj_track_times_f, h5pset_shuffle_f, h5sclose_f, h5sselect_hyperslab_f, &
-      & h5tclose_f, h5f_acc_excl_f, h5f_close_strong_f, h5f_scope_global_f, h5p_crt_order_indexed_f, &
-      & h5p_crt_order_tracked_f, h5p_dataset_access_f, h5p_dataset_create_f, h5p_file_access_f, h5p_file_create_f, &
-      & h5p_dataset_xfer_f, h5p_default_f, h5p_group_create_f, h5s_all_f, h5s_select_set_f, h5t_ieee_f64le, h5t_native_double, &
-      & h5t_native_integer, h5t_std_i32le
+   use hdf5, only : hid_t, hsize_t, h5dcreate_f, h5dget_space_f, h5dwrite_f, h5fclose_f, h5fcreate_f, h5fflush_f, &
+      & h5fget_filesize_f, h5gcreate_f, h5oclose_f, h5pclose_f, h5pcopy_f, h5pcreate_f, h5pset_chunk_f, h5pset_deflate_f, &
+      & h5pset_fclose_degree_f, h5pset_shuffle_f, h5sclose_f, h5sselect_hyperslab_f, h5tclose_f, h5f_acc_excl_f, &
+      & h5f_close_strong_f, h5f_scope_global_f, h5p_file_access_f, h5p_file_create_f, h5p_default_f, h5p_group_create_f, &
+      & h5s_all_f, h5s_select_set_f, h5t_ieee_f64le, h5t_native_double, h5t_native_integer, h5t_std_i32le
    use camroller_kinds, only : wp
    use camroller_error, only : error_t, raise, kind_file
+   use camroller_hdf5_lists, only : close_lists, object_list, open_lists
    use camroller_hdf5_status, only : raise_hdf5, start_hdf5
    use camroller_hdf5_object, only : hdf5_object_t, letters_of, member_name, open_space, open_text_type, raise_object
    use camroller_system_file, only : reserve_space, set_file_size, sync_descriptor
@@ -38,8 +35,6 @@ module camroller_hdf5_file
 
    !> Space kept ready for the library's own records [byte]
    integer(c_int64_t), parameter :: spare_space = 524288_c_int64_t
-   !> Buffer for texts on their way to a file [byte]; the library's own is a megabyte, cleared for each text
-   integer(hsize_t), parameter :: conversion_size = 4096_hsize_t
 
    interface
       function c_get_handle(file, access, address) bind(C, name="H5Fget_vfd_handle") result(status)
@@ -73,9 +68,11 @@ contains
       call object_list(h5p_file_create_f, .true., creation, status)
       call h5pcreate_f(h5p_file_access_f, access, ignored)
       if (status == 0) call h5pset_fclose_degree_f(access, h5f_close_strong_f, status)
+      if (status == 0) call open_lists(file%lists, status)
       if (status == 0) call h5fcreate_f(path, h5f_acc_excl_f, file%id, status, creation, access)
       if (status /= 0) then
          call raise_hdf5(error, "cannot create '"//shown//"'")
+         call close_lists(file%lists)
          file%id = -1_hid_t
       end if
       call h5pclose_f(creation, ignored)
@@ -161,6 +158,7 @@ contains
 
       call h5fclose_f(file%id, status)
       if (status /= 0) call raise_hdf5(error, "cannot write '"//file%file//"'")
+      call close_lists(file%lists)
       file%id = -1_hid_t
    end subroutine close_file
 
@@ -173,6 +171,7 @@ contains
 
       if (file%id < 0_hid_t) return
       call h5fclose_f(file%id, ignored)
+      call close_lists(file%lists)
       file%id = -1_hid_t
    end subroutine discard_file
 
@@ -210,6 +209,7 @@ contains
 
       group%name = member_name(parent, name)
       group%file = parent%file
+      group%lists = parent%lists
       call object_list(h5p_group_create_f, .true., creation, status)
       if (status == 0) call h5gcreate_f(parent%id, name, group%id, status, gcpl_id=creation)
       if (status /= 0) call raise_object(error, group)
@@ -414,29 +414,26 @@ contains
       !> File error
       type(error_t), allocatable, intent(out) :: error
 
-      integer(hid_t) :: creation, access, space
+      integer(hid_t) :: shared, creation, space
       integer :: status, ignored
 
       dataset%name = member_name(parent, name)
       dataset%file = parent%file
-      call object_list(h5p_dataset_create_f, .false., creation, status)
-      if (status == 0 .and. value_type == h5t_ieee_f64le) then
-         call h5pset_fill_value_f(creation, h5t_native_double, ieee_value(1.0_wp, ieee_quiet_nan), status)
-      end if
+      dataset%lists = parent%lists
+      shared = merge(parent%lists%numbers, parent%lists%others, value_type == h5t_ieee_f64le)
+      creation = shared
+      status = 0
+      if (size(chunk) > 0) call h5pcopy_f(shared, creation, status)
       if (status == 0 .and. size(chunk) > 0) call h5pset_chunk_f(creation, size(chunk), int(chunk, hsize_t), status)
       if (status == 0 .and. compression > 0) call h5pset_shuffle_f(creation, status)
       if (status == 0 .and. compression > 0) call h5pset_deflate_f(creation, compression, status)
-      call h5pcreate_f(h5p_dataset_access_f, access, ignored)
-      ! Without a cache a chunk takes its space when it is written, not at some later time
-      if (status == 0) call h5pset_chunk_cache_f(access, 1_size_t, 0_size_t, 1.0, status)
       call open_space(extents, space, ignored)
       if (status == 0) then
-         call h5dcreate_f(parent%id, name, value_type, space, dataset%id, status, creation, dapl_id=access)
+         call h5dcreate_f(parent%id, name, value_type, space, dataset%id, status, creation, dapl_id=parent%lists%access)
       end if
       if (status /= 0) call raise_object(error, dataset)
       call h5sclose_f(space, ignored)
-      call h5pclose_f(access, ignored)
-      call h5pclose_f(creation, ignored)
+      if (size(chunk) > 0) call h5pclose_f(creation, ignored)
    end subroutine create_dataset
 
    !> Write a block of a dataset.
@@ -454,44 +451,22 @@ contains
       !> File error
       type(error_t), allocatable, intent(out) :: error
 
-      integer(hid_t) :: file_space, memory_space, transfer
+      integer(hid_t) :: file_space, memory_space
       integer :: status, ignored
 
-      call h5pcreate_f(h5p_dataset_xfer_f, transfer, status)
-      if (status == 0) call h5pset_buffer_f(transfer, conversion_size, status)
       if (size(first) == 0) then
-         if (status == 0) call h5dwrite_f(dataset%id, memory_type, address, status, h5s_all_f, h5s_all_f, transfer)
+         call h5dwrite_f(dataset%id, memory_type, address, status, h5s_all_f, h5s_all_f, dataset%lists%transfer)
       else
-         if (status == 0) call h5dget_space_f(dataset%id, file_space, status)
+         call h5dget_space_f(dataset%id, file_space, status)
          call open_space(extents, memory_space, ignored)
          if (status == 0) call h5sselect_hyperslab_f(file_space, h5s_select_set_f, int(first, hsize_t), &
             & int(extents, hsize_t), status)
-         if (status == 0) call h5dwrite_f(dataset%id, memory_type, address, status, memory_space, file_space, transfer)
+         if (status == 0) call h5dwrite_f(dataset%id, memory_type, address, status, memory_space, file_space, &
+            & dataset%lists%transfer)
          call h5sclose_f(memory_space, ignored)
          call h5sclose_f(file_space, ignored)
       end if
       if (status /= 0) call raise_object(error, dataset)
-      call h5pclose_f(transfer, ignored)
    end subroutine write_block
-
-   !> Creation properties without time stamps, with members (where the object has some) in order of creation.
-   subroutine object_list(class, has_members, list, status)
-      !> Class of the property list
-      integer(hid_t), intent(in) :: class
-      !> Whether the object holds others
-      logical, intent(in) :: has_members
-      !> The property list
-      integer(hid_t), intent(out) :: list
-      !> 0 where all went well
-      integer, intent(out) :: status
-
-      integer :: order
-
-      order = ior(h5p_crt_order_tracked_f, h5p_crt_order_indexed_f)
-      call h5pcreate_f(class, list, status)
-      if (status == 0) call h5pset_obj_track_times_f(list, .false., status)
-      if (status == 0) call h5pset_attr_creation_order_f(list, order, status)
-      if (status == 0 .and. has_members) call h5pset_link_creation_order_f(list, order, status)
-   end subroutine object_list
 
 end module camroller_hdf5_file

@@ -6,6 +6,7 @@ module camroller_hdf5_object
    use hdf5, only : hid_t, hsize_t, h5screate_f, h5screate_simple_f, h5tcopy_f, h5tset_cset_f, h5s_scalar_f, &
       & h5t_cset_utf8_f, h5t_string
    use camroller_error, only : error_t
+   use camroller_hdf5_lists, only : lists_t
    use camroller_hdf5_status, only : raise_hdf5
    implicit none
    private
@@ -20,6 +21,8 @@ module camroller_hdf5_object
       character(len=:), allocatable :: name
       !> File as messages call it
       character(len=:), allocatable :: file
+      !> Property lists of the file, where it is written
+      type(lists_t) :: lists
       !> Disk space set aside for a file [byte]
       integer(c_int64_t) :: reserved = 0_c_int64_t
       !> Size of a file that is read [byte]

@@ -8,7 +8,7 @@ module camroller_deck_schema
    use camroller_names, only : name_length, write_names
    use camroller_units, only : unit_t, unit_of_key, from_si
    use camroller_deck_text, only : to_lower
-   use camroller_number_text, only : number_text, integer_text
+   use camroller_number_text, only : append_number, number_text, integer_text
    implicit none
    private
 
@@ -211,8 +211,10 @@ contains
       call add_key(schema, name, type_number, meaning, present(default) .or. present(is_optional), example)
       schema%keys(schema%key_count)%range = range
       if (.not. present(default)) return
-      schema%keys(schema%key_count)%default = &
-         & number_text(from_si(schema%keys(schema%key_count)%unit, default), default_digits)
+      associate (key => schema%keys(schema%key_count))
+         key%default = ""
+         call append_number(key%default, from_si(key%unit, default), default_digits)
+      end associate
    end subroutine add_number
 
    !> Add an integer.

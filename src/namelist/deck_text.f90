@@ -487,6 +487,7 @@ contains
 
       lower = text
       do i = 1, len(text)
+         if (text(i:i) < "A" .or. text(i:i) > "Z") cycle
          position = index(letters(27:), text(i:i))
          if (position > 0) lower(i:i) = letters(position:position)
       end do

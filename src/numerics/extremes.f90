@@ -66,7 +66,7 @@ module camroller_extremes
    integer, parameter :: most_steps = 8, most_halvings = 30
    !> Gain of an extreme that is not worth a value, over the extent of its series: over the tolerance, which makes a hundredth of
    !> the accuracy, at least, and at most [-]
-   real(wp), parameter :: worth_part = 3.0_wp, least_worth = 1.0e-6_wp, most_worth = 1.0e-5_wp
+   real(wp), parameter :: worth_part = 3.0_wp, least_worth = 1.0e-7_wp, most_worth = 1.0e-5_wp
    !> Widest distance to a neighbour that a search may begin with [rad]
    real(wp), parameter :: widest = two_pi/24.0_wp
    !> Rows for which there is room at first

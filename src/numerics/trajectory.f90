@@ -231,25 +231,27 @@ contains
       !> Slope [state/time]
       real(wp), intent(out) :: slope(:)
 
-      ! Length of the interval [time], place in it [-]
-      real(wp) :: length, place
+      ! Length of the interval [time], place in it [-], change of a component along it [state]
+      real(wp) :: length, place, change
       integer :: i
 
-      slope = 0.0_wp
       length = trajectory%time(interval + 1) - trajectory%time(interval)
-      if (length <= 0.0_wp) return
+      if (length <= 0.0_wp) then
+         slope = 0.0_wp
+         return
+      end if
       place = (time - trajectory%time(interval))/length
-      associate (bends => trajectory%bends(:, :, interval + 1), left => trajectory%state(:, interval), &
-         & right => trajectory%state(:, interval + 1))
-         do i = 1, size(slope)
-            slope(i) = right(i) - left(i) + (1.0_wp - 2.0_wp*place)*(bends(i, 1) &
-               & + place*(bends(i, 2) + place*(bends(i, 3) + place*bends(i, 4)))) &
-               & + place*(1.0_wp - place)*(bends(i, 2) + place*(2.0_wp*bends(i, 3) + place*3.0_wp*bends(i, 4)))
-            if (abs(bends(i, 5)) > 0.0_wp) slope(i) = slope(i) &
-               & + bends(i, 5)*(bends(i, 6)*exp(bends(i, 6)*place) - (exp(bends(i, 6)) - 1.0_wp))
-         end do
-      end associate
-      slope = slope/length
+      do i = 1, size(slope)
+         change = trajectory%state(i, interval + 1) - trajectory%state(i, interval)
+         associate (b1 => trajectory%bends(i, 1, interval + 1), b2 => trajectory%bends(i, 2, interval + 1), &
+            & b3 => trajectory%bends(i, 3, interval + 1), b4 => trajectory%bends(i, 4, interval + 1), &
+            & height => trajectory%bends(i, 5, interval + 1), exponent => trajectory%bends(i, 6, interval + 1))
+            slope(i) = change + (1.0_wp - 2.0_wp*place)*(b1 + place*(b2 + place*(b3 + place*b4))) &
+               & + place*(1.0_wp - place)*(b2 + place*(2.0_wp*b3 + place*3.0_wp*b4))
+            if (abs(height) > 0.0_wp) slope(i) = slope(i) + height*(exponent*exp(exponent*place) - (exp(exponent) - 1.0_wp))
+         end associate
+         slope(i) = slope(i)/length
+      end do
    end subroutine curve_slope
 
    !> Interval of a table of rising times that holds a time: a few steps from the hint, else by bisection.

@@ -3,7 +3,7 @@
 !>
 !> In: a cycle, its means and margins. Out: remarks, one per line, or an error where the case forbids what happens.
 module camroller_cycle_remarks
-   use camroller_cam_angle, only : cam_angle_text, file_angle
+   use camroller_cam_angle, only : append_cam_angle, cam_angle_text, file_angle
    use camroller_kinds, only : wp
    use camroller_engine, only : write_speed
    use camroller_error, only : error_t, raise, add_context, kind_domain
@@ -14,7 +14,7 @@ module camroller_cycle_remarks
    use camroller_margins, only : margins_t
    use camroller_means, only : statistics_t
    use camroller_model, only : model_t
-   use camroller_number_text, only : number_text, fixed_text, integer_text
+   use camroller_number_text, only : append_number, number_text, fixed_text, integer_text
    use camroller_lubricant, only : pressure_limit
    use camroller_remarks, only : remark_t, add_remark, beyond_pressure_law, cut_off_contact, film_without_limit, &
       & hot_inlet, lost_contact, open_pivot, outside_range, pumped_adjuster, rubbing_pin, standing_entrainment, unloaded_end, &
@@ -257,23 +257,29 @@ contains
       !> Remarks so far
       type(remark_t), allocatable, intent(inout) :: remarks(:)
 
-      character(len=:), allocatable :: place, turns
-      ! Force that the adjuster's joint lacks [N]
-      real(wp) :: lack
+      character(len=:), allocatable :: text, turns
+      ! Force that the joint lacks [N], speed at which that begins [rad/s]
+      real(wp) :: lack, speed
 
       if (.not. allocated(margins%pivot)) return
-      call write_speed(model%speed, model%crank_turns, 6, turns)
-      place = " N at "//cam_angle_text(margins%pivot%angle, 1)//" at "//turns//"; this begins at "
+      lack = margins%adjuster_force - margins%pivot%force
       if (margins%pivot%force < 0.0_wp) then
-         call write_speed(margins%pivot%speed, model%crank_turns, 4, turns)
-         call add_remark(remarks, open_pivot, "the joint of finger and lash adjuster opens: it lacks "// &
-            & number_text(-margins%pivot%force, 3)//place//turns, -margins%pivot%force)
-      else if (margins%pivot%force < margins%adjuster_force) then
-         call write_speed(margins%pump_up_speed, model%crank_turns, 4, turns)
-         lack = margins%adjuster_force - margins%pivot%force
-         call add_remark(remarks, pumped_adjuster, "a hydraulic lash adjuster pumps up: the force in its joint is below its "// &
-            & "own by "//number_text(lack, 3)//place//turns, lack)
+         text = "the joint of finger and lash adjuster opens: it lacks "
+         lack = -margins%pivot%force
+         speed = margins%pivot%speed
+      else if (lack > 0.0_wp) then
+         text = "a hydraulic lash adjuster pumps up: the force in its joint is below its own by "
+         speed = margins%pump_up_speed
+      else
+         return
       end if
+      call append_number(text, lack, 3)
+      text = text//" N at "
+      call append_cam_angle(text, margins%pivot%angle, 1)
+      call write_speed(model%speed, model%crank_turns, 6, turns)
+      text = text//" at "//turns//"; this begins at "
+      call write_speed(speed, model%crank_turns, 4, turns)
+      call add_remark(remarks, merge(open_pivot, pumped_adjuster, margins%pivot%force < 0.0_wp), text//turns, lack)
    end subroutine check_pivot
 
    !> Warn or stop where the film law was used outside its range.
@@ -287,15 +293,18 @@ contains
       !> Domain error where the case forbids it
       type(error_t), allocatable, intent(out) :: error
 
-      character(len=:), allocatable :: text
+      character(len=:), allocatable :: text, words
 
       if (statistics%inlet_share > 0.0_wp) call add_remark(remarks, hot_inlet, "heat in the inlet is beyond what the factor of "// &
          & "Gupta and others can tell for "//number_text(100.0_wp*statistics%inlet_share, 3)//" % of the cycle: the pressure's "// &
          & "part alone would halve the film; a continuation stands for it", 100.0_wp*statistics%inlet_share)
       if (statistics%film_range%share <= 0.0_wp) return
-      call range_in_words(statistics%film_range, model%film_law, text)
-      text = "the film law is outside its published range for "//number_text(100.0_wp*statistics%film_range%share, 3)// &
-         & " % of the cycle, first at "//cam_angle_text(statistics%first_outside, 1)//", "//text
+      call range_in_words(statistics%film_range, model%film_law, words)
+      text = "the film law is outside its published range for "
+      call append_number(text, 100.0_wp*statistics%film_range%share, 3)
+      text = text//" % of the cycle, first at "
+      call append_cam_angle(text, statistics%first_outside, 1)
+      text = text//", "//words
       if (model%stops_outside_range) then
          call raise(error, kind_domain, text//" (range_policy = 'stop')")
       else if (matters(statistics%film_range)) then

@@ -42,8 +42,6 @@ module camroller_short_piece
    !> in the torques; what does show, the error estimate sees. Means of 24 drives with up to 16 points were within 4.1e-7 of those
    !> by panels at an accuracy of 1e-4, at most 0.11 of the estimated error; with more points more may happen than five angles show
    integer, parameter :: most_points = 16
-   !> Accepted points of a piece for which three angles may do: the integration took it in one or two steps
-   integer, parameter :: few_points = 3
    !> Error estimate over the tolerance up to which the means serve [-]: a tenth of the accuracy. The estimate is that of Simpson's
    !> rule for the most part, and the rule of five points far better
    real(wp), parameter :: largest_error = 10.0_wp
@@ -111,7 +109,7 @@ contains
                call keep_contact(known, place, samples%state%contact)
                if (i <= size(states)) states((place + 1)/2) = samples%state
             end associate
-            if (i == size(states) .and. path%count <= few_points) then
+            if (i == size(states)) then
                call judge(values, simpson_weights, piece%tolerance, torques, drive_error, is_enough)
                if (is_enough) exit
             end if
