@@ -12,7 +12,8 @@ module bench_tasks
    use camroller_state, only : state_t, evaluate_state
    use camroller_spin, only : spin_problem_t
    use camroller_cycle, only : cycle_t, integrate_cycle
-   use camroller_flexible_cycle, only : flexible_cycle_t, find_periodic, rest_of_train, start_turns, turn_t
+   use camroller_flexible_cycle, only : flexible_cycle_t, find_periodic, rest_of_train
+   use camroller_flexible_turn, only : start_turns, turn_t
    use camroller_flexible_problem, only : flexible_problem_t, state_scales
    use camroller_flexible_train, only : at_sliding, evaluate_train, flexible_state_t
    use camroller_ode_problem, only : problem_t

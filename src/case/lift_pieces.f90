@@ -7,7 +7,7 @@ module camroller_lift_pieces
    implicit none
    private
 
-   public :: lift_stops_between, find_edges, scan_t, start_scan, has_next, next_angle, leave_rest, sort
+   public :: find_edges, scan_t, start_scan, has_next, next_angle, leave_rest, sort
 
    !> Place in a scan of the pieces of the lift
    type :: scan_t
@@ -24,23 +24,6 @@ module camroller_lift_pieces
    integer, parameter :: least_steps = 256
 
 contains
-
-   !> Kinks of the lift from one angle up to another, which is left out.
-   pure function lift_stops_between(model, start, finish) result(stops)
-      !> The model
-      type(model_t), intent(in) :: model
-      !> First and last angle, of any turn [rad]
-      real(wp), intent(in) :: start, finish
-      !> The kinks, increasing [rad]
-      real(wp), allocatable :: stops(:)
-
-      ! Ends of the pieces [rad]
-      real(wp), allocatable :: edges(:)
-
-      call find_edges(model, start, finish, edges)
-      stops = edges(2:size(edges) - 1)
-      if (any(.not. abs(modulo(model%lift_stops - start, two_pi)) > 0.0_wp)) stops = [start, stops]
-   end function lift_stops_between
 
    !> Ends of the pieces of the lift between two angles: these, and the kinks between them.
    pure subroutine find_edges(model, start, finish, edges)

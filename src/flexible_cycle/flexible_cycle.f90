@@ -5,27 +5,20 @@
 !> extrapolates from the last few, but for turns that alternate: there a period of two may be near. An adjuster that leaks down is
 !> moved on by many turns at once. Source: Walker and Ni, SIAM J. Numer. Anal. 49 (2011) 1715.
 module camroller_flexible_cycle
-   use camroller_kinds, only : wp, pi, degree
-   use camroller_cam_angle, only : cam_angle_text
-   use camroller_error, only : error_t, raise, kind_domain
+   use camroller_kinds, only : wp
+   use camroller_error, only : error_t
    use camroller_model, only : model_t
-   use camroller_events, only : cycle_stops
-   use camroller_ode_method, only : method_t, options_t
    use camroller_ode_problem, only : counters_t
-   use camroller_ode_methods, only : new_method
-   use camroller_ode_switching, only : integrate_switching
    use camroller_trajectory, only : trajectory_t
    use camroller_flexible_setup, only : rest_t, find_rest
-   use camroller_flexible_train, only : flexible_state_t, resolution_t, evaluate_train, state_size, at_finger, at_lift, &
-      & at_plunger, at_pressure, at_sliding
-   use camroller_number_text, only : millimetres_text, number_text
-   use camroller_flexible_problem, only : flexible_problem_t, state_scales, largest_sliding_scale
+   use camroller_flexible_train, only : resolution_t, state_size, at_finger, at_lift, at_plunger, at_pressure, at_sliding
+   use camroller_flexible_problem, only : largest_sliding_scale
+   use camroller_flexible_turn, only : turn_t, set_tolerance, integrate_turn
    use camroller_lapack, only : dgesv
    implicit none
    private
 
-   public :: flexible_cycle_t, turn_t, history_t, start_turns, set_tolerance, integrate_turn, find_periodic, find_period, &
-      & extrapolate, is_possible, rest_of_train
+   public :: flexible_cycle_t, history_t, find_periodic, find_period, extrapolate, is_possible, rest_of_train
 
    !> Most cycles that make a period together
    integer, parameter, public :: longest_period = 8
@@ -37,30 +30,8 @@ module camroller_flexible_cycle
    integer, parameter :: least_kept = 3
    !> Part of a disturbance that comes back with the other sign above which turns alternate [-]
    real(wp), parameter :: alternating = 0.9_wp
-   !> Step that an integration begins with [rad]
-   real(wp), parameter :: first_step = 1.0e-3_wp
-   !> Largest step [rad]
-   real(wp), parameter :: largest_step = 10.0_wp*degree
-   !> Part of the tolerance to which the contact's forces are found [-]
-   real(wp), parameter :: contact_accuracy = 1.0e-3_wp
-   !> Difference of sliding speeds that is not resolved, over the error allowed in a step: from 1 on the sliding speed sticks
-   !> where a film is as good as solid; at 0.5 it takes four times the steps [-]
-   real(wp), parameter :: unresolved = 2.0_wp
    !> Smallest size of the sliding speed to which its error is relative [m/s]
    real(wp), parameter, public :: least_sliding_scale = 1.0e-4_wp
-   !> Steps of a cycle after which it is given up
-   integer, parameter :: most_steps = 400000
-
-   !> What integrates one turn after another
-   type :: turn_t
-      type(flexible_problem_t) :: problem
-      class(method_t), allocatable :: method
-      type(options_t) :: options
-      !> Stops of a turn [rad]
-      real(wp), allocatable :: stops(:)
-      !> Sizes of the components [state]
-      real(wp), allocatable :: scales(:)
-   end type turn_t
 
    !> Turns in which a plunger has to fall before it is moved on
    integer, parameter :: leaking_turns = 8
@@ -113,47 +84,6 @@ module camroller_flexible_cycle
 
 contains
 
-   !> Make ready to integrate turns.
-   subroutine start_turns(turn, model, method, tolerance, error)
-      !> What integrates
-      type(turn_t), intent(out) :: turn
-      !> The model, with a flexible train
-      type(model_t), intent(in), target :: model
-      !> Name of the method
-      character(len=*), intent(in) :: method
-      !> Error allowed per step, in units of the scales [-]
-      real(wp), intent(in) :: tolerance
-      !> Deck error for an unknown method
-      type(error_t), allocatable, intent(out) :: error
-
-      call new_method(turn%method, method, state_size(model), error)
-      if (allocated(error)) return
-      turn%problem%model => model
-      turn%problem%switches = 3
-      turn%problem%resolution%forces = contact_accuracy*tolerance
-      turn%scales = state_scales(model)
-      call set_tolerance(turn, tolerance*turn%scales)
-      turn%options%step = first_step
-      turn%options%max_step = largest_step
-      turn%options%max_steps = most_steps
-      if (allocated(model%gas)) then
-         turn%stops = cycle_stops([model%lift_stops, model%gas%sharp_angles], -pi)
-      else
-         turn%stops = cycle_stops(model%lift_stops, -pi)
-      end if
-   end subroutine start_turns
-
-   !> Set the errors allowed in a step, and with that of the sliding speed what is not resolved of it.
-   pure subroutine set_tolerance(turn, tolerance)
-      !> What integrates
-      type(turn_t), intent(inout) :: turn
-      !> The errors allowed [state]
-      real(wp), intent(in) :: tolerance(:)
-
-      turn%options%tolerance = tolerance
-      turn%problem%resolution%sliding_speed = unresolved*tolerance(at_sliding)
-   end subroutine set_tolerance
-
    !> Rest of a train on the base circle: where the first cycle starts.
    subroutine rest_of_train(model, state, error)
       !> The model
@@ -180,60 +110,6 @@ contains
       state(at_plunger) = rest%pivot
       state(at_pressure) = model%flexible%adjuster%given%supply_pressure
    end subroutine rest_of_train
-
-   !> One turn.
-   subroutine integrate_turn(turn, state, trajectory, counters, error)
-      !> What integrates
-      type(turn_t), intent(inout) :: turn
-      !> State, from start to end [state]
-      real(wp), intent(inout) :: state(:)
-      !> The turn
-      type(trajectory_t), intent(inout) :: trajectory
-      !> Work done
-      type(counters_t), intent(inout) :: counters
-      !> Convergence error; domain error where the finger is thrown off
-      type(error_t), allocatable, intent(out) :: error
-
-      type(options_t) :: options
-
-      options = turn%options
-      options%max_steps = options%max_steps + counters%accepted + counters%rejected
-      call integrate_switching(turn%problem, turn%method, options, turn%stops, state, trajectory, counters, error)
-      if (allocated(error)) call explain_end(turn, trajectory, error)
-   end subroutine integrate_turn
-
-   !> Say so where an integration ended because the roller has left the cam and no state follows: the finger has turned over, or no
-   !> point of the cam is nearest.
-   subroutine explain_end(turn, trajectory, error)
-      !> What integrates
-      type(turn_t), intent(in) :: turn
-      !> The turn up to its end
-      type(trajectory_t), intent(in) :: trajectory
-      !> In: what the integration says; out: a domain error where the finger is thrown off
-      type(error_t), allocatable, intent(inout) :: error
-
-      ! A step beyond the end [rad]
-      real(wp), parameter :: beyond = 1.0e-9_wp
-      type(flexible_state_t) :: now, next
-      ! Rate at the end [state/rad]
-      real(wp) :: rate(size(turn%scales))
-      integer :: status
-
-      if (trajectory%count == 0) return
-      associate (angle => trajectory%time(trajectory%count), state => trajectory%state(:, trajectory%count), &
-         & problem => turn%problem)
-         call evaluate_train(problem%model, angle, state, problem%resolution, now, status)
-         if (status /= 0 .or. now%cam%approach >= 0.0_wp) return
-         call problem%get_rate(angle, state, rate, status)
-         call evaluate_train(problem%model, angle, state + beyond*rate, problem%resolution, next, status)
-         if (status <= 0) return
-         deallocate (error)
-         call raise(error, kind_domain, "the finger is thrown off: at "//cam_angle_text(angle, 3)//" the roller is "// &
-            & millimetres_text(-now%cam%approach)//" mm from the cam and the finger has turned by "// &
-            & number_text((state(at_finger) - problem%model%linkage%base_angle)/degree, 3)//" deg from its place on the base "// &
-            & "circle; check base circle load, masses and speed")
-      end associate
-   end subroutine explain_end
 
    !> Integrate turns until they repeat themselves, or as many as are allowed.
    subroutine find_periodic(cycle, turn, state, closure, max_cycles, error)

@@ -12,46 +12,55 @@ module camroller_flexible_drive
    use camroller_trajectory, only : trajectory_t
    use camroller_flexible_train, only : flexible_state_t, resolution_t, evaluate_train, first_mode, at_finger_rate, at_speed, &
       & at_sliding, at_plunger_rate
-   use camroller_flexible_cycle, only : turn_t, start_turns, set_tolerance, least_sliding_scale
+   use camroller_flexible_cycle, only : least_sliding_scale
+   use camroller_flexible_turn, only : turn_t, prepare, set_tolerance
    use camroller_flexible_problem, only : largest_sliding_scale
    use camroller_flexible_solution, only : train_method, tolerance_ratio
    implicit none
    private
 
-   public :: drive_train, errors_of_state, take_spin, bring_to_rest
+   public :: drive_t, drive_train, errors_of_state, take_spin, bring_to_rest
+
+   !> A train that is driven piece by piece: the last piece, and room that the next one uses
+   type :: drive_t
+      type(turn_t) :: turn
+      !> First angle, kinks of the lift between, last angle [rad]
+      real(wp), allocatable :: stops(:)
+      !> Accepted points
+      type(trajectory_t) :: path
+      !> What was not told apart
+      type(resolution_t) :: resolution
+   end type drive_t
 
 contains
 
-   !> Integrate between stops.
-   subroutine drive_train(model, numerics, sliding_scale, stops, state, step, path, resolution, error)
+   !> Integrate between the stops of a drive.
+   subroutine drive_train(drive, model, numerics, sliding_scale, state, step, error)
+      !> Has its stops; out: the piece
+      type(drive_t), intent(inout) :: drive
       !> The model, with a flexible train, which follows the inputs of a host
       type(model_t), intent(in), target :: model
       !> Method and tolerance
       type(numerics_t), intent(in) :: numerics
       !> Size of the sliding speed [m/s]
       real(wp), intent(in) :: sliding_scale
-      !> First angle, kinks of the lift between, last angle [rad]
-      real(wp), intent(in) :: stops(:)
       !> State, from first to last angle [state]
       real(wp), intent(inout) :: state(:)
       !> Step to begin with, zero where none is known; out: to go on with [rad]
       real(wp), intent(inout) :: step
-      !> Accepted points
-      type(trajectory_t), intent(inout) :: path
-      !> What was not told apart
-      type(resolution_t), intent(out) :: resolution
       !> Deck error for an unknown method, convergence error
       type(error_t), allocatable, intent(out) :: error
 
-      type(turn_t) :: turn
       type(counters_t) :: counters
 
-      call start_turns(turn, model, trim(train_method(numerics)), tolerance_ratio*numerics%tolerance, error)
-      if (allocated(error)) return
-      call set_tolerance(turn, errors_of_state(turn%scales, numerics, sliding_scale))
-      if (step > 0.0_wp) turn%options%step = step
-      resolution = turn%problem%resolution
-      call integrate_switching(turn%problem, turn%method, turn%options, stops, state, path, counters, error, step)
+      associate (turn => drive%turn)
+         call prepare(turn, model, trim(train_method(numerics)), tolerance_ratio*numerics%tolerance, error)
+         if (allocated(error)) return
+         call set_tolerance(turn, errors_of_state(turn%scales, numerics, sliding_scale))
+         if (step > 0.0_wp) turn%options%step = step
+         drive%resolution = turn%problem%resolution
+         call integrate_switching(turn%problem, turn%method, turn%options, drive%stops, state, drive%path, counters, error, step)
+      end associate
    end subroutine drive_train
 
    !> Errors allowed in a step.

@@ -7,12 +7,15 @@ module camroller_ode_switching
    use camroller_error, only : error_t, raise, kind_convergence
    use camroller_roots, only : bracket_t, start_bracket, narrow_bracket, root_wanted
    use camroller_ode_problem, only : problem_t, counters_t, new_linear, copy_linear
-   use camroller_ode_method, only : method_t, options_t, step_t, start_step, take_step, keep_point, keep_stable
+   use camroller_ode_method, only : method_t, options_t, step_t, start_step, move_step, take_step, keep_point, keep_stable
    use camroller_trajectory, only : trajectory_t, start_trajectory, append_point, curve_state, curve_numbers
    implicit none
    private
 
    public :: switching_problem_t, integrate_switching
+
+   !> Most switches of a problem
+   integer, parameter, public :: most_switches = 4
 
    !> A problem whose right-hand side has kinks where a switch is zero
    type, abstract, extends(problem_t) :: switching_problem_t
@@ -28,8 +31,8 @@ module camroller_ode_switching
       type(step_t) :: step
       !> Step proposed [time]
       real(wp) :: proposed = 0.0_wp
-      !> Switches at the start and at the end of the step [any]
-      real(wp), allocatable :: switches(:), new_switches(:)
+      !> Switches at the start and at the end of the step; zero beyond those that the problem has [any]
+      real(wp) :: switches(most_switches) = 0.0_wp, new_switches(most_switches) = 0.0_wp
       !> Place of the first kink in the step; beyond it where there is none [-]
       real(wp) :: kink = 0.0_wp
    end type walk_t
@@ -91,8 +94,8 @@ contains
       real(wp) :: margin
       integer :: segment, status
 
+      call move_step(method%room, walk%step)
       call start_step(walk%step, state)
-      allocate (walk%switches(problem%switches), walk%new_switches(problem%switches))
       walk%proposed = options%step
       margin = 4.0_wp*spacing(maxval(abs(stops)))
       method%tolerance = options%tolerance
@@ -105,7 +108,8 @@ contains
             step%time = stops(segment) + margin
             method%horizon = stops(segment + 1) - margin
             call problem%linearise(step%time, step%state, method%horizon, method%here, counters, status)
-            if (status == 0) call problem%get_switches(step%time, step%state, walk%switches, status)
+            if (status == 0) call problem%get_switches(step%time, step%state, walk%switches(:problem%switches), &
+               & status)
             if (status /= 0) then
                call raise(error, kind_convergence, "the right-hand side has no value at "//trim(problem%name_time(step%time)))
                return
@@ -115,8 +119,9 @@ contains
             call walk_segment(problem, method, options, walk, trajectory, counters, error)
             if (allocated(error)) return
          end do
-         state = step%state
+         state(:) = step%state
       end associate
+      call move_step(walk%step, method%room)
       if (present(proposed)) proposed = walk%proposed
    end subroutine integrate_switching
 
@@ -227,7 +232,7 @@ contains
          step%scaled_error = impossible
          if (status /= 0) return
          if (.not. all(abs(step%new_state) < huge(1.0_wp) .and. abs(step%estimate) < huge(1.0_wp))) return
-         call problem%get_switches(step%end_time, step%new_state, walk%new_switches, status)
+         call problem%get_switches(step%end_time, step%new_state, walk%new_switches(:problem%switches), status)
          if (status /= 0) return
          step%scaled_error = maxval(abs(step%estimate)/method%tolerance)
          if (step%scaled_error > least_kink .and. any(walk%new_switches*walk%switches < 0.0_wp)) walk%kink = &
@@ -256,7 +261,7 @@ contains
       real(wp) :: place
 
       ! Curve of the step [state]; state [state] and switches [any] on it
-      real(wp) :: bends(size(walk%step%state), curve_numbers), state(size(walk%step%state)), values(size(walk%switches))
+      real(wp) :: bends(size(walk%step%state), curve_numbers), state(size(walk%step%state)), values(most_switches)
       type(bracket_t) :: bracket
       integer :: i, status
 
@@ -276,14 +281,14 @@ contains
             status = 0
             do while (bracket%status == root_wanted .and. status == 0)
                state = curve_state(step%state, step%new_state, bends, bracket%trial)
-               call problem%get_switches(step%time + bracket%trial*step%length, state, values, status)
+               call problem%get_switches(step%time + bracket%trial*step%length, state, values(:problem%switches), status)
                if (status == 0) call narrow_bracket(bracket, values(i))
             end do
             if (status /= 0) exit
             place = min(place, bracket%trial + past_zero)
             if (.not. any(walk%new_switches(i + 1:)*walk%switches(i + 1:) < 0.0_wp)) exit
             state = curve_state(step%state, step%new_state, bends, place)
-            call problem%get_switches(step%time + place*step%length, state, values, status)
+            call problem%get_switches(step%time + place*step%length, state, values(:problem%switches), status)
             if (status /= 0) exit
          end do
       end associate

@@ -18,15 +18,16 @@ module camroller_flexible_step
    use camroller_lash_adjuster, only : set_supply
    use camroller_state, only : state_t, cam_force
    use camroller_torque_list, only : torque_count, is_torque, of_geometric, of_roller_inertia
-   use camroller_lift_pieces, only : lift_stops_between
+   use camroller_lift_pieces, only : find_edges
    use camroller_follower_samples, only : extremes_t, widen
-   use camroller_trajectory, only : trajectory_t, interpolate_state
-   use camroller_flexible_train, only : flexible_state_t, resolution_t, evaluate_train, state_size, at_sliding
+   use camroller_trajectory, only : interpolate_state
+   use camroller_flexible_train, only : flexible_state_t, resolution_t, evaluate_train, state_size, at_sliding, &
+      & largest_state
    use camroller_flexible_energy, only : energy_slopes
    use camroller_flexible_problem, only : state_scales
    use camroller_flexible_cycle, only : rest_of_train
    use camroller_flexible_follower, only : evaluate_follower
-   use camroller_flexible_drive, only : drive_train, errors_of_state, take_spin, bring_to_rest
+   use camroller_flexible_drive, only : drive_t, drive_train, errors_of_state, take_spin, bring_to_rest
    use camroller_run, only : take_way_out
    use camroller_short_piece, only : places, lobatto_places, lobatto_weights, simpson_weights, odd_weights
    use camroller_follower_step, only : follower_t, inputs_t, outcome_t, piece_number, inputs_between, set_model, set_ramp, &
@@ -41,14 +42,7 @@ module camroller_flexible_step
    !> single steps err by 4.3 times of what one such error makes, by 8.5 where contacts open
    real(wp), parameter :: accumulated = 10.0_wp
 
-   !> A piece of a step that has been integrated
-   type :: piece_t
-      type(trajectory_t) :: path
-      !> What was not told apart
-      type(resolution_t) :: resolution
-   end type piece_t
-
-   !> A point of it
+   !> A point of a piece
    type :: sample_t
       type(state_t) :: state
       !> Torques that are integrated [N m], last the energy residual [W]
@@ -68,7 +62,6 @@ contains
       !> Convergence error
       type(error_t), allocatable, intent(out) :: error
 
-      type(piece_t) :: piece
       ! State [state]
       real(wp), allocatable :: rest(:)
 
@@ -77,8 +70,8 @@ contains
          if (allocated(error)) return
          point%train(:size(rest)) = rest
          point%angle = cam_angle - modulo(cam_angle, two_pi)
-         call keep_spin(follower, piece%resolution, error)
-         if (cam_angle > point%angle .and. .not. allocated(error)) call integrate_piece(follower, cam_angle, piece, error)
+         call keep_spin(follower, error)
+         if (cam_angle > point%angle .and. .not. allocated(error)) call integrate_piece(follower, cam_angle, error)
       end associate
    end subroutine place_train
 
@@ -109,7 +102,6 @@ contains
       real(wp), intent(out), optional :: nodes(:, 0:)
 
       type(inputs_t) :: here, there
-      type(piece_t) :: piece
       ! First angle of the step and of a piece, end of a piece [rad]
       real(wp) :: first, left, right
       integer :: i, pieces, each
@@ -129,9 +121,9 @@ contains
             there = inputs_between(start, finish, real(i, wp)/pieces)
          end if
          call set_inputs(follower, right, here, there, error)
-         if (.not. allocated(error)) call integrate_piece(follower, right, piece, error)
-         if (.not. allocated(error)) call add_means(follower%model, piece, 1.0_wp/pieces, outcome, error)
-         if (each > 0 .and. .not. allocated(error)) call sample_nodes(follower%model, piece, [left, right] - pi, &
+         if (.not. allocated(error)) call integrate_piece(follower, right, error)
+         if (.not. allocated(error)) call add_means(follower%model, follower%drive, 1.0_wp/pieces, outcome, error)
+         if (each > 0 .and. .not. allocated(error)) call sample_nodes(follower%model, follower%drive, [left, right] - pi, &
             & nodes(:, (i - 1)*each:i*each - 1), error)
          ! On the way the model has followed the inputs
          if (abs(follower%model%ramp%temperature_slope) > 0.0_wp) follower%point%oil_temperature = -1.0_wp
@@ -143,7 +135,7 @@ contains
       if (allocated(follower%model%flexible%adjuster)) call set_supply(follower%model%flexible%adjuster, &
          & supply_of(follower%model, finish))
       call fill_outcome(follower%model, outcome)
-      call add_state_error(follower, cam_angle - first, piece%resolution, outcome)
+      call add_state_error(follower, cam_angle - first, follower%drive%resolution, outcome)
       if (present(nodes)) nodes(:, ubound(nodes, 2)) = [outcome%cam_force, outcome%torque_drive]
       if (.not. all(ieee_is_finite([outcome%mean_torque_drive, outcome%torque_drive, follower%point%roller_spin]))) then
          call raise(error, kind_convergence, "advance: torques or spin are not finite")
@@ -198,20 +190,17 @@ contains
    end function supply_of
 
    !> Integrate a piece; where that fails, once more with the method and the tolerances that `run_case` falls back on.
-   subroutine integrate_piece(follower, to, piece, error)
+   subroutine integrate_piece(follower, to, error)
       !> The follower, whose train is moved
       type(follower_t), intent(inout), target :: follower
       !> Cam angle at the end [rad]
       real(wp), intent(in) :: to
-      !> The piece
-      type(piece_t), intent(inout) :: piece
       !> Convergence error
       type(error_t), allocatable, intent(out) :: error
 
       type(numerics_t) :: numerics
-      ! State [state]; first angle, kinks of the lift, last angle [rad]
-      real(wp) :: state(state_size(follower%model))
-      real(wp), allocatable :: stops(:)
+      ! State [state]
+      real(wp) :: state(largest_state)
       ! Step of the integration [rad], smallest tolerance that may work [-]
       real(wp) :: step, least
       integer :: try, status
@@ -220,19 +209,19 @@ contains
       numerics = follower%numerics
       least = 0.0_wp
       has_way_out = .false.
-      associate (point => follower%point, model => follower%model, first => follower%point%angle - pi)
-         stops = lift_stops_between(model, first, to - pi)
-         stops = [first, pack(stops, stops > first), to - pi]
+      associate (point => follower%point, model => follower%model, first => follower%point%angle - pi, &
+         & n => state_size(follower%model))
+         call find_edges(model, first, to - pi, follower%drive%stops)
          do try = 1, most_tries
-            state = point%train(:size(state))
+            state = point%train
             step = point%train_step
             call follow_ramp(model, first)
-            call take_spin(model, first, point%roller_spin, state, status)
+            call take_spin(model, first, point%roller_spin, state(:n), status)
             if (status /= 0) then
                call refuse(first, error)
                return
             end if
-            call drive_train(model, numerics, point%scale, stops, state, step, piece%path, piece%resolution, error)
+            call drive_train(follower%drive, model, numerics, point%scale, state(:n), step, error)
             if (.not. allocated(error)) exit
             if (has_way_out .or. error%kind /= kind_convergence .or. try == most_tries) then
                call add_context(error, "integrating the flexible train")
@@ -240,20 +229,18 @@ contains
             end if
             call take_way_out(follower%given, numerics, least, has_way_out)
          end do
-         point%train(:size(state)) = state
+         point%train = state
          point%train_step = step
          point%angle = to
          call follow_ramp(model, to - pi)
-         call keep_spin(follower, piece%resolution, error)
+         call keep_spin(follower, error)
       end associate
    end subroutine integrate_piece
 
    !> Keep the spin that the roller has.
-   subroutine keep_spin(follower, resolution, error)
+   subroutine keep_spin(follower, error)
       !> The follower, whose model is set to the inputs
       type(follower_t), intent(inout) :: follower
-      !> What was not told apart
-      type(resolution_t), intent(in) :: resolution
       !> Convergence error
       type(error_t), allocatable, intent(out) :: error
 
@@ -261,7 +248,7 @@ contains
       integer :: status
 
       associate (point => follower%point, n => state_size(follower%model))
-         call evaluate_train(follower%model, point%angle - pi, point%train(:n), resolution, now, status)
+         call evaluate_train(follower%model, point%angle - pi, point%train(:n), follower%drive%resolution, now, status)
          if (status /= 0) call refuse(point%angle - pi, error)
          point%roller_spin = now%contact%roller_spin
       end associate
@@ -282,7 +269,7 @@ contains
       !> The model, which follows the inputs
       type(model_t), intent(inout) :: model
       !> The piece
-      type(piece_t), intent(in) :: piece
+      type(drive_t), intent(in) :: piece
       !> Part of the step that the piece is [-]
       real(wp), intent(in) :: part
       !> What the step gives; out: with means and extremes of the piece, and the state at its end
@@ -334,7 +321,7 @@ contains
       !> The model, which follows the inputs
       type(model_t), intent(inout) :: model
       !> The piece
-      type(piece_t), intent(in) :: piece
+      type(drive_t), intent(in) :: piece
       !> Cam angle from full lift [rad]
       real(wp), intent(in) :: angle
       !> Interval of the path that holds it
@@ -349,13 +336,14 @@ contains
       type(error_t), allocatable, intent(out) :: error
 
       ! State [state]; power on gas less that of the gallery [W]
-      real(wp) :: train(state_size(model)), work
-      integer :: hint, status
+      real(wp) :: train(largest_state), work
+      integer :: hint, status, n
 
       hint = interval
+      n = state_size(model)
       call follow_ramp(model, angle)
-      call interpolate_state(piece%path, angle, hint, train)
-      call evaluate_follower(model, angle, train, resolution_t(forces, piece%resolution%sliding_speed), sample%state, status, &
+      call interpolate_state(piece%path, angle, hint, train(:n))
+      call evaluate_follower(model, angle, train(:n), resolution_t(forces, piece%resolution%sliding_speed), sample%state, status, &
          & work)
       if (status /= 0) then
          call refuse(angle, error)
@@ -374,7 +362,7 @@ contains
       !> The model, which follows the inputs
       type(model_t), intent(inout) :: model
       !> The piece
-      type(piece_t), intent(in) :: piece
+      type(drive_t), intent(in) :: piece
       !> Its first and last angle from full lift [rad]
       real(wp), intent(in) :: ends(2)
       !> Force [N] and torque [N m]

@@ -24,6 +24,7 @@ module camroller_follower_step
    use camroller_stick, only : share_at_rest
    use camroller_stick_slip, only : direction_at
    use camroller_cycle, only : cycle_t, state_at
+   use camroller_flexible_drive, only : drive_t
    use camroller_spin_piece, only : spin_piece_t, integrate_between
    use camroller_means, only : integrate_torques
    use camroller_run, only : take_way_out
@@ -83,6 +84,8 @@ module camroller_follower_step
       integer(int64) :: mark = 0_int64
       !> The last piece of the last step; no step depends on it, but the next one uses its room
       type(spin_piece_t) :: piece
+      !> The same of a flexible train
+      type(drive_t) :: drive
    end type follower_t
 
    !> What one step gives

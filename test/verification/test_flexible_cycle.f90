@@ -6,7 +6,8 @@ module test_flexible_cycle
    use camroller_case, only : case_t, numerics_t
    use camroller_cycle, only : cycle_t, integrate_cycle, state_at
    use camroller_model, only : model_t
-   use camroller_flexible_cycle, only : flexible_cycle_t, turn_t, start_turns, find_periodic, find_period, rest_of_train
+   use camroller_flexible_cycle, only : flexible_cycle_t, find_periodic, find_period, rest_of_train
+   use camroller_flexible_turn, only : turn_t, start_turns
    use camroller_flexible_train, only : at_lift, at_speed, evaluate_train, flexible_state_t
    use camroller_state, only : state_t
    use camroller_trajectory, only : interpolate_state

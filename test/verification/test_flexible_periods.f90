@@ -5,7 +5,8 @@ module test_flexible_periods
    use camroller_case, only : case_t
    use camroller_error, only : error_t
    use camroller_model, only : model_t
-   use camroller_flexible_cycle, only : extrapolate, find_periodic, flexible_cycle_t, history_t, rest_of_train, start_turns, turn_t
+   use camroller_flexible_cycle, only : extrapolate, find_periodic, flexible_cycle_t, history_t, rest_of_train
+   use camroller_flexible_turn, only : start_turns, turn_t
    use camroller_flexible_train, only : at_finger, at_lift, at_plunger
    use camroller_number_text, only : integer_text, number_text
    use closeness, only : check_scaled

@@ -4,7 +4,8 @@ module test_flexible_twins
    use camroller_kinds, only : wp, pi
    use camroller_error, only : error_t
    use camroller_case, only : case_t, numerics_t
-   use camroller_flexible_cycle, only : integrate_turn, rest_of_train, start_turns, turn_t
+   use camroller_flexible_cycle, only : rest_of_train
+   use camroller_flexible_turn, only : integrate_turn, start_turns, turn_t
    use camroller_flexible_train, only : at_finger_rate, at_lift, at_speed, at_sliding, evaluate_train, first_mode, &
       & flexible_state_t, rates_of, resolution_t
    use camroller_kinematics, only : rotation_names

@@ -6,7 +6,8 @@ module test_hard_dynamics
    use camroller_case, only : case_t
    use camroller_model, only : model_t
    use camroller_run, only : build_models
-   use camroller_flexible_cycle, only : flexible_cycle_t, turn_t, start_turns, find_periodic, rest_of_train
+   use camroller_flexible_cycle, only : flexible_cycle_t, find_periodic, rest_of_train
+   use camroller_flexible_turn, only : turn_t, start_turns
    use camroller_flexible_measures, only : measure_count, measure_turn, largest_load, loss_torque, residual_work
    use closeness, only : check_close, check_scaled
    use deck_cases, only : get_deck_case

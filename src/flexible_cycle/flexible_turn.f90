@@ -1,0 +1,170 @@
+!> One turn of a flexible train: what integrates it, and one integration.
+!>
+!> In: model, method, tolerance, state at the start. Out: the path over a turn and the state at its end, or words for a finger that
+!> is thrown off.
+module camroller_flexible_turn
+   use camroller_kinds, only : wp, pi, degree
+   use camroller_cam_angle, only : cam_angle_text
+   use camroller_error, only : error_t, raise, kind_domain
+   use camroller_model, only : model_t
+   use camroller_names, only : name_length
+   use camroller_events, only : cycle_stops
+   use camroller_ode_method, only : method_t, options_t
+   use camroller_ode_problem, only : counters_t
+   use camroller_ode_methods, only : new_method
+   use camroller_ode_switching, only : integrate_switching
+   use camroller_trajectory, only : trajectory_t
+   use camroller_flexible_train, only : flexible_state_t, evaluate_train, state_size, at_finger, at_sliding
+   use camroller_number_text, only : millimetres_text, number_text
+   use camroller_flexible_problem, only : flexible_problem_t, state_scales
+   implicit none
+   private
+
+   public :: turn_t, start_turns, prepare, set_tolerance, integrate_turn
+
+   !> Step that an integration begins with [rad]
+   real(wp), parameter :: first_step = 1.0e-3_wp
+   !> Largest step [rad]
+   real(wp), parameter :: largest_step = 10.0_wp*degree
+   !> Part of the tolerance to which the contact's forces are found [-]
+   real(wp), parameter :: contact_accuracy = 1.0e-3_wp
+   !> Difference of sliding speeds that is not resolved, over the error allowed in a step: from 1 on the sliding speed sticks
+   !> where a film is as good as solid; at 0.5 it takes four times the steps [-]
+   real(wp), parameter :: unresolved = 2.0_wp
+   !> Steps of a cycle after which it is given up
+   integer, parameter :: most_steps = 400000
+
+   !> What integrates one turn after another
+   type :: turn_t
+      type(flexible_problem_t) :: problem
+      class(method_t), allocatable :: method
+      !> Name of the method, and components of the state that it is made for
+      character(len=name_length) :: method_name = ""
+      integer :: components = 0
+      type(options_t) :: options
+      !> Stops of a turn [rad]
+      real(wp), allocatable :: stops(:)
+      !> Sizes of the components [state]
+      real(wp), allocatable :: scales(:)
+   end type turn_t
+
+contains
+
+   !> Make ready to integrate turns.
+   subroutine start_turns(turn, model, method, tolerance, error)
+      !> What integrates
+      type(turn_t), intent(inout) :: turn
+      !> The model, with a flexible train
+      type(model_t), intent(in), target :: model
+      !> Name of the method
+      character(len=*), intent(in) :: method
+      !> Error allowed per step, in units of the scales [-]
+      real(wp), intent(in) :: tolerance
+      !> Deck error for an unknown method
+      type(error_t), allocatable, intent(out) :: error
+
+      call prepare(turn, model, method, tolerance, error)
+      if (allocated(error)) return
+      if (allocated(model%gas)) then
+         turn%stops = cycle_stops([model%lift_stops, model%gas%sharp_angles], -pi)
+      else
+         turn%stops = cycle_stops(model%lift_stops, -pi)
+      end if
+   end subroutine start_turns
+
+   !> Make ready to integrate, over whatever angles. The room of an earlier integration is used again where it is right.
+   subroutine prepare(turn, model, method, tolerance, error)
+      !> What integrates
+      type(turn_t), intent(inout) :: turn
+      !> The model, with a flexible train
+      type(model_t), intent(in), target :: model
+      !> Name of the method
+      character(len=*), intent(in) :: method
+      !> Error allowed per step, in units of the scales [-]
+      real(wp), intent(in) :: tolerance
+      !> Deck error for an unknown method
+      type(error_t), allocatable, intent(out) :: error
+
+      if (turn%method_name /= method .or. turn%components /= state_size(model)) then
+         call new_method(turn%method, method, state_size(model), error)
+         if (allocated(error)) return
+         turn%method_name = method
+         turn%components = state_size(model)
+      end if
+      call turn%method%forget()
+      turn%problem%model => model
+      turn%problem%switches = 3
+      turn%problem%resolution%forces = contact_accuracy*tolerance
+      turn%scales = state_scales(model)
+      call set_tolerance(turn, tolerance*turn%scales)
+      turn%options%step = first_step
+      turn%options%max_step = largest_step
+      turn%options%max_steps = most_steps
+   end subroutine prepare
+
+   !> Set the errors allowed in a step, and with that of the sliding speed what is not resolved of it.
+   pure subroutine set_tolerance(turn, tolerance)
+      !> What integrates
+      type(turn_t), intent(inout) :: turn
+      !> The errors allowed [state]
+      real(wp), intent(in) :: tolerance(:)
+
+      turn%options%tolerance = tolerance
+      turn%problem%resolution%sliding_speed = unresolved*tolerance(at_sliding)
+   end subroutine set_tolerance
+
+   !> One turn.
+   subroutine integrate_turn(turn, state, trajectory, counters, error)
+      !> What integrates
+      type(turn_t), intent(inout) :: turn
+      !> State, from start to end [state]
+      real(wp), intent(inout) :: state(:)
+      !> The turn
+      type(trajectory_t), intent(inout) :: trajectory
+      !> Work done
+      type(counters_t), intent(inout) :: counters
+      !> Convergence error; domain error where the finger is thrown off
+      type(error_t), allocatable, intent(out) :: error
+
+      type(options_t) :: options
+
+      options = turn%options
+      options%max_steps = options%max_steps + counters%accepted + counters%rejected
+      call integrate_switching(turn%problem, turn%method, options, turn%stops, state, trajectory, counters, error)
+      if (allocated(error)) call explain_end(turn, trajectory, error)
+   end subroutine integrate_turn
+
+   !> Say so where an integration ended because the roller has left the cam and no state follows: the finger has turned over, or no
+   !> point of the cam is nearest.
+   subroutine explain_end(turn, trajectory, error)
+      !> What integrates
+      type(turn_t), intent(in) :: turn
+      !> The turn up to its end
+      type(trajectory_t), intent(in) :: trajectory
+      !> In: what the integration says; out: a domain error where the finger is thrown off
+      type(error_t), allocatable, intent(inout) :: error
+
+      ! A step beyond the end [rad]
+      real(wp), parameter :: beyond = 1.0e-9_wp
+      type(flexible_state_t) :: now, next
+      ! Rate at the end [state/rad]
+      real(wp) :: rate(size(turn%scales))
+      integer :: status
+
+      if (trajectory%count == 0) return
+      associate (angle => trajectory%time(trajectory%count), state => trajectory%state(:, trajectory%count), &
+         & problem => turn%problem)
+         call evaluate_train(problem%model, angle, state, problem%resolution, now, status)
+         if (status /= 0 .or. now%cam%approach >= 0.0_wp) return
+         call problem%get_rate(angle, state, rate, status)
+         call evaluate_train(problem%model, angle, state + beyond*rate, problem%resolution, next, status)
+         if (status <= 0) return
+         deallocate (error)
+         call raise(error, kind_domain, "the finger is thrown off: at "//cam_angle_text(angle, 3)//" the roller is "// &
+            & millimetres_text(-now%cam%approach)//" mm from the cam and the finger has turned by "// &
+            & number_text((state(at_finger) - problem%model%linkage%base_angle)/degree, 3)//" deg from its place on the base "// &
+            & "circle; check base circle load, masses and speed")
+      end associate
+   end subroutine explain_end
+
+end module camroller_flexible_turn
