@@ -88,6 +88,7 @@ program main
    use test_lubricant, only : collect_lubricant
    use test_film_range, only : collect_film_range
    use test_hertz, only : collect_hertz
+   use test_local_limit, only : collect_local_limit
    use test_invariance, only : collect_invariance
    use test_magnitudes, only : collect_magnitudes
    use test_film_literature, only : collect_film_literature
@@ -263,6 +264,7 @@ contains
          new_testsuite("follower_samples", collect_follower_samples), &
          new_testsuite("train", collect_train), &
          new_testsuite("traction", collect_traction), &
+         new_testsuite("local_limit", collect_local_limit), &
          new_testsuite("load_share", collect_load_share), &
          new_testsuite("fold", collect_fold), &
          new_testsuite("film", collect_film), &

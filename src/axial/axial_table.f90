@@ -19,7 +19,7 @@ module camroller_axial_table
    implicit none
    private
 
-   public :: axial_part_t, axial_state_t, new_axial_part, is_same_axial_part, effective_length, slice_loads, axial_state
+   public :: axial_part_t, axial_state_t, new_axial_part, is_same_axial_part, effective_length, slice_loads, axial_state, end_loads
 
    !> Largest W/(E' R L), at the largest radius; steps of ln(load), their most [-]; the first is a peak
    !> pressure of about 4.5 GPa with steel
@@ -344,6 +344,22 @@ contains
       ! The same load everywhere has no rounding whose extremes could be looked for
       where (abs(loads - 1.0_wp) < rounding) loads = 1.0_wp
    end subroutine slice_loads
+
+   !> Loads per length at both ends of the roller.
+   pure function end_loads(part, load, radius) result(ends)
+      !> The table
+      type(axial_part_t), intent(in) :: part
+      !> Load, W [N]; equivalent radius, R [m]
+      real(wp), intent(in) :: load, radius
+      !> Over their mean [-]
+      real(wp) :: ends(2)
+
+      ! Loads of the slices [-]
+      real(wp) :: loads(size(part%loads, 1))
+
+      call slice_loads(part, load, radius, loads)
+      ends = loads([1, size(loads)])
+   end function end_loads
 
    !> Largest load along the roller and at its ends.
    pure function axial_state(part, load, radius) result(state)

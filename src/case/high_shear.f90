@@ -38,6 +38,7 @@ contains
       plain%pressure_law = pressure_law_names(law_barus)
       plain%pressure_viscosity = 1.0e-8_wp
       plain%roelands_index = 0.0_wp
+      if (allocated(plain%pressure_viscosity_points)) deallocate (plain%pressure_viscosity_points)
       call get_oil(plain, hths_temperature, oil, failure)
       if (allocated(failure)) return
       viscosity = oil%viscosity

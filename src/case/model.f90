@@ -27,7 +27,7 @@ module camroller_model
    use camroller_ehl_table, only : ehl_t, build_film_table
    use camroller_asperity, only : boundary_part_t, boundary_names, new_boundary_part, set_boundary_temperature
    use camroller_number_text, only : number_text
-   use camroller_traction, only : shear_law_names, cap_names, rolling_law_names
+   use camroller_traction, only : shear_law_names, limit_names, limit_local, cap_names, rolling_law_names
    use camroller_heat, only : heat_part_t, new_heat_part, set_heat_oil
    use camroller_needle, only : bearing_part_t, new_bearing_part, set_bearing_oil
    use camroller_needle_drag, only : drag_part_t, new_drag_part, set_drag_oil, set_drag_speed
@@ -45,18 +45,14 @@ module camroller_model
    type :: model_t
       !> Is the energy balance closed?
       logical :: is_consistent
-      !> Is the contact normal's exact arm used?
-      logical :: has_exact_arm
-      !> Does pure rolling follow the turning of the contact normal?
-      logical :: has_exact_spin
+      !> Is the contact normal's exact arm used? Does pure rolling follow the turning of that normal?
+      logical :: has_exact_arm, has_exact_spin
       !> Is the load the larger of base circle load and event load?
       logical :: takes_maximum_load
-      !> Does rolling resistance act on the roller's spin?
-      logical :: has_rolling_in_balance
-      !> End with an error where the film law is used outside its range?
-      logical :: stops_outside_range
-      !> End with an error where contact is lost?
-      logical :: stops_without_contact
+      !> Does rolling resistance act on the roller's spin? Is the film's stress limited at each point?
+      logical :: has_rolling_in_balance, has_local_limit
+      !> End with an error where the film law is used outside its range, where contact is lost?
+      logical :: stops_outside_range, stops_without_contact
       !> Positions in the lists of names of the laws
       integer :: film_law, shear_law, cap, rolling_law
       type(linkage_t) :: linkage
@@ -101,8 +97,8 @@ module camroller_model
       real(wp) :: roller_inertia
       !> Base circle load, W_base [N]
       real(wp) :: base_circle_load
-      !> Limiting traction coefficient [-]
-      real(wp) :: limiting_coefficient
+      !> Limiting traction coefficient [-]; limiting stress without pressure, zero where the limit is that of all of the film [Pa]
+      real(wp) :: limiting_coefficient, limiting_stress
       !> Eyring stress [Pa]
       real(wp) :: eyring_stress
       !> Cam speed, omega [rad/s]
@@ -332,6 +328,9 @@ contains
       end if
       call find_name("shear law", case%traction%shear_law, shear_law_names, model%shear_law, error)
       if (allocated(error)) return
+      call find_name("traction limit", case%traction%limit, limit_names, choice, error)
+      if (allocated(error)) return
+      model%has_local_limit = choice == limit_local
       call find_name("traction cap", case%traction%cap, cap_names, model%cap, error)
       if (allocated(error)) return
       call find_name("rolling law", case%traction%rolling_law, rolling_law_names, model%rolling_law, error)
@@ -377,14 +376,15 @@ contains
       model%roller_radius = case%mechanism%roller_radius
       model%lubricant = case%lubricant
       model%limiting_coefficient = case%traction%limiting_coefficient
+      model%limiting_stress = merge(case%traction%limiting_stress, 0.0_wp, model%has_local_limit)
       model%eyring_stress = case%traction%eyring_stress
       model%has_rolling_in_balance = case%traction%in_roller_balance
       if (.not. model%roughness > 0.0_wp) then
          call raise(error, kind_deck, "surface: the composite roughness must be positive")
       else if (.not. (model%contact_width > 0.0_wp .and. model%modulus > 0.0_wp)) then
          call raise(error, kind_deck, "mechanism and materials: contact width and moduli must be positive")
-      else if (.not. model%limiting_coefficient > 0.0_wp) then
-         call raise(error, kind_deck, "traction: the limiting coefficient must be positive")
+      else if (.not. (model%limiting_coefficient > 0.0_wp .and. case%traction%limiting_stress >= 0.0_wp)) then
+         call raise(error, kind_deck, "traction: the limiting coefficient must be positive, the limiting stress not negative")
       else if (model%shear_law == 2 .and. .not. model%eyring_stress > 0.0_wp) then
          call raise(error, kind_deck, "traction: the Eyring law needs a positive eyring stress")
       else if (model%film_law == law_masjedi_khonsari_rough .and. .not. model%hardness > 0.0_wp) then

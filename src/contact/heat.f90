@@ -156,6 +156,10 @@ contains
          part%hot%coefficient = falls(1)*(1.0_wp + part%hot%bend*temperature_step)
          if (oil%pressure_law /= law_roelands) part%hot%pressure_fall = &
             & log(oil%pressure_viscosity/warm(2)%pressure_viscosity)/(2.0_wp*temperature_step)
+      else if (allocated(lubricant%pressure_viscosity_points) .and. oil%pressure_law /= law_roelands) then
+         call get_oil(lubricant, temperature + 2.0_wp*temperature_step, warm(2), error)
+         if (allocated(error)) return
+         part%hot%pressure_fall = log(oil%pressure_viscosity/warm(2)%pressure_viscosity)/(2.0_wp*temperature_step)
       end if
       part%temperature = temperature
       part%oil_capacity = part%oil_heat_capacity*density_at(lubricant, temperature)

@@ -9,6 +9,7 @@ module camroller_lubricant
    use camroller_names, only : name_length, find_name, index_of_name
    use camroller_contact_rule, only : rule_heights, rule_weights
    use camroller_number_text, only : fixed_text
+   use camroller_oil_points, only : coefficient_at, vogel_viscosity
    use camroller_oil_data, only : sae_grade_names, grade_viscosity, grade_index, viscosity_at_40, so_klaus_coefficient, &
       & smallest_indexed, smallest_estimated
    implicit none
@@ -67,6 +68,8 @@ module camroller_lubricant
       !> Pressure-viscosity coefficient at ambient pressure [1/Pa]; zero: derived from `roelands_index`, or without one estimated
       !> where the temperature law knows density and slope
       real(wp) :: pressure_viscosity = 0.0_wp
+      !> The same at temperatures, in its place [1/Pa]; those temperatures, increasing [K]
+      real(wp), allocatable :: pressure_viscosity_points(:), pressure_viscosity_temperatures(:)
       !> Roelands' index Z [-]; zero: derived from the pressure-viscosity coefficient
       real(wp) :: roelands_index = 0.0_wp
    end type lubricant_t
@@ -155,6 +158,12 @@ contains
       if (.not. oil%viscosity > 0.0_wp) then
          call raise(error, kind_deck, "lubricant: the viscosity must be positive")
          return
+      end if
+      oil%pressure_viscosity = lubricant%pressure_viscosity
+      if (allocated(lubricant%pressure_viscosity_points)) then
+         call coefficient_at(lubricant%pressure_viscosity_temperatures, lubricant%pressure_viscosity_points, temperature, &
+            & oil%pressure_viscosity, error)
+         if (allocated(error)) return
       end if
       call set_pressure_constants(lubricant, slope, density, oil, error)
    end subroutine get_oil
@@ -258,14 +267,13 @@ contains
       type(lubricant_t), intent(in) :: lubricant
       !> Slope of Walther's law [-], density at the temperature [kg/m^3]; zero with other laws
       real(wp), intent(in) :: slope, density
-      !> Oil with its viscosity and law known
+      !> Oil with its viscosity, its law and the coefficient as it is given
       type(oil_t), intent(inout) :: oil
       !> Deck error where neither is given, domain error where Roelands' law has no index for this oil
       type(error_t), allocatable, intent(out) :: error
 
-      oil%pressure_viscosity = lubricant%pressure_viscosity
       oil%roelands_index = lubricant%roelands_index
-      oil%is_estimated = lubricant%pressure_viscosity <= 0.0_wp .and. lubricant%roelands_index <= 0.0_wp .and. density > 0.0_wp
+      oil%is_estimated = oil%pressure_viscosity <= 0.0_wp .and. lubricant%roelands_index <= 0.0_wp .and. density > 0.0_wp
       if (oil%is_estimated) then
          if (oil%viscosity < smallest_estimated*square_millimetre*density) then
             call raise(error, kind_domain, "lubricant: the pressure-viscosity coefficient is estimated for 2 mm^2/s and more; "// &
@@ -291,47 +299,6 @@ contains
          call raise(error, kind_deck, "lubricant: Roelands' law takes the pressure-viscosity coefficient or the index, not both")
       end if
    end subroutine set_pressure_constants
-
-   !> Vogel's law `ln eta = a + b/(T - c)` through three points.
-   !>
-   !> Source: Vogel, Physikalische Zeitschrift 22 (1921) 645.
-   subroutine vogel_viscosity(temperatures, viscosities, temperature, viscosity, error)
-      !> Three temperatures, increasing [K]
-      real(wp), intent(in) :: temperatures(3)
-      !> Viscosities there [Pa s]
-      real(wp), intent(in) :: viscosities(3)
-      !> Requested temperature [K]
-      real(wp), intent(in) :: temperature
-      !> Viscosity there [Pa s]
-      real(wp), intent(out) :: viscosity
-      !> Domain error where the points fit no such law, or the temperature lies at or below its pole
-      type(error_t), allocatable, intent(out) :: error
-
-      ! Logarithms of the viscosities; ratio of their divided differences [-]
-      real(wp) :: logs(3), ratio
-      ! Constants of the law: c [K], b [K], a [-]
-      real(wp) :: pole, slope, level
-
-      viscosity = 0.0_wp
-      logs = log(viscosities)
-      ! (ln eta1 - ln eta2)/(ln eta2 - ln eta3) = (T2 - T1)/(T3 - T2) (T3 - c)/(T1 - c)
-      ratio = (logs(1) - logs(2))/(logs(2) - logs(3))*(temperatures(3) - temperatures(2)) &
-         & /(temperatures(2) - temperatures(1))
-      if (.not. (logs(1) > logs(2) .and. logs(2) > logs(3) .and. ratio > 1.0_wp)) then
-         call raise(error, kind_domain, "lubricant: the three viscosity points fit no Vogel law (viscosity must fall, "// &
-            "less and less steeply on a logarithmic scale, as temperature rises)")
-         return
-      end if
-      pole = (ratio*temperatures(1) - temperatures(3))/(ratio - 1.0_wp)
-      slope = (logs(1) - logs(2))*(temperatures(1) - pole)*(temperatures(2) - pole)/(temperatures(2) - temperatures(1))
-      level = logs(1) - slope/(temperatures(1) - pole)
-      if (temperature <= pole + 1.0_wp) then
-         call raise(error, kind_domain, "lubricant: the oil temperature is at or below the pole of the Vogel law at "// &
-            & fixed_text(pole - 273.15_wp, 1)//" degC")
-         return
-      end if
-      viscosity = exp(level + slope/(temperature - pole))
-   end subroutine vogel_viscosity
 
    !> Walther's law `log10 log10(nu + 0.7) = A - B log10 T`, nu in mm^2/s, through two points.
    !>

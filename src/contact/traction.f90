@@ -11,20 +11,23 @@ module camroller_traction
    implicit none
    private
 
-   public :: traction_t, shear_law_names, cap_names, rolling_law_names
+   public :: traction_t, shear_law_names, limit_names, cap_names, rolling_law_names
    public :: film_pressure, newtonian_shear, eyring_shear, blunt_shear, limit_shear, mobilised_share, sliding_direction, &
       & rolling_resistance, resistance_speed_slope
-   public :: law_newtonian, law_eyring, cap_smooth, cap_sharp, rolling_biboulet_houpert, rolling_goksem_hargreaves, rolling_none
+   public :: law_newtonian, law_eyring, limit_local, cap_smooth, cap_sharp, rolling_biboulet_houpert, &
+      & rolling_goksem_hargreaves, rolling_none
 
    !> Shear of the film
    character(len=*), parameter :: shear_law_names(*) = [character(len=name_length) :: "newtonian", "eyring"]
+   !> What is limited: the traction of all of the film, or the stress at each point of it
+   character(len=*), parameter :: limit_names(*) = [character(len=name_length) :: "mean", "local"]
    !> How the limiting traction is approached
    character(len=*), parameter :: cap_names(*) = [character(len=name_length) :: "smooth", "sharp"]
    !> Rolling resistance
    character(len=*), parameter :: rolling_law_names(*) = [character(len=name_length) :: &
       "biboulet_houpert", "goksem_hargreaves", "none"]
    !> Positions in the lists of names
-   integer, parameter :: law_newtonian = 1, law_eyring = 2, cap_smooth = 1, cap_sharp = 2, &
+   integer, parameter :: law_newtonian = 1, law_eyring = 2, limit_local = 2, cap_smooth = 1, cap_sharp = 2, &
       & rolling_biboulet_houpert = 1, rolling_goksem_hargreaves = 2, rolling_none = 3
 
    !> Friction of the film
@@ -33,8 +36,12 @@ module camroller_traction
       character(len=name_length) :: shear_law = "newtonian"
       !> Eyring stress of the oil [Pa]; law `eyring`
       real(wp) :: eyring_stress = 0.0_wp
-      !> Limiting traction coefficient of the film [-]
+      !> What is limited: one of `limit_names`
+      character(len=name_length) :: limit = "mean"
+      !> Limiting traction coefficient of the film, or rise of the limiting stress with the pressure [-]
       real(wp) :: limiting_coefficient = 0.08_wp
+      !> Limiting stress without pressure; limit `local` [Pa]
+      real(wp) :: limiting_stress = 0.0_wp
       !> One of `cap_names`
       character(len=name_length) :: cap = "smooth"
       !> One of `rolling_law_names`

@@ -184,6 +184,8 @@ contains
          call take(settings, "lubricant", "thermal_expansion_per_K", oil%thermal_expansion)
          call take(settings, "lubricant", "pressure_law", oil%pressure_law)
          call take(settings, "lubricant", "pressure_viscosity_coefficient_per_GPa", oil%pressure_viscosity)
+         call take(settings, "lubricant", "pressure_viscosity_temperatures_degC", oil%pressure_viscosity_temperatures)
+         call take(settings, "lubricant", "pressure_viscosity_points_per_GPa", oil%pressure_viscosity_points)
          call take(settings, "lubricant", "roelands_index", oil%roelands_index)
       end associate
    end subroutine fill_lubricant
@@ -207,7 +209,9 @@ contains
       end if
       call take(settings, "traction", "shear_law", case%traction%shear_law)
       call take(settings, "traction", "eyring_stress_MPa", case%traction%eyring_stress)
+      call take(settings, "traction", "limit", case%traction%limit)
       call take(settings, "traction", "limiting_coefficient", case%traction%limiting_coefficient)
+      call take(settings, "traction", "limiting_stress_MPa", case%traction%limiting_stress)
       call take(settings, "traction", "cap", case%traction%cap)
       call take(settings, "traction", "rolling_law", case%traction%rolling_law)
       call take(settings, "traction", "in_roller_balance", case%traction%in_roller_balance)

@@ -15,7 +15,7 @@ module camroller_deck_keys
    use camroller_ehl_table, only : ehl_t
    use camroller_film, only : film_law_names, range_policy_names
    use camroller_asperity, only : asperity_t, asperity_law_names, boundary_names, mobilisation_names
-   use camroller_traction, only : shear_law_names, cap_names, rolling_law_names
+   use camroller_traction, only : shear_law_names, limit_names, cap_names, rolling_law_names
    use camroller_journal, only : cam_bearings_t, journal_law_names, journal_motion_names
    use camroller_roller, only : spin_names
    use camroller_deck_asperity, only : add_modifier_keys
@@ -296,6 +296,11 @@ contains
          & "pressure-viscosity coefficient at ambient pressure; where not given from roelands_index, or without that, with "// &
          & "'walther' and 'data_sheet', estimated by So and Klaus (1980)", example="22", &
          & is_optional=.true.)
+      call add_numbers(schema, "pressure_viscosity_temperatures_degC", range_t(smallest=-273.15_wp, with_smallest=.false.), &
+         & "temperatures of the pressure-viscosity coefficients given as points, increasing, two or more", is_optional=.true.)
+      call add_numbers(schema, "pressure_viscosity_points_per_GPa", positive, &
+         & "pressure-viscosity coefficients at these temperatures, not rising, in the place of one coefficient; between and "// &
+         & "beyond them the logarithm is a straight line", is_optional=.true.)
       call add_number(schema, "roelands_index", positive, &
          & "Roelands' index Z; from the pressure-viscosity coefficient where not given", is_optional=.true.)
    end subroutine add_lubricant_keys
@@ -316,8 +321,13 @@ contains
       call add_name(schema, "shear_law", shear_law_names, standard%traction%shear_law, "shear of the film")
       call add_number(schema, "eyring_stress_MPa", positive, "Eyring stress of the oil; shear law 'eyring'", &
          & is_optional=.true.)
-      call add_number(schema, "limiting_coefficient", positive, "limiting traction coefficient of the film", &
+      call add_name(schema, "limit", limit_names, standard%traction%limit, &
+         & "what is limited: the traction of all of the film, limiting_coefficient times the load, or the stress at each point")
+      call add_number(schema, "limiting_coefficient", positive, &
+         & "limiting traction coefficient of the film; limit 'local': rise of the limiting stress with the pressure", &
          & default=standard%traction%limiting_coefficient)
+      call add_number(schema, "limiting_stress_MPa", not_negative, &
+         & "limiting stress without pressure, 0 where not given; limit 'local'", is_optional=.true.)
       call add_name(schema, "cap", cap_names, standard%traction%cap, "how the limiting traction is approached")
       call add_name(schema, "rolling_law", rolling_law_names, standard%traction%rolling_law, "rolling resistance")
       call add_logical(schema, "in_roller_balance", standard%traction%in_roller_balance, &

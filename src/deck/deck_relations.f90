@@ -215,7 +215,11 @@ contains
       !> Mistakes so far
       type(mistakes_t), intent(inout) :: mistakes
 
+      character(len=*), parameter :: points = "pressure_viscosity_points_per_GPa", &
+         & temperatures = "pressure_viscosity_temperatures_degC"
+
       if (.not. has_group(settings, "lubricant")) return
+      call check_pressure_points(settings, mistakes)
       select case (get_word(settings, "lubricant", "temperature_law"))
       case ("direct")
          call demand(settings, "lubricant", "viscosity_Pa_s", "temperature law 'direct'", mistakes)
@@ -233,10 +237,48 @@ contains
       end select
       if (is_known(settings, "lubricant", "roelands_index") .or. is_wrong(settings, "lubricant", &
          & "roelands_index")) return
+      if (any([is_known(settings, "lubricant", points), is_wrong(settings, "lubricant", points), &
+         & is_known(settings, "lubricant", temperatures), is_wrong(settings, "lubricant", temperatures)])) return
       call demand(settings, "lubricant", "pressure_viscosity_coefficient_per_GPa", &
          & "the oil, without a 'roelands_index',", &
          & mistakes)
    end subroutine oil_has_what_its_law_needs
+
+   !> Pressure-viscosity coefficients over the temperature: as many as temperatures, in order, and no other coefficient.
+   subroutine check_pressure_points(settings, mistakes)
+      !> The settings
+      type(settings_t), intent(in) :: settings
+      !> Mistakes so far
+      type(mistakes_t), intent(inout) :: mistakes
+
+      character(len=*), parameter :: group = "lubricant", t_key = "pressure_viscosity_temperatures_degC", &
+         & v_key = "pressure_viscosity_points_per_GPa", others(*) = [character(len=38) :: &
+         & "pressure_viscosity_coefficient_per_GPa", "roelands_index"]
+      !> Temperatures [K] and coefficients [1/Pa]
+      real(wp), allocatable :: temperatures(:), coefficients(:)
+      integer :: i
+
+      if (is_known(settings, group, t_key)) call demand(settings, group, v_key, "'"//t_key//"'", mistakes)
+      if (.not. is_known(settings, group, v_key)) return
+      call demand(settings, group, t_key, "'"//v_key//"'", mistakes)
+      do i = 1, size(others)
+         if (is_known(settings, group, trim(others(i)))) call complain(mistakes, settings, group, trim(others(i)), &
+            & "'"//v_key//"' takes the place of '"//trim(others(i))//"'; give one of them")
+      end do
+      if (.not. is_known(settings, group, t_key)) return
+      call take(settings, group, t_key, temperatures)
+      call take(settings, group, v_key, coefficients)
+      if (size(temperatures) < 2) then
+         call complain(mistakes, settings, group, t_key, "'"//t_key//"' takes two temperatures or more")
+      else if (any(temperatures(2:) <= temperatures(:size(temperatures) - 1))) then
+         call complain(mistakes, settings, group, t_key, "'"//t_key//"' must increase")
+      else if (size(coefficients) /= size(temperatures)) then
+         call complain(mistakes, settings, group, v_key, "'"//v_key//"' has "//integer_text(size(coefficients))// &
+            & " values for "//integer_text(size(temperatures))//" temperatures")
+      else if (any(coefficients(2:) > coefficients(:size(coefficients) - 1))) then
+         call complain(mistakes, settings, group, v_key, "'"//v_key//"' must not rise with the temperature")
+      end if
+   end subroutine check_pressure_points
 
    !> A data sheet gives two viscosities, or one with the viscosity index, or a grade; and nothing twice.
    subroutine demand_data_sheet(settings, mistakes)
@@ -316,6 +358,10 @@ contains
 
       if (get_word(settings, "traction", "shear_law") == "eyring") then
          call demand(settings, "traction", "eyring_stress_MPa", "shear law 'eyring'", mistakes)
+      end if
+      if (get_word(settings, "traction", "limit") == "mean" .and. is_known(settings, "traction", "limiting_stress_MPa")) then
+         call complain(mistakes, settings, "traction", "limiting_stress_MPa", &
+            & "'limiting_stress_MPa' goes with limit = 'local' in &traction")
       end if
       needer = ""
       if (has_group(settings, "asperity")) then

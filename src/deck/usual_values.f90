@@ -60,9 +60,12 @@ module camroller_usual_values
       usual_t("lubricant.density_kg_m3", 750.0_wp, 1050.0_wp), &
       usual_t("lubricant.thermal_expansion_per_K", 4.0e-4_wp, 1.0e-3_wp), &
       usual_t("lubricant.pressure_viscosity_coefficient_per_GPa", 4.0_wp, 45.0_wp), &
+      usual_t("lubricant.pressure_viscosity_points_per_GPa", 4.0_wp, 45.0_wp), &
+      usual_t("lubricant.pressure_viscosity_temperatures_degC", -40.0_wp, 200.0_wp), &
       usual_t("lubricant.roelands_index", 0.2_wp, 1.2_wp), &
       usual_t("traction.eyring_stress_MPa", 0.5_wp, 30.0_wp), &
       usual_t("traction.limiting_coefficient", 0.01_wp, 0.2_wp), &
+      usual_t("traction.limiting_stress_MPa", 0.0_wp, 20.0_wp), &
       usual_t("roller_profile.crown_radius_mm", 100.0_wp, 1.0e5_wp), &
       usual_t("roller_profile.design_load_N", 10.0_wp, 1.0e4_wp), &
       usual_t("roller_profile.end_drop_um", 0.0_wp, 100.0_wp), &

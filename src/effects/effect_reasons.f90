@@ -6,6 +6,7 @@ module camroller_effect_reasons
    use camroller_kinds, only : wp, degree
    use camroller_model, only : model_t
    use camroller_contact_forces, only : film_groups
+   use camroller_contact_traction, only : largest_shear
    use camroller_effect_list, only : effect_names, effect_asperity, effect_needle, effect_guide, effect_bearings, effect_gas, &
       & effect_rolling, effect_film, effect_pressure, effect_shear, effect_spin, effect_ehl, effect_tip, effect_seal, effect_side, &
       & effect_pivot, effect_drag, effect_inlet_heat, effect_contact_heat, effect_dynamics, effect_surge, effect_adjuster, &
@@ -95,7 +96,7 @@ contains
          case (effect_contact_heat)
             reason = "the film is up to "//trim(text(maxval(contact%film_rise)))//" K warmer than the oil"
          case (effect_spin)
-            lost = maxval(abs(contact%traction)/(model%limiting_coefficient*contact%load + contact%boundary_capacity))
+            lost = maxval(abs(contact%traction)/(largest_shear(model, contact) + contact%boundary_capacity))
             reason = "traction up to "//trim(percent(lost))//" of what the contact can bear; slip follows its balance within "// &
                & trim(text(1.0_wp/(minval(survey%decay)*degree)))//" deg"
          end select

@@ -10,6 +10,7 @@
 !> equation between balance and delayed sliding speed, with half of the angles, and with the slower decay of two angles; and from
 !> the difference of means over all angles and over half of them.
 module camroller_effect_survey
+   use camroller_contact_traction, only : largest_shear
    use camroller_kinds, only : wp, two_pi
    use camroller_effect_grid, only : grid_t, points, slowest_decay, make_grid, delay, delay_from_half, delay_slowly, mean_over, &
       & sampling_error
@@ -352,7 +353,7 @@ contains
          changes = film_exponent*0.5_wp*distance/max(abs(contact%entrainment_speed), tiny(1.0_wp))
          if (.not. model%is_consistent) return
          traction = min(contact%traction_slope*distance, &
-            & 2.0_wp*(model%limiting_coefficient*contact%load + contact%boundary_capacity))
+            & 2.0_wp*(largest_shear(model, contact) + contact%boundary_capacity))
          changes = changes + load_exponent*traction*abs(position%tangent_arm)/(position%normal_arm*contact%load)
       end associate
    end function film_slopes

@@ -17,7 +17,7 @@
 module camroller_ehl_energy
    use camroller_kinds, only : wp
    use camroller_conjunction, only : film_part
-   use camroller_ehl_films, only : cell_shear
+   use camroller_ehl_films, only : cell_areas, cell_limit, cell_shear
    use camroller_ehl_grid, only : ehl_grid_t
    use camroller_ehl_newton, only : ehl_state_t
    use camroller_ehl_problem, only : ehl_problem_t, real_area_part
@@ -306,6 +306,10 @@ contains
          unit = speed*problem%oil%viscosity*problem%length_scale/problem%film_scale
          free = unit*sum(shear)
          if (.not. free > 0.0_wp) return
+         if (heat%has_local_limit) then
+            call limit_heat(problem, grid, state, touching, unit*shear, unit*slopes, made)
+            return
+         end if
          pressed = problem%length_scale*problem%pressure_scale*grid%weight*state%total*exp(-heat%limit_fall*fields%rise)
          limit = heat%limiting_coefficient*sum(pressed)
          force = free
@@ -319,6 +323,36 @@ contains
          made%by_limit = speed*made%by_limit
       end associate
    end subroutine find_heat
+
+   !> Heat of sliding where the stress of each cell has a limit of its own.
+   pure subroutine limit_heat(problem, grid, state, touching, free, slopes, made)
+      !> The problem, with heat
+      type(ehl_problem_t), intent(in) :: problem
+      !> The grid
+      type(ehl_grid_t), intent(in) :: grid
+      !> Pressure, film, viscosity
+      type(ehl_state_t), intent(in) :: state
+      !> Part of the surface on which asperities touch [-]; shear of the cells over length [N/m] and its derivatives over the
+      !> temperatures on both sides [N/(m K)], without the limit
+      real(wp), intent(in) :: touching(:), free(:), slopes(:, :)
+      !> Gets the heat of sliding and its derivatives
+      type(heat_made_t), intent(inout) :: made
+
+      ! Areas over length [m], pressure on them [N/m], limits [N/m], limited shear [N/m], derivatives over free shear and limit [-],
+      ! what the fall of the limit makes of them [N/(m K)]
+      real(wp), dimension(size(free)) :: areas, pressed, limits, shear, by_free, by_limit, fall
+
+      call cell_areas(problem, grid, state, touching, areas, pressed)
+      associate (heat => problem%heat, speed => abs(problem%sliding_speed))
+         limits = max(cell_limit(areas, pressed, heat%limiting_coefficient, heat%limiting_stress), tiny(1.0_wp))
+         shear = free
+         call limit_shear(heat%cap, limits, shear, by_free, by_limit)
+         fall = -0.5_wp*by_limit*limits*heat%limit_fall
+         made%sliding = speed*shear
+         made%slopes(1, :) = made%slopes(1, :) + speed*(by_free*slopes(1, :) + fall)
+         made%slopes(2, :) = made%slopes(2, :) + speed*(by_free*slopes(2, :) + fall)
+      end associate
+   end subroutine limit_heat
 
    !> Part of a cell's heat that goes to the node before it; the rest goes to the one behind. The first node is as warm as the oil
    !> around.

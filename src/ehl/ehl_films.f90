@@ -7,10 +7,12 @@ module camroller_ehl_films
    use camroller_ehl_problem, only : ehl_problem_t, real_area_part
    use camroller_ehl_newton, only : ehl_state_t
    use camroller_ehl_reynolds, only : mean_fluidity
+   use camroller_local_limit, only : least_limit
+   use camroller_traction, only : limit_shear
    implicit none
    private
 
-   public :: ehl_films_t, cell_shear, get_films, compare_grids, chance_error
+   public :: ehl_films_t, cell_areas, cell_limit, cell_shear, limit_cells, get_films, compare_grids, chance_error
 
    !> Film and friction of a solution
    type :: ehl_films_t
@@ -33,6 +35,9 @@ module camroller_ehl_films
       !> Shear of a full film over length and sliding speed, `int eta/h dx` where no asperities touch [Pa s/m]; over the Hertz zone
       !> alone
       real(wp) :: shear_slope = 0.0_wp, shear_slope_inside = 0.0_wp
+      !> Cells of the film, where the problem keeps them, shape (3, cell): shear over length and sliding speed [Pa s/m]; area over
+      !> length, without asperities [m], and pressure on it [N/m], both times the limiting stress over that of the oil around
+      real(wp), allocatable :: cells(:, :)
       !> Mean of the limiting traction coefficient over that of the oil around: by the temperature, weighed with the pressure [-]
       real(wp) :: limit_part = 1.0_wp
       !> Rise of the film's temperature: mean over the dry contact, and largest [K]
@@ -163,8 +168,76 @@ contains
          films%shear_slope_inside = sum(shear, mask=abs(grid%x(:n - 1) + grid%x(2:)) <= 2.0_wp)
       end associate
       films%shear_slope = films%shear_slope*problem%oil%viscosity*problem%length_scale/problem%film_scale
+      if (problem%keeps_cells) then
+         allocate (films%cells(3, size(shear)))
+         films%cells(1, :) = shear*problem%oil%viscosity*problem%length_scale/problem%film_scale
+         call cell_areas(problem, grid, state, touching, films%cells(2, :), films%cells(3, :))
+      end if
       films%shear_slope_inside = films%shear_slope_inside*problem%oil%viscosity*problem%length_scale/problem%film_scale
    end subroutine get_friction
+
+   !> Areas on which the film is full and no asperities touch, over length, and the film's pressure on them; both weighed with the
+   !> fall of a limiting stress by the temperature.
+   pure subroutine cell_areas(problem, grid, state, touching, areas, pressed)
+      !> The problem
+      type(ehl_problem_t), intent(in) :: problem
+      !> The grid
+      type(ehl_grid_t), intent(in) :: grid
+      !> The solution
+      type(ehl_state_t), intent(in) :: state
+      !> Part of the surface on which asperities touch [-]
+      real(wp), intent(in) :: touching(:)
+      !> Area over length [m], pressure times that [N/m]
+      real(wp), intent(out) :: areas(:), pressed(:)
+
+      ! Part of a node's cell with a full film [-]
+      real(wp) :: filled(grid%size)
+
+      associate (fields => state%fields, n => grid%size)
+         filled = filled_part(grid, state)
+         areas = problem%length_scale*grid%step*0.5_wp*(filled(:n - 1) + filled(2:)) &
+            & *(1.0_wp - 0.5_wp*(touching(:n - 1) + touching(2:)))
+         if (allocated(fields%rise)) areas = areas*exp(-0.5_wp*problem%heat%limit_fall*(fields%rise(:n - 1) + fields%rise(2:)))
+         pressed = areas*0.5_wp*problem%pressure_scale*(fields%pressure(:n - 1) + fields%pressure(2:))
+      end associate
+   end subroutine cell_areas
+
+   !> Shear of a film whose stress is limited in each cell, over length, and its slope over the sliding speed.
+   pure subroutine limit_cells(cells, cap, coefficient, stress, sliding_speed, shear, slope)
+      !> The cells, as `ehl_films_t` has them [Pa s/m], [m], [N/m]
+      real(wp), intent(in) :: cells(:, :)
+      !> Position in `cap_names`
+      integer, intent(in) :: cap
+      !> Rise of the limiting stress with the pressure [-], what it is without [Pa]; sliding speed [m/s]
+      real(wp), intent(in) :: coefficient, stress, sliding_speed
+      !> Shear [N/m], slope [Pa s/m]
+      real(wp), intent(out) :: shear, slope
+
+      ! Shear of a cell [N/m], its derivatives over the free one and over the limit [-]
+      real(wp) :: one, by_free, by_limit
+      integer :: i
+
+      shear = 0.0_wp
+      slope = 0.0_wp
+      do i = 1, size(cells, 2)
+         if (.not. cells(2, i) > 0.0_wp) cycle
+         one = cells(1, i)*sliding_speed
+         call limit_shear(cap, cell_limit(cells(2, i), cells(3, i), coefficient, stress), one, by_free, by_limit)
+         shear = shear + one
+         slope = slope + by_free*cells(1, i)
+      end do
+   end subroutine limit_cells
+
+   !> Limit of the shear of a cell over length.
+   elemental function cell_limit(area, pressed, coefficient, stress) result(limit)
+      !> Area over length [m], pressure on it [N/m], both with the fall by temperature; rise of the limiting stress with the
+      !> pressure [-], what it is without [Pa]
+      real(wp), intent(in) :: area, pressed, coefficient, stress
+      !> The limit [N/m]
+      real(wp) :: limit
+
+      limit = max(stress*area + coefficient*pressed, least_limit*area)
+   end function cell_limit
 
    !> Integral of the film over the film's pressure.
    !>

@@ -50,8 +50,10 @@ module camroller_ehl_problem
       real(wp) :: conductivity = 0.0_wp, capacity = 0.0_wp, expansion = 0.0_wp
       !> Temperature of the oil around [K]
       real(wp) :: temperature = 0.0_wp
-      !> Limiting traction coefficient [-], how it is approached, its fall per kelvin [1/K]
-      real(wp) :: limiting_coefficient = 0.0_wp, limit_fall = 0.0_wp
+      !> Limiting traction coefficient [-], how it is approached, its fall per kelvin [1/K]; is the stress limited at each point,
+      !> then the limiting stress without pressure [Pa]
+      real(wp) :: limiting_coefficient = 0.0_wp, limit_fall = 0.0_wp, limiting_stress = 0.0_wp
+      logical :: has_local_limit = .false.
       integer :: cap = cap_smooth
       !> Boundary friction over the asperities' load [-] and over the area on which they touch [Pa], as far as slip mobilises it
       real(wp) :: boundary_coefficient = 0.0_wp, boundary_stress = 0.0_wp
@@ -111,6 +113,8 @@ module camroller_ehl_problem
       real(wp) :: expected_film
       !> Mean of the surfaces' speeds, and their difference [m/s]
       real(wp) :: entrainment_speed, sliding_speed
+      !> Are shear and pressure of the cells kept with film and friction?
+      logical :: keeps_cells = .false.
       !> Heat along the contact; not allocated: none
       type(ehl_heat_t), allocatable :: heat
    end type ehl_problem_t

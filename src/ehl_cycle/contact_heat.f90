@@ -49,6 +49,8 @@ contains
       heat%temperature = model%heat%temperature
       heat%limiting_coefficient = model%limiting_coefficient
       heat%limit_fall = model%heat%limit_fall
+      heat%has_local_limit = model%has_local_limit
+      heat%limiting_stress = model%limiting_stress
       heat%cap = model%cap
       if (.not. allocated(model%boundary)) return
       call find_boundary_friction(model%boundary, sliding_speed, 0.0_wp, 0.0_wp, friction)

@@ -25,7 +25,7 @@ module camroller_ehl_step
    use camroller_ehl_problem, only : ehl_contact_t, ehl_problem_t, new_ehl_problem, in_range
    use camroller_ehl_reynolds, only : storage_t
    use camroller_ehl_newton, only : ehl_state_t, solve_newton, contraction
-   use camroller_ehl_films, only : ehl_films_t, get_films
+   use camroller_ehl_films, only : ehl_films_t, get_films, limit_cells
    use camroller_ehl_heat, only : warm_film
    use camroller_ehl_solution, only : solve_cold
    implicit none
@@ -232,6 +232,7 @@ contains
       now%status = status
       converged = status == in_range
       if (.not. converged) return
+      problem%keeps_cells = model%has_local_limit
       now%length_scale = problem%length_scale
       now%pressure_scale = problem%pressure_scale
       now%film_scale = problem%film_scale
@@ -341,9 +342,16 @@ contains
          if (model%rolling_law /= rolling_none) now%rolling_resistance = now%films%rolling*model%contact_width
          traction_slope = now%films%shear_slope*model%contact_width
          now%traction = traction_slope*speed
-         call limit_shear(model%cap, model%limiting_coefficient*now%films%limit_part*now%load, now%traction, by_shear, by_limit)
+         if (model%has_local_limit) then
+            call limit_cells(now%films%cells, model%cap, model%limiting_coefficient, model%limiting_stress, speed, now%traction, &
+               & traction_slope)
+            now%traction = now%traction*model%contact_width
+            traction_slope = traction_slope*model%contact_width
+         else
+            call limit_shear(model%cap, model%limiting_coefficient*now%films%limit_part*now%load, now%traction, by_shear, by_limit)
+            traction_slope = traction_slope*by_shear
+         end if
          now%shear = now%traction
-         traction_slope = traction_slope*by_shear
          if (allocated(model%boundary)) then
             call find_boundary_friction(model%boundary, speed, 0.0_wp, 0.0_wp, friction)
             now%boundary_capacity = model%boundary%film_shear_strength*now%films%real_area*model%contact_width &

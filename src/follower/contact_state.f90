@@ -99,7 +99,8 @@ module camroller_contact_state
       real(wp) :: shear
       !> Derivative of that over the shear before the limit and over the limit [-], and over the sliding speed beside these [N s/m]
       real(wp) :: by_shear, by_limit, by_speed
-      !> Shear before its limit [N], derivative over ln(pressure) [N] and over the sliding speed [N s/m]
+      !> Shear before its limit [N], derivative over ln(pressure) [N] and over the sliding speed [N s/m]; where the stress is
+      !> limited at each point all of them after it
       real(wp) :: free_shear, pressure_slope, speed_slope
       !> Limit of the shear over that of a film as cold as the oil around [-]
       real(wp) :: limit_share

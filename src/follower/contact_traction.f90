@@ -10,16 +10,17 @@ module camroller_contact_traction
    use camroller_kinds, only : wp
    use camroller_asperity, only : find_boundary_friction, has_one_coefficient
    use camroller_boundary_law, only : follows_temperature
-   use camroller_conjunction, only : sheared_film_t, film_shear_t, flash_resistance, film_resistance, hot_shear
+   use camroller_conjunction, only : hot_oil_t, sheared_film_t, film_shear_t, flash_resistance, film_resistance, hot_shear
    use camroller_contact_state, only : contact_t, setting_t, parts_t, motion_t, slopes_t, length_change
    use camroller_load_share, only : share_change_t
+   use camroller_local_limit, only : limited_shear_t, locally_limited_shear, stress_limit_t
    use camroller_lubricant, only : mean_relative_viscosity
    use camroller_model, only : model_t
    use camroller_traction, only : film_pressure, newtonian_shear, eyring_shear, blunt_shear, limit_shear, law_newtonian
    implicit none
    private
 
-   public :: set_traction, follow_traction
+   public :: set_traction, follow_traction, largest_shear
 
    !> Change of ln(viscosity) by a step of the temperature that may be the last: the shear follows it linearly to its square [-]
    real(wp), parameter :: last_step = 1.0e-7_wp
@@ -142,6 +143,10 @@ contains
       real(wp) :: rise_slope, limit
       type(film_shear_t) :: hot
 
+      if (model%has_local_limit) then
+         call set_local_shear(model, setting, contact, peak, rise, parts)
+         return
+      end if
       limit = model%limiting_coefficient*contact%load
       parts%limit_share = 1.0_wp
       rise_slope = 0.0_wp
@@ -177,6 +182,55 @@ contains
       parts%by_shear = parts%by_shear*by_free
       if (has_hot_film(model)) parts%heat%by_rise = parts%by_shear*rise_slope - parts%by_limit*limit*model%heat%limit_fall
    end subroutine set_shear
+
+   !> The same where the stress is limited at each point: force and slopes are those of the limited shear, and the load has no part
+   !> in the limit but by the pressure.
+   pure subroutine set_local_shear(model, setting, contact, peak, rise, parts)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> What does not change with the load
+      type(setting_t), intent(in) :: setting
+      !> State of the contact; film and load share are set
+      type(contact_t), intent(in) :: contact
+      !> Pressure in the middle of the film [Pa], rise of its temperature [K]
+      real(wp), intent(in) :: peak, rise
+      !> What slopes are made of
+      type(parts_t), intent(inout) :: parts
+
+      type(hot_oil_t) :: hot
+      type(stress_limit_t) :: limit
+      type(limited_shear_t) :: shear
+
+      limit = stress_limit_t(model%cap, model%limiting_stress, model%limiting_coefficient, 0.0_wp, setting%resolution)
+      if (has_hot_film(model)) then
+         hot = model%heat%hot
+         limit%fall = model%heat%limit_fall
+      end if
+      call locally_limited_shear(sheared_film_t(model%shear_law, contact%sliding_speed, peak, contact%apparent_area, &
+         & contact%film_central, model%eyring_stress), model%oil, hot, rise, limit, shear)
+      parts%shear = shear%force
+      parts%free_shear = shear%force
+      parts%speed_slope = shear%by_rate
+      parts%pressure_slope = shear%by_peak
+      parts%by_shear = 1.0_wp
+      parts%by_limit = 0.0_wp
+      parts%limit_share = 1.0_wp
+      parts%by_speed = shear%by_slip
+      parts%heat%by_rise = shear%by_rise
+   end subroutine set_local_shear
+
+   !> Shear of the film that its limit lets through at most, were there no asperities.
+   elemental function largest_shear(model, contact) result(force)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> State of the contact
+      type(contact_t), intent(in) :: contact
+      !> Force [N]
+      real(wp) :: force
+
+      force = model%limiting_coefficient*contact%load
+      if (model%has_local_limit) force = force + model%limiting_stress*contact%apparent_area
+   end function largest_shear
 
    !> Rise of the surfaces' temperature that the heat of friction keeps, whose boundary part follows that temperature, and friction
    !> there. The search starts at the oil's temperature, so that a contact nearby has no part in the choice among several roots.

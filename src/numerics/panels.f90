@@ -14,7 +14,8 @@ module camroller_panels
    implicit none
    private
 
-   public :: sampled_t, panels_t, start_panels, add_panel, add_trapezoid, sample_panel, refine_panels, highest_terms
+   public :: sampled_t, panels_t, start_panels, add_panel, add_trapezoid, sample_panel, split_at, refine_panels, &
+      & highest_terms
 
    !> Places of a panel
    integer, parameter, public :: panel_points = 7
@@ -158,10 +159,8 @@ contains
       !> Why there is no value at a node
       type(error_t), allocatable, intent(out) :: error
 
-      ! Sums of the error estimates [unit of each times x]; values in both halves [unit of each]
-      real(wp) :: sums(size(allowed)), values(size(allowed), panel_points, 2)
-      ! Ends and middle of a panel [x]
-      real(wp) :: left, right, middle
+      ! Sums of the error estimates [unit of each times x]; ends of a panel [x]
+      real(wp) :: sums(size(allowed)), left, right
       integer :: quantity, panel
 
       sums = sum(panels%errors(:, :panels%count), 2)
@@ -176,17 +175,61 @@ contains
             halvings = 0
             return
          end if
-         middle = 0.5_wp*(left + right)
-         call sample_places(sampled, left, middle, values(:, :, 1), error)
-         if (.not. allocated(error)) call sample_places(sampled, middle, right, values(:, :, 2), error)
-         if (allocated(error)) return
          sums = sums - panels%errors(:, panel)
-         call set_panel(panels, panel, left, middle, values(:, :, 1))
-         call add_panel(panels, middle, right, values(:, :, 2))
+         call split_panel(panels, sampled, panel, 0.5_wp*(left + right), error)
+         if (allocated(error)) return
          sums = sums + panels%errors(:, panel) + panels%errors(:, panels%count)
          halvings = halvings - 1
       end do
    end subroutine refine_panels
+
+   !> Two panels in the place of the one that holds a point, where a quantity has a kink, on its two sides.
+   subroutine split_at(panels, sampled, place, error)
+      !> The panels
+      type(panels_t), intent(inout) :: panels
+      !> What is integrated
+      class(sampled_t), intent(inout) :: sampled
+      !> The point [x]
+      real(wp), intent(in) :: place
+      !> Why there is no value at a node
+      type(error_t), allocatable, intent(out) :: error
+
+      ! Least length of a panel [x]
+      real(wp) :: least
+      integer :: panel
+
+      least = shortest*abs(place)
+      do panel = 1, panels%count
+         if (panels%left(panel) + least < place .and. place < panels%right(panel) - least) then
+            call split_panel(panels, sampled, panel, place, error)
+            return
+         end if
+      end do
+   end subroutine split_at
+
+   !> Divide a panel; the second part becomes the last panel.
+   subroutine split_panel(panels, sampled, panel, place, error)
+      !> The panels
+      type(panels_t), intent(inout) :: panels
+      !> What is integrated
+      class(sampled_t), intent(inout) :: sampled
+      !> Which of them
+      integer, intent(in) :: panel
+      !> Where [x]
+      real(wp), intent(in) :: place
+      !> Why there is no value at a node
+      type(error_t), allocatable, intent(out) :: error
+
+      ! Values in both parts [unit of each]; right end [x]
+      real(wp) :: values(size(panels%integrals, 1), panel_points, 2), right
+
+      right = panels%right(panel)
+      call sample_places(sampled, panels%left(panel), place, values(:, :, 1), error)
+      if (.not. allocated(error)) call sample_places(sampled, place, right, values(:, :, 2), error)
+      if (allocated(error)) return
+      call set_panel(panels, panel, panels%left(panel), place, values(:, :, 1))
+      call add_panel(panels, place, right, values(:, :, 2))
+   end subroutine split_panel
 
    !> Values at the nodes between two ends.
    subroutine sample_places(sampled, left, right, values, error)

@@ -17,7 +17,7 @@ module camroller_follower_samples
    use camroller_film, only : is_in_range
    use camroller_film_range, only : film_range_t, note_film
    use camroller_heat, only : is_inlet_in_range
-   use camroller_axial_table, only : axial_state, axial_state_t
+   use camroller_axial_table, only : axial_state, axial_state_t, end_loads
    use camroller_hertz, only : peak_pressure
    use camroller_extremes, only : samples_t, add_sample, start_rows => start_samples
    use camroller_panels, only : sampled_t
@@ -44,13 +44,15 @@ module camroller_follower_samples
       real(wp) :: one_end_share = 0.0_wp
    end type shares_t
 
-   !> One point of a cycle, for the search of standstills and of pure rolling
+   !> One point of a cycle, for the search of standstills, of pure rolling, and of ends of the roller that begin to carry load
    type :: entrainment_t
       !> Cam angle from full lift [rad]
       real(wp) :: angle = 0.0_wp
       !> Mean surface speed, sliding speed [m/s]
       real(wp) :: entrainment_speed = 0.0_wp, sliding_speed = 0.0_wp
       logical :: is_touching = .false.
+      !> How many ends of the roller carry load, where the case has its profile
+      integer :: loaded_ends = 0
    end type entrainment_t
 
    !> Smallest and largest values of a follower at the points evaluated
@@ -314,7 +316,7 @@ contains
       range = [min(range(1), value), max(range(2), value)]
    end subroutine widen_range
 
-   !> The point that was sampled last, for the search of standstills and of pure rolling.
+   !> The point that was sampled last, as these searches need it.
    pure function entrainment_of(samples, angle) result(speed)
       !> The samples
       type(follower_samples_t), intent(in) :: samples
@@ -327,6 +329,8 @@ contains
       speed%entrainment_speed = samples%state%contact%entrainment_speed
       speed%sliding_speed = samples%state%contact%sliding_speed
       speed%is_touching = samples%state%contact%is_touching
+      if (allocated(samples%model%axial)) speed%loaded_ends = count(end_loads(samples%model%axial, samples%state%contact%load, &
+         & samples%state%position%equivalent_radius) > 0.0_wp)
    end function entrainment_of
 
 end module camroller_follower_samples

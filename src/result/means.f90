@@ -17,6 +17,7 @@ module camroller_means
    use camroller_torque_list, only : torque_count, is_loss, is_torque, of_geometric, of_roller_inertia, of_residual, torque_series
    use camroller_cycle_walk, only : walk_t, walk_round, trapezoid
    use camroller_error_estimate, only : estimated_error
+   use camroller_end_contacts, only : split_at_ends
    use camroller_extremes, only : samples_t, move_samples
    use camroller_follower_samples, only : follower_samples_t, start_samples, extremes_t, shares_t
    use camroller_slip_errors, only : slip_errors_t, find_slip_errors
@@ -117,6 +118,8 @@ contains
       films = [1, 0]
       if (statistics%lost_share > 0.0_wp) films = [find_quantity(series, "film_thickness_min"), find_quantity(series, "film_ratio")]
       if (.not. cycle%is_linear) then
+         if (allocated(model%axial)) call split_at_ends(walk%panels, samples, walk%speeds(:walk%count), error)
+         if (allocated(error)) return
          call refine_means(walk%panels, samples, quadrature_part*mean_tolerance(cycle%tolerance), series_count, films, error)
          if (.not. allocated(error)) call add_standstills(samples, walk%speeds(:walk%count), statistics%standstills, &
             & statistics%first_standstill, error)

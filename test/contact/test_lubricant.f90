@@ -46,6 +46,8 @@ contains
          new_unittest("a data sheet is Walther's law through its two viscosities", test_data_sheet), &
          new_unittest("a grade and an index come to the viscosities they stand for", test_grades), &
          new_unittest("So and Klaus' coefficient has the size of measured ones and falls with temperature", test_so_klaus), &
+         new_unittest("pressure-viscosity coefficients as points: met, geometric mean between, same fall beyond", &
+            & test_coefficient_points), &
          new_unittest("oils that cannot be are refused in words", test_refusals) &
          ]
    end subroutine collect_lubricant
@@ -230,6 +232,45 @@ contains
       call get_oil(sheet, 573.15_wp, hot, failure)
       if (.not. allocated(failure)) call test_failed(error, "an estimate far outside of its data was made")
    end subroutine test_so_klaus
+
+   subroutine test_coefficient_points(error)
+      type(error_type), allocatable, intent(out) :: error
+      ! [K], [1/Pa]
+      real(wp), parameter :: places(3) = [300.0_wp, 320.0_wp, 380.0_wp], points(3) = [2.4e-8_wp, 2.0e-8_wp, 1.4e-8_wp]
+      ! Temperatures [K] and what the coefficient is there [1/Pa]: at the points, in the middle between them, before and beyond
+      real(wp), parameter :: tried(7) = [300.0_wp, 320.0_wp, 380.0_wp, 310.0_wp, 350.0_wp, 280.0_wp, 440.0_wp]
+      real(wp), parameter :: expected(7) = [points, sqrt(points(1)*points(2)), sqrt(points(2)*points(3)), &
+         & points(1)**2/points(2), points(3)**2/points(2)]
+      type(lubricant_t) :: lubricant
+      type(oil_t) :: oil
+      type(error_t), allocatable :: failure
+      integer :: i, law
+
+      lubricant%viscosity = 0.0305_wp
+      lubricant%pressure_viscosity_temperatures = places
+      lubricant%pressure_viscosity_points = points
+      do law = 1, size(pressure_law_names)
+         lubricant%pressure_law = pressure_law_names(law)
+         do i = 1, size(tried)
+            call get_oil(lubricant, tried(i), oil, failure)
+            if (allocated(failure)) call test_failed(error, failure%message)
+            if (allocated(error)) return
+            call check(error, oil%pressure_viscosity, expected(i), thr=roundings, rel=.true.)
+            if (allocated(error)) return
+            call check(error, .not. oil%is_estimated, "given points are called an estimate")
+            if (allocated(error)) return
+         end do
+      end do
+      lubricant%pressure_viscosity_points = points(3:1:-1)
+      call refused(lubricant, 333.15_wp, kind_deck, "must not rise", error)
+      if (allocated(error)) return
+      lubricant%pressure_viscosity_points = points(:2)
+      call refused(lubricant, 333.15_wp, kind_deck, "two points or more", error)
+      if (allocated(error)) return
+      lubricant%pressure_viscosity_points = points
+      lubricant%pressure_viscosity_temperatures = places([1, 3, 2])
+      call refused(lubricant, 333.15_wp, kind_deck, "must increase", error)
+   end subroutine test_coefficient_points
 
    subroutine test_walther(error)
       type(error_type), allocatable, intent(out) :: error

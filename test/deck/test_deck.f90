@@ -34,6 +34,7 @@ contains
          new_unittest("missing groups and keys are told with their meaning", missing_parts), &
          new_unittest("the closed energy balance demands its bookkeeping", energy_relations), &
          new_unittest("laws demand what they need", law_relations), &
+         new_unittest("pressure-viscosity coefficients go with as many temperatures, and alone", points_of_coefficient), &
          new_unittest("camshaft, roller and report hold together", geometry_relations), &
          new_unittest("all mistakes are reported at once, in order of place", all_at_once), &
          new_unittest("the message shows the line and a caret below the mistake", line_and_caret), &
@@ -280,6 +281,8 @@ contains
          & "viscosity_points_Pa_s = 0.05, 0.01", "10:97: temperature law 'vogel' takes 3 points, not 2")
       call expect_mistake(error, "", "&traction shear_law = 'eyring' /", &
          & "11:1: shear law 'eyring' needs 'eyring_stress_MPa'")
+      call expect_mistake(error, "", "&traction limiting_stress_MPa = 2 /", &
+         & "11:33: 'limiting_stress_MPa' goes with limit = 'local' in &traction")
       call expect_mistake(error, "", "&film law = 'masjedi_khonsari_rough' /", &
          & "8:1: film law 'masjedi_khonsari_rough' needs")
       call expect_mistake(error, "", "&asperity boundary_coefficient = 0.1 law = 'masjedi_khonsari' /", &
@@ -292,6 +295,26 @@ contains
          & "8:215: asperity law 'zhao_maietta_chang' needs a 'roughness_product' of 0.025 or more")
       call expect_mistake(error, "finger_kg = 0.0418", "", "6:1: &masses needs 'finger_kg', 'finger_inertia_kg_m2' or both")
    end subroutine law_relations
+
+   subroutine points_of_coefficient(error)
+      type(error_type), allocatable, intent(out) :: error
+
+      character(len=*), parameter :: coefficient = "pressure_viscosity_coefficient_per_GPa = 22", &
+         & points = "pressure_viscosity_points_per_GPa", temperatures = "pressure_viscosity_temperatures_degC"
+
+      call expect_mistake(error, coefficient, temperatures//" = 20 60", "10:1: '"//temperatures//"' needs '"//points//"'")
+      call expect_mistake(error, coefficient, points//" = 22 18", "10:1: '"//points//"' needs '"//temperatures//"'")
+      call expect_mistake(error, coefficient, temperatures//" = 20 60 "//points//" = 18 22", &
+         & "10:117: '"//points//"' must not rise with the temperature")
+      call expect_mistake(error, coefficient, temperatures//" = 20 60 "//points//" = 22", &
+         & "10:117: '"//points//"' has 1 values for 2 temperatures")
+      call expect_mistake(error, coefficient, temperatures//" = 60 20 "//points//" = 22 18", &
+         & "10:75: '"//temperatures//"' must increase")
+      call expect_mistake(error, coefficient, temperatures//" = 60 "//points//" = 22", &
+         & "10:75: '"//temperatures//"' takes two temperatures or more")
+      call expect_mistake(error, coefficient, "roelands_index = 0.6 "//temperatures//" = 20 60 "//points//" = 22 18", &
+         & "10:53: '"//points//"' takes the place of 'roelands_index'; give one of them")
+   end subroutine points_of_coefficient
 
    subroutine geometry_relations(error)
       type(error_type), allocatable, intent(out) :: error

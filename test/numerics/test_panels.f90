@@ -3,7 +3,7 @@ module test_panels
    use testdrive, only : unittest_type, new_unittest, error_type, check
    use camroller_kinds, only : wp
    use camroller_error, only : error_t
-   use camroller_panels, only : sampled_t, panels_t, start_panels, sample_panel, add_trapezoid, refine_panels
+   use camroller_panels, only : sampled_t, panels_t, start_panels, sample_panel, add_trapezoid, refine_panels, split_at
    implicit none
    private
 
@@ -39,6 +39,7 @@ contains
          new_unittest("a panel is exact to degree 11 in all quantities, and its error estimate is zero to degree 4", test_exact), &
          new_unittest("error estimates bound the errors of kinks, jumps and roots, wherever they are", test_estimates), &
          new_unittest("halving ends within what is allowed, also with more panels than there was room for", test_halving), &
+         new_unittest("two panels that meet at a kink have the integrals that one has not", test_split), &
          new_unittest("where the halvings do not suffice, none is left", test_not_reached), &
          new_unittest("the error estimate of a trapezoid bounds the error of what rises all the way", test_trapezoid) &
          ]
@@ -153,6 +154,34 @@ contains
          end do
       end associate
    end subroutine test_halving
+
+   subroutine test_split(error)
+      type(error_type), allocatable, intent(out) :: error
+      ! Kink, jump, square, cube, small kink: without the root
+      integer, parameter :: smooth(5) = [1, 2, 4, 5, 6]
+      type(shapes_t) :: sampled
+      type(panels_t) :: panels
+      type(error_t), allocatable :: failure
+      real(wp) :: expected(shapes)
+
+      sampled%place = 1.0_wp/sqrt(7.0_wp)
+      expected = right_integrals(sampled%place)
+      call start_panels(panels, shapes, 1)
+      call sample_panel(panels, sampled, 0.0_wp, 1.0_wp, failure)
+      call check(error, all(abs(panels%integrals([1, 2], 1) - expected([1, 2])) > 1.0e-4_wp), "no error to mend")
+      if (allocated(error)) return
+      ! An end of a panel and a point outside of all change nothing
+      call split_at(panels, sampled, 1.0_wp, failure)
+      call split_at(panels, sampled, 2.0_wp, failure)
+      call check(error, panels%count, 1)
+      if (allocated(error)) return
+      call split_at(panels, sampled, sampled%place, failure)
+      call check(error, panels%count, 2)
+      if (allocated(error)) return
+      associate (errors => abs(sum(panels%integrals(:, :2), 2) - expected))
+         call check(error, all(errors(smooth) <= round_off), "integrals")
+      end associate
+   end subroutine test_split
 
    subroutine test_not_reached(error)
       type(error_type), allocatable, intent(out) :: error

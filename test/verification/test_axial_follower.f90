@@ -8,7 +8,7 @@ module test_axial_follower
    use camroller_kinematics, only : rotation_names
    use camroller_model, only : model_t
    use camroller_remarks, only : cut_off_contact, unloaded_end
-   use camroller_result, only : result_t, find_quantity
+   use camroller_result, only : result_t, find_quantity, get_summary
    use camroller_roller_profile, only : roller_profile_t
    use camroller_run, only : run_case
    use camroller_state, only : state_t, evaluate_state
@@ -33,6 +33,8 @@ contains
          new_unittest("a cylinder without tilt and coupling changes no bit", test_flat), &
          new_unittest("energy closes at 720 angles with a profile, for both senses of rotation, with heat", test_energy), &
          new_unittest("results are the same in other units", test_units), &
+         new_unittest("means of load and pressure at ends that carry for a short time only do not depend on the tolerance", &
+            & test_short_loads), &
          new_unittest("remarks tell of an end that cuts the contact off, and of one without load", test_remarks) &
          ]
    end subroutine collect_axial_follower
@@ -135,6 +137,47 @@ contains
          end do
       end do
    end subroutine test_units
+
+   !> Crowns whose ends carry load for none to a tenth of the turn.
+   subroutine test_short_loads(error)
+      type(error_type), allocatable, intent(out) :: error
+      ! Radii of the crown [m]
+      real(wp), parameter :: first = 7.76_wp, step = 0.02_wp
+      integer, parameter :: radii = 12
+      ! Error of a mean over the tolerance: 0.2 at most for 22 such radii; without panels that end where the ends touch more than
+      ! one half for 11 of them, and up to 4 [-]
+      real(wp), parameter :: allowed = 0.5_wp, tolerance = 1.0e-6_wp, close = 1.0e-9_wp
+      character(len=*), parameter :: names(3) = [character(len=27) :: "mean_edge_stress_factor", "mean_line_load_positive_end", &
+         & "mean_line_load_negative_end"]
+      type(case_t) :: case
+      type(result_t) :: loose, tight
+      type(error_t), allocatable :: failure
+      ! A mean at both tolerances [unit of the mean]
+      real(wp) :: one, other
+      integer :: i, k, loaded
+
+      loaded = 0
+      do i = 1, radii
+         case = thesis_case()
+         call set_point(case, point_speeds(2), point_viscosities(1))
+         case%roller_profile = roller_profile_t(profile="crowned", crown_radius=first + i*step)
+         case%numerics%method = "rodas5p"
+         case%numerics%tolerance = tolerance
+         call run_case(case, loose, failure)
+         case%numerics%tolerance = close
+         if (.not. allocated(failure)) call run_case(case, tight, failure)
+         call expect_success(error, failure)
+         if (allocated(error)) return
+         do k = 1, size(names)
+            call get_summary(loose, trim(names(k)), one, failure)
+            call get_summary(tight, trim(names(k)), other, failure)
+            call check(error, abs(one - other) <= allowed*tolerance*other, names(k))
+            if (allocated(error)) return
+         end do
+         if (other > 0.0_wp) loaded = loaded + 1
+      end do
+      call check(error, loaded > 1 .and. loaded <= radii, "no end carries load")
+   end subroutine test_short_loads
 
    subroutine test_remarks(error)
       type(error_type), allocatable, intent(out) :: error

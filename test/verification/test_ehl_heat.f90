@@ -5,7 +5,7 @@ module test_ehl_heat
    use camroller_case, only : case_t
    use camroller_conjunction, only : band_mean, body_t, hot_oil_t
    use camroller_ehl_energy, only : ehl_energy_t, find_heat, heat_made_t, new_energy, solve_energy
-   use camroller_ehl_films, only : ehl_films_t
+   use camroller_ehl_films, only : ehl_films_t, get_films, limit_cells
    use camroller_ehl_grid, only : ehl_grid_t, integral, new_uniform_grid
    use camroller_ehl_heat, only : start_heat
    use camroller_ehl_newton, only : ehl_state_t
@@ -23,6 +23,7 @@ module test_ehl_heat
    use camroller_number_text, only : number_text
    use camroller_result, only : result_t
    use camroller_state, only : state_t, evaluate_state
+   use camroller_traction, only : cap_smooth
    use closeness, only : check_close, expect_success
    use lobe_cases, only : run
    use reference_cases, only : add_heat, point_speeds, point_viscosities, set_point, thesis_case
@@ -45,6 +46,8 @@ contains
          new_unittest("a film that conducts all of its heat has the closed form's rise", test_conduction), &
          new_unittest("a film that conducts none of its heat carries all of it off", test_adiabatic), &
          new_unittest("heat made is heat carried off and conducted, with limited shear and asperities", test_balance), &
+         new_unittest("a stress limited at each point: heat is the power of the traction, all of it leaves, and without heat "// &
+            & "the largest traction is Lambda times the load", test_local_limit), &
          new_unittest("an oil whose viscosity and density ignore temperature has the isothermal film to the last bit", test_cold), &
          new_unittest("heat of the inlet reduces the film of pure rolling as Murch and Wilson have it", test_inlet), &
          new_unittest("rises are those of a film whose temperature is resolved across it", test_resolved), &
@@ -210,6 +213,53 @@ contains
          if (allocated(error)) return
       end do
    end subroutine test_balance
+
+   subroutine test_local_limit(error)
+      type(error_type), allocatable, intent(out) :: error
+      ! tau_L0 [Pa], Lambda [-]
+      real(wp), parameter :: stress = 2.0e6_wp, coefficient = 0.04_wp
+      type(ehl_contact_t) :: contact
+      type(ehl_problem_t) :: problem
+      type(ehl_grid_t) :: grid
+      type(ehl_state_t) :: state
+      type(ehl_films_t) :: films
+      type(heat_made_t) :: made
+      ! Heat that leaves [W/m]; shear of the film [N/m] and its slope [Pa s/m]
+      real(wp) :: left, shear, slope
+      integer :: i
+
+      do i = 1, 2
+         contact = hot_contact(6.0_wp, 0.3_wp)
+         contact%heat%limiting_coefficient = coefficient
+         contact%heat%limiting_stress = stress
+         contact%heat%has_local_limit = .true.
+         if (i == 2) contact%heat%limit_fall = 3.0e-3_wp
+         call solve(contact, problem, grid, state, films, error)
+         if (allocated(error)) return
+         problem%keeps_cells = .true.
+         call get_films(problem, grid, state, films)
+         call find_heat(problem, grid, state, made)
+         left = contact%heat%capacity*contact%entrainment_speed*films%flow*state%fields%rise(grid%size) &
+            & + problem%length_scale*integral(grid, state%fields%flux(:, 1))
+         call check_close(error, left, sum(made%sliding + made%driven + made%compression), 1.0e-6_wp, "heat that leaves the film")
+         if (allocated(error)) return
+         call limit_cells(films%cells, contact%heat%cap, coefficient, stress, abs(contact%sliding_speed), shear, slope)
+         call check_close(error, sum(made%sliding), abs(contact%sliding_speed)*shear, 1.0e-12_wp, &
+            & "heat of sliding and power of the traction")
+         if (allocated(error)) return
+         call check(error, shear < 0.99_wp*films%shear_slope*abs(contact%sliding_speed), "no limit is reached")
+         if (allocated(error)) return
+      end do
+      deallocate (contact%heat)
+      call solve(contact, problem, grid, state, films, error)
+      if (allocated(error)) return
+      problem%keeps_cells = .true.
+      call get_films(problem, grid, state, films)
+      ! So fast that all of the film is at its limit; the sum of cells is the integral by trapezoids, to the cell in which the film
+      ! ends
+      call limit_cells(films%cells, cap_smooth, coefficient, 0.0_wp, 1.0e9_wp, shear, slope)
+      call check_close(error, shear, coefficient*contact%line_load, 1.0e-4_wp, "largest traction")
+   end subroutine test_local_limit
 
    subroutine test_cold(error)
       type(error_type), allocatable, intent(out) :: error

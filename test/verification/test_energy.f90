@@ -124,6 +124,8 @@ contains
          if (i > 2) case%traction%shear_law = "eyring"
          case%traction%eyring_stress = 5.0e6_wp
          if (i > 1) case%traction%cap = "sharp"
+         if (mod(i, 3) == 0) case%traction%limit = "local"
+         case%traction%limiting_stress = 1.0e6_wp
          if (i == 3) case%needle_bearing%kind = "plain_pin"
          if (i == 4) deallocate (case%valve_guide)
          if (i == 5) deallocate (case%asperity)

@@ -340,6 +340,21 @@ contains
          call check_close(error, part%loading, part%hot%coefficient*oil%viscosity/0.14_wp, roundings, "L over the speed squared")
          if (allocated(error)) return
       end do
+      ! Points of the pressure-viscosity coefficient, on one exponential, tell how it falls, whatever tells the viscosity
+      lubricant%pressure_viscosity = 0.0_wp
+      lubricant%pressure_viscosity_temperatures = [300.0_wp, 340.0_wp]
+      lubricant%pressure_viscosity_points = 2.2e-8_wp*[1.0_wp, exp(-0.2_wp)]
+      do law = 1, 2
+         lubricant%temperature_law = merge("direct ", "walther", law == 1)
+         lubricant%viscosity = 0.05_wp
+         call get_oil(lubricant, 320.0_wp, oil, failure)
+         call new_heat_part(part, heat_t(viscosity_fall=merge(0.03_wp, 0.0_wp, law == 1)), failure)
+         call set_heat_oil(part, lubricant, 320.0_wp, oil, failure)
+         if (allocated(failure)) call test_failed(error, failure%message)
+         if (allocated(error)) return
+         call check_close(error, part%hot%pressure_fall, 0.2_wp/40.0_wp, roundings, "fall of the coefficient")
+         if (allocated(error)) return
+      end do
    end subroutine test_oils
 
 end module test_heat_laws

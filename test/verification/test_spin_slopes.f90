@@ -42,6 +42,8 @@ contains
          new_unittest("slopes with gas force, with yielding asperities, and without asperities, bearing and guide", test_effects), &
          new_unittest("slopes with friction at valve tip, seal, guide and pivot, and needle drag", test_with_joints), &
          new_unittest("slopes with heat of inlet and contact, for every film, viscosity and shear law", test_with_heat), &
+         new_unittest("slopes with a limit of the stress at each point, for every viscosity and shear law, with and without heat", &
+            & test_local_limit), &
          new_unittest("slopes with a law of the boundary coefficient, with and without heat", test_with_boundary_law), &
          new_unittest("slopes with a tribofilm whose thickness changes over the cam", test_with_tribofilm), &
          new_unittest("slopes with a tilted crown, for every film and rolling law", test_with_profile), &
@@ -200,6 +202,30 @@ contains
          if (allocated(error)) return
       end do
    end subroutine test_with_heat
+
+   subroutine test_local_limit(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: case
+      type(model_t) :: model
+      integer :: law
+
+      do law = 1, 6
+         case = skewed_case(rotation_names(1 + mod(law, 2)))
+         case%lubricant%pressure_law = pressure_law_names(1 + mod(law, 3))
+         case%traction%shear_law = merge("newtonian", "eyring   ", law < 4)
+         case%traction%eyring_stress = 5.0e6_wp
+         case%traction%limit = "local"
+         case%traction%limiting_coefficient = 0.04_wp
+         case%traction%limiting_stress = 1.0e6_wp
+         case%asperity%film_shear_strength = 2.0e6_wp
+         if (mod(law, 2) == 0) call add_heat(case)
+         call set_point(case, point_speeds(1 + mod(law, 3)), point_viscosities(1 + mod(law + 1, 3)))
+         call make_model(case, model, error)
+         if (allocated(error)) return
+         call compare(error, model, "limit at each point, "//trim(case%lubricant%pressure_law)//", "//case%traction%shear_law)
+         if (allocated(error)) return
+      end do
+   end subroutine test_local_limit
 
    subroutine test_with_boundary_law(error)
       type(error_type), allocatable, intent(out) :: error

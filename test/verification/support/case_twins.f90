@@ -33,6 +33,7 @@ contains
       case%lubricant%pressure_law = "barus"
       if (.not. case%lubricant%pressure_viscosity > 0.0_wp) case%lubricant%pressure_viscosity = 2.0e-8_wp
       case%lubricant%roelands_index = 0.0_wp
+      if (allocated(case%lubricant%pressure_viscosity_points)) deallocate (case%lubricant%pressure_viscosity_points)
       if (allocated(case%ehl)) deallocate (case%ehl)
       if (allocated(case%needle_drag)) deallocate (case%needle_drag)
       if (allocated(case%heat)) then
@@ -92,6 +93,7 @@ contains
       call change(case%lubricant%viscosity, viscosity)
       call change(case%lubricant%pressure_viscosity, per_pressure)
       call change(case%traction%eyring_stress, pressure)
+      call change(case%traction%limiting_stress, pressure)
       if (allocated(case%roller_profile)) then
          call change(case%roller_profile%crown_radius, length)
          call change(case%roller_profile%design_load, force)

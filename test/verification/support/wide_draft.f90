@@ -243,6 +243,7 @@ contains
       if (group == "lubricant") call keep_oil_rules(draft, text, key, is_given)
       if (group == "lift" .or. group == "second_lift") call keep_lift_rules(law, key, is_given)
       if (group == "boundary_law") is_given = is_of_boundary_law(law, key, is_given)
+      if (key == "limiting_stress_MPa") is_given = is_given .and. deck_word(text, group, "limit") == "local"
       select case (key)
       case ("table")
          is_given = law == "table" .or. group == "gas_force"
@@ -330,7 +331,15 @@ contains
       case ("pressure_viscosity_coefficient_per_GPa")
          is_given = (draft%is_first .or. (is_given .and. deck_word(text, "lubricant", "pressure_law") /= "roelands")) &
             & .and. .not. is_estimated
+      case ("pressure_viscosity_temperatures_degC")
+         is_given = is_given .and. index(text, "pressure_viscosity_coefficient") == 0 .and. .not. is_estimated
+      case ("pressure_viscosity_points_per_GPa")
+         is_given = index(text, "pressure_viscosity_temperatures") > 0
       case ("roelands_index")
+         if (index(text, "pressure_viscosity_points") > 0) then
+            is_given = .false.
+            return
+         end if
          is_given = (.not. draft%is_first .or. (is_given .and. deck_word(text, "lubricant", "pressure_law") /= "roelands")) &
             & .and. .not. is_estimated
       end select

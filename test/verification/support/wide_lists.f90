@@ -41,6 +41,10 @@ contains
          values = running_sum(points, -20.0_wp, 40.0_wp)
       case ("lubricant.viscosity_points_Pa_s")
          values = oil_points(points)
+      case ("lubricant.pressure_viscosity_temperatures_degC")
+         values = running_sum(3, -20.0_wp, 40.0_wp)
+      case ("lubricant.pressure_viscosity_points_per_GPa")
+         values = falling(running_sum(3, 8.0_wp, 5.0_wp))
       case ("boundary_law.speed_points_m_s", "boundary_law.temperature_points_degC", "boundary_law.coefficient_points", &
          & "shaft_drag.speed_points_rpm", "shaft_drag.temperature_points_degC", "shaft_drag.torque_points_Nm")
          call draw_table()
@@ -124,6 +128,15 @@ contains
             sums(k) = so_far
          end do
       end function running_sum
+
+      !> Numbers from the last to the first.
+      pure function falling(values) result(turned)
+         ! [unit of the key]
+         real(wp), intent(in) :: values(:)
+         real(wp) :: turned(size(values))
+
+         turned = values(size(values):1:-1)
+      end function falling
 
       !> Viscosities at the temperatures of the deck by Vogel's law, with a constant and a pole like those of mineral oils.
       function oil_points(count) result(viscosities)

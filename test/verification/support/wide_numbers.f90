@@ -71,6 +71,7 @@ module wide_numbers
       & usual_t("ehl.accuracy", 0.03_wp, 0.2_wp, .true.), &
       & usual_t("traction.eyring_stress_MPa", 1.0_wp, 20.0_wp, .true.), &
       & usual_t("traction.limiting_coefficient", 0.02_wp, 0.12_wp), &
+      & usual_t("traction.limiting_stress_MPa", 0.0_wp, 10.0_wp), &
       & usual_t("roller_profile.crown_radius_mm", 300.0_wp, 3.0e4_wp, .true.), &
       & usual_t("roller_profile.design_load_N", 10.0_wp, 5000.0_wp, .true.), &
       & usual_t("roller_profile.end_drop_um", 0.0_wp, 20.0_wp), &
