@@ -17,7 +17,6 @@ module camroller_means
    use camroller_torque_list, only : torque_count, is_loss, is_torque, of_geometric, of_roller_inertia, of_residual, torque_series
    use camroller_cycle_walk, only : walk_t, walk_round, trapezoid
    use camroller_error_estimate, only : estimated_error
-   use camroller_end_contacts, only : split_at_ends
    use camroller_extremes, only : samples_t, move_samples
    use camroller_follower_samples, only : follower_samples_t, start_samples, extremes_t, shares_t
    use camroller_slip_errors, only : slip_errors_t, find_slip_errors
@@ -25,7 +24,7 @@ module camroller_means
    use camroller_names, only : name_length
    use camroller_panels, only : panels_t, panel_points, panel_places, start_panels, add_panel, add_trapezoid, refine_panels
    use camroller_result, only : quantity_t, find_quantity
-   use camroller_standstills, only : add_rolling_points, add_standstills
+   use camroller_standstills, only : add_rolling_points, add_standstills, split_at_ends
    use camroller_stored_work, only : stored_work_t, follow_contact, end_work, spin_work
    implicit none
    private

@@ -152,6 +152,9 @@ contains
       outcome%mean_torque_drive = sum(outcome%mean_torques, mask=is_torque)
       outcome%torque_friction = sum(outcome%torques, mask=is_loss)
       outcome%torque_drive = sum(outcome%torques, mask=is_torque)
+      ! At the end the same sum in another order
+      outcome%extreme_torque = [min(outcome%extreme_torque(1), outcome%torque_drive), &
+         & max(outcome%extreme_torque(2), outcome%torque_drive)]
    end subroutine add_up
 
    !> Means of what is sampled at equal distances.
