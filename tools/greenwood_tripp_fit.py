@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Fit the integrals of Greenwood and Tripp (1970) for src/contact/greenwood_tripp.f90.
+"""Fit the integrals of Greenwood and Tripp (1970) for src/surface/greenwood_tripp.f90.
 
     F_n(H) = (2 pi)^(-1/2) int_H^inf (s - H)^n exp(-s^2/2) ds,   n = 1, 3/2, 2, 5/2
 

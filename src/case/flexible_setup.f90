@@ -229,8 +229,8 @@ contains
       complex(wp) :: centre, arm, axis, normal
       ! Way too far [m], gap too wide at the pad [m]; their derivatives over gamma [m] and y [-]; changes of both [rad], [m]
       real(wp) :: excess, gap, by_finger(2), by_pivot(2), change(2), determinant
-      ! Size of a change, of the one before [m]
-      real(wp) :: size, last_size
+      ! Way that a change moves roller and pivot, and that of the one before [m]
+      real(wp) :: way, last_way
       ! Changes below which rounding may keep them from falling, over the roller arm [-]
       real(wp), parameter :: smallest = 1.0e-10_wp
       integer :: i, status
@@ -239,7 +239,7 @@ contains
       distance = closed%rolling_travel + linkage%roller_radius - flexible%compliance*load**0.9_wp - load/flexible%finger_stiffness
       rest%finger = linkage%base_angle
       rest%pivot = 0.0_wp
-      last_size = huge(1.0_wp)
+      last_way = huge(1.0_wp)
       axis = flexible%axis
       do i = 1, 50
          arm = linkage%a*exp(cmplx(0.0_wp, rest%finger + linkage%arm_offset + linkage%valve_axis_angle, wp))
@@ -259,10 +259,10 @@ contains
          change = [gap*by_pivot(1) - excess*by_pivot(2), excess*by_finger(2) - gap*by_finger(1)]/determinant
          rest%finger = rest%finger + change(1)
          rest%pivot = rest%pivot + change(2)
-         size = abs(change(1))*linkage%a + abs(change(2))
+         way = abs(change(1))*linkage%a + abs(change(2))
          ! An adjuster that is nearly along the finger multiplies rounding
-         if (size <= 1.0e-15_wp*linkage%a .or. (size >= last_size .and. size <= smallest*linkage%a)) return
-         last_size = size
+         if (way <= 1.0e-15_wp*linkage%a .or. (way >= last_way .and. way <= smallest*linkage%a)) return
+         last_way = way
       end do
       call raise(error, kind_convergence, "the flexible train finds no rest on the base circle under "//number_text(load, 4)//" N")
    end subroutine find_rest

@@ -25,6 +25,10 @@ module camroller_deck_relations
 
    public :: check_relations
 
+   !> Pressure-viscosity coefficients over the temperature
+   character(len=*), parameter :: points_key = "pressure_viscosity_points_per_GPa", &
+      & temperatures_key = "pressure_viscosity_temperatures_degC"
+
 contains
 
    !> All rules.
@@ -215,9 +219,6 @@ contains
       !> Mistakes so far
       type(mistakes_t), intent(inout) :: mistakes
 
-      character(len=*), parameter :: points = "pressure_viscosity_points_per_GPa", &
-         & temperatures = "pressure_viscosity_temperatures_degC"
-
       if (.not. has_group(settings, "lubricant")) return
       call check_pressure_points(settings, mistakes)
       select case (get_word(settings, "lubricant", "temperature_law"))
@@ -237,8 +238,8 @@ contains
       end select
       if (is_known(settings, "lubricant", "roelands_index") .or. is_wrong(settings, "lubricant", &
          & "roelands_index")) return
-      if (any([is_known(settings, "lubricant", points), is_wrong(settings, "lubricant", points), &
-         & is_known(settings, "lubricant", temperatures), is_wrong(settings, "lubricant", temperatures)])) return
+      if (any([is_known(settings, "lubricant", points_key), is_wrong(settings, "lubricant", points_key), &
+         & is_known(settings, "lubricant", temperatures_key), is_wrong(settings, "lubricant", temperatures_key)])) return
       call demand(settings, "lubricant", "pressure_viscosity_coefficient_per_GPa", &
          & "the oil, without a 'roelands_index',", &
          & mistakes)
@@ -251,32 +252,32 @@ contains
       !> Mistakes so far
       type(mistakes_t), intent(inout) :: mistakes
 
-      character(len=*), parameter :: group = "lubricant", t_key = "pressure_viscosity_temperatures_degC", &
-         & v_key = "pressure_viscosity_points_per_GPa", others(*) = [character(len=38) :: &
+      character(len=*), parameter :: group = "lubricant", others(*) = [character(len=38) :: &
          & "pressure_viscosity_coefficient_per_GPa", "roelands_index"]
       !> Temperatures [K] and coefficients [1/Pa]
       real(wp), allocatable :: temperatures(:), coefficients(:)
       integer :: i
 
-      if (is_known(settings, group, t_key)) call demand(settings, group, v_key, "'"//t_key//"'", mistakes)
-      if (.not. is_known(settings, group, v_key)) return
-      call demand(settings, group, t_key, "'"//v_key//"'", mistakes)
+      if (is_known(settings, group, temperatures_key)) call demand(settings, group, points_key, "'"//temperatures_key//"'", &
+         & mistakes)
+      if (.not. is_known(settings, group, points_key)) return
+      call demand(settings, group, temperatures_key, "'"//points_key//"'", mistakes)
       do i = 1, size(others)
          if (is_known(settings, group, trim(others(i)))) call complain(mistakes, settings, group, trim(others(i)), &
-            & "'"//v_key//"' takes the place of '"//trim(others(i))//"'; give one of them")
+            & "'"//points_key//"' takes the place of '"//trim(others(i))//"'; give one of them")
       end do
-      if (.not. is_known(settings, group, t_key)) return
-      call take(settings, group, t_key, temperatures)
-      call take(settings, group, v_key, coefficients)
+      if (.not. is_known(settings, group, temperatures_key)) return
+      call take(settings, group, temperatures_key, temperatures)
+      call take(settings, group, points_key, coefficients)
       if (size(temperatures) < 2) then
-         call complain(mistakes, settings, group, t_key, "'"//t_key//"' takes two temperatures or more")
+         call complain(mistakes, settings, group, temperatures_key, "'"//temperatures_key//"' takes two temperatures or more")
       else if (any(temperatures(2:) <= temperatures(:size(temperatures) - 1))) then
-         call complain(mistakes, settings, group, t_key, "'"//t_key//"' must increase")
+         call complain(mistakes, settings, group, temperatures_key, "'"//temperatures_key//"' must increase")
       else if (size(coefficients) /= size(temperatures)) then
-         call complain(mistakes, settings, group, v_key, "'"//v_key//"' has "//integer_text(size(coefficients))// &
+         call complain(mistakes, settings, group, points_key, "'"//points_key//"' has "//integer_text(size(coefficients))// &
             & " values for "//integer_text(size(temperatures))//" temperatures")
       else if (any(coefficients(2:) > coefficients(:size(coefficients) - 1))) then
-         call complain(mistakes, settings, group, v_key, "'"//v_key//"' must not rise with the temperature")
+         call complain(mistakes, settings, group, points_key, "'"//points_key//"' must not rise with the temperature")
       end if
    end subroutine check_pressure_points
 

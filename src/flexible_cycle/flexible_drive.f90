@@ -23,9 +23,8 @@ module camroller_flexible_drive
 
    !> A train that is driven piece by piece: the last piece, and room that the next one uses
    type :: drive_t
+      !> What integrates; its stops are first angle, kinks of the lift between, last angle
       type(turn_t) :: turn
-      !> First angle, kinks of the lift between, last angle [rad]
-      real(wp), allocatable :: stops(:)
       !> Accepted points
       type(trajectory_t) :: path
       !> What was not told apart
@@ -34,9 +33,9 @@ module camroller_flexible_drive
 
 contains
 
-   !> Integrate between the stops of a drive.
+   !> Integrate between the stops of a drive, which are there.
    subroutine drive_train(drive, model, numerics, sliding_scale, state, step, error)
-      !> Has its stops; out: the piece
+      !> In: stops; out: the piece
       type(drive_t), intent(inout) :: drive
       !> The model, with a flexible train, which follows the inputs of a host
       type(model_t), intent(in), target :: model
@@ -59,7 +58,7 @@ contains
          call set_tolerance(turn, errors_of_state(turn%scales, numerics, sliding_scale))
          if (step > 0.0_wp) turn%options%step = step
          drive%resolution = turn%problem%resolution
-         call integrate_switching(turn%problem, turn%method, turn%options, drive%stops, state, drive%path, counters, error, step)
+         call integrate_switching(turn%problem, turn%method, turn%options, turn%stops, state, drive%path, counters, error, step)
       end associate
    end subroutine drive_train
 

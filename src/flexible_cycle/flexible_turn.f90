@@ -42,7 +42,7 @@ module camroller_flexible_turn
       character(len=name_length) :: method_name = ""
       integer :: components = 0
       type(options_t) :: options
-      !> Stops of a turn [rad]
+      !> Angles at which a step must end, the first and the last among them [rad]
       real(wp), allocatable :: stops(:)
       !> Sizes of the components [state]
       real(wp), allocatable :: scales(:)

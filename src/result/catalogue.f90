@@ -320,8 +320,8 @@ contains
       call add(list, "contact_gap", "m", "gap between cam and roller", "dynamics", train%gap)
       call add(list, "contact_turn", "rad", "angle by which the point of contact is ahead of the cam", "dynamics", &
          & train%contact_turn)
-      call add(list, "load_error", "N", "contact load less that of a rigid train without friction, which is below zero where "// &
-         & "such a train would lose contact", "dynamics", train%load_error)
+      call add(list, "load_error", "N", "contact load less what a rigid train without friction needs; that is negative where "// &
+         & "it would lose contact", "dynamics", train%load_error)
       call add(list, "pad_force", "N", "force between finger and valve", "dynamics", train%pad_force)
       call add(list, "seat_force", "N", "force of the seat on the valve", "dynamics", train%seat_force)
       call add(list, "joint_force", "N", "force in the joint of finger and pivot; negative: the socket would open", "dynamics", &

@@ -211,7 +211,7 @@ contains
       has_way_out = .false.
       associate (point => follower%point, model => follower%model, first => follower%point%angle - pi, &
          & n => state_size(follower%model))
-         call find_edges(model, first, to - pi, follower%drive%stops)
+         call find_edges(model, first, to - pi, follower%drive%turn%stops)
          do try = 1, most_tries
             state = point%train
             step = point%train_step

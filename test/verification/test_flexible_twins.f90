@@ -1,10 +1,11 @@
-!> Flexible trains told in another way: in other units, and as their mirror image that runs backwards.
+!> Flexible trains told in another way: in other units, as their mirror image that runs backwards, with room of an earlier piece.
 module test_flexible_twins
    use testdrive, only : unittest_type, new_unittest, error_type, check, test_failed
    use camroller_kinds, only : wp, pi
    use camroller_error, only : error_t
    use camroller_case, only : case_t, numerics_t
    use camroller_flexible_cycle, only : rest_of_train
+   use camroller_flexible_drive, only : drive_t, drive_train
    use camroller_flexible_turn, only : integrate_turn, start_turns, turn_t
    use camroller_flexible_train, only : at_finger_rate, at_lift, at_speed, at_sliding, evaluate_train, first_mode, &
       & flexible_state_t, rates_of, resolution_t
@@ -40,9 +41,46 @@ contains
       testsuite = [ &
          new_unittest("rates of a flexible train in other units are the same rates", test_rates), &
          new_unittest("a periodic train in other units is the same train", test_periodic), &
-         new_unittest("a turn, and its mirror image backwards, end where the turn began", test_return) &
+         new_unittest("a turn, and its mirror image backwards, end where the turn began", test_return), &
+         new_unittest("a piece in the room of the one before has the bits of one in room of its own", test_room) &
          ]
    end subroutine collect_flexible_twins
+
+   !> By a method that begins a step with the one before where that ends in the same state.
+   subroutine test_room(error)
+      type(error_type), allocatable, intent(out) :: error
+      ! Ends of two pieces [rad]
+      real(wp), parameter :: ends(*) = [-1.5_wp, -1.45_wp, -1.4_wp]
+      type(case_t) :: the_case
+      type(model_t), target :: model
+      type(drive_t) :: kept, fresh
+      type(error_t), allocatable :: failure
+      ! States at the end of each piece [state]; steps [rad]
+      real(wp), allocatable :: one(:), other(:)
+      real(wp) :: steps(2)
+      type(numerics_t) :: numerics
+
+      numerics = numerics_t(method="radau5", tolerance=1.0e-4_wp)
+      the_case = thesis_case()
+      call add_dynamics(the_case, 0, .false.)
+      call make_model(the_case, model, error)
+      if (allocated(error)) return
+      call rest_of_train(model, one, failure)
+      steps = 0.0_wp
+      kept%turn%stops = ends(:2)
+      if (.not. allocated(failure)) call drive_train(kept, model, numerics, 0.1_wp, one, steps(1), failure)
+      other = one
+      steps(2) = steps(1)
+      kept%turn%stops = ends(2:)
+      fresh%turn%stops = ends(2:)
+      if (.not. allocated(failure)) call drive_train(kept, model, numerics, 0.1_wp, one, steps(1), failure)
+      if (.not. allocated(failure)) call drive_train(fresh, model, numerics, 0.1_wp, other, steps(2), failure)
+      if (allocated(failure)) then
+         call test_failed(error, failure%message)
+         return
+      end if
+      call check(error, all(transfer(one, [0]) == transfer(other, [0])), "bits differ")
+   end subroutine test_room
 
    subroutine test_rates(error)
       type(error_type), allocatable, intent(out) :: error
