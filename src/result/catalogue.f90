@@ -29,6 +29,8 @@ module camroller_catalogue
 
    !> Beginning of the names of series of one of several camshafts
    character(len=*), parameter :: camshaft_prefix = "camshaft_"
+   !> Part of the friction that counts as none [-]: no friction is known to so many digits
+   real(wp), parameter :: least_share = 1.0e-12_wp
 
 contains
 
@@ -190,16 +192,18 @@ contains
    end subroutine series_values
 
    !> Append a series: its value alone, without a call, where no names are wanted.
-   pure subroutine add(list, name, unit, description, source, value)
+   pure subroutine add(list, name, unit, description, source, value, least)
       !> List to extend
       type(quantity_list_t), intent(inout) :: list
       !> Name, unit, meaning, part of the model
       character(len=*), intent(in) :: name, unit, description, source
       !> Value [unit of the quantity]
       real(wp), intent(in) :: value
+      !> Magnitude below which it counts as none; 0 where absent [unit of the quantity]
+      real(wp), intent(in), optional :: least
 
       if (allocated(list%items) .or. list%count == size(list%values)) then
-         call append_quantity(list, name, unit, description, source, value)
+         call append_quantity(list, name, unit, description, source, value, least=least)
       else
          list%count = list%count + 1
          list%values(list%count) = value
@@ -265,9 +269,9 @@ contains
          & state%contact_friction)
       if (allocated(case%asperity)) then
          call add(list, "asperity_friction_share", "1", "fraction of boundary friction in contact friction", "asperity", &
-            & ratio(state%boundary_friction, state%contact_friction))
+            & ratio(state%boundary_friction, state%contact_friction), least=least_share)
       end if
-      if (allocated(case%roller_profile)) call add_axial(list, case%roller_profile, model, state, along)
+      if (allocated(case%roller_profile)) call add_axial(list, case, model, state, along)
       call add_pin(list, case, model, state)
       if (allocated(case%wear) .or. allocated(case%running_in)) call add_surfaces(list, case, model, state)
       call add_joints(list, case, state%joints)

@@ -330,7 +330,7 @@ contains
       real(wp), parameter :: least = sqrt(tiny(1.0_wp))
       integer :: i
 
-      ranges = max(highest - lowest, least)
+      ranges = max(highest - lowest, series%least, least)
       is_damper = [(index(series(i)%name, "damping_power_") > 0, i=1, size(series))]
       where (is_damper) ranges = maxval(ranges, mask=is_damper)
       associate (errors => statistics%extreme_errors)

@@ -17,7 +17,7 @@ module camroller_follower_samples
    use camroller_film, only : is_in_range
    use camroller_film_range, only : film_range_t, note_film
    use camroller_heat, only : is_inlet_in_range
-   use camroller_axial_table, only : axial_state, axial_state_t, end_loads
+   use camroller_axial_table, only : axial_state, axial_state_t
    use camroller_hertz, only : peak_pressure
    use camroller_extremes, only : samples_t, add_sample, start_rows => start_samples
    use camroller_panels, only : sampled_t
@@ -53,6 +53,8 @@ module camroller_follower_samples
       logical :: is_touching = .false.
       !> How many ends of the roller carry load, where the case has its profile
       integer :: loaded_ends = 0
+      !> Where the pressure along it is largest, from the middle in widths of a slice [-]
+      real(wp) :: peak_slice = 0.0_wp
    end type entrainment_t
 
    !> Smallest and largest values of a follower at the points evaluated
@@ -325,12 +327,16 @@ contains
       !> What it is like
       type(entrainment_t) :: speed
 
+      type(axial_state_t) :: along
+
       speed%angle = angle
       speed%entrainment_speed = samples%state%contact%entrainment_speed
       speed%sliding_speed = samples%state%contact%sliding_speed
       speed%is_touching = samples%state%contact%is_touching
-      if (allocated(samples%model%axial)) speed%loaded_ends = count(end_loads(samples%model%axial, samples%state%contact%load, &
-         & samples%state%position%equivalent_radius) > 0.0_wp)
+      if (.not. (allocated(samples%model%axial) .and. speed%is_touching)) return
+      along = axial_state(samples%model%axial, samples%state%contact%load, samples%state%position%equivalent_radius)
+      speed%loaded_ends = count(along%ends > 0.0_wp)
+      speed%peak_slice = along%peak_slice
    end function entrainment_of
 
 end module camroller_follower_samples

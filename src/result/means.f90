@@ -24,8 +24,8 @@ module camroller_means
    use camroller_names, only : name_length
    use camroller_panels, only : panels_t, panel_points, panel_places, start_panels, add_panel, add_trapezoid, refine_panels
    use camroller_result, only : quantity_t, find_quantity
-   use camroller_standstills, only : add_rolling_points, add_standstills, split_at_ends
-   use camroller_stored_work, only : stored_work_t, follow_contact, end_work, spin_work
+   use camroller_standstills, only : add_rolling_points, add_standstills, split_at_changes
+   use camroller_stored_work, only : stored_work_t, follow_contact, end_work, lost_angle, spin_work, split_at_losses
    implicit none
    private
 
@@ -111,22 +111,26 @@ contains
       call start_samples(samples, model, cycle, case, series_count, find_quantity(series, "torque_geometric"))
       call walk_round(samples, walk, error)
       if (allocated(error)) return
+      span = cycle%trajectory%time(cycle%trajectory%count) - cycle%trajectory%time(1)
       statistics%shares_t = walk%shares
+      statistics%lost_share = lost_angle(walk%work, span)/span
       statistics%error_angle = walk%error_angle
       call move_curve(walk%curve, statistics%curve)
       films = [1, 0]
       if (statistics%lost_share > 0.0_wp) films = [find_quantity(series, "film_thickness_min"), find_quantity(series, "film_ratio")]
       if (.not. cycle%is_linear) then
-         if (allocated(model%axial)) call split_at_ends(walk%panels, samples, walk%speeds(:walk%count), error)
+         call split_at_losses(walk%panels, samples, walk%work, error)
+         if (.not. allocated(error) .and. allocated(model%axial)) call split_at_changes(walk%panels, samples, &
+            & walk%speeds(:walk%count), error)
          if (allocated(error)) return
-         call refine_means(walk%panels, samples, quadrature_part*mean_tolerance(cycle%tolerance), series_count, films, error)
+         call refine_means(walk%panels, samples, quadrature_part*mean_tolerance(cycle%tolerance), &
+            & series(:series_count)%least*span, films, error)
          if (.not. allocated(error)) call add_standstills(samples, walk%speeds(:walk%count), statistics%standstills, &
             & statistics%first_standstill, error)
          if (.not. allocated(error)) call add_rolling_points(samples, walk%speeds(:walk%count), error)
          if (allocated(error)) return
       end if
       statistics%largest_sliding = samples%largest_sliding
-      span = cycle%trajectory%time(cycle%trajectory%count) - cycle%trajectory%time(1)
       call take_means(walk%panels, samples, walk%work, span, statistics)
       call find_slip_errors(walk%slips, samples, walk%estimate, statistics%slip_errors)
       call judge_means(walk%panels, statistics%slip_errors%integrals, span, series(:series_count), films, statistics)
@@ -137,27 +141,25 @@ contains
    end subroutine integrate_lobe
 
    !> Halve panels until the means are within the tolerance.
-   subroutine refine_means(panels, samples, tolerance, series, films, error)
+   subroutine refine_means(panels, samples, tolerance, least, films, error)
       !> The panels
       type(panels_t), intent(inout) :: panels
       !> The samples
       type(follower_samples_t), intent(inout) :: samples
-      !> Error allowed, relative to the mean magnitude of each quantity [-]
-      real(wp), intent(in) :: tolerance
-      !> Number of series that stand before the torques
-      integer, intent(in) :: series
+      !> Error allowed, relative to the mean magnitude of each quantity [-]; what counts as none of each series [unit times rad]
+      real(wp), intent(in) :: tolerance, least(:)
       !> First and last series that is a film without a mean
       integer, intent(in) :: films(2)
       !> Convergence error
       type(error_t), allocatable, intent(out) :: error
 
       ! Error estimates allowed [unit of each times rad]
-      real(wp) :: allowed(series + torque_count)
+      real(wp) :: allowed(size(least) + torque_count)
       integer :: pass, halvings
 
       halvings = most_halvings
       do pass = 1, most_passes
-         allowed = tolerance*mean_sizes(panels, series, films)
+         allowed = tolerance*mean_sizes(panels, least, films)
          if (all(sum(panels%errors(:, :panels%count), 2) <= allowed)) return
          call refine_panels(panels, samples, allowed, halvings, error)
          if (allocated(error) .or. halvings == 0) return
@@ -177,18 +179,19 @@ contains
    !> What the errors of the integrals are relative to: the integrals of the sizes, and for the torque against gas, which adds to
    !> what drives the camshaft, that of all losses. The energy residual is a matter of rounding. Films grow without bound where
    !> contact is lost, and have no mean then.
-   pure function mean_sizes(panels, series, films) result(sizes)
+   pure function mean_sizes(panels, least, films) result(sizes)
       !> The panels
       type(panels_t), intent(in) :: panels
-      !> Number of series that stand before the torques
-      integer, intent(in) :: series
+      !> What counts as none of each series that stands before the torques [unit of each times rad]
+      real(wp), intent(in) :: least(:)
       !> First and last series that is a film without a mean; the second is less where there is none
       integer, intent(in) :: films(2)
       !> Sizes, positive [unit of each times rad]
-      real(wp) :: sizes(series + torque_count)
+      real(wp) :: sizes(size(least) + torque_count)
 
       sizes = max(sum(panels%sizes(:, :panels%count), 2), tiny(1.0_wp)/least_tolerance)
-      associate (torques => sizes(series + 1:))
+      sizes(:size(least)) = max(sizes(:size(least)), least)
+      associate (torques => sizes(size(least) + 1:))
          torques(of_geometric) = sum(torques, mask=is_loss)
          torques(of_residual) = huge(1.0_wp)
       end associate
@@ -258,7 +261,7 @@ contains
          torques(of_geometric) = torques(of_geometric) + sum(torques, mask=is_loss) &
             & + abs(statistics%torques(of_roller_inertia))*span
       end associate
-      relative = errors/mean_sizes(panels, size(series), films)
+      relative = errors/mean_sizes(panels, series%least*span, films)
       ! A quantity that is zero throughout has no error
       where (errors <= 0.0_wp) relative = 0.0_wp
       worst = maxloc(relative, 1)
@@ -296,8 +299,9 @@ contains
       torques = 0.0_wp
       call start_samples(samples, model, cycle)
       call walk_along(samples, panels, work, error)
-      if (.not. (allocated(error) .or. cycle%is_linear)) call refine_means(panels, samples, mean_tolerance(cycle%tolerance), 0, &
-         & [1, 0], error)
+      if (.not. (allocated(error) .or. cycle%is_linear)) call split_at_losses(panels, samples, work, error)
+      if (.not. (allocated(error) .or. cycle%is_linear)) call refine_means(panels, samples, mean_tolerance(cycle%tolerance), &
+         & [real(wp) ::], [1, 0], error)
       if (allocated(error)) return
       span = cycle%trajectory%time(cycle%trajectory%count) - cycle%trajectory%time(1)
       torques = sum(panels%integrals(:, :panels%count), 2)/span + stored_torques(samples, work, span)

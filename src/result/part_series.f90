@@ -17,7 +17,6 @@ module camroller_part_series
    use camroller_number_text, only : integer_text
    use camroller_pin_film, only : pin_state_t, solve_pin
    use camroller_result, only : quantity_list_t, add => append_quantity, scope_camshaft
-   use camroller_roller_profile, only : roller_profile_t
    use camroller_shaft, only : has_orbits
    use camroller_state, only : state_t
    use camroller_wear, only : largest_shear, orthogonal_shear, sliding_distance, time_in_contact, worn_per_second
@@ -26,6 +25,9 @@ module camroller_part_series
 
    public :: add_axial, add_axial_film, add_heat, add_pin, add_surfaces, add_bearings, bearing_count, &
       & bearing_series_count
+
+   !> Wear that counts as none: less than an atom in ten thousand million turns [m], or in three hundred years [m/s]
+   real(wp), parameter :: least_wear = 1.0e-20_wp, least_wear_rate = 1.0e-20_wp
 
 contains
 
@@ -44,7 +46,7 @@ contains
       real(wp) :: film ! [m]
 
       film = 0.0_wp
-      along = axial_state_t(0.0_wp, 0.0_wp, [0.0_wp, 0.0_wp])
+      along = axial_state_t(0.0_wp, 0.0_wp, 0.0_wp, [0.0_wp, 0.0_wp])
       if (allocated(model%axial) .and. state%contact%is_touching) then
          along = axial_state(model%axial, state%contact%load, state%position%equivalent_radius)
          call new_film_line(line, model%film_law, film_groups(model, state%position, state%contact), model%film_table)
@@ -103,10 +105,10 @@ contains
                & "wear", sliding_distance(contact%half_width, contact%sliding_speed, contact%cam_surface_speed, period))
             call add(list, "cam_wear_per_turn", "m", "depth worn away from the place on the cam in a turn", "wear", period &
                & *time_in_contact(contact%half_width, contact%cam_surface_speed, period)*worn_per_second(case%wear%cam_rate, &
-               & contact%asperity_load, contact%apparent_area, contact%sliding_speed))
+               & contact%asperity_load, contact%apparent_area, contact%sliding_speed), least=least_wear)
             call add(list, "roller_wear_rate", "m s-1", "rate at which the roller becomes thinner all round", "wear", &
                & contact%half_width/(0.5_wp*two_pi*model%roller_radius)*worn_per_second(case%wear%roller_rate, &
-               & contact%asperity_load, contact%apparent_area, contact%sliding_speed))
+               & contact%asperity_load, contact%apparent_area, contact%sliding_speed), least=least_wear_rate)
          end if
          if (.not. allocated(case%running_in)) return
          if (allocated(model%surface)) then
@@ -146,11 +148,11 @@ contains
    end subroutine add_pin
 
    !> Series of the contact along the roller.
-   pure subroutine add_axial(list, profile, model, state, along)
+   pure subroutine add_axial(list, case, model, state, along)
       !> List to extend
       type(quantity_list_t), intent(inout) :: list
-      !> What the case says about the roller
-      type(roller_profile_t), intent(in) :: profile
+      !> The case, with a profile of its roller
+      type(case_t), intent(in) :: case
       !> The model of its lobe
       type(model_t), intent(in) :: model
       !> State of the follower
@@ -164,27 +166,27 @@ contains
       character(len=:), allocatable :: name, words
       integer :: i
 
-      allocate (loads(profile%slices), source=0.0_wp)
+      allocate (loads(case%roller_profile%slices), source=0.0_wp)
       mean = 0.0_wp
       pressure = 0.0_wp
       if (allocated(model%axial) .and. state%contact%is_touching) then
          mean = state%contact%load/model%contact_width
          pressure = peak_pressure(along%peak*mean, state%position%equivalent_radius, 1.0_wp, model%modulus)
-         if (profile%slice_series) call slice_loads(model%axial, state%contact%load, &
+         if (case%roller_profile%slice_series) call slice_loads(model%axial, state%contact%load, &
             & state%position%equivalent_radius, loads)
       end if
       call add(list, "effective_contact_length", "m", "length of the line contact that stands for the roller; zero without "// &
          & "contact", "roller_profile", merge(state%contact%length, 0.0_wp, state%contact%is_touching))
       call add(list, "axial_pressure_max", "Pa", "largest pressure along the roller, dry contact", "roller_profile", pressure)
       call add(list, "axial_pressure_place", "m", "where along the roller the largest pressure is, from its middle", &
-         & "roller_profile", along%place)
+         & "roller_profile", along%place, least=case%mechanism%contact_width)
       call add(list, "edge_stress_factor", "1", "pressure at the end with the larger one relative to that of the same load all "// &
          & "along the roller", "roller_profile", sqrt(maxval(along%ends)))
       call add(list, "line_load_negative_end", "N m-1", "load per length at the end at negative places", "roller_profile", &
          & mean*along%ends(1))
       call add(list, "line_load_positive_end", "N m-1", "load per length at the end at positive places", "roller_profile", &
          & mean*along%ends(2))
-      if (.not. profile%slice_series) return
+      if (.not. case%roller_profile%slice_series) return
       name = ""
       words = ""
       do i = 1, size(loads)

@@ -37,6 +37,8 @@ module camroller_result
       character(len=scope_length) :: scope = scope_case
       !> Has infinity a meaning, as for the speed at which something that never happens would happen?
       logical :: may_be_infinite = .false.
+      !> Magnitude below which it counts as none, so that errors are relative to that at least [unit of the quantity]
+      real(wp) :: least = 0.0_wp
    end type quantity_t
 
    !> Quantities with a value each, as many as there are
@@ -80,7 +82,7 @@ module camroller_result
 contains
 
    !> Append a quantity to a list, which grows as it has to.
-   pure subroutine append_quantity(list, name, unit, description, source, value, scope)
+   pure subroutine append_quantity(list, name, unit, description, source, value, scope, least)
       !> The list; it has room for something, and items where names are wanted
       type(quantity_list_t), intent(inout) :: list
       !> Name, unit, meaning, part of the model
@@ -89,6 +91,8 @@ contains
       real(wp), intent(in) :: value
       !> What it belongs to; the case as a whole where absent
       character(len=*), intent(in), optional :: scope
+      !> Magnitude below which it counts as none; 0 where absent [unit of the quantity]
+      real(wp), intent(in), optional :: least
 
       type(quantity_t), allocatable :: items(:)
       ! Longer list of values [unit of each]
@@ -113,6 +117,7 @@ contains
          item%description = trim(description)
          item%source = trim(source)
          if (present(scope)) item%scope = scope
+         if (present(least)) item%least = least
       end associate
    end subroutine append_quantity
 
@@ -132,6 +137,7 @@ contains
          call move_alloc(from(i)%source, to(i)%source)
          to(i)%scope = from(i)%scope
          to(i)%may_be_infinite = from(i)%may_be_infinite
+         to(i)%least = from(i)%least
       end do
    end subroutine move_quantities
 

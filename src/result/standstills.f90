@@ -6,9 +6,9 @@
 !> rolling the friction of the contact is least, and so steep on both sides that the rows beside it may show nothing of it. Whatever
 !> the points, they miss both.
 !>
-!> Also cam angles at which an end of the roller begins or ceases to carry load, where panels end: the load at an end has a kink
-!> there and its pressure, like a root, no slope; where an end carries for a part of a panel only, rules of seven and three points
-!> may agree by chance.
+!> Also cam angles where panels end because the load along the roller changes: at which an end of the roller begins or ceases to
+!> carry load, where the load at an end has a kink and its pressure, like a root, no slope; and at which the largest pressure jumps
+!> to another place along the roller. Where such a change is within a panel, rules of seven and three points may agree by chance.
 module camroller_standstills
    use camroller_kinds, only : wp
    use camroller_error, only : error_t
@@ -23,13 +23,15 @@ module camroller_standstills
    implicit none
    private
 
-   public :: add_rolling_points, add_standstills, split_at_ends
+   public :: add_rolling_points, add_standstills, split_at_changes
 
    !> Accuracy of the angle of a standstill [rad]: its state is that without entrainment, which changes little over it
    real(wp), parameter :: angle_tolerance = 1.0e-10_wp
-   !> Accuracy of the angle at which an end begins to carry [rad]: what lies beside a kink adds the square of it to a mean, beside
-   !> a root its power 3/2
-   real(wp), parameter :: end_tolerance = 1.0e-8_wp
+   !> Accuracy of the angle at which the load along the roller changes [rad]: what lies beside a kink adds the square of it to a
+   !> mean, beside a root its power 3/2, beside a jump itself, over the 2 pi of a turn
+   real(wp), parameter :: change_tolerance = 1.0e-8_wp
+   !> Widths of a slice by which the place of the largest pressure moves without a jump: that of a parabola over three slices [-]
+   real(wp), parameter :: smooth = 2.0_wp
 
 contains
 
@@ -165,8 +167,8 @@ contains
       end associate
    end subroutine add_state_at_rest
 
-   !> Divide panels where the number of ends that carry load changes between two points in contact.
-   subroutine split_at_ends(panels, samples, points, error)
+   !> Divide panels where the load along the roller changes between two points in contact.
+   subroutine split_at_changes(panels, samples, points, error)
       !> The panels
       type(panels_t), intent(inout) :: panels
       !> The samples, of a model with the load along the roller
@@ -176,31 +178,46 @@ contains
       !> Convergence error
       type(error_t), allocatable, intent(out) :: error
 
+      ! Changes between two points at most: of both ends, and of the place of the largest pressure
+      integer, parameter :: most_changes = 3
       ! Next point, behind the changes found
       type(entrainment_t) :: next
-      integer :: i, change
+      integer :: i, number
 
       do i = 2, size(points)
          next = points(i - 1)
-         ! One end after the other
-         do change = 1, 2
-            if (.not. (next%is_touching .and. points(i)%is_touching)) exit
-            if (next%loaded_ends == points(i)%loaded_ends) exit
+         ! One change after the other
+         do number = 1, most_changes
+            if (change_between(next, points(i)) <= smooth) exit
             call find_change(samples, points(i), next, error)
             if (allocated(error)) return
             call split_at(panels, samples, next%angle, error)
             if (allocated(error)) return
          end do
       end do
-   end subroutine split_at_ends
+   end subroutine split_at_changes
 
-   !> Find the first change by halving: loads have no sign that would tell how far away it is.
+   !> Change of the load along the roller between two points in contact: how far the place of the largest pressure moves, in widths
+   !> of a slice, and more than any such move where the number of loaded ends changes.
+   elemental function change_between(one, other) result(change)
+      !> The points
+      type(entrainment_t), intent(in) :: one, other
+      !> The change [-]
+      real(wp) :: change
+
+      change = 0.0_wp
+      if (.not. (one%is_touching .and. other%is_touching)) return
+      change = abs(one%peak_slice - other%peak_slice)
+      if (one%loaded_ends /= other%loaded_ends) change = change + 1.0_wp/epsilon(1.0_wp)
+   end function change_between
+
+   !> Find the largest change by halving, the first of equal ones: loads have no sign that would tell how far away it is.
    subroutine find_change(samples, last, point, error)
       !> The samples
       type(follower_samples_t), intent(inout) :: samples
       !> Point behind the change
       type(entrainment_t), intent(in) :: last
-      !> In: point before it; out: point next behind it
+      !> In: point before it; out: point next behind it, or behind a part in which the place of the largest pressure moves smoothly
       type(entrainment_t), intent(inout) :: point
       !> Convergence error
       type(error_t), allocatable, intent(out) :: error
@@ -211,14 +228,14 @@ contains
 
       left = point
       right = last
-      do while (right%angle - left%angle > end_tolerance)
+      do while (right%angle - left%angle > change_tolerance .and. change_between(left, right) > smooth)
          call samples%sample(0.5_wp*(left%angle + right%angle), values, error)
          if (allocated(error)) return
          middle = entrainment_of(samples, 0.5_wp*(left%angle + right%angle))
-         if (middle%loaded_ends == left%loaded_ends) then
-            left = middle
-         else
+         if (change_between(left, middle) >= change_between(middle, right)) then
             right = middle
+         else
+            left = middle
          end if
       end do
       point = right

@@ -1,16 +1,18 @@
 !> Work of the torque against spring, seat and inertia, and of the one that spins the roller up: differences of stored energy.
 !>
-!> In: the points of a cycle or a piece of one, in order. Out: work. What the cam puts into spring, seat and masses
-!> while the roller touches it is the change of `stored_energy`; without contact it puts nothing there. So only the energies count
-!> at the angles where contact is lost or comes back, and at the ends of a piece. Over a closed cycle that never loses contact the
-!> work is zero.
+!> In: the points of a cycle or a piece of one, in order. Out: work, and the angle without contact. What the cam puts into spring,
+!> seat and masses while the roller touches it is the change of `stored_energy`; without contact it puts nothing there. So only the
+!> energies count at the angles where contact is lost or comes back, and at the ends of a piece. Over a closed cycle that never
+!> loses contact the work is zero.
 module camroller_stored_work
    use camroller_kinds, only : wp, two_pi
+   use camroller_contact_forces, only : has_oil_drag
    use camroller_error, only : error_t
    use camroller_dynamics, only : stored_energy
    use camroller_follower_samples, only : follower_samples_t
    use camroller_kinematics, only : position_t
-   use camroller_model, only : evaluate_geometry
+   use camroller_model, only : evaluate_geometry, model_t
+   use camroller_panels, only : panels_t, split_at
    use camroller_ramp, only : speed_on_ramp
    use camroller_spin, only : rolling_speed_at
    use camroller_state, only : state_t
@@ -18,7 +20,7 @@ module camroller_stored_work
    implicit none
    private
 
-   public :: stored_work_t, follow_contact, end_work, spin_work
+   public :: stored_work_t, follow_contact, end_work, spin_work, lost_angle, split_at_losses
 
    !> Work so far
    type :: stored_work_t
@@ -27,10 +29,12 @@ module camroller_stored_work
       integer :: points = 0
       !> Was there contact at the first point, and at the last?
       logical :: touched_first = .false., touched_last = .false.
-      !> Cam angle of the last point from full lift [rad]
-      real(wp) :: angle = 0.0_wp
+      !> Cam angles of the first and the last point from full lift, angle without contact between them [rad]
+      real(wp) :: first_angle = 0.0_wp, angle = 0.0_wp, lost = 0.0_wp
       !> Energy at losses of contact less energy at returns [J]
       real(wp) :: energy = 0.0_wp
+      !> Losses and returns where no stop may be [rad]
+      real(wp), allocatable :: free_changes(:)
    end type stored_work_t
 
    !> Halvings of the angle between two points that have a loss or a return of contact between them and no stop: to a millionth
@@ -59,12 +63,17 @@ contains
       integer :: i, hint
 
       associate (is_touching => samples%state%contact%is_touching)
-         if (work%points == 0) work%touched_first = is_touching
+         if (work%points == 0) then
+            work%touched_first = is_touching
+            work%first_angle = angle
+            work%angle = angle
+         end if
+         right = work%angle
          if (work%points > 0 .and. (is_touching .neqv. work%touched_last)) then
             left = work%angle
             right = angle
             hint = samples%hint
-            if (left <= panel_start) then
+            if (left <= panel_start .and. .not. is_free(samples%model)) then
                left = panel_start
                right = panel_start
             end if
@@ -80,12 +89,62 @@ contains
                end if
             end do
             work%energy = work%energy + merge(1.0_wp, -1.0_wp, work%touched_last)*energy_at(samples, right)
+            if (is_free(samples%model)) then
+               if (.not. allocated(work%free_changes)) allocate (work%free_changes(0))
+               work%free_changes = [work%free_changes, right]
+            end if
          end if
+         if (.not. work%touched_last .and. work%points > 0) work%lost = work%lost + right - work%angle
+         if (.not. is_touching) work%lost = work%lost + angle - right
          work%points = work%points + 1
          work%touched_last = is_touching
          work%angle = angle
       end associate
    end subroutine follow_contact
+
+   !> Is contact lost and does it return at angles that are not known before the integration? With drag of the roller's bearing its
+   !> spin has a part in them, and with a speed that changes stops are those of the mean speed.
+   pure function is_free(model)
+      !> The model
+      type(model_t), intent(in) :: model
+      logical :: is_free
+
+      is_free = has_oil_drag(model) .or. model%ramp%is_moving
+   end function is_free
+
+   !> Divide panels at losses and returns of contact that are no stops: torque on the cam jumps there.
+   subroutine split_at_losses(panels, samples, work, error)
+      !> The panels
+      type(panels_t), intent(inout) :: panels
+      !> The samples
+      type(follower_samples_t), intent(inout) :: samples
+      !> The work at the last point
+      type(stored_work_t), intent(in) :: work
+      !> Convergence error
+      type(error_t), allocatable, intent(out) :: error
+
+      integer :: i
+
+      if (.not. allocated(work%free_changes)) return
+      do i = 1, size(work%free_changes)
+         call split_at(panels, samples, work%free_changes(i), error)
+         if (allocated(error)) return
+      end do
+   end subroutine split_at_losses
+
+   !> Angle without contact of a cycle.
+   pure function lost_angle(work, span) result(lost)
+      !> The work at the last point
+      type(stored_work_t), intent(in) :: work
+      !> Length of the cycle [rad]
+      real(wp), intent(in) :: span
+      !> The angle [rad]
+      real(wp) :: lost
+
+      lost = work%lost
+      ! From the last point to the end, and from the start to the first
+      if (.not. work%touched_last) lost = lost + span - (work%angle - work%first_angle)
+   end function lost_angle
 
    !> Work of the torque against spring, seat and inertia over the cycle or the piece.
    function end_work(work, samples) result(done)

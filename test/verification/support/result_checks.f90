@@ -315,7 +315,7 @@ contains
       end do
    end subroutine compare_means
 
-   !> What counts as none of a sliding speed or slip: the program's own scale of errors.
+   !> What counts as none of a series: the program's own scale of errors.
    function least_scale(result, name) result(scale)
       !> A result
       type(result_t), intent(in) :: result
@@ -326,7 +326,7 @@ contains
       character(len=:), allocatable :: lobe
 
       lobe = name(:merge(7, 0, index(name, "lobe_2_") > 0))
-      scale = 0.0_wp
+      scale = result%series(find_quantity(result%series, name))%least
       if (name == lobe//"sliding_speed") scale = least_slip*scalar_of(result, "max_"//lobe//"rolling_speed")
       if (name == lobe//"slip_ratio") scale = least_slip
    end function least_scale
