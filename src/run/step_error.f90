@@ -3,9 +3,9 @@
 !> In: states on the curve of the integration. Out: error of the sliding speed by the defect of the curve, see `error_estimate`, and
 !> what it adds to the error of the torque that drives.
 !>
-!> The integration tries a step over the whole piece. The error estimate of its method is the difference of two formulas, which
-!> goes through zero where a disturbance decays by a few units over the step: there a step is accepted that misses the tolerance
-!> by a factor of hundred. In its middle the curve then misses the equation by as much.
+!> The integration tries a step over the whole piece. Its error estimate is one number, which goes through zero from one sign to the
+!> other as steps and cases differ: now and then a step is accepted that misses the tolerance by a factor of hundred. In its middle
+!> the curve then misses the equation by as much.
 !>
 !> Single steps of one degree and of half a degree were compared with those at an accuracy of 1e-7: 1360 drives over two turns, 64
 !> rigid decks at 1e-3 and 1e-4, up to five operating points each, at steady speed and with a ripple of 3 %. In 79 of 1.5 million
