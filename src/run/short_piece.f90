@@ -41,8 +41,8 @@ module camroller_short_piece
    real(wp), parameter :: odd_weights(places) = lobatto_weights(2)*[inner, -1.0_wp, 0.0_wp, 1.0_wp, -inner]
    !> Accepted points of a piece that may be short. Fast slip near pure rolling takes many steps of the integration and hardly shows
    !> in the torques; what does show, the error estimate sees. Between the angles knots of a lift table may be missed by chance,
-   !> which put friction off by 2.4 times the accuracy in a piece of 16 points: beyond the second number a tenth of the error is allowed.
-   !> In the drives of `step_error` no such step was left
+   !> which put friction off by 2.4 times the accuracy in a piece of 16 points: beyond the second number a tenth of the error is
+   !> allowed. In the drives of `step_error` no such step was left
    integer, parameter :: most_points = 16, many_points = 8
    !> Error estimate over the tolerance up to which the means serve [-]: a tenth of the accuracy. The estimate is that of Simpson's
    !> rule for the most part, and the rule of five points far better
