@@ -1,5 +1,6 @@
 /* A host for bench/hosts.py, which counts what a step costs: steps all followers of a deck over DEGREES of cam angle each, or with
  * DEGREES zero runs the deck COUNT times at the mean of the same inputs. Cam speed 100 rad/s with a ripple, oil at 90 C.
+ * Prints the number of cams, that of cams with the second lobe shape, and the processor time.
  * Usage: host_steps DECK COUNT DEGREES SPEED_RPM, the last being the deck's speed for a run */
 #include <camroller.h>
 #include <math.h>
@@ -20,6 +21,8 @@ int main(int count, char **words) {
    camroller_result *result = NULL;
    camroller_inputs ends[2] = {{.size = sizeof ends[0]}, {.size = sizeof ends[0]}};
    camroller_shaft_outcome outcome = {.size = sizeof outcome};
+   camroller_cam cam = {.size = sizeof cam};
+   int seconds = 0;
    if (count < 5) return 9;
    const double step = atof(words[3]) * 3.14159265358979323846 / 180.0;
    if (camroller_case_from_file(words[1], &deck, &error) || camroller_case_set(deck, "operating_point.speed_rpm", words[4], &error) ||
@@ -39,7 +42,11 @@ int main(int count, char **words) {
       }
       if (camroller_shaft_step(shaft, step * (i + 1), &ends[0], &ends[1], NULL, &outcome, &error)) return fail();
    }
-   printf("%d %.6f\n", camroller_shaft_cams(shaft), (double)(clock() - begin) / CLOCKS_PER_SEC);
+   for (int i = 1; i <= camroller_shaft_cams(shaft); i++) {
+      if (camroller_shaft_cam(shaft, i, &cam, &error)) return fail();
+      seconds += cam.lobe == 2;
+   }
+   printf("%d %d %.6f\n", camroller_shaft_cams(shaft), seconds, (double)(clock() - begin) / CLOCKS_PER_SEC);
    camroller_shaft_free(shaft);
    camroller_case_free(deck);
    return 0;

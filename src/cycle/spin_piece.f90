@@ -14,7 +14,7 @@ module camroller_spin_piece
    implicit none
    private
 
-   public :: spin_piece_t, integrate_between
+   public :: spin_piece_t, integrate_between, longest_first_step
 
    !> A piece, and what is kept for the next one
    type :: spin_piece_t
@@ -40,7 +40,7 @@ module camroller_spin_piece
 contains
 
    !> Integrate from one angle to another, less than a turn ahead, with the roller's spin given at the first.
-   subroutine integrate_between(piece, model, numerics, scale, roller_spin, error, nearby)
+   subroutine integrate_between(piece, model, numerics, scale, roller_spin, error, nearby, steps)
       !> The piece, with its stops
       type(spin_piece_t), intent(inout), target :: piece
       !> The model
@@ -55,6 +55,8 @@ contains
       type(error_t), allocatable, intent(out) :: error
       !> In: with the contact to start from; out: with the first and the last one of the piece
       type(nearby_t), intent(inout), target, optional :: nearby
+      !> Fewest steps between two stops; one without it
+      integer, intent(in), optional :: steps
 
       ! Sliding speed or surface speed [m/s]; length of the piece [rad]
       real(wp) :: state(1), length
@@ -69,6 +71,7 @@ contains
       associate (path => piece%path, stops => piece%stops)
          path%start = stops(1)
          piece%options%fewest_steps = ceiling(piece%fewest_steps*length/two_pi)
+         if (present(steps)) piece%options%fewest_steps = max(piece%options%fewest_steps, steps*(last - 1))
          if (.not. path%is_linear) piece%options%step = min(length, longest_first_step)
          state = roller_spin*model%roller_radius
          if (.not. path%has_surface_speed) state = rolling_speed_at_angle(model, stops(1)) - state

@@ -10,25 +10,19 @@ module camroller_follower_step
    use, intrinsic :: iso_fortran_env, only : int64
    use camroller_kinds, only : wp, pi
    use camroller_error, only : error_t, raise, kind_convergence
-   use camroller_case, only : numerics_t
    use camroller_model, only : model_t, set_operating_point, set_speed, evaluate_geometry
-   use camroller_ramp, only : follow_ramp, keep_films
-   use camroller_flexible_train, only : largest_state
+   use camroller_ramp, only : keep_films
    use camroller_gas, only : give_pressure
    use camroller_kinematics, only : position_t
    use camroller_state, only : state_t, evaluate_state, cam_force
    use camroller_torque_list, only : torque_count, is_loss, is_torque
    use camroller_events, only : find_stops_between
    use camroller_follower_samples, only : extremes_t
-   use camroller_spin, only : nearby_t, rolling_speed_at
+   use camroller_spin, only : rolling_speed_at
    use camroller_stick, only : share_at_rest
    use camroller_stick_slip, only : direction_at
-   use camroller_cycle, only : cycle_t, state_at
-   use camroller_flexible_drive, only : drive_t
-   use camroller_spin_piece, only : spin_piece_t, integrate_between
-   use camroller_means, only : integrate_torques
-   use camroller_run, only : take_way_out
-   use camroller_short_piece, only : integrate_short
+   use camroller_follower_piece, only : follower_t, point_t, piece_means_t, cover_piece, fill_nodes, slip_tolerance, most_tries
+   use camroller_step_error, only : slip_error_t, judge_point
    implicit none
    private
 
@@ -51,43 +45,6 @@ module camroller_follower_step
       real(wp) :: supply_pressure = 0.0_wp
    end type inputs_t
 
-   !> What is remembered between steps
-   type :: point_t
-      !> Cam angle, pi at full lift, growing with the turns [rad]
-      real(wp) :: angle = 0.0_wp
-      !> Spin of the roller [rad/s]
-      real(wp) :: roller_spin = 0.0_wp
-      !> Scale of the sliding speed, to which the tolerance is relative; zero before the start [m/s]
-      real(wp) :: scale = 0.0_wp
-      !> Temperature of the oil that the model is set to, and that of the films solved beforehand [K]
-      real(wp) :: oil_temperature = 0.0_wp, film_temperature = 0.0_wp
-      !> Cam speed of the films solved beforehand [rad/s]
-      real(wp) :: film_speed = 0.0_wp
-      !> Contact from which the next one is looked for: tangential force [N], torque of the bearing [N m] and film ratio [-], which
-      !> is zero for none
-      real(wp) :: contact(3) = 0.0_wp
-      !> Step that the integration of a flexible train begins with; zero before its first [rad]
-      real(wp) :: train_step = 0.0_wp
-      !> State of a flexible train, the rest zero [state]; the roller's spin stands for its sliding speed
-      real(wp) :: train(largest_state) = 0.0_wp
-   end type point_t
-
-   !> A follower between two steps
-   type :: follower_t
-      type(model_t) :: model
-      !> As given, and with method and tolerance
-      type(numerics_t) :: given, numerics
-      type(point_t) :: point
-      !> Lobe shape
-      integer :: lobe = 1
-      !> Mark of the model at the start
-      integer(int64) :: mark = 0_int64
-      !> The last piece of the last step; no step depends on it, but the next one uses its room
-      type(spin_piece_t) :: piece
-      !> The same of a flexible train
-      type(drive_t) :: drive
-   end type follower_t
-
    !> What one step gives
    type :: outcome_t
       !> Torque that drives this follower: mean over the step, and at its end [N m]
@@ -109,8 +66,6 @@ module camroller_follower_step
 
    !> Longest piece that is integrated in one go [rad]
    real(wp), parameter :: longest_piece = pi
-   !> Tries of a piece with other methods and tolerances
-   integer, parameter :: most_tries = 3
    !> Speeds over that of films solved beforehand between which those films serve [-]: the table reaches further on both sides
    real(wp), parameter :: film_range(2) = [0.5_wp, 1.1_wp]
 
@@ -133,6 +88,7 @@ contains
       real(wp), intent(out), optional :: nodes(:, 0:)
 
       type(inputs_t) :: here, there
+      type(slip_error_t) :: errors
       ! First angle, end of a piece [rad]
       real(wp) :: first, next
       integer :: piece, pieces, places
@@ -170,7 +126,12 @@ contains
          follower%point%contact = 0.0_wp
          if (contact%is_touching) follower%point%contact = [contact%tangential_force, contact%bearing_torque, contact%film_ratio]
       end associate
-      call add_slip_error(follower, cam_angle - first, outcome)
+      ! In short pieces the error of the sliding speed has been seen to
+      if (.not. (has_state .or. rests_at(direction))) then
+         errors = slip_tolerance(follower)
+         call judge_point(errors, follower%model, cam_angle - first, outcome%state)
+         outcome%estimated_error = outcome%estimated_error + errors%torque
+      end if
       if (present(nodes)) then
          nodes(:2, ubound(nodes, 2)) = outcome%cam_force
          nodes(3, ubound(nodes, 2)) = outcome%torque_drive
@@ -179,6 +140,17 @@ contains
          call raise(error, kind_convergence, "advance: torques or spin are not finite")
       end if
    end subroutine step_follower
+
+   !> Does the roller rest on friction?
+   pure function rests_at(direction) result(verdict)
+      !> Direction of sliding, 0 at rest; not allocated where the sliding speed decides
+      integer, allocatable, intent(in) :: direction
+      !> Does it?
+      logical :: verdict
+
+      verdict = .false.
+      if (allocated(direction)) verdict = direction == 0
+   end function rests_at
 
    !> Number of pieces that a step is integrated in.
    elemental function piece_number(span) result(pieces)
@@ -189,34 +161,6 @@ contains
 
       pieces = ceiling(span/longest_piece)
    end function piece_number
-
-   !> Add to the error of the mean torque what the error of the sliding speed makes of it: its tolerance, times the slope of the
-   !> torque at the end of the step, and as a difference of the roller's energy between start and end. In the slope load and film
-   !> stay as they are, and what slip adds to one loss and takes from another does not cancel. Where the roller rests on friction,
-   !> nothing slides.
-   pure subroutine add_slip_error(follower, span, outcome)
-      !> The follower, at the end of the step
-      type(follower_t), intent(in) :: follower
-      !> Cam angle of the step [rad]
-      real(wp), intent(in) :: span
-      !> Outcome with the state there
-      type(outcome_t), intent(inout) :: outcome
-
-      ! Error of the sliding speed [m/s]; change of the power lost in the contact and in the bearing with it [W s/m]
-      real(wp) :: slip_error, slope
-
-      slip_error = follower%numerics%tolerance*follower%point%scale
-      associate (model => follower%model, contact => outcome%state%contact)
-         if (abs(contact%sliding_speed) <= 0.0_wp) return
-         if (model%is_consistent) outcome%estimated_error = outcome%estimated_error + 2.0_wp*model%roller_inertia &
-            & *abs(follower%point%roller_spin)*slip_error/(model%roller_radius*span)
-         slope = abs(contact%traction + contact%sliding_speed*contact%traction_slope) + abs(contact%rolling_resistance) &
-            & + abs(contact%bearing_torque)/model%roller_radius
-         if (.not. model%is_consistent) slope = abs(contact%traction_slope*outcome%state%position%cam_arm)*model%speed &
-            & + abs(contact%bearing_torque)/model%roller_radius
-         outcome%estimated_error = outcome%estimated_error + slope*slip_error/model%speed
-      end associate
-   end subroutine add_slip_error
 
    !> What follows from mean torques and the state at the end.
    pure subroutine fill_outcome(model, outcome)
@@ -333,14 +277,9 @@ contains
       real(wp), intent(out), optional :: nodes(:, :)
 
       type(inputs_t) :: middle
-      type(extremes_t) :: met
-      type(nearby_t) :: nearby
-      ! States at the ends and in the middle of a short piece
-      type(state_t) :: states(3)
-      ! Mean torques [N m], last the energy residual [W]; error of the mean torque that drives, by its integration [N m]
-      real(wp) :: torques(torque_count), torque_error
-      integer :: i
+      type(piece_means_t) :: means
 
+      has_state = .false.
       middle = inputs_between(start, finish, 0.5_wp)
       call set_model(follower, middle%speed, middle%oil_temperature, .true., error)
       if (allocated(error)) return
@@ -351,62 +290,21 @@ contains
             if (start%has_pressure) call give_pressure(model%gas, [point%angle, to] - pi, [start%gas_pressure, finish%gas_pressure])
          end if
          call find_stops_between(model, point%angle - pi, to - pi, follower%piece%stops)
-         call integrate_piece(follower, nearby, error)
-         has_state = .false.
-         if (size(follower%piece%stops) == 2 .and. .not. allocated(error)) call integrate_short(model, path, nearby, states, &
-            & torques, torque_error, met, has_state, error)
-         if (.not. (allocated(error) .or. has_state)) call integrate_torques(model, path, torques, error, met, torque_error)
-         if (present(nodes) .and. .not. allocated(error)) then
-            if (has_state .and. size(nodes, 2) == 2) then
-               do i = 1, 2
-                  nodes(:2, i) = cam_force(model, states(i))
-                  nodes(3, i) = states(i)%torque_drive
-               end do
-            else
-               call sample_nodes(model, path, [point%angle, to] - pi, nodes, error)
-            end if
-         end if
+         call cover_piece(follower, means, error)
+         if (present(nodes) .and. .not. allocated(error)) call fill_nodes(model, path, means, [point%angle, to] - pi, nodes, error)
          ! On the way the model has followed the inputs
          if (model%ramp%is_moving .and. abs(model%ramp%temperature_slope) > 0.0_wp) point%oil_temperature = -1.0_wp
          model%ramp%is_moving = .false.
          if (allocated(error)) return
-         outcome%mean_torques = outcome%mean_torques + part*torques
-         outcome%estimated_error = outcome%estimated_error + part*torque_error
-         outcome%extremes = joined(outcome%extremes, met)
-         if (has_state) outcome%state = states(3)
+         outcome%mean_torques = outcome%mean_torques + part*means%torques
+         outcome%estimated_error = outcome%estimated_error + part*means%error
+         outcome%extremes = joined(outcome%extremes, means%extremes)
+         has_state = means%has_states
+         if (has_state) outcome%state = means%states(3)
          point%angle = to
          if (allocated(path%phases)) direction = direction_at(path%phases, to - pi)
       end associate
    end subroutine advance_piece
-
-   !> Force on the cam and torque at equally spaced angles of a piece, without its end.
-   subroutine sample_nodes(model, piece, ends, nodes, error)
-      !> The model, which follows the inputs
-      type(model_t), intent(inout) :: model
-      !> The piece
-      type(cycle_t), intent(in) :: piece
-      !> Its first and last angle from full lift [rad]
-      real(wp), intent(in) :: ends(2)
-      !> Force [N] and torque [N m]
-      real(wp), intent(out) :: nodes(:, :)
-      !> Convergence error
-      type(error_t), allocatable, intent(out) :: error
-
-      type(state_t) :: state
-      ! Cam angle from full lift [rad]
-      real(wp) :: angle
-      integer :: i, hint
-
-      hint = 1
-      do i = 1, size(nodes, 2)
-         angle = ends(1) + (ends(2) - ends(1))*(i - 1)/size(nodes, 2)
-         call follow_ramp(model, angle)
-         call state_at(piece, model, angle, hint, state, error)
-         if (allocated(error)) return
-         nodes(:2, i) = cam_force(model, state)
-         nodes(3, i) = state%torque_drive
-      end do
-   end subroutine sample_nodes
 
    !> Let speed and oil change between two angles.
    pure subroutine set_ramp(model, angles, start, finish)
@@ -426,41 +324,6 @@ contains
          ramp%temperature_slope = (finish%oil_temperature - start%oil_temperature)/span
       end associate
    end subroutine set_ramp
-
-   !> Integrate a piece; where that fails, once more with the method and the tolerances that `run_case` falls back on.
-   subroutine integrate_piece(follower, nearby, error)
-      !> The follower, with the stops of its piece; its roller's spin is moved
-      type(follower_t), intent(inout) :: follower
-      !> First and last contact that the integration has solved
-      type(nearby_t), intent(out) :: nearby
-      !> Convergence error
-      type(error_t), allocatable, intent(out) :: error
-
-      type(numerics_t) :: numerics
-      ! Spin at the start [rad/s]; smallest tolerance that may work [-]
-      real(wp) :: spin, least
-      integer :: try
-      logical :: has_way_out
-
-      numerics = follower%numerics
-      least = 0.0_wp
-      has_way_out = .false.
-      do try = 1, most_tries
-         spin = follower%point%roller_spin
-         nearby%has_first = .false.
-         associate (start => nearby%last, kept => follower%point%contact)
-            start%is_touching = kept(3) > 0.0_wp
-            start%tangential_force = kept(1)
-            start%bearing_torque = kept(2)
-            start%film_ratio = kept(3)
-         end associate
-         call integrate_between(follower%piece, follower%model, numerics, follower%point%scale, spin, error, nearby)
-         if (.not. allocated(error)) exit
-         if (has_way_out .or. error%kind /= kind_convergence .or. try == most_tries) return
-         call take_way_out(follower%given, numerics, least, has_way_out)
-      end do
-      follower%point%roller_spin = spin
-   end subroutine integrate_piece
 
    !> State of the follower at its cam angle with its roller's spin.
    subroutine state_with_spin(follower, direction, state, error)
