@@ -19,7 +19,8 @@ module camroller_axial_table
    implicit none
    private
 
-   public :: axial_part_t, axial_state_t, new_axial_part, is_same_axial_part, effective_length, slice_loads, axial_state
+   public :: axial_part_t, axial_state_t, new_axial_part, is_same_axial_part, effective_length, slice_loads, &
+      & slice_width, axial_state
 
    !> Largest W/(E' R L), at the largest radius; steps of ln(load), their most [-]; the first is a peak
    !> pressure of about 4.5 GPa with steel
@@ -53,8 +54,8 @@ module camroller_axial_table
 
    !> What matters of the loads at one state
    type :: axial_state_t
-      !> Largest load per length over its mean [-], where it is [m], the same over the width of a slice [-]
-      real(wp) :: peak, place, peak_slice
+      !> Largest load per length over its mean [-] and where it is [m]
+      real(wp) :: peak, place
       !> Loads per length at both ends over the mean [-]
       real(wp) :: ends(2)
    end type axial_state_t
@@ -345,6 +346,16 @@ contains
       where (abs(loads - 1.0_wp) < rounding) loads = 1.0_wp
    end subroutine slice_loads
 
+   !> Width of a slice of the roller.
+   pure function slice_width(part) result(width)
+      !> The table
+      type(axial_part_t), intent(in) :: part
+      !> Width [m]
+      real(wp) :: width
+
+      width = part%length/size(part%loads, 1)
+   end function slice_width
+
    !> Largest load along the roller and at its ends.
    pure function axial_state(part, load, radius) result(state)
       !> The table
@@ -373,7 +384,6 @@ contains
       end if
       ! The middle has no rounding whose mean could be looked for
       if (abs(state%place) < sqrt(epsilon(1.0_wp))*part%length) state%place = 0.0_wp
-      state%peak_slice = state%place/(part%length/n)
       state%ends = loads([1, n])
    end function axial_state
 

@@ -17,7 +17,7 @@ module camroller_follower_samples
    use camroller_film, only : is_in_range
    use camroller_film_range, only : film_range_t, note_film
    use camroller_heat, only : is_inlet_in_range
-   use camroller_axial_table, only : axial_state, axial_state_t
+   use camroller_axial_table, only : axial_state, axial_state_t, slice_width
    use camroller_hertz, only : peak_pressure
    use camroller_extremes, only : samples_t, add_sample, start_rows => start_samples
    use camroller_panels, only : sampled_t
@@ -336,7 +336,7 @@ contains
       if (.not. (allocated(samples%model%axial) .and. speed%is_touching)) return
       along = axial_state(samples%model%axial, samples%state%contact%load, samples%state%position%equivalent_radius)
       speed%loaded_ends = count(along%ends > 0.0_wp)
-      speed%peak_slice = along%peak_slice
+      speed%peak_slice = along%place/slice_width(samples%model%axial)
    end function entrainment_of
 
 end module camroller_follower_samples

@@ -29,7 +29,7 @@ module camroller_means
    implicit none
    private
 
-   public :: statistics_t, integrate_lobe, integrate_torques, mean_tolerance, stored_torques
+   public :: statistics_t, integrate_lobe, integrate_torques, mean_tolerance, stored_torques, mean_sizes
 
    !> Means over the cycle of one lobe shape
    type, extends(shares_t) :: statistics_t
@@ -113,6 +113,7 @@ contains
       if (allocated(error)) return
       span = cycle%trajectory%time(cycle%trajectory%count) - cycle%trajectory%time(1)
       statistics%shares_t = walk%shares
+      ! By the angles themselves, not by how many points are without contact
       statistics%lost_share = lost_angle(walk%work, span)/span
       statistics%error_angle = walk%error_angle
       call move_curve(walk%curve, statistics%curve)

@@ -46,7 +46,7 @@ contains
       real(wp) :: film ! [m]
 
       film = 0.0_wp
-      along = axial_state_t(0.0_wp, 0.0_wp, 0.0_wp, [0.0_wp, 0.0_wp])
+      along = axial_state_t(0.0_wp, 0.0_wp, [0.0_wp, 0.0_wp])
       if (allocated(model%axial) .and. state%contact%is_touching) then
          along = axial_state(model%axial, state%contact%load, state%position%equivalent_radius)
          call new_film_line(line, model%film_law, film_groups(model, state%position, state%contact), model%film_table)

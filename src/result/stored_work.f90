@@ -13,7 +13,7 @@ module camroller_stored_work
    use camroller_kinematics, only : position_t
    use camroller_model, only : evaluate_geometry, model_t
    use camroller_panels, only : panels_t, split_at
-   use camroller_ramp, only : speed_on_ramp
+   use camroller_ramp, only : follow_ramp, speed_on_ramp
    use camroller_spin, only : rolling_speed_at
    use camroller_state, only : state_t
    use camroller_cycle, only : state_at
@@ -33,7 +33,7 @@ module camroller_stored_work
       real(wp) :: first_angle = 0.0_wp, angle = 0.0_wp, lost = 0.0_wp
       !> Energy at losses of contact less energy at returns [J]
       real(wp) :: energy = 0.0_wp
-      !> Losses and returns where no stop may be [rad]
+      !> Losses and returns that need not be at stops [rad]
       real(wp), allocatable :: free_changes(:)
    end type stored_work_t
 
@@ -73,13 +73,14 @@ contains
             left = work%angle
             right = angle
             hint = samples%hint
-            if (left <= panel_start .and. .not. is_free(samples%model)) then
+            if (left <= panel_start .and. .not. has_free_losses(samples%model)) then
                left = panel_start
                right = panel_start
             end if
             do i = 1, halvings
                if (.not. right > left) exit
                middle = 0.5_wp*(left + right)
+               call follow_ramp(samples%model, middle)
                call state_at(samples%cycle, samples%model, middle, hint, state, error)
                if (allocated(error)) return
                if (state%contact%is_touching .eqv. work%touched_last) then
@@ -88,8 +89,9 @@ contains
                   right = middle
                end if
             end do
+            call follow_ramp(samples%model, angle)
             work%energy = work%energy + merge(1.0_wp, -1.0_wp, work%touched_last)*energy_at(samples, right)
-            if (is_free(samples%model)) then
+            if (has_free_losses(samples%model)) then
                if (.not. allocated(work%free_changes)) allocate (work%free_changes(0))
                work%free_changes = [work%free_changes, right]
             end if
@@ -102,15 +104,16 @@ contains
       end associate
    end subroutine follow_contact
 
-   !> Is contact lost and does it return at angles that are not known before the integration? With drag of the roller's bearing its
+   !> May contact be lost and return at angles that are not known before the integration? With drag of the roller's bearing its
    !> spin has a part in them, and with a speed that changes stops are those of the mean speed.
-   pure function is_free(model)
+   pure function has_free_losses(model)
       !> The model
       type(model_t), intent(in) :: model
-      logical :: is_free
+      !> True where they may
+      logical :: has_free_losses
 
-      is_free = has_oil_drag(model) .or. model%ramp%is_moving
-   end function is_free
+      has_free_losses = has_oil_drag(model) .or. model%ramp%is_moving
+   end function has_free_losses
 
    !> Divide panels at losses and returns of contact that are no stops: torque on the cam jumps there.
    subroutine split_at_losses(panels, samples, work, error)

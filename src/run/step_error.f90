@@ -9,8 +9,8 @@
 !>
 !> Single steps of one degree and of half a degree were compared with those at an accuracy of 1e-7: 1360 drives over two turns, 64
 !> rigid decks at 1e-3 and 1e-4, up to five operating points each, at steady speed and with a ripple of 3 %. In 80 of 1.5 million
-!> steps the error was above the estimate, in all but one up to 2.5 times: knots and noise of lift tables, a stuck roller, and a
-!> loss of contact within a step whose speed changes (33 times, 1e-5 of the friction).
+!> steps the error was above the estimate, up to 2.5 times: knots and noise of lift tables, a stuck roller; but for one loss of
+!> contact within a step whose speed changes, which `stored_work` locates at that speed since.
 module camroller_step_error
    use camroller_kinds, only : wp
    use camroller_contact_traction, only : largest_shear

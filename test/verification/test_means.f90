@@ -9,8 +9,9 @@ module test_means
    use camroller_catalogue, only : list_series
    use camroller_cycle, only : cycle_t, integrate_cycle, state_at
    use camroller_deck, only : deck_t, override_t, parse_deck, make_case
-   use camroller_means, only : statistics_t, integrate_lobe, integrate_torques
+   use camroller_means, only : statistics_t, integrate_lobe, integrate_torques, mean_sizes
    use camroller_model, only : model_t
+   use camroller_panels, only : panels_t, panel_points, start_panels, add_panel
    use camroller_remarks, only : missed_means, remark_lines
    use camroller_result, only : result_t, quantity_t, get_summary
    use camroller_run, only : build_models, run_case
@@ -46,6 +47,7 @@ contains
          new_unittest("drive work of a host's step equals losses, stored energy and kinetic energy of the roller", test_step), &
          new_unittest("mean losses are within the accuracy asked for", test_accuracy), &
          new_unittest("a remark names the means whose accuracy is not reached", test_remark), &
+         new_unittest("errors of a mean are relative to what counts as none at least", test_least), &
          new_unittest("the smallest film at zero entrainment does not depend on the accuracy", test_standstill), &
          new_unittest("extremes agree with a fine scan of the solution for every output step", test_extremes) &
          ]
@@ -283,6 +285,21 @@ contains
          if (allocated(error)) return
       end do
    end subroutine test_lost
+
+   subroutine test_least(error)
+      type(error_type), allocatable, intent(out) :: error
+      ! What counts as none of two series: less than their size, and more [unit of each times rad]
+      real(wp), parameter :: least(2) = [1.0_wp, 3.0_wp]
+      type(panels_t) :: panels
+      real(wp) :: values(size(least) + torque_count, panel_points), sizes(size(least) + torque_count)
+
+      ! Two over an interval of one radian
+      values = 2.0_wp
+      call start_panels(panels, size(values, 1), 1)
+      call add_panel(panels, 0.0_wp, 1.0_wp, values)
+      sizes = mean_sizes(panels, least, [1, 0])
+      call check(error, all(abs(sizes(:2) - [2.0_wp, 3.0_wp]) < 1.0e-12_wp))
+   end subroutine test_least
 
    !> The drag of the bearing turns the finger: where contact is lost is not known before the spin is, and no stop is there.
    subroutine test_free_loss(error)

@@ -16,7 +16,7 @@ module test_running_in
    use camroller_wear, only : largest_shear, largest_shear_depth, orthogonal_shear, orthogonal_shear_depth, sliding_distance, &
       & time_in_contact, wear_t, worn_per_second
    use case_twins, only : compare_twins, leave_constants_out, rescale_case
-   use reference_cases, only : add_heat, make_cycle, make_model, set_point, thesis_case
+   use reference_cases, only : add_heat, make_cycle, make_model, set_point, thesis_case, point_speeds, point_viscosities
    use unit_systems, only : unit_systems_tried
    implicit none
    private
@@ -39,6 +39,7 @@ contains
          new_unittest("the stated error covers that of the steps, which are of second order", test_convergence), &
          new_unittest("hours in which nothing changes change no bit", test_nothing), &
          new_unittest("a film that grows changes the cycle, whose energy closes", test_feedback), &
+         new_unittest("wear that is next to nothing has no part in estimates of errors", test_no_wear), &
          new_unittest("results are the same in other units", test_units) &
          ]
    end subroutine collect_running_in
@@ -382,6 +383,35 @@ contains
       call check(error, all(result%history_values(:, i) > 0.06_wp) .and. all(result%history_values(2:, i) &
          & < result%history_values(:40, i)), "history of the coefficient")
    end subroutine test_feedback
+
+   subroutine test_no_wear(error)
+      type(error_type), allocatable, intent(out) :: error
+      ! Specific wear rates: usual, so small that a turn wears 1e-40 m, none [m^2/N]
+      real(wp), parameter :: rates(3) = [1.0e-18_wp, 1.0e-45_wp, 0.0_wp]
+      type(case_t) :: case
+      type(result_t) :: result
+      type(error_t), allocatable :: failure
+      real(wp) :: estimates(size(rates)) ! [-]
+      integer :: i
+
+      do i = 1, size(rates)
+         case = thesis_case()
+         call set_point(case, point_speeds(1), point_viscosities(2))
+         case%numerics%method = "rodas5p"
+         case%numerics%tolerance = 1.0e-3_wp
+         case%wear = wear_t(rates(i), rates(i))
+         call run_case(case, result, failure)
+         if (.not. allocated(failure)) call get_summary(result, "estimated_error_of_extremes", estimates(i), failure)
+         if (allocated(failure)) then
+            call test_failed(error, failure%message)
+            return
+         end if
+      end do
+      ! Wear of 1e-40 m is 1e-20 of what counts as none; the usual wear has the largest error here
+      call check(error, abs(estimates(2) - estimates(3)) <= 1.0e-12_wp*estimates(3), "wear that is none counts")
+      if (allocated(error)) return
+      call check(error, estimates(1) > 2.0_wp*estimates(3), "usual wear does not count")
+   end subroutine test_no_wear
 
    subroutine test_units(error)
       type(error_type), allocatable, intent(out) :: error
