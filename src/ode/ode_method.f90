@@ -60,6 +60,7 @@ module camroller_ode_method
    contains
       procedure(step_interface), deferred :: try_step
       procedure :: forget => forget_nothing
+      procedure :: longest_first => unlimited_first
    end type method_t
 
    !> How to integrate
@@ -107,6 +108,21 @@ contains
       associate (without_memory => self)
       end associate
    end subroutine forget_nothing
+
+   !> Longest first step from a stop: without a limit. A method that can tell from the start of a step that a long one fails
+   !> overrides this.
+   pure function unlimited_first(self, step) result(length)
+      !> The method, with the derivatives there
+      class(method_t), intent(in) :: self
+      !> The step, with state and rate at its start
+      type(step_t), intent(in) :: step
+      !> The length [time]
+      real(wp) :: length
+
+      length = huge(1.0_wp)
+      associate (without_limit => self, at_any_start => step)
+      end associate
+   end function unlimited_first
 
    !> A step with room for the components of a state.
    pure subroutine start_step(step, state)

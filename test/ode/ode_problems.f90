@@ -5,7 +5,7 @@ module ode_problems
    implicit none
    private
 
-   public :: decay_t, rough_t, line_t, work_t, power_t, pair_t, switch_t, wall_t
+   public :: decay_t, rough_t, line_t, bent_t, work_t, power_t, pair_t, switch_t, wall_t
 
    !> Calls that a problem has seen
    type, abstract, extends(problem_t) :: counted_t
@@ -38,6 +38,13 @@ module ode_problems
       procedure :: get_rate => line_rate_of_change
       procedure :: get_jacobian => line_jacobian
    end type line_t
+
+   !> y' = -decay sin y, tan(y/2) = tan(y(0)/2) exp(-decay t)
+   type, extends(decay_t) :: bent_t
+   contains
+      procedure :: get_rate => bent_rate_of_change
+      procedure :: get_jacobian => bent_jacobian
+   end type bent_t
 
    !> Prothero and Robinson's problem with an integral beside it: y1' as in `decay_t`, y2' = y1**2
    type, extends(decay_t) :: work_t
@@ -228,6 +235,35 @@ contains
       counters%jacobians = counters%jacobians + 1
       status = 0
    end subroutine line_jacobian
+
+   subroutine bent_rate_of_change(self, time, state, rate, status)
+      class(bent_t), intent(in) :: self
+      real(wp), intent(in) :: time
+      real(wp), intent(in) :: state(:)
+      real(wp), intent(out) :: rate(:)
+      integer, intent(out) :: status
+
+      associate (unused_time => time)
+      end associate
+      call self%count_call()
+      rate = -self%decay*sin(state)
+      status = 0
+   end subroutine bent_rate_of_change
+
+   subroutine bent_jacobian(self, time, state, rate, horizon, jacobian, time_slope, counters, status)
+      class(bent_t), intent(in) :: self
+      real(wp), intent(in) :: time, state(:), rate(:), horizon
+      real(wp), intent(out) :: jacobian(:, :), time_slope(:)
+      type(counters_t), intent(inout) :: counters
+      integer, intent(out) :: status
+
+      associate (unused_time => time, unused_rate => rate, unused_horizon => horizon)
+      end associate
+      jacobian = -self%decay*cos(state(1))
+      time_slope = 0.0_wp
+      counters%jacobians = counters%jacobians + 1
+      status = 0
+   end subroutine bent_jacobian
 
    subroutine power_rate_of_change(self, time, state, rate, status)
       class(power_t), intent(in) :: self

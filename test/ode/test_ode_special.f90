@@ -8,7 +8,7 @@ module test_ode_special
    use camroller_ode_methods, only : new_method
    use camroller_phi, only : phi_functions
    use camroller_trajectory, only : trajectory_t, interpolate_state
-   use ode_problems, only : decay_t, line_t, rough_t, pair_t, work_t
+   use ode_problems, only : decay_t, line_t, bent_t, rough_t, pair_t, work_t
    implicit none
    private
 
@@ -24,6 +24,7 @@ contains
          new_unittest("hermite: order 6 once the first step is short", test_hermite_order), &
          new_unittest("hermite: linear problems are solved exactly, the layer between the points included", test_hermite_linear), &
          new_unittest("hermite: one evaluation a step", test_hermite_cost), &
+         new_unittest("hermite: far from the slow motion a long first step is not tried in vain", test_hermite_start), &
          new_unittest("hermite: an integral beside the unknown, at its end and between the points", test_hermite_integral), &
          new_unittest("hermite: more than one unknown is refused", test_refusal), &
          new_unittest("radau5: a rough Jacobian costs iterations, not accuracy", test_rough), &
@@ -161,6 +162,29 @@ contains
       call check(error, .not. allocated(failure) .and. counters%evaluations == counters%accepted + 1 .and. &
          & counters%jacobians == counters%evaluations)
    end subroutine test_hermite_cost
+
+   subroutine test_hermite_start(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(bent_t) :: problem
+      class(method_t), allocatable :: method
+      type(options_t) :: options
+      type(trajectory_t) :: trajectory
+      type(counters_t) :: counters
+      type(error_t), allocatable :: failure
+      real(wp), parameter :: tolerance = 1.0e-6_wp
+      real(wp) :: state(1), exact
+
+      problem%decay = 1000.0_wp
+      call new_method(method, "hermite", 1, failure)
+      options%tolerance = [tolerance]
+      options%step = 0.02_wp
+      options%fewest_steps = 1
+      state = 1.0_wp
+      call integrate(problem, method, options, [0.0_wp, 0.02_wp], state, trajectory, counters, failure)
+      exact = 2.0_wp*atan(tan(0.5_wp)*exp(-20.0_wp))
+      ! A first step of twenty decay lengths is rejected four times until it is short enough
+      call check(error, .not. allocated(failure) .and. counters%rejected <= 2 .and. abs(state(1) - exact) < 10.0_wp*tolerance)
+   end subroutine test_hermite_start
 
    subroutine test_hermite_integral(error)
       type(error_type), allocatable, intent(out) :: error

@@ -3,7 +3,7 @@ module test_simulation
    use testdrive, only : unittest_type, new_unittest, error_type, check, test_failed
    use camroller, only : wp, pi, degree, error_t, case_t, numerics_t, result_t, simulation_t, outcome_t, run_case, &
       & start_simulation, advance, get_series, get_summary
-   use reference_cases, only : thesis_case
+   use reference_cases, only : thesis_case, add_gas_force
    implicit none
    private
 
@@ -16,6 +16,7 @@ contains
 
       testsuite = [ &
          new_unittest("repeated turns at constant speed tend to the periodic cycle", test_periodic), &
+         new_unittest("in steps of a degree, which have rules of their own, the same, with gas force", test_short_steps), &
          new_unittest("results do not depend on the number of the host's steps", test_steps), &
          new_unittest("speed and temperature may change during a turn", test_changes), &
          new_unittest("after a change of speed and temperature the state tends to the new periodic cycle", test_new_point), &
@@ -71,26 +72,47 @@ contains
       call compare_with_cycle(simulation, the_case, error)
    end subroutine test_periodic
 
+   subroutine test_short_steps(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: the_case
+      type(simulation_t) :: simulation
+      type(error_t), allocatable :: failure
+
+      the_case = tight_case()
+      the_case%numerics%method = "hermite"
+      call add_gas_force(the_case)
+      call start_simulation(simulation, the_case, 0.0_wp, failure)
+      if (allocated(failure)) then
+         call test_failed(error, failure%message)
+         return
+      end if
+      call compare_with_cycle(simulation, the_case, error, 360)
+   end subroutine test_short_steps
+
    !> Two turns from an angle of zero at the operating point of a case, against the periodic cycle of the case.
-   subroutine compare_with_cycle(simulation, the_case, error)
+   subroutine compare_with_cycle(simulation, the_case, error, steps)
       type(simulation_t), intent(inout) :: simulation
       type(case_t), intent(in) :: the_case
       type(error_type), allocatable, intent(out) :: error
+      !> Steps of a turn, 18 without it
+      integer, intent(in), optional :: steps
       type(result_t) :: result
       type(outcome_t) :: outcome
       type(error_t), allocatable :: failure
       ! Sliding speeds of the cycle [m/s], friction torques of the cycle, mean torques of the cycle and of a turn [N m]
       real(wp), allocatable :: sliding(:), friction(:)
       real(wp) :: mean(2), torques(2)
-      integer :: turn
+      integer :: turn, number
 
+      number = 18
+      if (present(steps)) number = steps
       call run_case(the_case, result, failure)
       if (.not. allocated(failure)) call get_series(result, "sliding_speed", sliding, failure)
       if (.not. allocated(failure)) call get_series(result, "torque_friction", friction, failure)
       if (.not. allocated(failure)) call get_summary(result, "mean_torque_drive", mean(1), failure)
       if (.not. allocated(failure)) call get_summary(result, "mean_torque_friction", mean(2), failure)
       do turn = 1, 2
-         if (.not. allocated(failure)) call drive(simulation, the_case, 2.0_wp*pi*(turn - 1), 18, torques, outcome, failure)
+         if (.not. allocated(failure)) call drive(simulation, the_case, 2.0_wp*pi*(turn - 1), number, torques, outcome, failure)
       end do
       if (allocated(failure)) then
          call test_failed(error, failure%message)
