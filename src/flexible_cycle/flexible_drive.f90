@@ -23,7 +23,7 @@ module camroller_flexible_drive
 
    !> A train that is driven piece by piece: the last piece, and room that the next one uses
    type :: drive_t
-      !> What integrates; its stops are first angle, kinks of the lift between, last angle
+      !> What integrates; its stops are first and last angle
       type(turn_t) :: turn
       !> Accepted points
       type(trajectory_t) :: path

@@ -1,11 +1,13 @@
 !> A flexible train as an initial value problem over the cam angle.
 !>
-!> In: model, cam angle, state. Out: rate and exact Jacobian, as `ode` asks for them; the places where contacts are lost or return.
+!> In: model, cam angle, state. Out: rate and exact Jacobian, as `ode` asks for them; the places where contacts are lost or return,
+!> and where the roller passes a kink of the lift.
 module camroller_flexible_problem
    use camroller_cam_angle, only : cam_angle_text
    use camroller_kinds, only : wp
    use camroller_ode_problem, only : linear_t, counters_t, factors_t, words_length
    use camroller_ode_switching, only : switching_problem_t
+   use camroller_lift_pieces, only : kinks_passed
    use camroller_model, only : model_t
    use camroller_ramp, only : follow_ramp
    use camroller_flexible_train, only : flexible_state_t, resolution_t, evaluate_train, rates_of, state_size, first_mode, &
@@ -208,7 +210,8 @@ contains
       end associate
    end subroutine solve
 
-   !> Approach of cam and roller, of the pad, of the seat: contact is lost or returns where one passes through zero.
+   !> Approach of cam and roller, of the pad, of the seat: contact is lost or returns where one passes through zero. Kinks of the
+   !> lift that the roller has passed: it meets them where the cam is nearest, some micrometres before or behind a rigid one.
    subroutine get_switches(self, time, state, switches, status)
       !> The problem
       class(flexible_problem_t), intent(in) :: self
@@ -216,7 +219,7 @@ contains
       real(wp), intent(in) :: time
       !> State [state]
       real(wp), intent(in) :: state(:)
-      !> The three approaches [m]
+      !> The three approaches [m]; kinks of the lift passed [-]
       real(wp), intent(out) :: switches(:)
       !> 0, or as from the state
       integer, intent(out) :: status
@@ -234,7 +237,7 @@ contains
          end if
          call find_touch(model, time, state(at_finger), state(at_finger_rate), pivot, pivot_rate, touch, status)
          switches = [touch%approach, pad_approach(model, state, pivot, real(pad_direction(model%linkage, touch%arm), wp)), &
-            & -state(at_lift)]
+            & -state(at_lift), kinks_passed(model, touch%angle)]
       end associate
    end subroutine get_switches
 

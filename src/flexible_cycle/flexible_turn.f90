@@ -65,11 +65,8 @@ contains
 
       call prepare(turn, model, method, tolerance, error)
       if (allocated(error)) return
-      if (allocated(model%gas)) then
-         turn%stops = cycle_stops([model%lift_stops, model%gas%sharp_angles], -pi)
-      else
-         turn%stops = cycle_stops(model%lift_stops, -pi)
-      end if
+      turn%stops = [-pi, pi]
+      if (allocated(model%gas)) turn%stops = cycle_stops(model%gas%sharp_angles, -pi)
    end subroutine start_turns
 
    !> Make ready to integrate, over whatever angles. The room of an earlier integration is used again where it is right.
@@ -94,6 +91,7 @@ contains
       call turn%method%forget()
       turn%problem%model => model
       turn%problem%switches = 3
+      turn%problem%markers = 1
       turn%problem%resolution%forces = contact_accuracy*tolerance
       turn%scales = state_scales(model)
       call set_tolerance(turn, tolerance*turn%scales)

@@ -18,7 +18,6 @@ module camroller_flexible_step
    use camroller_lash_adjuster, only : set_supply
    use camroller_state, only : state_t, cam_force
    use camroller_torque_list, only : torque_count, is_torque, of_geometric, of_roller_inertia
-   use camroller_lift_pieces, only : find_edges
    use camroller_follower_samples, only : extremes_t, widen
    use camroller_trajectory, only : interpolate_state
    use camroller_flexible_train, only : flexible_state_t, resolution_t, evaluate_train, state_size, at_sliding, &
@@ -211,7 +210,8 @@ contains
       has_way_out = .false.
       associate (point => follower%point, model => follower%model, first => follower%point%angle - pi, &
          & n => state_size(follower%model))
-         call find_edges(model, first, to - pi, follower%drive%turn%stops)
+         if (.not. allocated(follower%drive%turn%stops)) allocate (follower%drive%turn%stops(2))
+         follower%drive%turn%stops(:) = [first, to - pi]
          do try = 1, most_tries
             state = point%train
             step = point%train_step
