@@ -13,7 +13,7 @@ module camroller_flexible_cycle
    use camroller_flexible_setup, only : rest_t, find_rest
    use camroller_flexible_train, only : resolution_t, state_size, at_finger, at_lift, at_plunger, at_pressure, at_sliding
    use camroller_flexible_problem, only : largest_sliding_scale
-   use camroller_flexible_turn, only : turn_t, set_tolerance, integrate_turn
+   use camroller_flexible_turn, only : turn_t, set_sliding_tolerance, integrate_turn
    use camroller_lapack, only : dgesv, dgetrf
    implicit none
    private
@@ -230,17 +230,13 @@ contains
       real(wp), parameter :: worth = 2.0_wp
       ! The scale as it should be and as it is [m/s]
       real(wp) :: scale, present
-      ! Errors allowed in a step [state]
-      real(wp) :: tolerance(size(turn%scales))
 
       present = turn%scales(at_sliding)
       scale = maxval(abs(trajectory%state(at_sliding, :trajectory%count)))
       scale = max(least_sliding_scale, min(scale, largest_sliding_scale))
       is_scaled = max(scale, present) > worth*min(scale, present)
       if (.not. is_scaled) return
-      tolerance = turn%options%tolerance
-      tolerance(at_sliding) = tolerance(at_sliding)*scale/present
-      call set_tolerance(turn, tolerance)
+      call set_sliding_tolerance(turn, turn%options%tolerance(at_sliding)*scale/present)
       turn%scales(at_sliding) = scale
    end subroutine scale_sliding
 

