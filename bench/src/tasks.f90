@@ -14,6 +14,7 @@ module bench_tasks
    use camroller_cycle, only : cycle_t, integrate_cycle
    use camroller_flexible_cycle, only : flexible_cycle_t, find_periodic, rest_of_train
    use camroller_flexible_turn, only : start_turns, turn_t
+   use camroller_events, only : cycle_stops
    use camroller_flexible_problem, only : flexible_problem_t, state_scales
    use camroller_flexible_train, only : at_sliding, evaluate_train, flexible_state_t
    use camroller_ode_problem, only : problem_t
@@ -151,7 +152,8 @@ contains
       if (.not. allocated(error)) call rest_of_train(task%model, state, error)
       if (.not. allocated(error)) call find_periodic(cycle, turn, state, closure, 40, error)
       if (allocated(error)) return
-      task%stops = turn%stops
+      ! Kinks of the lift, which other solvers do not find by themselves
+      task%stops = cycle_stops(task%model%lift_stops, turn%stops(1))
       task%first_state = state
       task%scale = turn%scales
       task%patience = 0.3_wp

@@ -7,7 +7,7 @@ module camroller_lift_pieces
    implicit none
    private
 
-   public :: find_edges, scan_t, start_scan, has_next, next_angle, leave_rest, sort
+   public :: find_edges, kinks_passed, scan_t, start_scan, has_next, next_angle, leave_rest, sort
 
    !> Place in a scan of the pieces of the lift
    type :: scan_t
@@ -76,6 +76,31 @@ contains
          end do
       end do
    end subroutine take_kinks
+
+   !> Kinks of the lift that a cam angle has passed, with the part of the way to the next one: a whole number at each.
+   pure function kinks_passed(model, angle) result(passed)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> Cam angle from full lift, of any turn [rad]
+      real(wp), intent(in) :: angle
+      !> How many from any one on; 0.5 where the lift has none [-]
+      real(wp) :: passed
+
+      ! Whole turns from the first kink on [-]; the angle within a turn from there, next kink [rad]
+      real(wp) :: turns, inside, next
+      integer :: i
+
+      passed = 0.5_wp
+      associate (stops => model%lift_stops, n => size(model%lift_stops))
+         if (n == 0) return
+         turns = real(floor((angle - stops(1))/two_pi), wp)
+         inside = angle - two_pi*turns
+         i = max(1, count(stops <= inside))
+         next = stops(1) + two_pi
+         if (i < n) next = stops(i + 1)
+         passed = n*turns + (i - 1) + (inside - stops(i))/(next - stops(i))
+      end associate
+   end function kinks_passed
 
    !> Begin a scan: even steps in each piece of the lift, so many that no event is too short to be seen.
    pure subroutine start_scan(scan, edges)

@@ -271,7 +271,7 @@ contains
    end subroutine set_film_table
 
    !> Geometry at a cam angle.
-   pure subroutine evaluate_geometry(model, angle, position, status)
+   pure subroutine evaluate_geometry(model, angle, position, status, is_path)
       !> The model
       type(model_t), intent(in) :: model
       !> Cam angle from full lift [rad]
@@ -280,12 +280,12 @@ contains
       type(position_t), intent(out) :: position
       !> 0 fine, negative: the finger cannot reach this lift
       integer, intent(out) :: status
-
-      ! Lift and its first three derivatives [m/rad^n]
-      real(wp) :: lift(0:3)
+      !> Is the roller's path over the cam all that is wanted?
+      logical, intent(in), optional :: is_path
+      real(wp) :: lift(0:3) ! lift and its first three derivatives [m/rad^n]
 
       call evaluate_lift(model%lift_law, angle, lift)
-      call evaluate_position(model%linkage, lift, position, status)
+      call evaluate_position(model%linkage, lift, position, status, is_path)
       position%angle = angle
    end subroutine evaluate_geometry
 

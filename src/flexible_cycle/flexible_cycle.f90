@@ -13,8 +13,8 @@ module camroller_flexible_cycle
    use camroller_flexible_setup, only : rest_t, find_rest
    use camroller_flexible_train, only : resolution_t, state_size, at_finger, at_lift, at_plunger, at_pressure, at_sliding
    use camroller_flexible_problem, only : largest_sliding_scale
-   use camroller_flexible_turn, only : turn_t, set_tolerance, integrate_turn
-   use camroller_lapack, only : dgesv
+   use camroller_flexible_turn, only : turn_t, set_sliding_tolerance, integrate_turn
+   use camroller_lapack, only : dgesv, dgetrf
    implicit none
    private
 
@@ -30,6 +30,8 @@ module camroller_flexible_cycle
    integer, parameter :: least_kept = 3
    !> Part of a disturbance that comes back with the other sign above which turns alternate [-]
    real(wp), parameter :: alternating = 0.9_wp
+   !> Turns before the last one that tell whether turns alternate
+   integer, parameter :: compared_turns = 3
    !> Smallest size of the sliding speed to which its error is relative [m/s]
    real(wp), parameter, public :: least_sliding_scale = 1.0e-4_wp
 
@@ -152,7 +154,7 @@ contains
          distance = maxval(abs(residual))
          if (is_scaled) cycle%history%kept = 0
          call remember(cycle%history, start, residual)
-         alternates = is_alternating(cycle%history)
+         alternates = is_alternating(cycle%history, closure)
          if (distance > last_distance) cycle%history%kept = 1
          if (turns > 1 .and. distance < last_distance) cycle%multiplier = merge(max(cycle%multiplier, distance/last_distance), &
             & distance/last_distance, cycle%history%kept > 1)
@@ -228,17 +230,13 @@ contains
       real(wp), parameter :: worth = 2.0_wp
       ! The scale as it should be and as it is [m/s]
       real(wp) :: scale, present
-      ! Errors allowed in a step [state]
-      real(wp) :: tolerance(size(turn%scales))
 
       present = turn%scales(at_sliding)
       scale = maxval(abs(trajectory%state(at_sliding, :trajectory%count)))
       scale = max(least_sliding_scale, min(scale, largest_sliding_scale))
       is_scaled = max(scale, present) > worth*min(scale, present)
       if (.not. is_scaled) return
-      tolerance = turn%options%tolerance
-      tolerance(at_sliding) = tolerance(at_sliding)*scale/present
-      call set_tolerance(turn, tolerance)
+      call set_sliding_tolerance(turn, turn%options%tolerance(at_sliding)*scale/present)
       turn%scales(at_sliding) = scale
    end subroutine scale_sliding
 
@@ -296,21 +294,62 @@ contains
 
    !> Do disturbances come back with the other sign and nearly as large? The single cycle is then about to lose its stability to a
    !> period of two, or has lost it: extrapolation would find it all the same.
-   pure function is_alternating(history) result(verdict)
+   !>
+   !> How ends follow starts within the directions of the last turns is a small matrix `G`; where `G + share` has a negative
+   !> determinant, one of its factors is below minus that share. Extrapolation takes what alternates out of the newest turn, so
+   !> that one difference alone does not show it.
+   pure function is_alternating(history, noise) result(verdict)
       !> The last turns
       type(history_t), intent(in) :: history
+      !> Difference in a direction of its own from which on a turn is compared as well, in units of the scales [-]
+      real(wp), intent(in) :: noise
       logical :: verdict
 
-      ! Change of the start from one turn to the next, and of the end, in units of the scales [-]
-      real(wp), dimension(size(history%starts, 1)) :: start, end
+      ! Changes of the start from turn to turn, and of the end, in units of the scales [-]
+      real(wp), dimension(size(history%starts, 1), compared_turns) :: starts, ends
+      ! What of a change is not in the direction of the others, unit vectors that span these [-]
+      real(wp) :: own(size(starts, 1)), directions(size(starts, 1), compared_turns)
+      integer :: i, n
 
       verdict = .false.
-      if (history%kept < 2) return
-      start = history%starts(:, 1) - history%starts(:, 2)
-      end = start + history%residuals(:, 1) - history%residuals(:, 2)
-      ! By the end, in which what fades fast has done so
-      verdict = dot_product(end, start) < 0.0_wp .and. dot_product(end, end) > -alternating*dot_product(end, start)
+      do i = 1, min(history%kept - 1, compared_turns)
+         starts(:, i) = history%starts(:, i) - history%starts(:, i + 1)
+         ends(:, i) = starts(:, i) + history%residuals(:, i) - history%residuals(:, i + 1)
+      end do
+      do n = 1, min(history%kept - 1, compared_turns)
+         own = starts(:, n)
+         do i = 1, n - 1
+            own = own - dot_product(own, directions(:, i))*directions(:, i)
+         end do
+         if (n > 1 .and. maxval(abs(own)) < noise) exit
+         directions(:, n) = own/max(norm2(own), tiny(1.0_wp))
+         ! By the ends, in which what fades fast has done so
+         associate (x => starts(:, :n), y => ends(:, :n))
+            verdict = verdict .or. sign_of_determinant(matmul(transpose(y), y + alternating*x)) &
+               & *sign_of_determinant(matmul(transpose(y), x)) < 0
+         end associate
+      end do
    end function is_alternating
+
+   !> Sign of the determinant of a matrix.
+   pure function sign_of_determinant(matrix) result(sign)
+      !> The matrix [any]
+      real(wp), intent(in) :: matrix(:, :)
+      !> 1, -1, or 0 where it is singular
+      integer :: sign
+
+      ! Its triangular factors [any]
+      real(wp) :: factors(size(matrix, 1), size(matrix, 2))
+      integer :: pivots(size(matrix, 1)), info, i
+
+      factors = matrix
+      sign = 1
+      call dgetrf(size(matrix, 1), size(matrix, 1), factors, size(matrix, 1), pivots, info)
+      if (info /= 0) sign = 0
+      do i = 1, size(matrix, 1)
+         if (factors(i, i) < 0.0_wp .neqv. pivots(i) /= i) sign = -sign
+      end do
+   end function sign_of_determinant
 
    !> Where a turn and those before it say that the periodic state is, by Anderson's rule: a step of Newton's method as far as the
    !> last turns tell how their ends follow their starts, and the end of the turn in all other directions.

@@ -13,17 +13,17 @@ module camroller_flexible_drive
    use camroller_flexible_train, only : flexible_state_t, resolution_t, evaluate_train, first_mode, at_finger_rate, at_speed, &
       & at_sliding, at_plunger_rate
    use camroller_flexible_cycle, only : least_sliding_scale
-   use camroller_flexible_turn, only : turn_t, prepare, set_tolerance
+   use camroller_flexible_turn, only : turn_t, prepare, set_sliding_tolerance
    use camroller_flexible_problem, only : largest_sliding_scale
    use camroller_flexible_solution, only : train_method, tolerance_ratio
    implicit none
    private
 
-   public :: drive_t, drive_train, errors_of_state, take_spin, bring_to_rest
+   public :: drive_t, drive_train, take_spin, bring_to_rest
 
    !> A train that is driven piece by piece: the last piece, and room that the next one uses
    type :: drive_t
-      !> What integrates; its stops are first angle, kinks of the lift between, last angle
+      !> What integrates; its stops are first and last angle
       type(turn_t) :: turn
       !> Accepted points
       type(trajectory_t) :: path
@@ -53,30 +53,15 @@ contains
       type(counters_t) :: counters
 
       associate (turn => drive%turn)
-         call prepare(turn, model, trim(train_method(numerics)), tolerance_ratio*numerics%tolerance, error)
+         call prepare(turn, model, train_method(numerics), tolerance_ratio*numerics%tolerance, error)
          if (allocated(error)) return
-         call set_tolerance(turn, errors_of_state(turn%scales, numerics, sliding_scale))
+         call set_sliding_tolerance(turn, tolerance_ratio*numerics%tolerance*max(least_sliding_scale, min(sliding_scale, &
+            & largest_sliding_scale)))
          if (step > 0.0_wp) turn%options%step = step
          drive%resolution = turn%problem%resolution
          call integrate_switching(turn%problem, turn%method, turn%options, turn%stops, state, drive%path, counters, error, step)
       end associate
    end subroutine drive_train
-
-   !> Errors allowed in a step.
-   pure function errors_of_state(scales, numerics, sliding_scale) result(errors)
-      !> Sizes of the components [state]
-      real(wp), intent(in) :: scales(:)
-      !> Numerics with the tolerance
-      type(numerics_t), intent(in) :: numerics
-      !> Size of the sliding speed [m/s]
-      real(wp), intent(in) :: sliding_scale
-      !> The errors [state]
-      real(wp) :: errors(size(scales))
-
-      errors = scales
-      errors(at_sliding) = max(least_sliding_scale, min(sliding_scale, largest_sliding_scale))
-      errors = tolerance_ratio*numerics%tolerance*errors
-   end function errors_of_state
 
    !> Give a state the sliding speed that belongs to a spin of the roller.
    pure subroutine take_spin(model, angle, spin, state, status)

@@ -82,7 +82,8 @@ contains
          touch%angle = angle
          turn = 1.0_wp
          do i = 1, most_steps
-            call evaluate_geometry(model, touch%angle, position, status)
+            ! The first point is nearly never the last
+            call evaluate_geometry(model, touch%angle, position, status, i == 1)
             if (status /= 0) return
             speed = position%rolling_travel + linkage%roller_radius
             factor = 1.0_wp + eps*position%finger_slope
@@ -98,7 +99,7 @@ contains
             if (.not. touch%uniqueness > 0.0_wp) return
             change = way/(speed*touch%uniqueness)
             status = 0
-            if (abs(change) <= angle_tolerance) exit
+            if (abs(change) <= angle_tolerance .and. i > 1) exit
             if (i == most_steps) status = 1
             touch%angle = touch%angle + sign(min(abs(change), largest_step), change)
             turn = cmplx(cos(touch%angle - angle), eps*sin(touch%angle - angle), wp)

@@ -12,7 +12,7 @@ module camroller_flexible_jacobian
    use camroller_contact_forces, only : motion_t, slopes_t, follow_contact
    use camroller_flexible_geometry, only : touch_t, dot, cross, imaginary
    use camroller_flexible_train, only : flexible_state_t, first_mode, at_finger, at_finger_rate, at_lift, at_speed, at_sliding, &
-      & at_plunger, at_plunger_rate, at_pressure
+      & at_plunger, at_plunger_rate, at_pressure, largest_state
    implicit none
    private
 
@@ -415,10 +415,11 @@ contains
       real(wp), intent(inout) :: jacobian(:, :), angle_slope(:)
 
       ! Force on the valve over each component of the state [N over its unit]
-      real(wp) :: force(size(angle_slope))
-      integer :: n, place
+      real(wp) :: force(largest_state)
+      integer :: n, place, last
 
-      force = 0.0_wp
+      last = size(angle_slope)
+      force(:last) = 0.0_wp
       force([at_finger, at_finger_rate]) = pad([by_finger, by_finger_rate])
       if (allocated(model%flexible%adjuster)) force([at_plunger, at_plunger_rate]) = pad([by_pivot, by_pivot_rate])
       force(at_lift) = pad(5) - now%seat%by_approach - model%train%stiffness
@@ -430,14 +431,14 @@ contains
             force(place + 1) = 2.0_wp*modes%mass*modes%share(n)*modes%damping_ratio*modes%frequency(n)
             place = place + 2
          end do
-         force = force/model%flexible%effective_mass
+         force(:last) = force(:last)/model%flexible%effective_mass
          jacobian(at_lift, at_speed) = 1.0_wp
-         jacobian(at_speed, :) = force
+         jacobian(at_speed, :) = force(:last)
          if (allocated(model%gas)) angle_slope(at_speed) = -gas_force_slope(model%gas, angle)/model%flexible%effective_mass
          place = first_mode(model)
          do n = 1, modes%count
             jacobian(place, place + 1) = 1.0_wp
-            jacobian(place + 1, :) = -2.0_wp*modes%share(n)*force
+            jacobian(place + 1, :) = -2.0_wp*modes%share(n)*force(:last)
             jacobian(place + 1, place) = jacobian(place + 1, place) - modes%frequency(n)**2
             jacobian(place + 1, place + 1) = jacobian(place + 1, place + 1) - 2.0_wp*modes%damping_ratio*modes%frequency(n)
             angle_slope(place + 1) = -2.0_wp*modes%share(n)*angle_slope(at_speed)

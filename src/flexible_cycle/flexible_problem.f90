@@ -1,11 +1,13 @@
 !> A flexible train as an initial value problem over the cam angle.
 !>
-!> In: model, cam angle, state. Out: rate and exact Jacobian, as `ode` asks for them; the places where contacts are lost or return.
+!> In: model, cam angle, state. Out: rate and exact Jacobian, as `ode` asks for them; the places where contacts are lost or return,
+!> and where the roller passes a kink of the lift.
 module camroller_flexible_problem
    use camroller_cam_angle, only : cam_angle_text
    use camroller_kinds, only : wp
    use camroller_ode_problem, only : linear_t, counters_t, factors_t, words_length
    use camroller_ode_switching, only : switching_problem_t
+   use camroller_lift_pieces, only : kinks_passed
    use camroller_model, only : model_t
    use camroller_ramp, only : follow_ramp
    use camroller_flexible_train, only : flexible_state_t, resolution_t, evaluate_train, rates_of, state_size, first_mode, &
@@ -16,7 +18,7 @@ module camroller_flexible_problem
    implicit none
    private
 
-   public :: flexible_problem_t, state_scales
+   public :: flexible_problem_t, state_scales, set_scales
 
    !> Size of the sliding speed to which its error is relative, at most [m/s]
    real(wp), parameter, public :: largest_sliding_scale = 0.1_wp
@@ -46,6 +48,16 @@ contains
       !> The sizes [state]
       real(wp) :: scales(state_size(model))
 
+      call set_scales(model, scales)
+   end function state_scales
+
+   !> Set them.
+   pure subroutine set_scales(model, scales)
+      !> The model, with a flexible train
+      type(model_t), intent(in) :: model
+      !> The sizes [state]
+      real(wp), intent(out) :: scales(:)
+
       ! Way [m], speed [m/s], pressure [Pa]; amplitude [m] and rate [m/s] of a mode
       real(wp), parameter :: way = 1.0e-5_wp, speed = 0.1_wp, pressure = 1.0e6_wp, amplitude = 1.0e-4_wp, rate = 0.3_wp
       integer :: first
@@ -55,7 +67,7 @@ contains
       if (allocated(model%flexible%adjuster)) scales(6:8) = [way, speed, pressure]
       scales(first::2) = amplitude
       scales(first + 1::2) = rate
-   end function state_scales
+   end subroutine set_scales
 
    !> Rate of change of the state with the cam angle.
    subroutine get_rate(self, time, state, rate, status)
@@ -72,10 +84,13 @@ contains
 
       type(flexible_state_t) :: now
 
-      rate = 0.0_wp
       call follow_ramp(self%model, time)
       call evaluate_train(self%model, time, state, self%resolution, now, status)
-      if (status == 0) call rates_of(self%model, state, now, rate)
+      if (status == 0) then
+         call rates_of(self%model, state, now, rate)
+      else
+         rate = 0.0_wp
+      end if
    end subroutine get_rate
 
    !> Fastest rate of the problem: a bound for the largest eigenvalue, by the row sums of its Jacobian in the units of the scales.
@@ -208,7 +223,8 @@ contains
       end associate
    end subroutine solve
 
-   !> Approach of cam and roller, of the pad, of the seat: contact is lost or returns where one passes through zero.
+   !> Approach of cam and roller, of the pad, of the seat: contact is lost or returns where one passes through zero. Kinks of the
+   !> lift that the roller has passed: it meets them where the cam is nearest, some micrometres before or behind a rigid one.
    subroutine get_switches(self, time, state, switches, status)
       !> The problem
       class(flexible_problem_t), intent(in) :: self
@@ -216,7 +232,7 @@ contains
       real(wp), intent(in) :: time
       !> State [state]
       real(wp), intent(in) :: state(:)
-      !> The three approaches [m]
+      !> The three approaches [m]; kinks of the lift passed [-]
       real(wp), intent(out) :: switches(:)
       !> 0, or as from the state
       integer, intent(out) :: status
@@ -234,7 +250,7 @@ contains
          end if
          call find_touch(model, time, state(at_finger), state(at_finger_rate), pivot, pivot_rate, touch, status)
          switches = [touch%approach, pad_approach(model, state, pivot, real(pad_direction(model%linkage, touch%arm), wp)), &
-            & -state(at_lift)]
+            & -state(at_lift), kinks_passed(model, touch%angle)]
       end associate
    end subroutine get_switches
 

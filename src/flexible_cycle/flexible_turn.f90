@@ -16,11 +16,11 @@ module camroller_flexible_turn
    use camroller_trajectory, only : trajectory_t
    use camroller_flexible_train, only : flexible_state_t, evaluate_train, state_size, at_finger, at_sliding
    use camroller_number_text, only : millimetres_text, number_text
-   use camroller_flexible_problem, only : flexible_problem_t, state_scales
+   use camroller_flexible_problem, only : flexible_problem_t, set_scales
    implicit none
    private
 
-   public :: turn_t, start_turns, prepare, set_tolerance, integrate_turn
+   public :: turn_t, start_turns, prepare, set_tolerance, set_sliding_tolerance, integrate_turn
 
    !> Step that an integration begins with [rad]
    real(wp), parameter :: first_step = 1.0e-3_wp
@@ -65,11 +65,8 @@ contains
 
       call prepare(turn, model, method, tolerance, error)
       if (allocated(error)) return
-      if (allocated(model%gas)) then
-         turn%stops = cycle_stops([model%lift_stops, model%gas%sharp_angles], -pi)
-      else
-         turn%stops = cycle_stops(model%lift_stops, -pi)
-      end if
+      turn%stops = [-pi, pi]
+      if (allocated(model%gas)) turn%stops = cycle_stops(model%gas%sharp_angles, -pi)
    end subroutine start_turns
 
    !> Make ready to integrate, over whatever angles. The room of an earlier integration is used again where it is right.
@@ -94,15 +91,21 @@ contains
       call turn%method%forget()
       turn%problem%model => model
       turn%problem%switches = 3
+      turn%problem%markers = 1
       turn%problem%resolution%forces = contact_accuracy*tolerance
-      turn%scales = state_scales(model)
-      call set_tolerance(turn, tolerance*turn%scales)
+      if (allocated(turn%scales)) then
+         if (size(turn%scales) /= turn%components) deallocate (turn%scales)
+      end if
+      if (.not. allocated(turn%scales)) allocate (turn%scales(turn%components))
+      call set_scales(model, turn%scales)
+      turn%options%tolerance = tolerance*turn%scales
+      call set_sliding_tolerance(turn, turn%options%tolerance(at_sliding))
       turn%options%step = first_step
       turn%options%max_step = largest_step
       turn%options%max_steps = most_steps
    end subroutine prepare
 
-   !> Set the errors allowed in a step, and with that of the sliding speed what is not resolved of it.
+   !> Set the errors allowed in a step.
    pure subroutine set_tolerance(turn, tolerance)
       !> What integrates
       type(turn_t), intent(inout) :: turn
@@ -110,8 +113,19 @@ contains
       real(wp), intent(in) :: tolerance(:)
 
       turn%options%tolerance = tolerance
-      turn%problem%resolution%sliding_speed = unresolved*tolerance(at_sliding)
+      call set_sliding_tolerance(turn, tolerance(at_sliding))
    end subroutine set_tolerance
+
+   !> Set the error of the sliding speed that is allowed in a step, and with it what is not resolved of that speed.
+   pure subroutine set_sliding_tolerance(turn, tolerance)
+      !> What integrates
+      type(turn_t), intent(inout) :: turn
+      !> The error allowed [m/s]
+      real(wp), intent(in) :: tolerance
+
+      turn%options%tolerance(at_sliding) = tolerance
+      turn%problem%resolution%sliding_speed = unresolved*tolerance
+   end subroutine set_sliding_tolerance
 
    !> One turn.
    subroutine integrate_turn(turn, state, trajectory, counters, error)

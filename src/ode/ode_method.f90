@@ -4,7 +4,7 @@
 module camroller_ode_method
    use camroller_kinds, only : wp
    use camroller_ode_problem, only : problem_t, linear_t, counters_t
-   use camroller_trajectory, only : trajectory_t, append_curve, append_point
+   use camroller_trajectory, only : trajectory_t, append_curve, append_point, curve_numbers
    implicit none
    private
 
@@ -27,6 +27,8 @@ module camroller_ode_method
       real(wp), allocatable :: estimate(:)
       !> Error over tolerance [-]
       real(wp) :: scaled_error = 0.0_wp
+      !> State at a place within it [state], and its curve there, for who looks
+      real(wp), allocatable :: inner_state(:), curve(:, :)
    end type step_t
 
    !> A way to make one step
@@ -132,9 +134,12 @@ contains
       real(wp), intent(in) :: state(:)
 
       if (allocated(step%state)) then
-         if (size(step%state) /= size(state)) deallocate (step%state, step%rate, step%new_state, step%new_rate, step%estimate)
+         if (size(step%state) /= size(state)) deallocate (step%state, step%rate, step%new_state, step%new_rate, step%estimate, &
+            & step%inner_state, step%curve)
       end if
-      if (.not. allocated(step%state)) allocate (step%state, step%rate, step%new_state, step%new_rate, step%estimate, mold=state)
+      if (.not. allocated(step%state)) allocate (step%state(size(state)), step%rate(size(state)), step%new_state(size(state)), &
+         & step%new_rate(size(state)), step%estimate(size(state)), step%inner_state(size(state)), &
+         & step%curve(size(state), curve_numbers))
       step%state(:) = state
    end subroutine start_step
 
@@ -150,6 +155,8 @@ contains
       call move_alloc(from%new_state, to%new_state)
       call move_alloc(from%new_rate, to%new_rate)
       call move_alloc(from%estimate, to%estimate)
+      call move_alloc(from%inner_state, to%inner_state)
+      call move_alloc(from%curve, to%curve)
    end subroutine move_step
 
    !> Go on to the end of a step.

@@ -45,8 +45,8 @@ module camroller_ode_rosenbrock
       real(wp), allocatable :: increments(:, :)
       !> Factors of the matrix of the stages
       type(factors_t) :: factors
-      !> Rate at a trial state and right-hand side of a stage [state/time]
-      real(wp), allocatable :: stage_rate(:), right_side(:)
+      !> Rate at a trial state [state/time]
+      real(wp), allocatable :: stage_rate(:)
    contains
       procedure :: try_step => try_rosenbrock_step
    end type rosenbrock_method_t
@@ -67,7 +67,7 @@ contains
       method%integral = 0.0_wp
       method%has_curve = .true.
       allocate (method%increments(components, method%stages), method%bends(components, 3))
-      allocate (method%stage_rate(components), method%right_side(components))
+      allocate (method%stage_rate(components))
       call new_factors(method%factors, components)
    end subroutine new_rosenbrock_method
 
@@ -158,53 +158,60 @@ contains
          counters%factorisations = counters%factorisations + 1
          if (status /= 0) return
          do stage = 1, self%stages
-            self%right_side(:) = length*self%slope_weights(stage)*self%here%time_slope
-            factors(:stage - 1) = self%couplings(:stage - 1, stage)/length
-            call add_multiples(n, stage - 1, factors, self%increments, self%right_side)
             if (stage > self%stages - 2) then
                ! The last two stages begin where the one before has ended
                new_state(:) = new_state + self%increments(:, stage - 1)
             else
-               new_state(:) = step%state
-               call add_multiples(n, stage - 1, self%weights(:, stage), self%increments, new_state)
+               call add_multiples(n, stage - 1, self%weights(:, stage), self%increments, 1.0_wp, step%state, new_state)
             end if
             if (stage > 1) then
                call problem%get_rate(step%time + length*self%nodes(stage), new_state, self%stage_rate, status)
                counters%evaluations = counters%evaluations + 1
                if (status /= 0) return
             end if
-            self%right_side(:) = self%right_side + self%stage_rate
-            call problem%solve(self%here, self%factors, self%right_side)
-            self%increments(:, stage) = self%right_side
+            factors(:stage - 1) = self%couplings(:stage - 1, stage)/length
+            call add_multiples(n, stage - 1, factors, self%increments, 1.0_wp, self%stage_rate, self%increments(:, stage))
+            if (abs(self%slope_weights(stage)) > 0.0_wp) self%increments(:, stage) = self%increments(:, stage) &
+               & + (length*self%slope_weights(stage))*self%here%time_slope
+            call problem%solve(self%here, self%factors, self%increments(:, stage))
          end do
          step%estimate(:) = self%increments(:, self%stages)
          new_state(:) = new_state + step%estimate
       end associate
       do i = 1, 3
-         self%bends(:, i) = 0.0_wp
-         call add_multiples(n, self%stages, self%bend_weights(:, i), self%increments, self%bends(:, i))
+         call add_multiples(n, self%stages - 1, self%bend_weights(2:, i), self%increments(:, 2:), self%bend_weights(1, i), &
+            & self%increments(:, 1), self%bends(:, i))
       end do
    end subroutine try_rosenbrock_step
 
-   !> Add multiples of vectors, one after the other; by fours, which spares reading and writing the sum.
-   pure subroutine add_multiples(components, count, factors, addends, total)
-      !> Number of components, of vectors
+   !> Sum of multiples of vectors, up to three first and then by fours, which spares reading and writing the sum.
+   pure subroutine add_multiples(components, count, factors, addends, first_factor, first, total)
+      !> Number of components, of vectors beside the first
       integer, intent(in) :: components, count
       !> Factors [any]
       real(wp), intent(in) :: factors(count)
       !> Vectors, shape (component, vector) [any]
       real(wp), intent(in) :: addends(components, count)
-      !> In: vector; out: with the multiples [any]
-      real(wp), intent(inout) :: total(components)
+      !> Another factor [any], and its vector [any]
+      real(wp), intent(in) :: first_factor, first(components)
+      !> The sum [any]
+      real(wp), intent(out) :: total(components)
 
       integer :: i
 
-      do i = 1, count - 3, 4
+      select case (modulo(count, 4))
+      case (0)
+         total = first_factor*first
+      case (1)
+         total = first_factor*first + factors(1)*addends(:, 1)
+      case (2)
+         total = first_factor*first + factors(1)*addends(:, 1) + factors(2)*addends(:, 2)
+      case default
+         total = first_factor*first + factors(1)*addends(:, 1) + factors(2)*addends(:, 2) + factors(3)*addends(:, 3)
+      end select
+      do i = modulo(count, 4) + 1, count, 4
          total = total + factors(i)*addends(:, i) + factors(i + 1)*addends(:, i + 1) + factors(i + 2)*addends(:, i + 2) &
             & + factors(i + 3)*addends(:, i + 3)
-      end do
-      do i = count - modulo(count, 4) + 1, count
-         total = total + factors(i)*addends(:, i)
       end do
    end subroutine add_multiples
 

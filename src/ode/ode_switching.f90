@@ -1,4 +1,5 @@
-!> Initial value problems whose right-hand side has kinks at places that depend on the state: the zeros of its switches.
+!> Initial value problems whose right-hand side has kinks at places that depend on the state: the zeros of its switches, and whole
+!> numbers of its markers.
 !>
 !> In: a problem with switches, a method, tolerances, times at which a step must end. Out: a trajectory whose steps end at the kinks
 !> as well. A step that crosses a kink is made again up to it; where it lies, the curve of the step tells.
@@ -8,19 +9,19 @@ module camroller_ode_switching
    use camroller_roots, only : bracket_t, start_bracket, narrow_bracket, root_wanted
    use camroller_ode_problem, only : problem_t, counters_t, new_linear, copy_linear
    use camroller_ode_method, only : method_t, options_t, step_t, start_step, move_step, take_step, keep_point, keep_stable
-   use camroller_trajectory, only : trajectory_t, start_trajectory, append_point, curve_state, curve_numbers
+   use camroller_trajectory, only : trajectory_t, start_trajectory, append_point, curve_state
    implicit none
    private
 
    public :: switching_problem_t, integrate_switching
 
-   !> Most switches of a problem
+   !> Most switches and markers of a problem
    integer, parameter, public :: most_switches = 4
 
-   !> A problem whose right-hand side has kinks where a switch is zero
+   !> A problem whose right-hand side has kinks where a switch is zero, or a marker a whole number
    type, abstract, extends(problem_t) :: switching_problem_t
-      !> Number of switches
-      integer :: switches = 0
+      !> Number of switches, and of the markers behind them
+      integer :: switches = 0, markers = 0
    contains
       procedure(switches_interface), deferred :: get_switches
    end type switching_problem_t
@@ -31,8 +32,10 @@ module camroller_ode_switching
       type(step_t) :: step
       !> Step proposed [time]
       real(wp) :: proposed = 0.0_wp
-      !> Switches at the start and at the end of the step; zero beyond those that the problem has [any]
+      !> Switches and markers at the start and at the end of the step; zero beyond those that the problem has [any]
       real(wp) :: switches(most_switches) = 0.0_wp, new_switches(most_switches) = 0.0_wp
+      !> Where each has its first kink in the direction of the step: zero for a switch [any]
+      real(wp) :: kinks(most_switches) = 0.0_wp
       !> Place of the first kink in the step; beyond it where there is none [-]
       real(wp) :: kink = 0.0_wp
    end type walk_t
@@ -50,7 +53,7 @@ module camroller_ode_switching
    real(wp), parameter :: past_zero = 1.0e-6_wp
 
    abstract interface
-      !> Values whose zeros are kinks of the right-hand side
+      !> Switches, whose zeros are kinks of the right-hand side, and markers, which have kinks at whole numbers
       subroutine switches_interface(self, time, state, switches, status)
          import :: switching_problem_t, wp
          !> The problem; read only
@@ -108,8 +111,8 @@ contains
             step%time = stops(segment) + margin
             method%horizon = stops(segment + 1) - margin
             call problem%linearise(step%time, step%state, method%horizon, method%here, counters, status)
-            if (status == 0) call problem%get_switches(step%time, step%state, walk%switches(:problem%switches), &
-               & status)
+            if (status == 0) call problem%get_switches(step%time, step%state, walk%switches(:problem%switches + &
+               & problem%markers), status)
             if (status /= 0) then
                call raise(error, kind_convergence, "the right-hand side has no value at "//trim(problem%name_time(step%time)))
                return
@@ -224,6 +227,7 @@ contains
       type(counters_t), intent(inout) :: counters
 
       integer :: status
+      logical :: has_kink
 
       walk%kink = 2.0_wp
       walk%new_switches(:) = walk%switches
@@ -232,11 +236,14 @@ contains
          step%scaled_error = impossible
          if (status /= 0) return
          if (.not. all(abs(step%new_state) < huge(1.0_wp) .and. abs(step%estimate) < huge(1.0_wp))) return
-         call problem%get_switches(step%end_time, step%new_state, walk%new_switches(:problem%switches), status)
-         if (status /= 0) return
+         associate (n => problem%switches, m => problem%switches + problem%markers)
+            call problem%get_switches(step%end_time, step%new_state, walk%new_switches(:m), status)
+            if (status /= 0) return
+            walk%kinks(n + 1:m) = next_whole(walk%switches(n + 1:m), walk%new_switches(n + 1:m))
+         end associate
          step%scaled_error = maxval(abs(step%estimate)/method%tolerance)
-         if (step%scaled_error > least_kink .and. any(walk%new_switches*walk%switches < 0.0_wp)) walk%kink = &
-            & first_kink(problem, method, walk)
+         has_kink = any((walk%new_switches - walk%kinks)*(walk%switches - walk%kinks) < 0.0_wp)
+         if (has_kink .and. step%scaled_error > least_kink) call find_first_kink(problem, method, walk)
          if (step%scaled_error > 1.0_wp .or. walk%kink <= 0.5_wp) return
          if (method%needs_jacobian) then
             call problem%linearise(step%end_time, step%new_state, method%horizon, method%there, counters, status)
@@ -249,51 +256,74 @@ contains
       end associate
    end subroutine try_step
 
-   !> Place of the first zero of a switch that changes its sign in a step, on the step's curve, and a little past it.
-   function first_kink(problem, method, walk) result(place)
+   !> The first whole number on the way from one value to another, or beyond it.
+   elemental function next_whole(before, after) result(whole)
+      !> The values [-]
+      real(wp), intent(in) :: before, after
+      !> The number [-]
+      real(wp) :: whole
+
+      whole = real(floor(before), wp)
+      if (after > before) whole = whole + 1.0_wp
+   end function next_whole
+
+   !> Find the place of the first kink of a switch or marker in a step, on the step's curve, and a little past it.
+   subroutine find_first_kink(problem, method, walk)
       !> The problem
       class(switching_problem_t), intent(in) :: problem
       !> The method after the step
       class(method_t), intent(in) :: method
-      !> The step, with the switches at both ends
-      type(walk_t), intent(in) :: walk
-      !> The place [-]
-      real(wp) :: place
+      !> The step, with the switches at both ends; out: with the place
+      type(walk_t), intent(inout) :: walk
 
-      ! Curve of the step [state]; state [state] and switches [any] on it
-      real(wp) :: bends(size(walk%step%state), curve_numbers), state(size(walk%step%state)), values(most_switches)
+      ! Switches and markers on the curve and at its start, less where they have kinks [any]
+      real(wp) :: values(most_switches), starts(most_switches)
       type(bracket_t) :: bracket
       integer :: i, status
 
-      associate (step => walk%step)
-         bends = 0.0_wp
+      associate (step => walk%step, place => walk%kink)
+         step%curve(:, :) = 0.0_wp
          if (method%has_curve) then
-            bends(:, :size(method%bends, 2)) = method%bends
+            step%curve(:, :size(method%bends, 2)) = method%bends
          else
-            bends(:, 1) = step%length*step%rate - (step%new_state - step%state)
+            step%curve(:, 1) = step%length*step%rate - (step%new_state - step%state)
          end if
          place = 1.0_wp
-         values = walk%new_switches
+         starts = walk%switches - walk%kinks
+         values = walk%new_switches - walk%kinks
          do i = 1, size(values)
-            ! A switch that has kept its sign up to the first zero so far has none before
-            if (.not. values(i)*walk%switches(i) < 0.0_wp) cycle
-            call start_bracket(bracket, 0.0_wp, place, walk%switches(i), values(i), past_zero)
+            ! A switch that has kept its sign up to the first kink so far has none before
+            if (.not. values(i)*starts(i) < 0.0_wp) cycle
+            call start_bracket(bracket, 0.0_wp, place, starts(i), values(i), past_zero)
             status = 0
             do while (bracket%status == root_wanted .and. status == 0)
-               state = curve_state(step%state, step%new_state, bends, bracket%trial)
-               call problem%get_switches(step%time + bracket%trial*step%length, state, values(:problem%switches), status)
+               call evaluate(bracket%trial)
                if (status == 0) call narrow_bracket(bracket, values(i))
             end do
             if (status /= 0) exit
             place = min(place, bracket%trial + past_zero)
-            if (.not. any(walk%new_switches(i + 1:)*walk%switches(i + 1:) < 0.0_wp)) exit
-            state = curve_state(step%state, step%new_state, bends, place)
-            call problem%get_switches(step%time + place*step%length, state, values(:problem%switches), status)
+            if (.not. any((walk%new_switches(i + 1:) - walk%kinks(i + 1:))*starts(i + 1:) < 0.0_wp)) exit
+            call evaluate(place)
             if (status /= 0) exit
          end do
       end associate
       ! A switch that is zero by a few roundings where the last kink ended its step is past it
-      if (place <= near_end) place = 2.0_wp
-   end function first_kink
+      if (walk%kink <= near_end) walk%kink = 2.0_wp
+
+   contains
+
+      !> Switches and markers on the step's curve.
+      subroutine evaluate(part)
+         !> Place in the step [-]
+         real(wp), intent(in) :: part
+
+         associate (step => walk%step, m => problem%switches + problem%markers)
+            step%inner_state(:) = curve_state(step%state, step%new_state, step%curve, part)
+            call problem%get_switches(step%time + part*step%length, step%inner_state, values(:m), status)
+            values(:m) = values(:m) - walk%kinks(:m)
+         end associate
+      end subroutine evaluate
+
+   end subroutine find_first_kink
 
 end module camroller_ode_switching

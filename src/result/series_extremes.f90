@@ -157,7 +157,8 @@ contains
             & contact_near(curve, angles(i)))
          if (allocated(error)) return
          call follower_values(solved%case, solved%models(lobe), state, values)
-         call add_sample(samples, angles(i), values, i < size(angles))
+         ! Kinks of the lift are there for a rigid train: a flexible one may have its extreme close beside them
+         call add_sample(samples, angles(i), values, i < size(angles) .and. .not. allocated(solved%cycles(lobe)%flexible))
       end do
    end subroutine add_stops
 

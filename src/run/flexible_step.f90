@@ -18,16 +18,14 @@ module camroller_flexible_step
    use camroller_lash_adjuster, only : set_supply
    use camroller_state, only : state_t, cam_force
    use camroller_torque_list, only : torque_count, is_torque, of_geometric, of_roller_inertia
-   use camroller_lift_pieces, only : find_edges
    use camroller_follower_samples, only : extremes_t, widen
    use camroller_trajectory, only : interpolate_state
    use camroller_flexible_train, only : flexible_state_t, resolution_t, evaluate_train, state_size, at_sliding, &
       & largest_state
    use camroller_flexible_energy, only : energy_slopes
-   use camroller_flexible_problem, only : state_scales
    use camroller_flexible_cycle, only : rest_of_train
    use camroller_flexible_follower, only : evaluate_follower
-   use camroller_flexible_drive, only : drive_t, drive_train, errors_of_state, take_spin, bring_to_rest
+   use camroller_flexible_drive, only : drive_t, drive_train, take_spin, bring_to_rest
    use camroller_run, only : take_way_out
    use camroller_short_piece, only : places, lobatto_places, lobatto_weights, simpson_weights, odd_weights
    use camroller_follower_step, only : follower_t, inputs_t, outcome_t, piece_number, inputs_between, set_model, set_ramp, &
@@ -211,7 +209,8 @@ contains
       has_way_out = .false.
       associate (point => follower%point, model => follower%model, first => follower%point%angle - pi, &
          & n => state_size(follower%model))
-         call find_edges(model, first, to - pi, follower%drive%turn%stops)
+         if (.not. allocated(follower%drive%turn%stops)) allocate (follower%drive%turn%stops(2))
+         follower%drive%turn%stops(:) = [first, to - pi]
          do try = 1, most_tries
             state = point%train
             step = point%train_step
@@ -380,7 +379,8 @@ contains
          angle = max(ends(1) + (ends(2) - ends(1))*(i - 1)/size(nodes, 2), piece%path%time(1))
          call take_sample(model, piece, angle, 1, 0.0_wp, met, sample, error)
          if (allocated(error)) return
-         nodes(:, i) = [cam_force(model, sample%state), sample%state%torque_drive]
+         nodes(:2, i) = cam_force(model, sample%state)
+         nodes(3, i) = sample%state%torque_drive
       end do
    end subroutine sample_nodes
 
@@ -398,18 +398,20 @@ contains
 
       type(flexible_state_t) :: now
       type(state_t) :: beside
-      ! State and its errors [state]
-      real(wp), dimension(state_size(follower%model)) :: state, errors
+      ! State and its errors [state], slopes of the stored energy [J over the unit of the component]
+      real(wp), dimension(largest_state) :: state, errors, slopes
       integer :: status
 
-      associate (point => follower%point, model => follower%model)
-         errors = accumulated*errors_of_state(state_scales(model), follower%numerics, point%scale)
-         state = point%train(:size(state))
-         call evaluate_train(model, point%angle - pi, state, resolution, now, status)
-         if (status == 0) outcome%estimated_error = outcome%estimated_error &
-            & + 2.0_wp*norm2(energy_slopes(model, state, now)*errors)/span
+      associate (point => follower%point, model => follower%model, n => state_size(follower%model))
+         errors(:n) = accumulated*follower%drive%turn%options%tolerance
+         state = point%train
+         call evaluate_train(model, point%angle - pi, state(:n), resolution, now, status)
+         if (status == 0) then
+            slopes(:n) = energy_slopes(model, state(:n), now)
+            outcome%estimated_error = outcome%estimated_error + 2.0_wp*norm2(slopes(:n)*errors(:n))/span
+         end if
          state(at_sliding) = state(at_sliding) + errors(at_sliding)
-         call evaluate_follower(model, point%angle - pi, state, resolution, beside, status)
+         call evaluate_follower(model, point%angle - pi, state(:n), resolution, beside, status)
          if (status == 0) outcome%estimated_error = outcome%estimated_error + abs(beside%torque_friction &
             & - outcome%state%torque_friction)
       end associate

@@ -188,7 +188,7 @@ contains
    !> `V_roll = omega (M - r_R)`: `doc/theory.md`.
    !> Note: written in curvatures, so that straight and hollow flanks are regular.
    !> The caller has checked that the lift keeps `|cos(gamma + chi)| < 1`; status is not 0 where it does not.
-   pure subroutine evaluate_position(linkage, lift, position, status)
+   pure subroutine evaluate_position(linkage, lift, position, status, is_path)
       !> Constants of the mechanism
       type(linkage_t), intent(in) :: linkage
       !> Lift and its first three derivatives with respect to the cam angle [m, m/rad, m/rad^2, m/rad^3]
@@ -197,6 +197,8 @@ contains
       type(position_t), intent(out) :: position
       !> 0 fine, -1 the finger cannot reach this lift
       integer, intent(out) :: status
+      !> Are path of the roller's centre over the cam, its curvature, its arms and the slope of the finger all that is wanted?
+      logical, intent(in), optional :: is_path
 
       ! cos and sin of gamma + chi; cos and sin of s [-]
       real(wp) :: cos_pad, sin_pad, cos_s, sin_s
@@ -215,42 +217,43 @@ contains
       if (abs(cos_pad) >= 1.0_wp) return
       status = 0
       sin_pad = sqrt((1.0_wp - cos_pad)*(1.0_wp + cos_pad))
-      position%lift_slope = lift(1)
-      position%lift_curvature = lift(2)
       position%valve_arm = linkage%b*sin_pad
-      position%arm_angle = acos(cos_pad) + linkage%arm_offset
       cos_s = cos_pad*linkage%offset_cosine - sin_pad*linkage%offset_sine
       sin_s = sin_pad*linkage%offset_cosine + cos_pad*linkage%offset_sine
 
       ! l' = b sin(gamma+chi) gamma' and its derivatives
       gamma_1 = lift(1)/position%valve_arm
       gamma_2 = (lift(2)/linkage%b - cos_pad*gamma_1**2)/sin_pad
-      gamma_3 = (lift(3)/linkage%b - 3.0_wp*cos_pad*gamma_1*gamma_2 + sin_pad*gamma_1**3)/sin_pad
-      position%finger_slope = gamma_1
-      position%finger_curvature = gamma_2
-
       g = 1.0_wp + linkage%sense*gamma_1
-      g_1 = linkage%sense*gamma_2
       ad_cos = linkage%a*linkage%d*cos_s
       ad_sin = linkage%a*linkage%d*sin_s
       m = sqrt((linkage%a*g)**2 - 2.0_wp*ad_cos*g + linkage%d**2)
-      m_1 = (linkage%a**2*g*g_1 - ad_cos*g_1 + ad_sin*g*gamma_1)/m
       l2 = linkage%a**2*g**3 - ad_sin*gamma_2 + linkage%d**2 - ad_cos*g*(1.0_wp + g)
+      position%finger_slope = gamma_1
+      position%pitch_curvature = l2/m**3
+      position%normal_arm = ad_sin/m
+      position%tangent_arm = (ad_cos - linkage%a**2*g)/m
+      ! omega h_F - sense gamma' omega h_t, with the arms written out, is omega (M - r_R)
+      position%rolling_travel = m - linkage%roller_radius
+      if (present(is_path)) then
+         if (is_path) return
+      end if
+
+      position%lift_slope = lift(1)
+      position%lift_curvature = lift(2)
+      position%arm_angle = acos(cos_pad) + linkage%arm_offset
+      gamma_3 = (lift(3)/linkage%b - 3.0_wp*cos_pad*gamma_1*gamma_2 + sin_pad*gamma_1**3)/sin_pad
+      position%finger_curvature = gamma_2
+      g_1 = linkage%sense*gamma_2
+      m_1 = (linkage%a**2*g*g_1 - ad_cos*g_1 + ad_sin*g*gamma_1)/m
       l2_1 = 3.0_wp*(linkage%a*g)**2*g_1 - ad_sin*gamma_3 - ad_cos*gamma_1*gamma_2 &
          & - ad_cos*(1.0_wp + 2.0_wp*g)*g_1 + ad_sin*g*(1.0_wp + g)*gamma_1
 
-      position%pitch_curvature = l2/m**3
       position%equivalent_radius = linkage%roller_radius*(1.0_wp - linkage%roller_radius*position%pitch_curvature)
       position%surface_travel = m - linkage%roller_radius*l2/m**2
       position%surface_travel_slope = m_1 - linkage%roller_radius*(l2_1 - 2.0_wp*l2*m_1/m)/m**2
-
-      position%normal_arm = ad_sin/m
       position%parallel_arm = linkage%a*(sin_s*linkage%axis_cosine + cos_s*linkage%axis_sine)
       position%cam_arm = (linkage%d**2 + linkage%a**2*g - ad_cos*(1.0_wp + g))/m - linkage%roller_radius
-      position%tangent_arm = (ad_cos - linkage%a**2*g)/m
-
-      ! omega h_F - sense gamma' omega h_t, with the arms written out, is omega (M - r_R)
-      position%rolling_travel = m - linkage%roller_radius
       position%rolling_travel_slope = m_1
 
       position%lift_jerk = lift(3)

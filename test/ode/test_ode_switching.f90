@@ -14,7 +14,8 @@ module test_ode_switching
 
    public :: collect_ode_switching
 
-   !> A body on a spring behind a cycloidal rise, or one that falls on a damped seat under a steady force
+   !> A body on a spring behind a cycloidal rise, or one that falls on a damped seat under a steady force, or one that crosses
+   !> ground whose slope rises and falls in a zigzag
    type, extends(switching_problem_t) :: body_t
       !> Time of the rise; 0 for the seat [s]
       real(wp) :: rise = 0.0_wp
@@ -22,6 +23,8 @@ module test_ode_switching
       real(wp) :: mass = 1.0_wp, stiffness = two_pi**2, damping = 0.0_wp, force = 0.0_wp, spring = 25.0e3_wp
       !> Is there another contact that rests at zero, but for rounding?
       logical :: hovers = .false.
+      !> Is there the ground?
+      logical :: has_ground = .false.
    contains
       procedure :: get_rate
       procedure :: get_decay_rate
@@ -41,7 +44,8 @@ contains
          new_unittest("what a cycloidal rise leaves an oscillator with", test_rise), &
          new_unittest("a valve bounces under its spring", test_bounce), &
          new_unittest("steps end where contacts are lost and return", test_kinks), &
-         new_unittest("a contact that rests at zero but for rounding ends few steps", test_hovering) &
+         new_unittest("a contact that rests at zero but for rounding ends few steps", test_hovering), &
+         new_unittest("steps end where a marker passes whole numbers, forwards and backwards", test_markers) &
          ]
    end subroutine collect_ode_switching
 
@@ -166,6 +170,33 @@ contains
       end do
    end subroutine test_hovering
 
+   !> Ground whose slope has kinks at whole places: four are passed in one direction or the other.
+   subroutine test_markers(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(body_t) :: body
+      type(trajectory_t) :: trajectory
+      real(wp) :: state(2)
+      integer :: i, k, direction, found
+
+      body = body_t(has_ground=.true.)
+      body%markers = 1
+      do k = 1, size(methods)
+         do direction = -1, 1, 2
+            state = [0.5_wp + 1.8_wp*direction, -2.0_wp*direction]
+            call run(body, methods(k), [0.0_wp, 2.0_wp], [1.0e-6_wp, 1.0e-6_wp], state, trajectory, error)
+            if (allocated(error)) return
+            found = 0
+            do i = 2, trajectory%count - 1
+               associate (places => trajectory%state(1, i - 1:i + 1))
+                  if (abs(places(2) - anint(places(2))) < 1.0e-3_wp*maxval(abs(places([1, 3]) - places(2)))) found = found + 1
+               end associate
+            end do
+            call check(error, found >= 4, "no step ends at a whole place: "//methods(k))
+            if (allocated(error)) return
+         end do
+      end do
+   end subroutine test_markers
+
    !> Rate of place and speed.
    subroutine get_rate(self, time, state, rate, status)
       class(body_t), intent(in) :: self
@@ -178,7 +209,9 @@ contains
 
       status = 0
       rate(1) = state(2)
-      if (self%rise > 0.0_wp) then
+      if (self%has_ground) then
+         rate(2) = abs(modulo(state(1), 2.0_wp) - 1.0_wp) - 0.5_wp
+      else if (self%rise > 0.0_wp) then
          place = 1.0_wp
          if (time < self%rise) place = time/self%rise - sin(two_pi*time/self%rise)/two_pi
          rate(2) = self%stiffness*(place - state(1))/self%mass
@@ -199,7 +232,7 @@ contains
       if (size(state) == 0 .or. time < -pi) decay_rate = 0.0_wp
    end subroutine get_decay_rate
 
-   !> The seat is met where the place is zero.
+   !> The seat is met where the place is zero; the ground's slope bends at whole places.
    subroutine get_switches(self, time, state, switches, status)
       class(body_t), intent(in) :: self
       real(wp), intent(in) :: time
@@ -211,6 +244,7 @@ contains
       switches = 1.0_wp
       if (self%rise <= 0.0_wp .and. time > -pi) switches = -state(1)
       if (self%hovers) switches = 1.0e-18_wp*sin(1.0e4_wp*time)
+      if (self%has_ground) switches = state(1)
    end subroutine get_switches
 
    function name_time(self, time) result(text)

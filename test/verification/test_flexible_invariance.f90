@@ -31,9 +31,55 @@ contains
          new_unittest("free vibration with opening contacts keeps its energy without dampers and loses it with them", &
             & test_conservation), &
          new_unittest("without dampers and friction, reversed time gives the same accelerations", test_reversal), &
-         new_unittest("errors of a turn are within ten tolerances and fall with the tolerance", test_convergence) &
+         new_unittest("errors of a turn are within ten tolerances and fall with the tolerance", test_convergence), &
+         new_unittest("steps end where the roller passes a kink of the lift, before or behind a rigid one", test_kinks) &
          ]
    end subroutine collect_flexible_invariance
+
+   !> The lift has kinks at both ends of the event, and at the nose where its halves differ: a train that bends meets them at other
+   !> cam angles than a rigid one, a step's length away from them or not.
+   subroutine test_kinks(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(case_t) :: the_case
+      type(model_t), target :: model
+      type(turn_t) :: turn
+      type(trajectory_t) :: trajectory
+      type(counters_t) :: counters
+      type(flexible_state_t) :: now
+      type(error_t), allocatable :: failure
+      real(wp), allocatable :: state(:)
+      ! Cam angles that a rigid train has at the points, less the first and those less the kink [rad]
+      real(wp), allocatable :: angles(:), ways(:)
+      integer :: i, status, nearest
+
+      the_case = thesis_case()
+      the_case%lift%law = "polynomial_345"
+      the_case%lift%closing_half_angle = 0.8_wp*the_case%lift%opening_half_angle
+      call set_point(the_case, 100.0_wp, 0.01_wp)
+      call add_dynamics(the_case, 1, .false.)
+      call make_model(the_case, model, error)
+      if (allocated(error)) return
+      call start_turns(turn, model, "rodas5p", 1.0e-4_wp, failure)
+      if (.not. allocated(failure)) call rest_of_train(model, state, failure)
+      if (.not. allocated(failure)) call integrate_turn(turn, state, trajectory, counters, failure)
+      if (allocated(failure)) call test_failed(error, failure%message)
+      if (allocated(error)) return
+      allocate (angles(trajectory%count))
+      do i = 1, trajectory%count
+         call evaluate_train(model, trajectory%time(i), trajectory%state(:, i), resolution_t(), now, status)
+         angles(i) = now%touch%angle
+      end do
+      call check(error, size(model%lift_stops), 3, "kinks of the lift")
+      if (allocated(error)) return
+      do i = 1, size(model%lift_stops)
+         ways = abs(angles - model%lift_stops(i))
+         nearest = minloc(ways, 1)
+         call check(error, ways(nearest) < 1.0e-3_wp*maxval(ways(nearest - 1:nearest + 1)), "no step ends at a kink")
+         if (allocated(error)) return
+         call check(error, abs(trajectory%time(nearest) - model%lift_stops(i)) > 1.0e-6_wp, "the train does not bend")
+         if (allocated(error)) return
+      end do
+   end subroutine test_kinks
 
    !> Ten milliseconds on the base circle after the valve was struck: change of the energy over that of the vibration.
    subroutine pluck(has_dampers, tolerance, change, has_opened, error)
@@ -106,13 +152,14 @@ contains
       integer :: i
 
       ! The error allowed in a step is a tolerance of 0.1 m/s, of 0.5 m/s that were struck: 0.4 tolerances of the energy; 1200 to
-      ! 4400 steps whose errors are independent add up to 14 to 26 of them
+      ! 4400 steps whose errors are independent add up to 14 to 26 of them. Sixty runs, speeds that differ by 1e-6 and tolerances
+      ! of 1e-4 to 1e-8, have a standard deviation of 19 tolerances: three of these
       do i = 4, 8, 2
          call pluck(.false., 10.0_wp**(-i), change, has_opened, error)
          if (allocated(error)) return
          call check(error, has_opened, "cam and pad were to open")
          if (allocated(error)) return
-         call check_scaled(error, change, 0.0_wp, 10.0_wp**(-i), 40.0_wp, "energy")
+         call check_scaled(error, change, 0.0_wp, 10.0_wp**(-i), 60.0_wp, "energy")
          if (allocated(error)) return
       end do
       call pluck(.true., 1.0e-4_wp, change, has_opened, error)

@@ -41,7 +41,7 @@ contains
    end subroutine collect_flexible_periods
 
    !> The reference train and its periodic state.
-   subroutine find(speed, viscosity, raised, has_adjuster, most, cycle, state, error)
+   subroutine find(speed, viscosity, raised, has_adjuster, most, cycle, state, error, part)
       !> Speed [rev/min], viscosity of the oil [Pa s], how much the plunger stands above its rest [m]
       real(wp), intent(in) :: speed, viscosity, raised
       logical, intent(in) :: has_adjuster
@@ -51,17 +51,23 @@ contains
       !> End of the last cycle, in units of the scales [-]
       real(wp), allocatable, intent(out) :: state(:)
       type(error_type), allocatable, intent(out) :: error
+      !> Closure and tolerance over the usual ones [-]
+      real(wp), intent(in), optional :: part
       type(case_t) :: the_case
       type(model_t), target :: model
       type(turn_t) :: turn
       type(error_t), allocatable :: failure
+      ! That part, or 1 [-]
+      real(wp) :: factor
 
+      factor = 1.0_wp
+      if (present(part)) factor = part
       the_case = thesis_case()
       call set_point(the_case, speed*pi/30.0_wp, viscosity)
       call add_dynamics(the_case, 5, has_adjuster)
       call make_model(the_case, model, error)
       if (allocated(error)) return
-      call start_turns(turn, model, "rodas5p", tolerance, failure)
+      call start_turns(turn, model, "rodas5p", factor*tolerance, failure)
       if (.not. allocated(failure)) call rest_of_train(model, state, failure)
       if (.not. allocated(failure)) then
          if (raised > 0.0_wp) then
@@ -70,7 +76,7 @@ contains
             state(at_finger) = state(at_finger) + raised/model%linkage%a
             state(at_lift) = raised*(model%linkage%b/model%linkage%a - 1.0_wp)
          end if
-         call find_periodic(cycle, turn, state, closure, most, failure)
+         call find_periodic(cycle, turn, state, factor*closure, most, failure)
       end if
       if (allocated(failure)) call test_failed(error, failure%message)
       state = state/turn%scales
@@ -122,15 +128,21 @@ contains
       end do
    end subroutine test_drift
 
-   !> At 2000 rev/min the plunger's disturbances come back as -1.01 of what they were.
+   !> At 2000 rev/min the plunger's disturbances come back as -1.01 of what they were, and no number of turns repeats itself.
+   !> Extrapolation comes near the single cycle at one speed or another, as rounding decides; the last change from turn to turn,
+   !> from which it has taken what alternates, showed it at two of these four.
    subroutine test_unstable(error)
       type(error_type), allocatable, intent(out) :: error
       type(flexible_cycle_t) :: cycle
       real(wp), allocatable :: state(:)
+      integer :: i
 
-      call find(2000.0_wp, 0.01_wp, 0.0_wp, .true., 20, cycle, state, error)
-      if (allocated(error)) return
-      call check(error, cycle%period /= 1, "a single cycle is found where it is unstable")
+      do i = 0, merge(0, 3, has_checks())
+         call find(2000.0_wp*(1.0_wp + 1.0e-7_wp*i), 0.01_wp, 0.0_wp, .true., 20, cycle, state, error, 0.1_wp)
+         if (allocated(error)) return
+         call check(error, cycle%period /= 1, "a single cycle is found where it is unstable")
+         if (allocated(error)) return
+      end do
    end subroutine test_unstable
 
    !> Turns of a linear map: the first component loses a hundredth a turn, the second nine tenths, to a fixed point at 1 and 2.
