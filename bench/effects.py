@@ -30,9 +30,9 @@ import sys
 
 #: Modules of each effect, and procedures of shared modules that belong to it alone
 EFFECTS = {
-    "asperity": (["asperity", "greenwood_tripp"], ["load_share:improve_share", "load_share:share_with_asperities",
-                                                   "load_share:complete_share", "traction:mobilised_share"]),
-    "needle_bearing": (["needle", "pin_film"], ["contact_forces:load_pin"]),
+    "asperity": (["asperity"], ["greenwood_tripp:integral_2", "load_share:improve_share",
+                                "load_share:share_with_asperities", "load_share:complete_share", "traction:mobilised_share"]),
+    "needle_bearing": (["needle", "pin_film"], ["contact_forces:load_pin", "part_series:add_pin"]),
     "needle_drag": (["needle_drag"], []),
     "valve_guide": (["guide"], []),
     "valve_tip": ([], ["stem_friction:new_tip_part"]),
@@ -40,7 +40,7 @@ EFFECTS = {
     "guide_side_load": ([], ["stem_friction:new_side_part"]),
     "finger_pivot": ([], ["pivot_friction:new_pivot_part", "pivot_friction:pivot_moment", "joint_forces:set_pivot_forces"]),
     "heat": (["heat", "conjunction"], ["contact_forces:start_heat", "contact_forces:set_inlet_factor", "part_series:add_heat"]),
-    "wear": (["wear"], []),
+    "wear": (["wear"], ["part_series:add_surfaces"]),
     "cam_bearings": (["journal", "journal_motion", "journal_orbit", "camshaft"],
                      ["part_series:add_bearings", "state:cam_force"]),
     "journal_orbit": (["journal_motion", "journal_orbit"], ["bearing_turn:follow_journal"]),
@@ -55,6 +55,8 @@ EFFECTS = {
     "roller_profile": (["roller_profile", "slices", "axial_table", "axial_film"],
                        ["part_series:add_axial", "part_series:add_axial_film", "follower_samples:note_ends"]),
 }
+#: Procedures of these modules that others use as well: bearings in mixed friction have the asperities' pressure without `&asperity`
+SHARED = {"asperity:load_factor"}
 #: Groups that are of no use without an effect
 USELESS_WITHOUT = {"cam_bearings": ["second_lift", "bearing_asperity", "bearing_heat", "belt_pull", "shaft_drag"],
                    "asperity": ["friction_modifier", "boundary_law", "wear"], "valve_tip": ["guide_side_load"]}
@@ -120,7 +122,8 @@ def belongs(name: str, effect: str) -> bool:
     """Is this a procedure of an effect?"""
     module, procedure = owner(name)
     modules, procedures = EFFECTS[effect]
-    return module in modules or f"{module}:{procedure}" in procedures
+    place = f"{module}:{procedure}"
+    return (module in modules and place not in SHARED) or place in procedures
 
 
 def without(text: str, effect: str) -> str:

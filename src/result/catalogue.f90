@@ -248,7 +248,7 @@ contains
       call add(list, "film_thickness_central", "m", "central film thickness", "film", state%contact%film_central)
       if (allocated(case%roller_profile)) call add_axial_film(list, model, state, along)
       call add(list, "film_ratio", "1", "minimum film thickness relative to composite roughness", "film", state%contact%film_ratio)
-      call add_heat(list, case, state)
+      if (allocated(case%heat)) call add_heat(list, case, state)
       if (allocated(case%asperity)) then
          call add(list, "asperity_load", "N", "load carried by asperities", "asperity", state%contact%asperity_load)
          call add(list, "real_contact_area", "m2", "contact area of the asperities", "asperity", state%contact%real_area)
@@ -272,7 +272,7 @@ contains
             & ratio(state%boundary_friction, state%contact_friction), least=least_share)
       end if
       if (allocated(case%roller_profile)) call add_axial(list, case, model, state, along)
-      call add_pin(list, case, model, state)
+      if (allocated(case%needle_bearing)) call add_pin(list, case, model, state)
       if (allocated(case%wear) .or. allocated(case%running_in)) call add_surfaces(list, case, model, state)
       call add_joints(list, case, state%joints)
       if (allocated(case%dynamics)) call add_flexible(list, case, state%flexible)
