@@ -4,7 +4,7 @@
 module camroller_part_series
    use camroller_kinds, only : wp, two_pi
    use camroller_axial_film, only : smallest_film
-   use camroller_axial_table, only : axial_state, axial_state_t, slice_loads
+   use camroller_axial_table, only : axial_state_t, slice_loads
    use camroller_bearing_asperity, only : bearing_state_t
    use camroller_cam_surface, only : value_at_angle
    use camroller_case, only : camshaft_number, case_t
@@ -48,7 +48,7 @@ contains
       film = 0.0_wp
       along = axial_state_t(0.0_wp, 0.0_wp, [0.0_wp, 0.0_wp])
       if (allocated(model%axial) .and. state%contact%is_touching) then
-         along = axial_state(model%axial, state%contact%load, state%position%equivalent_radius)
+         along = state%along
          call new_film_line(line, model%film_law, film_groups(model, state%position, state%contact), model%film_table)
          line%log_factor = log(state%contact%inlet_factor)
          film = smallest_film(line, along%peak*state%contact%load/model%contact_width, state%position%equivalent_radius, &
@@ -61,7 +61,7 @@ contains
    pure subroutine add_heat(list, case, state)
       !> List to extend
       type(quantity_list_t), intent(inout) :: list
-      !> The case
+      !> The case, with heat of its contact
       type(case_t), intent(in) :: case
       !> State of the follower
       type(state_t), intent(in) :: state
@@ -127,7 +127,7 @@ contains
    pure subroutine add_pin(list, case, model, state)
       !> List to extend
       type(quantity_list_t), intent(inout) :: list
-      !> The case
+      !> The case, with a bearing of its roller
       type(case_t), intent(in) :: case
       !> The model of its lobe
       type(model_t), intent(in) :: model
@@ -136,7 +136,6 @@ contains
 
       type(pin_state_t) :: pin
 
-      if (.not. allocated(case%needle_bearing)) return
       if (case%needle_bearing%kind /= roller_bearing_names(kind_journal)) return
       if (allocated(model%bearing)) call solve_pin(model%bearing%film, state%contact%load, state%contact%relative_spin, &
          & model%bearing%reversal_spin, pin)

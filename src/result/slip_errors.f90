@@ -13,6 +13,7 @@ module camroller_slip_errors
    use camroller_cycle, only : cycle_t
    use camroller_error_estimate, only : contact_accuracy_for, estimate_t, error_at_start, margin
    use camroller_follower_samples, only : follower_samples_t, sampled_values
+   use camroller_joint_forces, only : joint_basis_t
    use camroller_model, only : model_t
    use camroller_shaft, only : solved_t
    use camroller_state, only : state_t, evaluate_spin, evaluate_state, add_torques
@@ -331,6 +332,7 @@ contains
       !> 0 fine, positive: no balance found
       integer, intent(out) :: status
 
+      type(joint_basis_t), allocatable :: joints
       ! Sliding speed without the error [m/s]
       real(wp) :: sliding_speed
       integer :: direction
@@ -346,12 +348,12 @@ contains
          if (direction == 0) return
          sliding_speed = direction*max(direction*sliding_speed, 0.0_wp)
          call evaluate_spin(model, state%position, state%moments, sliding_speed, right%contact, right%spin_acceleration, status, &
-            & contact_accuracy_for(cycle%tolerance), real(direction, wp), state%contact)
+            & contact_accuracy_for(cycle%tolerance), real(direction, wp), state%contact, joints)
       else
          call evaluate_spin(model, state%position, state%moments, sliding_speed, right%contact, right%spin_acceleration, status, &
-            & contact_accuracy_for(cycle%tolerance), start=state%contact)
+            & contact_accuracy_for(cycle%tolerance), start=state%contact, joints=joints)
       end if
-      if (status == 0) call add_torques(model, right)
+      if (status == 0) call add_torques(model, right, joints)
    end subroutine state_without
 
 end module camroller_slip_errors
