@@ -12,12 +12,13 @@ module camroller_joint_forces
    use camroller_kinematics, only : position_t
    use camroller_dynamics, only : moments_t
    use camroller_stem_friction, only : stem_motion_t, stem_t, find_stem_forces
+   use camroller_sliding_friction, only : place_on_curve
    use camroller_pivot_friction, only : pivot_forces_t, pivot_reaction, pivot_moment
    implicit none
    private
 
    public :: joint_basis_t, joint_values_t, no_joints, finger_moment, finger_moment_slope, contact_moment, find_contact_moment, &
-      & has_pivot_friction, set_pivot_forces, evaluate_joints
+      & has_pivot_friction, set_pivot_forces, evaluate_joints, curve_count, places_on_curves
 
    !> Forces of the joints and the torques that they cost, each zero where the case has no such joint; not set without any joint
    type :: joint_values_t
@@ -42,6 +43,9 @@ module camroller_joint_forces
       !> What the ball's force is made of, where the pivot has friction
       type(pivot_forces_t) :: forces
    end type joint_basis_t
+
+   !> Surfaces whose friction may follow Stribeck's curve: lower and upper end of the guide, valve tip, pivot
+   integer, parameter :: curve_count = 4
 
    !> Joints without contact of cam and roller
    type(joint_values_t), parameter :: no_joints = joint_values_t(0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, &
@@ -246,6 +250,39 @@ contains
       friction = pivot_moment(model%joints%pivot, own%forces, dual_t(load, 0.0_wp), dual_t(tangential_force, 0.0_wp))
       values%torque_pivot = friction%value*position%finger_slope
    end subroutine evaluate_joints
+
+   !> Where each surface is on Stribeck's curve (`place_on_curve`), the pivot under the load that needs no traction.
+   pure function places_on_curves(model, position, moments) result(places)
+      !> The model, which has joints
+      type(model_t), intent(in) :: model
+      !> Geometry at this angle
+      type(position_t), intent(in) :: position
+      !> Moments about the pivot at this angle
+      type(moments_t), intent(in) :: moments
+      !> Two logarithms for each; above zero where there is no curve [-]
+      real(wp) :: places(2, curve_count)
+
+      type(stem_t) :: stem
+      type(pivot_forces_t) :: forces
+      ! Force of the ball [N]
+      type(dual_t) :: reaction(2)
+
+      places = 1.0_wp
+      call set_stem(model, position, moments, 0.0_wp, stem)
+      associate (joints => model%joints, valve_speed => model%speed*position%lift_slope)
+         if (allocated(joints%side)) then
+            places(:, 1) = place_on_curve(joints%side%law, stem%lower_force, valve_speed)
+            places(:, 2) = place_on_curve(joints%side%law, stem%upper_force, valve_speed)
+         end if
+         if (allocated(joints%tip)) places(:, 3) = place_on_curve(joints%tip%law, stem%tip_force%value, stem%tip_speed%value)
+         if (.not. allocated(joints%pivot)) return
+         call place_forces(model, position, stem, forces)
+         reaction = pivot_reaction(forces, dual_t(moment_with(model, position, moments, stem)/position%normal_arm, 0.0_wp), &
+            & dual_t(0.0_wp, 0.0_wp))
+         places(:, 4) = place_on_curve(joints%pivot%law, norm2(reaction%value), joints%pivot%ball_radius*model%speed &
+            & *position%finger_slope)
+      end associate
+   end function places_on_curves
 
    !> Forces at the valve's end of the finger.
    pure subroutine set_stem(model, position, moments, axial_slope, stem)
