@@ -52,6 +52,7 @@ EFFECTS = {
     "boundary_law": (["boundary_law"], []),
     "bearing_heat": (["bearing_heat"], ["bearing_turn:find_temperature"]),
     "shaft_drag": (["shaft_drag"], []),
+    "local_limit": (["local_limit"], []),
     "roller_profile": (["roller_profile", "slices", "axial_table", "axial_film"],
                        ["part_series:add_axial", "part_series:add_axial_film", "follower_samples:note_ends"]),
 }
@@ -60,8 +61,8 @@ SHARED = {"asperity:load_factor"}
 #: Groups that are of no use without an effect
 USELESS_WITHOUT = {"cam_bearings": ["second_lift", "bearing_asperity", "bearing_heat", "belt_pull", "shaft_drag"],
                    "asperity": ["friction_modifier", "boundary_law", "wear"], "valve_tip": ["guide_side_load"]}
-#: Effects that a key makes: its name and value
-KEYS = {"journal_orbit": ("journal_motion", "orbit")}
+#: Effects that a key makes: its name and value, keys of no use without it
+KEYS = {"journal_orbit": ("journal_motion", "orbit", []), "local_limit": ("limit", "local", ["limiting_stress_MPa"])}
 #: The computation
 ROOT = "__camroller_run_MOD_run_next_case"
 #: Part of the instructions that may be unaccounted for. What samples, integrates and searches all series is dearer with the series of an
@@ -129,7 +130,8 @@ def belongs(name: str, effect: str) -> bool:
 def without(text: str, effect: str) -> str:
     """A deck without the group or key of an effect, nor groups that are of no use without it."""
     if effect in KEYS:
-        return re.sub(rf"^\s*{KEYS[effect][0]}\s*=.*$\n?", "", text, flags=re.MULTILINE)
+        key, _, useless = KEYS[effect]
+        return re.sub(rf"^\s*({'|'.join([key, *useless])})\s*=.*$\n?", "", text, flags=re.MULTILINE)
     for name in [effect, *USELESS_WITHOUT.get(effect, [])]:
         text = re.sub(rf"^\s*&{name}\b.*?^\s*/\s*$\n?", "", text, flags=re.MULTILINE | re.DOTALL)
     return text
@@ -223,7 +225,7 @@ def main() -> int:
     text = without(arguments.deck.read_text(encoding="utf-8"), "sweep")
     text = re.sub(r"'(tables/)", rf"'{arguments.deck.parent.resolve()}/\1", text)
     listed = [name for name in GROUP.findall(text) if name in EFFECTS]
-    listed += [name for name, (key, value) in KEYS.items() if re.search(rf"^\s*{key}\s*=\s*'{value}'", text, re.MULTILINE)]
+    listed += [name for name, (key, value, _) in KEYS.items() if re.search(rf"^\s*{key}\s*=\s*'{value}'", text, re.MULTILINE)]
     if arguments.only:
         listed = [name for name in listed if name in arguments.only]
     decks = {"": text} | {name: without(text, name) for name in listed}

@@ -25,8 +25,8 @@ module camroller_events
 contains
 
    !> Stops within one turn, from -pi to pi: kinks of the lift, the valve leaving its seat, loss and return of contact, the change
-   !> between the adjuster's load and the spring's with the larger of both, friction that jumps, friction that is nothing but a spike
-   !> where a joint sets off.
+   !> between the adjuster's load and the spring's with the larger of both, friction that jumps, and friction that is nothing but a
+   !> spike where a joint sets off.
    subroutine find_stops(model, stops)
       !> The model
       type(model_t), intent(in) :: model
@@ -259,6 +259,7 @@ contains
       real(wp) :: reach(2)
       integer :: i
 
+      if (.not. has_faded(model, edges)) return
       call find_turnings(model, edges, has_tip_curve(model%joints), distance, turnings)
       call sort(turnings)
       turnings = [edges(1), turnings, edges(size(edges))]
@@ -268,6 +269,31 @@ contains
          call add_spike(model, turnings(i), reach(2), angles)
       end do
    end subroutine add_spikes
+
+   !> Does friction fade by Stribeck's curve anywhere within the pieces of the lift?
+   pure function has_faded(model, edges) result(verdict)
+      !> The model, with such joints
+      type(model_t), intent(in) :: model
+      !> Ends of the pieces of the lift [rad]
+      real(wp), intent(in) :: edges(:)
+      !> Does it?
+      logical :: verdict
+
+      ! Places in a piece that are looked at [-]
+      real(wp), parameter :: parts(3) = [0.2_wp, 0.5_wp, 0.8_wp]
+      ! Places on the curves [-]
+      real(wp) :: places(2, curve_count)
+      integer :: i, k
+
+      verdict = .false.
+      do i = 1, size(edges) - 1
+         do k = 1, size(parts)
+            places = places_at(model, edges(i) + parts(k)*(edges(i + 1) - edges(i)))
+            verdict = any(places(2, :) > 0.0_wp)
+            if (verdict) return
+         end do
+      end do
+   end function has_faded
 
    !> Add the angles of the spikes on one side of a turning, where friction has faded half the way to the next.
    subroutine add_spike(model, turning, reach, angles)
@@ -312,7 +338,7 @@ contains
       type(model_t), intent(in) :: model
       !> Cam angle from full lift [rad]
       real(wp), intent(in) :: angle
-      !> Two logarithms for each surface; above zero without a curve [-]
+      !> Two logarithms for each surface; below zero without a curve [-]
       real(wp) :: places(2, curve_count)
 
       type(position_t) :: position
@@ -322,7 +348,7 @@ contains
       integer :: status
 
       call evaluate_loading(model, angle, position, force, moments, status)
-      places = 1.0_wp
+      places = -1.0_wp
       if (status == 0) places = places_on_curves(model, position, moments)
    end function places_at
 

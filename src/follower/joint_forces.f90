@@ -259,7 +259,7 @@ contains
       type(position_t), intent(in) :: position
       !> Moments about the pivot at this angle
       type(moments_t), intent(in) :: moments
-      !> Two logarithms for each; above zero where there is no curve [-]
+      !> Two logarithms for each; below zero where there is no curve [-]
       real(wp) :: places(2, curve_count)
 
       type(stem_t) :: stem
@@ -267,7 +267,7 @@ contains
       ! Force of the ball [N]
       type(dual_t) :: reaction(2)
 
-      places = 1.0_wp
+      places = -1.0_wp
       call set_stem(model, position, moments, 0.0_wp, stem)
       associate (joints => model%joints, valve_speed => model%speed*position%lift_slope)
          if (allocated(joints%side)) then

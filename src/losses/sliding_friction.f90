@@ -135,13 +135,13 @@ contains
       real(wp), intent(in) :: force
       !> Sliding speed, of either sign [m/s]
       real(wp), intent(in) :: speed
-      !> Both logarithms; above zero where there is no such speed [-]
+      !> Both logarithms; below zero where there is no such speed [-]
       real(wp) :: place(2)
 
       ! Speed in which the friction falls to 1/e; speed of the largest friction [m/s]
       real(wp) :: decay, top
 
-      place = 1.0_wp
+      place = -1.0_wp
       if (.not. (law%has_curve .and. force > 0.0_wp .and. law%duty > 0.0_wp)) return
       decay = law%decay_speed*force/law%duty
       place(2) = log(max(abs(speed), tiny(1.0_wp))/(-log(epsilon(1.0_wp))*decay))

@@ -70,8 +70,8 @@ contains
       !> Mean torque [N m], smallest and largest friction [N]
       real(wp), intent(out) :: values(3)
       type(error_type), allocatable, intent(out) :: error
-      ! Ends of the event and full lift, half of their distance [rad]; points, and step of the logarithm [-]. The trapezoidal rule is
-      ! far better than its step here, since all vanishes with its derivatives at the near end and nearly so at the far one
+      ! Ends of the event and full lift, half of their distance [rad]; points, and step of the logarithm [-]. The trapezoidal rule
+      ! is far better than its step here, since all vanishes with its derivatives at the near end and nearly so at the far one
       real(wp), parameter :: turnings(3) = [-70.0_wp, 0.0_wp, 70.0_wp]*degree, half = 35.0_wp*degree
       integer, parameter :: points = 6000
       real(wp), parameter :: step = 30.0_wp/points
