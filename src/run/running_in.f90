@@ -13,7 +13,7 @@
 !> and stable for any step. Each step is taken whole and in two halves; a third of the difference estimates the error of the halves,
 !> which are kept. Steps are chosen such that this error is at most the accuracy times the part of the hours that the step covers.
 !> Growth and removal make differences decay, so that the sum of these errors is an estimate from above of that at the end. What the
-!> error of the slip does to a rate comes on top: the difference of the surfaces by the rates at the end and by those of a cycle with
+!> error of the slip does to a rate comes on top: the difference of the surfaces by the rates at the end and by those of a cycle at
 !> ten times the tolerance, whose error is seven times as large on average and scatters.
 module camroller_running_in
    use camroller_kinds, only : wp, two_pi
