@@ -30,9 +30,9 @@ import sys
 
 #: Modules of each effect, and procedures of shared modules that belong to it alone
 EFFECTS = {
-    "asperity": (["asperity", "greenwood_tripp"], ["load_share:improve_share", "load_share:share_with_asperities",
-                                                   "load_share:complete_share", "traction:mobilised_share"]),
-    "needle_bearing": (["needle", "pin_film"], ["contact_forces:load_pin"]),
+    "asperity": (["asperity"], ["greenwood_tripp:integral_2", "load_share:improve_share",
+                                "load_share:share_with_asperities", "load_share:complete_share", "traction:mobilised_share"]),
+    "needle_bearing": (["needle", "pin_film"], ["contact_forces:load_pin", "part_series:add_pin"]),
     "needle_drag": (["needle_drag"], []),
     "valve_guide": (["guide"], []),
     "valve_tip": ([], ["stem_friction:new_tip_part"]),
@@ -40,7 +40,7 @@ EFFECTS = {
     "guide_side_load": ([], ["stem_friction:new_side_part"]),
     "finger_pivot": ([], ["pivot_friction:new_pivot_part", "pivot_friction:pivot_moment", "joint_forces:set_pivot_forces"]),
     "heat": (["heat", "conjunction"], ["contact_forces:start_heat", "contact_forces:set_inlet_factor", "part_series:add_heat"]),
-    "wear": (["wear"], []),
+    "wear": (["wear"], ["part_series:add_surfaces"]),
     "cam_bearings": (["journal", "journal_motion", "journal_orbit", "camshaft"],
                      ["part_series:add_bearings", "state:cam_force"]),
     "journal_orbit": (["journal_motion", "journal_orbit"], ["bearing_turn:follow_journal"]),
@@ -52,14 +52,17 @@ EFFECTS = {
     "boundary_law": (["boundary_law"], []),
     "bearing_heat": (["bearing_heat"], ["bearing_turn:find_temperature"]),
     "shaft_drag": (["shaft_drag"], []),
+    "local_limit": (["local_limit"], []),
     "roller_profile": (["roller_profile", "slices", "axial_table", "axial_film"],
                        ["part_series:add_axial", "part_series:add_axial_film", "follower_samples:note_ends"]),
 }
+#: Procedures of these modules that others use as well: bearings in mixed friction have the asperities' pressure without `&asperity`
+SHARED = {"asperity:load_factor"}
 #: Groups that are of no use without an effect
 USELESS_WITHOUT = {"cam_bearings": ["second_lift", "bearing_asperity", "bearing_heat", "belt_pull", "shaft_drag"],
                    "asperity": ["friction_modifier", "boundary_law", "wear"], "valve_tip": ["guide_side_load"]}
-#: Effects that a key makes: its name and value
-KEYS = {"journal_orbit": ("journal_motion", "orbit")}
+#: Effects that a key makes: its name and value, keys of no use without it
+KEYS = {"journal_orbit": ("journal_motion", "orbit", []), "local_limit": ("limit", "local", ["limiting_stress_MPa"])}
 #: The computation
 ROOT = "__camroller_run_MOD_run_next_case"
 #: Part of the instructions that may be unaccounted for. What samples, integrates and searches all series is dearer with the series of an
@@ -120,13 +123,15 @@ def belongs(name: str, effect: str) -> bool:
     """Is this a procedure of an effect?"""
     module, procedure = owner(name)
     modules, procedures = EFFECTS[effect]
-    return module in modules or f"{module}:{procedure}" in procedures
+    place = f"{module}:{procedure}"
+    return (module in modules and place not in SHARED) or place in procedures
 
 
 def without(text: str, effect: str) -> str:
     """A deck without the group or key of an effect, nor groups that are of no use without it."""
     if effect in KEYS:
-        return re.sub(rf"^\s*{KEYS[effect][0]}\s*=.*$\n?", "", text, flags=re.MULTILINE)
+        key, _, useless = KEYS[effect]
+        return re.sub(rf"^\s*({'|'.join([key, *useless])})\s*=.*$\n?", "", text, flags=re.MULTILINE)
     for name in [effect, *USELESS_WITHOUT.get(effect, [])]:
         text = re.sub(rf"^\s*&{name}\b.*?^\s*/\s*$\n?", "", text, flags=re.MULTILINE | re.DOTALL)
     return text
@@ -220,7 +225,7 @@ def main() -> int:
     text = without(arguments.deck.read_text(encoding="utf-8"), "sweep")
     text = re.sub(r"'(tables/)", rf"'{arguments.deck.parent.resolve()}/\1", text)
     listed = [name for name in GROUP.findall(text) if name in EFFECTS]
-    listed += [name for name, (key, value) in KEYS.items() if re.search(rf"^\s*{key}\s*=\s*'{value}'", text, re.MULTILINE)]
+    listed += [name for name, (key, value, _) in KEYS.items() if re.search(rf"^\s*{key}\s*=\s*'{value}'", text, re.MULTILINE)]
     if arguments.only:
         listed = [name for name in listed if name in arguments.only]
     decks = {"": text} | {name: without(text, name) for name in listed}

@@ -24,6 +24,7 @@ count() {
     count decks/logarithmic_roller.nml --set operating_point.speed_rpm=300 --set operating_point.oil_temperature_degC=95 \
         --set roller_profile.slice_series=.false.
     count decks/plain_pin.nml --only needle_bearing
+    count decks/local_limit.nml --only local_limit --set operating_point.speed_rpm=3000
     count decks/journal_orbits.nml --only journal_orbit bearing_asperity
     count bench/all_effects.nml
 } > "$work/table.part"

@@ -17,6 +17,7 @@ program main
    use test_needle_drag, only : collect_needle_drag
    use test_pin_film, only : collect_pin_film
    use test_joints, only : collect_joints
+   use test_joint_spikes, only : collect_joint_spikes
    use test_ehl_heat, only : collect_ehl_heat
    use test_heat, only : collect_heat
    use test_axial, only : collect_axial
@@ -211,6 +212,7 @@ contains
          new_testsuite("needle_drag", collect_needle_drag), &
          new_testsuite("pin_film", collect_pin_film), &
          new_testsuite("joints", collect_joints), &
+         new_testsuite("joint_spikes", collect_joint_spikes), &
          new_testsuite("ehl_heat", collect_ehl_heat), &
          new_testsuite("heat", collect_heat), &
          new_testsuite("axial", collect_axial), &

@@ -14,13 +14,14 @@
 !> as h (`1/b^4 + 1/h^4` in place of `1/b^4`), without which the loads of neighbours would not be determined.
 !>
 !> Loads are where `u_i + gap_i` is the approach of the bodies, zero where the gap stays open. Newton's method with its exact
-!> derivatives (u is not linear in w, since b follows it), and slices taken out and in by the signs of load and gap.
+!> derivatives (u is not linear in w, since b follows it), and slices taken out and in by the signs of load and gap. Behind a small
+!> change the next ones take its derivatives again: each leaves a part of the error as large as that change was, for half the cost.
 !>
 !> Source: Kalker (1972), J. Applied Mechanics 39, 1125 (line contact by its asymptotics); de Mul, Kalker and Fredriksson (1986),
 !> J. Tribology 108, 140 (slices with semi-elliptic pressure).
 module camroller_slices
    use camroller_kinds, only : wp, pi
-   use camroller_lapack, only : dgesv
+   use camroller_lapack, only : dgetrf, dgetrs
    implicit none
    private
 
@@ -29,9 +30,9 @@ module camroller_slices
    !> Half width over the distance of the line that stands for a slice [-]
    real(wp), parameter :: thin_line = 0.5_wp*exp(-0.5_wp)
    !> Load per length over its mean by which a slice joins, if it has to carry more: from below Newton's method does not make it
-   !> negative again; change after which joins are looked for; the last change of a solution, whose square is next to nothing beside
-   !> the 1e-4 of a table between its points [-]
-   real(wp), parameter :: first_load = 1.0e-4_wp, small_change = 1.0e-2_wp, last_change = 1.0e-5_wp
+   !> negative again; change after which joins are looked for and derivatives stay; what a solution may be off by: next to nothing
+   !> beside the 1e-4 of a table between its points [-]
+   real(wp), parameter :: first_load = 1.0e-4_wp, small_change = 1.0e-2_wp, last_error = 1.0e-9_wp
    !> Steps at most
    integer, parameter :: max_steps = 200
 
@@ -82,9 +83,11 @@ contains
       real(wp) :: height, gaps(size(loads)), level, joining, line
       ! Approach by all slices and their derivatives over the loads, bordered by the balance of the load; what is wrong [-]
       real(wp) :: influence(size(loads), size(loads)), slopes(size(loads), size(loads))
-      real(wp) :: matrix(size(loads) + 1, size(loads) + 1), wrong(size(loads) + 1, 1), change
+      real(wp) :: matrix(size(loads) + 1, size(loads) + 1), wrong(size(loads) + 1, 1)
+      ! Largest change of a load in this step and in the one before [-]
+      real(wp) :: change, change_before
       integer :: list(size(loads)), pivots(size(loads) + 1), n, step, j, info
-      logical :: is_loaded(size(loads)), was_loaded(size(loads))
+      logical :: is_loaded(size(loads)), was_loaded(size(loads)), is_factored
 
       status = 0
       height = 2.0_wp*load/(pi*slices%modulus*slices%length)
@@ -93,31 +96,39 @@ contains
       joining = 2.0_wp*first_load*asinh(0.5_wp/(line*sqrt(first_load)*merge(size(loads), 1, slices%is_coupled)))
       is_loaded = loads > 0.0_wp
       level = 0.0_wp
+      is_factored = .false.
+      change = 1.0_wp
       do step = 1, max_steps
          n = count(is_loaded)
          list(:n) = pack([(j, j=1, size(loads))], is_loaded)
          where (.not. is_loaded) loads = 0.0_wp
-         call find_influence(slices%is_coupled, line, loads, list(:n), influence, slopes)
+         if (is_factored) then
+            call find_influence(slices%is_coupled, line, loads, list(:n), influence)
+         else
+            call find_influence(slices%is_coupled, line, loads, list(:n), influence, slopes)
+         end if
          wrong(:n, 1) = -gaps(list(:n)) - matmul(influence(list(:n), list(:n)), loads(list(:n)))
          wrong(n + 1, 1) = real(size(loads), wp) - sum(loads(list(:n)))
-         matrix(:n, :n) = slopes(list(:n), list(:n))
-         matrix(:n, n + 1) = -1.0_wp
-         matrix(n + 1, :n) = 1.0_wp
-         matrix(n + 1, n + 1) = 0.0_wp
-         call dgesv(n + 1, 1, matrix, size(matrix, 1), pivots, wrong, size(wrong, 1), info)
-         if (info /= 0) exit
+         if (.not. is_factored) then
+            call factor_slopes(slopes, list(:n), matrix, pivots, info)
+            if (info /= 0) exit
+         end if
+         call dgetrs("N", n + 1, 1, matrix, size(matrix, 1), pivots, wrong, size(wrong, 1), info)
+         change_before = change
          change = maxval(abs(wrong(:n, 1)))
          loads(list(:n)) = loads(list(:n)) + wrong(:n, 1)
          level = wrong(n + 1, 1)
          was_loaded = is_loaded
          is_loaded = loads > 0.0_wp
-         if (any(is_loaded .neqv. was_loaded)) cycle
-         if (change > small_change) cycle
+         is_factored = .not. any(is_loaded .neqv. was_loaded) .and. change <= small_change
+         if (.not. is_factored) cycle
          ! Where the bodies would overlap by more than the first load moves them
          is_loaded = is_loaded .or. gaps + matmul(influence(:, list(:n)), loads(list(:n))) < level - joining
          if (any(is_loaded .neqv. was_loaded)) then
             where (is_loaded .and. .not. was_loaded) loads = first_load
-         else if (change <= last_change*maxval(loads)) then
+            is_factored = .false.
+         else if (change*min(change/change_before, 1.0_wp) <= last_error*maxval(loads)) then
+            ! Changes fall faster and faster, or alike with derivatives that stay
             approach = level*height
             return
          end if
@@ -125,6 +136,29 @@ contains
       status = 1
       approach = 0.0_wp
    end subroutine load_slices
+
+   !> Factors of the derivatives of the approach, bordered by the balance of the load.
+   pure subroutine factor_slopes(slopes, list, matrix, pivots, info)
+      !> Derivatives of the approach over the loads [-]
+      real(wp), intent(in) :: slopes(:, :)
+      !> Slices that count
+      integer, intent(in) :: list(:)
+      !> The factors, in its first rows and columns, one more than slices count [-]
+      real(wp), intent(inout) :: matrix(:, :)
+      !> Pivots
+      integer, intent(out) :: pivots(:)
+      !> 0 fine, other: the matrix is singular
+      integer, intent(out) :: info
+
+      integer :: n
+
+      n = size(list)
+      matrix(:n, :n) = slopes(list, list)
+      matrix(:n, n + 1) = -1.0_wp
+      matrix(n + 1, :n) = 1.0_wp
+      matrix(n + 1, n + 1) = 0.0_wp
+      call dgetrf(n + 1, n + 1, matrix, size(matrix, 1), pivots, info)
+   end subroutine factor_slopes
 
    !> Approach of all slices by the load of some, and its derivative over that.
    pure subroutine find_influence(is_coupled, line, loads, list, influence, slopes)
@@ -136,8 +170,9 @@ contains
       real(wp), intent(in) :: loads(:)
       !> Slices that count
       integer, intent(in) :: list(:)
-      !> Approach of slice i by a unit load of slice j; derivative of the approach over the load of j [-]
-      real(wp), intent(out) :: influence(:, :), slopes(:, :)
+      !> Approach of slice i by a unit load of slice j; derivative of the approach over the load of j, where wanted [-]
+      real(wp), intent(out) :: influence(:, :)
+      real(wp), intent(out), optional :: slopes(:, :)
 
       ! Distance of the line, distances along the axis [L]; asinh of their ratio, and less half its derivative over ln(load) [-]
       real(wp) :: beta, ends(0:size(loads) - 1), angles(0:size(loads) - 1), falls(0:size(loads) - 1), roots(0:size(loads) - 1)
@@ -145,12 +180,12 @@ contains
       real(wp) :: part
       ! Most slices between a slice and the one that moves it
       integer :: far
-      integer :: i, j, k, n
+      integer :: j, k, n
 
       n = size(loads)
       if (.not. is_coupled) then
          influence(:, list) = 0.0_wp
-         slopes(:, list) = 0.0_wp
+         if (present(slopes)) slopes(:, list) = 0.0_wp
       end if
       ends = [((k + 0.5_wp)/n, k=0, n - 1)]
       do k = 1, size(list)
@@ -164,21 +199,36 @@ contains
             far = max(j - 1, n - j)
             roots(:far) = sqrt(ends(:far)**2 + beta**2)
             angles(:far) = log((ends(:far) + roots(:far))/beta)
-            falls(:far) = angles(:far) - part*ends(:far)/roots(:far)
-            do i = 1, n
-               if (i == j) then
-                  influence(i, j) = 2.0_wp*angles(0)
-                  slopes(i, j) = 2.0_wp*falls(0)
-               else
-                  influence(i, j) = angles(abs(i - j)) - angles(abs(i - j) - 1)
-                  slopes(i, j) = falls(abs(i - j)) - falls(abs(i - j) - 1)
-               end if
-            end do
+            call spread_column(angles, j, influence(:, j))
+            if (present(slopes)) then
+               falls(:far) = angles(:far) - part*ends(:far)/roots(:far)
+               call spread_column(falls, j, slopes(:, j))
+            end if
          else
             influence(j, j) = 2.0_wp*asinh(0.5_wp/beta)
-            slopes(j, j) = influence(j, j) - 0.5_wp/sqrt(0.25_wp + beta**2)
+            if (present(slopes)) slopes(j, j) = influence(j, j) - 0.5_wp/sqrt(0.25_wp + beta**2)
          end if
       end do
    end subroutine find_influence
+
+   !> Differences of a function of the distance over each slice, from the one that moves them.
+   pure subroutine spread_column(function_values, slice, column)
+      !> The function at the ends of slices, half a width, one and a half ... away [-]
+      real(wp), intent(in) :: function_values(0:)
+      !> The slice that moves them
+      integer, intent(in) :: slice
+      !> Differences, for each slice [-]
+      real(wp), intent(out) :: column(:)
+
+      integer :: i
+
+      do i = 1, slice - 1
+         column(i) = function_values(slice - i) - function_values(slice - i - 1)
+      end do
+      column(slice) = 2.0_wp*function_values(0)
+      do i = slice + 1, size(column)
+         column(i) = function_values(i - slice) - function_values(i - slice - 1)
+      end do
+   end subroutine spread_column
 
 end module camroller_slices

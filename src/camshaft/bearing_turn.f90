@@ -266,8 +266,8 @@ contains
             & "hardly any leaves a bearing that bears so little; lower bearing_heat.oil_share, or leave &bearing_heat out")
          return
       end if
-      call try_rise(bracket%trial, miss)
       turn%rise = bracket%trial
+      call warm_bearing(turn%rise)
 
    contains
 
@@ -277,20 +277,28 @@ contains
          real(wp), intent(in) :: rise
          real(wp), intent(out) :: miss
 
-         type(oil_t) :: oil
          ! Mean torque [N m], mean flow [m^3/s]
          real(wp) :: torque, flow
 
          miss = 0.0_wp
-         associate (supply => case%operating_point%oil_temperature)
-            call get_oil(case%lubricant, supply + rise, oil, error)
-            if (.not. allocated(error)) call new_journal(turn%journal, shaft%bearings, oil%viscosity, shaft%speed, error)
-            if (.not. allocated(error)) call follow_journal(case, shaft, load, turn, error)
-            if (.not. allocated(error)) call mean_of_turn(case, shaft, turn, torque, flow, error)
-            if (allocated(error)) return
-            miss = rise - temperature_rise(heat, density_at(case%lubricant, supply), torque*shaft%speed, flow)
-         end associate
+         call warm_bearing(rise)
+         if (.not. allocated(error)) call mean_of_turn(case, shaft, turn, torque, flow, error)
+         if (allocated(error)) return
+         miss = rise - temperature_rise(heat, density_at(case%lubricant, case%operating_point%oil_temperature), &
+            & torque*shaft%speed, flow)
       end subroutine try_rise
+
+      !> The bearing with its oil, and the orbit, at a rise of temperature.
+      subroutine warm_bearing(rise)
+         !> The rise [K]
+         real(wp), intent(in) :: rise
+
+         type(oil_t) :: oil
+
+         call get_oil(case%lubricant, case%operating_point%oil_temperature + rise, oil, error)
+         if (.not. allocated(error)) call new_journal(turn%journal, shaft%bearings, oil%viscosity, shaft%speed, error)
+         if (.not. allocated(error)) call follow_journal(case, shaft, load, turn, error)
+      end subroutine warm_bearing
 
    end subroutine find_temperature
 

@@ -9,7 +9,7 @@ module camroller_flexible_follower
    use camroller_model, only : model_t, evaluate_geometry
    use camroller_kinematics, only : position_t
    use camroller_dynamics, only : moments_t, evaluate_moments, add_acceleration
-   use camroller_state, only : state_t, add_sums
+   use camroller_state, only : state_t, add_along, add_sums
    use camroller_flexible_geometry, only : dot, cross
    use camroller_flexible_train, only : flexible_state_t, resolution_t, evaluate_train, first_mode, state_size, at_finger, &
       & at_finger_rate, at_lift, at_speed
@@ -51,6 +51,7 @@ contains
       state%spin_acceleration = now%spin_acceleration
       state%moments = moments_t(0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp)
       call place_finger(model, train, now, state%position)
+      call add_along(model, state)
       state%boundary_friction = abs(now%contact%boundary_mobilised)
       state%contact_friction = abs(now%contact%shear) + state%boundary_friction + abs(now%contact%rolling_resistance)
       state%torques = powers%losses/model%speed

@@ -11,7 +11,7 @@ module camroller_contact
    use camroller_kinematics, only : position_t
    use camroller_dynamics, only : moments_t
    use camroller_dual, only : dual_t
-   use camroller_joint_forces, only : find_contact_moment, has_pivot_friction
+   use camroller_joint_forces, only : find_contact_moment, has_pivot_friction, joint_basis_t
    use camroller_pivot_friction, only : pivot_forces_t, pivot_moment, hold_forces
    use camroller_contact_forces, only : contact_t, setting_t, parts_t, motion_t, slopes_t, set_speeds, prepare_contact, &
       & evaluate_contact, follow_contact, has_pin_film, release_contact
@@ -52,7 +52,7 @@ module camroller_contact
 contains
 
    !> Solve the contact.
-   pure subroutine solve_contact(model, position, moments, sliding_speed, contact, status, accuracy, mobilised, start)
+   pure subroutine solve_contact(model, position, moments, sliding_speed, contact, status, accuracy, mobilised, start, joints)
       !> The model
       type(model_t), intent(in) :: model
       !> Geometry at this angle
@@ -71,15 +71,17 @@ contains
       real(wp), intent(in), optional :: mobilised
       !> A contact nearby to start from, where it touches
       type(contact_t), intent(in), optional :: start
+      !> What the joints have at this angle, where the balance takes it
+      type(joint_basis_t), allocatable, intent(out), optional :: joints
 
       type(contact_basis_t) :: basis
 
       call set_speeds(model, position, sliding_speed, contact)
-      call solve_at_speeds(model, position, moments, contact, basis, status, accuracy, mobilised, start)
+      call solve_at_speeds(model, position, moments, contact, basis, status, accuracy, mobilised, start, joints)
    end subroutine solve_contact
 
    !> Solve a contact whose speeds are set (`set_speeds`), and keep what its slopes are made of.
-   pure subroutine solve_at_speeds(model, position, moments, contact, basis, status, accuracy, mobilised, start)
+   pure subroutine solve_at_speeds(model, position, moments, contact, basis, status, accuracy, mobilised, start, joints)
       !> The model
       type(model_t), intent(in) :: model
       !> Geometry at this angle
@@ -98,6 +100,8 @@ contains
       real(wp), intent(in), optional :: mobilised
       !> A contact nearby to start from, where it touches
       type(contact_t), intent(in), optional :: start
+      !> What the joints have at this angle, where the balance takes it
+      type(joint_basis_t), allocatable, intent(out), optional :: joints
 
       ! Moment that the contact load balances [N m]; load without friction [N]
       real(wp) :: moment, load
@@ -106,7 +110,7 @@ contains
       type(hinge_t) :: hinge
 
       status = 0
-      call find_contact_moment(model, position, moments, moment, hinge%forces, hinge%unloaded)
+      call find_contact_moment(model, position, moments, moment, hinge%forces, hinge%unloaded, joints)
       if (has_pivot_friction(model)) call hold_forces(hinge%forces)
       load = moment/merge(position%normal_arm, position%parallel_arm, model%has_exact_arm)
       if (model%takes_maximum_load) load = max(model%base_circle_load, load)
@@ -121,7 +125,7 @@ contains
       contact%film_ratio = 0.0_wp
       if (model%is_consistent) then
          if (present(start)) then
-            if (start%is_touching) call start_nearby(model, position, moment, start, contact)
+            if (start%is_touching) call start_nearby(model, position, moment, hinge, start, contact)
          end if
          call balance_finger(model, position, moment, hinge, enough, contact, basis, status)
       else
@@ -130,13 +134,15 @@ contains
    end subroutine solve_at_speeds
 
    !> Load with the friction of a contact nearby, and its film ratio.
-   pure subroutine start_nearby(model, position, moment, nearby, contact)
+   pure subroutine start_nearby(model, position, moment, hinge, nearby, contact)
       !> The model
       type(model_t), intent(in) :: model
       !> Geometry at this angle
       type(position_t), intent(in) :: position
       !> Moment to be balanced [N m]
       real(wp), intent(in) :: moment
+      !> What the friction of the pivot is made of, where it has any
+      type(hinge_t), intent(in) :: hinge
       !> The other contact
       type(contact_t), intent(in) :: nearby
       !> State of the contact, with the load without friction; out: with another where that is not far off
@@ -146,9 +152,15 @@ contains
       real(wp), parameter :: least_part = 0.5_wp
       ! Load [N]
       real(wp) :: load
+      ! Friction of the pivot, over the load [N m]
+      type(dual_t) :: friction
 
       load = (moment - model%linkage%sense*(nearby%tangential_force*position%tangent_arm + nearby%bearing_torque)) &
          & /position%normal_arm
+      if (has_pivot_friction(model)) then
+         friction = pivot_moment(model%joints%pivot, hinge%forces, dual_t(load, 1.0_wp), dual_t(nearby%tangential_force, 0.0_wp))
+         load = load + (friction%value - hinge%unloaded%value)/(position%normal_arm - friction%slope)
+      end if
       if (.not. (load >= least_part*contact%load .and. load <= contact%load/least_part)) return
       contact%load = load
       contact%film_ratio = nearby%film_ratio

@@ -6,11 +6,11 @@ module camroller_events
    use camroller_kinds, only : wp, pi, two_pi
    use camroller_lift_pieces, only : find_edges, scan_t, start_scan, has_next, leave_rest, next_angle, sort
    use camroller_model, only : model_t, evaluate_geometry
-   use camroller_joints, only : jumps_with_tip, jumps_with_valve
+   use camroller_joints, only : has_curves, has_tip_curve, jumps_with_tip, jumps_with_valve
    use camroller_lift, only : is_at_rest
    use camroller_kinematics, only : position_t
    use camroller_dynamics, only : moments_t
-   use camroller_joint_forces, only : contact_moment
+   use camroller_joint_forces, only : contact_moment, curve_count, places_on_curves
    use camroller_state, only : evaluate_loading
    use camroller_extremum, only : extremum_t, start_extremum, narrow_extremum
    use camroller_roots, only : bracket_t, start_bracket, narrow_bracket, root_wanted
@@ -25,7 +25,8 @@ module camroller_events
 contains
 
    !> Stops within one turn, from -pi to pi: kinks of the lift, the valve leaving its seat, loss and return of contact, the change
-   !> between the adjuster's load and the spring's with the larger of both, friction that jumps.
+   !> between the adjuster's load and the spring's with the larger of both, friction that jumps, and friction that is nothing but a
+   !> spike where a joint sets off.
    subroutine find_stops(model, stops)
       !> The model
       type(model_t), intent(in) :: model
@@ -37,6 +38,9 @@ contains
 
       call find_edges(model, -pi, pi, edges)
       call find_changes(model, edges, changes)
+      if (allocated(model%joints)) then
+         if (has_curves(model%joints)) call add_spikes(model, edges, changes)
+      end if
       stops = model%lift_stops
       if (allocated(changes)) stops = [stops, changes]
       call sort(stops)
@@ -189,33 +193,164 @@ contains
 
       ! Half the distance of the stops of a pair [rad]: beyond the accuracy of the angle, and a part of 1e-12 of a step
       real(wp), parameter :: side = 1.0e-13_wp
+      real(wp), allocatable :: turnings(:), jumps(:)
+      integer :: i
+
+      call find_turnings(model, edges, jumps_with_tip(model%joints), side, turnings)
+      jumps = [(turnings(i) - side, turnings(i) + side, i=1, size(turnings))]
+      call append(angles, pack(jumps, jumps > edges(1) .and. jumps < edges(size(edges))))
+   end subroutine add_jumps
+
+   !> Angles at which the valve turns round, sets off or comes to rest, and at which the pad's contact with the tip passes the
+   !> pivot's height.
+   subroutine find_turnings(model, edges, with_tip, distance, turnings)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> Ends of the pieces of the lift [rad]
+      real(wp), intent(in) :: edges(:)
+      !> Does the pivot's height matter?
+      logical, intent(in) :: with_tip
+      !> Twice the distance below which two angles are one [rad]
+      real(wp), intent(in) :: distance
+      !> The angles, increasing but within a step of the scan [rad]
+      real(wp), allocatable, intent(out) :: turnings(:)
+
       ! Slope of the lift [m/rad], height of the contact of pad and tip [m]: at the ends of a scan interval
       real(wp) :: before(2), after(2)
-      ! Ends of the interval; angle of a jump [rad]
+      ! Ends of the interval; angle of a turning [rad]
       real(wp) :: left, right, angle
-      real(wp), allocatable :: jumps(:)
       type(scan_t) :: scan
-      integer :: kind
+      integer :: kind, kinds
 
+      kinds = merge(2, 1, with_tip)
       call start_scan(scan, edges)
       right = edges(1)
       before = turning_values(model, right)
-      allocate (jumps(0))
+      allocate (turnings(0))
       do while (has_next(scan, edges))
          left = right
          call next_angle(scan, edges, right)
          after = turning_values(model, right)
-         do kind = 1, size(before)
+         do kind = 1, kinds
             if (is_same_sign(before(kind), after(kind))) cycle
             angle = switch_angle(model, kind, left, right, before(kind), after(kind), turning_values)
-            ! A jump at a point of the scan ends one interval and begins the next, and two may fall together: one pair for all
-            if (any(abs(jumps + side - angle) < 0.5_wp*side)) cycle
-            jumps = [jumps, angle - side, angle + side]
+            ! A turning at a point of the scan ends one interval and begins the next, and two may fall together: one for all
+            if (any(abs(turnings - angle) < 0.5_wp*distance)) cycle
+            turnings = [turnings, angle]
          end do
          before = after
       end do
-      call append(angles, pack(jumps, jumps > edges(1) .and. jumps < edges(size(edges))))
-   end subroutine add_jumps
+   end subroutine find_turnings
+
+   !> Add the angles between which Stribeck's curve leaves nothing of the friction but a spike behind and before each turning: that
+   !> of its top, and that beyond which it is below rounding. Points of an integration might all miss it.
+   subroutine add_spikes(model, edges, angles)
+      !> The model, with such joints
+      type(model_t), intent(in) :: model
+      !> Ends of the pieces of the lift [rad]
+      real(wp), intent(in) :: edges(:)
+      !> Angles so far; out: with those of spikes [rad]
+      real(wp), allocatable, intent(inout) :: angles(:)
+
+      ! Twice the distance below which turnings are one [rad]
+      real(wp), parameter :: distance = 1.0e-9_wp
+      real(wp), allocatable :: turnings(:)
+      ! Half the way to the turnings on both sides [rad]
+      real(wp) :: reach(2)
+      integer :: i
+
+      if (.not. has_faded(model, edges)) return
+      call find_turnings(model, edges, has_tip_curve(model%joints), distance, turnings)
+      call sort(turnings)
+      turnings = [edges(1), turnings, edges(size(edges))]
+      do i = 2, size(turnings) - 1
+         reach = 0.5_wp*(turnings(i:i + 1) - turnings(i - 1:i))
+         call add_spike(model, turnings(i), -reach(1), angles)
+         call add_spike(model, turnings(i), reach(2), angles)
+      end do
+   end subroutine add_spikes
+
+   !> Does friction fade by Stribeck's curve anywhere within the pieces of the lift?
+   pure function has_faded(model, edges) result(verdict)
+      !> The model, with such joints
+      type(model_t), intent(in) :: model
+      !> Ends of the pieces of the lift [rad]
+      real(wp), intent(in) :: edges(:)
+      !> Does it?
+      logical :: verdict
+
+      ! Places in a piece that are looked at [-]
+      real(wp), parameter :: parts(3) = [0.2_wp, 0.5_wp, 0.8_wp]
+      ! Places on the curves [-]
+      real(wp) :: places(2, curve_count)
+      integer :: i, k
+
+      verdict = .false.
+      do i = 1, size(edges) - 1
+         do k = 1, size(parts)
+            places = places_at(model, edges(i) + parts(k)*(edges(i + 1) - edges(i)))
+            verdict = any(places(2, :) > 0.0_wp)
+            if (verdict) return
+         end do
+      end do
+   end function has_faded
+
+   !> Add the angles of the spikes on one side of a turning, where friction has faded half the way to the next.
+   subroutine add_spike(model, turning, reach, angles)
+      !> The model, with joints
+      type(model_t), intent(in) :: model
+      !> Angle of the turning, half the way to the next, negative on the side before it [rad]
+      real(wp), intent(in) :: turning, reach
+      !> Angles so far; out: with those of spikes [rad]
+      real(wp), allocatable, intent(inout) :: angles(:)
+
+      ! Logarithm of the nearest distance over the half way; error allowed of one, and difference below which two are one [-]
+      real(wp), parameter :: nearest = -23.0_wp, precision = 0.05_wp, same = 0.7_wp
+      type(bracket_t) :: bracket
+      ! Places on the curves at both ends, between [-]
+      real(wp), dimension(2, curve_count) :: near, far, between
+      ! Logarithms of distances over the half way [-]
+      real(wp), allocatable :: found(:)
+      integer :: kind, joint
+
+      far = places_at(model, turning + reach)
+      if (.not. any(far(2, :) > 0.0_wp)) return
+      near = places_at(model, turning + reach*exp(nearest))
+      allocate (found(0))
+      do joint = 1, curve_count
+         if (.not. far(2, joint) > 0.0_wp) cycle
+         do kind = 1, 2
+            if (near(kind, joint) > 0.0_wp .or. .not. far(kind, joint) > 0.0_wp) cycle
+            call start_bracket(bracket, nearest, 0.0_wp, near(kind, joint), far(kind, joint), precision)
+            do while (bracket%status == root_wanted)
+               between = places_at(model, turning + reach*exp(bracket%trial))
+               call narrow_bracket(bracket, between(kind, joint))
+            end do
+            if (all(abs(found - bracket%trial) > same)) found = [found, bracket%trial]
+         end do
+      end do
+      if (size(found) > 0) call append(angles, turning + reach*exp(found))
+   end subroutine add_spike
+
+   !> Where the joints are on Stribeck's curve at an angle.
+   pure function places_at(model, angle) result(places)
+      !> The model, with joints
+      type(model_t), intent(in) :: model
+      !> Cam angle from full lift [rad]
+      real(wp), intent(in) :: angle
+      !> Two logarithms for each surface; below zero without a curve [-]
+      real(wp) :: places(2, curve_count)
+
+      type(position_t) :: position
+      type(moments_t) :: moments
+      ! Gas force [N]
+      real(wp) :: force
+      integer :: status
+
+      call evaluate_loading(model, angle, position, force, moments, status)
+      places = -1.0_wp
+      if (status == 0) places = places_on_curves(model, position, moments)
+   end function places_at
 
    !> Have two numbers the same sign, or are they both zero?
    pure function is_same_sign(one, other)
@@ -243,7 +378,7 @@ contains
       values = 1.0_wp
       if (status /= 0) return
       values(1) = position%lift_slope
-      if (jumps_with_tip(model%joints)) values(2) = model%linkage%b*model%linkage%base_cosine - position%lift &
+      if (allocated(model%joints%tip)) values(2) = model%linkage%b*model%linkage%base_cosine - position%lift &
          & - model%joints%tip%pad_radius
    end function turning_values
 

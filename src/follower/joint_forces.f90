@@ -12,12 +12,13 @@ module camroller_joint_forces
    use camroller_kinematics, only : position_t
    use camroller_dynamics, only : moments_t
    use camroller_stem_friction, only : stem_motion_t, stem_t, find_stem_forces
+   use camroller_sliding_friction, only : place_on_curve
    use camroller_pivot_friction, only : pivot_forces_t, pivot_reaction, pivot_moment
    implicit none
    private
 
-   public :: joint_values_t, no_joints, finger_moment, finger_moment_slope, contact_moment, find_contact_moment, &
-      & has_pivot_friction, set_pivot_forces, evaluate_joints
+   public :: joint_basis_t, joint_values_t, no_joints, finger_moment, finger_moment_slope, contact_moment, find_contact_moment, &
+      & has_pivot_friction, set_pivot_forces, evaluate_joints, curve_count, places_on_curves
 
    !> Forces of the joints and the torques that they cost, each zero where the case has no such joint; not set without any joint
    type :: joint_values_t
@@ -34,6 +35,17 @@ module camroller_joint_forces
       !> Torques for the losses of tip, seal, guide's ends and pivot [N m]
       real(wp) :: torque_tip, torque_seal, torque_side, torque_pivot
    end type joint_values_t
+
+   !> What the joints have at a cam angle, whatever load and traction of the contact are
+   type :: joint_basis_t
+      !> Forces at the valve's end
+      type(stem_t) :: stem
+      !> What the ball's force is made of, where the pivot has friction
+      type(pivot_forces_t) :: forces
+   end type joint_basis_t
+
+   !> Surfaces whose friction may follow Stribeck's curve: lower and upper end of the guide, valve tip, pivot
+   integer, parameter :: curve_count = 4
 
    !> Joints without contact of cam and roller
    type(joint_values_t), parameter :: no_joints = joint_values_t(0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, &
@@ -131,7 +143,7 @@ contains
    end function contact_moment
 
    !> The same with what the pivot's friction is made of, where it has any.
-   pure subroutine find_contact_moment(model, position, moments, moment, forces, unloaded)
+   pure subroutine find_contact_moment(model, position, moments, moment, forces, unloaded, basis)
       !> The model
       type(model_t), intent(in) :: model
       !> Geometry at this angle
@@ -144,17 +156,23 @@ contains
       type(pivot_forces_t), intent(out) :: forces
       !> Friction of the pivot without a contact load [N m]
       type(dual_t), intent(out) :: unloaded
+      !> What `evaluate_joints` would find again at this angle, allocated where the moment takes it
+      type(joint_basis_t), allocatable, intent(out), optional :: basis
 
       type(stem_t) :: stem
 
-      if (.not. has_pivot_friction(model)) then
+      if (.not. ((model%is_consistent .and. allocated(model%joints)) .or. has_pivot_friction(model))) then
          moment = finger_moment(model, position, moments)
          return
       end if
       call set_stem(model, position, moments, 0.0_wp, stem)
-      call place_forces(model, position, stem, forces)
-      unloaded = pivot_moment(model%joints%pivot, forces, dual_t(0.0_wp, 0.0_wp), dual_t(0.0_wp, 0.0_wp))
-      moment = moment_with(model, position, moments, stem) + unloaded%value
+      moment = moment_with(model, position, moments, stem)
+      if (has_pivot_friction(model)) then
+         call place_forces(model, position, stem, forces)
+         unloaded = pivot_moment(model%joints%pivot, forces, dual_t(0.0_wp, 0.0_wp), dual_t(0.0_wp, 0.0_wp))
+         moment = moment + unloaded%value
+      end if
+      if (present(basis)) basis = joint_basis_t(stem, forces)
    end subroutine find_contact_moment
 
    !> Does the finger's pivot have friction?
@@ -188,7 +206,7 @@ contains
    end subroutine set_pivot_forces
 
    !> Forces and torques of a state whose contact is solved.
-   pure subroutine evaluate_joints(model, position, moments, load, tangential_force, values)
+   pure subroutine evaluate_joints(model, position, moments, load, tangential_force, values, basis)
       !> The model, which has joints
       type(model_t), intent(in) :: model
       !> Geometry at this angle
@@ -199,32 +217,72 @@ contains
       real(wp), intent(in) :: load, tangential_force
       !> Forces and torques
       type(joint_values_t), intent(out) :: values
+      !> What the solution of the contact has found at this angle
+      type(joint_basis_t), intent(in), optional :: basis
 
-      type(stem_t) :: stem
-      type(pivot_forces_t) :: forces
+      type(joint_basis_t) :: own
       ! Force of the ball [N]; friction of the pivot [N m]
       type(dual_t) :: reaction(2), friction
 
-      call set_stem(model, position, moments, 0.0_wp, stem)
-      values%tip_force = stem%tip_force%value
-      values%tip_friction = stem%tip_friction%value
-      values%tip_speed = stem%tip_speed%value
-      values%seal_friction = stem%seal_friction%value
-      values%side_friction = stem%side_friction%value
-      values%upper_force = stem%upper_force
-      values%lower_force = stem%lower_force
+      if (present(basis)) then
+         own = basis
+      else
+         call set_stem(model, position, moments, 0.0_wp, own%stem)
+         if (has_pivot_friction(model)) call place_forces(model, position, own%stem, own%forces)
+      end if
+      associate (stem => own%stem)
+         values%tip_force = stem%tip_force%value
+         values%tip_friction = stem%tip_friction%value
+         values%tip_speed = stem%tip_speed%value
+         values%seal_friction = stem%seal_friction%value
+         values%side_friction = stem%side_friction%value
+         values%upper_force = stem%upper_force
+         values%lower_force = stem%lower_force
+      end associate
       values%torque_tip = values%tip_friction*values%tip_speed/model%speed
       values%torque_seal = values%seal_friction*position%lift_slope
       values%torque_side = values%side_friction*position%lift_slope
       values%pivot_force = 0.0_wp
       values%torque_pivot = 0.0_wp
       if (.not. has_pivot_friction(model)) return
-      call place_forces(model, position, stem, forces)
-      reaction = pivot_reaction(forces, dual_t(load, 0.0_wp), dual_t(tangential_force, 0.0_wp))
+      reaction = pivot_reaction(own%forces, dual_t(load, 0.0_wp), dual_t(tangential_force, 0.0_wp))
       values%pivot_force = norm2(reaction%value)
-      friction = pivot_moment(model%joints%pivot, forces, dual_t(load, 0.0_wp), dual_t(tangential_force, 0.0_wp))
+      friction = pivot_moment(model%joints%pivot, own%forces, dual_t(load, 0.0_wp), dual_t(tangential_force, 0.0_wp))
       values%torque_pivot = friction%value*position%finger_slope
    end subroutine evaluate_joints
+
+   !> Where each surface is on Stribeck's curve (`place_on_curve`), the pivot under the load that needs no traction.
+   pure function places_on_curves(model, position, moments) result(places)
+      !> The model, which has joints
+      type(model_t), intent(in) :: model
+      !> Geometry at this angle
+      type(position_t), intent(in) :: position
+      !> Moments about the pivot at this angle
+      type(moments_t), intent(in) :: moments
+      !> Two logarithms for each; below zero where there is no curve [-]
+      real(wp) :: places(2, curve_count)
+
+      type(stem_t) :: stem
+      type(pivot_forces_t) :: forces
+      ! Force of the ball [N]
+      type(dual_t) :: reaction(2)
+
+      places = -1.0_wp
+      call set_stem(model, position, moments, 0.0_wp, stem)
+      associate (joints => model%joints, valve_speed => model%speed*position%lift_slope)
+         if (allocated(joints%side)) then
+            places(:, 1) = place_on_curve(joints%side%law, stem%lower_force, valve_speed)
+            places(:, 2) = place_on_curve(joints%side%law, stem%upper_force, valve_speed)
+         end if
+         if (allocated(joints%tip)) places(:, 3) = place_on_curve(joints%tip%law, stem%tip_force%value, stem%tip_speed%value)
+         if (.not. allocated(joints%pivot)) return
+         call place_forces(model, position, stem, forces)
+         reaction = pivot_reaction(forces, dual_t(moment_with(model, position, moments, stem)/position%normal_arm, 0.0_wp), &
+            & dual_t(0.0_wp, 0.0_wp))
+         places(:, 4) = place_on_curve(joints%pivot%law, norm2(reaction%value), joints%pivot%ball_radius*model%speed &
+            & *position%finger_slope)
+      end associate
+   end function places_on_curves
 
    !> Forces at the valve's end of the finger.
    pure subroutine set_stem(model, position, moments, axial_slope, stem)

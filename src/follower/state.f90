@@ -3,12 +3,13 @@
 !> In: model, cam angle, sliding speed. Out: `state_t`, in one visible sequence; no side effects.
 module camroller_state
    use camroller_kinds, only : wp
+   use camroller_axial_table, only : axial_state, axial_state_t
    use camroller_model, only : model_t, evaluate_geometry
    use camroller_kinematics, only : position_t
    use camroller_dynamics, only : moments_t, evaluate_moments, add_acceleration, kinetic_energy, stored_power
    use camroller_gas, only : gas_force
    use camroller_contact, only : solve_contact
-   use camroller_joint_forces, only : joint_values_t, no_joints, evaluate_joints
+   use camroller_joint_forces, only : joint_basis_t, joint_values_t, no_joints, evaluate_joints
    use camroller_contact_forces, only : contact_t
    use camroller_roller, only : spin_acceleration
    use camroller_flexible_parts, only : damper_count
@@ -20,7 +21,7 @@ module camroller_state
    private
 
    public :: state_t, flexible_values_t, evaluate_state, complete_state, evaluate_spin, evaluate_loading, add_torques, &
-      & add_sums, cam_force, flight_torque
+      & add_along, add_sums, cam_force, flight_torque
 
    !> What a flexible train has beside a rigid one
    type :: flexible_values_t
@@ -64,6 +65,8 @@ module camroller_state
       real(wp) :: torque_drive
       !> Sliding joints, where the case has any
       type(joint_values_t) :: joints
+      !> Load along the roller, where the case has its profile and the contact touches; else not set
+      type(axial_state_t) :: along
       !> What a flexible train has beside
       type(flexible_values_t) :: flexible
    end type state_t
@@ -95,7 +98,7 @@ contains
 
    !> Contact and angular acceleration of the roller: what the integration of its spin needs.
    pure subroutine evaluate_spin(model, position, moments, sliding_speed, contact, acceleration, status, accuracy, &
-      & mobilised, start)
+      & mobilised, start, joints)
       !> The model
       type(model_t), intent(in) :: model
       !> Geometry at this angle
@@ -116,8 +119,10 @@ contains
       real(wp), intent(in), optional :: mobilised
       !> A contact nearby to start from, where it touches
       type(contact_t), intent(in), optional :: start
+      !> What the joints have at this angle, where the balance takes it
+      type(joint_basis_t), allocatable, intent(out), optional :: joints
 
-      call solve_contact(model, position, moments, sliding_speed, contact, status, accuracy, mobilised, start)
+      call solve_contact(model, position, moments, sliding_speed, contact, status, accuracy, mobilised, start, joints)
       acceleration = acceleration_in(model, contact)
    end subroutine evaluate_spin
 
@@ -142,6 +147,8 @@ contains
       !> Further moment about the pivot by which the valve's tip presses the roller on the cam; absent: none [N m]
       real(wp), intent(in), optional :: further_moment
 
+      type(joint_basis_t), allocatable :: joints
+
       call evaluate_loading(model, angle, state%position, state%gas_force, state%moments, status)
       if (status /= 0) return
       if (present(further_moment)) then
@@ -149,9 +156,9 @@ contains
          state%moments%total = state%moments%total + further_moment
       end if
       call evaluate_spin(model, state%position, state%moments, sliding_speed, state%contact, state%spin_acceleration, status, &
-         & accuracy, mobilised, start)
+         & accuracy, mobilised, start, joints)
       if (status /= 0) return
-      call add_torques(model, state)
+      call add_torques(model, state, joints)
    end subroutine evaluate_state
 
    !> Everything at an angle at which the contact is solved.
@@ -174,6 +181,17 @@ contains
       call add_torques(model, state)
    end subroutine complete_state
 
+   !> Load along the roller of a state whose contact is solved.
+   pure subroutine add_along(model, state)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> State with its contact solved
+      type(state_t), intent(inout) :: state
+
+      if (allocated(model%axial) .and. state%contact%is_touching) state%along = axial_state(model%axial, state%contact%load, &
+         & state%position%equivalent_radius)
+   end subroutine add_along
+
    !> Angular acceleration of the roller in a contact.
    pure function acceleration_in(model, contact) result(acceleration)
       !> The model
@@ -187,16 +205,20 @@ contains
          & model%has_rolling_in_balance), model%roller_radius, contact%bearing_torque, model%roller_inertia)
    end function acceleration_in
 
-   !> Torques of a state whose contact is solved, with the friction that is reported and the energy residual.
-   pure subroutine add_torques(model, state)
+   !> Torques of a state whose contact is solved, with the friction that is reported, the load along the roller and the energy
+   !> residual.
+   pure subroutine add_torques(model, state, joints)
       !> The model
       type(model_t), intent(in) :: model
       !> State with its contact solved
       type(state_t), intent(inout) :: state
+      !> What the joints have at this angle, where it is known
+      type(joint_basis_t), intent(in), optional :: joints
 
       call add_friction(model, state)
+      call add_along(model, state)
       state%torques = 0.0_wp
-      call add_losses(model, state)
+      call add_losses(model, state, joints)
       state%torques(of_geometric) = merge(state%moments%total*state%position%finger_slope, flight_torque(model, state), &
          & state%contact%is_touching)
       if (model%is_consistent) state%torques(of_roller_inertia) = model%roller_inertia*state%contact%roller_spin &
@@ -235,11 +257,13 @@ contains
 
    !> Losses of a follower as torques: one line for each loss of `torque_list`. The bookkeeping of the source puts the friction of
    !> the contact on the arm of the tangent, and lets the bearing slide by the whole spin of the roller.
-   pure subroutine add_losses(model, state)
+   pure subroutine add_losses(model, state, joints)
       !> The model
       type(model_t), intent(in) :: model
       !> State with its contact solved, and torques of zero
       type(state_t), intent(inout) :: state
+      !> What the joints have at this angle, where it is known
+      type(joint_basis_t), intent(in), optional :: joints
 
       associate (torques => state%torques, contact => state%contact)
          if (model%is_consistent) then
@@ -258,7 +282,7 @@ contains
          if (allocated(model%joints)) then
             state%joints = no_joints
             if (contact%is_touching) call evaluate_joints(model, state%position, state%moments, contact%load, &
-               & contact%tangential_force, state%joints)
+               & contact%tangential_force, state%joints, joints)
             torques([of_tip, of_seal, of_guide_side, of_pivot]) = [state%joints%torque_tip, state%joints%torque_seal, &
                & state%joints%torque_side, state%joints%torque_pivot]
          end if

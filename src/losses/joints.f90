@@ -9,7 +9,7 @@ module camroller_joints
    implicit none
    private
 
-   public :: joints_t, set_joint_oil, jumps_with_valve, jumps_with_tip
+   public :: joints_t, set_joint_oil, jumps_with_valve, jumps_with_tip, has_curves, has_tip_curve
 
    !> Sliding joints
    type :: joints_t
@@ -59,6 +59,29 @@ contains
       jumps = .false.
       if (allocated(joints%tip)) jumps = is_sharp(joints%tip%law%reversal_speed)
    end function jumps_with_tip
+
+   !> Does the friction of a joint follow Stribeck's curve?
+   pure function has_curves(joints) result(has)
+      !> The joints
+      type(joints_t), intent(in) :: joints
+      !> Does it?
+      logical :: has
+
+      has = has_tip_curve(joints)
+      if (allocated(joints%side)) has = has .or. joints%side%law%has_curve
+      if (allocated(joints%pivot)) has = has .or. joints%pivot%law%has_curve
+   end function has_curves
+
+   !> Does that of the valve's tip?
+   pure function has_tip_curve(joints) result(has)
+      !> The joints
+      type(joints_t), intent(in) :: joints
+      !> Does it?
+      logical :: has
+
+      has = .false.
+      if (allocated(joints%tip)) has = joints%tip%law%has_curve
+   end function has_tip_curve
 
    !> Does friction with this reversal speed jump?
    pure function is_sharp(reversal_speed)

@@ -11,7 +11,7 @@ module camroller_sliding_friction
    implicit none
    private
 
-   public :: sliding_t, sliding_law_t, sliding_law_names, new_sliding_law, set_duty, friction_limit, direction_of
+   public :: sliding_t, sliding_law_t, sliding_law_names, new_sliding_law, set_duty, friction_limit, place_on_curve, direction_of
 
    !> Coefficients of friction: constant, or falling from boundary to mixed friction and rising with the viscous part
    character(len=*), parameter :: sliding_law_names(*) = [character(len=name_length) :: "constant", "stribeck"]
@@ -125,6 +125,30 @@ contains
          limit = dual_t(law%coefficient*force%value, law%coefficient*force%slope)
       end if
    end function friction_limit
+
+   !> Where a joint that sets off is on Stribeck's curve: logarithms of its speed over that of the largest friction, where reversal
+   !> and curve meet at `sinh(2 v/v_r) = 2 v_d/(v_r x/|v|)`, and over that at which nothing is left of it. Above zero: beyond.
+   pure function place_on_curve(law, force, speed) result(place)
+      !> The law
+      type(sliding_law_t), intent(in) :: law
+      !> Force between the surfaces [N]
+      real(wp), intent(in) :: force
+      !> Sliding speed, of either sign [m/s]
+      real(wp), intent(in) :: speed
+      !> Both logarithms; below zero where there is no such speed [-]
+      real(wp) :: place(2)
+
+      ! Speed in which the friction falls to 1/e; speed of the largest friction [m/s]
+      real(wp) :: decay, top
+
+      place = -1.0_wp
+      if (.not. (law%has_curve .and. force > 0.0_wp .and. law%duty > 0.0_wp)) return
+      decay = law%decay_speed*force/law%duty
+      place(2) = log(max(abs(speed), tiny(1.0_wp))/(-log(epsilon(1.0_wp))*decay))
+      if (.not. law%reversal_speed > 0.0_wp) return
+      top = 0.5_wp*law%reversal_speed*asinh(2.0_wp*decay/law%reversal_speed)
+      place(1) = log(max(abs(speed), tiny(1.0_wp))/top)
+   end function place_on_curve
 
    !> Direction of sliding, from -1 to 1: `tanh(v/v_r)`, or the sign where the reversal is sharp.
    elemental function direction_of(speed, reversal_speed) result(direction)

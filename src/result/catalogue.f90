@@ -15,7 +15,7 @@ module camroller_catalogue
       & scope_engine, scope_length, take_quantities
    use camroller_axial_table, only : axial_state_t
    use camroller_part_series, only : add_axial, add_axial_film, add_bearings, add_heat, add_pin, add_surfaces, &
-      & bearing_count
+      & bearing_count, largest_coefficient_change
    use camroller_state, only : state_t, flexible_values_t
    use camroller_torque_list, only : torque_list, torque_count, is_loss, is_torque, of_residual, torque_series
    use camroller_hertz, only : peak_pressure
@@ -248,17 +248,17 @@ contains
       call add(list, "film_thickness_central", "m", "central film thickness", "film", state%contact%film_central)
       if (allocated(case%roller_profile)) call add_axial_film(list, model, state, along)
       call add(list, "film_ratio", "1", "minimum film thickness relative to composite roughness", "film", state%contact%film_ratio)
-      call add_heat(list, case, state)
+      if (allocated(case%heat)) call add_heat(list, case, state)
       if (allocated(case%asperity)) then
          call add(list, "asperity_load", "N", "load carried by asperities", "asperity", state%contact%asperity_load)
          call add(list, "real_contact_area", "m2", "contact area of the asperities", "asperity", state%contact%real_area)
          if (allocated(case%boundary_law) .or. allocated(case%tribofilm)) call add(list, "boundary_coefficient", "1", &
-            & "friction coefficient of the asperities", "asperity", state%contact%boundary_coefficient)
+            & "friction coefficient of the asperities", "asperity", state%contact%boundary_coefficient, &
+            & least=largest_coefficient_change(case))
       end if
       call add(list, "friction_hydrodynamic", "N", "shear force of the film", "traction", state%contact%shear)
       if (allocated(case%asperity)) then
-         call add(list, "friction_boundary", "N", "limit of the boundary friction", "asperity", &
-            & state%contact%boundary_capacity)
+         call add(list, "friction_boundary", "N", "limit of the boundary friction", "asperity", state%contact%boundary_capacity)
          call add(list, "friction_boundary_mobilised", "N", "boundary friction mobilised by slip", "asperity", &
             & state%contact%boundary_mobilised)
       end if
@@ -272,7 +272,7 @@ contains
             & ratio(state%boundary_friction, state%contact_friction), least=least_share)
       end if
       if (allocated(case%roller_profile)) call add_axial(list, case, model, state, along)
-      call add_pin(list, case, model, state)
+      if (allocated(case%needle_bearing)) call add_pin(list, case, model, state)
       if (allocated(case%wear) .or. allocated(case%running_in)) call add_surfaces(list, case, model, state)
       call add_joints(list, case, state%joints)
       if (allocated(case%dynamics)) call add_flexible(list, case, state%flexible)

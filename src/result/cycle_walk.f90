@@ -59,7 +59,7 @@ contains
 
       associate (times => samples%cycle%trajectory%time(:samples%cycle%trajectory%count))
          call start_panels(walk%panels, samples%series + torque_count, 2*size(times))
-         call start_points(walk%slips, samples%series + torque_count, size(gauss_points)*size(times))
+         call start_points(walk%slips, samples%series + torque_count, size(times))
          allocate (walk%speeds(panel_points*size(times)))
          if (.not. samples%cycle%is_linear) call start_curve(walk%curve, times(1), size(times) - 1, &
             & allocated(samples%case%cam_bearings))
@@ -159,7 +159,7 @@ contains
       end do
       rated = walk%estimate%rated
       call close_intervals(samples%cycle, first, last, walk)
-      call set_errors(walk%slips, rated, walk%estimate)
+      call set_errors(walk%slips, rated, walk%estimate, left, right)
       if (samples%cycle%is_linear) then
          call add_trapezoid(walk%panels, left, right, values(:, :2))
       else

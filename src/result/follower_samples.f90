@@ -17,7 +17,7 @@ module camroller_follower_samples
    use camroller_film, only : is_in_range
    use camroller_film_range, only : film_range_t, note_film
    use camroller_heat, only : is_inlet_in_range
-   use camroller_axial_table, only : axial_state, axial_state_t, slice_width
+   use camroller_axial_table, only : slice_width
    use camroller_hertz, only : peak_pressure
    use camroller_extremes, only : samples_t, add_sample, start_rows => start_samples
    use camroller_panels, only : sampled_t
@@ -133,18 +133,16 @@ contains
                & peak_pressure(state%contact%load, state%position%equivalent_radius, state%contact%length, model%modulus) &
                & /model%modulus)) shares%inlet_share = shares%inlet_share + weight
          end if
-         if (allocated(model%axial) .and. state%contact%is_touching) call note_ends(shares, model, state, angle, weight)
+         if (allocated(model%axial) .and. state%contact%is_touching) call note_ends(shares, state, angle, weight)
          call note_film(shares%film_range, groups, is_inside, in_event, state%torque_friction, weight)
       end associate
    end subroutine add_shares
 
    !> Note what the ends of the roller carry.
-   pure subroutine note_ends(shares, model, state, angle, weight)
+   pure subroutine note_ends(shares, state, angle, weight)
       !> The fractions
       class(shares_t), intent(inout) :: shares
-      !> Model of the lobe, with a table of the load along the roller
-      type(model_t), intent(in) :: model
-      !> State of the follower, in contact
+      !> State of the follower, in contact, with the load along its roller
       type(state_t), intent(in) :: state
       !> Cam angle from full lift [rad]
       real(wp), intent(in) :: angle
@@ -153,14 +151,15 @@ contains
 
       ! Rounding of loads [-]
       real(wp), parameter :: same = 1.0e-6_wp
-      type(axial_state_t) :: along
 
-      along = axial_state(model%axial, state%contact%load, state%position%equivalent_radius)
-      if (maxval(along%ends) >= along%peak .and. sqrt(along%peak) > max(shares%edge_factor, 1.0_wp + same)) then
-         shares%edge_factor = sqrt(along%peak)
-         shares%edge_angle = angle
-      end if
-      if (maxval(along%ends) > 0.0_wp .and. minval(along%ends) <= 0.0_wp) shares%one_end_share = shares%one_end_share + weight
+      associate (along => state%along)
+         if (maxval(along%ends) >= along%peak .and. sqrt(along%peak) > max(shares%edge_factor, 1.0_wp + same)) then
+            shares%edge_factor = sqrt(along%peak)
+            shares%edge_angle = angle
+         end if
+         if (maxval(along%ends) > 0.0_wp .and. minval(along%ends) <= 0.0_wp) shares%one_end_share = shares%one_end_share &
+            & + weight
+      end associate
    end subroutine note_ends
 
    !> Begin with a cycle; with the case, its series are sampled too.
@@ -327,16 +326,13 @@ contains
       !> What it is like
       type(entrainment_t) :: speed
 
-      type(axial_state_t) :: along
-
       speed%angle = angle
       speed%entrainment_speed = samples%state%contact%entrainment_speed
       speed%sliding_speed = samples%state%contact%sliding_speed
       speed%is_touching = samples%state%contact%is_touching
       if (.not. (allocated(samples%model%axial) .and. speed%is_touching)) return
-      along = axial_state(samples%model%axial, samples%state%contact%load, samples%state%position%equivalent_radius)
-      speed%loaded_ends = count(along%ends > 0.0_wp)
-      speed%peak_slice = along%place/slice_width(samples%model%axial)
+      speed%loaded_ends = count(samples%state%along%ends > 0.0_wp)
+      speed%peak_slice = samples%state%along%place/slice_width(samples%model%axial)
    end function entrainment_of
 
 end module camroller_follower_samples

@@ -4,7 +4,7 @@
 module camroller_part_series
    use camroller_kinds, only : wp, two_pi
    use camroller_axial_film, only : smallest_film
-   use camroller_axial_table, only : axial_state, axial_state_t, slice_loads
+   use camroller_axial_table, only : axial_state_t, slice_loads
    use camroller_bearing_asperity, only : bearing_state_t
    use camroller_cam_surface, only : value_at_angle
    use camroller_case, only : camshaft_number, case_t
@@ -12,6 +12,7 @@ module camroller_part_series
    use camroller_effect_list, only : effect_contact_heat, effect_inlet_heat, has_effect
    use camroller_film, only : film_line_t, new_film_line
    use camroller_hertz, only : peak_pressure
+   use camroller_materials, only : combined_roughness
    use camroller_model, only : model_t
    use camroller_needle, only : kind_journal, roller_bearing_names
    use camroller_number_text, only : integer_text
@@ -23,7 +24,7 @@ module camroller_part_series
    implicit none
    private
 
-   public :: add_axial, add_axial_film, add_heat, add_pin, add_surfaces, add_bearings, bearing_count, &
+   public :: add_axial, add_axial_film, add_heat, add_pin, add_surfaces, add_bearings, bearing_count, largest_coefficient_change, &
       & bearing_series_count
 
    !> Wear that counts as none: less than an atom in ten thousand million turns [m], or in three hundred years [m/s]
@@ -48,7 +49,7 @@ contains
       film = 0.0_wp
       along = axial_state_t(0.0_wp, 0.0_wp, [0.0_wp, 0.0_wp])
       if (allocated(model%axial) .and. state%contact%is_touching) then
-         along = axial_state(model%axial, state%contact%load, state%position%equivalent_radius)
+         along = state%along
          call new_film_line(line, model%film_law, film_groups(model, state%position, state%contact), model%film_table)
          line%log_factor = log(state%contact%inlet_factor)
          film = smallest_film(line, along%peak*state%contact%load/model%contact_width, state%position%equivalent_radius, &
@@ -61,7 +62,7 @@ contains
    pure subroutine add_heat(list, case, state)
       !> List to extend
       type(quantity_list_t), intent(inout) :: list
-      !> The case
+      !> The case, with heat of its contact
       type(case_t), intent(in) :: case
       !> State of the follower
       type(state_t), intent(in) :: state
@@ -89,6 +90,8 @@ contains
 
       ! Peak pressure [Pa]; turn of the cam [s]; thickness, depth [m] and slope [m/rad]
       real(wp) :: peak, period, film, depth, slope
+      ! What a film can change at most of its thickness and of the roughness [m]
+      real(wp) :: largest, rough
 
       film = 0.0_wp
       depth = 0.0_wp
@@ -111,23 +114,45 @@ contains
                & contact%asperity_load, contact%apparent_area, contact%sliding_speed), least=least_wear_rate)
          end if
          if (.not. allocated(case%running_in)) return
+         ! Errors are relative to what a film can change at most
+         largest = 0.0_wp
+         rough = 0.0_wp
+         if (allocated(case%tribofilm)) then
+            largest = case%tribofilm%largest_thickness
+            associate (bare => combined_roughness(case%surface%cam_roughness, case%surface%roller_roughness), &
+               & most => case%tribofilm%roughness_ratio*largest)
+               rough = norm2([bare, most, most]) - bare
+            end associate
+         end if
          if (allocated(model%surface)) then
             call value_at_angle(model%surface%cam_film, state%position%angle, film, slope)
             call value_at_angle(model%surface%cam_wear, state%position%angle, depth, slope)
          end if
          call add(list, "composite_roughness", "m", "composite roughness of cam and roller with their films", "running_in", &
-            & contact%surfaces%roughness)
+            & contact%surfaces%roughness, least=rough)
          if (allocated(case%tribofilm)) call add(list, "cam_film_thickness", "m", "thickness of the tribofilm on the cam", &
-            & "running_in", film)
+            & "running_in", film, least=largest)
          if (allocated(case%wear)) call add(list, "cam_wear_depth", "m", "depth worn away from the cam", "running_in", depth)
       end associate
    end subroutine add_surfaces
+
+   !> What a tribofilm that grows over hours can change of the asperities' coefficient at most: the scale of its errors.
+   pure function largest_coefficient_change(case) result(change)
+      !> The case
+      type(case_t), intent(in) :: case
+      !> The change; zero without such a film [-]
+      real(wp) :: change
+
+      change = 0.0_wp
+      if (allocated(case%tribofilm) .and. allocated(case%running_in) .and. allocated(case%asperity)) change = &
+         & abs(case%tribofilm%coefficient - case%asperity%boundary_coefficient)
+   end function largest_coefficient_change
 
    !> Series of a roller's pin with an oil film.
    pure subroutine add_pin(list, case, model, state)
       !> List to extend
       type(quantity_list_t), intent(inout) :: list
-      !> The case
+      !> The case, with a bearing of its roller
       type(case_t), intent(in) :: case
       !> The model of its lobe
       type(model_t), intent(in) :: model
@@ -136,7 +161,6 @@ contains
 
       type(pin_state_t) :: pin
 
-      if (.not. allocated(case%needle_bearing)) return
       if (case%needle_bearing%kind /= roller_bearing_names(kind_journal)) return
       if (allocated(model%bearing)) call solve_pin(model%bearing%film, state%contact%load, state%contact%relative_spin, &
          & model%bearing%reversal_spin, pin)

@@ -13,7 +13,9 @@ module camroller_slip_errors
    use camroller_cycle, only : cycle_t
    use camroller_error_estimate, only : contact_accuracy_for, estimate_t, error_at_start, margin
    use camroller_follower_samples, only : follower_samples_t, sampled_values
+   use camroller_joint_forces, only : joint_basis_t
    use camroller_model, only : model_t
+   use camroller_panels, only : gauss_points, panel_places, panel_points
    use camroller_shaft, only : solved_t
    use camroller_state, only : state_t, evaluate_spin, evaluate_state, add_torques
    use camroller_stick_slip, only : direction_at
@@ -40,6 +42,10 @@ module camroller_slip_errors
       real(wp), allocatable :: values(:, :)
       !> Error of the trajectory [m/s]; fraction of an error at its start that is left [-]
       real(wp), allocatable :: errors(:), shares(:)
+      !> Number of all points of panels so far
+      integer :: fine_count = 0
+      !> In the same way their cam angles [rad], errors [m/s] and fractions [-]
+      real(wp), allocatable :: fine_angle(:), fine_errors(:), fine_shares(:)
    end type slip_points_t
 
    !> What the series of a follower would be at one angle without the error of the sliding speed: many have their extremes there
@@ -56,21 +62,24 @@ module camroller_slip_errors
       real(wp), allocatable :: integrals(:)
       !> Smallest and largest values at the points without the error of the sliding speed [unit of each]
       real(wp), allocatable :: lowest(:), highest(:)
-      !> Cam angles of the points from full lift, in order [rad], and error of the trajectory there [m/s]
+      !> Cam angles of all points of panels from full lift, in order [rad], and error of the trajectory there [m/s]
       real(wp), allocatable :: angle(:), error(:)
    end type slip_errors_t
 
 contains
 
    !> Begin without points.
-   pure subroutine start_points(points, quantities, room)
+   pure subroutine start_points(points, quantities, intervals)
       !> The points
       type(slip_points_t), intent(out) :: points
-      !> Number of quantities that are sampled, of points at most
-      integer, intent(in) :: quantities, room
+      !> Number of quantities that are sampled, of intervals
+      integer, intent(in) :: quantities, intervals
 
-      allocate (points%interval(room), points%angle(room), points%weight(room), points%states(room), &
-         & points%values(quantities, room), points%errors(room), points%shares(room))
+      associate (room => size(gauss_points)*intervals, fine_room => panel_points*intervals)
+         allocate (points%interval(room), points%angle(room), points%weight(room), points%states(room), &
+            & points%values(quantities, room), points%errors(room), points%shares(room))
+         allocate (points%fine_angle(fine_room), points%fine_errors(fine_room), points%fine_shares(fine_room))
+      end associate
    end subroutine start_points
 
    !> Keep the point that was sampled last.
@@ -94,15 +103,23 @@ contains
       points%values(:, points%count) = values
    end subroutine keep_point
 
-   !> Take the errors at the last points, those of the panel that has just ended.
-   pure subroutine set_errors(points, number, estimate)
+   !> Take the errors at the last points, those of the panel that has just ended, and at all points of its rules.
+   pure subroutine set_errors(points, number, estimate, left, right)
       !> The points
       type(slip_points_t), intent(inout) :: points
       !> Number of them in the panel
       integer, intent(in) :: number
       !> The estimate at the end of the interval
       type(estimate_t), intent(in) :: estimate
+      !> Ends of the panel [rad]
+      real(wp), intent(in) :: left, right
 
+      associate (first => points%fine_count + 1, last => points%fine_count + panel_points)
+         points%fine_angle(first:last) = left + panel_places*(right - left)
+         points%fine_errors(first:last) = estimate%point_errors
+         points%fine_shares(first:last) = estimate%point_shares
+      end associate
+      points%fine_count = points%fine_count + panel_points
       associate (first => points%count - number + 1, last => points%count)
          points%errors(first:last) = estimate%errors(:number)
          points%shares(first:last) = estimate%shares(:number)
@@ -123,8 +140,8 @@ contains
       ! Differences that the error makes [unit of each]; their integral over an interval and that of their magnitudes [unit of each
       ! times rad]
       real(wp), dimension(size(points%values, 1)) :: differences, signed, sizes
-      ! Error at the start of the periodic cycle [m/s]
-      real(wp) :: first
+      ! Error at the start of the periodic cycle, at a point [m/s]
+      real(wp) :: first, error
       integer :: i
       ! Is the point the first, or the last, of its interval?
       logical :: is_first, is_last
@@ -135,8 +152,8 @@ contains
       allocate (errors%integrals(size(signed)), source=0.0_wp)
       allocate (errors%lowest(size(signed)), source=huge(1.0_wp))
       allocate (errors%highest(size(signed)), source=-huge(1.0_wp))
-      errors%angle = points%angle(:points%count)
-      errors%error = points%errors(:points%count) + first*points%shares(:points%count)
+      errors%angle = points%fine_angle(:points%fine_count)
+      errors%error = points%fine_errors(:points%fine_count) + first*points%fine_shares(:points%fine_count)
       is_last = .true.
       do i = 1, points%count
          is_first = is_last
@@ -146,7 +163,8 @@ contains
             signed = 0.0_wp
             sizes = 0.0_wp
          end if
-         call evaluate_difference(points, samples, i, errors%error(i), differences)
+         error = points%errors(i) + first*points%shares(i)
+         call evaluate_difference(points, samples, i, error, differences)
          signed = signed + points%weight(i)*differences
          sizes = sizes + points%weight(i)*abs(differences)
          errors%lowest = min(errors%lowest, points%values(:, i) - differences)
@@ -331,6 +349,7 @@ contains
       !> 0 fine, positive: no balance found
       integer, intent(out) :: status
 
+      type(joint_basis_t), allocatable :: joints
       ! Sliding speed without the error [m/s]
       real(wp) :: sliding_speed
       integer :: direction
@@ -346,12 +365,12 @@ contains
          if (direction == 0) return
          sliding_speed = direction*max(direction*sliding_speed, 0.0_wp)
          call evaluate_spin(model, state%position, state%moments, sliding_speed, right%contact, right%spin_acceleration, status, &
-            & contact_accuracy_for(cycle%tolerance), real(direction, wp), state%contact)
+            & contact_accuracy_for(cycle%tolerance), real(direction, wp), state%contact, joints)
       else
          call evaluate_spin(model, state%position, state%moments, sliding_speed, right%contact, right%spin_acceleration, status, &
-            & contact_accuracy_for(cycle%tolerance), start=state%contact)
+            & contact_accuracy_for(cycle%tolerance), start=state%contact, joints=joints)
       end if
-      if (status == 0) call add_torques(model, right)
+      if (status == 0) call add_torques(model, right, joints)
    end subroutine state_without
 
 end module camroller_slip_errors

@@ -34,6 +34,8 @@ contains
             & test_torques), &
          new_unittest("the estimate bounds the error of the least friction, at a point of pure rolling between rows", &
             & test_pure_rolling), &
+         new_unittest("the estimate bounds the error of an extreme that is a crest of the error between the nodes of a step", &
+            & test_crest), &
          new_unittest("extremes include both sides of a jump", test_jump), &
          new_unittest("extremes of a flexible train close behind a kink of the rigid one are found", test_beside_kink), &
          new_unittest("where traction saturates, the sliding speed is corrected within the error allowed", test_settle), &
@@ -183,6 +185,33 @@ contains
    end function largest_error
 
    !> A roller that sticks and slides: where a phase of sticking begins or ends at a stop, friction jumps.
+   !> Errors of the sliding speed at the nodes of a rule of three alone are a third of that at the crest.
+   subroutine test_crest(error)
+      type(error_type), allocatable, intent(out) :: error
+      character(len=8), parameter :: methods(2) = [character(len=8) :: "hermite", "rodas5p"]
+      type(case_t) :: the_case
+      type(result_t) :: result
+      type(error_t), allocatable :: failure
+      ! Largest traction by each method, smallest [N]; estimates [-]
+      real(wp) :: largest(2), smallest, estimates(2)
+      character(len=120) :: words
+      integer :: i
+
+      call get_deck_case("test/data/wavy_traction/deck.nml", the_case, failure)
+      do i = 1, size(methods)
+         the_case%numerics%method = methods(i)
+         if (.not. allocated(failure)) call run_case(the_case, result, failure)
+         if (.not. allocated(failure)) call get_summary(result, "max_lobe_2_traction", largest(i), failure)
+         if (.not. allocated(failure)) call get_summary(result, "min_lobe_2_traction", smallest, failure)
+         if (.not. allocated(failure)) call get_summary(result, "estimated_error_of_extremes", estimates(i), failure)
+      end do
+      if (allocated(failure)) call test_failed(error, failure%message)
+      if (allocated(error)) return
+      write (words, "(a, 2es11.3)") "difference over range, estimates", abs(largest(2) - largest(1))/(largest(1) - smallest), &
+         & sum(estimates)
+      call check(error, abs(largest(2) - largest(1)) <= sum(estimates)*(largest(1) - smallest), words)
+   end subroutine test_crest
+
    subroutine test_jump(error)
       type(error_type), allocatable, intent(out) :: error
       type(case_t) :: case

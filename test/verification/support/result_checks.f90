@@ -127,6 +127,10 @@ contains
       trouble = ""
       if (.not. allocated(case%cam_bearings)) return
       if (.not. case%cam_bearings%by_bearing) return
+      ! A choice of effects may have left the bearings out
+      name = "bearing_1_torque"
+      if (camshaft_number(case) > 1) name = "camshaft_1_"//name
+      if (find_quantity(result%series, name) == 0) return
       whole = 0.0_wp*result%angle
       do shaft = 1, camshaft_number(case)
          do bearing = 1, size(case%cam_bearings%bearing_positions)
