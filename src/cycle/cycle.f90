@@ -34,7 +34,7 @@ module camroller_cycle
    implicit none
    private
 
-   public :: cycle_t, integrate_cycle, choose_method, integrate_spin, state_at
+   public :: cycle_t, integrate_cycle, choose_method, integrate_spin, state_at, settle_state
 
    !> One periodic cycle
    type :: cycle_t
@@ -386,11 +386,11 @@ contains
 
       type(position_t) :: position
       type(moments_t) :: moments
-      ! Angle within the cycle [rad], sliding speed or surface speed [m/s], gas force [N], slope of the curve [m/s/rad], mobilised
-      ! part of the boundary friction, relative error of load and forces [-]
-      real(wp) :: inside, value(1), force, slope(1), share, accuracy
+      ! Angle within the cycle [rad], sliding speed or surface speed [m/s], gas force [N], mobilised part of the boundary friction,
+      ! relative error of load and forces [-]
+      real(wp) :: inside, value(1), force, share, accuracy
       integer :: status
-      logical :: is_moved, rests
+      logical :: rests
 
       if (allocated(cycle%flexible)) then
          call follower_on_path(model, cycle%flexible%cycle%trajectory, cycle%flexible%cycle%resolution, angle, hint, state, error)
@@ -416,14 +416,39 @@ contains
          if (status == 0) call evaluate_state(model, inside, value(1), state, status, share, start, accuracy)
       else
          call evaluate_state(model, inside, value(1), state, status, start=start, accuracy=accuracy)
-         if (status == 0 .and. cycle%step_error > 0.0_wp) then
-            call curve_slope(cycle%trajectory, inside, hint, slope)
-            call settle(model, inside, slope(1), cycle%step_error, state, value(1), is_moved)
-            if (is_moved) call evaluate_state(model, inside, value(1), state, status, accuracy=accuracy)
-         end if
+         if (status == 0) call settle_state(cycle, model, inside, hint, accuracy, state, status)
       end if
       if (status /= 0) call raise(error, kind_convergence, "no load satisfies the equilibrium of the contact at "// &
          & cam_angle_text(angle, 3))
    end subroutine state_at
+
+   !> Give a state on the curve the traction that the slope of the curve asks for, where the curve's error decides about it.
+   subroutine settle_state(cycle, model, angle, hint, accuracy, state, status)
+      !> The cycle
+      type(cycle_t), intent(in) :: cycle
+      !> The model it was integrated with
+      type(model_t), intent(in), target :: model
+      !> Cam angle from full lift, within the cycle [rad]
+      real(wp), intent(in) :: angle
+      !> Interval of the trajectory where the search starts
+      integer, intent(inout) :: hint
+      !> Relative error of load and forces [-]
+      real(wp), intent(in) :: accuracy
+      !> The state
+      type(state_t), intent(inout) :: state
+      !> 0 where there is a state
+      integer, intent(out) :: status
+
+      ! Slope of the curve [m/s/rad], sliding speed [m/s]
+      real(wp) :: slope(1), sliding_speed
+      logical :: is_moved
+
+      status = 0
+      if (.not. cycle%step_error > 0.0_wp) return
+      call curve_slope(cycle%trajectory, angle, hint, slope)
+      sliding_speed = state%contact%sliding_speed
+      call settle(model, angle, slope(1), cycle%step_error, state, sliding_speed, is_moved)
+      if (is_moved) call evaluate_state(model, angle, sliding_speed, state, status, accuracy=accuracy)
+   end subroutine settle_state
 
 end module camroller_cycle

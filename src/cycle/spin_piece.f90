@@ -109,6 +109,7 @@ contains
          piece%numerics = numerics
          piece%scale = scale
          piece%fewest_steps = piece%options%fewest_steps
+         if (.not. piece%path%is_linear) piece%path%step_error = piece%options%tolerance(1)
       end if
       if (allocated(piece%path%phases)) deallocate (piece%path%phases)
       piece%path%counters = counters_t()

@@ -23,7 +23,7 @@ module camroller_short_piece
    use camroller_model, only : model_t
    use camroller_ramp, only : follow_ramp
    use camroller_state, only : state_t, evaluate_state, complete_state
-   use camroller_cycle, only : cycle_t
+   use camroller_cycle, only : cycle_t, settle_state
    use camroller_contact_forces, only : contact_t
    use camroller_follower_samples, only : follower_samples_t, start_samples, sampled_values, extremes_t, widen
    use camroller_spin, only : nearby_t, decay_rate_of
@@ -398,6 +398,7 @@ contains
          call interpolate_state(samples%cycle%trajectory, angle, samples%hint, sliding_speed)
          call evaluate_state(samples%model, angle, sliding_speed(1), samples%state, status, start=contact, accuracy=accuracy)
       end if
+      if (status == 0) call settle_state(samples%cycle, samples%model, angle, samples%hint, accuracy, samples%state, status)
       if (status /= 0) return
       call sampled_values(samples, samples%state, values)
       call widen(samples%extremes, samples%model, samples%state)

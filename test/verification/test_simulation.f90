@@ -3,6 +3,7 @@ module test_simulation
    use testdrive, only : unittest_type, new_unittest, error_type, check, test_failed
    use camroller, only : wp, pi, degree, error_t, case_t, numerics_t, result_t, simulation_t, outcome_t, run_case, &
       & start_simulation, advance, get_series, get_summary
+   use deck_cases, only : get_deck_case
    use reference_cases, only : thesis_case, add_gas_force
    implicit none
    private
@@ -17,6 +18,7 @@ contains
       testsuite = [ &
          new_unittest("repeated turns at constant speed tend to the periodic cycle", test_periodic), &
          new_unittest("in steps of a degree, which have rules of their own, the same, with gas force", test_short_steps), &
+         new_unittest("on nearly solid oil a turn of steps has the mean torque of the cycle", test_solid_oil), &
          new_unittest("results do not depend on the number of the host's steps", test_steps), &
          new_unittest("speed and temperature may change during a turn", test_changes), &
          new_unittest("after a change of speed and temperature the state tends to the new periodic cycle", test_new_point), &
@@ -88,6 +90,34 @@ contains
       end if
       call compare_with_cycle(simulation, the_case, error, 360)
    end subroutine test_short_steps
+
+   !> What the traction has to be follows from the roller's motion there, and not from its sliding speed.
+   subroutine test_solid_oil(error)
+      type(error_type), allocatable, intent(out) :: error
+      real(wp), parameter :: accuracy = 1.0e-4_wp
+      type(case_t) :: the_case
+      type(simulation_t) :: simulation
+      type(result_t) :: result
+      type(outcome_t) :: outcome
+      type(error_t), allocatable :: failure
+      ! Mean friction torque of the cycle, mean torques of a turn [N m]
+      real(wp) :: mean, torques(2)
+      integer :: turn
+
+      call get_deck_case("test/data/solid_oil/deck.nml", the_case, failure)
+      the_case%numerics = numerics_t(accuracy=accuracy)
+      if (.not. allocated(failure)) call run_case(the_case, result, failure)
+      if (.not. allocated(failure)) call get_summary(result, "mean_torque_friction", mean, failure)
+      if (.not. allocated(failure)) call start_simulation(simulation, the_case, 0.0_wp, failure)
+      do turn = 1, 2
+         if (.not. allocated(failure)) call drive(simulation, the_case, 2.0_wp*pi*(turn - 1), 360, torques, outcome, failure)
+      end do
+      if (allocated(failure)) then
+         call test_failed(error, failure%message)
+         return
+      end if
+      call check(error, torques(2), mean, thr=accuracy*mean)
+   end subroutine test_solid_oil
 
    !> Two turns from an angle of zero at the operating point of a case, against the periodic cycle of the case.
    subroutine compare_with_cycle(simulation, the_case, error, steps)
