@@ -2,7 +2,7 @@
 
 SHELL := /bin/bash
 .DEFAULT_GOAL := help
-.PHONY: help setup commit build debug mpi install run dynamics comparison test quick bless random random-ehl random-flexible random-wide needed needed-flexible rough-rows fuzz sanitize faults study study-film study-dynamics film-heat audit trends check check-layers \
+.PHONY: help setup commit build debug mpi install run dynamics comparison test quick bless random random-ehl random-flexible random-hosts random-wide needed needed-flexible rough-rows fuzz sanitize faults study study-film study-dynamics film-heat audit trends check check-layers \
   check-style check-format check-lint check-warnings second-compiler format docs recipes bench bench-dynamics bench-ehl range-ehl bench-batch bench-cases bench-effects bench-hosts clean distclean
 
 FPM := .venv/bin/fpm
@@ -133,6 +133,10 @@ random-ehl: commit ## random cases with a numerical film, as film law and over t
 random-wide: commit ## random cases with all options of a deck, optimised build: CASES=20000 SEED=1 FOLDER= for decks that fail
 	@WIDE_CASES=$(or $(CASES),20000) WIDE_SEED=$(or $(SEED),1) $(if $(FOLDER),WIDE_FOLDER="$(FOLDER)") $(FPM) test \
 	  --flag "$(RELEASE_FLAGS)" -- random_wide
+
+random-hosts: commit ## random rigid followers stepped by a host against their runs, optimised build: CASES=1000 SEED=1 FOLDER= for decks that fail
+	@HOST_CASES=$(or $(CASES),1000) HOST_SEED=$(or $(SEED),1) $(if $(FOLDER),WIDE_FOLDER="$(FOLDER)") $(FPM) test \
+	  --flag "$(RELEASE_FLAGS)" -- random_hosts
 
 random-flexible: commit ## random flexible trains by two methods, optimised build: CASES=100 SEED=1 FOLDER= for decks that fail, DECK= for one of them, ACCURACY= in the place of a tolerance of 1e-3
 	@FLEXIBLE_CASES=$(or $(CASES),100) FLEXIBLE_SEED=$(or $(SEED),1) $(if $(FOLDER),WIDE_FOLDER="$(FOLDER)") \

@@ -126,6 +126,7 @@ program main
    use test_random_cases, only : collect_random_cases
    use test_random_ehl, only : collect_random_ehl
    use test_random_flexible, only : collect_random_flexible
+   use test_random_hosts, only : collect_random_hosts
    use test_random_wide, only : collect_random_wide
    use test_effects, only : collect_effects
    use test_needed, only : collect_needed
@@ -185,6 +186,7 @@ contains
          new_testsuite("random_ehl", collect_random_ehl), &
          new_testsuite("random_flexible", collect_random_flexible), &
          new_testsuite("random_wide", collect_random_wide), &
+         new_testsuite("random_hosts", collect_random_hosts), &
          new_testsuite("effects", collect_effects), &
          new_testsuite("ehl", collect_ehl), &
          new_testsuite("ehl_rough", collect_ehl_rough), &
