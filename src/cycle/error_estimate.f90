@@ -38,8 +38,8 @@ module camroller_error_estimate
       integer :: rate_cuts(most_rates) = 0
       !> Error at each of those once the interval has ended [m/s], part of an error at the start of the cycle that is left there [-]
       real(wp) :: errors(most_rates) = 0.0_wp, shares(most_rates) = 0.0_wp
-      !> The same at all points of the rules [m/s], [-]
-      real(wp) :: point_errors(panel_points) = 0.0_wp, point_shares(panel_points) = 0.0_wp
+      !> The same at all points of the rules, last at the end [m/s], [-]
+      real(wp) :: point_errors(panel_points + 1) = 0.0_wp, point_shares(panel_points + 1) = 0.0_wp
       !> Error at the end of the last interval, largest so far [m/s]
       real(wp) :: error = 0.0_wp, largest = 0.0_wp
       !> Part of an error at the start of the cycle that is left [-]
@@ -104,7 +104,6 @@ contains
             estimate%contraction = min(estimate%contraction*left, lost)
             estimate%largest = max(estimate%largest, abs(estimate%error))
             call keep_error(estimate, i + 1)
-            if (i > panel_points) exit
             estimate%point_errors(i) = estimate%error
             estimate%point_shares(i) = estimate%contraction
          end do

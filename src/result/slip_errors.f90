@@ -116,8 +116,8 @@ contains
 
       associate (first => points%fine_count + 1, last => points%fine_count + panel_points)
          points%fine_angle(first:last) = left + panel_places*(right - left)
-         points%fine_errors(first:last) = estimate%point_errors
-         points%fine_shares(first:last) = estimate%point_shares
+         points%fine_errors(first:last) = estimate%point_errors(:last - first + 1)
+         points%fine_shares(first:last) = estimate%point_shares(:last - first + 1)
       end associate
       points%fine_count = points%fine_count + panel_points
       associate (first => points%count - number + 1, last => points%count)

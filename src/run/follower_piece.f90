@@ -124,7 +124,7 @@ contains
             if (.not. (allocated(error) .or. means%has_states)) then
                errors = slip_tolerance(follower)
                is_checked = stops(size(stops)) - stops(1) <= longest_checked .and. .not. allocated(path%phases)
-               if (is_checked) call judge_intervals(errors, model, path, error)
+               if (is_checked) call judge_unsettled(errors, model, path, error)
             end if
             if (allocated(error)) return
             if (is_good(errors)) exit
@@ -133,6 +133,26 @@ contains
          means%error = means%error + errors%torque + spin_error(errors, model, path, spin)
       end associate
    end subroutine cover_piece
+
+   !> Judge the intervals of a curve by its own traction, not by what that settles to.
+   subroutine judge_unsettled(errors, model, piece, error)
+      !> The errors
+      type(slip_error_t), intent(inout) :: errors
+      !> The model, which follows the inputs
+      type(model_t), intent(inout) :: model
+      !> The piece
+      type(cycle_t), intent(inout) :: piece
+      !> Convergence error
+      type(error_t), allocatable, intent(out) :: error
+
+      ! Error that its curve may have [m/s]
+      real(wp) :: step_error
+
+      step_error = piece%step_error
+      piece%step_error = 0.0_wp
+      call judge_intervals(errors, model, piece, error)
+      piece%step_error = step_error
+   end subroutine judge_unsettled
 
    !> Force on the cam and torque at equally spaced angles of a piece, without its end: from its states where they are these.
    subroutine fill_nodes(model, piece, means, ends, nodes, error)

@@ -183,9 +183,9 @@ contains
                if (place == places) angle = part%ends(2)
                accuracy = merge(round_off, contact_part*samples%cycle%tolerance, present(states) .and. place == places)
                if (place == 1 .and. nearby%has_first) then
-                  call sample_place(samples, angle, nearby%first, .true., accuracy, part%values(:, place), status)
+                  call sample_place(samples, angle, nearby%first, .true., accuracy, status)
                else
-                  call sample_place(samples, angle, contact_at(part%known, place), .false., accuracy, part%values(:, place), status)
+                  call sample_place(samples, angle, contact_at(part%known, place), .false., accuracy, status)
                end if
                ! Where contact is lost or comes back on the way, the angle of that is for panels to find
                is_enough = status == 0
@@ -193,14 +193,20 @@ contains
                if (.not. is_enough) return
                part%is_begun = .true.
                part%touches = samples%state%contact%is_touching
-               if (part%touches) part%values(of_geometric, place) = 0.0_wp
                call keep_contact(part%known, place, samples%state%contact)
-               if (present(states)) states((place + 1)/2) = samples%state
                if (place == 1 .or. place == places) then
                   call judge_point(slip_errors, samples%model, times(size(times)) - times(1), samples%state)
                else
                   call judge_curve(slip_errors, samples%model, samples%cycle, angle, samples%hint, samples%state)
                end if
+               ! What settles is judged as it was: the error of the curve decides about its traction
+               call settle_state(samples%cycle, samples%model, angle, samples%hint, accuracy, samples%state, status)
+               is_enough = status == 0
+               if (.not. is_enough) return
+               call sampled_values(samples, samples%state, part%values(:, place))
+               if (part%touches) part%values(of_geometric, place) = 0.0_wp
+               call widen(samples%extremes, samples%model, samples%state)
+               if (present(states)) states((place + 1)/2) = samples%state
             end associate
          end do
       end associate
@@ -372,7 +378,7 @@ contains
    end function gas_torque
 
    !> Sample an angle of the piece.
-   subroutine sample_place(samples, angle, contact, is_solved, accuracy, values, status)
+   subroutine sample_place(samples, angle, contact, is_solved, accuracy, status)
       !> The samples
       type(follower_samples_t), intent(inout) :: samples
       !> Cam angle from full lift [rad]
@@ -383,8 +389,6 @@ contains
       logical, intent(in) :: is_solved
       !> Relative error of load and forces up to which it is solved otherwise [-]
       real(wp), intent(in) :: accuracy
-      !> Torques [N m], last the energy residual [W]
-      real(wp), intent(out) :: values(:)
       !> 0 where there is a state
       integer, intent(out) :: status
 
@@ -398,10 +402,6 @@ contains
          call interpolate_state(samples%cycle%trajectory, angle, samples%hint, sliding_speed)
          call evaluate_state(samples%model, angle, sliding_speed(1), samples%state, status, start=contact, accuracy=accuracy)
       end if
-      if (status == 0) call settle_state(samples%cycle, samples%model, angle, samples%hint, accuracy, samples%state, status)
-      if (status /= 0) return
-      call sampled_values(samples, samples%state, values)
-      call widen(samples%extremes, samples%model, samples%state)
    end subroutine sample_place
 
    !> Keep a contact that is known at a place; one that does not touch is none to start from.
