@@ -207,7 +207,8 @@ contains
    end subroutine carry_load
 
    !> Eccentricity at which film and asperities carry a load, by Newton's method on logarithms inside a bracket: both grow with
-   !> it, and the film alone bounds it.
+   !> it, and the film alone bounds it. Where asperities begin to press, the slope changes so much that steps may go to and fro
+   !> between both sides for ever: a step that is not below half of the one before the last is a bisection.
    pure subroutine balance_load(journal, touch, load, t, balance, status)
       !> The bearing
       type(journal_t), intent(in) :: journal
@@ -226,16 +227,17 @@ contains
       real(wp), parameter :: last_step = 1.0e-8_wp
       ! Room above the start for its rounding, far more than that [-]
       real(wp), parameter :: room = 0.1_wp
-      ! Steps at most: bisection of the bracket to rounding
-      integer, parameter :: most_steps = 60
-      ! Logarithms of t, its bounds, step [-]
-      real(wp) :: place, low, high, step
+      ! Steps at most: a bisection of the bracket to the last step, with two steps that fall by half for each
+      integer, parameter :: most_steps = 150
+      ! Logarithms of t, its bounds, step, the sizes of the last two [-]
+      real(wp) :: place, low, high, step, earlier(2)
       integer :: i
 
       status = journal_solved
       place = log(t)
       low = min(log(first_touch(journal, touch)), place)
       high = place + room
+      earlier = huge(1.0_wp)
       call compare_loads(journal, touch, load, t, balance)
       if (.not. balance%along > 0.0_wp) return
       do i = 1, most_steps
@@ -246,7 +248,10 @@ contains
             call take_last_step(step, t, balance)
             return
          end if
-         if (.not. (place + step > low .and. place + step < high)) step = 0.5_wp*(low + high) - place
+         if (abs(step) > 0.5_wp*earlier(2) .or. .not. (place + step > low .and. place + step < high)) then
+            step = 0.5_wp*(low + high) - place
+         end if
+         earlier = [abs(step), earlier(1)]
          place = place + step
          t = exp(place)
          call compare_loads(journal, touch, load, t, balance)

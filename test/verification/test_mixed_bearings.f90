@@ -43,6 +43,7 @@ contains
          new_unittest("eccentricity, loads and torques of an independent solution", test_reference), &
          new_unittest("forces of asperities are their pressures integrated round the bearing", test_forces), &
          new_unittest("film and asperities together carry the load, by every law, at any load", test_balance), &
+         new_unittest("the same at loads where steps of Newton's method go to and fro", test_to_and_fro), &
          new_unittest("without contact a bearing is that of its law, bit by bit", test_apart), &
          new_unittest("a bearing without oil to speak of slides on its asperities", test_dry), &
          new_unittest("bearings in other units", test_units), &
@@ -187,6 +188,36 @@ contains
          if (allocated(error)) return
       end do
    end subroutine test_balance
+
+   !> A bearing of a random deck, at loads between which Newton's method alone alternates between no contact and fifteen times the
+   !> load.
+   subroutine test_to_and_fro(error)
+      type(error_type), allocatable, intent(out) :: error
+      integer, parameter :: loads = 200
+      ! Smallest and largest load [N]
+      real(wp), parameter :: low = 7.2_wp, high = 7.4_wp
+      type(error_t), allocatable :: failure
+      type(touch_t) :: touch
+      type(journal_t) :: journal
+      type(bearing_state_t) :: state, before
+      integer :: i, status
+
+      call new_touch(touch, bearing_asperity_t(0.34751738519851484e-6_wp, 142.8344144020230e9_wp, 0.1_wp, &
+         & roughness_over_tip_radius=0.02193250945_wp), 18.978793479e-6_wp, failure)
+      journal = journal_at_speed(findloc(journal_law_names == "finite", .true., 1), 2.0_wp*5.9085797870e-3_wp, &
+         & 5.953526457e-3_wp, 18.978793479e-6_wp, 3.28217292624e-3_wp, 3.50584826_wp)
+      do i = 0, loads
+         before = state
+         call carry_load(journal, [low + (high - low)*i/loads, 0.0_wp], state, status, touch)
+         call check(error, status, 0)
+         if (allocated(error)) return
+         if (i == 0) cycle
+         ! Torque and load are smooth: their relative changes are alike
+         call check(error, abs(state%torque/before%torque - 1.0_wp) < 10.0_wp*(high/low - 1.0_wp)/loads .and. &
+            & state%asperity_load > before%asperity_load, "a jump over the load")
+         if (allocated(error)) return
+      end do
+   end subroutine test_to_and_fro
 
    subroutine test_apart(error)
       type(error_type), allocatable, intent(out) :: error
