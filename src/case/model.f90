@@ -271,7 +271,7 @@ contains
    end subroutine set_film_table
 
    !> Geometry at a cam angle.
-   pure subroutine evaluate_geometry(model, angle, position, status, is_path)
+   pure subroutine evaluate_geometry(model, angle, position, status, path_only)
       !> The model
       type(model_t), intent(in) :: model
       !> Cam angle from full lift [rad]
@@ -281,11 +281,11 @@ contains
       !> 0 fine, negative: the finger cannot reach this lift
       integer, intent(out) :: status
       !> Is the roller's path over the cam all that is wanted?
-      logical, intent(in), optional :: is_path
+      logical, intent(in), optional :: path_only
       real(wp) :: lift(0:3) ! lift and its first three derivatives [m/rad^n]
 
       call evaluate_lift(model%lift_law, angle, lift)
-      call evaluate_position(model%linkage, lift, position, status, is_path)
+      call evaluate_position(model%linkage, lift, position, status, path_only)
       position%angle = angle
    end subroutine evaluate_geometry
 

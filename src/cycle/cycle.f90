@@ -368,7 +368,7 @@ contains
    end subroutine integrate_spin
 
    !> State of the follower at any cam angle.
-   subroutine state_at(cycle, model, angle, hint, state, error, start)
+   subroutine state_at(cycle, model, angle, hint, state, error, start, settles)
       !> The cycle
       type(cycle_t), intent(in) :: cycle
       !> The model it was integrated with
@@ -383,6 +383,8 @@ contains
       type(error_t), allocatable, intent(out) :: error
       !> A contact nearby to start from, where it touches
       type(contact_t), intent(in), optional :: start
+      !> May the traction settle, see `settle_state`? It may without this
+      logical, intent(in), optional :: settles
 
       type(position_t) :: position
       type(moments_t) :: moments
@@ -390,7 +392,7 @@ contains
       ! relative error of load and forces [-]
       real(wp) :: inside, value(1), force, share, accuracy
       integer :: status
-      logical :: rests
+      logical :: rests, may_settle
 
       if (allocated(cycle%flexible)) then
          call follower_on_path(model, cycle%flexible%cycle%trajectory, cycle%flexible%cycle%resolution, angle, hint, state, error)
@@ -416,7 +418,9 @@ contains
          if (status == 0) call evaluate_state(model, inside, value(1), state, status, share, start, accuracy)
       else
          call evaluate_state(model, inside, value(1), state, status, start=start, accuracy=accuracy)
-         if (status == 0) call settle_state(cycle, model, inside, hint, accuracy, state, status)
+         may_settle = status == 0
+         if (present(settles)) may_settle = may_settle .and. settles
+         if (may_settle) call settle_state(cycle, model, inside, hint, accuracy, state, status)
       end if
       if (status /= 0) call raise(error, kind_convergence, "no load satisfies the equilibrium of the contact at "// &
          & cam_angle_text(angle, 3))

@@ -14,7 +14,7 @@ module camroller_spin_piece
    implicit none
    private
 
-   public :: spin_piece_t, integrate_between, longest_first_step
+   public :: spin_piece_t, integrate_between, sliding_speed_of, longest_first_step
 
    !> A piece, and what is kept for the next one
    type :: spin_piece_t
@@ -40,7 +40,7 @@ module camroller_spin_piece
 contains
 
    !> Integrate from one angle to another, less than a turn ahead, with the roller's spin given at the first.
-   subroutine integrate_between(piece, model, numerics, scale, roller_spin, error, nearby, steps)
+   subroutine integrate_between(piece, model, numerics, scale, roller_spin, error, nearby, steps, sliding_speed)
       !> The piece, with its stops
       type(spin_piece_t), intent(inout), target :: piece
       !> The model
@@ -57,9 +57,11 @@ contains
       type(nearby_t), intent(inout), target, optional :: nearby
       !> Fewest steps between two stops; one without it
       integer, intent(in), optional :: steps
+      !> Sliding speed that belongs to the spin, at the first and at the last angle [m/s]
+      real(wp), intent(inout), optional :: sliding_speed
 
-      ! Sliding speed or surface speed [m/s]; length of the piece [rad]
-      real(wp) :: state(1), length
+      ! Sliding speed or surface speed, that known at the start [m/s]; length of the piece [rad]
+      real(wp) :: state(1), known, length
       integer :: last
 
       call make_ready(piece, model, numerics, scale, error)
@@ -73,14 +75,34 @@ contains
          piece%options%fewest_steps = ceiling(piece%fewest_steps*length/two_pi)
          if (present(steps)) piece%options%fewest_steps = max(piece%options%fewest_steps, steps*(last - 1))
          if (.not. path%is_linear) piece%options%step = min(length, longest_first_step)
+         known = 0.0_wp
+         if (present(sliding_speed)) known = sliding_speed
          state = roller_spin*model%roller_radius
-         if (.not. path%has_surface_speed) state = rolling_speed_at_angle(model, stops(1)) - state
+         if (.not. path%has_surface_speed) state = sliding_speed_of(state(1), known, rolling_speed_at_angle(model, stops(1)))
          call integrate_spin(path, piece%problem, piece%method, piece%options, stops, state, error)
          if (allocated(error)) return
+         known = state(1)
+         if (path%has_surface_speed) known = 0.0_wp
          if (.not. path%has_surface_speed) state = rolling_speed_at_angle(model, stops(last)) - state
       end associate
+      if (present(sliding_speed)) sliding_speed = known
       roller_spin = state(1)/model%roller_radius
    end subroutine integrate_between
+
+   !> Sliding speed by the roller's surface speed: the one that is known where both are alike but for rounding. On nearly solid oil
+   !> it is far below the last digit of the surface speed, and what traction there is follows from it.
+   elemental function sliding_speed_of(surface_speed, known, rolling_speed) result(sliding_speed)
+      !> Surface speed of the roller, sliding speed that may belong to it, speed in pure rolling [m/s]
+      real(wp), intent(in) :: surface_speed, known, rolling_speed
+      !> Sliding speed [m/s]
+      real(wp) :: sliding_speed
+
+      ! Roundings of a spin that was divided and multiplied by the radius [-]
+      real(wp), parameter :: roundings = 4.0_wp
+
+      sliding_speed = rolling_speed - surface_speed
+      if (abs(sliding_speed - known) <= roundings*spacing(max(abs(rolling_speed), abs(surface_speed)))) sliding_speed = known
+   end function sliding_speed_of
 
    !> Make method and options where they are not there from an earlier piece, and forget what happened in that.
    subroutine make_ready(piece, model, numerics, scale, error)

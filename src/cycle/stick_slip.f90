@@ -131,7 +131,7 @@ contains
    subroutine choose_direction(problem, walk, direction, counters, error)
       !> The problem
       type(spin_problem_t), intent(in) :: problem
-      !> Where the integration has got to; a sliding speed that counts as none becomes zero
+      !> Where the integration has got to; a sliding speed that counts as none becomes zero, unless the roller goes on that way
       type(walk_t), intent(inout) :: walk
       !> 1, -1, or 0 where the roller sticks
       integer, intent(out) :: direction
@@ -147,10 +147,11 @@ contains
          direction = nint(sign(1.0_wp, walk%sliding_speed))
          return
       end if
-      walk%sliding_speed = 0.0_wp
       direction = 0
       call counted_rates(problem, walk%angle + walk%margin, rates, counters, error)
       if (.not. allocated(error)) direction = breakaway(rates, walk%rest_rate)
+      ! A slide that goes on keeps its speed: on nearly solid oil traction depends on how slow it is
+      if (direction*walk%sliding_speed <= 0.0_wp) walk%sliding_speed = 0.0_wp
    end subroutine choose_direction
 
    !> Note a phase, unless it goes on.

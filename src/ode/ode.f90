@@ -96,7 +96,7 @@ contains
                return
             end if
             call append_point(trajectory, step%time, step%state, step%rate)
-            if (.not. is_fixed(method, options)) walk%proposed = min(walk%proposed, method%longest_first(step))
+            if (.not. is_fixed(method, options)) walk%proposed = min(walk%proposed, method%longest_first_step(step))
             if (.not. is_fixed(method, options)) walk%max_step = min(options%max_step, &
                & (method%horizon - step%time)/max(1, options%fewest_steps/segments))
          end associate

@@ -40,7 +40,7 @@ module camroller_ode_hermite
    contains
       procedure :: try_step => try_hermite_step
       procedure :: forget => forget_points
-      procedure :: longest_first => resolved_first
+      procedure :: longest_first_step => resolved_first_step
    end type hermite_method_t
 
    !> Largest growth exponent of a step [-]; beyond it a smaller step is taken
@@ -89,7 +89,7 @@ contains
 
    !> Longest first step from a stop. Far from the slow motion, at which state and rate go together, what decays towards it is
    !> exact as long as it is linear, but traction bends with the sliding speed: a step of one decay length begins it.
-   pure function resolved_first(self, step) result(length)
+   pure function resolved_first_step(self, step) result(length)
       !> The method, with the derivatives there
       class(hermite_method_t), intent(in) :: self
       !> The step, with state and rate at its start
@@ -102,7 +102,7 @@ contains
          if (slope >= 0.0_wp) return
          if (abs(step%rate(1) + self%here%time_slope(1)/slope) > -slope*far_off*self%tolerance(1)) length = -1.0_wp/slope
       end associate
-   end function resolved_first
+   end function resolved_first_step
 
    !> One step.
    subroutine try_hermite_step(self, problem, step, counters, status)

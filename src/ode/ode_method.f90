@@ -62,7 +62,7 @@ module camroller_ode_method
    contains
       procedure(step_interface), deferred :: try_step
       procedure :: forget => forget_nothing
-      procedure :: longest_first => unlimited_first
+      procedure :: longest_first_step => unlimited_first_step
    end type method_t
 
    !> How to integrate
@@ -113,7 +113,7 @@ contains
 
    !> Longest first step from a stop: without a limit. A method that can tell from the start of a step that a long one fails
    !> overrides this.
-   pure function unlimited_first(self, step) result(length)
+   pure function unlimited_first_step(self, step) result(length)
       !> The method, with the derivatives there
       class(method_t), intent(in) :: self
       !> The step, with state and rate at its start
@@ -124,7 +124,7 @@ contains
       length = huge(1.0_wp)
       associate (without_limit => self, at_any_start => step)
       end associate
-   end function unlimited_first
+   end function unlimited_first_step
 
    !> A step with room for the components of a state.
    pure subroutine start_step(step, state)

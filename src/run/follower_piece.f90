@@ -34,6 +34,8 @@ module camroller_follower_piece
       real(wp) :: angle = 0.0_wp
       !> Spin of the roller [rad/s]
       real(wp) :: roller_spin = 0.0_wp
+      !> Sliding speed that belongs to it, which the spin alone would round off [m/s]
+      real(wp) :: sliding_speed = 0.0_wp
       !> Scale of the sliding speed, to which the tolerance is relative; zero before the start [m/s]
       real(wp) :: scale = 0.0_wp
       !> Temperature of the oil that the model is set to, and that of the films solved beforehand [K]
@@ -106,15 +108,18 @@ contains
 
       type(nearby_t) :: nearby
       type(slip_error_t) :: errors
-      real(wp) :: spin ! at the start [rad/s]
+      ! Spin [rad/s] and sliding speed [m/s] at the start
+      real(wp) :: spin, sliding_speed
       logical :: is_checked
       integer :: i
 
       spin = follower%point%roller_spin
+      sliding_speed = follower%point%sliding_speed
       associate (model => follower%model, path => follower%piece%path, stops => follower%piece%stops)
          do i = 1, size(fewest_steps)
             if (i > 1) call follow_ramp(model, model%ramp%angle)
             follower%point%roller_spin = spin
+            follower%point%sliding_speed = sliding_speed
             call integrate_piece(follower, fewest_steps(i), nearby, error)
             if (allocated(error)) return
             means%has_states = .false.
@@ -124,7 +129,7 @@ contains
             if (.not. (allocated(error) .or. means%has_states)) then
                errors = slip_tolerance(follower)
                is_checked = stops(size(stops)) - stops(1) <= longest_checked .and. .not. allocated(path%phases)
-               if (is_checked) call judge_unsettled(errors, model, path, error)
+               if (is_checked) call judge_intervals(errors, model, path, error)
             end if
             if (allocated(error)) return
             if (is_good(errors)) exit
@@ -133,26 +138,6 @@ contains
          means%error = means%error + errors%torque + spin_error(errors, model, path, spin)
       end associate
    end subroutine cover_piece
-
-   !> Judge the intervals of a curve by its own traction, not by what that settles to.
-   subroutine judge_unsettled(errors, model, piece, error)
-      !> The errors
-      type(slip_error_t), intent(inout) :: errors
-      !> The model, which follows the inputs
-      type(model_t), intent(inout) :: model
-      !> The piece
-      type(cycle_t), intent(inout) :: piece
-      !> Convergence error
-      type(error_t), allocatable, intent(out) :: error
-
-      ! Error that its curve may have [m/s]
-      real(wp) :: step_error
-
-      step_error = piece%step_error
-      piece%step_error = 0.0_wp
-      call judge_intervals(errors, model, piece, error)
-      piece%step_error = step_error
-   end subroutine judge_unsettled
 
    !> Force on the cam and torque at equally spaced angles of a piece, without its end: from its states where they are these.
    subroutine fill_nodes(model, piece, means, ends, nodes, error)
@@ -221,8 +206,8 @@ contains
       type(error_t), allocatable, intent(out) :: error
 
       type(numerics_t) :: numerics
-      ! Spin at the start [rad/s]; smallest tolerance that may work [-]
-      real(wp) :: spin, least
+      ! Spin [rad/s] and sliding speed [m/s], from start to end; smallest tolerance that may work [-]
+      real(wp) :: spin, sliding_speed, least
       integer :: try
       logical :: has_way_out
 
@@ -231,6 +216,7 @@ contains
       has_way_out = .false.
       do try = 1, most_tries
          spin = follower%point%roller_spin
+         sliding_speed = follower%point%sliding_speed
          nearby%has_first = .false.
          associate (start => nearby%last, kept => follower%point%contact)
             start%is_touching = kept(3) > 0.0_wp
@@ -238,12 +224,14 @@ contains
             start%bearing_torque = kept(2)
             start%film_ratio = kept(3)
          end associate
-         call integrate_between(follower%piece, follower%model, numerics, follower%point%scale, spin, error, nearby, steps)
+         call integrate_between(follower%piece, follower%model, numerics, follower%point%scale, spin, error, nearby, steps, &
+            & sliding_speed)
          if (.not. allocated(error)) exit
          if (has_way_out .or. error%kind /= kind_convergence .or. try == most_tries) return
          call take_way_out(follower%given, numerics, least, has_way_out)
       end do
       follower%point%roller_spin = spin
+      follower%point%sliding_speed = sliding_speed
    end subroutine integrate_piece
 
 end module camroller_follower_piece

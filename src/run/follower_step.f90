@@ -19,6 +19,7 @@ module camroller_follower_step
    use camroller_events, only : find_stops_between
    use camroller_follower_samples, only : extremes_t
    use camroller_spin, only : rolling_speed_at
+   use camroller_spin_piece, only : sliding_speed_of
    use camroller_stick, only : share_at_rest
    use camroller_stick_slip, only : direction_at
    use camroller_follower_piece, only : follower_t, point_t, piece_means_t, cover_piece, fill_nodes, slip_tolerance, most_tries
@@ -343,7 +344,8 @@ contains
       integer :: status
 
       call evaluate_geometry(follower%model, follower%point%angle - pi, position, status)
-      sliding_speed = rolling_speed_at(follower%model, position) - follower%point%roller_spin*follower%model%roller_radius
+      sliding_speed = sliding_speed_of(follower%point%roller_spin*follower%model%roller_radius, follower%point%sliding_speed, &
+         & rolling_speed_at(follower%model, position))
       if (status == 0 .and. allocated(direction)) then
          share = real(direction, wp)
          if (direction == 0) then

@@ -20,7 +20,7 @@ module camroller_saved_simulation
    public :: save_simulation, restore_simulation, block_size, save_shaft, restore_shaft, shaft_block_size
 
    !> Numbers of a point
-   integer, parameter :: point_words = 10 + largest_state
+   integer, parameter :: point_words = 11 + largest_state
    !> Words of a follower's block: beginning, format, mark of the case, lobe shape, point, checksum
    integer, parameter :: words = point_words + 5
    !> Words of a shaft's block without points: beginning, format, mark of the case, number of cams, cam angle, checksum
@@ -30,7 +30,7 @@ module camroller_saved_simulation
    !> Added to what a block begins with where it is that of a shaft
    integer(int64), parameter :: of_shaft = 1_int64
    !> The format that this version writes and reads
-   integer(int64), parameter :: format_number = 3_int64
+   integer(int64), parameter :: format_number = 4_int64
 
 contains
 
@@ -215,7 +215,7 @@ contains
       integer(int64) :: block(point_words)
 
       block = transfer([point%angle, point%roller_spin, point%scale, point%film_temperature, point%film_speed, &
-         & point%oil_temperature, point%contact, point%train_step, point%train], block)
+         & point%oil_temperature, point%contact, point%train_step, point%sliding_speed, point%train], block)
    end function words_of
 
    !> What a follower remembers, from words.
@@ -225,7 +225,7 @@ contains
       !> The point
       type(point_t) :: point
 
-      ! Its numbers [rad, rad/s, m/s, K, rad/s, K, N, N m, -, rad, state]
+      ! Its numbers [rad, rad/s, m/s, K, rad/s, K, N, N m, -, rad, m/s, state]
       real(wp) :: numbers(point_words)
 
       numbers = transfer(block, numbers)
@@ -237,7 +237,8 @@ contains
       point%oil_temperature = numbers(6)
       point%contact = numbers(7:9)
       point%train_step = numbers(10)
-      point%train = numbers(11:)
+      point%sliding_speed = numbers(11)
+      point%train = numbers(12:)
    end function point_of
 
 end module camroller_saved_simulation

@@ -119,8 +119,8 @@ contains
       type(part_t) :: parts(most_parts)
       ! Length of the piece [rad]; error that is allowed over the losses, error of the torques over that [-]
       real(wp) :: length, allowed, excess
-      ! Part of the allowed error that a rule over the whole piece may have [-]
-      real(wp) :: few
+      ! Share of the allowed error that a rule over the whole piece may have [-]
+      real(wp) :: whole_share
       ! Mean torque against the gas, its error [N m]
       real(wp) :: gas(2)
 
@@ -131,7 +131,7 @@ contains
          whole%ends = path%time([1, path%count])
          length = whole%ends(2) - whole%ends(1)
          allowed = largest_error*mean_tolerance(piece%tolerance)
-         few = merge(0.1_wp, 1.0_wp, path%count > many_points)
+         whole_share = merge(0.1_wp, 1.0_wp, path%count > many_points)
          if (nearby%has_first) then
             call keep_contact(whole%known, 1, nearby%first)
             call keep_contact(whole%known, places, nearby%last)
@@ -140,11 +140,11 @@ contains
          if (.not. is_enough) return
          gas = 0.0_wp
          if (allocated(model%gas) .and. whole%touches) gas = gas_torque(model, whole%ends)
-         call judge(parts(:1), simpson_weights, gas, few*allowed, torques, drive_error, excess)
+         call judge(parts(:1), simpson_weights, gas, whole_share*allowed, torques, drive_error, excess)
          if (excess > 1.0_wp .and. excess <= most_excess) then
             call sample_part(samples, whole, of_lobatto, nearby, slip_errors, is_enough)
             if (.not. is_enough) return
-            call judge(parts(:1), lobatto_weights, gas, few*allowed, torques, drive_error, excess)
+            call judge(parts(:1), lobatto_weights, gas, whole_share*allowed, torques, drive_error, excess)
          end if
          if (excess > 1.0_wp) call integrate_parts(samples, parts, decay_rate_of(model, states(1)%contact), gas, allowed, nearby, &
             & slip_errors, torques, drive_error, excess)

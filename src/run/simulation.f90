@@ -132,6 +132,7 @@ contains
          call find_balance(model, cam_angle - pi, balance_tolerance, position, sliding_speed, decay_rate, is_found)
          point%angle = cam_angle
          point%roller_spin = (rolling_speed_at(model, position) - sliding_speed)/model%roller_radius
+         point%sliding_speed = sliding_speed
       end associate
    end subroutine place_simulation
 

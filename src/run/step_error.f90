@@ -144,7 +144,8 @@ contains
             ! Two points at a stop are no interval
             if (times(i + 1) - times(i) <= roundings*spacing(times(i))) cycle
             call follow_ramp(model, angle)
-            call state_at(piece, model, angle, hint, state, error)
+            ! What settles is judged as it was: the error of the curve decides about its traction
+            call state_at(piece, model, angle, hint, state, error, settles=.false.)
             if (allocated(error)) return
             if (state%contact%is_touching) call judge_curve(errors, model, piece, angle, i, state)
          end do

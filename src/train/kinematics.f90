@@ -188,7 +188,7 @@ contains
    !> `V_roll = omega (M - r_R)`: `doc/theory.md`.
    !> Note: written in curvatures, so that straight and hollow flanks are regular.
    !> The caller has checked that the lift keeps `|cos(gamma + chi)| < 1`; status is not 0 where it does not.
-   pure subroutine evaluate_position(linkage, lift, position, status, is_path)
+   pure subroutine evaluate_position(linkage, lift, position, status, path_only)
       !> Constants of the mechanism
       type(linkage_t), intent(in) :: linkage
       !> Lift and its first three derivatives with respect to the cam angle [m, m/rad, m/rad^2, m/rad^3]
@@ -198,7 +198,7 @@ contains
       !> 0 fine, -1 the finger cannot reach this lift
       integer, intent(out) :: status
       !> Are path of the roller's centre over the cam, its curvature, its arms and the slope of the finger all that is wanted?
-      logical, intent(in), optional :: is_path
+      logical, intent(in), optional :: path_only
 
       ! cos and sin of gamma + chi; cos and sin of s [-]
       real(wp) :: cos_pad, sin_pad, cos_s, sin_s
@@ -235,8 +235,8 @@ contains
       position%tangent_arm = (ad_cos - linkage%a**2*g)/m
       ! omega h_F - sense gamma' omega h_t, with the arms written out, is omega (M - r_R)
       position%rolling_travel = m - linkage%roller_radius
-      if (present(is_path)) then
-         if (is_path) return
+      if (present(path_only)) then
+         if (path_only) return
       end if
 
       position%lift_slope = lift(1)
