@@ -2,7 +2,9 @@
 !> numbers of its markers.
 !>
 !> In: a problem with switches, a method, tolerances, times at which a step must end. Out: a trajectory whose steps end at the kinks
-!> as well. A step that crosses a kink is made again up to it; where it lies, the curve of the step tells.
+!> as well. Where Taylor's polynomial from the start of a step foresees a kink, the step is made to a little before it, and the
+!> polynomial leads past it: so no step has a kink in it, and each begins with the derivatives of its own side. A step that crosses
+!> a kink all the same is made again; where the kink lies, the curve of the step tells.
 module camroller_ode_switching
    use camroller_kinds, only : wp
    use camroller_error, only : error_t, raise, kind_convergence
@@ -36,21 +38,39 @@ module camroller_ode_switching
       real(wp) :: switches(most_switches) = 0.0_wp, new_switches(most_switches) = 0.0_wp
       !> Where each has its first kink in the direction of the step: zero for a switch [any]
       real(wp) :: kinks(most_switches) = 0.0_wp
+      !> Slopes of the switches over the step before [any/time]
+      real(wp) :: slopes(most_switches) = 0.0_wp
       !> Place of the first kink in the step; beyond it where there is none [-]
       real(wp) :: kink = 0.0_wp
+      !> Length of the step that was proposed before a kink cut it short [time]
+      real(wp) :: whole = 0.0_wp
+      !> Error over tolerance of the last step that was not cut short [-]
+      real(wp) :: usual_error = 0.0_wp
+      !> Is the step cut short, to end at a kink? Has a step with a small enough error told where that is? Is the step one of
+      !> Taylor's polynomial, past a kink?
+      logical :: is_cut = .false., is_located = .false., is_hop = .false.
    end type walk_t
 
    !> Part of the optimal step that is taken; largest growth and shrinkage of a step [-]
    real(wp), parameter :: safety = 0.9_wp, max_growth = 4.0_wp, max_shrinkage = 0.2_wp
    !> Error over tolerance below which smaller ones make no difference, and that of an impossible trial [-]
    real(wp), parameter :: least_error = 1.0e-3_wp, impossible = 1.0e3_wp
-   !> Kinks this near to either end of a step are at that end, over the step [-]
+   !> Kinks this near to the end of a step are at that end, over the step [-]
    real(wp), parameter :: near_end = 1.0e-3_wp
    !> Error over tolerance of a step in which a kink makes no difference: a contact that rests at zero but for rounding would end
    !> every step [-]
    real(wp), parameter :: least_kink = 1.0e-6_wp
-   !> How far past a zero on the step's curve a kink is taken to be, over the step [-]
+   !> Error of a zero on a curve, and how far past it a kink is taken to be, over the step [-]
    real(wp), parameter :: past_zero = 1.0e-6_wp
+   !> How far before a kink a step is to end from which Taylor's polynomial leads past it, over the step that no kink has cut short:
+   !> the place of a kink that is foreseen errs by half of this [-]
+   real(wp), parameter :: margin = 1.0e-3_wp
+   !> Last term of the polynomial over the tolerance, and part of the step that no kink has cut short, up to which it may lead [-]
+   real(wp), parameter :: hop_error = 1.0e-2_wp, longest_hop = 0.05_wp
+   !> A switch may be zero in a step where it would be in so many of them by its slope over the last one [-]
+   real(wp), parameter :: reach = 2.0_wp
+   !> Part of the step proposed before a kink has cut it short that the step behind the kink may have [-]
+   real(wp), parameter :: after_kink = 0.7_wp
 
    abstract interface
       !> Switches, whose zeros are kinks of the right-hand side, and markers, which have kinks at whole numbers
@@ -145,44 +165,23 @@ contains
       !> Convergence error
       type(error_t), allocatable, intent(out) :: error
 
-      ! Part of the step that the next one is [-]
-      real(wp) :: factor
-      logical :: was_cut, is_good, was_rejected
+      logical :: was_rejected
 
-      was_cut = .false.
+      walk%is_cut = .false.
       was_rejected = .false.
       do
          call choose_step(problem, method, options, walk, counters)
-         call try_step(problem, method, walk, counters)
-         associate (length => walk%step%length, kink => walk%kink)
-            is_good = walk%step%scaled_error <= 1.0_wp
-            factor = safety*max(walk%step%scaled_error, least_error)**(-1.0_wp/method%error_order)
-            factor = min(max_growth, max(max_shrinkage, factor))
-            if (is_good .and. (kink > 1.0_wp - near_end .or. (was_cut .and. kink > 0.5_wp))) then
-               counters%accepted = counters%accepted + 1
-               call take_step(walk%step)
-               walk%switches(:) = walk%new_switches
-               call keep_point(method, walk%step, trajectory)
-               if (walk%step%is_last) then
-                  walk%proposed = max(walk%proposed, length)
-                  return
-               end if
-               if (was_rejected) factor = min(factor, 1.0_wp)
-               walk%proposed = merge(max(walk%proposed, length*factor), length*factor, was_cut)
-               call copy_linear(method%there, method%here)
-               was_cut = .false.
-               was_rejected = .false.
+         if (walk%is_hop) then
+            call hop(problem, method, walk, trajectory, counters)
+         else
+            call try_step(problem, method, walk, counters)
+            if (walk%step%scaled_error <= 1.0_wp .and. ends_at_kink(walk)) then
+               call accept_step(method, was_rejected, walk, trajectory, counters)
+               if (walk%step%is_last) return
             else
-               counters%rejected = counters%rejected + 1
-               was_cut = kink < 1.0_wp - near_end .and. (is_good .or. (kink > factor .and. .not. was_cut))
-               if (was_cut) then
-                  walk%proposed = max(kink, near_end)*length
-               else
-                  walk%proposed = length*min(factor, safety)
-               end if
-               was_rejected = .not. is_good
+               call reject_step(method, was_rejected, walk, counters)
             end if
-         end associate
+         end if
          if (counters%accepted + counters%rejected > options%max_steps) then
             call raise(error, kind_convergence, "the number of steps is used up at "//trim(problem%name_time(walk%step%time)))
          else if (walk%proposed <= 16.0_wp*spacing(abs(walk%step%time))) then
@@ -191,6 +190,82 @@ contains
          if (allocated(error)) return
       end do
    end subroutine walk_segment
+
+   !> Go on to the end of a step, and propose the next one.
+   subroutine accept_step(method, was_rejected, walk, trajectory, counters)
+      !> The method, with the derivatives at the end of the step
+      class(method_t), intent(inout) :: method
+      !> Had the step before this an error too large? Out: no
+      logical, intent(inout) :: was_rejected
+      !> Where the integration stands; out: one step further
+      type(walk_t), intent(inout) :: walk
+      !> Accepted points
+      type(trajectory_t), intent(inout) :: trajectory
+      !> Work done
+      type(counters_t), intent(inout) :: counters
+
+      ! Part of the step that the next one is [-]
+      real(wp) :: factor
+
+      counters%accepted = counters%accepted + 1
+      associate (length => walk%step%length)
+         walk%slopes(:) = (walk%new_switches - walk%switches)/length
+         walk%switches(:) = walk%new_switches
+         call take_step(walk%step)
+         call keep_point(method, walk%step, trajectory)
+         if (walk%step%is_last) then
+            walk%proposed = max(walk%proposed, length)
+            return
+         end if
+         factor = step_factor(method, walk%step%scaled_error)
+         if (was_rejected) factor = min(factor, 1.0_wp)
+         walk%proposed = length*factor
+         if (walk%is_cut) walk%proposed = max(walk%proposed, after_kink*walk%whole)
+      end associate
+      call copy_linear(method%there, method%here)
+      walk%is_cut = .false.
+      was_rejected = .false.
+   end subroutine accept_step
+
+   !> Propose a step in the place of one with an error too large, or with a kink in it: to that kink where it may be the cause.
+   subroutine reject_step(method, was_rejected, walk, counters)
+      !> The method
+      class(method_t), intent(in) :: method
+      !> Out: was the error too large?
+      logical, intent(out) :: was_rejected
+      !> Where the integration stands
+      type(walk_t), intent(inout) :: walk
+      !> Work done
+      type(counters_t), intent(inout) :: counters
+
+      ! Part of the step that the next one is, by its error [-]; way to the kink [time]
+      real(wp) :: factor, way
+
+      counters%rejected = counters%rejected + 1
+      was_rejected = walk%step%scaled_error > 1.0_wp
+      factor = step_factor(method, walk%step%scaled_error)
+      walk%is_cut = .not. ends_at_kink(walk) .and. (.not. was_rejected .or. walk%kink < factor .or. .not. walk%is_cut)
+      walk%is_located = walk%is_cut .and. .not. was_rejected
+      walk%proposed = walk%step%length*min(factor, safety)
+      if (.not. walk%is_cut) return
+      way = walk%kink*walk%step%length
+      ! Nothing foresees markers: the last bit up to one is a step
+      walk%proposed = way
+      if (method%needs_jacobian .and. way > 2.0_wp*margin*walk%whole) walk%proposed = way - margin*walk%whole
+   end subroutine reject_step
+
+   !> Part of a step that the next one is, by its error.
+   pure function step_factor(method, scaled_error) result(factor)
+      !> The method
+      class(method_t), intent(in) :: method
+      !> Error over tolerance [-]
+      real(wp), intent(in) :: scaled_error
+      !> The part [-]
+      real(wp) :: factor
+
+      factor = safety*max(scaled_error, least_error)**(-1.0_wp/method%error_order)
+      factor = min(max_growth, max(max_shrinkage, factor))
+   end function step_factor
 
    !> Step that the proposal, the largest step, stability and the end of the segment allow.
    subroutine choose_step(problem, method, options, walk, counters)
@@ -208,12 +283,91 @@ contains
       associate (step => walk%step, finish => method%horizon)
          step%length = min(walk%proposed, options%max_step)
          call keep_stable(method, problem, step, counters)
+         walk%is_hop = .false.
+         if (.not. walk%is_cut) then
+            walk%is_located = .false.
+            walk%whole = step%length
+            if (method%needs_jacobian) call foresee_kink(problem, method, walk)
+         end if
          step%is_last = step%time + step%length*(1.0_wp + 1.0e-9_wp) >= finish
          if (step%is_last) step%length = finish - step%time
          if (.not. step%is_last .and. step%time + 2.0_wp*step%length > finish) step%length = 0.5_wp*(finish - step%time)
          step%end_time = merge(finish, step%time + step%length, step%is_last)
+         walk%is_hop = walk%is_hop .and. .not. step%is_last
       end associate
    end subroutine choose_step
+
+   !> Cut a step short where a kink is foreseen, by Taylor's polynomial of third order with the Jacobian at the start of the step.
+   subroutine foresee_kink(problem, method, walk)
+      !> The problem
+      class(switching_problem_t), intent(in) :: problem
+      !> The method, with the derivatives at the start
+      class(method_t), intent(in) :: method
+      !> Where the integration stands, with the step as proposed; out: cut short
+      type(walk_t), intent(inout) :: walk
+
+      ! Second and third term of the polynomial at the end of the step [state]
+      real(wp) :: second(size(walk%step%state)), third(size(walk%step%state))
+      integer :: status
+
+      associate (step => walk%step, kink => walk%kink, n => problem%switches)
+         if (walk%usual_error <= least_kink) return
+         if (.not. any(walk%switches(:n)*walk%slopes(:n) < 0.0_wp &
+            & .and. abs(walk%switches(:n)) < reach*abs(walk%slopes(:n))*step%length)) return
+         second = (0.5_wp*step%length)*(matmul(method%here%jacobian, step%length*step%rate) + step%length*method%here%time_slope)
+         third = (step%length/3.0_wp)*matmul(method%here%jacobian, second)
+         step%new_state(:) = step%state + step%length*step%rate + second + third
+         step%curve(:, :) = 0.0_wp
+         step%curve(:, 1) = -second - third
+         step%curve(:, 2) = -third
+         walk%new_switches(:) = walk%switches
+         call problem%get_switches(step%time + step%length, step%new_state, walk%new_switches(:n + problem%markers), status)
+         if (status /= 0) return
+         walk%new_switches(n + 1:) = walk%switches(n + 1:)
+         walk%kinks(:) = 0.0_wp
+         if (.not. any(walk%new_switches(:n)*walk%switches(:n) < 0.0_wp)) return
+         call find_first_kink(problem, walk)
+         if (kink >= 1.0_wp) return
+         walk%is_hop = kink <= longest_hop .and. kink**3*maxval(abs(third)/method%tolerance) <= hop_error
+         walk%is_cut = .not. walk%is_hop
+         step%length = merge(kink, max(kink - margin, 0.5_wp*kink), walk%is_hop)*step%length
+      end associate
+   end subroutine foresee_kink
+
+   !> Follow Taylor's polynomial past a kink.
+   subroutine hop(problem, method, walk, trajectory, counters)
+      !> The problem
+      class(switching_problem_t), intent(in) :: problem
+      !> The method
+      class(method_t), intent(inout) :: method
+      !> Where the integration stands, with the polynomial as curve of the whole step; out: past the kink, or with a proposal to go
+      !> there by a step
+      type(walk_t), intent(inout) :: walk
+      !> Accepted points
+      type(trajectory_t), intent(inout) :: trajectory
+      !> Work done
+      type(counters_t), intent(inout) :: counters
+
+      integer :: status
+
+      associate (step => walk%step, m => problem%switches + problem%markers)
+         step%new_state(:) = curve_state(step%state, step%new_state, step%curve, walk%kink)
+         call problem%get_switches(step%end_time, step%new_state, walk%new_switches(:m), status)
+         if (status == 0) call problem%linearise(step%end_time, step%new_state, method%horizon, method%there, counters, status)
+         if (status == 0) then
+            counters%accepted = counters%accepted + 1
+            step%new_rate(:) = method%there%rate
+            call take_step(step)
+            call append_point(trajectory, step%time, step%state, step%rate)
+            call copy_linear(method%there, method%here)
+            walk%switches(:) = walk%new_switches
+         else
+            counters%rejected = counters%rejected + 1
+            walk%proposed = step%length
+            walk%is_cut = .true.
+         end if
+      end associate
+   end subroutine hop
 
    !> Try a step, and look for the first kink in it.
    subroutine try_step(problem, method, walk, counters)
@@ -242,9 +396,18 @@ contains
             walk%kinks(n + 1:m) = next_whole(walk%switches(n + 1:m), walk%new_switches(n + 1:m))
          end associate
          step%scaled_error = maxval(abs(step%estimate)/method%tolerance)
+         if (.not. walk%is_cut) walk%usual_error = step%scaled_error
          has_kink = any((walk%new_switches - walk%kinks)*(walk%switches - walk%kinks) < 0.0_wp)
-         if (has_kink .and. step%scaled_error > least_kink) call find_first_kink(problem, method, walk)
-         if (step%scaled_error > 1.0_wp .or. walk%kink <= 0.5_wp) return
+         if (has_kink .and. step%scaled_error > least_kink) then
+            step%curve(:, :) = 0.0_wp
+            if (method%has_curve) then
+               step%curve(:, :size(method%bends, 2)) = method%bends
+            else
+               step%curve(:, 1) = step%length*step%rate - (step%new_state - step%state)
+            end if
+            call find_first_kink(problem, walk)
+         end if
+         if (step%scaled_error > 1.0_wp .or. .not. ends_at_kink(walk)) return
          if (method%needs_jacobian) then
             call problem%linearise(step%end_time, step%new_state, method%horizon, method%there, counters, status)
             step%new_rate(:) = method%there%rate
@@ -255,6 +418,16 @@ contains
          if (status /= 0) step%scaled_error = impossible
       end associate
    end subroutine try_step
+
+   !> Is a kink in a step so near to its end that it makes no difference, or is there none?
+   pure function ends_at_kink(walk) result(verdict)
+      !> Where the integration stands
+      type(walk_t), intent(in) :: walk
+      !> Is it?
+      logical :: verdict
+
+      verdict = walk%kink > 1.0_wp - near_end .or. (walk%is_located .and. walk%kink > 0.5_wp)
+   end function ends_at_kink
 
    !> The first whole number on the way from one value to another, or beyond it.
    elemental function next_whole(before, after) result(whole)
@@ -268,11 +441,9 @@ contains
    end function next_whole
 
    !> Find the place of the first kink of a switch or marker in a step, on the step's curve, and a little past it.
-   subroutine find_first_kink(problem, method, walk)
+   subroutine find_first_kink(problem, walk)
       !> The problem
       class(switching_problem_t), intent(in) :: problem
-      !> The method after the step
-      class(method_t), intent(in) :: method
       !> The step, with the switches at both ends; out: with the place
       type(walk_t), intent(inout) :: walk
 
@@ -282,12 +453,6 @@ contains
       integer :: i, status
 
       associate (step => walk%step, place => walk%kink)
-         step%curve(:, :) = 0.0_wp
-         if (method%has_curve) then
-            step%curve(:, :size(method%bends, 2)) = method%bends
-         else
-            step%curve(:, 1) = step%length*step%rate - (step%new_state - step%state)
-         end if
          place = 1.0_wp
          starts = walk%switches - walk%kinks
          values = walk%new_switches - walk%kinks
@@ -307,8 +472,8 @@ contains
             if (status /= 0) exit
          end do
       end associate
-      ! A switch that is zero by a few roundings where the last kink ended its step is past it
-      if (walk%kink <= near_end) walk%kink = 2.0_wp
+      ! A switch that is zero by a few roundings where the step begins is past it
+      if (walk%kink <= 4.0_wp*past_zero) walk%kink = 2.0_wp
 
    contains
 
