@@ -88,10 +88,11 @@ contains
             speed = position%rolling_travel + linkage%roller_radius
             factor = 1.0_wp + eps*position%finger_slope
             ! its arms about the pivot hold the angle s
-            rigid_arm = cmplx(position%tangent_arm*speed + linkage%a**2*factor, position%normal_arm*speed, wp)/linkage%d
+            rigid_arm = cmplx((position%tangent_arm*speed + linkage%a**2*factor)/linkage%d, position%normal_arm*speed/linkage%d, wp)
             place = turn*(rigid_arm - linkage%d)
-            touch%normal = turn*(factor*rigid_arm - linkage%d)/speed
-            touch%forward = imaginary*eps*touch%normal
+            ! Real factors and divisors by components: the compiler takes them for complex numbers
+            touch%normal = turn*cmplx((factor*real(rigid_arm, wp) - linkage%d)/speed, factor*aimag(rigid_arm)/speed, wp)
+            touch%forward = cmplx(-eps*aimag(touch%normal), eps*real(touch%normal, wp), wp)
             way = dot(touch%forward, touch%centre - place)
             touch%approach = -dot(touch%normal, touch%centre - place)
             touch%uniqueness = 1.0_wp - position%pitch_curvature*touch%approach

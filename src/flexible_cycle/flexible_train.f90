@@ -308,7 +308,7 @@ contains
       !> The direction [-]
       complex(wp) :: direction
 
-      direction = arm*cmplx(linkage%offset_cosine, -linkage%offset_sine, wp)/linkage%a
+      direction = arm*cmplx(linkage%offset_cosine/linkage%a, -linkage%offset_sine/linkage%a, wp)
    end function pad_direction
 
    !> Approach of the pad; negative where there is a gap.
