@@ -30,8 +30,8 @@ module camroller_extremes
       real(wp), allocatable :: angle(:)
       !> Values, shape (series, row) [unit of the series]
       real(wp), allocatable :: values(:, :)
-      !> Is the row one at which the slope of series jumps?
-      logical, allocatable, private :: is_kink(:)
+      !> Is the row one at which the slope of series jumps? Is it exact, whatever the error of the curve?
+      logical, allocatable, private :: is_kink(:), is_exact(:)
       !> For the first `sorted` rows: they by their angles; for each the last row at a smaller angle and the first at a larger one,
       !> round the turn, shape (side, row)
       integer, allocatable, private :: order(:), beside(:, :)
@@ -51,6 +51,8 @@ module camroller_extremes
       real(wp) :: value = 0.0_wp
       !> What there may be beyond it [unit of the series]
       real(wp) :: left = 0.0_wp
+      !> Is it the value of a row that is exact?
+      logical :: is_exact = .false.
       integer, private :: series = 0, sense = 1
       !> Rows to look near, how many of them are done, and the search near one
       integer, private :: rows(most_rows) = 0, row_count = 0, done = 0
@@ -81,11 +83,12 @@ contains
       !> Number of series
       integer, intent(in) :: series
 
-      allocate (samples%angle(first_room), samples%values(series, first_room), samples%is_kink(first_room))
+      allocate (samples%angle(first_room), samples%values(series, first_room), samples%is_kink(first_room), &
+         & samples%is_exact(first_room))
    end subroutine start_samples
 
    !> Add a row.
-   pure subroutine add_sample(samples, angle, values, is_kink)
+   pure subroutine add_sample(samples, angle, values, is_kink, is_exact)
       !> The rows
       type(samples_t), intent(inout) :: samples
       !> Cam angle, of any turn [rad]
@@ -94,12 +97,16 @@ contains
       real(wp), intent(in) :: values(:)
       !> Does the slope of series jump there?
       logical, intent(in) :: is_kink
+      !> Is the row exact, whatever the error of the curve? Not where absent
+      logical, intent(in), optional :: is_exact
 
       if (samples%count == size(samples%angle)) call make_room(samples)
       samples%count = samples%count + 1
       samples%angle(samples%count) = modulo(angle, two_pi)
       samples%values(:, samples%count) = values
       samples%is_kink(samples%count) = is_kink
+      samples%is_exact(samples%count) = .false.
+      if (present(is_exact)) samples%is_exact(samples%count) = is_exact
    end subroutine add_sample
 
    !> Hand rows over without a copy.
@@ -114,6 +121,7 @@ contains
       call move_alloc(from%angle, to%angle)
       call move_alloc(from%values, to%values)
       call move_alloc(from%is_kink, to%is_kink)
+      call move_alloc(from%is_exact, to%is_exact)
    end subroutine move_samples
 
    !> Double the room for rows.
@@ -123,17 +131,19 @@ contains
 
       ! Longer lists [rad], [unit of the series]
       real(wp), allocatable :: angles(:), rows(:, :)
-      logical, allocatable :: kinks(:)
+      logical, allocatable :: kinks(:), exact(:)
 
       associate (n => samples%count)
-         allocate (angles(2*n), rows(size(samples%values, 1), 2*n), kinks(2*n))
+         allocate (angles(2*n), rows(size(samples%values, 1), 2*n), kinks(2*n), exact(2*n))
          angles(:n) = samples%angle
          rows(:, :n) = samples%values
          kinks(:n) = samples%is_kink
+         exact(:n) = samples%is_exact
       end associate
       call move_alloc(angles, samples%angle)
       call move_alloc(rows, samples%values)
       call move_alloc(kinks, samples%is_kink)
+      call move_alloc(exact, samples%is_exact)
    end subroutine make_room
 
    !> Find the neighbours of every row.
@@ -341,6 +351,7 @@ contains
 
       search%bound = search%value
       search%point = samples%angle(extreme)
+      search%is_exact = samples%is_exact(extreme)
       found = 0
       do turn = samples%before_turns(search%series) + 1, samples%before_turns(search%series + 1)
          associate (row => samples%order(samples%turns(turn)))
@@ -440,6 +451,7 @@ contains
       if (search%now%value(2) >= search%value) return
       search%value = search%now%value(2)
       search%point = search%now%point(2)
+      search%is_exact = .false.
    end subroutine leave_row
 
 end module camroller_extremes

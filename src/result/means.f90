@@ -24,7 +24,7 @@ module camroller_means
    use camroller_names, only : name_length
    use camroller_panels, only : panels_t, panel_points, panel_places, start_panels, add_panel, add_trapezoid, refine_panels
    use camroller_result, only : quantity_t, find_quantity
-   use camroller_standstills, only : add_rolling_points, add_standstills, split_at_changes
+   use camroller_standstills, only : add_rolling_points, add_standstills, add_surfaces_at_rest, split_at_changes
    use camroller_stored_work, only : stored_work_t, follow_contact, end_work, lost_angle, spin_work, split_at_losses
    implicit none
    private
@@ -129,6 +129,7 @@ contains
          if (.not. allocated(error)) call add_standstills(samples, walk%speeds(:walk%count), statistics%standstills, &
             & statistics%first_standstill, error)
          if (.not. allocated(error)) call add_rolling_points(samples, walk%speeds(:walk%count), error)
+         if (.not. allocated(error)) call add_surfaces_at_rest(samples, walk%speeds(:walk%count), error)
          if (allocated(error)) return
       end if
       statistics%largest_sliding = samples%largest_sliding

@@ -223,7 +223,7 @@ contains
                      of_value = abs(kept%values(series, place) - kept%finer(series, place))*error_share
                   else
                      call error_of_extreme(statistics%slip_errors, solved, lobe, kept%states(place), kept%values(:, place), &
-                        & kept%relief(place), search%point, series, sense, sense*search%value, of_value)
+                        & kept%relief(place), search%point, series, sense, sense*search%value, search%is_exact, of_value)
                      of_value = of_value + search%left
                   end if
                end associate

@@ -175,7 +175,7 @@ contains
 
    !> Error of a smallest or largest value: by how much the error of the sliding speed changes it where it is, or by how much a
    !> point would exceed it without that error.
-   subroutine error_of_extreme(errors, solved, lobe, state, values, relief, angle, series, sense, value, error)
+   subroutine error_of_extreme(errors, solved, lobe, state, values, relief, angle, series, sense, value, is_exact, error)
       !> The errors
       type(slip_errors_t), intent(in) :: errors
       !> The solved case
@@ -196,6 +196,8 @@ contains
       integer, intent(in) :: sense
       !> The value [unit of the series]
       real(wp), intent(in) :: value
+      !> Is it the value of a row that is exact, as that of a surface at rest?
+      logical, intent(in) :: is_exact
       !> Its error [unit of the series]
       real(wp), intent(out) :: error
 
@@ -208,8 +210,7 @@ contains
       if (sense > 0) error = max(0.0_wp, value - errors%lowest(series))
       if (sense < 0) error = max(0.0_wp, errors%highest(series) - value)
       inside = solved%cycles(lobe)%start + modulo(angle - solved%cycles(lobe)%start, two_pi)
-      ! The state of a standstill is not that of the curve: it is exact
-      if (abs(values(series) - value) <= rounding*abs(value)) then
+      if (abs(values(series) - value) <= rounding*abs(value) .and. .not. is_exact) then
          slip_error = error_at(errors, inside)
          call provide(1)
          change = change_without(1)

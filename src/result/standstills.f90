@@ -1,10 +1,10 @@
-!> Standstills of the contact: cam angles at which the entrainment speed passes through zero or stays there; and points of pure
-!> rolling, at which the sliding speed does.
+!> Standstills of the contact: cam angles at which the entrainment speed passes through zero or stays there; points of pure
+!> rolling, at which the sliding speed does; and points at which the surface of the cam or of the roller is at rest in the contact.
 !>
-!> In: a cycle with the points met on the way round it. Out: the angles, and the states there among the rows of
-!> series. At a standstill a film formula gives no film, or where asperities carry the load the gap of the dry surfaces; in pure
-!> rolling the friction of the contact is least, and so steep on both sides that the rows beside it may show nothing of it. Whatever
-!> the points, they miss both.
+!> In: a cycle with the points met on the way round it. Out: the angles, and the states there among the rows of series. At a
+!> standstill a film formula gives no film, or where asperities carry the load the gap of the dry surfaces; in pure rolling the
+!> friction of the contact is least, and so steep on both sides that the rows beside it may show nothing of it. A surface at rest
+!> takes none of the heat of the contact, whose temperature has a cusp there. Whatever the points, they miss all three.
 !>
 !> Also cam angles where panels end because the load along the roller changes: at which an end of the roller begins or ceases to
 !> carry load, where the load at an end has a kink and its pressure, like a root, no slope; and at which the largest pressure jumps
@@ -14,7 +14,8 @@ module camroller_standstills
    use camroller_error, only : error_t
    use camroller_catalogue, only : follower_values
    use camroller_torque_list, only : torque_count
-   use camroller_state, only : evaluate_state
+   use camroller_cycle, only : state_at
+   use camroller_state, only : evaluate_state, state_t
    use camroller_extremes, only : add_sample
    use camroller_follower_samples, only : entrainment_of, entrainment_t, follower_samples_t
    use camroller_roots, only : bracket_t, start_bracket, narrow_bracket, root_wanted, root_found
@@ -23,7 +24,7 @@ module camroller_standstills
    implicit none
    private
 
-   public :: add_rolling_points, add_standstills, split_at_changes
+   public :: add_rolling_points, add_standstills, add_surfaces_at_rest, split_at_changes
 
    !> Accuracy of the angle of a standstill [rad]: its state is that without entrainment, which changes little over it
    real(wp), parameter :: angle_tolerance = 1.0e-10_wp
@@ -154,18 +155,83 @@ contains
 
       ! Values of all that is sampled [unit of each]
       real(wp) :: values(samples%series + torque_count)
-      integer :: status
 
       call samples%sample(angle, values, error)
-      if (allocated(error)) return
       ! Where both surfaces have opposite speeds the roller slips by twice the speed of the cam's surface
-      call evaluate_state(samples%model, angle, 2.0_wp*samples%state%contact%cam_surface_speed, samples%state, status)
-      if (status /= 0) return
-      associate (series => values(:samples%first_torque - 1))
-         call follower_values(samples%case, samples%model, samples%state, series)
-         call add_sample(samples%rows, angle, series, .true.)
-      end associate
+      if (.not. allocated(error)) call add_exact_state(samples, angle, 2.0_wp*samples%state%contact%cam_surface_speed)
    end subroutine add_state_at_rest
+
+   !> Add the state at a cam angle with a sliding speed that is known exactly to the rows.
+   subroutine add_exact_state(samples, angle, sliding_speed)
+      !> The samples
+      type(follower_samples_t), intent(inout) :: samples
+      !> Cam angle from full lift [rad]
+      real(wp), intent(in) :: angle
+      !> Sliding speed [m/s]
+      real(wp), intent(in) :: sliding_speed
+
+      ! A row [unit of the series]
+      real(wp) :: series(samples%first_torque - 1)
+      integer :: status
+
+      call evaluate_state(samples%model, angle, sliding_speed, samples%state, status)
+      if (status /= 0) return
+      call follower_values(samples%case, samples%model, samples%state, series)
+      call add_sample(samples%rows, angle, series, is_kink=.true., is_exact=.true.)
+   end subroutine add_exact_state
+
+   !> Add the states in which the surface of the cam or of the roller is at rest in the contact to the rows, where the film is
+   !> sheared at the temperature of the contact.
+   subroutine add_surfaces_at_rest(samples, speeds, error)
+      !> The samples
+      type(follower_samples_t), intent(inout) :: samples
+      !> Points of the cycle in order
+      type(entrainment_t), intent(in) :: speeds(:)
+      !> Convergence error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(bracket_t) :: bracket
+      type(state_t) :: state
+      ! Speeds of the surfaces of cam and roller over the contact at two points [m/s]
+      real(wp) :: before(2), after(2)
+      integer :: i, body, hint
+
+      if (.not. allocated(samples%model%heat)) return
+      if (.not. samples%model%heat%has_contact) return
+      hint = 1
+      do i = 2, size(speeds)
+         if (.not. (speeds(i - 1)%is_touching .and. speeds(i)%is_touching)) cycle
+         before = surface_speeds(speeds(i - 1))
+         after = surface_speeds(speeds(i))
+         do body = 1, size(before)
+            if ((before(body) > 0.0_wp) .eqv. (after(body) > 0.0_wp)) cycle
+            call start_bracket(bracket, speeds(i - 1)%angle, speeds(i)%angle, before(body), after(body), angle_tolerance)
+            do while (bracket%status == root_wanted)
+               call state_at(samples%cycle, samples%model, bracket%trial, hint, state, error, samples%state%contact)
+               if (allocated(error)) return
+               associate (contact => state%contact)
+                  call narrow_bracket(bracket, merge(contact%cam_surface_speed, contact%roller_surface_speed, body == 1))
+               end associate
+            end do
+            if (bracket%status /= root_found) cycle
+            call state_at(samples%cycle, samples%model, bracket%trial, hint, state, error, samples%state%contact)
+            if (allocated(error)) return
+            associate (contact => state%contact)
+               call add_exact_state(samples, bracket%trial, merge(contact%sliding_speed, contact%cam_surface_speed, body == 1))
+            end associate
+         end do
+      end do
+   end subroutine add_surfaces_at_rest
+
+   !> Speeds of the surfaces of cam and roller over the contact.
+   pure function surface_speeds(point) result(speeds)
+      !> A point of the cycle
+      type(entrainment_t), intent(in) :: point
+      !> The speeds [m/s]
+      real(wp) :: speeds(2)
+
+      speeds = point%entrainment_speed + [0.5_wp, -0.5_wp]*point%sliding_speed
+   end function surface_speeds
 
    !> Divide panels where the load along the roller changes between two points in contact.
    subroutine split_at_changes(panels, samples, points, error)
