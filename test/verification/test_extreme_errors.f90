@@ -214,10 +214,13 @@ contains
    end subroutine test_crest
 
    !> A body at rest takes none of the heat, so that the flash temperature has a cusp there: without a row at rest the default
-   !> method is 0.8 % too low. Estimates of the extremes are some 1e-6; two methods may differ by both of them.
+   !> method is 0.8 % too low. The row at rest is exact, so that the estimate is 2e-4 at an accuracy of 1e-2; with the error of the
+   !> curve, whose sliding speed is not that at rest, it would be 1e-2.
    subroutine test_roller_at_rest(error)
       type(error_type), allocatable, intent(out) :: error
       character(len=8), parameter :: methods(2) = [character(len=8) :: "hermite", "rodas5p"]
+      ! Their accuracies [-]
+      real(wp), parameter :: accuracies(2) = [1.0e-2_wp, 1.0e-4_wp]
       type(case_t) :: the_case
       type(result_t) :: result
       type(error_t), allocatable :: failure
@@ -229,6 +232,7 @@ contains
       call get_deck_case("test/data/roller_at_rest/deck.nml", the_case, failure)
       do i = 1, size(methods)
          the_case%numerics%method = methods(i)
+         the_case%numerics%accuracy = accuracies(i)
          if (.not. allocated(failure)) call run_case(the_case, result, failure)
          if (.not. allocated(failure)) call get_summary(result, "max_flash_temperature_rise", largest(i), failure)
          if (.not. allocated(failure)) call get_summary(result, "estimated_error_of_extremes", estimates(i), failure)
@@ -238,7 +242,7 @@ contains
       write (words, "(a, 3es11.3)") "difference over the largest, estimates", abs(largest(2) - largest(1))/largest(1), estimates
       call check(error, abs(largest(2) - largest(1)) <= sum(estimates)*largest(1), words)
       if (allocated(error)) return
-      call check(error, maxval(estimates) < 1.0e-4_wp, words)
+      call check(error, maxval(estimates) < 2.0e-3_wp, words)
    end subroutine test_roller_at_rest
 
    subroutine test_jump(error)
