@@ -114,22 +114,22 @@ contains
 
       type(walk_t) :: walk
       ! A few roundings [time]
-      real(wp) :: margin
+      real(wp) :: least
       integer :: segment, status
 
       call move_step(method%room, walk%step)
       call start_step(walk%step, state)
       walk%proposed = options%step
-      margin = 4.0_wp*spacing(maxval(abs(stops)))
+      least = 4.0_wp*spacing(maxval(abs(stops)))
       method%tolerance = options%tolerance
       call start_trajectory(trajectory, size(state))
       call new_linear(method%here, size(state))
       call new_linear(method%there, size(state))
       associate (step => walk%step)
          do segment = 1, size(stops) - 1
-            if (stops(segment + 1) - stops(segment) <= 64.0_wp*margin) cycle
-            step%time = stops(segment) + margin
-            method%horizon = stops(segment + 1) - margin
+            if (stops(segment + 1) - stops(segment) <= 64.0_wp*least) cycle
+            step%time = stops(segment) + least
+            method%horizon = stops(segment + 1) - least
             call problem%linearise(step%time, step%state, method%horizon, method%here, counters, status)
             if (status == 0) call problem%get_switches(step%time, step%state, walk%switches(:problem%switches + &
                & problem%markers), status)
