@@ -362,7 +362,7 @@ contains
       type(tally_t), intent(inout) :: tally
       character(len=:), allocatable, intent(out) :: trouble
       type(case_t) :: case
-      ! Widest step of rows, which give means their scales: with four of them a second lobe may be at rest at all [rad]
+      ! Widest step of rows, which give means their scales: of four, all may have the second lobe at rest [rad]
       real(wp), parameter :: widest_step = 5.0_wp*degree
       type(model_t), allocatable :: models(:)
       type(error_t), allocatable :: error
