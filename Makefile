@@ -2,7 +2,7 @@
 
 SHELL := /bin/bash
 .DEFAULT_GOAL := help
-.PHONY: help setup commit build debug mpi install run dynamics comparison test quick bless random random-ehl random-flexible random-hosts random-wide needed needed-flexible rough-rows fuzz sanitize faults study study-film study-dynamics film-heat audit trends check check-layers \
+.PHONY: help setup commit build debug mpi example install run dynamics comparison test quick bless random random-ehl random-flexible random-hosts random-wide needed needed-flexible rough-rows fuzz sanitize faults study study-film study-dynamics film-heat audit trends check check-layers \
   check-style check-format check-lint check-warnings second-compiler format docs recipes bench bench-dynamics bench-ehl range-ehl bench-batch bench-cases bench-effects bench-hosts clean distclean
 
 FPM := .venv/bin/fpm
@@ -41,6 +41,9 @@ debug: commit ## the program with all run-time checks: build/debug/bin/camroller
 
 mpi: build ## the program for many nodes, where Open MPI is there: build/mpi/bin/camroller-mpi
 	@tools/build_mpi.sh
+
+example: commit ## run example/library/two_cases.f90, which uses camroller as a library
+	@$(FPM) run --flag "$(RELEASE_FLAGS)" --example two_cases
 
 run: build ## run decks/thesis.nml and plot it: results/thesis.h5 and figures beside it
 	@mkdir -p results
