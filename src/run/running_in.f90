@@ -2,53 +2,38 @@
 !>
 !> In: case, model. Out: the model with its surfaces as they are after these hours, the way there, an estimate of the error.
 !>
-!> A turn takes a fraction of a second, the surfaces change over minutes to hours: within a turn they are held. Each evaluation
-!> solves the periodic cycle for the surfaces as they are and takes from it, for each place, the time in contact, stress,
-!> temperature and wear while it is; these make `dh/dt = a - b h` for thicknesses and `dd/dt = w` for depths. A place on the cam
-!> meets the roller at its own cam angle alone. The roller creeps relative to the cam, so that a place on it has the mean over the
-!> turn.
+!> A turn takes a fraction of a second, the surfaces change over minutes to hours: `surface_change.f90` solves the periodic cycle
+!> for the surfaces as they are, and gives `dh/dt = a - b h` for each thickness and `dd/dt = w` for each depth.
 !>
 !> A step takes a, b and w as constant at first, solves these equations exactly, evaluates the cycle at the end, and solves them
 !> again with the means of a, b and w over both ends: second order in the change of the coefficients, exact where there is none,
-!> and stable for any step. Each step is taken whole and in two halves; a third of the difference estimates the error of the halves,
-!> which are kept. Steps are chosen such that this error is at most the accuracy times the part of the hours that the step covers.
-!> Growth and removal make differences decay, so that the sum of these errors is an estimate from above of that at the end. What the
-!> error of the slip does to a rate comes on top: the difference of the surfaces by the rates at the end and by those of a cycle at
-!> ten times the tolerance, whose error is seven times as large on average and scatters.
+!> and stable for any step. Each step is taken whole and in two halves, which are kept. The difference is three times their error
+!> where coefficients change slowly, and their error where they change within a small part of the step: it is taken for it.
+!>
+!> Errors of thicknesses are relative to the largest possible one, those of depths to what will be worn in all: until the end, what
+!> is worn so far and what the present rates add to it. A step may have a part of the accuracy that is left: its part of the time
+!> that is left, or a tenth. Steps in which surfaces change fast use more of it than slow ones, and the sum stays below the
+!> accuracy. Growth and removal make differences decay, so that the sum of these errors is an estimate from above of that at the
+!> end. Where rates of wear fall so much that the accuracy is used up, all is integrated again with half of what was foreseen.
+!>
+!> What the error of the slip does to a rate comes on top: twice the difference of the surfaces by the rates at the end and by those
+!> of a cycle at a tenth of the tolerance, which covers it where that cycle has at most half the error.
 module camroller_running_in
    use camroller_kinds, only : wp, two_pi
    use camroller_accuracy, only : resolve_numerics
-   use camroller_case, only : case_t, numerics_t
-   use camroller_cam_surface, only : cam_surface_t, place_angle
-   use camroller_contact_forces, only : contact_t
-   use camroller_cycle, only : cycle_t, integrate_cycle, state_at
-   use camroller_error, only : error_t, add_context, raise, kind_convergence, kind_deck
+   use camroller_cam_surface, only : cam_surface_t
+   use camroller_case, only : case_t
+   use camroller_error, only : error_t, add_context, raise, kind_deck, kind_domain
    use camroller_model, only : model_t
-   use camroller_number_text, only : number_text
    use camroller_catalogue, only : lobe_prefix
    use camroller_result, only : append_quantity, lobe_scope, quantity_list_t, quantity_t, result_t, scope_length
    use camroller_running_history, only : history_row, history_rows, list_history
-   use camroller_state, only : state_t
-   use camroller_tribofilm, only : growth_rate, running_in_t, thickness_after, tribofilm_t
-   use camroller_wear, only : time_in_contact, wear_t, worn_per_second
+   use camroller_surface_change, only : change_rates, differences, expected_scales, move_surfaces, plan_t, rates_t, relative, &
+      & set_surface, surfaces_t
    implicit none
    private
 
    public :: run_in, add_running_in, aged_t
-
-   !> Thicknesses and depths: places of the cam, then the roller
-   type :: surfaces_t
-      !> Thickness of film and worn depth [m]
-      real(wp), allocatable :: film(:), wear(:)
-   end type surfaces_t
-
-   !> How surfaces change, in the same order
-   type :: rates_t
-      !> Growth of films, a [m/s], their decay, b [1/s], wear, w [m/s]
-      real(wp), allocatable :: growth(:), decay(:), wear(:)
-      !> Mean over the turn of friction torque [N m], of the slip ratio and of the coefficient of asperities [-]
-      real(wp) :: means(3) = 0.0_wp
-   end type rates_t
 
    !> What hours of running make of a model
    type :: aged_t
@@ -60,20 +45,9 @@ module camroller_running_in
       real(wp), allocatable :: history(:, :)
    end type aged_t
 
-   !> What a running-in is made of
-   type :: plan_t
-      type(running_in_t) :: running
-      !> The film; zero rates where none grows
-      type(tribofilm_t) :: film
-      type(wear_t) :: wear
-      type(numerics_t) :: numerics
-      !> Temperature of the oil [K]
-      real(wp) :: temperature = 0.0_wp
-   end type plan_t
-
-   !> First step and smallest step over all of the time; largest factor from one step to the next, and what a step is shortened by
-   !> against the one that would just do [-]
-   real(wp), parameter :: first_part = 0.02_wp, smallest_part = 1.0e-5_wp, largest_growth = 4.0_wp, safety = 0.8_wp
+   !> First step over all of the time, and a rest of it that is no step; largest factor from one step to the next, and what a step
+   !> is shortened by against the one that would just do; part of the accuracy that is left which any step may have [-]
+   real(wp), parameter :: first_part = 0.02_wp, no_part = 1.0e-10_wp, largest_growth = 4.0_wp, safety = 0.8_wp, fast_part = 0.1_wp
 
 contains
 
@@ -85,7 +59,8 @@ contains
       type(model_t), intent(inout) :: model
       !> The way there
       type(aged_t), intent(out) :: aged
-      !> Deck error for a flexible train; convergence error: no periodic cycle, or steps that became too small
+      !> Deck error for a flexible train or an accuracy that is not positive; domain error where surfaces change within a turn;
+      !> convergence error without a periodic cycle
       type(error_t), allocatable, intent(out) :: error
 
       type(plan_t) :: plan
@@ -94,6 +69,10 @@ contains
 
       if (allocated(model%flexible)) then
          call raise(error, kind_deck, "running-in needs a rigid train")
+         return
+      end if
+      if (.not. case%running_in%accuracy > 0.0_wp) then
+         call raise(error, kind_deck, "running_in.accuracy must be positive")
          return
       end if
       call make_plan(case, model, plan)
@@ -120,23 +99,23 @@ contains
       !> Convergence error
       type(error_t), allocatable, intent(out) :: error
 
-      ! Tolerance of the other cycle over that of the first, its largest [-]
-      real(wp), parameter :: coarser = 10.0_wp, largest = 0.1_wp
-      type(plan_t) :: coarse
+      ! Tolerance of the other cycle over that of the first; error over the difference of both, where the other has half of it [-]
+      real(wp), parameter :: finer = 0.1_wp, covering = 2.0_wp
+      type(plan_t) :: fine
       type(rates_t) :: others
       type(surfaces_t) :: bare, one, other
 
-      coarse = plan
-      coarse%numerics = resolve_numerics(plan%numerics)
-      coarse%numerics%tolerance = min(coarser*coarse%numerics%tolerance, largest)
-      call change_rates(coarse, model, now, others, aged%cycles, error)
+      fine = plan
+      fine%numerics = resolve_numerics(plan%numerics)
+      fine%numerics%tolerance = finer*fine%numerics%tolerance
+      call change_rates(fine, model, now, others, aged%cycles, error)
       if (allocated(error)) return
       bare = now
       bare%film = 0.0_wp
       bare%wear = 0.0_wp
       call move_surfaces(bare, rates, rates, plan%running%duration, one)
       call move_surfaces(bare, others, others, plan%running%duration, other)
-      aged%error = aged%error + difference(plan, one, other)
+      aged%error = aged%error + covering*relative(differences(one, other), expected_scales(plan, other, others, 0.0_wp))
    end subroutine add_slip_error
 
    !> What is given, and the model with its surfaces as they are at first.
@@ -176,54 +155,95 @@ contains
       !> Convergence error
       type(error_t), allocatable, intent(out) :: error
 
-      type(surfaces_t) :: whole, middle, next
-      type(rates_t) :: unused, at_middle, at_next
-      ! Time, length of the step [s]; estimated error of the step over what it may be [-]
-      real(wp) :: time, step, ratio
-      ! Estimated error of the step [-]
-      real(wp) :: mistake
+      type(surfaces_t) :: fresh
+      type(rates_t) :: fresh_rates
+      ! Largest thickness, depths of cam and roller to which errors are relative at most [m]
+      real(wp) :: scales(3)
+      logical :: is_used_up
+
+      fresh = now
+      fresh_rates = rates
+      scales = [plan%film%largest_thickness, huge(1.0_wp), huge(1.0_wp)]
+      do
+         now = fresh
+         rates = fresh_rates
+         call march_with(plan, model, scales, now, rates, aged, is_used_up, error)
+         if (allocated(error) .or. .not. is_used_up) return
+      end do
+   end subroutine march
+
+   !> Integrate over the hours until the accuracy is used up.
+   subroutine march_with(plan, model, scales, now, rates, aged, is_used_up, error)
+      !> What is given
+      type(plan_t), intent(in) :: plan
+      !> The model; out: with its surfaces at the end
+      type(model_t), intent(inout) :: model
+      !> Largest thickness, depths of cam and roller to which errors are relative at most; out, where the accuracy is used up: half
+      !> of the depths that are foreseen now [m]
+      real(wp), intent(inout) :: scales(3)
+      !> Surfaces at first; out: at the end
+      type(surfaces_t), intent(inout) :: now
+      !> Their rates at first; out: at the end
+      type(rates_t), intent(inout) :: rates
+      !> The way
+      type(aged_t), intent(inout) :: aged
+      !> Whether errors became as large as they may be, since less is worn than was foreseen
+      logical, intent(out) :: is_used_up
+      !> Domain error where surfaces change within a turn, convergence error without a periodic cycle
+      type(error_t), allocatable, intent(out) :: error
+
+      type(surfaces_t) :: middle, next
+      type(rates_t) :: at_middle, at_next
+      ! Time, length of the step [s]; estimated errors of thickness and depths so far, of a step [m]
+      real(wp) :: time, step, mistakes(3), mistake(3)
+      ! Thickness and depths to which errors are relative [m]; error of the step over what it may be [-]
+      real(wp) :: foreseen(3), ratio
       logical :: is_last
 
       time = 0.0_wp
       step = first_part*plan%running%duration
+      mistakes = 0.0_wp
+      aged%steps = 0
       call note_rows(plan, model, time, time, now, rates, rates, aged)
       do
-         is_last = time + step >= (1.0_wp - 0.1_wp*smallest_part)*plan%running%duration
+         is_last = time + step >= (1.0_wp - no_part)*plan%running%duration
          if (is_last) step = plan%running%duration - time
-         call take_step(plan, model, now, rates, step, whole, unused, aged%cycles, error)
+         call take_halves(plan, model, now, rates, step, middle, at_middle, next, mistake, aged%cycles, error)
          if (allocated(error)) return
-         call take_step(plan, model, now, rates, 0.5_wp*step, middle, at_middle, aged%cycles, error)
-         if (allocated(error)) return
-         call change_rates(plan, model, middle, at_middle, aged%cycles, error)
-         if (allocated(error)) return
-         call take_step(plan, model, middle, at_middle, 0.5_wp*step, next, unused, aged%cycles, error)
-         if (allocated(error)) return
-         mistake = difference(plan, whole, next)/3.0_wp
-         ratio = mistake*plan%running%duration/(plan%running%accuracy*step)
+         associate (left => plan%running%duration - time)
+            foreseen = min(scales, expected_scales(plan, next, at_middle, left - step))
+            aged%error = relative(mistakes, foreseen)
+            is_used_up = aged%error >= plan%running%accuracy
+            if (is_used_up) then
+               scales(2:) = 0.5_wp*foreseen(2:)
+               return
+            end if
+            ratio = relative(mistake, foreseen)/((plan%running%accuracy - aged%error)*max(step/left, fast_part))
+         end associate
          if (ratio <= 1.0_wp) then
             call change_rates(plan, model, next, at_next, aged%cycles, error)
             if (allocated(error)) return
             call note_rows(plan, model, time, time + 0.5_wp*step, now, rates, at_middle, aged)
             call note_rows(plan, model, time + 0.5_wp*step, time + step, middle, at_middle, at_next, aged)
-            aged%error = aged%error + mistake
+            mistakes = mistakes + mistake
             aged%steps = aged%steps + 1
             time = time + step
             now = next
             rates = at_next
-            if (is_last) return
-         end if
-         ! The error of a step over its length goes with the square of the length
-         step = step*min(largest_growth, max(1.0_wp/largest_growth, safety/sqrt(max(ratio, tiny(ratio)))))
-         if (step < smallest_part*plan%running%duration) then
-            call raise(error, kind_convergence, "steps became smaller than "//number_text(smallest_part, 2)//" of the "// &
-               & "duration; running_in.accuracy may be below what the cycles have")
+            if (is_last) exit
+         else if (step < two_pi/model%speed) then
+            call raise(error, kind_domain, "surfaces change within a turn of the cam, over which they are taken as constant: "// &
+               & "rates of growth, removal or wear are too large, or running_in.accuracy is too small")
             return
          end if
+         ! The error of a step goes with the third power of its length
+         step = step*min(largest_growth, max(1.0_wp/largest_growth, safety/max(ratio, tiny(ratio))**(1.0_wp/3.0_wp)))
       end do
-   end subroutine march
+      aged%error = relative(mistakes, expected_scales(plan, now, rates, 0.0_wp))
+   end subroutine march_with
 
-   !> A step of second order.
-   subroutine take_step(plan, model, now, rates, step, next, at_end, cycles, error)
+   !> A step in two halves, and what their error is.
+   subroutine take_halves(plan, model, now, rates, step, middle, at_middle, next, mistake, cycles, error)
       !> What is given
       type(plan_t), intent(in) :: plan
       !> The model; its surfaces move
@@ -233,142 +253,50 @@ contains
       type(rates_t), intent(in) :: rates
       !> Length of the step [s]
       real(wp), intent(in) :: step
-      !> Surfaces at the end, and rates near it
+      !> Surfaces in the middle and their rates, surfaces at the end
+      type(surfaces_t), intent(out) :: middle, next
+      type(rates_t), intent(out) :: at_middle
+      !> Estimated errors of thicknesses, depths of the cam, depth of the roller [m]
+      real(wp), intent(out) :: mistake(3)
+      !> Cycles solved, counted on
+      integer, intent(inout) :: cycles
+      !> Convergence error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(surfaces_t) :: whole
+
+      call take_step(plan, model, now, rates, step, whole, cycles, error)
+      if (.not. allocated(error)) call take_step(plan, model, now, rates, 0.5_wp*step, middle, cycles, error)
+      if (.not. allocated(error)) call change_rates(plan, model, middle, at_middle, cycles, error)
+      if (.not. allocated(error)) call take_step(plan, model, middle, at_middle, 0.5_wp*step, next, cycles, error)
+      if (.not. allocated(error)) mistake = differences(whole, next)
+   end subroutine take_halves
+
+   !> A step of second order.
+   subroutine take_step(plan, model, now, rates, step, next, cycles, error)
+      !> What is given
+      type(plan_t), intent(in) :: plan
+      !> The model; its surfaces move
+      type(model_t), intent(inout) :: model
+      !> Surfaces and their rates at the start
+      type(surfaces_t), intent(in) :: now
+      type(rates_t), intent(in) :: rates
+      !> Length of the step [s]
+      real(wp), intent(in) :: step
+      !> Surfaces at the end
       type(surfaces_t), intent(out) :: next
-      type(rates_t), intent(out) :: at_end
       !> Cycles solved, counted on
       integer, intent(inout) :: cycles
       !> Convergence error
       type(error_t), allocatable, intent(out) :: error
 
       type(surfaces_t) :: guess
+      type(rates_t) :: at_end
 
       call move_surfaces(now, rates, rates, step, guess)
       call change_rates(plan, model, guess, at_end, cycles, error)
       if (.not. allocated(error)) call move_surfaces(now, rates, at_end, step, next)
    end subroutine take_step
-
-   !> Surfaces after a time with the means of two rates.
-   pure subroutine move_surfaces(now, first, last, time, next)
-      !> Surfaces at the start
-      type(surfaces_t), intent(in) :: now
-      !> The rates
-      type(rates_t), intent(in) :: first, last
-      !> The time [s]
-      real(wp), intent(in) :: time
-      !> Surfaces at the end
-      type(surfaces_t), intent(out) :: next
-
-      next%film = thickness_after(now%film, 0.5_wp*(first%growth + last%growth), 0.5_wp*(first%decay + last%decay), time)
-      next%wear = now%wear + 0.5_wp*(first%wear + last%wear)*time
-   end subroutine move_surfaces
-
-   !> Largest difference of thicknesses over the largest possible one and of depths over the largest depth, cam and roller each.
-   pure function difference(plan, one, other) result(largest)
-      !> What is given
-      type(plan_t), intent(in) :: plan
-      !> The surfaces
-      type(surfaces_t), intent(in) :: one, other
-      !> The difference [-]
-      real(wp) :: largest
-
-      integer :: n
-
-      n = size(one%film)
-      largest = 0.0_wp
-      if (plan%film%largest_thickness > 0.0_wp) largest = maxval(abs(one%film - other%film))/plan%film%largest_thickness
-      if (any(other%wear(:n - 1) > 0.0_wp)) largest = max(largest, maxval(abs(one%wear(:n - 1) - other%wear(:n - 1))) &
-         & /maxval(other%wear(:n - 1)))
-      if (other%wear(n) > 0.0_wp) largest = max(largest, abs(one%wear(n) - other%wear(n))/other%wear(n))
-   end function difference
-
-   !> How surfaces change, from the periodic cycle with them.
-   subroutine change_rates(plan, model, now, rates, cycles, error)
-      !> What is given
-      type(plan_t), intent(in) :: plan
-      !> The model; out: with these surfaces
-      type(model_t), intent(inout) :: model
-      !> The surfaces
-      type(surfaces_t), intent(in) :: now
-      !> Their rates
-      type(rates_t), intent(out) :: rates
-      !> Cycles solved, counted on
-      integer, intent(inout) :: cycles
-      !> Convergence error
-      type(error_t), allocatable, intent(out) :: error
-
-      type(cycle_t) :: cycle
-      type(state_t) :: state
-      integer :: i, n, hint
-
-      n = plan%running%places
-      call set_surface(model%surface, now)
-      call integrate_cycle(cycle, model, plan%numerics, error)
-      cycles = cycles + 1
-      if (allocated(error)) return
-      allocate (rates%growth(n + 1), rates%decay(n + 1), rates%wear(n + 1), source=0.0_wp)
-      hint = 1
-      do i = 1, n
-         call state_at(cycle, model, place_angle(i, n), hint, state, error)
-         if (allocated(error)) return
-         rates%means(1) = rates%means(1) + state%torque_friction/n
-         if (abs(state%contact%rolling_speed) > 0.0_wp) rates%means(2) = rates%means(2) + state%contact%sliding_speed &
-            & /state%contact%rolling_speed/n
-         rates%means(3) = rates%means(3) + state%contact%boundary_coefficient/n
-         if (state%contact%is_touching) call add_place(plan, model, state%contact, i, rates)
-      end do
-   end subroutine change_rates
-
-   !> What the contact at a cam angle does to its place on the cam, and its part in what the roller gets.
-   pure subroutine add_place(plan, model, contact, place, rates)
-      !> What is given
-      type(plan_t), intent(in) :: plan
-      !> The model
-      type(model_t), intent(in) :: model
-      !> State of the contact
-      type(contact_t), intent(in) :: contact
-      !> Number of the place
-      integer, intent(in) :: place
-      !> Rates; out: with these
-      type(rates_t), intent(inout) :: rates
-
-      ! Parts of the time in contact, of the place on the cam and of any place of the roller [-]; turn of the cam [s]; growth and
-      ! decay in contact [m/s], [1/s]
-      real(wp) :: on_cam, on_roller, period, growth, decay
-
-      associate (n => plan%running%places)
-         period = two_pi/model%speed
-         on_cam = time_in_contact(contact%half_width, contact%cam_surface_speed, period)
-         on_roller = 2.0_wp*contact%half_width/(two_pi*model%roller_radius)/n
-         rates%wear(place) = on_cam*worn_per_second(plan%wear%cam_rate, contact%asperity_load, contact%apparent_area, &
-            & contact%sliding_speed)
-         rates%wear(n + 1) = rates%wear(n + 1) + on_roller*worn_per_second(plan%wear%roller_rate, contact%asperity_load, &
-            & contact%apparent_area, contact%sliding_speed)
-         if (.not. plan%film%largest_thickness > 0.0_wp) return
-         growth = growth_rate(plan%film, contact%traction/contact%apparent_area, plan%temperature + contact%flash_rise)
-         decay = growth/plan%film%largest_thickness + plan%film%removal_rate
-         rates%growth(place) = on_cam*growth
-         rates%decay(place) = on_cam*decay
-         rates%growth(n + 1) = rates%growth(n + 1) + on_roller*growth
-         rates%decay(n + 1) = rates%decay(n + 1) + on_roller*decay
-      end associate
-   end subroutine add_place
-
-   !> Give surfaces to a model.
-   pure subroutine set_surface(surface, now)
-      !> Those of the model
-      type(cam_surface_t), intent(inout) :: surface
-      !> The surfaces
-      type(surfaces_t), intent(in) :: now
-
-      integer :: n
-
-      n = size(surface%cam_film)
-      surface%cam_film = now%film(:n)
-      surface%cam_wear = now%wear(:n)
-      surface%roller_film = now%film(n + 1)
-      surface%roller_wear = now%wear(n + 1)
-   end subroutine set_surface
 
    !> Rows of the history whose times lie in a piece of a step: surfaces as the step has them, means of the cycle along a straight
    !> line.
@@ -402,7 +330,7 @@ contains
          time = plan%running%duration*(row - 1)/(history_rows - 1)
          if (row == 1 .and. to > from) cycle
          if (row > 1 .and. .not. (time > from .and. (time <= to .or. (row == history_rows .and. to >= (1.0_wp &
-            & - 0.1_wp*smallest_part)*plan%running%duration)))) cycle
+            & - no_part)*plan%running%duration)))) cycle
          part = 0.0_wp
          if (to > from) part = (time - from)/(to - from)
          call move_surfaces(now, first, last, time - from, then)
