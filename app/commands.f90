@@ -8,6 +8,7 @@ module camroller_commands
    use camroller_cli, only : config_t, get_arguments, read_arguments
    use camroller_command_table, only : command_t, find_command, help_for, help_for_all, list_commands
    use camroller_fmu_command, only : fmu_of_deck
+   use camroller_freed_memory, only : keep_freed_memory
    use camroller_hdf5_columns, only : hdf5_columns_t
    use camroller_help_pages, only : bash_completion, manual_page
    use camroller_console, only : add_number_remarks, tell_deck_remarks
@@ -65,6 +66,7 @@ contains
       call hold_streams()
       call end_on_signals()
       call use_one_blas_thread()
+      call keep_freed_memory()
       allocate (arguments(0))
       call get_arguments(arguments)
       call read_arguments(arguments, config, error)
