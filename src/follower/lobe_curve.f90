@@ -16,7 +16,7 @@ module camroller_lobe_curve
    private
 
    public :: lobe_curve_t, curve_values, start_curve, keep_state, add_piece, close_curve, halve_pieces, move_curve, piece_angle, &
-      & curve_at, cam_values, contact_near
+      & curve_points, telling_points, curve_at, cam_values, contact_near
 
    !> Numbers of a state that a camshaft takes: torques, force on the cam, which is zero where no bearing asks for it
    integer, parameter :: curve_values = torque_count + 2
@@ -184,6 +184,73 @@ contains
 
       angle = curve%ends(piece) + panel_places(point)*(curve%ends(piece + 1) - curve%ends(piece))
    end function piece_angle
+
+   !> Cam angles and torques of all points, in order.
+   pure subroutine curve_points(curve, angles, torques)
+      !> The curve
+      type(lobe_curve_t), intent(in) :: curve
+      !> The angles from full lift [rad]
+      real(wp), allocatable, intent(out) :: angles(:)
+      !> The torques [N m], last the energy residual [W], shape (torque, point)
+      real(wp), allocatable, intent(out) :: torques(:, :)
+
+      integer :: point, piece
+
+      angles = [((piece_angle(curve, piece, point), point=1, panel_points), piece=1, curve%count)]
+      allocate (torques(torque_count, size(angles)))
+      do piece = 1, curve%count
+         torques(:, panel_points*(piece - 1) + 1:panel_points*piece) = curve%values(:torque_count, :, piece)
+      end do
+   end subroutine curve_points
+
+   !> Points that tell how quantities run along a curve: those between which none of them turns or changes by much.
+   pure function telling_points(values) result(is_telling)
+      !> Quantities at the points in their order, shape (quantity, point) [unit of each]
+      real(wp), intent(in) :: values(:, :)
+      !> Does the point tell?
+      logical :: is_telling(size(values, 2))
+
+      ! Changes over the extent of a quantity: that of a point of its own, that of a turn; extent that is rounding, over the
+      ! size [-]
+      real(wp), parameter :: far = 0.1_wp, little = 0.02_wp, rounding = 1.0e-9_wp
+      ! Smallest and largest values [unit of each]; values over the extent of the quantities that have any [-]
+      real(wp), dimension(size(values, 1)) :: lowest, highest
+      real(wp), allocatable :: scaled(:, :)
+      ! Changes of a quantity from the last telling point and from the point before [-]
+      real(wp) :: change, before
+      integer, allocatable :: used(:)
+      integer :: last, i, quantity
+      logical :: is_jump
+
+      is_telling = .false.
+      lowest = values(:, 1)
+      highest = values(:, 1)
+      do i = 2, size(values, 2)
+         lowest = min(lowest, values(:, i))
+         highest = max(highest, values(:, i))
+      end do
+      used = pack([(i, i=1, size(lowest))], highest - lowest > rounding*max(abs(lowest), abs(highest)))
+      allocate (scaled(size(used), size(values, 2)))
+      do i = 1, size(values, 2)
+         scaled(:, i) = values(used, i)/(highest(used) - lowest(used))
+      end do
+      last = 1
+      do i = 2, size(values, 2) - 1
+         is_jump = .false.
+         do quantity = 1, size(used)
+            change = abs(scaled(quantity, i) - scaled(quantity, last))
+            if (.not. change > little) cycle
+            before = scaled(quantity, i) - scaled(quantity, i - 1)
+            is_jump = is_jump .or. abs(before) > far
+            is_telling(i) = is_telling(i) .or. change > far .or. (before > 0.0_wp .neqv. scaled(quantity, i + 1) &
+               & > scaled(quantity, i))
+         end do
+         if (.not. is_telling(i)) cycle
+         ! A jump has a point on both sides
+         is_telling(i - 1) = is_telling(i - 1) .or. is_jump
+         last = i
+      end do
+   end function telling_points
 
    !> Torques and force at a cam angle.
    pure subroutine curve_at(curve, angle, values, is_known)

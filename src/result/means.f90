@@ -29,7 +29,7 @@ module camroller_means
    implicit none
    private
 
-   public :: statistics_t, integrate_lobe, integrate_torques, mean_tolerance, stored_torques, mean_sizes
+   public :: statistics_t, find_thickest_film, integrate_lobe, integrate_torques, mean_tolerance, stored_torques, mean_sizes
 
    !> Means over the cycle of one lobe shape
    type, extends(shares_t) :: statistics_t
@@ -352,5 +352,24 @@ contains
          end do
       end associate
    end subroutine walk_along
+
+   !> Largest central film among the rows of a lobe, over the equivalent radius there.
+   pure subroutine find_thickest_film(series, statistics)
+      !> List of series, of which the first lobe's stand in the order of every lobe's
+      type(quantity_t), intent(in) :: series(:)
+      !> Statistics of the lobe, with the rows; out: with the film
+      type(statistics_t), intent(inout) :: statistics
+
+      integer :: row
+
+      associate (rows => statistics%rows)
+         associate (films => rows%values(find_quantity(series, "film_thickness_central"), :rows%count) &
+            & /rows%values(find_quantity(series, "equivalent_radius"), :rows%count))
+            row = maxloc(films, 1)
+            statistics%thickest_film = films(row)
+            statistics%thickest_angle = rows%angle(row)
+         end associate
+      end associate
+   end subroutine find_thickest_film
 
 end module camroller_means

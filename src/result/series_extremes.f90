@@ -12,9 +12,10 @@ module camroller_series_extremes
    use camroller_flexible_follower, only : follower_on_path
    use camroller_flexible_solution, only : error_share
    use camroller_extremes, only : samples_t, search_t, add_sample, narrow_search, start_search
-   use camroller_lobe_curve, only : cam_values, contact_near, curve_values, lobe_curve_t
+   use camroller_lobe_curve, only : cam_values, contact_near, curve_points, curve_values, lobe_curve_t, &
+      & telling_points
    use camroller_margins, only : margins_t
-   use camroller_means, only : statistics_t
+   use camroller_means, only : find_thickest_film, statistics_t
    use camroller_model, only : model_t
    use camroller_result, only : quantity_t, find_quantity
    use camroller_part_series, only : bearing_count
@@ -35,8 +36,9 @@ module camroller_series_extremes
       real(wp), allocatable :: event_load(:)
    end type extremes_t
 
-   !> Distance of the states on both sides of a stop, where series may jump [rad]
-   real(wp), parameter :: beside = 1.0e-9_wp
+   !> Distance of the states on both sides of a stop, where series may jump; of rows of the camshaft that show an extreme close to a
+   !> kink, whose points lie wider apart [rad]
+   real(wp), parameter :: beside = 1.0e-9_wp, near = 1.0e-3_wp
    !> States that are kept while extremes are searched for
    integer, parameter :: most_kept = 32
 
@@ -162,25 +164,6 @@ contains
       end do
    end subroutine add_stops
 
-   !> Largest central film among the rows of a lobe, over the equivalent radius there.
-   pure subroutine find_thickest_film(series, statistics)
-      !> List of series, of which the first lobe's stand in the order of every lobe's
-      type(quantity_t), intent(in) :: series(:)
-      !> Statistics of the lobe, with the rows; out: with the film
-      type(statistics_t), intent(inout) :: statistics
-
-      integer :: row
-
-      associate (rows => statistics%rows)
-         associate (films => rows%values(find_quantity(series, "film_thickness_central"), :rows%count) &
-            & /rows%values(find_quantity(series, "equivalent_radius"), :rows%count))
-            row = maxloc(films, 1)
-            statistics%thickest_film = films(row)
-            statistics%thickest_angle = rows%angle(row)
-         end associate
-      end associate
-   end subroutine find_thickest_film
-
    !> Smallest and largest values of a lobe's follower, from its rows and between them; the rows alone where the solution itself is
    !> only linear between its points.
    subroutine search_lobe(solved, lobe, list, statistics, lowest, highest, error)
@@ -290,22 +273,31 @@ contains
 
       type(search_t) :: search
       type(kept_rows_t) :: kept
-      ! Stops of all cams [rad]; a row, larger error of smallest and largest value [unit of the series]
-      real(wp), allocatable :: stops(:)
+      ! Stops of all cams, with points near them and those that tell how torques run [rad]; a row, larger error of smallest and
+      ! largest value [unit of the series]
+      real(wp), allocatable :: stops(:), angles(:)
       real(wp), dimension(size(lowest)) :: values, errors
       integer :: i, residual, series, sense
 
       ! It is rounding, of which the rows show enough
       residual = find_quantity(list, trim(torque_series(of_residual)))
       errors = 0.0_wp
-      ! Cams that do the same stop at the same angles
-      stops = [(pack(solved%cycles(solved%shaft%lobes(i))%stops + solved%shaft%phases(i), solved%shaft%twins(i) == i), i=1, &
-         & size(solved%shaft%lobes))]
+      allocate (stops(0), angles(0))
+      do i = 1, size(solved%shaft%lobes)
+         ! Cams that do the same stop at the same angles
+         if (solved%shaft%twins(i) /= i) cycle
+         associate (lobe => solved%shaft%lobes(i), phase => solved%shaft%phases(i))
+            stops = [stops, solved%cycles(lobe)%stops + phase]
+            angles = [angles, points_of(statistics(lobe), residual) + phase]
+         end associate
+      end do
+      angles = [stops - near, stops + near, angles]
       stops = [stops - beside, stops, stops + beside]
-      do i = 1, size(stops)
-         call camshaft_row(solved, stops(i), values, error)
+      angles = [stops, angles]
+      do i = 1, size(angles)
+         call camshaft_row(solved, angles(i), values, error)
          if (allocated(error)) return
-         call add_sample(samples, stops(i), values, .true.)
+         call add_sample(samples, angles(i), values, i <= size(stops) .and. .not. allocated(solved%cycles(1)%flexible))
       end do
       do series = 1, size(values)
          if (series == residual) then
@@ -325,16 +317,39 @@ contains
             call keep_row(kept, solved, statistics, search%point, i, error)
             if (allocated(error)) return
             associate (value => kept%values(series, i))
-               errors(series) = max(errors(series), search%left + margin*abs(kept%without(series, i) - value) &
-                  & + abs(sense*search%value - value))
+               errors(series) = max(errors(series), search%left + abs(kept%without(series, i) - value)*merge(error_share, margin, &
+                  & allocated(solved%cycles(1)%flexible)) + abs(sense*search%value - value))
             end associate
          end do
       end do
       call judge_camshaft(list, lowest, highest, errors, statistics)
    end subroutine search_camshaft
 
+   !> Cam angles from full lift of the points that tell how the torques of a lobe's follower run.
+   pure function points_of(statistics, residual) result(angles)
+      !> Its statistics: those of a flexible train with rows of torques
+      type(statistics_t), intent(in) :: statistics
+      !> The series of the camshaft that is rounding
+      integer, intent(in) :: residual
+      !> The angles [rad]
+      real(wp), allocatable :: angles(:)
+
+      ! Torques at the points [N m]
+      real(wp), allocatable :: torques(:, :)
+
+      if (allocated(statistics%torque_rows%angle)) then
+         angles = statistics%torque_rows%angle(:statistics%torque_rows%count)
+         torques = statistics%torque_rows%values(:, :size(angles))
+         torques(residual, :) = 0.0_wp
+      else
+         call curve_points(statistics%curve, angles, torques)
+         torques(of_residual, :) = 0.0_wp
+      end if
+      if (size(angles) > 0) angles = pack(angles, telling_points(torques))
+   end function points_of
+
    !> Find the row of the camshafts at a cam angle among those kept, or solve it, with what it is without the error of the sliding
-   !> speed of each follower: by the states, not by the curves.
+   !> speed of each follower, or of a flexible train with a finer tolerance: by the states, not by the curves.
    subroutine keep_row(kept, solved, statistics, angle, place, error)
       !> The rows
       type(kept_rows_t), intent(inout) :: kept
@@ -350,10 +365,11 @@ contains
       type(error_t), allocatable, intent(out) :: error
 
       type(state_t) :: state, right
-      ! What each cam takes from its follower, and without the error of the sliding speed [N m, N]; angle within the cycle [rad]
+      ! What each cam takes from its follower, and without the error of the sliding speed, or from the turn of a flexible train with
+      ! a finer tolerance [N m, N]; angle within the cycle [rad]
       real(wp), dimension(curve_values, size(solved%shaft%lobes)) :: cams, others
       real(wp) :: inside
-      integer :: cam, status
+      integer :: cam, status, hint
 
       if (.not. allocated(kept%values)) allocate (kept%values(camshaft_count(solved%case), most_kept), &
          & kept%without(camshaft_count(solved%case), most_kept))
@@ -376,6 +392,12 @@ contains
                if (allocated(error)) return
                cams(:, cam) = cam_values(model, state, allocated(shaft%bearings))
                others(:, cam) = cams(:, cam)
+               if (allocated(cycle%flexible)) then
+                  hint = 1
+                  call follower_on_path(model, cycle%flexible%finer, cycle%flexible%finer_resolution, inside, hint, right, error)
+                  if (allocated(error)) return
+                  others(:, cam) = cam_values(model, right, allocated(shaft%bearings))
+               end if
                if (.not. allocated(statistics(lobe)%slip_errors%error)) cycle
                call state_without(model, cycle, inside, state, error_at(statistics(lobe)%slip_errors, inside), right, status)
                if (status == 0) others(:, cam) = cam_values(model, right, allocated(shaft%bearings))

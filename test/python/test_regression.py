@@ -1,4 +1,4 @@
-"""Key results and counters of the shipped decks against a stored table; `make bless` writes it anew."""
+"""Results of the shipped decks: key results and counters against a stored table, which `make bless` writes anew; extremes against series."""
 
 import csv
 import os
@@ -6,6 +6,7 @@ import pathlib
 import subprocess
 
 import h5py
+import numpy
 import pytest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -34,14 +35,21 @@ HEADER = """# Key results and counters of the decks in `decks`, one row a quanti
 """
 
 
-def measure(program, folder):
+@pytest.fixture(scope="module")
+def folder(camroller, tmp_path_factory):
+    """Result files of all decks."""
+    path = tmp_path_factory.mktemp("decks")
+    for deck in DECKS:
+        subprocess.run([camroller, "run", ROOT / "decks" / f"{deck}.nml", "-o", path / f"{deck}.h5", "--quiet", *CHANGES.get(deck, ())],
+                       check=True, capture_output=True)
+    return path
+
+
+def measure(folder):
     """Rows of the table."""
     rows = []
     for deck in DECKS:
-        target = folder / f"{deck}.h5"
-        subprocess.run([program, "run", ROOT / "decks" / f"{deck}.nml", "-o", target, "--quiet", *CHANGES.get(deck, ())], check=True,
-                       capture_output=True)
-        with h5py.File(target) as file:
+        with h5py.File(folder / f"{deck}.h5") as file:
             for name in RESULTS + COUNTERS:
                 if name in file["summary"]:
                     rows += [(deck, case, name, float(value)) for case, value in enumerate(file["summary"][name][...].ravel())]
@@ -60,8 +68,8 @@ def bless(rows):
     TABLE.write_text(HEADER + "deck,case,quantity,value\n" + "".join(lines))
 
 
-def test_results_and_counters_are_those_of_the_table(camroller, tmp_path):
-    rows = measure(camroller, tmp_path)
+def test_results_and_counters_are_those_of_the_table(folder):
+    rows = measure(folder)
     if os.environ.get("BLESS"):
         bless(rows)
     known = {row[:3]: row[3] for row in stored()}
@@ -70,3 +78,21 @@ def test_results_and_counters_are_those_of_the_table(camroller, tmp_path):
         relative, counts = (RELATIVE_FLEXIBLE, COUNTS_FLEXIBLE) if deck in CHANGES else (RELATIVE, COUNTS)
         share = counts if name in COUNTERS else relative
         assert value == pytest.approx(known[deck, case, name], rel=share, abs=LEAST_COUNT if name in COUNTERS else 0), (deck, case, name)
+
+
+@pytest.mark.parametrize("deck", DECKS)
+def test_extremes_enclose_the_series(folder, deck):
+    """Rows of a series are beyond its extremes by no more than these are said to be off, or the accuracy: over the range of the series,
+    of a torque over that of the friction torque at least."""
+    with h5py.File(folder / f"{deck}.h5") as file:
+        summary, accuracy = file["summary"], 1e-3 if deck in CHANGES else 1e-4
+        promised = numpy.maximum(summary["estimated_error_of_extremes"][...], accuracy)
+        friction = summary["max_torque_friction"][...] - summary["min_torque_friction"][...]
+        for name, series in file["series"].items():
+            # the energy residual is rounding
+            if f"min_{name}" not in summary or name == "energy_residual":
+                continue
+            low, high = summary[f"min_{name}"][...], summary[f"max_{name}"][...]
+            extent = numpy.maximum(high - low, friction if series.attrs["units"] == "N m" else 0)
+            allowed = promised * extent + 1e-9 * numpy.maximum(abs(low), abs(high))
+            assert (series[...].max(axis=1) - high <= allowed).all() and (low - series[...].min(axis=1) <= allowed).all(), name

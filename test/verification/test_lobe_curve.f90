@@ -7,7 +7,7 @@ module test_lobe_curve
    use camroller_catalogue, only : camshaft_count, follower_count
    use camroller_cycle, only : cycle_t, integrate_cycle, state_at
    use camroller_lobe_curve, only : add_piece, cam_values, close_curve, curve_at, curve_values, halve_pieces, keep_state, &
-      & lobe_curve_t, start_curve
+      & lobe_curve_t, start_curve, telling_points
    use camroller_means, only : integrate_lobe, statistics_t
    use camroller_model, only : model_t
    use camroller_panels, only : panel_points
@@ -34,7 +34,8 @@ contains
          new_unittest("the fitted curve covers nearly the whole turn and agrees with the states", test_known), &
          new_unittest("intervals with a kink of the states have no fitted curve", test_bends), &
          new_unittest("a curve without an interval to halve is returned unchanged", test_nothing_to_halve), &
-         new_unittest("without camshaft bearings there is no force, and torques are known where they are with them", test_absent) &
+         new_unittest("without camshaft bearings there is no force, and torques are known where they are with them", test_absent), &
+         new_unittest("points that tell how curves run miss no turn and no jump, and none is for rounding", test_telling) &
          ]
    end subroutine collect_lobe_curve
 
@@ -197,5 +198,40 @@ contains
             & difference/(cycle%tolerance*maxval(abs(exact(i, :)))))
       end do
    end subroutine compare
+
+   !> A wave, a step with a narrow peak before it, a constant, rounding
+   subroutine test_telling(error)
+      type(error_type), allocatable, intent(out) :: error
+      integer, parameter :: n = 400, quantities = 4, step = 150, peak = 100
+      ! What a point tells within, and what a turn is at least, over the extent [-]; values, extents [any]
+      real(wp), parameter :: far = 0.1_wp, turn = 0.02_wp
+      real(wp) :: values(quantities, n), extents(quantities)
+      logical :: is_telling(n)
+      integer, allocatable :: told(:)
+      integer :: i, k
+
+      values(1, :) = [(cos(3.0_wp*two_pi*i/n), i=1, n)]
+      values(2, :) = [(merge(-7.0_wp, 5.0_wp, i < step), i=1, n)]
+      values(2, peak) = -7.0_wp + 13.0_wp*turn
+      values(3, :) = 4.0_wp
+      values(4, :) = [(1.0_wp + 1.0e-13_wp*modulo(i, 2), i=1, n)]
+      is_telling = telling_points(values)
+      call check(error, is_telling(peak) .and. all(is_telling(step - 1:step)), "peak and jump")
+      if (allocated(error)) return
+      extents = maxval(values, 2) - minval(values, 2)
+      told = [1, pack([(i, i=1, n)], is_telling), n]
+      do k = 1, size(told) - 1
+         associate (between => values(:2, told(k):told(k + 1)))
+            ! a step of the wave besides
+            if (.not. (told(k) < step .and. told(k + 1) >= step)) call check(error, all(maxval(between, 2) - minval(between, 2) &
+               & <= (far + 3.0_wp*two_pi/n)*extents(:2)), "the curve changes between points that tell")
+         end associate
+         if (allocated(error)) return
+      end do
+      ! ten points for each half of a wave, peak and jump; rounding would tell at every one
+      call check(error, count(is_telling) < 75, "points that tell nothing")
+      if (allocated(error)) return
+      call check(error, count(telling_points(values(3:4, :))) == 0, "rounding tells")
+   end subroutine test_telling
 
 end module test_lobe_curve

@@ -21,6 +21,7 @@ module test_random_wide
       & type_name, type_number
    use case_twins, only : compare_twins, leave_constants_out, rescale_case
    use case_endings, only : tally_t, count_ending, count_error, count_remarks, endings_table, ending_count
+   use enclosed_series, only : check_enclosed
    use result_checks, only : check_result, compare_results, promised_error, scalar_of
    use run_settings, only : has_checks, number_from
    use unit_systems, only : unit_systems_tried
@@ -387,7 +388,7 @@ contains
          return
       end if
       call count_remarks(tally, result%remarks)
-      trouble = trouble//check_result(case, result)
+      trouble = trouble//check_result(case, result)//check_enclosed(case, result)
       if (is_checked(case%numerics)) trouble = trouble//missing_remarks(case, result)
       if (trouble == "") call compare_methods(case, result, tally, trouble)
       if (trouble /= "") call count_ending(tally, "SILENT: a result that is not right")
