@@ -22,7 +22,8 @@ module camroller_series_extremes
    use camroller_shaft, only : solved_t, shaft_torques
    use camroller_slip_errors, only : error_at, error_of_extreme, relief_t, state_without
    use camroller_state, only : state_t
-   use camroller_torque_list, only : torque_count, torque_series, of_residual
+   use camroller_torque_list, only : torque_count, torque_series, of_contact, of_damping, of_geometric, of_residual, &
+      & of_roller_inertia
    implicit none
    private
 
@@ -288,7 +289,7 @@ contains
          if (solved%shaft%twins(i) /= i) cycle
          associate (lobe => solved%shaft%lobes(i), phase => solved%shaft%phases(i))
             stops = [stops, solved%cycles(lobe)%stops + phase]
-            angles = [angles, points_of(statistics(lobe), residual) + phase]
+            angles = [angles, points_of(statistics(lobe), list) + phase]
          end associate
       end do
       angles = [stops - near, stops + near, angles]
@@ -325,25 +326,28 @@ contains
       call judge_camshaft(list, lowest, highest, errors, statistics)
    end subroutine search_camshaft
 
-   !> Cam angles from full lift of the points that tell how the torques of a lobe's follower run.
-   pure function points_of(statistics, residual) result(angles)
+   !> Cam angles from full lift of the points that tell how the torques of a lobe's follower run: those that every follower has, so
+   !> that a loss that takes no part in the balance changes no bit of the others' extremes.
+   pure function points_of(statistics, list) result(angles)
       !> Its statistics: those of a flexible train with rows of torques
       type(statistics_t), intent(in) :: statistics
-      !> The series of the camshaft that is rounding
-      integer, intent(in) :: residual
+      !> The series of these rows
+      type(quantity_t), intent(in) :: list(:)
       !> The angles [rad]
       real(wp), allocatable :: angles(:)
 
+      integer, parameter :: always(*) = [of_geometric, of_contact, of_roller_inertia, of_damping]
       ! Torques at the points [N m]
       real(wp), allocatable :: torques(:, :)
+      integer :: i
 
       if (allocated(statistics%torque_rows%angle)) then
          angles = statistics%torque_rows%angle(:statistics%torque_rows%count)
-         torques = statistics%torque_rows%values(:, :size(angles))
-         torques(residual, :) = 0.0_wp
+         torques = statistics%torque_rows%values([(find_quantity(list, trim(torque_series(always(i)))), i=1, size(always))], &
+            & :size(angles))
       else
          call curve_points(statistics%curve, angles, torques)
-         torques(of_residual, :) = 0.0_wp
+         torques = torques(always, :)
       end if
       if (size(angles) > 0) angles = pack(angles, telling_points(torques))
    end function points_of
