@@ -22,8 +22,8 @@ module camroller_series_extremes
    use camroller_shaft, only : solved_t, shaft_torques
    use camroller_slip_errors, only : error_at, error_of_extreme, relief_t, state_without
    use camroller_state, only : state_t
-   use camroller_torque_list, only : torque_count, torque_series, of_contact, of_damping, of_geometric, of_residual, &
-      & of_roller_inertia
+   use camroller_torque_list, only : torque_count, torque_series, of_contact, of_damping, of_geometric, of_guide_side, &
+      & of_needle, of_needle_drag, of_pivot, of_residual, of_roller_inertia, of_seal, of_tip
    implicit none
    private
 
@@ -326,8 +326,8 @@ contains
       call judge_camshaft(list, lowest, highest, errors, statistics)
    end subroutine search_camshaft
 
-   !> Cam angles from full lift of the points that tell how the torques of a lobe's follower run: those that every follower has, so
-   !> that a loss that takes no part in the balance changes no bit of the others' extremes.
+   !> Cam angles from full lift of the points that tell how the torques of a lobe's follower run, without that of the valve guide:
+   !> a loss that may take no part in the balance changes no bit of the others' extremes.
    pure function points_of(statistics, list) result(angles)
       !> Its statistics: those of a flexible train with rows of torques
       type(statistics_t), intent(in) :: statistics
@@ -336,18 +336,20 @@ contains
       !> The angles [rad]
       real(wp), allocatable :: angles(:)
 
-      integer, parameter :: always(*) = [of_geometric, of_contact, of_roller_inertia, of_damping]
+      integer, parameter :: telling(*) = [of_geometric, of_contact, of_needle, of_roller_inertia, of_damping, of_tip, of_seal, &
+         & of_guide_side, of_pivot, of_needle_drag]
       ! Torques at the points [N m]
       real(wp), allocatable :: torques(:, :)
       integer :: i
 
       if (allocated(statistics%torque_rows%angle)) then
          angles = statistics%torque_rows%angle(:statistics%torque_rows%count)
-         torques = statistics%torque_rows%values([(find_quantity(list, trim(torque_series(always(i)))), i=1, size(always))], &
-            & :size(angles))
+         associate (rows => [(find_quantity(list, trim(torque_series(telling(i)))), i=1, size(telling))])
+            torques = statistics%torque_rows%values(pack(rows, rows > 0), :size(angles))
+         end associate
       else
          call curve_points(statistics%curve, angles, torques)
-         torques = torques(always, :)
+         torques = torques(telling, :)
       end if
       if (size(angles) > 0) angles = pack(angles, telling_points(torques))
    end function points_of
