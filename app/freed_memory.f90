@@ -25,7 +25,8 @@ module camroller_freed_memory
 
 contains
 
-   !> Keep up to 256 MB of freed memory in this process.
+   !> Keep freed memory in this process, up to 256 MB in each pool that the C library has for its threads: never more than was in
+   !> use at one time.
    subroutine keep_freed_memory()
       integer(c_int) :: status
 

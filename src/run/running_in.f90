@@ -167,13 +167,13 @@ contains
       do
          now = fresh
          rates = fresh_rates
-         call march_with(plan, model, scales, now, rates, aged, is_used_up, error)
+         call march_until_used_up(plan, model, scales, now, rates, aged, is_used_up, error)
          if (allocated(error) .or. .not. is_used_up) return
       end do
    end subroutine march
 
    !> Integrate over the hours until the accuracy is used up.
-   subroutine march_with(plan, model, scales, now, rates, aged, is_used_up, error)
+   subroutine march_until_used_up(plan, model, scales, now, rates, aged, is_used_up, error)
       !> What is given
       type(plan_t), intent(in) :: plan
       !> The model; out: with its surfaces at the end
@@ -240,7 +240,7 @@ contains
          step = step*min(largest_growth, max(1.0_wp/largest_growth, safety/max(ratio, tiny(ratio))**(1.0_wp/3.0_wp)))
       end do
       aged%error = relative(mistakes, expected_scales(plan, now, rates, 0.0_wp))
-   end subroutine march_with
+   end subroutine march_until_used_up
 
    !> A step in two halves, and what their error is.
    subroutine take_halves(plan, model, now, rates, step, middle, at_middle, next, mistake, cycles, error)
