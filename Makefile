@@ -2,7 +2,7 @@
 
 SHELL := /bin/bash
 .DEFAULT_GOAL := help
-.PHONY: help setup commit build debug mpi example install run dynamics comparison test quick bless random random-ehl random-flexible random-hosts random-wide needed needed-flexible rough-rows fuzz sanitize faults study study-film study-dynamics film-heat audit trends check check-layers \
+.PHONY: help setup commit build debug counted mpi example install run dynamics comparison test quick bless random random-ehl random-flexible random-hosts random-wide needed needed-flexible rough-rows fuzz sanitize faults study study-film study-dynamics film-heat audit trends check check-layers \
   check-style check-format check-lint check-warnings second-compiler format docs recipes bench bench-dynamics bench-ehl range-ehl bench-batch bench-cases bench-effects bench-hosts clean distclean
 
 FPM := .venv/bin/fpm
@@ -19,7 +19,12 @@ COMMON_FLAGS := -std=f2018 -g -ffp-contract=off -fbacktrace -Ibuild/commit
 # components; reals that are truly not set are found by -finit-real=snan.
 export DEBUG_FLAGS := $(COMMON_FLAGS) -Og -Wall -Wextra -Wimplicit-interface -Wno-maybe-uninitialized -fcheck=all \
   -ffpe-trap=invalid,zero,overflow -finit-real=snan
-export RELEASE_FLAGS := $(COMMON_FLAGS) -O3
+export OPTIMISED_FLAGS := $(COMMON_FLAGS) -O3
+# The program: with -flto small procedures of other modules are inlined, a tenth fewer instructions a case and not one bit of a result
+# another (doc/notes/batch.md). Tests go without, since each program that is linked so takes minutes. gcc-ar writes the index of such
+# objects.
+export RELEASE_FLAGS := $(OPTIMISED_FLAGS) -flto=auto
+export FPM_AR := gcc-ar
 export SANITIZE_FLAGS := $(COMMON_FLAGS) -O1 -fno-omit-frame-pointer -fsanitize=address,undefined
 
 help: ## list what can be made
@@ -38,6 +43,9 @@ build: commit ## the program: build/release/bin/camroller
 
 debug: commit ## the program with all run-time checks: build/debug/bin/camroller
 	@$(FPM) install --flag "$(DEBUG_FLAGS)" --prefix build/debug > build/debug.log 2>&1 || { cat build/debug.log; exit 1; }
+
+counted: commit ## the program without -flto, whose procedures valgrind can tell apart: build/counted/bin/camroller
+	@$(FPM) install --flag "$(OPTIMISED_FLAGS)" --prefix build/counted > build/counted.log 2>&1 || { cat build/counted.log; exit 1; }
 
 mpi: build ## the program for many nodes, where Open MPI is there: build/mpi/bin/camroller-mpi
 	@tools/build_mpi.sh
@@ -127,30 +135,30 @@ test: build debug mpi ## all tests, with run-time checks and optimised
 	@$(PYTHON) tools/run_tests.py
 
 random: commit ## random cases by two integration methods, optimised build: CASES=20000 SEED=1; failures print a deck
-	@RANDOM_CASES=$(or $(CASES),20000) RANDOM_SEED=$(or $(SEED),1) $(FPM) test --flag "$(RELEASE_FLAGS)" -- random_cases
+	@RANDOM_CASES=$(or $(CASES),20000) RANDOM_SEED=$(or $(SEED),1) $(FPM) test --flag "$(OPTIMISED_FLAGS)" -- random_cases
 
 random-ehl: commit ## random cases with a numerical film, as film law and over the cycle: CASES=200 SEED=1; failures print a deck
 	@OPENBLAS_NUM_THREADS=1 RANDOM_EHL_CASES=$(or $(CASES),200) RANDOM_EHL_SEED=$(or $(SEED),1) RANDOM_EHL_TABLE=$(or $(TABLE),0) $(FPM) test \
-	  --flag "$(RELEASE_FLAGS)" -- random_ehl
+	  --flag "$(OPTIMISED_FLAGS)" -- random_ehl
 
 random-wide: commit ## random cases with all options of a deck, optimised build: CASES=20000 SEED=1 FOLDER= for decks that fail
 	@WIDE_CASES=$(or $(CASES),20000) WIDE_SEED=$(or $(SEED),1) $(if $(FOLDER),WIDE_FOLDER="$(FOLDER)") $(FPM) test \
-	  --flag "$(RELEASE_FLAGS)" -- random_wide
+	  --flag "$(OPTIMISED_FLAGS)" -- random_wide
 
 random-hosts: commit ## random rigid followers stepped by a host against their runs, optimised build: CASES=1000 SEED=1 FOLDER= for decks that fail
 	@HOST_CASES=$(or $(CASES),1000) HOST_SEED=$(or $(SEED),1) $(if $(FOLDER),WIDE_FOLDER="$(FOLDER)") $(FPM) test \
-	  --flag "$(RELEASE_FLAGS)" -- random_hosts
+	  --flag "$(OPTIMISED_FLAGS)" -- random_hosts
 
 random-flexible: commit ## random flexible trains by two methods, optimised build: CASES=100 SEED=1 FOLDER= for decks that fail, DECK= for one of them, ACCURACY= in the place of a tolerance of 1e-3
 	@FLEXIBLE_CASES=$(or $(CASES),100) FLEXIBLE_SEED=$(or $(SEED),1) $(if $(FOLDER),WIDE_FOLDER="$(FOLDER)") \
 	  $(if $(DECK),FLEXIBLE_DECK="$(DECK)") $(if $(ACCURACY),FLEXIBLE_ACCURACY=$(ACCURACY)) $(FPM) test \
-	  --flag "$(RELEASE_FLAGS)" -- random_flexible
+	  --flag "$(OPTIMISED_FLAGS)" -- random_flexible
 
 needed: commit ## changes by leaving effects out, compared with their estimates, for random cases: CASES=300 SEED=1
-	@NEEDED_TABLE=1 NEEDED_CASES=$(or $(CASES),300) NEEDED_SEED=$(or $(SEED),1) $(FPM) test --flag "$(RELEASE_FLAGS)" -- needed
+	@NEEDED_TABLE=1 NEEDED_CASES=$(or $(CASES),300) NEEDED_SEED=$(or $(SEED),1) $(FPM) test --flag "$(OPTIMISED_FLAGS)" -- needed
 
 needed-flexible: commit ## the same for random flexible trains: CASES=50 SEED=1
-	@NEEDED_TABLE=1 NEEDED_FLEXIBLE=$(or $(CASES),50) NEEDED_SEED=$(or $(SEED),1) $(FPM) test --flag "$(RELEASE_FLAGS)" \
+	@NEEDED_TABLE=1 NEEDED_FLEXIBLE=$(or $(CASES),50) NEEDED_SEED=$(or $(SEED),1) $(FPM) test --flag "$(OPTIMISED_FLAGS)" \
 	  -- needed_flexible
 
 fuzz: build debug ## malformed decks and files for both builds, outcomes counted: CASES=300 SEED=1 (of each campaign), KIND=decks for one
@@ -166,7 +174,7 @@ faults: commit ## faults planted one at a time, each of which a named test must 
 	@$(PYTHON) tools/planted_faults.py $(if $(ONLY),'$(ONLY)')
 
 rough-rows: commit ## comparison with rough contacts of Masjedi and Khonsari: bench/tables/ehl_rough.txt, for doc/notes/numerical_film.md
-	@ROUGH_TABLE=bench/tables/ehl_rough.txt $(FPM) test --flag "$(RELEASE_FLAGS)" -- ehl_rough
+	@ROUGH_TABLE=bench/tables/ehl_rough.txt $(FPM) test --flag "$(OPTIMISED_FLAGS)" -- ehl_rough
 
 bless: build ## accept the present key results and counters of all decks as reference of test_regression.py
 	@BLESS=1 $(PYTHON) -m pytest -q test/python/test_regression.py
@@ -219,10 +227,10 @@ range-ehl: commit ## steady contacts over the whole range: NODES=1025, every STR
 bench-batch: build mpi ## cases per second, scaling, cost as a study grows: bench/tables/throughput.txt (ten minutes, idle machine)
 	@$(PYTHON) bench/throughput.py
 
-bench-cases: build ## where the instructions of a case go: bench/tables/case_cost.txt (twenty minutes, valgrind)
-	@$(PYTHON) bench/case_cost.py build/release/bin/camroller bench/tables/case_cost.txt build/bench/cases
+bench-cases: counted ## where the instructions of a case go: bench/tables/case_cost.txt (twenty minutes, valgrind)
+	@$(PYTHON) bench/case_cost.py build/counted/bin/camroller bench/tables/case_cost.txt build/bench/cases
 
-bench-effects: build ## instruction counts of effects, present and absent: bench/tables/effects.txt (ten minutes)
+bench-effects: counted ## instruction counts of effects, present and absent: bench/tables/effects.txt (ten minutes)
 	@bench/effects.sh
 
 bench-hosts: setup ## cost of a step of a host, instructions, allocations, time: bench/tables/hosts.txt (ten minutes, valgrind)
@@ -231,7 +239,7 @@ bench-hosts: setup ## cost of a step of a host, instructions, allocations, time:
 	@cat bench/tables/hosts.txt
 
 clean: ## remove built files; keep tools and results
-	rm -rf build/gfortran* build/debug build/release build/sanitize build/docs build/docs-source build/second build/package build/recipes build/commit build/tests build/bench bench/build build/mpi build/*.log build/compile_commands.json
+	rm -rf build/gfortran* build/debug build/release build/counted build/sanitize build/docs build/docs-source build/second build/package build/recipes build/commit build/tests build/bench bench/build build/mpi build/*.log build/compile_commands.json
 
 distclean: ## remove everything that is not in git, results too
 	rm -rf build bench/build .venv results

@@ -9,7 +9,7 @@ cd "$(dirname "$0")/.."
 fail() { printf 'bench-effects: %s\n' "$*" >&2; exit 1; }
 
 command -v valgrind > /dev/null || fail "valgrind is missing (valgrind in Debian)"
-program=build/release/bin/camroller
+program=build/counted/bin/camroller
 work=build/bench/effects
 mkdir -p "$work"
 failed=()

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Run all tests and end with one line of counts.
 
-Usage: make test, which builds both programs and sets DEBUG_FLAGS and RELEASE_FLAGS
+Usage: make test, which builds both programs and sets DEBUG_FLAGS and OPTIMISED_FLAGS
 
 Fortran tests with run-time checks and optimised, the examples, Python tests. Python tests that start the program run with
 both programs, the others once. Two parts run at a time; each prints when it is over. A part that breaks off counts as one
@@ -103,11 +103,11 @@ def python_tests(part: Part, profile: str, *options: str) -> tuple[int, int]:
 
 def main() -> int:
     """All parts; returns the exit code."""
-    debug, release = os.environ["DEBUG_FLAGS"], os.environ["RELEASE_FLAGS"]
+    debug, optimised = os.environ["DEBUG_FLAGS"], os.environ["OPTIMISED_FLAGS"]
     # fpm writes to one folder whatever the flags: builds one after the other, then the tests side by side
     builds = [Part(f"build of the tests, {name}", build, flags).do() for name, flags in
-              (("run-time checks", debug), ("optimised", release))]
-    table = [Part("examples", examples, release).do()]
+              (("run-time checks", debug), ("optimised", optimised))]
+    table = [Part("examples", examples, optimised).do()]
     for part in builds + table:
         part.show()
     if any(part.failed for part in builds):
