@@ -3,6 +3,8 @@
 
 # Exit code of a sweep that was stopped and can be gone on with
 readonly code_unfinished=8
+# Threads that OpenBLAS starts with each process would wait busily for work that the program never gives them
+export OPENBLAS_NUM_THREADS=1
 
 run_and_requeue() { # command
     local child code
