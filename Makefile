@@ -5,7 +5,7 @@ SHELL := /bin/bash
 .PHONY: help setup commit build debug counted mpi example install run dynamics comparison test quick bless random random-ehl random-flexible random-hosts random-wide needed needed-flexible rough-rows fuzz sanitize faults study study-film study-dynamics film-heat audit trends check check-layers \
   check-style check-format check-lint check-warnings second-compiler format docs recipes bench bench-dynamics bench-ehl range-ehl bench-batch bench-cases bench-effects bench-hosts clean distclean
 
-FPM := .venv/bin/fpm
+FPM := tools/fpm
 PYTHON := .venv/bin/python
 # that of .venv, which builds the wheel in the same folder, where it is there: another version would compile everything again
 CMAKE = $(or $(wildcard .venv/bin/cmake),cmake)
@@ -17,7 +17,8 @@ export PKG_CONFIG_PATH := $(CURDIR)/build/pkgconfig:$(PKG_CONFIG_PATH)
 COMMON_FLAGS := -std=f2018 -g -ffp-contract=off -fbacktrace -Ibuild/commit
 # -Og makes the checked tests take 0.6 of the time. What gfortran 12 then guesses of values that may not be set is wrong with allocatable
 # components; reals that are truly not set are found by -finit-real=snan.
-export DEBUG_FLAGS := $(COMMON_FLAGS) -Og -Wall -Wextra -Wimplicit-interface -Wno-maybe-uninitialized -fcheck=all \
+export DEBUG_FLAGS := $(COMMON_FLAGS) -Og -Wall -Wextra -Wimplicit-interface -Wno-maybe-uninitialized \
+  -Wno-uninitialized -fcheck=all \
   -ffpe-trap=invalid,zero,overflow -finit-real=snan
 export OPTIMISED_FLAGS := $(COMMON_FLAGS) -O3
 # The program: with -flto small procedures of other modules are inlined, a tenth fewer instructions a case and not one bit of a result

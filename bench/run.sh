@@ -25,7 +25,7 @@ fi
 flags="$RELEASE_FLAGS -I../build/commit -fPIC -fno-semantic-interposition"
 # LAPACK and BLAS through a clock, bench/src/lapack_clock.f90
 wrapped="-Wl,--wrap=dgetrf_,--wrap=dgetrs_,--wrap=dgemv_"
-fpm=$PWD/.venv/bin/fpm
+fpm=$PWD/tools/fpm
 python=$PWD/.venv/bin/python
 target=$PWD/build/bench
 mkdir -p "$target" bench/tables

@@ -53,7 +53,7 @@ def run(folder: pathlib.Path, command: list[str], **variables: str) -> tuple[int
 
 def passes(folder: pathlib.Path, fault: dict) -> bool:
     """Build the copy and run the test of a fault; a copy that does not compile is no verdict."""
-    flags, fpm = os.environ["DEBUG_FLAGS"], str(folder / ".venv/bin/fpm")
+    flags, fpm = os.environ["DEBUG_FLAGS"], str(folder / "tools/fpm")
     if "suite" in fault:
         code, text = run(folder, [fpm, "build", "--tests", "--flag", flags])
         test = [fpm, "test", "--flag", flags, "--", fault["suite"]]

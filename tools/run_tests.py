@@ -22,7 +22,7 @@ import xml.etree.ElementTree
 from fortran_source import ROOT
 
 COUNTS = re.compile(r"^(\d+) passed, (\d+) failed$")
-FPM = str(ROOT / ".venv/bin/fpm")
+FPM = str(ROOT / "tools/fpm")
 
 
 class Part:

@@ -19,7 +19,7 @@ import tempfile
 
 from fortran_source import ROOT
 
-FPM = str(ROOT / ".venv/bin/fpm")
+FPM = str(ROOT / "tools/fpm")
 REPORT = re.compile(r"ERROR: AddressSanitizer.*|SUMMARY: AddressSanitizer: (?!\d+ byte).*|[^\s:]+:\d+:\d+: runtime error: .*")
 # A leak, and the first frame below malloc: what a test or the list of tests keeps to its end is none of ours
 LEAK = re.compile(r"^Direct leak of (\d+) byte.*\n(?:\s+#0 .*\n)\s+#1 \S+ in (\S+ (?:\./)?(?:src|app)/\S+)", re.MULTILINE)
