@@ -6,13 +6,15 @@ module camroller_flexible_turn
    use camroller_kinds, only : wp, pi, degree
    use camroller_cam_angle, only : cam_angle_text
    use camroller_error, only : error_t, raise, kind_domain
-   use camroller_model, only : model_t
+   use camroller_dynamics, only : evaluate_moments, moments_t
+   use camroller_kinematics, only : position_t
+   use camroller_model, only : evaluate_geometry, model_t
    use camroller_names, only : name_length
    use camroller_events, only : cycle_stops
    use camroller_ode_method, only : method_t, options_t
    use camroller_ode_problem, only : counters_t
    use camroller_ode_methods, only : new_method
-   use camroller_ode_switching, only : integrate_switching
+   use camroller_ode_switching, only : integrate_switching, shortest_step
    use camroller_trajectory, only : trajectory_t
    use camroller_flexible_train, only : flexible_state_t, evaluate_train, state_size, at_finger, at_sliding
    use camroller_number_text, only : millimetres_text, number_text
@@ -31,6 +33,11 @@ module camroller_flexible_turn
    !> Difference of sliding speeds that is not resolved, over the error allowed in a step: from 1 on the sliding speed sticks
    !> where a film is as good as solid; at 0.5 it takes four times the steps [-]
    real(wp), parameter :: unresolved = 2.0_wp
+   !> Shortest steps in which friction may change the sliding speed by what is not resolved of it. With two of them no step is short
+   !> enough to end where friction gives way on a film as good as solid, and the speed goes to and fro about it; four are enough [-]
+   real(wp), parameter :: least_steps = 20.0_wp
+   !> Sliding speed that is none, however slow the cam, over that of the surface of a roller that turns with it [-]
+   real(wp), parameter :: no_slip = 1.0e-6_wp
    !> Steps of a cycle after which it is given up
    integer, parameter :: most_steps = 400000
 
@@ -46,6 +53,8 @@ module camroller_flexible_turn
       real(wp), allocatable :: stops(:)
       !> Sizes of the components [state]
       real(wp), allocatable :: scales(:)
+      !> Difference of sliding speeds that steps can resolve, whatever the tolerance [m/s]
+      real(wp) :: least_sliding = 0.0_wp
    end type turn_t
 
 contains
@@ -99,6 +108,8 @@ contains
       if (.not. allocated(turn%scales)) allocate (turn%scales(turn%components))
       call set_scales(model, turn%scales)
       turn%options%tolerance = tolerance*turn%scales
+      turn%least_sliding = min(least_steps*shortest_step*spacing(pi)*sliding_rate(model), &
+         & no_slip*model%speed*model%roller_radius)
       call set_sliding_tolerance(turn, turn%options%tolerance(at_sliding))
       turn%options%step = first_step
       turn%options%max_step = largest_step
@@ -124,8 +135,27 @@ contains
       real(wp), intent(in) :: tolerance
 
       turn%options%tolerance(at_sliding) = tolerance
-      turn%problem%resolution%sliding_speed = unresolved*tolerance
+      turn%problem%resolution%sliding_speed = max(unresolved*tolerance, turn%least_sliding)
    end subroutine set_sliding_tolerance
+
+   !> Rate of the sliding speed that friction gives to a roller at most: by the load at full lift without inertia.
+   function sliding_rate(model) result(rate)
+      !> The model
+      type(model_t), intent(in) :: model
+      !> The rate [m/s per rad]
+      real(wp) :: rate
+
+      type(position_t) :: position
+      type(moments_t) :: moments
+      integer :: status
+
+      rate = 0.0_wp
+      call evaluate_geometry(model, 0.0_wp, position, status)
+      if (status /= 0) return
+      call evaluate_moments(model%train, position, 0.0_wp, 0.0_wp, moments)
+      rate = model%limiting_coefficient*abs(moments%total/position%normal_arm)*model%roller_radius**2 &
+         & /(model%roller_inertia*model%speed)
+   end function sliding_rate
 
    !> One turn.
    subroutine integrate_turn(turn, state, trajectory, counters, error)

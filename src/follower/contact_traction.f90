@@ -1,11 +1,12 @@
 !> Traction between cam and roller at a given load and film: shear of the film at its temperature, boundary friction, and how both
 !> follow a motion of the contact.
 !>
-!> In: model, contact with film and load share. Out: forces, temperatures, changes. The temperature of the film is where the heat of
-!> the shear at that temperature keeps it: its rise is the one root of `y = g |F(y + y_b)|`, with g the rise per force of the shear
-!> and y_b that by boundary friction. F falls with the temperature, so Newton's method on logarithms stays between 0 and the first
-!> value. Where the coefficient of boundary friction follows the temperature of the surfaces, that is the root of `t = f(t)`, with f
-!> the rise that friction with the coefficient at t makes, by Newton's method inside a bracket.
+!> In: model, contact with film and load share. Out: forces, temperatures, changes. The temperature of the film is where the heat
+!> of the shear at that temperature keeps it: its rise is the one root of `y = g |F(y + y_b)|`, with g the rise per force of the
+!> shear and y_b that by boundary friction. F falls with the temperature, so that Newton's method on logarithms, with bisection
+!> where its steps go to and fro, stays between 0 and the first value. Where the coefficient of boundary friction follows the
+!> temperature of the surfaces, that is the root of `t = f(t)`, with f the rise that friction with the coefficient at t makes, by
+!> Newton's method inside a bracket.
 module camroller_contact_traction
    use camroller_kinds, only : wp
    use camroller_asperity, only : find_boundary_friction, has_one_coefficient
@@ -286,8 +287,8 @@ contains
       ! Sliding speed over area [1/(m s)]; rise per force of the shear [K/N]; rise by boundary friction, by the shear, its bounds,
       ! its next value [K]
       real(wp) :: flux, gain, by_boundary, rise, low, high, next
-      ! Shear without its sign [N]; logarithm of what the rise is too large by, relative step [-]
-      real(wp) :: force, excess, step
+      ! Shear without its sign [N]; logarithm of what the rise is too large by, relative step and the one before [-]
+      real(wp) :: force, excess, step, last
       integer :: i
 
       parts%heat%film = film_resistance(contact%film_central, model%heat%oil_conductivity)
@@ -307,8 +308,10 @@ contains
             rise = 0.0_wp
          end if
       end if
+      step = 0.0_wp
       do i = 1, max_evaluations
          if (.not. rise > 0.0_wp) exit
+         last = step
          call set_shear(model, setting, contact, peak, rise + by_boundary, parts)
          force = abs(parts%shear)
          excess = 1.0_wp
@@ -322,7 +325,9 @@ contains
          end if
          if (excess > 0.0_wp) high = rise
          if (excess < 0.0_wp) low = rise
-         if (next <= low .or. next >= high) next = low + 0.5_wp*(high - low)
+         ! Where the limit gives way to the free shear, steps go to and fro for long
+         if (next <= low .or. next >= high .or. (step*last < 0.0_wp .and. abs(step) > 0.5_wp*abs(last))) next = low &
+            & + 0.5_wp*(high - low)
          if (next <= low .or. next >= high) exit
          rise = next
       end do

@@ -15,7 +15,7 @@ module camroller_ode_switching
    implicit none
    private
 
-   public :: switching_problem_t, integrate_switching
+   public :: switching_problem_t, integrate_switching, shortest_step
 
    !> Most switches and markers of a problem
    integer, parameter, public :: most_switches = 4
@@ -51,6 +51,8 @@ module camroller_ode_switching
       logical :: is_cut = .false., is_located = .false., is_hop = .false.
    end type walk_t
 
+   !> Shortest step, over the distance of numbers at its time [-]
+   real(wp), parameter :: shortest_step = 16.0_wp
    !> Part of the optimal step that is taken; largest growth and shrinkage of a step [-]
    real(wp), parameter :: safety = 0.9_wp, max_growth = 4.0_wp, max_shrinkage = 0.2_wp
    !> Error over tolerance below which smaller ones make no difference, and that of an impossible trial [-]
@@ -184,7 +186,7 @@ contains
          end if
          if (counters%accepted + counters%rejected > options%max_steps) then
             call raise(error, kind_convergence, "the number of steps is used up at "//trim(problem%name_time(walk%step%time)))
-         else if (walk%proposed <= 16.0_wp*spacing(abs(walk%step%time))) then
+         else if (walk%proposed <= shortest_step*spacing(abs(walk%step%time))) then
             call raise(error, kind_convergence, "the step has become too small at "//trim(problem%name_time(walk%step%time)))
          end if
          if (allocated(error)) return
