@@ -192,7 +192,7 @@ contains
             do sense = -1, 1, 2
                call start_search(statistics%rows, series, sense, cycle%tolerance, search, &
                   & sense > 0 .and. index(list(series)%name, "film_") > 0)
-               do while (search%is_wanted .and. .not. cycle%is_linear)
+               do while (search%is_wanted)
                   call keep_state(kept, solved, lobe, statistics%curve, search%trial, size(lowest), place, error)
                   if (allocated(error)) return
                   call narrow_search(statistics%rows, search, kept%values(series, place))
@@ -308,7 +308,7 @@ contains
          end if
          do sense = -1, 1, 2
             call start_search(samples, series, sense, maxval(solved%cycles%tolerance), search)
-            do while (search%is_wanted .and. .not. any(solved%cycles%is_linear))
+            do while (search%is_wanted)
                call camshaft_row(solved, search%trial, values, error)
                if (allocated(error)) return
                call narrow_search(samples, search, values(series))

@@ -80,12 +80,11 @@ def test_results_and_counters_are_those_of_the_table(folder):
         assert value == pytest.approx(known[deck, case, name], rel=share, abs=LEAST_COUNT if name in COUNTERS else 0), (deck, case, name)
 
 
-@pytest.mark.parametrize("deck", DECKS)
-def test_extremes_enclose_the_series(folder, deck):
+def check_enclosed(path, accuracy):
     """Rows of a series are beyond its extremes by no more than these are said to be off, or the accuracy: over the range of the series,
     of a torque over that of the friction torque at least."""
-    with h5py.File(folder / f"{deck}.h5") as file:
-        summary, accuracy = file["summary"], 1e-3 if deck in CHANGES else 1e-4
+    with h5py.File(path) as file:
+        summary = file["summary"]
         promised = numpy.maximum(summary["estimated_error_of_extremes"][...], accuracy)
         friction = summary["max_torque_friction"][...] - summary["min_torque_friction"][...]
         for name, series in file["series"].items():
@@ -96,3 +95,16 @@ def test_extremes_enclose_the_series(folder, deck):
             extent = numpy.maximum(high - low, friction if series.attrs["units"] == "N m" else 0)
             allowed = promised * extent + 1e-9 * numpy.maximum(abs(low), abs(high))
             assert (series[...].max(axis=1) - high <= allowed).all() and (low - series[...].min(axis=1) <= allowed).all(), name
+
+
+@pytest.mark.parametrize("deck", DECKS)
+def test_extremes_enclose_the_series(folder, deck):
+    """By the methods of the decks, which control their errors."""
+    check_enclosed(folder / f"{deck}.h5", 1e-3 if deck in CHANGES else 1e-4)
+
+
+def test_extremes_enclose_the_series_by_steps_of_a_fixed_length(camroller, tmp_path):
+    """Extremes are looked for between the points of the means, whatever the method."""
+    path = tmp_path / "fixed_steps.h5"
+    subprocess.run([camroller, "run", ROOT / "test/data/fixed_steps/deck.nml", "-o", path, "--quiet"], check=True, capture_output=True)
+    check_enclosed(path, 1e-4)
