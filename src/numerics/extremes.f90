@@ -17,7 +17,7 @@ module camroller_extremes
    implicit none
    private
 
-   public :: samples_t, search_t, start_samples, add_sample, move_samples, start_search, narrow_search
+   public :: samples_t, search_t, beside, start_samples, add_sample, move_samples, start_search, narrow_search
 
    !> Rows that are looked near at most
    integer, parameter :: most_rows = 8
@@ -71,6 +71,8 @@ module camroller_extremes
    real(wp), parameter :: worth_part = 3.0_wp, least_worth = 1.0e-7_wp, most_worth = 1.0e-5_wp
    !> Widest distance to a neighbour that a search may begin with [rad]
    real(wp), parameter :: widest = two_pi/24.0_wp
+   !> Distance from a jump of the rows on its sides; distance of rows that count as one angle [rad]
+   real(wp), parameter :: beside = 1.0e-9_wp, one_angle = 2.5_wp*beside
    !> Rows for which there is room at first
    integer, parameter :: first_room = 1536
 
@@ -158,18 +160,18 @@ contains
       call sort_rows(samples%angle(:samples%count), samples%order)
       samples%sorted = samples%count
       associate (order => samples%order)
-         ! Rows that share an angle share their neighbours
+         ! Rows that share an angle, or are the sides of a jump, share their neighbours: a slope between them tells nothing
          before = order(samples%count)
          do place = 1, samples%count
             if (place > 1) then
-               if (samples%angle(order(place)) > samples%angle(order(place - 1))) before = order(place - 1)
+               if (samples%angle(order(place)) - samples%angle(order(place - 1)) > one_angle) before = order(place - 1)
             end if
             samples%beside(1, order(place)) = before
          end do
          before = order(1)
          do place = samples%count, 1, -1
             if (place < samples%count) then
-               if (samples%angle(order(place)) < samples%angle(order(place + 1))) before = order(place + 1)
+               if (samples%angle(order(place + 1)) - samples%angle(order(place)) > one_angle) before = order(place + 1)
             end if
             samples%beside(2, order(place)) = before
          end do
