@@ -2,7 +2,7 @@
 module test_extremes
    use testdrive, only : unittest_type, new_unittest, error_type, check
    use camroller_kinds, only : wp, pi, two_pi
-   use camroller_extremes, only : samples_t, search_t, beside, start_samples, add_sample, start_search, narrow_search
+   use camroller_extremes, only : samples_t, search_t, start_samples, add_sample, start_search, narrow_search
    implicit none
    private
 
@@ -116,8 +116,8 @@ contains
       call check(error, search%value, 0.0_wp, thr=0.0_wp)
    end subroutine test_kink
 
-   !> A rising curve falls by a millionth within the distance of the rows beside a stop: over it that is a slope of 1000, which a row a
-   !> tenth away would turn into 100.
+   !> A rising curve falls by a millionth between two rows whose angles differ by rounding: too close to look between, with a slope
+   !> that would leave anything possible as far as the next row.
    subroutine test_jump(error)
       type(error_type), allocatable, intent(out) :: error
       type(samples_t) :: samples
@@ -131,8 +131,7 @@ contains
          angle = 0.1_wp*i
          call add_sample(samples, angle, [value(angle)], .false.)
       end do
-      call add_sample(samples, jump - beside, [value(jump - beside)], .false.)
-      call add_sample(samples, jump + beside, [value(jump + beside)], .false.)
+      call add_sample(samples, jump - spacing(jump), [value(jump - spacing(jump))], .false.)
       call start_search(samples, 1, 1, 0.0_wp, search)
       do while (search%is_wanted)
          call narrow_search(samples, search, value(search%trial))
