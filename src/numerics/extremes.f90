@@ -160,18 +160,18 @@ contains
       call sort_rows(samples%angle(:samples%count), samples%order)
       samples%sorted = samples%count
       associate (order => samples%order)
-         ! Rows that share an angle, or are the sides of a jump, share their neighbours: a slope between them tells nothing
+         ! Rows that share an angle share their neighbours
          before = order(samples%count)
          do place = 1, samples%count
             if (place > 1) then
-               if (samples%angle(order(place)) - samples%angle(order(place - 1)) > one_angle) before = order(place - 1)
+               if (samples%angle(order(place)) > samples%angle(order(place - 1))) before = order(place - 1)
             end if
             samples%beside(1, order(place)) = before
          end do
          before = order(1)
          do place = samples%count, 1, -1
             if (place < samples%count) then
-               if (samples%angle(order(place + 1)) - samples%angle(order(place)) > one_angle) before = order(place + 1)
+               if (samples%angle(order(place)) < samples%angle(order(place + 1))) before = order(place + 1)
             end if
             samples%beside(2, order(place)) = before
          end do
@@ -398,8 +398,9 @@ contains
       rises = values([1, 3]) - values(2)
       if (minval(rises) < 0.0_wp .or. maxval(rises) <= 0.0_wp) return
       x = ways(samples, row)
-      ! Rows on both sides of a jump have one angle, and nothing is hidden between them
-      if (x(3) - x(1) > 2.0_wp*widest .or. x(1) >= 0.0_wp .or. x(3) <= 0.0_wp) return
+      ! Rows on both sides of a jump have one angle, or nearly so: nothing is hidden between them, and a slope from one to the other
+      ! tells nothing
+      if (x(3) - x(1) > 2.0_wp*widest .or. x(1) >= -one_angle .or. x(3) <= one_angle) return
       bound = values(2) - max(-rises(1)*x(3)/x(1), -rises(2)*x(1)/x(3))
    end function lowest_hidden
 
@@ -432,7 +433,7 @@ contains
          associate (row => search%rows(search%done))
             if (samples%is_kink(row)) cycle
             x = ways(samples, row)
-            if (max(-x(1), x(3)) > widest) cycle
+            if (max(-x(1), x(3)) > widest .or. min(-x(1), x(3)) <= one_angle) cycle
             call start_extremum(search%now, samples%angle(row) + x, search%sense*samples%values(search%series, &
                & [samples%beside(1, row), row, samples%beside(2, row)]), search%worth*search%extent, most_halvings)
          end associate
