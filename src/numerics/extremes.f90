@@ -17,7 +17,7 @@ module camroller_extremes
    implicit none
    private
 
-   public :: samples_t, search_t, beside, start_samples, add_sample, move_samples, start_search, narrow_search
+   public :: samples_t, search_t, start_samples, add_sample, move_samples, start_search, narrow_search
 
    !> Rows that are looked near at most
    integer, parameter :: most_rows = 8
@@ -71,8 +71,6 @@ module camroller_extremes
    real(wp), parameter :: worth_part = 3.0_wp, least_worth = 1.0e-7_wp, most_worth = 1.0e-5_wp
    !> Widest distance to a neighbour that a search may begin with [rad]
    real(wp), parameter :: widest = two_pi/24.0_wp
-   !> Distance from a jump of the rows on its sides; distance of rows that count as one angle [rad]
-   real(wp), parameter :: beside = 1.0e-9_wp, one_angle = 2.5_wp*beside
    !> Rows for which there is room at first
    integer, parameter :: first_room = 1536
 
@@ -398,9 +396,8 @@ contains
       rises = values([1, 3]) - values(2)
       if (minval(rises) < 0.0_wp .or. maxval(rises) <= 0.0_wp) return
       x = ways(samples, row)
-      ! Rows on both sides of a jump have one angle, or nearly so: nothing is hidden between them, and a slope from one to the other
-      ! tells nothing
-      if (x(3) - x(1) > 2.0_wp*widest .or. x(1) >= -one_angle .or. x(3) <= one_angle) return
+      ! Rows on both sides of a jump have one angle, and nothing is hidden between them
+      if (x(3) - x(1) > 2.0_wp*widest .or. x(1) >= 0.0_wp .or. x(3) <= 0.0_wp) return
       bound = values(2) - max(-rises(1)*x(3)/x(1), -rises(2)*x(1)/x(3))
    end function lowest_hidden
 
@@ -433,7 +430,7 @@ contains
          associate (row => search%rows(search%done))
             if (samples%is_kink(row)) cycle
             x = ways(samples, row)
-            if (max(-x(1), x(3)) > widest .or. min(-x(1), x(3)) <= one_angle) cycle
+            if (max(-x(1), x(3)) > widest) cycle
             call start_extremum(search%now, samples%angle(row) + x, search%sense*samples%values(search%series, &
                & [samples%beside(1, row), row, samples%beside(2, row)]), search%worth*search%extent, most_halvings)
          end associate

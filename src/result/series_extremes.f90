@@ -11,7 +11,7 @@ module camroller_series_extremes
    use camroller_error_estimate, only : margin
    use camroller_flexible_follower, only : follower_on_path
    use camroller_flexible_solution, only : error_share
-   use camroller_extremes, only : samples_t, search_t, beside, add_sample, narrow_search, start_search
+   use camroller_extremes, only : samples_t, search_t, add_sample, narrow_search, start_search
    use camroller_lobe_curve, only : cam_values, contact_near, curve_points, curve_values, lobe_curve_t, &
       & telling_points
    use camroller_margins, only : margins_t
@@ -37,8 +37,9 @@ module camroller_series_extremes
       real(wp), allocatable :: event_load(:)
    end type extremes_t
 
-   !> Distance from a stop of rows of the camshaft that show an extreme close to a kink, whose points lie wider apart [rad]
-   real(wp), parameter :: near = 1.0e-3_wp
+   !> Distance of the states on both sides of a stop, where series may jump; of rows of the camshaft that show an extreme close to a
+   !> kink, whose points lie wider apart [rad]
+   real(wp), parameter :: beside = 1.0e-9_wp, near = 1.0e-3_wp
    !> States that are kept while extremes are searched for
    integer, parameter :: most_kept = 32
 

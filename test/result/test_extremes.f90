@@ -17,7 +17,6 @@ contains
          new_unittest("extremes between samples are found", test_between), &
          new_unittest("an extreme at the seam of the turn is found", test_seam), &
          new_unittest("a kink that is sampled stays the extreme", test_kink), &
-         new_unittest("a small jump on a slope hides no extreme behind it", test_jump), &
          new_unittest("of two summits the higher one is found, though rows show it lower", test_summits), &
          new_unittest("a kink between rows is approached to the tolerance, and what is left is known", test_kink_between), &
          new_unittest("of many summits those that are not looked near count as what may be left", test_many), &
@@ -115,36 +114,6 @@ contains
       if (allocated(error)) return
       call check(error, search%value, 0.0_wp, thr=0.0_wp)
    end subroutine test_kink
-
-   !> A rising curve falls by a millionth between two rows whose angles differ by rounding: too close to look between, with a slope
-   !> that would leave anything possible as far as the next row.
-   subroutine test_jump(error)
-      type(error_type), allocatable, intent(out) :: error
-      type(samples_t) :: samples
-      type(search_t) :: search
-      real(wp), parameter :: jump = 2.0_wp, fall = 1.0e-6_wp
-      real(wp) :: angle
-      integer :: i
-
-      call start_samples(samples, 1)
-      do i = -30, 30
-         angle = 0.1_wp*i
-         call add_sample(samples, angle, [value(angle)], .false.)
-      end do
-      call add_sample(samples, jump - spacing(jump), [value(jump - spacing(jump))], .false.)
-      call start_search(samples, 1, 1, 0.0_wp, search)
-      do while (search%is_wanted)
-         call narrow_search(samples, search, value(search%trial))
-      end do
-      call check(error, search%left < 2.0_wp*fall)
-   contains
-      pure function value(at)
-         real(wp), intent(in) :: at
-         real(wp) :: value
-
-         value = -cos(at) - merge(fall, 0.0_wp, at >= jump)
-      end function value
-   end subroutine test_jump
 
    !> Parabolas of heights 1 and 1.001; a row is on top of the lower one, and both rows of the higher one are off its top by half a
    !> step.
