@@ -17,9 +17,8 @@ export PKG_CONFIG_PATH := $(CURDIR)/build/pkgconfig:$(PKG_CONFIG_PATH)
 COMMON_FLAGS := -std=f2018 -g -ffp-contract=off -fbacktrace -Ibuild/commit
 # -Og makes the checked tests take 0.6 of the time. What gfortran 12 then guesses of values that may not be set is wrong with allocatable
 # components; reals that are truly not set are found by -finit-real=snan.
-export DEBUG_FLAGS := $(COMMON_FLAGS) -Og -Wall -Wextra -Wimplicit-interface -Wno-maybe-uninitialized \
-  -Wno-uninitialized -fcheck=all \
-  -ffpe-trap=invalid,zero,overflow -finit-real=snan
+export DEBUG_FLAGS := $(COMMON_FLAGS) -Og -Wall -Wextra -Wimplicit-interface -Wno-maybe-uninitialized -Wno-uninitialized \
+  -fcheck=all -ffpe-trap=invalid,zero,overflow -finit-real=snan
 export OPTIMISED_FLAGS := $(COMMON_FLAGS) -O3
 # The program: with -flto small procedures of other modules are inlined, a tenth fewer instructions a case and not one bit of a result
 # another (doc/notes/batch.md). Tests go without, since each program that is linked so takes minutes. gcc-ar writes the index of such
