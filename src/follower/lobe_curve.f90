@@ -212,7 +212,7 @@ contains
 
       ! Changes over the extent of a quantity: that of a point of its own, that of a turn; extent that is rounding, over the
       ! size [-]
-      real(wp), parameter :: far = 0.1_wp, little = 0.02_wp, rounding = 1.0e-9_wp
+      real(wp), parameter :: far = 0.1_wp, little = 1.0e-4_wp, rounding = 1.0e-9_wp
       ! Smallest and largest values [unit of each]; values over the extent of the quantities that have any [-]
       real(wp), dimension(size(values, 1)) :: lowest, highest
       real(wp), allocatable :: scaled(:, :)

@@ -18,6 +18,13 @@ module camroller_extremes
    private
 
    public :: samples_t, search_t, start_samples, add_sample, move_samples, start_search, narrow_search
+   public :: beside_jump
+
+   !> Distance from an angle where series may jump of the rows on both sides of it: nothing is looked for between rows that close
+   !> [rad]
+   real(wp), parameter :: beside_jump = 1.0e-9_wp
+   !> Neighbours on both sides are as close as that
+   integer, parameter :: on_both_sides = 4
 
    !> Rows that are looked near at most
    integer, parameter :: most_rows = 8
@@ -278,8 +285,7 @@ contains
    end subroutine sort_rows
 
    !> Begin the search for the smallest or largest value of a series. Each series is searched by itself, so that what else is
-   !> sampled
-   !> changes no bit of it.
+   !> sampled changes no bit of it.
    pure subroutine start_search(samples, series, sense, tolerance, search, by_itself)
       !> The rows
       type(samples_t), intent(inout) :: samples
@@ -377,7 +383,8 @@ contains
    end subroutine list_rows
 
    !> Lowest value that there may be beside a row at which the series turns. A curve that is bent to one side is nowhere below the
-   !> straight lines through the row and its neighbours, continued to the neighbour on the other side.
+   !> straight lines through the row and its neighbours, continued to the neighbour on the other side; beside a jump, below the line
+   !> through its neighbour and the next one, continued to the row.
    pure function lowest_hidden(samples, search, row) result(bound)
       !> The rows
       type(samples_t), intent(in) :: samples
@@ -388,32 +395,67 @@ contains
       !> The value; large where the series does not turn [unit of the series]
       real(wp) :: bound
 
-      ! Values at row and neighbours, rises from the row to these [unit of the series]; angles from the row [rad]
-      real(wp) :: values(3), rises(2), x(3)
+      ! As of `look_near`: [rad], [unit of the series], both; rises from the row to its neighbours [unit of the series]
+      real(wp) :: x(3), values(3), outer(2), rises(2)
+      integer :: jump
 
       bound = huge(1.0_wp)
-      values = search%sense*samples%values(search%series, [samples%beside(1, row), row, samples%beside(2, row)])
+      call look_near(samples, search, row, x, values, jump, outer)
       rises = values([1, 3]) - values(2)
       if (minval(rises) < 0.0_wp .or. maxval(rises) <= 0.0_wp) return
-      x = ways(samples, row)
-      ! Rows on both sides of a jump have one angle, and nothing is hidden between them
-      if (x(3) - x(1) > 2.0_wp*widest .or. x(1) >= 0.0_wp .or. x(3) <= 0.0_wp) return
-      bound = values(2) - max(-rises(1)*x(3)/x(1), -rises(2)*x(1)/x(3))
+      if (x(3) - x(1) > 2.0_wp*widest .or. jump == on_both_sides) return
+      if (jump == 0) then
+         bound = values(2) - max(-rises(1)*x(3)/x(1), -rises(2)*x(1)/x(3))
+      else
+         associate (side => 4 - jump)
+            bound = min(values(2), values(side) + (outer(2) - values(side))*x(side)/(x(side) - outer(1)))
+         end associate
+      end if
    end function lowest_hidden
 
-   !> Angles of a row and its neighbours, from that of the row [rad].
-   pure function ways(samples, row) result(x)
+   !> A row and its neighbours, by angles from that of the row. A neighbour as close as rows beside a jump has nothing to tell of
+   !> the curve on the other side; there the row beyond the other neighbour has.
+   pure subroutine look_near(samples, search, row, x, values, jump, outer)
       !> The rows
       type(samples_t), intent(in) :: samples
+      !> The search
+      type(search_t), intent(in) :: search
       !> The row
       integer, intent(in) :: row
-      !> The angles [rad]
-      real(wp) :: x(3)
+      !> Angles of neighbour, row, and neighbour [rad], values there [unit of the series]
+      real(wp), intent(out) :: x(3), values(3)
+      !> The neighbour that is that close, 1 or 3, 0 for none, or `on_both_sides`
+      integer, intent(out) :: jump
+      !> Angle of the row beyond the other neighbour [rad], value there [unit of the series]; 0 without a jump on one side
+      real(wp), intent(out) :: outer(2)
 
-      associate (angles => samples%angle([samples%beside(1, row), row, samples%beside(2, row)]))
-         x = [-modulo(angles(2) - angles(1), two_pi), 0.0_wp, modulo(angles(3) - angles(2), two_pi)]
-      end associate
-   end function ways
+      integer :: next
+
+      values = search%sense*samples%values(search%series, [samples%beside(1, row), row, samples%beside(2, row)])
+      x = [-way(samples, samples%beside(1, row), row), 0.0_wp, way(samples, row, samples%beside(2, row))]
+      outer = 0.0_wp
+      jump = 0
+      if (-x(1) < 1.5_wp*beside_jump) jump = 1
+      if (x(3) < 1.5_wp*beside_jump) jump = merge(on_both_sides, 3, jump == 1)
+      if (jump == 1) then
+         next = samples%beside(2, samples%beside(2, row))
+         outer = [x(3) + way(samples, samples%beside(2, row), next), search%sense*samples%values(search%series, next)]
+      else if (jump == 3) then
+         next = samples%beside(1, samples%beside(1, row))
+         outer = [x(1) - way(samples, next, samples%beside(1, row)), search%sense*samples%values(search%series, next)]
+      end if
+   end subroutine look_near
+
+   !> Angle from one row on to another [rad].
+   pure function way(samples, from, to)
+      !> The rows
+      type(samples_t), intent(in) :: samples
+      !> The two
+      integer, intent(in) :: from, to
+      real(wp) :: way ! [rad]
+
+      way = modulo(samples%angle(to) - samples%angle(from), two_pi)
+   end function way
 
    !> Begin near the next row where there is anything to look for.
    pure subroutine enter_row(samples, search)
@@ -422,17 +464,18 @@ contains
       !> The search
       type(search_t), intent(inout) :: search
 
-      ! Angles of row and neighbours from that of the row [rad]
-      real(wp) :: x(3)
+      ! As of `look_near`: [rad], [unit of the series], both
+      real(wp) :: x(3), values(3), outer(2)
+      integer :: jump
 
       do while (search%done < search%row_count)
          search%done = search%done + 1
          associate (row => search%rows(search%done))
             if (samples%is_kink(row)) cycle
-            x = ways(samples, row)
-            if (max(-x(1), x(3)) > widest) cycle
-            call start_extremum(search%now, samples%angle(row) + x, search%sense*samples%values(search%series, &
-               & [samples%beside(1, row), row, samples%beside(2, row)]), search%worth*search%extent, most_halvings)
+            call look_near(samples, search, row, x, values, jump, outer)
+            if (max(-x(1), x(3)) > widest .or. jump == on_both_sides) cycle
+            call start_extremum(search%now, samples%angle(row) + x, values, search%worth*search%extent, most_halvings, jump, &
+               & outer + [samples%angle(row), 0.0_wp])
          end associate
          search%is_wanted = search%now%is_wanted
          search%trial = search%now%trial

@@ -10,7 +10,7 @@
 !>
 !> then `search%point(2)` is the position and `search%value(2)` the value of the minimum, and `search%left` what may be left to
 !> gain: what the last parabola, or at a kink the last two lines, missed or promised, or what the bracket may hide. For a maximum,
-!> pass the values with opposite sign.
+!> pass the values with opposite sign. A function that jumps at the middle point is looked at on one side of it only.
 !>
 !> Where the function is smooth a parabola through the bracket tells its lowest point. At a kink it does not, but may happen to tell
 !> one value: it counts where it tells the points beside the bracket as well. Otherwise the next value is that where the lines cross
@@ -55,12 +55,14 @@ module camroller_extremum
       !> Values asked for so far, and at most
       integer :: steps = 0
       integer, private :: limit = most_steps
+      !> End of the bracket, 1 or 3, beyond a jump next to the middle point, or 0
+      integer, private :: jump = 0
    end type extremum_t
 
 contains
 
    !> Begin with three points in order; without a lowest one in the middle nothing is wanted.
-   pure subroutine start_extremum(search, points, values, tolerance, most)
+   pure subroutine start_extremum(search, points, values, tolerance, most, jump, outer)
       !> The search
       type(extremum_t), intent(out) :: search
       !> Three points, increasing [x]
@@ -71,12 +73,24 @@ contains
       real(wp), intent(in) :: tolerance
       !> Values asked for at most
       integer, intent(in), optional :: most
+      !> End, 1 or 3, from which the function jumps to the middle point, so that nothing is looked for between them; 0 for none
+      integer, intent(in), optional :: jump
+      !> Point beside the other end [x], value there [f]
+      real(wp), intent(in), optional :: outer(2)
 
       if (present(most)) search%limit = most
+      if (present(jump)) search%jump = jump
       search%point = points
       search%value = values
       search%tolerance = tolerance
       search%trial = points(2)
+      if (search%jump > 0 .and. present(outer)) then
+         associate (beside => (5 - search%jump)/2)
+            search%has_outer(beside) = .true.
+            search%outer(beside) = outer(1)
+            search%outer_value(beside) = outer(2)
+         end associate
+      end if
       search%is_wanted = values(2) <= min(values(1), values(3)) .and. max(values(1), values(3)) > values(2)
       if (search%is_wanted) call choose_trial(search)
    end subroutine start_extremum
@@ -95,6 +109,8 @@ contains
       side = merge(1, 3, search%trial < search%point(2))
       if (value < search%value(2)) then
          call replace_end(search, 4 - side, search%point(2), search%value(2))
+         if (search%jump > 0) search%has_outer((search%jump + 1)/2) = .false.
+         search%jump = 0
          search%point(2) = search%trial
          search%value(2) = value
       else
@@ -134,6 +150,10 @@ contains
       real(wp) :: shift, gain, crossing, lowest
       logical :: is_smooth, has_crossing
 
+      if (search%jump > 0) then
+         call choose_beside_jump(search)
+         return
+      end if
       parts = search%point(2:3) - search%point(1:2)
       rises = search%value([1, 3]) - search%value(2)
       search%left = maxval(rises)
@@ -171,6 +191,27 @@ contains
       if (has_crossing) search%expected(2) = lowest + leg_slope(search, merge(1, 2, search%trial <= crossing)) &
          & *(search%trial - crossing)
    end subroutine choose_trial
+
+   !> Next trial beside a jump: a cut of the part on this side of it. A curve bent to one side is nowhere below the line through the
+   !> end of that part and the point beside it, continued to the jump.
+   pure subroutine choose_beside_jump(search)
+      !> The search
+      type(extremum_t), intent(inout) :: search
+
+      ! From the middle point to the end [x], rise of the value over it [f]
+      real(wp) :: part, rise
+
+      associate (side => 4 - search%jump)
+         part = search%point(side) - search%point(2)
+         rise = search%value(side) - search%value(2)
+         search%left = rise
+         if (search%has_outer((side + 1)/2)) search%left = max(leg_slope(search, (side + 1)/2)*part - rise, 0.0_wp)
+      end associate
+      search%is_wanted = search%steps < search%limit .and. search%left > search%tolerance &
+         & .and. abs(part) > 16.0_wp*spacing(search%point(2))
+      search%trial = search%point(2) + golden*part
+      search%expected = huge(1.0_wp)
+   end subroutine choose_beside_jump
 
    !> Value of the parabola through the bracket.
    pure function parabola_at(search, parts, slopes, point) result(value)

@@ -11,7 +11,7 @@ module camroller_series_extremes
    use camroller_error_estimate, only : margin
    use camroller_flexible_follower, only : follower_on_path
    use camroller_flexible_solution, only : error_share
-   use camroller_extremes, only : samples_t, search_t, add_sample, narrow_search, start_search
+   use camroller_extremes, only : samples_t, search_t, add_sample, beside_jump, narrow_search, start_search
    use camroller_lobe_curve, only : cam_values, contact_near, curve_points, curve_values, lobe_curve_t, &
       & telling_points
    use camroller_margins, only : margins_t
@@ -37,9 +37,8 @@ module camroller_series_extremes
       real(wp), allocatable :: event_load(:)
    end type extremes_t
 
-   !> Distance of the states on both sides of a stop, where series may jump; of rows of the camshaft that show an extreme close to a
-   !> kink, whose points lie wider apart [rad]
-   real(wp), parameter :: beside = 1.0e-9_wp, near = 1.0e-3_wp
+   !> Distance from a stop of rows of the camshaft that show an extreme close to a kink, whose points lie wider apart [rad]
+   real(wp), parameter :: near = 1.0e-3_wp
    !> States that are kept while extremes are searched for
    integer, parameter :: most_kept = 32
 
@@ -153,7 +152,7 @@ contains
 
       hint = 1
       associate (stops => solved%cycles(lobe)%stops)
-         angles = [stops - beside, stops, stops + beside, margins%event%angle]
+         angles = [stops - beside_jump, stops, stops + beside_jump, margins%event%angle]
       end associate
       do i = 1, size(angles)
          call state_at(solved%cycles(lobe), solved%models(lobe), angles(i), hint, state, error, &
@@ -293,7 +292,7 @@ contains
          end associate
       end do
       angles = [stops - near, stops + near, angles]
-      stops = [stops - beside, stops, stops + beside]
+      stops = [stops - beside_jump, stops, stops + beside_jump]
       angles = [stops, angles]
       do i = 1, size(angles)
          call camshaft_row(solved, angles(i), values, error)

@@ -19,6 +19,7 @@ contains
          new_unittest("a kink that is sampled stays the extreme", test_kink), &
          new_unittest("of two summits the higher one is found, though rows show it lower", test_summits), &
          new_unittest("a kink between rows is approached to the tolerance, and what is left is known", test_kink_between), &
+         new_unittest("beside a jump extremes are looked for, and what is left is told, from one side", test_jump), &
          new_unittest("of many summits those that are not looked near count as what may be left", test_many), &
          new_unittest("rows beyond the room at first are kept", test_room) &
          ]
@@ -196,6 +197,54 @@ contains
       end function peak
 
    end subroutine test_kink_between
+
+   !> A wave that jumps down at 3 rad, or up; its summit is 0.02 rad beyond the jump, so that the row beside it is highest, or 0.02
+   !> rad before, between two rows that are 0.07 and 1e-9 rad from the jump.
+   subroutine test_jump(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(samples_t) :: samples
+      type(search_t) :: search
+      real(wp), parameter :: place = 3.0_wp
+      integer :: i, values, side, hidden
+
+      do side = -1, 1, 2
+         do hidden = 0, 1
+            call start_samples(samples, 1)
+            do i = 0, 43
+               call add_sample(samples, two_pi*i/43, [jumping(two_pi*i/43)], .false.)
+            end do
+            do i = -1, 1
+               call add_sample(samples, place + i*1.0e-9_wp, [jumping(place + i*1.0e-9_wp)], .false.)
+            end do
+            call start_search(samples, 1, -1, 1.0e-6_wp, search)
+            values = 0
+            do while (search%is_wanted)
+               call narrow_search(samples, search, jumping(search%trial))
+               values = values + 1
+            end do
+            ! A gain of 3e-6 of the extent of 2 is not worth a value
+            associate (highest => merge(1.0_wp, cos(0.02_wp), hidden == 1))
+               call check(error, abs(-search%value - highest) <= 6.0e-6_wp, "the largest value")
+               if (allocated(error)) return
+               call check(error, highest + search%value <= search%left + 2.0e-9_wp .and. search%left <= 6.0e-6_wp, "what is left")
+               if (allocated(error)) return
+            end associate
+            call check(error, values <= 16, "too many values")
+            if (allocated(error)) return
+         end do
+      end do
+
+   contains
+
+      pure function jumping(x) result(height)
+         real(wp), intent(in) :: x
+         real(wp) :: height
+
+         height = cos(side*(x - place) + merge(0.02_wp, -0.02_wp, hidden == 1))
+         if (side*(x - place) > 0.5e-9_wp) height = height - 1.0e-3_wp
+      end function jumping
+
+   end subroutine test_jump
 
    !> A comb with 180 teeth of one height, rows at the same places of each.
    subroutine test_many(error)

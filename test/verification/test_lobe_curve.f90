@@ -204,7 +204,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
       integer, parameter :: n = 400, quantities = 4, step = 150, peak = 100
       ! What a point tells within, and what a turn is at least, over the extent [-]; values, extents [any]
-      real(wp), parameter :: far = 0.1_wp, turn = 0.02_wp
+      real(wp), parameter :: far = 0.1_wp, turn = 1.0e-4_wp
       real(wp) :: values(quantities, n), extents(quantities)
       logical :: is_telling(n)
       integer, allocatable :: told(:)

@@ -41,7 +41,7 @@ module test_random_flexible
       & "long_steps", "bent_steps", "pressure_corner", "little_leak", "rest_along_finger", &
       & "oscillating_roller"]
    !> The same at an accuracy of 1e-3, as decks ask for it
-   character(len=*), parameter :: accurate_decks(*) = [character(len=16) :: "hot_limited_film"]
+   character(len=*), parameter :: accurate_decks(*) = [character(len=16) :: "hot_limited_film", "rippling_torques"]
 
 contains
 
