@@ -6,7 +6,7 @@ module camroller_version
    implicit none
    private
 
-   public :: version_text, version_number, build_commit, compiler_facts
+   public :: version_text, version_number, build_commit, compiler_facts, drop_repeats
 
    !> Version as `major.minor.patch`
    character(len=*), parameter :: version_text = "0.2.0"
@@ -25,7 +25,31 @@ contains
       character(len=:), allocatable, intent(out) :: options
 
       compiler = compiler_version()
-      options = compiler_options()
+      call drop_repeats(compiler_options(), options)
    end subroutine compiler_facts
+
+   !> Each option once, where it first stands: after optimisation at link time the compiler lists them for each file. An option ends
+   !> before the next word that begins with a minus sign, so that it keeps a value that is a word of its own.
+   subroutine drop_repeats(options, distinct)
+      !> Options, separated by blanks
+      character(len=*), intent(in) :: options
+      !> The same without repeated ones
+      character(len=:), allocatable, intent(out) :: distinct
+
+      ! First character of an option, and the last before the next one
+      integer :: first, last
+
+      distinct = ""
+      last = 0
+      do while (last < len(options))
+         first = last + 1
+         last = index(options(first:), " -") + first - 1
+         if (last < first) last = len(options)
+         associate (option => " "//trim(adjustl(options(first:last))))
+            if (index(distinct//" ", option//" ") == 0) distinct = distinct//option
+         end associate
+      end do
+      distinct = trim(adjustl(distinct))
+   end subroutine drop_repeats
 
 end module camroller_version

@@ -11,7 +11,7 @@ module camroller_shaft
    use camroller_case_torques, only : torque_rows
    use camroller_model, only : model_t
    use camroller_state, only : state_t
-   use camroller_cycle, only : cycle_t, state_at
+   use camroller_cycle, only : cycle_t, load_stops, state_at
    use camroller_lobe_curve, only : lobe_curve_t, close_curve, contact_near, curve_at, curve_values, cam_values, &
       & halve_pieces, keep_state, move_curve, piece_angle
    use camroller_effect_list, only : effect_bearing_heat, effect_orbit, has_effect
@@ -199,8 +199,8 @@ contains
       needs_turn = has_orbits(case) .or. has_effect(case, effect_bearing_heat)
    end function needs_turn
 
-   !> Start, stops and end of a turn of the first cam, with the stops of cams.
-   pure function shaft_stops(solved, is_wanted) result(stops)
+   !> Start, stops and end of a turn of the first cam, with the stops of the load on cams.
+   function shaft_stops(solved, is_wanted) result(stops)
       !> The solved case
       type(solved_t), intent(in) :: solved
       !> Which cams
@@ -212,7 +212,9 @@ contains
 
       allocate (stops(0))
       do cam = 1, size(solved%shaft%lobes)
-         if (is_wanted(cam)) stops = [stops, solved%cycles(solved%shaft%lobes(cam))%stops + solved%shaft%phases(cam)]
+         associate (lobe => solved%shaft%lobes(cam))
+            if (is_wanted(cam)) stops = [stops, load_stops(solved%cycles(lobe), solved%models(lobe)) + solved%shaft%phases(cam)]
+         end associate
       end do
       stops = cycle_stops(stops, solved%cycles(solved%shaft%lobes(1))%start)
    end function shaft_stops

@@ -29,12 +29,12 @@ module camroller_cycle
    use camroller_ode_methods, only : new_method
    use camroller_trajectory, only : trajectory_t, interpolate_state, curve_slope
    use camroller_flexible_solution, only : flexible_solution_t, solve_flexible
-   use camroller_flexible_follower, only : follower_on_path
+   use camroller_flexible_follower, only : contact_changes, follower_on_path
    use camroller_flexible_train, only : at_sliding
    implicit none
    private
 
-   public :: cycle_t, integrate_cycle, choose_method, integrate_spin, state_at, settle_state
+   public :: cycle_t, integrate_cycle, choose_method, integrate_spin, state_at, settle_state, load_stops
 
    !> One periodic cycle
    type :: cycle_t
@@ -366,6 +366,20 @@ contains
          end if
       end associate
    end subroutine integrate_spin
+
+   !> Angles at which the force on the cam may have kinks, with start and end of the cycle: its stops, and where a flexible train
+   !> parts from its cam or meets it. Between them contact may be so short that no step or panel would see it.
+   function load_stops(cycle, model) result(stops)
+      !> The cycle
+      type(cycle_t), intent(in) :: cycle
+      !> The model it was integrated with
+      type(model_t), intent(in) :: model
+      !> Cam angles from full lift, rising [rad]
+      real(wp), allocatable :: stops(:)
+
+      stops = cycle%stops
+      if (allocated(cycle%flexible)) stops = cycle_stops([stops, contact_changes(model, cycle%trajectory)], cycle%start)
+   end function load_stops
 
    !> State of the follower at any cam angle.
    subroutine state_at(cycle, model, angle, hint, state, error, start, settles)

@@ -10,16 +10,16 @@ module camroller_flexible_follower
    use camroller_kinematics, only : position_t
    use camroller_dynamics, only : moments_t, evaluate_moments, add_acceleration
    use camroller_state, only : state_t, add_along, add_sums
-   use camroller_flexible_geometry, only : dot, cross
-   use camroller_flexible_train, only : flexible_state_t, resolution_t, evaluate_train, first_mode, state_size, at_finger, &
-      & at_finger_rate, at_lift, at_speed
+   use camroller_flexible_geometry, only : cross, dot, find_touch, touch_t
+   use camroller_flexible_train, only : flexible_state_t, resolution_t, evaluate_train, at_finger, at_finger_rate, &
+      & at_lift, at_plunger, at_plunger_rate, at_speed, first_mode, state_size
    use camroller_flexible_energy, only : powers_t, evaluate_powers, stored_energy
    use camroller_torque_list, only : of_geometric, of_roller_inertia, of_residual
    use camroller_flexible_measures, only : pivot_force
    implicit none
    private
 
-   public :: evaluate_follower, follower_on_path
+   public :: contact_changes, evaluate_follower, follower_on_path
 
 contains
 
@@ -91,6 +91,37 @@ contains
       end associate
       if (status /= 0) call raise(error, kind_convergence, "the flexible train has no state at "//cam_angle_text(angle, 3))
    end subroutine follower_on_path
+
+   !> Cam angles of a turn at which cam and roller part or meet: steps end there, so that the middle of each tells.
+   function contact_changes(model, path) result(angles)
+      !> The model, with a flexible train
+      type(model_t), intent(in) :: model
+      !> The turn
+      type(trajectory_t), intent(in) :: path
+      !> The cam angles from full lift, rising [rad]
+      real(wp), allocatable :: angles(:)
+
+      type(touch_t) :: touch
+      ! Cam angle [rad], state of the train [state]
+      real(wp) :: angle, train(state_size(model))
+      ! Place and rate of the pivot [m], [m/s]
+      real(wp) :: pivot(2)
+      integer :: step, hint, status
+      logical :: touches, has_touched
+
+      allocate (angles(0))
+      pivot = [model%flexible%pivot_place, 0.0_wp]
+      do step = 1, path%count - 1
+         hint = step
+         angle = 0.5_wp*(path%time(step) + path%time(step + 1))
+         call interpolate_state(path, angle, hint, train)
+         if (allocated(model%flexible%adjuster)) pivot = train([at_plunger, at_plunger_rate])
+         call find_touch(model, angle, train(at_finger), train(at_finger_rate), pivot(1), pivot(2), touch, status)
+         touches = status == 0 .and. touch%approach > 0.0_wp
+         if (step > 1 .and. (touches .neqv. has_touched)) angles = [angles, path%time(step)]
+         has_touched = touches
+      end do
+   end function contact_changes
 
    !> Geometry of the follower where it is: the cam's at the place of contact, lift and arms as they are.
    pure subroutine place_finger(model, train, now, position)

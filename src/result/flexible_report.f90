@@ -29,7 +29,7 @@ module camroller_flexible_report
       & remark_t, rising_plunger, stopped_plunger
    use camroller_result, only : append_quantity, find_quantity, lobe_scope, quantity_list_t, quantity_t, result_t, take_quantities
    use camroller_state, only : state_t
-   use camroller_torque_list, only : is_loss, of_residual, torque_count, torque_series
+   use camroller_torque_list, only : is_loss, of_residual, of_roller_inertia, torque_count, torque_series
    use camroller_train_outlook, only : find_outlook, outlook_t
    use camroller_trajectory, only : interpolate_state, trajectory_t
    implicit none
@@ -107,10 +107,12 @@ contains
    end subroutine start_means
 
    !> Errors of the means of a turn: from the last turn and the one with a finer tolerance, each with points of its own. They are
-   !> relative to the mean magnitude of their series, those of torques and of powers of dampers to the mean of all losses at least.
+   !> relative to the mean magnitude of their series, those of torques to the mean of all losses, those of powers of dampers to it
+   !> at least.
    !>
-   !> In a period as much oil enters an adjuster as leaks. Both turns may lack the same of it: where little leaks, errors of the
-   !> plunger's travel make up for it.
+   !> In a period the roller gains no energy: what it has gained or lost of it, where a disturbance hardly decays in a turn, counts
+   !> as error of the drive torque, too. As much oil enters an adjuster as leaks. Both turns may lack the same of it: where little
+   !> leaks, errors of the plunger's travel make up for it.
    subroutine compare_turns(case, model, solution, series, first_torque, mean_errors, missing_oil, error)
       !> The case
       type(case_t), intent(in) :: case
@@ -130,8 +132,8 @@ contains
 
       type(flexible_means_t) :: means, finer
       type(state_t) :: state
-      ! Mean torque of all losses [N m]
-      real(wp) :: losses
+      ! Mean torque of all losses, and that of the roller's inertia [N m]
+      real(wp) :: losses, gained
       integer :: residual, place, first_power, last_power
 
       missing_oil = 0.0_wp
@@ -145,7 +147,7 @@ contains
       first_power = find_quantity(series, trim(damper_series(1)))
       last_power = first_power + merge(damper_count, dampers_without_adjuster, allocated(model%flexible%adjuster)) - 1
       associate (torques => means%size(first_torque:), powers => means%size(first_power:last_power))
-         torques = max(torques, losses)
+         torques = losses
          powers = max(powers, model%speed*losses)
       end associate
       mean_errors = 0.0_wp
@@ -155,10 +157,29 @@ contains
          place = find_quantity(series, "check_valve_flow")
          mean_errors(place) = max(mean_errors(place), missing_oil)
       end if
+      if (solution%cycle%period == 1) then
+         gained = abs(means%torques(of_roller_inertia))
+         call count_gain(trim(torque_series(of_roller_inertia)))
+         call count_gain("torque_drive")
+      end if
       residual = find_quantity(series, trim(torque_series(of_residual)))
       if (residual > 0) mean_errors(residual) = 0.0_wp
       if (means%lost_share > 0.0_wp) mean_errors(find_quantity(series, "film_thickness_min"):find_quantity(series, "film_ratio")) &
          & = 0.0_wp
+
+   contains
+
+      !> Take what the roller gained as error of the mean of a torque.
+      subroutine count_gain(name)
+         !> Its series
+         character(len=*), intent(in) :: name
+
+         integer :: i
+
+         i = find_quantity(series, name)
+         if (i > 0) mean_errors(i) = max(mean_errors(i), gained/max(means%size(i), tiny(1.0_wp)))
+      end subroutine count_gain
+
    end subroutine compare_turns
 
    !> Take a turn into the means.

@@ -1,7 +1,7 @@
 !> Tests of the version and build facts.
 module test_version
    use testdrive, only : unittest_type, new_unittest, error_type, check, test_failed
-   use camroller_version, only : version_text, version_number, build_commit, compiler_facts
+   use camroller_version, only : version_text, version_number, build_commit, compiler_facts, drop_repeats
    implicit none
    private
 
@@ -18,7 +18,8 @@ contains
          new_unittest("the manifest carries the version of the library", manifest_agrees), &
          new_unittest("the version number is the version text", number_agrees), &
          new_unittest("the commit is a hash or said to be unknown", commit_is_a_hash), &
-         new_unittest("compiler and options are known", facts_are_given) &
+         new_unittest("compiler and options are known", facts_are_given), &
+         new_unittest("options that the compiler repeats for each file are given once, with their values", options_once) &
          ]
    end subroutine collect_version
 
@@ -80,5 +81,17 @@ contains
       if (allocated(error)) return
       call check(error, len_trim(options) > 0, "the compiler knows no options")
    end subroutine facts_are_given
+
+   subroutine options_once(error)
+      type(error_type), allocatable, intent(out) :: error
+
+      character(len=:), allocatable :: options
+
+      call drop_repeats("-I a -O3 -Ib -fopenmp -I a  -O3 -J b -I b -O -Ib", options)
+      call check(error, options, "-I a -O3 -Ib -fopenmp -J b -I b -O")
+      if (allocated(error)) return
+      call drop_repeats("", options)
+      call check(error, options, "")
+   end subroutine options_once
 
 end module test_version
