@@ -31,6 +31,10 @@ module camroller_catalogue
    character(len=*), parameter :: camshaft_prefix = "camshaft_"
    !> Part of the friction that counts as none [-]: no friction is known to so many digits
    real(wp), parameter :: least_share = 1.0e-12_wp
+   !> Force of one bond between two atoms [N], and the area that an atom takes [m^2]: less than these count as none of the asperities
+   real(wp), parameter :: least_force = 1.0e-9_wp, least_area = 1.0e-20_wp
+   !> Friction that has no share: far below the rounding of any load [N]
+   real(wp), parameter :: no_friction = 1.0e-20_wp
 
 contains
 
@@ -250,17 +254,20 @@ contains
       call add(list, "film_ratio", "1", "minimum film thickness relative to composite roughness", "film", state%contact%film_ratio)
       if (allocated(case%heat)) call add_heat(list, case, state)
       if (allocated(case%asperity)) then
-         call add(list, "asperity_load", "N", "load carried by asperities", "asperity", state%contact%asperity_load)
-         call add(list, "real_contact_area", "m2", "contact area of the asperities", "asperity", state%contact%real_area)
+         call add(list, "asperity_load", "N", "load carried by asperities", "asperity", state%contact%asperity_load, &
+            & least=least_force)
+         call add(list, "real_contact_area", "m2", "contact area of the asperities", "asperity", state%contact%real_area, &
+            & least=least_area)
          if (allocated(case%boundary_law) .or. allocated(case%tribofilm)) call add(list, "boundary_coefficient", "1", &
             & "friction coefficient of the asperities", "asperity", state%contact%boundary_coefficient, &
             & least=largest_coefficient_change(case))
       end if
       call add(list, "friction_hydrodynamic", "N", "shear force of the film", "traction", state%contact%shear)
       if (allocated(case%asperity)) then
-         call add(list, "friction_boundary", "N", "limit of the boundary friction", "asperity", state%contact%boundary_capacity)
+         call add(list, "friction_boundary", "N", "limit of the boundary friction", "asperity", state%contact%boundary_capacity, &
+            & least=least_force)
          call add(list, "friction_boundary_mobilised", "N", "boundary friction mobilised by slip", "asperity", &
-            & state%contact%boundary_mobilised)
+            & state%contact%boundary_mobilised, least=least_force)
       end if
       if (has_rolling(case)) call add(list, "friction_rolling", "N", "rolling resistance of each surface", "traction", &
          & state%contact%rolling_resistance)
@@ -269,7 +276,7 @@ contains
          & state%contact_friction)
       if (allocated(case%asperity)) then
          call add(list, "asperity_friction_share", "1", "fraction of boundary friction in contact friction", "asperity", &
-            & ratio(state%boundary_friction, state%contact_friction), least=least_share)
+            & state%boundary_friction/max(state%contact_friction, no_friction), least=least_share)
       end if
       if (allocated(case%roller_profile)) call add_axial(list, case, model, state, along)
       if (allocated(case%needle_bearing)) call add_pin(list, case, model, state)

@@ -40,7 +40,7 @@ contains
             high = result%summary_values(find_quantity(result%summary, "max_"//series%name))
             beyond = max(maxval(values) - high, low - minval(values)) - rounding*max(abs(low), abs(high))
             if (.not. beyond > 0.0_wp) cycle
-            extent = high - low
+            extent = max(high - low, series%least)
             if (series%unit == "N m") extent = max(extent, friction_range())
             found = beyond/max(extent, tiny(1.0_wp))
             if (found > promised) trouble = trouble//" "//series%name//" is beyond its extremes by "//number_text(found, 2)// &
