@@ -3,16 +3,19 @@
 !> In: model. Out: start angle, sliding speed, scale of the sliding speed, stops of the run-up.
 module camroller_cycle_start
    use camroller_kinds, only : wp, pi, two_pi, degree
+   use camroller_error, only : error_t, raise, kind_convergence
+   use camroller_lift_pieces, only : sort
    use camroller_model, only : model_t, evaluate_geometry
    use camroller_ramp, only : speed_on_ramp
    use camroller_kinematics, only : position_t
    use camroller_lift, only : is_at_rest
+   use camroller_number_text, only : integer_text, number_text
    use camroller_spin, only : rolling_speed_at
    use camroller_balance, only : follow_balance, least_slip
    implicit none
    private
 
-   public :: choose_start, run_up_stops, rolling_speed_at_angle
+   public :: choose_start, check_steps, run_up_stops, rolling_speed_at_angle
 
    !> Angles at which the quasi-static balance is tried
    integer, parameter :: balance_points = 36
@@ -24,7 +27,7 @@ module camroller_cycle_start
 contains
 
    !> Angle of fastest decay with the quasi-static balance there, and the scale of the sliding speed.
-   subroutine choose_start(model, start, sliding_speed, scale, least_scale, evaluations)
+   subroutine choose_start(model, start, sliding_speed, scale, least_scale, evaluations, usual_decay)
       !> The model
       type(model_t), intent(in) :: model
       !> Cam angle from full lift [rad]
@@ -35,8 +38,12 @@ contains
       real(wp), intent(out) :: scale, least_scale
       !> Evaluations of the contact, counted on
       integer, intent(inout) :: evaluations
+      !> Decay rate of the slip that half of the angles exceed [1/rad]
+      real(wp), intent(out), optional :: usual_decay
 
       type(position_t) :: position
+      ! Decay rates at the angles; zero without a balance [1/rad]
+      real(wp) :: decay_rates(balance_points)
       ! Angle [rad], sliding speed of the balance [m/s], decay rate [1/rad], fastest of them
       real(wp) :: angle, balance, decay_rate, fastest
       ! Largest speed of pure rolling, accuracy of the scan [m/s]
@@ -59,8 +66,12 @@ contains
          rested = rests .and. is_found
          rests = is_at_rest(model%lift_law, angle) .and. .not. (allocated(model%gas) .or. allocated(model%surface) .or. &
             & model%ramp%is_moving)
+         if (.not. (rests .and. rested)) then
+            decay_rate = 0.0_wp
+            call follow_balance(model, angle, tolerance, position, balance, decay_rate, evaluations, is_found)
+         end if
+         decay_rates(i + 1) = merge(decay_rate, 0.0_wp, is_found)
          if (rests .and. rested) cycle
-         call follow_balance(model, angle, tolerance, position, balance, decay_rate, evaluations, is_found)
          largest_rolling = max(largest_rolling, abs(rolling_speed_at(model, position)))
          if (.not. is_found) cycle
          scale = max(scale, abs(balance))
@@ -70,12 +81,39 @@ contains
             sliding_speed = balance
          end if
       end do
+      if (present(usual_decay)) then
+         call sort(decay_rates)
+         usual_decay = decay_rates(balance_points/2)
+      end if
       least_scale = least_slip*largest_rolling
       scale = max(scale, least_scale)
       if (.not. fastest >= 0.0_wp) return
       tolerance = start_tolerance*max(abs(rolling_speed_at_angle(model, start)), scale)
       call follow_balance(model, start, tolerance, position, sliding_speed, decay_rate, evaluations, is_found)
    end subroutine choose_start
+
+   !> Refuse an explicit method that would take more steps than it may: each is stable over a few times what the slip decays in.
+   subroutine check_steps(method, most_steps, usual_decay, error)
+      !> Name of the method
+      character(len=*), intent(in) :: method
+      !> Steps that it may take in a turn
+      integer, intent(in) :: most_steps
+      !> Decay rate of the slip that half of the turn exceeds [1/rad]
+      real(wp), intent(in) :: usual_decay
+      !> Convergence error
+      type(error_t), allocatable, intent(out) :: error
+
+      ! Stable step times decay rate of Dormand and Prince's pair (Hairer and Wanner 1996, section IV.2) [-]
+      real(wp), parameter :: stable = 3.3_wp
+      ! Steps that half of the turn takes at least [-]
+      real(wp) :: steps
+
+      steps = usual_decay*pi/stable
+      if (steps <= most_steps) return
+      call raise(error, kind_convergence, "method '"//trim(method)//"' is explicit, and its steps are stable over a few times "// &
+         & "what the slip decays in, less than "//number_text(1.0_wp/(usual_decay*degree), 2)//" deg for half of the turn: "// &
+         & "that takes "//number_text(steps, 2)//" steps, with "//integer_text(most_steps)//" allowed; take method 'automatic'")
+   end subroutine check_steps
 
    !> Stops of the run-up to a cycle: the last degrees before its start.
    pure function run_up_stops(stops) result(run_up)

@@ -12,7 +12,7 @@ module test_hard_cases
    use camroller_raw_file, only : find_files
    use camroller_cycle, only : cycle_t, integrate_cycle
    use camroller_spin_piece, only : spin_piece_t, integrate_between
-   use camroller_cycle_start, only : choose_start
+   use camroller_cycle_start, only : check_steps, choose_start
    use camroller_events, only : find_stops_between
    use camroller_ode_methods, only : method_facts
    use camroller_trajectory, only : interpolate_state
@@ -79,7 +79,8 @@ contains
          new_unittest("every hard deck is in one of the lists of this suite", test_all_decks), &
          new_unittest("no method steps over an event after a long dwell, whatever its tolerance", test_long_dwell), &
          new_unittest("a backward initial spin has decayed within a turn", test_backwards), &
-         new_unittest("a cycle that hardly anything damps is periodic, not merely closed", test_closed) &
+         new_unittest("a cycle that hardly anything damps is periodic, not merely closed", test_closed), &
+         new_unittest("an explicit method that would take millions of steps is refused before the first of them", test_explicit) &
          ]
    end subroutine collect_hard_cases
 
@@ -279,6 +280,49 @@ contains
       call check(error, mean(1), mean(2), thr=(accuracies(1) + accuracies(2))*abs(largest(2)))
       if (.not. allocated(error)) call check(error, largest(1), largest(2), thr=(accuracies(1) + accuracies(2))*abs(largest(2)))
    end subroutine test_closed
+
+   !> The steps that are foreseen are a lower bound of those taken where they are allowed, and near them.
+   subroutine test_explicit(error)
+      type(error_type), allocatable, intent(out) :: error
+      ! Speeds at which the method is allowed and refused [rad/s]; part of the steps that is foreseen at least [-]
+      real(wp), parameter :: fast = 20.0_wp, slow = 0.3_wp, part = 0.1_wp
+      type(case_t) :: case
+      type(model_t), allocatable :: models(:)
+      type(error_t), allocatable :: failure
+      type(cycle_t) :: cycle
+      ! Sliding speed, its scales [m/s]; start [rad], decay rate [1/rad]
+      real(wp) :: sliding_speed, scale, least, start, decay
+      integer :: evaluations
+
+      call get_case("near_standstill", case, error)
+      if (allocated(error)) return
+      case%numerics%method = "dormand_prince"
+      case%operating_point%speed = slow
+      call build_models(case, models, failure)
+      if (.not. allocated(failure)) call integrate_cycle(cycle, models(1), case%numerics, failure)
+      call check(error, allocated(failure), "the slow turn is not refused")
+      if (allocated(error)) return
+      call check(error, index(failure%message, "is explicit") > 0 .and. index(failure%message, "take method 'automatic'") > 0, &
+         & failure%message)
+      call check(error, cycle%counters%accepted + cycle%counters%rejected, 0, "steps before it is refused")
+      if (allocated(error)) return
+
+      deallocate (failure)
+      case%operating_point%speed = fast
+      call build_models(case, models, failure)
+      evaluations = 0
+      if (.not. allocated(failure)) call choose_start(models(1), start, sliding_speed, scale, least, evaluations, decay)
+      if (.not. allocated(failure)) call integrate_cycle(cycle, models(1), case%numerics, failure)
+      if (allocated(failure)) then
+         call test_failed(error, failure%message)
+         return
+      end if
+      call check_steps("dormand_prince", cycle%counters%accepted, decay, failure)
+      call check(error, .not. allocated(failure), "more steps are foreseen than are taken")
+      if (allocated(error)) return
+      call check_steps("dormand_prince", int(part*cycle%counters%accepted), decay, failure)
+      call check(error, allocated(failure), "next to no steps are foreseen")
+   end subroutine test_explicit
 
    subroutine test_large_steps(error)
       type(error_type), allocatable, intent(out) :: error

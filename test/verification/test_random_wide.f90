@@ -338,12 +338,14 @@ contains
          call draw_wide_deck(seed, schema, style, deck)
          write (buffer, "(a, i0)") "WIDE_SEED=", seed
          if (number_from("WIDE_TRACE", 0) > 0) write (error_unit, "(a)") trim(buffer)
+         ! One deck is kept however it ends, also where it is stopped
+         if (cases == 1) call save_wide_deck(deck, trim(buffer(11:)), "")
          call cpu_time(start)
          call check_deck(deck, style%ends_share > 0.0_wp, tally, trouble)
          call cpu_time(finish)
          if (finish - start > 20.0_wp .and. cases > usual_cases) write (error_unit, "(a, f7.1, a)") trim(buffer), finish - start, &
             & " s"
-         if (trouble /= "" .or. cases == 1) call save_wide_deck(deck, trim(buffer(11:)), trouble)
+         if (trouble /= "") call save_wide_deck(deck, trim(buffer(11:)), trouble)
          if (trouble == "") cycle
          failures = failures + 1
          list = list//new_line("a")//trim(buffer)//":"//trouble
