@@ -12,7 +12,8 @@ module camroller_trajectory
    implicit none
    private
 
-   public :: trajectory_t, start_trajectory, append_point, append_curve, append_until, interpolate_state, curve_state, curve_slope
+   public :: trajectory_t, start_trajectory, append_point, append_curve, add_point, append_until, interpolate_state, &
+      & curve_state, curve_slope
 
    !> Accepted points, in order of time; at a kink of the rate two points share a time
    type :: trajectory_t
@@ -34,6 +35,9 @@ module camroller_trajectory
    integer, parameter :: first_room = 64
    !> Numbers that make a curve, and how many of them are bends
    integer, parameter, public :: curve_numbers = 6, most_bends = 4
+   !> Longest interval that is no step, over the distance of numbers at its ends: integration goes on four of them behind a stop
+   !> from four before it, and passes over stops that are nearer to each other than 256 [-]
+   real(wp), parameter :: longest_gap = 320.0_wp
 
 contains
 
@@ -96,7 +100,8 @@ contains
       trajectory%bends(:, :size(bends, 2), trajectory%count) = bends
    end subroutine append_curve
 
-   !> Append a point, reached by a straight line.
+   !> Append a point, reached by a straight line: also the start of a segment, behind a stop, since over the gap of a few roundings
+   !> from the segment before nothing changes, however far the rates on both sides are apart.
    pure subroutine add_point(trajectory, time, state, rate)
       !> The trajectory
       type(trajectory_t), intent(inout) :: trajectory
@@ -220,7 +225,9 @@ contains
       end do
    end function curve_state
 
-   !> Slope of the curve at a time, in the interval where `interpolate_state` has found it.
+   !> Slope of the curve at a time, in the interval where `interpolate_state` has found it. At a stop, in the gap between two
+   !> steps, it is that at the end of the step before, or else at the start of the next one: the difference of two rates over a few
+   !> roundings is no slope.
    pure subroutine curve_slope(trajectory, time, interval, slope)
       !> The trajectory, with two points at least
       type(trajectory_t), intent(in) :: trajectory
@@ -233,19 +240,29 @@ contains
 
       ! Length of the interval [time], place in it [-], change of a component along it [state]
       real(wp) :: length, place, change
-      integer :: i
+      integer :: i, step
 
-      length = trajectory%time(interval + 1) - trajectory%time(interval)
-      if (length <= 0.0_wp) then
-         slope = 0.0_wp
-         return
-      end if
-      place = (time - trajectory%time(interval))/length
+      step = interval
+      associate (times => trajectory%time, count => trajectory%count)
+         if (times(step + 1) - times(step) <= longest_gap*spacing(max(abs(times(1)), abs(times(count))))) then
+            if (interval > 1) then
+               step = interval - 1
+            else if (interval < count - 1) then
+               step = interval + 1
+            end if
+         end if
+         length = times(step + 1) - times(step)
+         if (length <= 0.0_wp) then
+            slope = 0.0_wp
+            return
+         end if
+         place = min(max((time - times(step))/length, 0.0_wp), 1.0_wp)
+      end associate
       do i = 1, size(slope)
-         change = trajectory%state(i, interval + 1) - trajectory%state(i, interval)
-         associate (b1 => trajectory%bends(i, 1, interval + 1), b2 => trajectory%bends(i, 2, interval + 1), &
-            & b3 => trajectory%bends(i, 3, interval + 1), b4 => trajectory%bends(i, 4, interval + 1), &
-            & height => trajectory%bends(i, 5, interval + 1), exponent => trajectory%bends(i, 6, interval + 1))
+         change = trajectory%state(i, step + 1) - trajectory%state(i, step)
+         associate (b1 => trajectory%bends(i, 1, step + 1), b2 => trajectory%bends(i, 2, step + 1), &
+            & b3 => trajectory%bends(i, 3, step + 1), b4 => trajectory%bends(i, 4, step + 1), &
+            & height => trajectory%bends(i, 5, step + 1), exponent => trajectory%bends(i, 6, step + 1))
             slope(i) = change + (1.0_wp - 2.0_wp*place)*(b1 + place*(b2 + place*(b3 + place*b4))) &
                & + place*(1.0_wp - place)*(b2 + place*(2.0_wp*b3 + place*3.0_wp*b4))
             if (abs(height) > 0.0_wp) slope(i) = slope(i) + height*(exponent*exp(exponent*place) - (exp(exponent) - 1.0_wp))

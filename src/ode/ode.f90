@@ -11,7 +11,7 @@ module camroller_ode
    use camroller_error, only : error_t, raise, kind_convergence
    use camroller_ode_problem, only : problem_t, counters_t, new_linear, copy_linear
    use camroller_ode_method, only : method_t, options_t, step_t, start_step, move_step, take_step, keep_point, keep_stable
-   use camroller_trajectory, only : trajectory_t, start_trajectory, append_point, append_curve
+   use camroller_trajectory, only : trajectory_t, start_trajectory, add_point, append_curve
    use camroller_step_checks, only : check_step
    use camroller_ode_bridge, only : footing_t, bridge_t, watch, is_stuck, try_bridge, note_bridge
    implicit none
@@ -95,7 +95,7 @@ contains
                   & trim(problem%name_time(step%time)))
                return
             end if
-            call append_point(trajectory, step%time, step%state, step%rate)
+            call add_point(trajectory, step%time, step%state, step%rate)
             if (.not. is_fixed(method, options)) walk%proposed = min(walk%proposed, method%longest_first_step(step))
             if (.not. is_fixed(method, options)) walk%max_step = min(options%max_step, &
                & (method%horizon - step%time)/max(1, options%fewest_steps/segments))

@@ -11,7 +11,7 @@ module camroller_ode_switching
    use camroller_roots, only : bracket_t, start_bracket, narrow_bracket, root_wanted
    use camroller_ode_problem, only : problem_t, counters_t, new_linear, copy_linear
    use camroller_ode_method, only : method_t, options_t, step_t, start_step, move_step, take_step, keep_point, keep_stable
-   use camroller_trajectory, only : trajectory_t, start_trajectory, append_point, curve_state
+   use camroller_trajectory, only : trajectory_t, start_trajectory, add_point, append_point, curve_state
    implicit none
    private
 
@@ -140,7 +140,7 @@ contains
                return
             end if
             step%rate(:) = method%here%rate
-            call append_point(trajectory, step%time, step%state, step%rate)
+            call add_point(trajectory, step%time, step%state, step%rate)
             call walk_segment(problem, method, options, walk, trajectory, counters, error)
             if (allocated(error)) return
          end do

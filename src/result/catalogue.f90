@@ -14,8 +14,8 @@ module camroller_catalogue
    use camroller_result, only : quantity_t, quantity_list_t, append_quantity, lobe_scope, scope_camshaft, scope_case, &
       & scope_engine, scope_length, take_quantities
    use camroller_axial_table, only : axial_state_t
-   use camroller_part_series, only : add_axial, add_axial_film, add_bearings, add_heat, add_pin, add_surfaces, &
-      & bearing_count, largest_coefficient_change
+   use camroller_part_series, only : add_asperities, add_axial, add_axial_film, add_bearings, add_heat, add_pin, &
+      & add_surfaces, bearing_count, least_force
    use camroller_state, only : state_t, flexible_values_t
    use camroller_torque_list, only : torque_list, torque_count, is_loss, is_torque, of_residual, torque_series
    use camroller_hertz, only : peak_pressure
@@ -31,8 +31,6 @@ module camroller_catalogue
    character(len=*), parameter :: camshaft_prefix = "camshaft_"
    !> Part of the friction that counts as none [-]: no friction is known to so many digits
    real(wp), parameter :: least_share = 1.0e-12_wp
-   !> Force of one bond between two atoms [N], and the area that an atom takes [m^2]: less than these count as none of the asperities
-   real(wp), parameter :: least_force = 1.0e-9_wp, least_area = 1.0e-20_wp
    !> Friction that has no share: far below the rounding of any load [N]
    real(wp), parameter :: no_friction = 1.0e-20_wp
 
@@ -253,15 +251,7 @@ contains
       if (allocated(case%roller_profile)) call add_axial_film(list, model, state, along)
       call add(list, "film_ratio", "1", "minimum film thickness relative to composite roughness", "film", state%contact%film_ratio)
       if (allocated(case%heat)) call add_heat(list, case, state)
-      if (allocated(case%asperity)) then
-         call add(list, "asperity_load", "N", "load carried by asperities", "asperity", state%contact%asperity_load, &
-            & least=least_force)
-         call add(list, "real_contact_area", "m2", "contact area of the asperities", "asperity", state%contact%real_area, &
-            & least=least_area)
-         if (allocated(case%boundary_law) .or. allocated(case%tribofilm)) call add(list, "boundary_coefficient", "1", &
-            & "friction coefficient of the asperities", "asperity", state%contact%boundary_coefficient, &
-            & least=largest_coefficient_change(case))
-      end if
+      if (allocated(case%asperity)) call add_asperities(list, case, state)
       call add(list, "friction_hydrodynamic", "N", "shear force of the film", "traction", state%contact%shear)
       if (allocated(case%asperity)) then
          call add(list, "friction_boundary", "N", "limit of the boundary friction", "asperity", state%contact%boundary_capacity, &

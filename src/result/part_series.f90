@@ -24,9 +24,11 @@ module camroller_part_series
    implicit none
    private
 
-   public :: add_axial, add_axial_film, add_heat, add_pin, add_surfaces, add_bearings, bearing_count, largest_coefficient_change, &
-      & bearing_series_count
+   public :: add_asperities, add_axial, add_axial_film, add_heat, add_pin, add_surfaces, add_bearings, bearing_count, &
+      & bearing_series_count, least_force
 
+   !> Force of one bond between two atoms [N], and the area that an atom takes [m^2]: less than these are no asperities
+   real(wp), parameter :: least_force = 1.0e-9_wp, least_area = 1.0e-20_wp
    !> Wear that counts as none: less than an atom in ten thousand million turns [m], or in three hundred years [m/s]
    real(wp), parameter :: least_wear = 1.0e-20_wp, least_wear_rate = 1.0e-20_wp
 
@@ -57,6 +59,23 @@ contains
       end if
       call add(list, "film_thickness_axial_min", "m", "smallest minimum film along the roller", "roller_profile", film)
    end subroutine add_axial_film
+
+   !> What asperities carry.
+   pure subroutine add_asperities(list, case, state)
+      !> List to extend
+      type(quantity_list_t), intent(inout) :: list
+      !> The case
+      type(case_t), intent(in) :: case
+      !> State of the follower
+      type(state_t), intent(in) :: state
+
+      call add(list, "asperity_load", "N", "load carried by asperities", "asperity", state%contact%asperity_load, least=least_force)
+      call add(list, "real_contact_area", "m2", "contact area of the asperities", "asperity", state%contact%real_area, &
+         & least=least_area)
+      if (allocated(case%boundary_law) .or. allocated(case%tribofilm)) call add(list, "boundary_coefficient", "1", &
+         & "friction coefficient of the asperities", "asperity", state%contact%boundary_coefficient, &
+         & least=largest_coefficient_change(case))
+   end subroutine add_asperities
 
    !> Series of heat in the contact.
    pure subroutine add_heat(list, case, state)

@@ -6,7 +6,7 @@ module test_ode
    use camroller_ode, only : method_t, options_t, counters_t, integrate
    use camroller_ode_problem, only : problem_t
    use camroller_ode_methods, only : method_facts, method_names, new_method
-   use camroller_trajectory, only : trajectory_t, interpolate_state
+   use camroller_trajectory, only : trajectory_t, curve_slope, interpolate_state
    use ode_problems, only : decay_t, power_t, pair_t, switch_t, wall_t
    implicit none
    private
@@ -28,6 +28,7 @@ contains
          new_unittest("a smaller tolerance gives a smaller error, in proportion", test_tolerance), &
          new_unittest("explicit methods keep within their stability limit", test_stability), &
          new_unittest("stops are never stepped over, however long the allowed step", test_stops), &
+         new_unittest("at a stop the curve is that of the step before, however far rates on both sides are apart", test_gap), &
          new_unittest("a trial without a value makes the step smaller and leaves the point untouched", test_rejection), &
          new_unittest("a method that has forgotten its steps is as good as new, to the last bit", test_forget), &
          new_unittest("evaluations are counted one by one", test_counters), &
@@ -289,6 +290,36 @@ contains
       end do
    end subroutine test_stops
 
+   !> A slope that jumps to 1e13 at a stop: in the gap of some 1e-13 a curve through both rates would leave the state by 0.1.
+   subroutine test_gap(error)
+      type(error_type), allocatable, intent(out) :: error
+      type(switch_t) :: problem
+      class(method_t), allocatable :: method
+      type(trajectory_t) :: trajectory
+      type(options_t) :: options
+      type(counters_t) :: counters
+      type(error_t), allocatable :: failure
+      real(wp), parameter :: stop_time = 100.0_wp, before = 0.5_wp
+      real(wp) :: state(1), slope(1), time
+      integer :: i, k, hint
+
+      problem = switch_t(switch=stop_time, slopes=[before, 1.0e13_wp])
+      do i = 1, size(method_names)
+         call new_method(method, method_names(i), 1, failure)
+         options = options_t(tolerance=[1.0_wp], step=1.0_wp)
+         state = 0.0_wp
+         call integrate(problem, method, options, [0.0_wp, stop_time, 101.0_wp], state, trajectory, counters, failure)
+         hint = 1
+         do k = -3, 3
+            time = stop_time + k*spacing(stop_time)
+            call interpolate_state(trajectory, time, hint, state)
+            call curve_slope(trajectory, time, hint, slope)
+            call check(error, all(abs([state/stop_time, slope] - before) < 1.0e-9_wp), trim(method_names(i))//" bends in the gap")
+            if (allocated(error)) return
+         end do
+      end do
+   end subroutine test_gap
+
    subroutine test_rejection(error)
       type(error_type), allocatable, intent(out) :: error
       type(wall_t) :: problem
@@ -301,7 +332,7 @@ contains
       integer :: i
 
       problem%decay = 1.0_wp
-      ! a stage or an end of a long step falls below this, the solution does not
+      ! a long step falls below this, the solution does not
       problem%lowest = 0.6_wp*exp(-1.1_wp)
       do i = 1, size(method_names)
          if (method_facts(i)%companion_order == 0) cycle
