@@ -76,8 +76,8 @@ module camroller_extremes
    !> Gain of an extreme that is not worth a value, over the extent of its series: over the tolerance, which makes a hundredth of
    !> the accuracy, at least, and at most [-]
    real(wp), parameter :: worth_part = 3.0_wp, least_worth = 1.0e-7_wp, most_worth = 1.0e-5_wp
-   !> Widest distance to a neighbour that a search may begin with [rad]
-   real(wp), parameter :: widest = two_pi/24.0_wp
+   !> Widest distance to a neighbour that a search may begin with; distance of rows that share an angle but for rounding [rad]
+   real(wp), parameter :: widest = two_pi/24.0_wp, same_angle = 1.0e-12_wp
    !> Rows for which there is room at first
    integer, parameter :: first_room = 1536
 
@@ -169,14 +169,14 @@ contains
          before = order(samples%count)
          do place = 1, samples%count
             if (place > 1) then
-               if (samples%angle(order(place)) > samples%angle(order(place - 1))) before = order(place - 1)
+               if (samples%angle(order(place)) > samples%angle(order(place - 1)) + same_angle) before = order(place - 1)
             end if
             samples%beside(1, order(place)) = before
          end do
          before = order(1)
          do place = samples%count, 1, -1
             if (place < samples%count) then
-               if (samples%angle(order(place)) < samples%angle(order(place + 1))) before = order(place + 1)
+               if (samples%angle(order(place)) < samples%angle(order(place + 1)) - same_angle) before = order(place + 1)
             end if
             samples%beside(2, order(place)) = before
          end do
