@@ -290,17 +290,17 @@ contains
          call add(list, "tip_sliding_speed", "m s-1", "speed of the pad over the valve's tip, positive away from the pivot", &
             & "valve_tip", joints%tip_speed)
          call add(list, "friction_tip", "N", "friction on the valve's tip, positive away from the pivot", "valve_tip", &
-            & joints%tip_friction)
+            & joints%tip_friction, least=least_force)
       end if
       if (allocated(case%stem_seal)) call add(list, "friction_seal", "N", "friction of the stem seal, positive against opening", &
-         & "stem_seal", joints%seal_friction)
+         & "stem_seal", joints%seal_friction, least=least_force)
       if (allocated(case%guide_side_load)) then
          call add(list, "guide_upper_force", "N", "magnitude of the force of the guide's upper end on the stem", &
             & "guide_side_load", joints%upper_force)
          call add(list, "guide_lower_force", "N", "magnitude of the force of the guide's lower end on the stem", &
             & "guide_side_load", joints%lower_force)
          call add(list, "friction_guide_side", "N", "friction of the stem at both ends of its guide, positive against opening", &
-            & "guide_side_load", joints%side_friction)
+            & "guide_side_load", joints%side_friction, least=least_force)
       end if
       if (allocated(case%finger_pivot)) call add(list, "pivot_force", "N", "magnitude of the force of the pivot on the finger", &
          & "finger_pivot", joints%pivot_force)
