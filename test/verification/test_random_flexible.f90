@@ -78,9 +78,11 @@ contains
       do i = 1, cases
          seed = number_from("FLEXIBLE_SEED", usual_seed) + i - 1
          call draw_wide_deck(seed, schema, style_t(ehl_share=0.0_wp, method_share=0.0_wp, dynamics_share=1.0_wp), deck)
+         write (buffer, "(a, i0)") "FLEXIBLE_SEED=", seed
+         ! One deck is kept however it ends, also where it is stopped
+         if (cases == 1) call save_wide_deck(deck, trim(buffer(15:)), "")
          call check_deck(deck, "", value_from("FLEXIBLE_ACCURACY", 0.0_wp), tally, trouble)
          if (trouble == "") cycle
-         write (buffer, "(a, i0)") "FLEXIBLE_SEED=", seed
          call save_wide_deck(deck, trim(buffer(15:)), trouble)
          list = list//new_line("a")//trim(buffer)//":"//trouble
       end do
