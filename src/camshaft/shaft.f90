@@ -12,12 +12,12 @@ module camroller_shaft
    use camroller_model, only : model_t
    use camroller_state, only : state_t
    use camroller_cycle, only : cycle_t, load_stops, state_at
-   use camroller_lobe_curve, only : lobe_curve_t, close_curve, contact_near, curve_at, curve_values, cam_values, &
-      & halve_pieces, keep_state, move_curve, piece_angle
+   use camroller_lobe_curve, only : lobe_curve_t, add_piece, close_curve, contact_near, curve_at, curve_values, cam_values, &
+      & halve_pieces, keep_state, move_curve, piece_angle, start_curve
    use camroller_effect_list, only : effect_bearing_heat, effect_orbit, has_effect
    use camroller_events, only : cycle_stops
    use camroller_journal_orbit, only : orbit_t, place_at
-   use camroller_panels, only : panel_points
+   use camroller_panels, only : panel_places, panel_points
    use camroller_torque_list, only : torque_count, of_bearings, of_shaft_drag
    use camroller_journal, only : cam_bearings_t, journal_t, new_journal, journal_solved
    use camroller_journal_motion, only : moving_state
@@ -220,7 +220,7 @@ contains
    end function shaft_stops
 
    !> Make the curves better of shapes that several cams have, so that it pays, and where bearings ask for them over the
-   !> whole turn.
+   !> whole turn: a flexible train has a curve only then.
    subroutine refine_curves(solved, error)
       !> The solved case
       type(solved_t), intent(inout) :: solved
@@ -231,10 +231,44 @@ contains
 
       do lobe = 1, size(solved%models)
          if (count(solved%shaft%lobes == lobe) < 2 .and. .not. needs_turn(solved%case)) cycle
+         if (needs_turn(solved%case) .and. allocated(solved%cycles(lobe)%flexible)) call follow_steps(solved%models(lobe), &
+            & solved%cycles(lobe), solved%curves(lobe), error)
+         if (allocated(error)) return
          call refine_curve(solved%models(lobe), solved%cycles(lobe), solved%curves(lobe), error)
          if (allocated(error)) return
       end do
    end subroutine refine_curves
+
+   !> Make the curve of a flexible train, with a piece for each of its steps: no contact is lost or met within one.
+   subroutine follow_steps(model, cycle, curve, error)
+      !> Model of the lobe shape
+      type(model_t), intent(in) :: model
+      !> Its cycle
+      type(cycle_t), intent(in) :: cycle
+      !> Its curve
+      type(lobe_curve_t), intent(out) :: curve
+      !> Convergence error
+      type(error_t), allocatable, intent(out) :: error
+
+      type(state_t) :: state
+      integer :: step, point, hint
+
+      associate (path => cycle%trajectory)
+         call start_curve(curve, path%time(1), path%count - 1, .true.)
+         do step = 1, path%count - 1
+            if (.not. path%time(step + 1) > path%time(step)) cycle
+            do point = 1, panel_points
+               hint = step
+               call state_at(cycle, model, path%time(step) + panel_places(point)*(path%time(step + 1) - path%time(step)), hint, &
+                  & state, error)
+               if (allocated(error)) return
+               call keep_state(curve, model, state, point)
+            end do
+            call add_piece(curve, path%time(step + 1))
+         end do
+      end associate
+      call close_curve(curve, cycle%tolerance)
+   end subroutine follow_steps
 
    !> Halve the pieces of a follower's curve that are not good enough.
    subroutine refine_curve(model, cycle, curve, error)
