@@ -370,8 +370,6 @@ contains
          reason = "a fixed step failed"
       else if (counters%accepted + counters%rejected > options%max_steps) then
          reason = "the largest number of steps is reached"
-         if (.not. (method%needs_jacobian .or. is_fixed(method, options))) reason = reason// &
-            & ", as by explicit methods where the solution decays fast,"
       else if (counters%evaluations > options%max_evaluations) then
          reason = "the largest number of evaluations is reached"
       else if (walk%proposed <= 16.0_wp*spacing(abs(walk%step%time))) then
