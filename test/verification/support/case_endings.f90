@@ -15,12 +15,13 @@ module case_endings
    end type tally_t
 
    !> What the message of an error of a run says, and its class
-   character(len=*), parameter :: error_phrases(2, 17) = reshape([character(len=44) :: &
+   character(len=*), parameter :: error_phrases(2, 18) = reshape([character(len=44) :: &
       & "at several loads", "several balances at once", &
       & "did not become periodic", "not periodic", &
       & "was not found", "estimate beyond the slip itself", &
       & "number of evaluations is reached", "evaluations used up", &
       & "number of steps is reached", "steps used up", &
+      & "is explicit, and its steps", "explicit steps by the million", &
       & "step size fell below its minimum", "step too small", &
       & "right-hand side cannot be evaluated", "no value of the roller equation", &
       & "cannot be evaluated", "state that cannot be evaluated", &
@@ -32,7 +33,7 @@ module case_endings
       & "contact_policy = 'stop'", "contact lost, which stops", &
       & "bearing law has no solution", "camshaft bearing without solution", &
       & "thrown off", "finger thrown off", &
-      & "ehl:", "numerical film"], [2, 17])
+      & "ehl:", "numerical film"], [2, 18])
 
 contains
 
