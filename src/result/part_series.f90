@@ -27,7 +27,8 @@ module camroller_part_series
    public :: add_asperities, add_axial, add_axial_film, add_heat, add_pin, add_surfaces, add_bearings, bearing_count, &
       & bearing_series_count, least_force
 
-   !> Force of one bond between two atoms [N], and the area that an atom takes [m^2]: less than these are no asperities
+   !> Force of one bond between two atoms [N], and the area that an atom takes [m^2]: less counts as none, of asperities and of
+   !> friction in joints
    real(wp), parameter :: least_force = 1.0e-9_wp, least_area = 1.0e-20_wp
    !> Wear that counts as none: less than an atom in ten thousand million turns [m], or in three hundred years [m/s]
    real(wp), parameter :: least_wear = 1.0e-20_wp, least_wear_rate = 1.0e-20_wp

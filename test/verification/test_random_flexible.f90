@@ -99,8 +99,6 @@ contains
             & error)
          if (allocated(error)) return
       end do
-      ! Run-time checks find nothing in these that they do not in the others, and take minutes
-      if (has_checks()) return
       do i = 1, size(accurate_decks)
          call check_file("test/data/flexible_trains/"//trim(accurate_decks(i))//"/deck.nml", 1.0e-3_wp, error)
          if (allocated(error)) return
